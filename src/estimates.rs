@@ -25,27 +25,27 @@ struct Mismatch<'l> {
 /// Sets the estimates of contacts' arguments that nobody gave: each joint's to the smallest sum of squares of its rows in the written
 /// poses, over one turn (−π to π), where the conditions of its curves hold.
 pub fn complete(system: &mut ConstraintSystem) {
-    if system.open_contacts.is_empty() {
+    if system.open_contacts().is_empty() {
         return;
     }
     let mut values = values_as_drawn(system);
-    for OpenContact { declaration, arguments, conditions } in std::mem::take(&mut system.open_contacts) {
-        let own = system.rows.iter().filter(|row| row.declaration == declaration);
+    for OpenContact { declaration, arguments, conditions } in system.take_open_contacts() {
+        let own = system.rows().iter().filter(|row| row.declaration == declaration);
         let rows: Vec<ExprId> = own.map(|row| row.phi).collect();
-        let best = Mismatch::new(&system.graph, &rows, &conditions, &arguments, &mut values).best();
+        let best = Mismatch::new(system.graph(), &rows, &conditions, &arguments, &mut values).best();
         for (&argument, value) in arguments.iter().zip(best) {
-            system.coordinates[argument as usize].estimate = system.graph.constant(value);
+            system.set_estimate(argument as usize, value);
         }
     }
 }
 
 /// The numbers of the graph with all coordinates at their estimates, which are of no use where they hold an argument that is open.
 fn values_as_drawn(system: &ConstraintSystem) -> Vec<f64> {
-    let estimates = system.coordinates.iter().map(|coordinate| system.value_at(coordinate.estimate, &[]));
+    let estimates = system.coordinates().iter().map(|coordinate| system.value_at(coordinate.estimate, &[]));
     let q: Vec<f64> = estimates.collect();
     let mut values = Vec::new();
-    system.graph.extend_values(&mut values, |symbol| match symbol {
-        Symbol::Param(k) => system.params[k as usize].value,
+    system.graph().extend_values(&mut values, |symbol| match symbol {
+        Symbol::Param(k) => system.params()[k as usize].value,
         Symbol::Shift(_) => 0.0,
         Symbol::Coordinate { index, order: 0 } => q[index as usize],
         _ => f64::NAN,

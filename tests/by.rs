@@ -258,7 +258,7 @@ fn columns_that_are_asked_for_change_no_bit_of_the_others() {
             let checked = Parsed::of(&path, &text).check(&choice, &Disk::default());
             let compiled = checked.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
             let times = compiled.times().expect("times");
-            let params: Vec<String> = compiled.inside().0.system().params.iter().map(|p| p.name.clone()).collect();
+            let params: Vec<String> = compiled.inside().0.system().params().iter().map(|p| p.name.clone()).collect();
             (all_rows(&compiled, &times).0, params)
         };
         let (plain, params) = rows(&[]);

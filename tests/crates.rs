@@ -9,7 +9,7 @@ use mechc::{File, MARK, RustOptions};
 use std::collections::{BTreeMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use support::{Span, compile_number, files, run_number, without_forces};
+use support::{Span, compile_number, files, run_number};
 
 const SLIDER_CRANK: &str = "examples/slider_crank.mech";
 
@@ -52,9 +52,7 @@ fn steps(benchmark: &str) -> usize {
 
 /// Examples, and mechanisms with what is rare: odd names, tables, jerk.
 fn mechanisms() -> Vec<PathBuf> {
-    without_forces(
-        [files("examples", "mech"), files("tests/stages", "mech"), files("tests/following", "mech")].concat(),
-    )
+    [files("examples", "mech"), files("tests/stages", "mech"), files("tests/following", "mech")].concat()
 }
 
 #[test]

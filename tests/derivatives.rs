@@ -259,8 +259,8 @@ fn systems() -> Vec<(String, ConstraintSystem)> {
 /// A value of an expression at `q + a τ + b τ²/2 + c τ³/6` and `t + τ`.
 fn along(system: &ConstraintSystem, id: ExprId, t: f64, path: [&[f64]; 4], tau: f64) -> f64 {
     let [q, a, b, c] = path;
-    system.graph.value(id, |symbol| match symbol {
-        Symbol::Param(k) => system.params[k as usize].value,
+    system.graph().value(id, |symbol| match symbol {
+        Symbol::Param(k) => system.params()[k as usize].value,
         Symbol::Time => t + tau,
         Symbol::Coordinate { index, order } => {
             let k = index as usize;
@@ -290,18 +290,18 @@ fn jacobians_and_right_sides_of_every_element() {
     let mut random = Random::new(11);
     // 1000 km from the origin a difference is nothing but rounding
     for (name, system) in systems().into_iter().filter(|(name, _)| name != "far_away") {
-        let n = system.coordinates.len();
+        let n = system.coordinates().len();
         let zero = vec![0.0; n];
         // in the mechanism's own time
-        let span = system.analysis.map_or(1.0, |[from, to, _]| f64::min(to - from, 1.0));
+        let span = system.analysis().map_or(1.0, |[from, to, _]| f64::min(to - from, 1.0));
         let h = 2e-4 * span;
         for _ in 0..3 {
-            let scale = |k: usize| match system.coordinates[k].kind {
-                mechc::rooms::ir::CoordinateKind::Length => system.length.max(1e-3),
+            let scale = |k: usize| match system.coordinates()[k].kind {
+                mechc::rooms::ir::CoordinateKind::Length => system.length().max(1e-3),
                 mechc::rooms::ir::CoordinateKind::Angle | mechc::rooms::ir::CoordinateKind::Argument => 1.0,
             };
             let q: Vec<f64> = (0..n)
-                .map(|k| along(&system, system.coordinates[k].estimate, 0.0, [&zero; 4], 0.0))
+                .map(|k| along(&system, system.coordinates()[k].estimate, 0.0, [&zero; 4], 0.0))
                 .enumerate()
                 .map(|(k, q)| q + 0.05 * scale(k) * random.between(-1.0, 1.0))
                 .collect();
@@ -313,8 +313,8 @@ fn jacobians_and_right_sides_of_every_element() {
             let (a, b, c) = (random_vector(1), random_vector(2), random_vector(3));
             let t = 0.123 * span;
             for row in 0..n {
-                let phi = system.rows[row].phi;
-                let size = 1.0 + along(&system, phi, t, [&q, &zero, &zero, &zero], 0.0).abs() + system.length;
+                let phi = system.rows()[row].phi;
+                let size = 1.0 + along(&system, phi, t, [&q, &zero, &zero, &zero], 0.0).abs() + system.length();
                 let near = |exact: f64, difference: f64, tolerance: f64, order: i32, what: &str| {
                     let bound = tolerance
                         * (size / mechc::rooms::math::pow(span, f64::from(order)) + exact.abs() + difference.abs());
@@ -325,7 +325,7 @@ fn jacobians_and_right_sides_of_every_element() {
                 let first = (at(-2.0 * h) - 8.0 * at(-h) + 8.0 * at(h) - at(2.0 * h)) / (12.0 * h);
                 let now = |id: ExprId| along(&system, id, t, [&q, &a, &b, &c], 0.0);
                 let times = |v: &[f64]| -> f64 {
-                    system.phi_q.row(row).iter().map(|&(column, slope)| now(slope) * v[column as usize]).sum()
+                    system.phi_q().row(row).iter().map(|&(column, slope)| now(slope) * v[column as usize]).sum()
                 };
                 near(times(&a) - now(system.nu()[row]), first, 1e-8, 1, "ν");
                 // Φ_q b − γ = d²Φ/dτ²

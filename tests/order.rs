@@ -19,7 +19,7 @@ fn named(determined: &Determined, line: &str) -> Vec<usize> {
     let (head, _) = line.split_once(" from ").expect("a line says from what");
     let head = head.trim().trim_end_matches(" together,").trim_end();
     let of = |name: &str| {
-        let found = system.coordinates.iter().enumerate();
+        let found = system.coordinates().iter().enumerate();
         let found = found.filter(|(k, coordinate)| coordinate.name == name || system.owner_name(*k) == name);
         found.map(|(k, _)| k).collect::<Vec<usize>>()
     };
@@ -30,8 +30,8 @@ fn named(determined: &Determined, line: &str) -> Vec<usize> {
 fn holds(determined: &Determined) -> Result<(), TestCaseError> {
     let system = determined.system();
     let steps = steps(determined);
-    let mut known = vec![false; system.coordinates.len()];
-    let mut used = vec![false; system.rows.len()];
+    let mut known = vec![false; system.coordinates().len()];
+    let mut used = vec![false; system.rows().len()];
     for step in &steps {
         prop_assert_eq!(step.rows.len(), step.columns.len());
         for &column in &step.columns {
@@ -39,8 +39,8 @@ fn holds(determined: &Determined) -> Result<(), TestCaseError> {
         }
         for &row in &step.rows {
             prop_assert!(!std::mem::replace(&mut used[row as usize], true), "used twice");
-            for &(column, _) in system.phi_q.row(row as usize) {
-                let name = &system.coordinates[column as usize].name;
+            for &(column, _) in system.phi_q().row(row as usize) {
+                let name = &system.coordinates()[column as usize].name;
                 prop_assert!(known[column as usize], "{name} is needed too early\n{}", order_of_solution(determined));
             }
         }

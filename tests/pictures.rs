@@ -872,7 +872,7 @@ fn free(text: &str) -> Vec<Vec<(String, [f64; 3])>> {
     let (model, said) = check::check(&tree.mechanisms[0], &check::Surroundings::default(), &sources);
     let system = lower::lowered(&model.unwrap_or_else(|| panic!("{said:?}")));
     let named = |FreeMotion { bodies }: FreeMotion| {
-        bodies.into_iter().map(|(body, velocity)| (system.bodies[body].name.clone(), velocity)).collect()
+        bodies.into_iter().map(|(body, velocity)| (system.bodies()[body].name.clone(), velocity)).collect()
     };
     free_motions(&system, Horizon::of_analysis(None)).into_iter().map(named).collect()
 }

@@ -19,8 +19,8 @@ type Known = Option<Dimension>;
 fn dimension_of(system: &ConstraintSystem, formula: ExprId) -> Known {
     let mut known: HashMap<ExprId, Known> = HashMap::new();
     // children come before their parents
-    for id in system.graph.reachable(&[formula]) {
-        let found = dimension_of_node(system, system.graph.node(id), &|child| known[&child]);
+    for id in system.graph().reachable(&[formula]) {
+        let found = dimension_of_node(system, system.graph().node(id), &|child| known[&child]);
         known.insert(id, found);
     }
     known[&formula]
@@ -38,7 +38,7 @@ fn dimension_of_node(system: &ConstraintSystem, node: Node, of: &dyn Fn(ExprId) 
         Node::Div(a, b) => Some(of(a)?.over(of(b)?)),
         Node::Power(a, n) => Some(of(a)?.to_the(f64::from(n))),
         Node::Unary(Unary::Sqrt, a) => Some(of(a)?.to_the(0.5)),
-        Node::Binary(Binary::Pow, a, b) => Some(of(a)?.to_the(system.graph.as_const(b)?)),
+        Node::Binary(Binary::Pow, a, b) => Some(of(a)?.to_the(system.graph().as_const(b)?)),
         Node::Const(_) | Node::Table(..) | Node::Unary(Unary::Floor, _) => None,
         // angles, comparisons and what is made of these
         _ => Some(Dimension::PURE),
@@ -47,12 +47,12 @@ fn dimension_of_node(system: &ConstraintSystem, node: Node, of: &dyn Fn(ExprId) 
 
 fn dimension_of_symbol(system: &ConstraintSystem, symbol: Symbol) -> Known {
     match symbol {
-        Symbol::Coordinate { index, .. } => match system.coordinates[index as usize].kind {
+        Symbol::Coordinate { index, .. } => match system.coordinates()[index as usize].kind {
             CoordinateKind::Length => Some(Dimension::LENGTH),
             CoordinateKind::Angle | CoordinateKind::Argument => Some(Dimension::PURE),
         },
         Symbol::Time => Some(Dimension::TIME),
-        Symbol::Param(k) => Some(system.params[k as usize].dimension).filter(|own| !own.is(Dimension::PURE)),
+        Symbol::Param(k) => Some(system.params()[k as usize].dimension).filter(|own| !own.is(Dimension::PURE)),
         _ => None,
     }
 }
@@ -67,12 +67,12 @@ fn alike(a: Known, b: Known) -> Known {
 
 /// How many rows there are, and how many of them have formulas that tell a dimension, which is the one they say.
 fn compared(name: &str, system: &ConstraintSystem) -> [usize; 2] {
-    let told = system.rows.iter().enumerate().filter_map(|(k, row)| Some((k, row, dimension_of(system, row.phi)?)));
+    let told = system.rows().iter().enumerate().filter_map(|(k, row)| Some((k, row, dimension_of(system, row.phi)?)));
     let told = told.map(|(k, row, dimension)| {
         let (of, found) = (system.row_name(k), dimension.unit());
         assert!(dimension.is(row.unit.dimension), "{name}: `{of}` says {}, and is in {found}", row.unit);
     });
-    [system.rows.len(), told.count()]
+    [system.rows().len(), told.count()]
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn units(declarations: &str) -> Vec<String> {
         }}"
     );
     let compiled = compiled("machine", &text);
-    compiled.inside().0.system().rows.iter().map(|row| row.unit.to_string()).collect()
+    compiled.inside().0.system().rows().iter().map(|row| row.unit.to_string()).collect()
 }
 
 #[test]

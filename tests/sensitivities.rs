@@ -262,7 +262,7 @@ fn first_order(path: &Path) {
             let choice = Choice { mechanism: Some(mechanism.clone()), ..Choice::default() };
             let compiled = compile(path, &text, &choice).expect("it is determined");
             let (determined, _) = compiled.inside();
-            for param in &determined.system().params {
+            for param in determined.system().params() {
                 seen.take(&varied_param(path, (&text, mechanism), param));
             }
         }
@@ -279,9 +279,9 @@ fn varied_param<'t>(path: &'t Path, (text, mechanism): (&'t str, &'t str), param
 fn with_measures(text: &str, mechanism: &str, system: &ConstraintSystem, by: &str) -> String {
     let mut measures = String::new();
     let mut known: Vec<BodyId> = Vec::new();
-    for point in &system.points {
+    for point in system.points() {
         let (Some(name), Some(body)) = (&point.name, point.body.filter(|body| !known.contains(body))) else { continue };
-        let owner = &system.bodies[body].name;
+        let owner = &system.bodies()[body].name;
         for (k, quantity) in [format!("x({owner}.{name})"), format!("y({owner}.{name})"), format!("angle({owner})")]
             .into_iter()
             .enumerate()
@@ -307,9 +307,9 @@ fn second_order(path: &Path) {
             let choice = Choice { mechanism: Some(mechanism.clone()), ..Choice::default() };
             let (determined, _) = compile(path, &text, &choice).expect("it is determined").inside();
             let system = determined.system();
-            let Some(first) = system.params.first() else { continue };
+            let Some(first) = system.params().first() else { continue };
             let text = with_measures(&text, mechanism, system, &first.name);
-            let other = &system.params[system.params.len() / 2];
+            let other = &system.params()[system.params().len() / 2];
             seen.take(&varied_param(path, (&text, mechanism), first));
             seen.take(&varied_param(path, (&text, mechanism), other));
         }
@@ -375,7 +375,7 @@ fn costs_no_more_than_a_row(path: &Path) {
     let choice = |by: Vec<String>| Choice { mechanism: Some(mechanism.clone()), by, ..Choice::default() };
     let plain = operations(path, &text, &choice(Vec::new()));
     let (determined, _) = compile(path, &text, &choice(Vec::new())).expect("it is determined").inside();
-    for param in &determined.system().params {
+    for param in determined.system().params() {
         let varied = operations(path, &text, &choice(vec![param.name.clone()]));
         assert!(varied <= 2 * plain, "{varied} operations by {}, {plain} without", param.name);
     }

@@ -63,9 +63,9 @@ fn holds((path, text): (&str, &str), largest_straight: usize) -> usize {
     let plain = compiled(path, text, &Choice::default());
     let (determined, _) = plain.inside();
     let system = determined.system();
-    let inputs: Vec<&str> = system.inputs.iter().map(|input| input.name.as_str()).collect();
+    let inputs: Vec<&str> = system.inputs().iter().map(|input| input.name.as_str()).collect();
     let names: Vec<&str> =
-        inputs.iter().copied().chain(system.params.iter().map(|param| param.name.as_str())).collect();
+        inputs.iter().copied().chain(system.params().iter().map(|param| param.name.as_str())).collect();
     assert!(!names.is_empty(), "{}: nothing to differentiate by", path.display());
 
     let by = names.iter().map(|&name| name.to_owned()).collect();
@@ -92,10 +92,11 @@ fn holds((path, text): (&str, &str), largest_straight: usize) -> usize {
         .replace("COUNT", &inputs.len().to_string());
     let found = bits(&module, &program);
 
-    let param = |name: &str| system.params.iter().position(|param| param.name == name).map(|k| Symbol::Param(k as u32));
+    let param =
+        |name: &str| system.params().iter().position(|param| param.name == name).map(|k| Symbol::Param(k as u32));
     let moves_an_input = |name: &str| {
-        let formulas = system.inputs.iter().map(|input| input.formulas[0]);
-        param(name).is_some_and(|param| formulas.into_iter().any(|id| system.graph.symbols(id).contains(&param)))
+        let formulas = system.inputs().iter().map(|input| input.formulas[0]);
+        param(name).is_some_and(|param| formulas.into_iter().any(|id| system.graph().symbols(id).contains(&param)))
     };
     let columns = varied.columns();
     let place = |name: &str| columns.iter().position(|column| column == name).unwrap_or_else(|| panic!("no {name}"));
@@ -107,7 +108,7 @@ fn holds((path, text): (&str, &str), largest_straight: usize) -> usize {
         let (is_led, row) = (k >= rows.len(), &rows[k % rows.len()]);
         for (column, bits) in plain.columns().iter().zip(&lines[0]).skip(1) {
             let (found, wanted) = (f64::from_bits(*bits), row[place(column)]);
-            let is_coordinate = system.coordinates.iter().any(|coordinate| coordinate.name == *column);
+            let is_coordinate = system.coordinates().iter().any(|coordinate| coordinate.name == *column);
             if !is_led || is_coordinate {
                 assert_eq!(bits_of(found), bits_of(wanted), "{column} at t = {}: {found}, not {wanted}", row[0]);
             } else if found.is_nan() {
@@ -121,7 +122,7 @@ fn holds((path, text): (&str, &str), largest_straight: usize) -> usize {
         for (number, (name, line)) in names.iter().zip(&lines[1..]).enumerate() {
             // where inputs have led they are held, whatever their formulas are made of
             let is_held = is_led && number >= inputs.len();
-            for (coordinate, bits) in system.coordinates.iter().zip(line) {
+            for (coordinate, bits) in system.coordinates().iter().zip(line) {
                 let column = format!("{}.by.{name}", coordinate.name);
                 let (wanted, found) = (row[place(&column)], f64::from_bits(*bits));
                 if is_held && moves_an_input(name) {

@@ -80,7 +80,7 @@ fn every_case_is_solved_for_in_lanes() {
         };
         seen += 1;
         let wanted = rows(&compiled, &times);
-        let params: Vec<f64> = determined.system().params.iter().map(|param| param.value).collect();
+        let params: Vec<f64> = determined.system().params().iter().map(|param| param.value).collect();
         let started = analysis::start(
             Arc::clone(&determined),
             Arc::clone(&program),
@@ -92,10 +92,10 @@ fn every_case_is_solved_for_in_lanes() {
         let solver = started.solver().expect("it is small");
         let layout = solver.layout();
         let (mut lanes, mut found) = (Lanes::<1>::new(solver), vec![0.0; layout.stride]);
-        let bounds = vec![1e8; determined.system().rows.len()];
+        let bounds = vec![1e8; determined.system().rows().len()];
         let mut others = 0;
         for want in wanted.iter().skip(1) {
-            let q = &want[layout.coordinates[0] as usize..][..determined.system().coordinates.len()];
+            let q = &want[layout.coordinates[0] as usize..][..determined.system().coordinates().len()];
             let curve: Vec<[f64; 6]> = q.iter().map(|&q| [q, 0.0, 0.0, 0.0, 0.0, 0.0]).collect();
             let bends = vec![Bend::NONE; solver.tears().len()];
             let batch =

@@ -101,12 +101,12 @@ fn joints_have_as_many_equations_and_coordinates_as_their_pages_say() {
         let (determined, _) = compiled(joint.word.name, &joint.word.example()).inside();
         let system = determined.system();
         let is_it = |kind| matches!(kind, DeclarationKind::Joint(kind) if kind.word() == joint.word.name);
-        let number = system.declarations.find(|declaration| is_it(declaration.kind)).expect("the joint");
-        let rows = system.rows.iter().filter(|row| row.declaration == number).count();
+        let number = system.declarations().find(|declaration| is_it(declaration.kind)).expect("the joint");
+        let rows = system.rows().iter().filter(|row| row.declaration == number).count();
         assert_eq!(rows, joint.equations, "{}", joint.word.name);
-        let name = &system.declarations[number].name;
+        let name = &system.declarations()[number].name;
         let own: Vec<&str> =
-            system.coordinates.iter().filter_map(|c| c.name.strip_prefix(&format!("{name}."))).collect();
+            system.coordinates().iter().filter_map(|c| c.name.strip_prefix(&format!("{name}."))).collect();
         let told: Vec<&str> = joint.coordinates.iter().map(|(name, _)| *name).collect();
         assert_eq!(own, told, "{}", joint.word.name);
     }

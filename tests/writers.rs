@@ -8,7 +8,7 @@ use assert_cmd::Command;
 use mechc::Compiled;
 use mechc::rooms::emit;
 use mechc::rooms::expr::{ExprId, Graph, Node, Symbol, TableId};
-use mechc::rooms::ir::ConstraintSystem;
+use mechc::rooms::ir::{ConstraintSystem, Mechanics};
 use serde_json::Value;
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -16,7 +16,7 @@ use std::fs;
 use support::random::Random;
 use support::reading::{Names, parse, read};
 use support::tex::Meaning;
-use support::{compile_number, compiled, files, mechanisms, stem, without_forces};
+use support::{compile_number, compile_with_forces, compiled, files, mechanisms, stem};
 
 struct Emitted {
     name: String,
@@ -25,13 +25,14 @@ struct Emitted {
 
 /// Examples, reference cases and stages, each mechanism of theirs.
 fn all() -> Vec<Emitted> {
-    let paths =
-        ["examples", "tests/cases", "tests/stages", "tests/following"].map(|folder| files(folder, "mech")).concat();
+    let paths = ["examples", "tests/cases", "tests/forces", "tests/stages", "tests/following"]
+        .map(|folder| files(folder, "mech"));
+    let paths = paths.concat();
     let mut list = Vec::new();
-    for path in without_forces(paths) {
+    for path in paths {
         let text = fs::read_to_string(&path).expect("a text");
         for number in 0..mechanisms(&text).len() {
-            let (compiled, _) = compile_number(&path, &text, number);
+            let compiled = compile_with_forces(&path, &text, number).or_else(|| compile_number(&path, &text, number).0);
             let folder = stem(path.parent().expect("a folder"));
             let name = format!("{folder}/{}", stem(&path));
             // derivatives by inputs and parameters are for `run` and code
@@ -98,6 +99,8 @@ const LAYOUT: &[(&str, &[(&str, &str)])] = &[
     ("terms", &[("name", "text"), ("value", "text")]),
     ("rows", &[("name", "text"), ("declaration", "count"), ("unit", "text"), ("phi", "text")]),
     ("phi_q", &[("row", "count"), ("column", "count"), ("value", "text")]),
+    ("mass_matrix", &[("row", "count"), ("column", "count"), ("value", "text")]),
+    ("reactions", &[("name", "text"), ("line", "count"), ("unit", "text"), ("value", "text")]),
     (
         "measures",
         &[
@@ -114,7 +117,7 @@ const LAYOUT: &[(&str, &[(&str, &str)])] = &[
     ("left_out", &[("declaration", "count"), ("unit", "text"), ("phi", "text")]),
 ];
 
-const FIELDS: [&str; 20] = [
+const FIELDS: [&str; 23] = [
     "layout",
     "mechc",
     "mechanism",
@@ -131,6 +134,9 @@ const FIELDS: [&str; 20] = [
     "phi_q",
     "nu",
     "gamma",
+    "mass_matrix",
+    "applied",
+    "reactions",
     "measures",
     "conditions",
     "watches",
@@ -178,9 +184,14 @@ fn json_has_the_layout_of_its_page() {
     for Emitted { name, compiled } in all() {
         let (determined, _) = compiled.inside();
         let json: Value = serde_json::from_str(&compiled.json("f.mech")).expect("JSON");
-        // inputs are told where there are any
-        let has_inputs = !determined.system().inputs.is_empty();
-        let is_there = |field: &str| field != "inputs" || has_inputs;
+        // inputs and forces are told where there are any
+        let has_inputs = !determined.system().inputs().is_empty();
+        let has_forces = determined.system().forces().is_some();
+        let is_there = |field: &str| match field {
+            "inputs" => has_inputs,
+            "mass_matrix" | "applied" | "reactions" => has_forces,
+            _ => true,
+        };
         let fields: Vec<&str> = FIELDS.iter().copied().filter(|field| is_there(field)).collect();
         assert_eq!(keys(&json), fields, "{name}");
         for (field, fields) in LAYOUT.iter().filter(|(field, _)| is_there(field)) {
@@ -198,13 +209,13 @@ fn json_has_the_layout_of_its_page() {
 /// Lists have the lengths, and numbers point to what there is.
 fn counts_agree(name: &str, json: &Value, system: &ConstraintSystem) {
     let length = |key: &str| list(json, key).len();
-    let m = system.rows.len();
+    let m = system.rows().len();
     assert_eq!([length("rows"), length("nu"), length("gamma"), length("coordinates")], [m; 4], "{name}");
-    assert_eq!(length("phi_q"), system.phi_q.entries().len());
+    assert_eq!(length("phi_q"), system.phi_q().entries().len());
     let declared: usize = list(json, "declarations").iter().map(|item| index(&item["rows"])).sum();
     assert_eq!(declared, m, "{name}");
     for (k, entry) in list(json, "phi_q").iter().enumerate() {
-        assert_eq!(index(&entry["row"]), system.phi_q.row_of(k));
+        assert_eq!(index(&entry["row"]), system.phi_q().row_of(k));
         assert!(index(&entry["column"]) < m);
     }
     for row in list(json, "rows") {
@@ -270,7 +281,7 @@ fn formula(
         };
         let end = rest.find(|c| !is_name(c)).unwrap_or(rest.len()).max(first.len_utf8());
         let word = &rest[..end];
-        if !first.is_ascii_digit() && word.contains(['.', '\'']) {
+        if !first.is_ascii_digit() && word.contains(['.', '\'', '[']) {
             plain += &format!("word_of_test_{}", words.len());
             words.push(word.to_owned());
         } else {
@@ -285,22 +296,27 @@ fn formula(
 fn formulas_of_the_json_are_those_of_the_system() {
     for Emitted { name, compiled } in all() {
         let (determined, _) = compiled.inside();
-        let system = determined.system();
+        let mut system = determined.system().clone();
+        let mechanics = system.mechanics();
         let json: Value = serde_json::from_str(&compiled.json("f.mech")).expect("JSON");
-        let mut graph = system.graph.clone();
+        let mut graph = system.graph().clone();
         let mut symbols: HashMap<String, ExprId> = HashMap::new();
-        for (_, node) in system.graph.nodes() {
+        for (_, node) in system.graph().nodes() {
             if let Node::Symbol(symbol) = node {
                 let id = graph.symbol(symbol);
-                let word = if symbol == Symbol::Time { "t".to_owned() } else { system.symbol_name(symbol) };
+                let word = match symbol {
+                    Symbol::Time => "t".to_owned(),
+                    Symbol::Multiplier(row) => format!("lambda[{row}]"),
+                    symbol => system.symbol_name(symbol),
+                };
                 assert!(symbols.insert(word, id).is_none(), "{name}: two symbols of one name");
             }
         }
         let tables: HashMap<String, TableId> = system
-            .graph
+            .graph()
             .nodes()
             .filter_map(|(_, node)| match node {
-                Node::Table(table, ..) => Some((system.graph.tables()[table.index()].name.clone(), table)),
+                Node::Table(table, ..) => Some((system.graph().tables()[table.index()].name.clone(), table)),
                 _ => None,
             })
             .collect();
@@ -312,18 +328,29 @@ fn formulas_of_the_json_are_those_of_the_system() {
             let back = formula(&mut graph, text(value), &symbols, &tables);
             assert_eq!(back, id, "{name}: {value}");
         };
-        for (k, row) in system.rows.iter().enumerate() {
+        for (k, row) in system.rows().iter().enumerate() {
             same(&json["rows"][k]["phi"], row.phi);
             same(&json["nu"][k], system.nu()[k]);
             same(&json["gamma"][k], system.gamma()[k]);
         }
-        for (k, (_, id)) in system.phi_q.entries().iter().enumerate() {
+        for (k, (_, id)) in system.phi_q().entries().iter().enumerate() {
             same(&json["phi_q"][k]["value"], *id);
         }
-        for (k, coordinate) in system.coordinates.iter().enumerate() {
+        if let Some(Mechanics { mass_matrix, applied }) = &mechanics {
+            for (entry, (_, id)) in list(&json, "mass_matrix").iter().zip(mass_matrix.entries()) {
+                same(&entry["value"], *id);
+            }
+            for (text, id) in list(&json, "applied").iter().zip(applied) {
+                same(text, *id);
+            }
+            for (item, of) in list(&json, "reactions").iter().zip(system.reactions()) {
+                same(&item["value"], of.value);
+            }
+        }
+        for (k, coordinate) in system.coordinates().iter().enumerate() {
             same(&json["coordinates"][k]["estimate"], coordinate.estimate);
         }
-        for (measure, item) in system.measures.iter().zip(list(&json, "measures")) {
+        for (measure, item) in system.measures().iter().zip(list(&json, "measures")) {
             same(&item["value"], measure.value);
             for (key, derivative) in [("first", measure.first), ("second", measure.second)] {
                 match derivative {
@@ -332,7 +359,7 @@ fn formulas_of_the_json_are_those_of_the_system() {
                 }
             }
         }
-        for (table, item) in system.graph.tables().iter().zip(list(&json, "tables")) {
+        for (table, item) in system.graph().tables().iter().zip(list(&json, "tables")) {
             let columns = [&table.knots, &table.values].into_iter().chain(&table.coefficients);
             let texts = [&item["knots"], &item["values"]].into_iter().chain(list(item, "coefficients"));
             for (ids, texts) in columns.zip(texts) {
@@ -341,13 +368,13 @@ fn formulas_of_the_json_are_those_of_the_system() {
                 }
             }
         }
-        for (condition, item) in system.conditions.iter().zip(list(&json, "conditions")) {
+        for (condition, item) in system.conditions().iter().zip(list(&json, "conditions")) {
             same(&item["positive"], condition.positive);
         }
-        for (watch, item) in system.watches.iter().zip(list(&json, "watches")) {
+        for (watch, item) in system.watches().iter().zip(list(&json, "watches")) {
             same(&item["value"], watch.value);
         }
-        for (check, item) in system.checks.iter().zip(list(&json, "left_out")) {
+        for (check, item) in system.checks().iter().zip(list(&json, "left_out")) {
             same(&item["phi"], check.phi);
         }
     }
@@ -389,9 +416,9 @@ fn every_document_is_sound() {
     for Emitted { name, compiled } in all() {
         let (determined, _) = compiled.inside();
         let system = determined.system();
-        let document = emit::latex(system, "a_b%c.mech");
+        let document = compiled.latex("a_b%c.mech");
         is_sound(&name, &document);
-        for row in 1..=system.rows.len() {
+        for row in 1..=system.rows().len() {
             assert!(document.contains(&format!("\\Phi_{{{row}}}")), "{name}: no row {row}");
         }
         // a term is written out once, and none without need
@@ -405,7 +432,7 @@ fn every_document_is_sound() {
 }
 
 /// The arguments of each `\entry` of a part of a document, the relation taken off.
-fn entries(text: &str) -> impl Iterator<Item = (&str, &str)> {
+fn entries(text: &str) -> impl Iterator<Item = (&str, &str)> + Clone {
     text.lines().filter_map(|line| line.strip_prefix(r"\entry{")).map(|line| {
         let (left, right) = line.split_once("}{").expect("two arguments");
         let right = right.strip_suffix('}').expect("an end");
@@ -438,7 +465,10 @@ fn symbols(document: &str, system: &ConstraintSystem, value: &dyn Fn(Symbol) -> 
             assert!(symbols.insert(name, value).is_none(), "two coordinates of one symbol");
         }
     }
-    assert_eq!(symbols.len(), 1 + system.params.len() + 4 * system.coordinates.len());
+    assert_eq!(symbols.len(), 1 + system.params().len() + 4 * system.coordinates().len());
+    for row in 0..system.rows().len() {
+        symbols.insert(format!("\\lambda_{{{}}}", row + 1), value(Symbol::Multiplier(row as u32)));
+    }
     symbols
 }
 
@@ -446,6 +476,7 @@ fn symbols(document: &str, system: &ConstraintSystem, value: &dyn Fn(Symbol) -> 
 fn some_number(symbol: Symbol, seed: u64) -> f64 {
     let number = match symbol {
         Symbol::Coordinate { index, order } => 10 + 4 * u64::from(index) + u64::from(order),
+        Symbol::Multiplier(row) => 100_000 + u64::from(row),
         _ => 1,
     };
     Random::new(number * 1000 + seed).between(-1.0, 1.0)
@@ -464,38 +495,40 @@ fn what_is_typeset_has_the_values_of_the_system() {
 }
 
 fn values_agree(name: &str, system: &ConstraintSystem, seed: u64) {
-    let document = emit::latex(system, "f.mech");
+    let mut system = system.clone();
+    let mechanics = system.mechanics();
+    let document = emit::latex(&system, mechanics.as_ref(), "f.mech");
     let value = |symbol: Symbol| match symbol {
-        Symbol::Param(k) => system.params[k as usize].value,
+        Symbol::Param(k) => system.params()[k as usize].value,
         symbol => some_number(symbol, seed),
     };
     let names: Vec<String> = entries(section(&document, "Tables")).map(|(name, _)| name.to_owned()).collect();
     let table = |name: &str, order: usize, x: f64| -> Option<f64> {
         let at = names.iter().position(|known| known == name)?;
-        let mut nodes = system.graph.nodes();
+        let mut nodes = system.graph().nodes();
         let table = nodes.find_map(|(_, node)| match node {
             Node::Table(table, ..) if table.index() == at => Some(table),
             _ => None,
         });
-        let mut graph = system.graph.clone();
+        let mut graph = system.graph().clone();
         let argument = graph.symbol(Symbol::Named(0));
         let id = graph.table(table?, u8::try_from(order).ok()?, argument);
         Some(graph.value(id, |symbol| if symbol == Symbol::Named(0) { x } else { value(symbol) }))
     };
     let terms = entries(&document).filter(|(name, _)| name.starts_with(r"\mathcal"));
     let meaning = Meaning {
-        symbols: symbols(&document, system, &value),
+        symbols: symbols(&document, &system, &value),
         terms: terms.map(|(name, text)| (name.to_owned(), text.to_owned())).collect(),
         table: &table,
         known: RefCell::default(),
     };
     let agrees = |what: &str, text: &str, id: ExprId| {
-        let (got, wanted) = (meaning.value(text), system.graph.value(id, value));
+        let (got, wanted) = (meaning.value(text), system.graph().value(id, value));
         let is_same = (got - wanted).abs() <= 1e-8 * (1.0 + wanted.abs()) || !wanted.is_finite();
         assert!(is_same, "{name}, {what}: {got} for {wanted}, {text}");
     };
     let equations = section(&document, "Equations");
-    for (k, row) in system.rows.iter().enumerate() {
+    for (k, row) in system.rows().iter().enumerate() {
         let of = |letter: &str, id: ExprId| {
             let wanted = format!("{letter}_{{{}}}", k + 1);
             // some of the right sides that vanish stand in one equation
@@ -509,19 +542,47 @@ fn values_agree(name: &str, system: &ConstraintSystem, seed: u64) {
         of(r"\nu", system.nu()[k]);
         of(r"\gamma", system.gamma()[k]);
         let mut cells = cells(equations, k + 1);
-        for &(column, id) in system.phi_q.row(k) {
+        for &(column, id) in system.phi_q().row(k) {
             let symbol = column_symbol(&document, column as usize);
             let text = cells.remove(symbol).unwrap_or_else(|| panic!("{name}: no column {symbol}"));
             agrees(symbol, text, id);
         }
         assert!(cells.values().all(|text| *text == "0"), "{name}: {cells:?}");
     }
+    if let Some(mechanics) = &mechanics {
+        forces_agree(&system, mechanics, section(&document, "Forces"), &agrees);
+    }
     for (measure, (_, text)) in system
-        .measures
+        .measures()
         .iter()
         .zip(entries(section(&document, "Measures")).filter(|(name, _)| !name.starts_with(r"\mathcal")))
     {
         agrees(&measure.name, text, measure.value);
+    }
+}
+
+/// The entries of `M` and `Q` that do not vanish, and what joints exert.
+fn forces_agree(
+    system: &ConstraintSystem,
+    Mechanics { mass_matrix, applied }: &Mechanics,
+    section: &str,
+    agrees: &dyn Fn(&str, &str, ExprId),
+) {
+    let typeset: HashMap<&str, &str> =
+        entries(section).flat_map(|(names, text)| names.split(" = ").map(move |name| (name, text))).collect();
+    let of = |name: &str, id: ExprId| agrees(name, typeset.get(name).copied().unwrap_or("0"), id);
+    for row in 0..mass_matrix.rows() {
+        for &(column, id) in mass_matrix.row(row) {
+            of(&format!("M_{{{},{}}}", row + 1, column + 1), id);
+        }
+    }
+    for (k, &id) in applied.iter().enumerate() {
+        of(&format!("Q_{{{}}}", k + 1), id);
+    }
+    let texts = entries(section).filter(|(name, _)| name.starts_with(r"\text"));
+    assert_eq!(texts.clone().count(), system.reactions().len());
+    for (reaction, (_, text)) in system.reactions().iter().zip(texts) {
+        agrees(&reaction.name, text, reaction.value);
     }
 }
 

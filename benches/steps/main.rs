@@ -172,7 +172,7 @@ fn scissor_lifts(floor: f64) {
 /// ns a step: mechc, and the same Newton with a dense LU (where that can be waited for) and with a sparse one.
 fn ways(compiled: &Compiled, steps: u32) -> [Option<f64>; 3] {
     let (determined, program) = compiled.inside();
-    let n = determined.system().coordinates.len();
+    let n = determined.system().coordinates().len();
     let [from, to, _] = compiled.analysis().expect("an analysis");
     let every = (to - from) / f64::from(steps - 1);
     let times = Times::grid(from, to, every).expect("a grid");

@@ -30,13 +30,13 @@ pub struct Dense {
 
 /// Row and column of each entry, by its position in the pattern.
 fn places(system: &ConstraintSystem) -> Vec<(usize, usize)> {
-    let columns = |row| system.phi_q.row(row).iter().map(move |&(column, _)| (row, column as usize));
-    (0..system.rows.len()).flat_map(columns).collect()
+    let columns = |row| system.phi_q().row(row).iter().map(move |&(column, _)| (row, column as usize));
+    (0..system.rows().len()).flat_map(columns).collect()
 }
 
 impl Dense {
     pub fn new(determined: &Determined) -> Dense {
-        let n = determined.system().rows.len();
+        let n = determined.system().rows().len();
         Dense { places: places(determined.system()), matrix: DMatrix::zeros(n, n), lu: None }
     }
 }
@@ -67,7 +67,7 @@ pub struct Sparse {
 impl Sparse {
     pub fn new(determined: &Determined) -> Sparse {
         let places = places(determined.system());
-        let n = determined.system().rows.len();
+        let n = determined.system().rows().len();
         let mut order: Vec<usize> = (0..places.len()).collect();
         order.sort_by_key(|&at| (places[at].1, places[at].0));
         let mut starts = vec![0; n + 1];
@@ -113,8 +113,8 @@ impl<'p, L: Linear> Newton<'p, L> {
     /// At the first time, from an assembled position.
     pub fn new(linear: L, determined: &Determined, program: &'p Program, q: &[f64]) -> Newton<'p, L> {
         let system = determined.system();
-        let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
-        let [t, ..] = system.analysis.expect("an analysis");
+        let params: Vec<f64> = system.params().iter().map(|param| param.value).collect();
+        let [t, ..] = system.analysis().expect("an analysis");
         let zero = vec![0.0; q.len()];
         let registers = program.start(&params);
         let mut newton = Newton { linear, program, registers, t, q: q.to_vec(), qd: zero.clone(), qdd: zero };

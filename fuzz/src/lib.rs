@@ -133,7 +133,7 @@ fn follow(parsed: &Parsed, name: String, ran: &mut Ran) {
     // measures that are differentiated by inputs and parameters are not emitted
     let is_varied = determined.system().variations.is_some();
     assert!(is_varied || emitted.is_some_and(|text| text.contains("pub fn phi")), "no code");
-    if determined.system().coordinates.len() > MOST_COORDINATES {
+    if determined.system().coordinates().len() > MOST_COORDINATES {
         return;
     }
     let [from, to, _] = compiled.analysis().unwrap_or([0.0, 1.0, 0.1]);
@@ -160,7 +160,7 @@ fn rows(compiled: &Compiled, determined: &Determined, program: &Program, mut run
             Ok(row) => {
                 assert_eq!(row.len(), columns.len(), "a row is as long as its header");
                 assert_eq!(row[0].to_bits(), t.to_bits(), "a row is at its time");
-                let n = determined.system().coordinates.len();
+                let n = determined.system().coordinates().len();
                 let measures = &determined.system().measures;
                 let firsts = measures.iter().filter(|measure| measure.first.is_some()).count();
                 let (q, rest) = row[1..].split_at(n);
@@ -195,7 +195,7 @@ fn holds(determined: &Determined, program: &Program, t: f64, q: &[f64], qd: &[f6
 /// The equation that does not hold, if there is one; the switches as they are some time (s) later or before.
 fn open(determined: &Determined, program: &Program, t: f64, q: &[f64], qd: &[f64], ahead: f64) -> Option<String> {
     let system = determined.system();
-    let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
+    let params: Vec<f64> = system.params().iter().map(|param| param.value).collect();
     let mut registers = program.start(&params);
     let mut evaluate = |ahead: f64| {
         registers.set(program.inputs.time, t + ahead);
@@ -207,10 +207,10 @@ fn open(determined: &Determined, program: &Program, t: f64, q: &[f64], qd: &[f64
     };
     evaluate(ahead);
     evaluate(0.0);
-    (0..system.rows.len()).find_map(|row| {
-        let slopes = || system.phi_q.range(row).zip(system.phi_q.row(row));
+    (0..system.rows().len()).find_map(|row| {
+        let slopes = || system.phi_q().range(row).zip(system.phi_q().row(row));
         let slope = |position: usize| registers.get(program.outputs.phi_q[position]);
-        let norm = slopes().map(|(k, &(column, _))| slope(k) * system.coordinates[column as usize].scale);
+        let norm = slopes().map(|(k, &(column, _))| slope(k) * system.coordinates()[column as usize].scale);
         let norm = norm.map(|s| s * s).sum::<f64>().sqrt();
         let steps = slopes().map(|(k, &(column, _))| (slope(k) * q[column as usize]).abs());
         let terms = program.outputs.terms[row].iter().map(|&register| registers.get(register).abs());

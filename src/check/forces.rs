@@ -304,14 +304,19 @@ impl Checker<'_> {
         })
     }
 
-    /// Whether a formula holds a force, at any depth.
+    /// Whether a formula holds a force, also within others.
     pub(super) fn holds_force(&self, id: ExprId) -> bool {
+        self.holds_named(id, |named| matches!(named, Named::Force(..)))
+    }
+
+    /// Whether a formula holds a named symbol of some kind, also within derivatives and what parts hold.
+    pub(super) fn holds_named(&self, id: ExprId, is_wanted: impl Fn(&Named) -> bool) -> bool {
         let mut open = vec![id];
         while let Some(id) = open.pop() {
             for symbol in self.model.graph.symbols(id) {
                 let Symbol::Named(k) = symbol else { continue };
                 match self.model.named.get(k as usize) {
-                    Some(Named::Force(..)) => return true,
+                    Some(named) if is_wanted(named) => return true,
                     Some(Named::Derivative(inner) | Named::By(inner, ..) | Named::Held(_, inner)) => open.push(*inner),
                     _ => {}
                 }

@@ -176,18 +176,7 @@ impl Checker<'_> {
 
     /// Whether a formula holds a number for the whole analysis.
     pub(super) fn holds_reduction(&self, id: ExprId) -> bool {
-        let mut open = vec![id];
-        while let Some(id) = open.pop() {
-            for symbol in self.model.graph.symbols(id) {
-                let Symbol::Named(k) = symbol else { continue };
-                match self.model.named.get(k as usize) {
-                    Some(Named::Reduction(_)) => return true,
-                    Some(Named::Derivative(inner) | Named::By(inner, ..) | Named::Held(_, inner)) => open.push(*inner),
-                    _ => {}
-                }
-            }
-        }
-        false
+        self.holds_named(id, |named| matches!(named, Named::Reduction(_)))
     }
 
     /// The time of `at`, a constant.

@@ -3,8 +3,10 @@
 //! `docs/emit-json.md` is the contract. A formula shares its parts and a text does not, so large parts that stand in several
 //! places are listed once as `terms`, and the size of the whole stays that of the expression graph.
 
-use crate::expr::{ExprId, Printer, Table};
-use crate::ir::{ConditionKind, ConstraintSystem, CoordinateKind, DeclarationKind, Owner, WatchKind};
+use crate::expr::{ExprId, Printer, Symbol, Table};
+use crate::ir::{
+    ConditionKind, ConstraintSystem, CoordinateKind, DeclarationKind, Mechanics, Owner, SparseRows, WatchKind,
+};
 use crate::source::{Sources, Span};
 use serde_json::{Value, json};
 
@@ -15,20 +17,23 @@ const LAYOUT: u32 = 1;
 ///
 /// `file` is the name of the source, and `sources` has the text that the system's places lie in.
 #[must_use]
-pub fn json(system: &ConstraintSystem, sources: &Sources, file: &str) -> String {
+pub fn json(system: &ConstraintSystem, mechanics: Option<&Mechanics>, sources: &Sources, file: &str) -> String {
     let prefix = prefix_of_terms(system);
-    let mut printer = Printer::new(&system.graph, |symbol| system.symbol_name(symbol));
-    let terms = printer.name_shared(&roots(system), |k| format!("{prefix}{}", k + 1));
+    let mut printer = Printer::new(system.graph(), |symbol| match symbol {
+        Symbol::Multiplier(row) => format!("lambda[{row}]"),
+        symbol => system.symbol_name(symbol),
+    });
+    let terms = printer.name_shared(&roots(system, mechanics), |k| format!("{prefix}{}", k + 1));
     let terms = terms.iter().map(|(name, id)| json!({ "name": name, "value": printer.definition(*id) })).collect();
     let writer = Writer { system, sources, text: &|id| printer.text(id) };
     let mut object = Object::new();
     object.field("layout", &json!(LAYOUT));
     object.field("mechc", &json!(env!("CARGO_PKG_VERSION")));
-    object.field("mechanism", &json!(system.name));
+    object.field("mechanism", &json!(system.name()));
     object.field("file", &json!(file));
     object.field("analysis", &writer.analysis());
     object.list("params", writer.params());
-    if !system.inputs.is_empty() {
+    if !system.inputs().is_empty() {
         object.list("inputs", writer.inputs());
     }
     object.list("tables", writer.tables());
@@ -37,9 +42,14 @@ pub fn json(system: &ConstraintSystem, sources: &Sources, file: &str) -> String 
     object.list("declarations", writer.declarations());
     object.list("terms", terms);
     object.list("rows", writer.rows());
-    object.list("phi_q", writer.phi_q());
+    object.list("phi_q", writer.entries(system.phi_q()));
     object.list("nu", writer.texts(system.nu()));
     object.list("gamma", writer.texts(system.gamma()));
+    if let Some(Mechanics { mass_matrix, applied }) = mechanics {
+        object.list("mass_matrix", writer.entries(mass_matrix));
+        object.list("applied", writer.texts(applied));
+        object.list("reactions", writer.reactions());
+    }
     object.list("measures", writer.measures());
     object.list("conditions", writer.conditions());
     object.list("watches", writer.watches());
@@ -48,24 +58,28 @@ pub fn json(system: &ConstraintSystem, sources: &Sources, file: &str) -> String 
 }
 
 /// Every formula that is written.
-fn roots(system: &ConstraintSystem) -> Vec<ExprId> {
-    let mut roots: Vec<ExprId> = system.rows.iter().map(|row| row.phi).collect();
-    roots.extend(system.phi_q.entries().iter().map(|&(_, id)| id));
+fn roots(system: &ConstraintSystem, mechanics: Option<&Mechanics>) -> Vec<ExprId> {
+    let mut roots: Vec<ExprId> = system.rows().iter().map(|row| row.phi).collect();
+    roots.extend(system.phi_q().entries().iter().map(|&(_, id)| id));
     roots.extend(system.nu().iter().chain(system.gamma()));
-    roots.extend(system.coordinates.iter().map(|coordinate| coordinate.estimate));
-    roots.extend(system.inputs.iter().flat_map(|input| input.formulas));
-    roots.extend(system.measures.iter().flat_map(|m| [Some(m.value), m.first, m.second].into_iter().flatten()));
-    roots.extend(system.conditions.iter().map(|condition| condition.positive));
-    roots.extend(system.watches.iter().map(|watch| watch.value));
-    roots.extend(system.checks.iter().map(|check| check.phi));
-    roots.extend(system.graph.tables().iter().flat_map(|table| table.cells().chain(table.values.iter().copied())));
+    roots.extend(system.coordinates().iter().map(|coordinate| coordinate.estimate));
+    roots.extend(system.inputs().iter().flat_map(|input| input.formulas));
+    roots.extend(system.measures().iter().flat_map(|m| [Some(m.value), m.first, m.second].into_iter().flatten()));
+    if let Some(Mechanics { mass_matrix, applied }) = mechanics {
+        roots.extend(mass_matrix.entries().iter().map(|&(_, id)| id).chain(applied.iter().copied()));
+        roots.extend(system.reactions().iter().map(|of| of.value));
+    }
+    roots.extend(system.conditions().iter().map(|condition| condition.positive));
+    roots.extend(system.watches().iter().map(|watch| watch.value));
+    roots.extend(system.checks().iter().map(|check| check.phi));
+    roots.extend(system.graph().tables().iter().flat_map(|table| table.cells().chain(table.values.iter().copied())));
     roots
 }
 
 /// Letters for the names of terms that no parameter and no table begins with.
 fn prefix_of_terms(system: &ConstraintSystem) -> String {
-    let tables = system.graph.tables().iter().map(|table| &table.name);
-    let names: Vec<&String> = system.params.iter().map(|param| &param.name).chain(tables).collect();
+    let tables = system.graph().tables().iter().map(|table| &table.name);
+    let names: Vec<&String> = system.params().iter().map(|param| &param.name).chain(tables).collect();
     let mut prefix = "k".to_owned();
     while names.iter().any(|name| name.starts_with(&prefix)) {
         prefix.push('_');
@@ -90,16 +104,18 @@ impl Writer<'_> {
     }
 
     fn analysis(&self) -> Value {
-        self.system.analysis.map_or(Value::Null, |[from, to, every]| json!({ "from": from, "to": to, "every": every }))
+        self.system
+            .analysis()
+            .map_or(Value::Null, |[from, to, every]| json!({ "from": from, "to": to, "every": every }))
     }
 
     fn params(&self) -> Vec<Value> {
-        let params = self.system.params.iter();
+        let params = self.system.params().iter();
         params.map(|param| json!({ "name": param.name, "value": param.value, "unit": param.unit() })).collect()
     }
 
     fn inputs(&self) -> Vec<Value> {
-        let inputs = self.system.inputs.iter().map(|input| {
+        let inputs = self.system.inputs().iter().map(|input| {
             let [value, rate, acceleration] = input.formulas.map(|id| (self.text)(id));
             json!({
                 "name": input.name,
@@ -123,16 +139,16 @@ impl Writer<'_> {
                 "coefficients": table.coefficients.iter().map(|list| self.texts(list)).collect::<Vec<_>>(),
             })
         };
-        self.system.graph.tables().iter().map(table).collect()
+        self.system.graph().tables().iter().map(table).collect()
     }
 
     fn bodies(&self) -> Vec<Value> {
-        let bodies = self.system.bodies.iter();
+        let bodies = self.system.bodies().iter();
         bodies.map(|body| json!({ "name": body.name, "line": self.line(body.span) })).collect()
     }
 
     fn coordinates(&self) -> Vec<Value> {
-        let coordinates = self.system.coordinates.iter().map(|coordinate| {
+        let coordinates = self.system.coordinates().iter().map(|coordinate| {
             let kind = match coordinate.kind {
                 CoordinateKind::Length => "length",
                 CoordinateKind::Angle => "angle",
@@ -156,7 +172,7 @@ impl Writer<'_> {
     }
 
     fn declarations(&self) -> Vec<Value> {
-        let declarations = self.system.declarations.iter().map(|declaration| {
+        let declarations = self.system.declarations().iter().map(|declaration| {
             let joint = match declaration.kind {
                 DeclarationKind::Joint(kind) => Some(kind.word()),
                 DeclarationKind::Constraint | DeclarationKind::Driver => None,
@@ -173,7 +189,7 @@ impl Writer<'_> {
     }
 
     fn left_out(&self) -> Vec<Value> {
-        let checks = self.system.checks.iter();
+        let checks = self.system.checks().iter();
         let left_out = checks.map(|check| {
             json!({
                 "declaration": check.declaration.index(),
@@ -185,7 +201,7 @@ impl Writer<'_> {
     }
 
     fn rows(&self) -> Vec<Value> {
-        let rows = self.system.rows.iter().enumerate().map(|(k, row)| {
+        let rows = self.system.rows().iter().enumerate().map(|(k, row)| {
             json!({
                 "name": self.system.row_name(k),
                 "declaration": row.declaration.index(),
@@ -196,17 +212,25 @@ impl Writer<'_> {
         rows.collect()
     }
 
-    fn phi_q(&self) -> Vec<Value> {
-        let phi_q = &self.system.phi_q;
-        let entries = (0..self.system.rows.len()).flat_map(|row| {
-            let entries = phi_q.row(row).iter();
+    /// The entries of a matrix that do not vanish.
+    fn entries(&self, matrix: &SparseRows) -> Vec<Value> {
+        let entries = (0..matrix.rows()).flat_map(|row| {
+            let entries = matrix.row(row).iter();
             entries.map(move |&(column, id)| json!({ "row": row, "column": column, "value": (self.text)(id) }))
         });
         entries.collect()
     }
 
+    fn reactions(&self) -> Vec<Value> {
+        let reactions = self.system.reactions().iter();
+        let reactions = reactions.map(|of| {
+            json!({ "name": of.name, "line": self.line(of.span), "unit": of.unit, "value": (self.text)(of.value) })
+        });
+        reactions.collect()
+    }
+
     fn measures(&self) -> Vec<Value> {
-        let measures = self.system.measures.iter().map(|measure| {
+        let measures = self.system.measures().iter().map(|measure| {
             json!({
                 "name": measure.name,
                 "line": self.line(measure.span),
@@ -220,12 +244,12 @@ impl Writer<'_> {
     }
 
     fn conditions(&self) -> Vec<Value> {
-        let conditions = self.system.conditions.iter().map(|condition| {
+        let conditions = self.system.conditions().iter().map(|condition| {
             let (kind, table) = match condition.kind {
                 ConditionKind::Distance => ("distance", None),
                 ConditionKind::Interval => ("interval", None),
                 ConditionKind::Range(table) | ConditionKind::Samples(table) => {
-                    ("range", Some(&self.system.graph.tables()[table.index()].name))
+                    ("range", Some(&self.system.graph().tables()[table.index()].name))
                 }
             };
             json!({
@@ -239,7 +263,7 @@ impl Writer<'_> {
     }
 
     fn watches(&self) -> Vec<Value> {
-        let watches = self.system.watches.iter().map(|watch| {
+        let watches = self.system.watches().iter().map(|watch| {
             let kind = match watch.kind {
                 WatchKind::LineOfCenters => "line_of_centers",
                 WatchKind::Tangents => "tangents",

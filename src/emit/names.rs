@@ -26,6 +26,12 @@ pub(super) const TIME: &str = "t";
 /// The array of the derivatives by inputs and parameters, of a mechanism that has such.
 pub(super) const VARIED: &str = "varied";
 
+/// What forces are written to.
+pub(super) const FORCES: &str = "forces";
+
+/// The array of the multipliers, of a mechanism whose forces are asked for.
+pub(super) const MULTIPLIERS: &str = "multipliers";
+
 /// Longer names of variables would make lines that a formatter breaks.
 const LONGEST_VARIABLE: usize = 20;
 
@@ -46,13 +52,17 @@ pub(super) struct Names {
 impl Names {
     /// The names of a system whose parameters are reached by some paths, in bodies that may hold some arrays.
     pub fn new(system: &ConstraintSystem, paths: Vec<String>, arrays: &[String]) -> Names {
-        let params: Vec<String> = Case::Snake.names(system.params.iter().map(|param| param.name.as_str()));
+        let params: Vec<String> = Case::Snake.names(system.params().iter().map(|param| param.name.as_str()));
         let mut variables = Namer::default();
         for word in RESERVED {
             variables.snake(word);
         }
         if !system.variations().is_empty() {
             variables.snake(VARIED);
+        }
+        if system.forces().is_some() {
+            variables.snake(MULTIPLIERS);
+            variables.snake(FORCES);
         }
         for array in arrays {
             variables.snake(array);
@@ -65,10 +75,10 @@ impl Names {
         let param_variables =
             params.iter().enumerate().map(|(k, name)| variable(name.clone(), format!("p{k}"))).collect();
         let coordinates = [("q", ""), ("qd", "_d"), ("qdd", "_dd")].map(|(array, end)| {
-            let coordinates = system.coordinates.iter().enumerate();
+            let coordinates = system.coordinates().iter().enumerate();
             coordinates.map(|(k, c)| variable(words(&c.name).to_lowercase() + end, format!("{array}{k}"))).collect()
         });
-        let inputs = Case::Snake.names_of_inputs(&system.inputs);
+        let inputs = Case::Snake.names_of_inputs(system.inputs());
         let signals = ["", "_d", "_dd"].map(|end| {
             let signals = inputs.iter().enumerate();
             signals

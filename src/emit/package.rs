@@ -40,6 +40,8 @@ pub struct Reference {
     pub columns: Vec<String>,
     /// Rows of it, at least one: the first and the last, and some in between, in order (s, m, rad).
     pub rows: Vec<Vec<f64>>,
+    /// Of each row what joints exert and drivers supply; empty lists where there are no masses and loads.
+    pub forces: Vec<Vec<f64>>,
     /// Output times after the first, up to that of the last row.
     pub steps: u64,
     /// From one output time to the next (s).
@@ -137,7 +139,7 @@ impl Writer<'_> {
 
     /// Parameters as the file has them.
     fn params(&self) -> &'static str {
-        if self.unit.system.params.is_empty() { "Params" } else { "Params::default()" }
+        if self.unit.system.params().is_empty() { "Params" } else { "Params::default()" }
     }
 
     fn manifest(&self) -> String {
@@ -151,7 +153,7 @@ impl Writer<'_> {
             include_str!("package/Cargo.toml.txt"),
             mark = self.mark(),
             package = self.name,
-            mechanism = self.unit.system.name,
+            mechanism = self.unit.system.name(),
             kinds = kinds,
             dependencies = dependencies,
             features = features,
@@ -172,7 +174,9 @@ impl Writer<'_> {
             let values: Vec<String> = row.iter().copied().map(literal).collect();
             format!("    [\n{}    ],\n", lines(&values, "    "))
         };
-        let [uses, more] = if self.unit.following.is_some() { ["Inputs, ", ", follow"] } else { [""; 2] };
+        let (has_inputs, has_forces) = (self.unit.following.is_some(), self.has_forces());
+        let uses = [if has_forces { "FORCES, " } else { "" }, if has_inputs { "Inputs, " } else { "" }].concat();
+        let more = [if has_inputs { ", follow" } else { "" }, if has_forces { ", forces" } else { "" }].concat();
         format!(
             include_str!("package/reference.rs.txt"),
             mark = self.mark(),
@@ -180,7 +184,7 @@ impl Writer<'_> {
             uses = uses,
             more = more,
             params = self.params(),
-            follow = self.follows(),
+            follow = self.follows() + &self.exerts(),
             names = lines(&names, ""),
             count = rows.len(),
             rows = rows.iter().map(row).collect::<String>(),
@@ -193,6 +197,23 @@ impl Writer<'_> {
             return String::new();
         }
         format!(include_str!("package/follows.rs.txt"), params = self.params())
+    }
+
+    /// What holds `forces` against what `run` says; nothing where there are none.
+    fn exerts(&self) -> String {
+        if !self.has_forces() {
+            return String::new();
+        }
+        let row = |row: &Vec<f64>| {
+            let values: Vec<String> = row.iter().copied().map(literal).collect();
+            format!("    [\n{}    ],\n", lines(&values, "    "))
+        };
+        format!(
+            include_str!("package/exerts.rs.txt"),
+            params = self.params(),
+            count = self.reference.forces.len(),
+            rows = self.reference.forces.iter().map(row).collect::<String>(),
+        )
     }
 
     fn benchmark(&self) -> String {
@@ -229,7 +250,7 @@ impl Writer<'_> {
         format!(
             include_str!("package/README.md.txt"),
             package = self.name,
-            mechanism = self.unit.system.name,
+            mechanism = self.unit.system.name(),
             mark = self.mark(),
             unsafety = unsafety,
             needs = needs,
@@ -242,7 +263,7 @@ impl Writer<'_> {
             parameters = self.parameters() + &self.inputs(),
             bodies = self.bodies(),
             coordinates = self.coordinates(),
-            measures = self.measures(),
+            measures = self.measures() + &self.forces(),
             errors = errors.collect::<String>(),
             end = end.unwrap_or_default(),
             c = self.for_c(),
@@ -254,7 +275,7 @@ impl Writer<'_> {
         if !self.unit.for_c {
             return String::new();
         }
-        let (given, params) = if self.unit.system.params.is_empty() {
+        let (given, params) = if self.unit.system.params().is_empty() {
             (String::new(), "")
         } else {
             (format!("    {0}_params params = {0}_params_default();\n", self.library), ", &params")
@@ -272,11 +293,11 @@ impl Writer<'_> {
     /// What the example prints, and what it needs for it.
     fn shown(&self) -> (&'static str, String) {
         let system = self.unit.system;
-        let names = Case::Constant.names(system.measures.iter().map(|of| of.name.as_str()));
+        let names = Case::Constant.names(system.measures().iter().map(|of| of.name.as_str()));
         if let Some(name) = names.first() {
             return ("Params, assemble, measure, step", format!("state.measures().values[measure::{name}]"));
         }
-        if let Some(name) = Case::Camel.names(system.bodies.iter().map(|body| body.name.as_str())).first() {
+        if let Some(name) = Case::Camel.names(system.bodies().iter().map(|body| body.name.as_str())).first() {
             return ("Body, Params, assemble, step", format!("state.pose(Body::{name})"));
         }
         ("Params, assemble, step", "state.q()".to_owned())
@@ -286,10 +307,10 @@ impl Writer<'_> {
     fn calls(&self) -> String {
         let system = self.unit.system;
         let mut text = String::new();
-        if !system.bodies.is_empty() {
+        if !system.bodies().is_empty() {
             text += "| `state.pose(body)`, `velocity(body)`, `acceleration(body)` | those of a body, as `x`, `y` and `phi` |\n";
         }
-        if !system.measures.is_empty() {
+        if !system.measures().is_empty() {
             text += "| `state.measures()` | the measures with their first and second time derivatives |\n";
         }
         if self.unit.following.is_some() {
@@ -300,6 +321,11 @@ impl Writer<'_> {
         if self.unit.motion.as_ref().is_some_and(|motion| motion.sensitive.is_some()) {
             text += "| `sensitivity(&params, &state)` | those by each parameter, by the numbers in `param` |\n";
         }
+        if self.has_forces() {
+            text += "| `forces(&state)` | what joints exert and drivers supply, by the numbers in `force`; `NAN` close to a singular position |\n";
+            text +=
+                "| `needed`, `exerted` | what the multipliers of the equations have to hold, and what they exert |\n";
+        }
         if let Some(lanes) = self.unit.lanes {
             text += &format!(
                 "| `lanes::assemble`, `lanes::step_each` | the same for {lanes} variants or times at once |\n"
@@ -309,7 +335,7 @@ impl Writer<'_> {
     }
 
     fn parameters(&self) -> String {
-        let params = &self.unit.system.params;
+        let params = self.unit.system.params();
         let Some(first) = params.first() else {
             return "The mechanism has none: `assemble(&Params)`.\n".to_owned();
         };
@@ -332,7 +358,7 @@ impl Writer<'_> {
 
     /// The fields of `Inputs`; nothing where there are none.
     fn inputs(&self) -> String {
-        let inputs = &self.unit.system.inputs;
+        let inputs = self.unit.system.inputs();
         if self.unit.following.is_none() {
             return String::new();
         }
@@ -346,7 +372,7 @@ impl Writer<'_> {
     }
 
     fn bodies(&self) -> String {
-        let bodies = &self.unit.system.bodies;
+        let bodies = self.unit.system.bodies();
         if bodies.is_empty() {
             return String::new();
         }
@@ -360,7 +386,7 @@ impl Writer<'_> {
     }
 
     fn coordinates(&self) -> String {
-        let coordinates = &self.unit.system.coordinates;
+        let coordinates = self.unit.system.coordinates();
         let names = Case::Constant.names(coordinates.iter().map(|coordinate| coordinate.name.as_str()));
         let rows = coordinates.iter().zip(names).map(|(coordinate, name)| {
             let index = format!("`coordinate::{name}`");
@@ -369,8 +395,28 @@ impl Writer<'_> {
         rows.map(|cells| line(&cells)).collect()
     }
 
+    fn has_forces(&self) -> bool {
+        self.unit.motion.as_ref().is_some_and(|motion| motion.forced.is_some())
+    }
+
+    fn forces(&self) -> String {
+        if !self.has_forces() {
+            return String::new();
+        }
+        let reactions = self.unit.system.reactions();
+        let names = Case::Constant.names(reactions.iter().map(|of| of.name.as_str()));
+        let rows = reactions.iter().zip(names);
+        let rows: String = rows
+            .map(|(of, name)| line(&[format!("`force::{name}`"), format!("`{}`", of.name), unit(&of.unit)]))
+            .collect();
+        format!(
+            "## Forces\n\nWhat `forces(&state)` gives, by these indices: what joints exert on their second bodies, and what drivers and \
+             constraints supply, as `mechc run --reactions` has it.\n\n| index | force | unit |\n| --- | --- | --- |\n{rows}\n"
+        )
+    }
+
     fn measures(&self) -> String {
-        let measures = &self.unit.system.measures;
+        let measures = self.unit.system.measures();
         if measures.is_empty() {
             return String::new();
         }

@@ -76,12 +76,12 @@ enum Slot<'g> {
 impl Params {
     pub fn new(system: &ConstraintSystem) -> Params {
         let mut whole = Group::default();
-        for (number, param) in system.params.iter().enumerate() {
+        for (number, param) in system.params().iter().enumerate() {
             whole.add(param, number);
         }
         let mut types = Types::default();
         types.add(["", ""], &whole);
-        let mut params = Params { types: types.named(), paths: vec![String::new(); system.params.len()], whole };
+        let mut params = Params { types: types.named(), paths: vec![String::new(); system.params().len()], whole };
         params.find_paths();
         params
     }

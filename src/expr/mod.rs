@@ -222,6 +222,8 @@ impl Dependence {
     pub const MULTIPLIERS: Dependence = Dependence(1024);
     /// On what multipliers are differentiated to.
     pub const VARIED_MULTIPLIERS: Dependence = Dependence(2048);
+    /// Of forces: multipliers, or their derivatives.
+    pub const FORCES: Dependence = Dependence(1024 | 2048);
 
     /// On the coordinates' derivatives of one order.
     #[must_use]

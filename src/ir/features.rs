@@ -1,7 +1,7 @@
 //! Features: what joints take hold of, fixed in a body or in the ground, as formulas of parameters in the frame of that body. What is the
 //! ground in a part is folded into what carries the part.
 
-use super::{AxisId, BodyId, CircleId, ConstraintSystem, PointId};
+use super::{BodyId, PointId};
 use crate::expr::ExprId;
 
 /// A point.
@@ -35,18 +35,4 @@ pub struct Circle {
     pub center: PointId,
     /// Its radius (m).
     pub radius: ExprId,
-}
-
-impl ConstraintSystem {
-    /// The body that an axis is of; none for the ground.
-    #[must_use]
-    pub fn body_of_axis(&self, axis: AxisId) -> Option<BodyId> {
-        self.points[self.axes[axis].origin].body
-    }
-
-    /// The body that a circle is of; none for the ground.
-    #[must_use]
-    pub fn body_of_circle(&self, circle: CircleId) -> Option<BodyId> {
-        self.points[self.circles[circle].center].body
-    }
 }

@@ -4,8 +4,8 @@
 //! kind; E. J. Haug, *Computer-Aided Kinematics and Dynamics of Mechanical Systems*, 1989, 11.3). The equations exert `Φ_qᵀ λ`
 //! on the coordinates.
 
-use super::{ConstraintSystem, DeclarationId};
-use crate::expr::{ExprId, Graph, Symbol};
+use super::{ConstraintSystem, DeclarationId, SparseRows};
+use crate::expr::{Dependence, ExprId, Graph, Symbol};
 use crate::source::Span;
 
 /// The equations for the multipliers.
@@ -56,7 +56,35 @@ pub struct Reaction {
     pub span: Span,
 }
 
+/// What multipliers have to hold, in the words of mechanics: `Φ_qᵀ λ = M q̈ − Q`.
+#[derive(Clone, Debug)]
+pub struct Mechanics {
+    /// `M`, by rows (kg, kg·m, kg·m²).
+    pub mass_matrix: SparseRows,
+    /// `Q`, by coordinate (N, N·m): weights, loads, and what turning bodies need whose centres are not at their origins.
+    pub applied: Vec<ExprId>,
+}
+
 impl ConstraintSystem {
+    /// What multipliers have to hold, in the words of mechanics; nothing where nobody asks for forces.
+    pub fn mechanics(&mut self) -> Option<Mechanics> {
+        let needed = self.forces.as_ref()?.needed.clone();
+        let mut mass_matrix = SparseRows::new();
+        for &of in &needed {
+            let gradient = self.graph.gradient(of, Dependence::coordinates(2));
+            mass_matrix.push(gradient.into_iter().filter_map(|(symbol, mass)| match symbol {
+                Symbol::Coordinate { index, order: 2 } => Some((index, mass)),
+                _ => None,
+            }));
+        }
+        let nothing = self.graph.constant(0.0);
+        let at_rest = self
+            .graph
+            .substituted(&needed, |symbol| matches!(symbol, Symbol::Coordinate { order: 2, .. }).then_some(nothing));
+        let applied = at_rest.into_iter().map(|of| self.graph.neg(of)).collect();
+        Some(Mechanics { mass_matrix, applied })
+    }
+
     /// `p` of `Φ_qᵀ λ = p`, one entry per coordinate; none where nobody asks for forces.
     #[must_use]
     pub fn needed_forces(&self) -> &[ExprId] {
@@ -67,6 +95,18 @@ impl ConstraintSystem {
     #[must_use]
     pub fn reactions(&self) -> &[Reaction] {
         self.forces.as_ref().map_or(&[], |forces| &forces.reactions)
+    }
+
+    /// The loads, as their formulas give them; none where nobody asks for forces.
+    #[must_use]
+    pub fn loads(&self) -> &[LoadForce] {
+        self.forces.as_ref().map_or(&[], |forces| &forces.loads)
+    }
+
+    /// What contacts press with; none where nobody asks for forces.
+    #[must_use]
+    pub fn presses(&self) -> &[Press] {
+        self.forces.as_ref().map_or(&[], |forces| &forces.presses)
     }
 
     /// Leaves out what nobody asked for: columns of what is drawn, and what contacts press with.

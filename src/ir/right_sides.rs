@@ -102,7 +102,7 @@ impl ConstraintSystem {
     }
 
     /// The right sides of the equations for the derivatives of `q` by each signal.
-    pub fn derive_by_signals(&mut self) {
+    pub(super) fn derive_by_signals(&mut self) {
         let signals: Vec<Symbol> = self.inputs.iter().map(Input::symbol).collect();
         let sides = signals.into_iter().enumerate().map(|(k, symbol)| self.by(With::Input(k), symbol));
         let sides: Vec<RightSide> = sides.collect();

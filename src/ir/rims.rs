@@ -17,7 +17,7 @@ pub struct Rim {
 
 impl ConstraintSystem {
     /// Finds the rims of all equations.
-    pub fn find_rims(&mut self) {
+    pub(super) fn find_rims(&mut self) {
         let mut gauges: FxHashMap<ExprId, ExprId> = FxHashMap::default();
         let nodes: Vec<(ExprId, Node)> = self.graph.nodes().collect();
         for (id, node) in nodes {

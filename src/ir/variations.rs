@@ -287,7 +287,7 @@ impl ConstraintSystem {
     }
 
     /// The right sides of the variations.
-    pub fn derive_variations(&mut self) {
+    pub(super) fn derive_variations(&mut self) {
         let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
         let open_forces = self.open_forces();
         if let Some(variations) = &mut self.variations {
@@ -296,7 +296,7 @@ impl ConstraintSystem {
     }
 
     /// The right sides of the variations that only results need.
-    pub fn derive_variations_of_results(&mut self) {
+    pub(super) fn derive_variations_of_results(&mut self) {
         let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
         let open_forces = self.open_forces();
         if let Some(variations) = &mut self.results.variations {

@@ -78,14 +78,14 @@ pub fn columns(system: &ConstraintSystem) -> Vec<Column> {
 fn column(system: &ConstraintSystem, holds: Holds) -> Option<Column> {
     Some(match holds {
         Holds::Time => Column { name: "t".to_owned(), unit: ColumnUnit::si("s"), kind: ColumnKind::Time },
-        Holds::Coordinate { index, order } => of_coordinate(&system.coordinates[index], order),
+        Holds::Coordinate { index, order } => of_coordinate(&system.coordinates()[index], order),
         Holds::Reaction(index) => {
             let of = &system.reactions()[index];
             let unit = ColumnUnit::si(of.unit.clone());
             Column { name: of.name.clone(), unit, kind: ColumnKind::Reaction }
         }
         Holds::Measure { index, order } => {
-            let measure = &system.measures[index];
+            let measure = &system.measures()[index];
             let name = measure.name.clone() + ENDINGS[order].0;
             let kind = if order == 0 { ColumnKind::Measure } else { ColumnKind::Rate };
             Column { name, unit: ColumnUnit::of(&measure.units, order), kind }
@@ -116,7 +116,7 @@ fn of_coordinate(coordinate: &Coordinate, order: usize) -> Column {
 #[must_use]
 pub fn results(system: &ConstraintSystem) -> Vec<(String, ColumnUnit)> {
     let result = |outcome: &Outcome| (outcome.name.clone(), ColumnUnit::of(&outcome.units, 0));
-    system.results.outcomes.iter().map(result).collect()
+    system.results().outcomes.iter().map(result).collect()
 }
 
 #[cfg(test)]
@@ -147,7 +147,7 @@ mod tests {
             ["arm.x", "arm.x.d", "arm.x.dd"]
         );
         assert_eq!(layout.measures.map(name), ["height", "height.d", "height.dd"]);
-        let body = system.bodies.find(|body| body.name == "arm").expect("the arm");
+        let body = system.bodies().find(|body| body.name == "arm").expect("the arm");
         let [places, .., accelerations] = layout.pose(&system, body);
         assert_eq!(places.map(|column| name(column as u32)), ["arm.x", "arm.y", "arm.phi"]);
         assert_eq!(accelerations.map(|column| name(column as u32)), ["arm.x.dd", "arm.y.dd", "arm.phi.dd"]);

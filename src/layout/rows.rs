@@ -89,13 +89,13 @@ pub fn row_holds(system: &ConstraintSystem) -> Vec<Holds> {
 
 /// The measures that have a time derivative of some order.
 fn measures_with(system: &ConstraintSystem, order: usize) -> impl Iterator<Item = usize> {
-    (0..system.measures.len()).filter(move |&index| system.measures[index].has(order))
+    (0..system.measures().len()).filter(move |&index| system.measures()[index].has(order))
 }
 
 impl Stretch {
     /// How many columns it has.
     fn length(self, system: &ConstraintSystem) -> usize {
-        let n = system.coordinates.len();
+        let n = system.coordinates().len();
         match self {
             Stretch::Time => 1,
             Stretch::Coordinates(3) if system.jerk().is_none() => 0,
@@ -114,7 +114,7 @@ impl Stretch {
             Stretch::Time => vec![Holds::Time],
             Stretch::Coordinates(3) if system.jerk().is_none() => Vec::new(),
             Stretch::Coordinates(order) => {
-                (0..system.coordinates.len()).map(|index| Holds::Coordinate { index, order }).collect()
+                (0..system.coordinates().len()).map(|index| Holds::Coordinate { index, order }).collect()
             }
             Stretch::Reactions => (0..system.reactions().len()).map(Holds::Reaction).collect(),
             Stretch::Measures(order) => {
@@ -122,7 +122,7 @@ impl Stretch {
             }
             Stretch::Appended => (0..system.appended().len()).map(Holds::Appended).collect(),
             Stretch::BySignal => {
-                let n = system.coordinates.len();
+                let n = system.coordinates().len();
                 (0..self.length(system)).map(|place| Holds::Slope { of: place % n, by: place / n }).collect()
             }
             Stretch::Varied => vec![Holds::Varied; self.length(system)],

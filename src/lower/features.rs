@@ -2,20 +2,20 @@
 
 use super::Lowering;
 use super::frames::Vector;
-use crate::ir::{Axis, Circle, ConstraintSystem};
+use crate::ir::{Axis, Circle, ConstraintSystem, DeclarationId};
 use crate::model::{self, JointId, JointKind};
 
 impl Lowering<'_> {
     /// Gives a system its axes and circles, and its joints the places where they take hold. They change nothing of what is there.
     pub(super) fn add_features(&mut self, system: &mut ConstraintSystem) {
-        self.graph = std::mem::take(&mut system.graph);
+        self.graph = std::mem::take(system.graph_mut());
         let model = self.model;
-        system.axes = model.axes.iter().map(|axis| self.axis(axis)).collect();
-        system.circles = model.circles.iter().map(|circle| self.circle(circle)).collect();
-        for joint in model.joint_ids() {
-            system.declarations[super::of_joint(joint)].at = self.place(joint);
-        }
-        system.graph = std::mem::take(&mut self.graph);
+        let axes = model.axes.iter().map(|axis| self.axis(axis)).collect();
+        let circles = model.circles.iter().map(|circle| self.circle(circle)).collect();
+        let joints = model.joint_ids().filter_map(|joint| Some((super::of_joint(joint), self.place(joint)?)));
+        let places: Vec<(DeclarationId, Vector)> = joints.collect();
+        *system.graph_mut() = std::mem::take(&mut self.graph);
+        system.add_features(axes, circles, places);
     }
 
     fn axis(&mut self, axis: &model::Axis) -> Axis {
@@ -60,11 +60,11 @@ mod tests {
         let (compiled, _) = checked.compile(Redundant::Refused, &Cancel::default());
         let compiled = compiled.expect("it is determined");
         let system = compiled.system();
-        let q: Vec<f64> = system.coordinates.iter().map(|of| system.value_at(of.estimate, &[])).collect();
+        let q: Vec<f64> = system.coordinates().iter().map(|of| system.value_at(of.estimate, &[])).collect();
         let value = |place: [crate::expr::ExprId; 2]| place.map(|id| (1e9 * system.value_at(id, &q)).round() / 1e9);
-        let places = system.declarations.iter().filter_map(|of| of.at).map(value).collect();
-        let directions = system.axes.iter().map(|axis| value(axis.direction)).collect();
-        let radii = system.circles.iter().map(|circle| system.value_at(circle.radius, &[])).collect();
+        let places = system.declarations().iter().filter_map(|of| of.at).map(value).collect();
+        let directions = system.axes().iter().map(|axis| value(axis.direction)).collect();
+        let radii = system.circles().iter().map(|circle| system.value_at(circle.radius, &[])).collect();
         (places, directions, radii)
     }
 

@@ -1,19 +1,19 @@
 //! Parameters on their way from one value to another: in the equations of a mechanism that is led a straight line of time stands for each.
 
 use crate::expr::{ExprId, Symbol};
-use crate::ir::ConstraintSystem;
+use crate::ir::Written;
 use crate::model::Mechanism;
 use rustc_hash::FxHashMap;
 
 /// Lets the parameters that are led go their way in all that holds on it. Estimates keep the values with which the way begins, and so do
 /// tables, whose cells are numbers.
-pub(super) fn lead_params(model: &Mechanism, system: &mut ConstraintSystem) {
+pub(super) fn lead_params(model: &Mechanism, written: &mut Written) {
     let lines: FxHashMap<u32, [f64; 2]> = model.led.iter().filter_map(|led| Some((led.param?, led.line))).collect();
     if lines.is_empty() {
         return;
     }
-    let (before, mut known) = (system.graph.clone(), FxHashMap::default());
-    let graph = &mut system.graph;
+    let (before, mut known) = (written.graph.clone(), FxHashMap::default());
+    let graph = &mut written.graph;
     let mut led = |id: &mut ExprId| {
         graph.import(&before, &[*id], &mut known, |graph, symbol| match symbol {
             Symbol::Param(k) if lines.contains_key(&k) => {
@@ -26,7 +26,7 @@ pub(super) fn lead_params(model: &Mechanism, system: &mut ConstraintSystem) {
         });
         *id = known[id];
     };
-    system.rows.iter_mut().for_each(|row| led(&mut row.phi));
-    system.conditions.iter_mut().for_each(|condition| led(&mut condition.positive));
-    system.watches.iter_mut().for_each(|watch| led(&mut watch.value));
+    written.rows.iter_mut().for_each(|row| led(&mut row.phi));
+    written.conditions.iter_mut().for_each(|condition| led(&mut condition.positive));
+    written.watches.iter_mut().for_each(|watch| led(&mut watch.value));
 }

@@ -24,7 +24,7 @@ mod velocities;
 use crate::expr::{Comparison, Dependence, ExprId, Graph, Symbol, TIME_SIGNAL};
 use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId, DeclarationKind,
-    Fit, IdVec, Measure, OpenContact, Owner, Param, Row, RowUnit, Units, Variations, Watch,
+    Fit, IdVec, Measure, OpenContact, Owner, Param, Row, RowUnit, Units, Variations, Watch, Written,
 };
 use crate::model::{
     self, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId, Quantity,
@@ -40,12 +40,10 @@ const HOLDS_JERK: u8 = 2;
 #[must_use]
 pub fn lower(model: &Mechanism) -> ConstraintSystem {
     let mut lowering = Lowering::of(model);
-    let mut system = lowering.written();
-    led::lead_params(model, &mut system);
-    let with_jerk = needs_jerk(model, &system);
-    system.derive(with_jerk);
-    system.derive_variations();
-    system.find_rims();
+    let mut written = lowering.written();
+    led::lead_params(model, &mut written);
+    let with_jerk = needs_jerk(model, &written);
+    let mut system = ConstraintSystem::of(written, with_jerk);
     // late, so that what is there already is as it would be without
     inputs::add(model, &mut system);
     if !model.outcomes.is_empty() {
@@ -57,9 +55,9 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
 }
 
 /// Whether measures or results hold third derivatives of the coordinates, which only a system of time alone has.
-fn needs_jerk(model: &Mechanism, system: &ConstraintSystem) -> bool {
-    let is_third = |id: ExprId| system.graph.dependence(id).highest_order() == Some(3);
-    let mut measures = system.measures.iter();
+fn needs_jerk(model: &Mechanism, written: &Written) -> bool {
+    let is_third = |id: ExprId| written.graph.dependence(id).highest_order() == Some(3);
+    let mut measures = written.measures.iter();
     let is_measured = measures.any(|measure| (0..3).filter_map(|order| measure.derivative(order)).any(is_third));
     let is_asked_for = model.reductions.iter().any(|reduction| reduction.order >= HOLDS_JERK);
     (is_measured || is_asked_for) && !model.has_signals
@@ -205,8 +203,8 @@ impl<'m> Lowering<'m> {
 }
 
 impl Lowering<'_> {
-    /// The system as far as it is written: nothing is derived yet.
-    fn written(&mut self) -> ConstraintSystem {
+    /// The equations, with what is said of them.
+    fn written(&mut self) -> Written {
         let model = self.model;
         self.tables();
         self.open_scopes();
@@ -217,40 +215,44 @@ impl Lowering<'_> {
         self.name_forces();
         self.rows_of_scopes();
         self.conditions();
-        let mut system = ConstraintSystem::empty(model.declared.name.clone(), model.declared.span);
-        system.points = self.points();
-        system.forces = self.forces();
-        system.measures = self.measures();
-        system.parts = self.part_starts();
-        system.asking_parts = self.asking_parts();
-        self.append_derivatives(&system.measures);
-        system.params = params(model);
-        system.has_signals = model.has_signals;
-        system.bodies = self.bodies();
-        system.coordinates = std::mem::take(&mut self.coordinates);
-        system.declarations = std::mem::take(&mut self.declarations);
-        system.rows = std::mem::take(&mut self.rows);
-        system.graph = std::mem::take(&mut self.graph);
-        system.variations = self.variations.take().map(Box::new);
-        system.conditions = std::mem::take(&mut self.conditions);
-        system.watches = std::mem::take(&mut self.watches);
-        system.open_contacts = std::mem::take(&mut self.open_contacts);
-        system.fits = std::mem::take(&mut self.fits);
-        system.length = self.largest_size;
-        system.analysis = model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]);
-        system
+        let (points, forces, measures) = (self.points(), self.forces(), self.measures());
+        let (parts, asking_parts) = (self.part_starts(), self.asking_parts());
+        self.append_derivatives(&measures);
+        Written {
+            name: model.declared.name.clone(),
+            span: model.declared.span,
+            params: params(model),
+            has_signals: model.has_signals,
+            bodies: self.bodies(),
+            points,
+            coordinates: std::mem::take(&mut self.coordinates),
+            declarations: std::mem::take(&mut self.declarations),
+            rows: std::mem::take(&mut self.rows),
+            forces,
+            measures,
+            parts,
+            asking_parts,
+            variations: self.variations.take().map(Box::new),
+            conditions: std::mem::take(&mut self.conditions),
+            watches: std::mem::take(&mut self.watches),
+            open_contacts: std::mem::take(&mut self.open_contacts),
+            fits: std::mem::take(&mut self.fits),
+            length: self.largest_size,
+            analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
+            graph: std::mem::take(&mut self.graph),
+        }
     }
 
     /// What is asked of the whole analysis, which changes nothing of what is there.
     fn ask_of_the_whole(&mut self, system: &mut ConstraintSystem) {
-        self.graph = std::mem::take(&mut system.graph);
-        self.coordinates.clone_from(&system.coordinates);
-        self.rows.clone_from(&system.rows);
-        self.declarations = system.declarations.clone();
-        self.variations = system.variations.as_deref().map(Variations::without_columns);
-        system.results = self.results();
-        system.graph = std::mem::take(&mut self.graph);
-        system.derive_variations_of_results();
+        self.graph = std::mem::take(system.graph_mut());
+        self.coordinates = system.coordinates().to_vec();
+        self.rows = system.rows().to_vec();
+        self.declarations = system.declarations().clone();
+        self.variations = system.all_variations().map(Variations::without_columns);
+        let results = self.results();
+        *system.graph_mut() = std::mem::take(&mut self.graph);
+        system.add_results(results);
     }
 
     /// A formula of the model in this graph.
@@ -525,7 +527,7 @@ impl Lowering<'_> {
             return None;
         }
         // forces jump where loads do, and nobody differentiates them
-        if dependence.on(Dependence::MULTIPLIERS.or(Dependence::VARIED_MULTIPLIERS)) {
+        if dependence.on(Dependence::FORCES) {
             return None;
         }
         Some(ConstraintSystem::time_derivatives(&mut self.graph, &[id], 3)[0])

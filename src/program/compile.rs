@@ -33,21 +33,21 @@ impl Program {
         let mut layout = Layout::new(system);
         layout.signals(system);
         let mut outputs = Outputs {
-            estimates: layout.place(Stage::Prologue, system.coordinates.iter().map(|c| c.estimate)),
-            phi: layout.place(Stage::Position, system.rows.iter().map(|row| row.phi)),
-            phi_q: layout.place(Stage::Position, system.phi_q.entries().iter().map(|&(_, id)| id)),
-            conditions: layout.place(Stage::Position, system.conditions.iter().map(|c| c.positive)),
-            checks: layout.place(Stage::Position, system.checks.iter().map(|c| c.phi)),
-            watches: layout.place(Stage::Position, system.watches.iter().map(|w| w.value)),
+            estimates: layout.place(Stage::Prologue, system.coordinates().iter().map(|c| c.estimate)),
+            phi: layout.place(Stage::Position, system.rows().iter().map(|row| row.phi)),
+            phi_q: layout.place(Stage::Position, system.phi_q().entries().iter().map(|&(_, id)| id)),
+            conditions: layout.place(Stage::Position, system.conditions().iter().map(|c| c.positive)),
+            checks: layout.place(Stage::Position, system.checks().iter().map(|c| c.phi)),
+            watches: layout.place(Stage::Position, system.watches().iter().map(|w| w.value)),
             ..Outputs::default()
         };
         outputs.terms =
-            system.rows.iter().map(|row| layout.place(Stage::Position, system.graph.terms(row.phi))).collect();
+            system.rows().iter().map(|row| layout.place(Stage::Position, system.graph().terms(row.phi))).collect();
         let (at_position, comparisons) = (layout.register_of.clone(), layout.comparisons.clone());
         outputs.right_sides = layout.right_sides(system);
         outputs.forces = layout.place(Stage::Forces, system.needed_forces().iter().copied());
         let mut varied = |list: &[ExprId]| layout.place(Stage::Variation, list.iter().copied());
-        let slopes = &system.check_slopes;
+        let slopes = system.check_slopes();
         outputs.check_slopes = PlacedCheckSlopes {
             coordinates: varied(&slopes.by_q),
             signals: slopes.by_inputs().map(&mut varied).collect(),
@@ -63,13 +63,13 @@ impl Program {
             outputs.varied_forces.push(layout.place(Stage::Variation, variation.forces.iter().copied()));
         }
         outputs.reactions = layout.place(Stage::Measures, system.reactions().iter().map(|of| of.value));
-        outputs.measures = layout.place(Stage::Measures, system.measures.iter().map(|m| m.value));
-        outputs.measures_d = layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.first));
-        outputs.measures_dd = layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.second));
+        outputs.measures = layout.place(Stage::Measures, system.measures().iter().map(|m| m.value));
+        outputs.measures_d = layout.place(Stage::Measures, system.measures().iter().filter_map(|m| m.first));
+        outputs.measures_dd = layout.place(Stage::Measures, system.measures().iter().filter_map(|m| m.second));
         outputs.appended = layout.place(Stage::Measures, system.appended().iter().map(|column| column.value));
         // rims are asked for where nothing but time and position has been evaluated
         (layout.register_of, layout.comparisons) = (at_position, comparisons);
-        outputs.rims = system.rims.iter().map(|rim| layout.rim(rim)).collect();
+        outputs.rims = system.rims().iter().map(|rim| layout.rim(rim)).collect();
         layout.finish(outputs)
     }
 }
@@ -106,16 +106,16 @@ pub(super) struct Layout<'s> {
 
 impl<'s> Layout<'s> {
     fn new(system: &'s ConstraintSystem) -> Layout<'s> {
-        let signals = if system.has_signals { system.inputs.len() } else { 0 };
+        let signals = if system.has_signals() { system.inputs().len() } else { 0 };
         let counts = [
-            system.params.len(),
-            system.coordinates.len(),
+            system.params().len(),
+            system.coordinates().len(),
             signals,
             system.by_params().len(),
             system.variations().len(),
-            if system.forces.is_some() { system.rows.len() } else { 0 },
+            if system.forces().is_some() { system.rows().len() } else { 0 },
         ];
-        Layout::of(&system.graph, counts.map(|count| count as u32))
+        Layout::of(system.graph(), counts.map(|count| count as u32))
     }
 
     /// For formulas of a graph over so many parameters, coordinates, signals, parameters by which the coordinates are differentiated, and
@@ -189,7 +189,7 @@ impl<'s> Layout<'s> {
 
     /// What signals are by the text, for those who run the program as it is.
     fn signals(&mut self, system: &ConstraintSystem) {
-        for (signal, input) in system.inputs.iter().enumerate().take(self.inputs.count as usize) {
+        for (signal, input) in system.inputs().iter().enumerate().take(self.inputs.count as usize) {
             let formulas = self.place(Stage::Time, input.formulas);
             for (order, a) in formulas.into_iter().enumerate() {
                 let to = self.inputs.signal(signal as u32, order as u32);

@@ -30,7 +30,7 @@ pub(super) fn build(
 ) -> Option<Solver> {
     let system = determined.system();
     let groups = Groups::new(determined);
-    let wanted = groups.wanted(system);
+    let wanted = groups.wanted(system, !program.outputs.reactions.is_empty());
     let across = groups.blocks.len();
     let mut builder = Builder::new(determined, program, values, &groups, purpose);
     builder.joined = joined(system, &builder.layout, &wanted[across]);
@@ -78,7 +78,7 @@ impl Component {
 
 /// The columns of what is wanted across groups beside accelerations: third derivatives, variations, multipliers.
 fn joined(system: &ConstraintSystem, layout: &RowLayout, wanted: &Wanted) -> FxHashSet<u32> {
-    let n = system.coordinates.len() as u32;
+    let n = system.coordinates().len() as u32;
     let column = |symbol| match symbol {
         Symbol::Coordinate { index, order: 3 } => Some(layout.coordinates[3] + index),
         Symbol::Varied { index, order, variation } => {
@@ -88,7 +88,7 @@ fn joined(system: &ConstraintSystem, layout: &RowLayout, wanted: &Wanted) -> FxH
         Symbol::VariedMultiplier { row, variation } => Some(layout.multipliers + (1 + variation) * n + row),
         _ => None,
     };
-    system.graph.symbols_of_all(&wanted.formulas(system)).into_iter().filter_map(column).collect()
+    system.graph().symbols_of_all(&wanted.formulas(system)).into_iter().filter_map(column).collect()
 }
 
 /// A solver in the making.
@@ -122,13 +122,13 @@ impl<'s, V: Values> Builder<'s, V> {
         purpose: Purpose,
     ) -> Builder<'s, V> {
         let (system, layout) = (determined.system(), RowLayout::new(determined.system()));
-        let mut place_of_column = vec![0; system.coordinates.len()];
+        let mut place_of_column = vec![0; system.coordinates().len()];
         for block in determined.blocks() {
             for (place, &column) in block.columns.iter().enumerate() {
                 place_of_column[column as usize] = place as u32;
             }
         }
-        let before = system.measures.iter().scan([0; 2], |counts, measure| {
+        let before = system.measures().iter().scan([0; 2], |counts, measure| {
             let before = *counts;
             counts[0] += u32::from(measure.first.is_some());
             counts[1] += u32::from(measure.second.is_some());
@@ -208,7 +208,7 @@ impl<'s, V: Values> Builder<'s, V> {
 
     /// What makes one over a pivot a pure number.
     fn weight(&self, block: &Block, (row, column): (u32, u32)) -> f64 {
-        let scale = self.system.coordinates[block.columns[column as usize] as usize].scale;
+        let scale = self.system.coordinates()[block.columns[column as usize] as usize].scale;
         self.values.row_norm(block.rows[row as usize] as usize) / scale
     }
 
@@ -255,7 +255,7 @@ impl<'s, V: Values> Builder<'s, V> {
         let corrections = factors.solve(&mut self.terms.tape, right);
         let mut tears = Vec::with_capacity(guesses.len());
         for (&place, &x) in tearing.tears.iter().zip(&guesses) {
-            let scale = self.system.coordinates[block.columns[place as usize] as usize].scale;
+            let scale = self.system.coordinates()[block.columns[place as usize] as usize].scale;
             let delta = self.terms.tape.register(corrections[place as usize]);
             tears.push(Tear { x, delta, scale, cell: cell(scale) });
         }
@@ -311,7 +311,7 @@ impl<'s, V: Values> Builder<'s, V> {
             self.terms.tape.store(self.layout.reactions + k as u32, value);
         }
         for &k in &wanted.measures {
-            let (measure, [first, second]) = (&self.system.measures[k], self.measures_before[k]);
+            let (measure, [first, second]) = (&self.system.measures()[k], self.measures_before[k]);
             let lists = [
                 Some((&outputs.measures, k as u32)),
                 measure.first.map(|_| (&outputs.measures_d, first)),
@@ -375,7 +375,7 @@ impl<'s, V: Values> Builder<'s, V> {
     /// The entries of a row within its block: place of the column, and position in the pattern.
     fn entries_inside(&self, block: &Block, row: u32) -> impl Iterator<Item = (u32, usize)> + use<'s, '_, V> {
         let own = self.groups.block_of_column[block.columns[0] as usize];
-        let pattern = &self.system.phi_q;
+        let pattern = self.system.phi_q();
         let entries = pattern.range(row as usize).zip(pattern.row(row as usize));
         entries
             .filter(move |(_, (column, _))| self.groups.block_of_column[*column as usize] == own)
@@ -385,7 +385,7 @@ impl<'s, V: Values> Builder<'s, V> {
     /// The entries of a row in blocks before its own: position in the pattern, and column.
     pub(super) fn entries_outside(&self, block: &Block, row: u32) -> Vec<(usize, u32)> {
         let own = self.groups.block_of_column[block.columns[0] as usize];
-        let pattern = &self.system.phi_q;
+        let pattern = self.system.phi_q();
         let entries = pattern.range(row as usize).zip(pattern.row(row as usize));
         entries
             .filter(|(_, (column, _))| self.groups.block_of_column[*column as usize] != own)

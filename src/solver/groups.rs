@@ -28,7 +28,7 @@ impl Wanted {
     pub fn formulas(&self, system: &ConstraintSystem) -> Vec<ExprId> {
         let reactions = self.reactions.iter().map(|&k| system.reactions()[k].value);
         let measures = self.measures.iter().flat_map(|&k| {
-            let measure = &system.measures[k];
+            let measure = &system.measures()[k];
             [Some(measure.value), measure.first, measure.second].into_iter().flatten()
         });
         reactions.chain(measures).chain(self.appended.iter().map(|&k| system.appended()[k].value)).collect()
@@ -38,7 +38,7 @@ impl Wanted {
 impl Groups {
     pub fn new(determined: &Determined) -> Groups {
         let (system, blocks) = (determined.system(), determined.blocks());
-        let mut block_of_column = vec![0; system.coordinates.len()];
+        let mut block_of_column = vec![0; system.coordinates().len()];
         for (k, block) in blocks.iter().enumerate() {
             for &column in &block.columns {
                 block_of_column[column as usize] = k;
@@ -49,18 +49,18 @@ impl Groups {
             let (a, b) = (root(&mut parent, a), root(&mut parent, b));
             parent[a.max(b)] = a.min(b);
         };
-        let mut block_of_row = vec![0; system.rows.len()];
+        let mut block_of_row = vec![0; system.rows().len()];
         for (k, block) in blocks.iter().enumerate() {
             for &row in &block.rows {
                 block_of_row[row as usize] = k;
-                for &(column, _) in system.phi_q.row(row as usize) {
+                for &(column, _) in system.phi_q().row(row as usize) {
                     join(k, block_of_column[column as usize]);
                 }
             }
         }
         // a load may speak of others than it works on
         for (&block, &needed) in block_of_column.iter().zip(system.needed_forces()) {
-            for symbol in system.graph.symbols(needed) {
+            for symbol in system.graph().symbols(needed) {
                 if let Symbol::Coordinate { index, .. } = symbol {
                     join(block, block_of_column[index as usize]);
                 }
@@ -82,13 +82,14 @@ impl Groups {
         Groups { blocks: groups, group_of_column, block_of_column, group_of_row }
     }
 
-    /// What is wanted of each group beside its motion, and last what joins groups.
-    pub fn wanted(&self, system: &ConstraintSystem) -> Vec<Wanted> {
+    /// What is wanted of each group beside its motion, with or without what joints exert; and last what joins groups.
+    pub fn wanted(&self, system: &ConstraintSystem, with_reactions: bool) -> Vec<Wanted> {
         let mut wanted = vec![Wanted::default(); self.blocks.len() + 1];
-        for (k, reaction) in system.reactions().iter().enumerate() {
+        let reactions = if with_reactions { system.reactions() } else { &[] };
+        for (k, reaction) in reactions.iter().enumerate() {
             wanted[self.of(system, [reaction.value])].reactions.push(k);
         }
-        for (k, measure) in system.measures.iter().enumerate() {
+        for (k, measure) in system.measures().iter().enumerate() {
             let formulas = [Some(measure.value), measure.first, measure.second];
             wanted[self.of(system, formulas.into_iter().flatten())].measures.push(k);
         }
@@ -100,7 +101,7 @@ impl Groups {
 
     /// The group that some formulas speak of; where there are several, the number behind the last one.
     fn of(&self, system: &ConstraintSystem, formulas: impl IntoIterator<Item = ExprId>) -> usize {
-        let symbols = formulas.into_iter().flat_map(|id| system.graph.symbols(id));
+        let symbols = formulas.into_iter().flat_map(|id| system.graph().symbols(id));
         let mut groups = symbols.filter_map(|symbol| match symbol {
             Symbol::Coordinate { index, .. } | Symbol::Varied { index, .. } => {
                 Some(self.group_of_column[index as usize])

@@ -62,14 +62,14 @@ impl BlockTables {
         for (place, &column) in columns.iter().enumerate() {
             places[column] = place;
         }
-        let rows = 0..system.rows.len();
-        let starts = rows.clone().map(|row| system.phi_q.range(row).start).chain([system.phi_q.entries().len()]);
-        let cells = system.coordinates.iter().map(|coordinate| cell(coordinate.scale));
+        let rows = 0..system.rows().len();
+        let starts = rows.clone().map(|row| system.phi_q().range(row).start).chain([system.phi_q().entries().len()]);
+        let cells = system.coordinates().iter().map(|coordinate| cell(coordinate.scale));
         Some(BlockTables {
             sizes: blocks.iter().map(|block| block.rows.len()).collect(),
             rows: blocks.iter().flat_map(|block| &block.rows).map(|&row| row as usize).collect(),
             starts: starts.collect(),
-            entries: system.phi_q.entries().iter().map(|&(column, _)| column as usize).collect(),
+            entries: system.phi_q().entries().iter().map(|&(column, _)| column as usize).collect(),
             units: cells.clone().map(|cell| cell / CELL).collect(),
             cells: cells.collect(),
             columns,
@@ -155,7 +155,7 @@ impl Pivoting {
     pub fn new(determined: &Determined) -> Option<Pivoting> {
         let tables = BlockTables::new(determined)?;
         let n = tables.rows.len();
-        let transposed = determined.system().forces.as_ref().map(|_| {
+        let transposed = determined.system().forces().as_ref().map(|_| {
             let (tables, positions) = tables.transposed();
             Transposed { slopes: vec![0.0; positions.len()], tables, positions }
         });

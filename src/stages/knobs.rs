@@ -149,7 +149,7 @@ impl Checked {
             values: times.iter().map(|&t| at_time(system, input.formulas[0], t)).collect(),
             formula: formula(input.span).to_owned(),
         };
-        system.inputs.iter().map(jog).collect()
+        system.inputs().iter().map(jog).collect()
     }
 }
 
@@ -159,36 +159,36 @@ impl Compiled {
     pub fn cranks(&self) -> Vec<Crank> {
         let system = self.system();
         let crank = |row: usize| {
-            let [(column, _)] = system.phi_q.row(row) else { return None };
+            let [(column, _)] = system.phi_q().row(row) else { return None };
             let body = system.body_of(*column as usize)?;
             let [_, _, phi] = system.pose_of(body);
             let written = self.sources().text(system.declaration_of(row).written?);
             let is_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '[' | ']');
             let speaks_of = |input: &&Input| written.split(|c| !is_name(c)).any(|word| word == input.name);
-            let input = system.inputs.iter().find(speaks_of).map(|input| input.name.clone());
-            let pivot = system.declarations.iter().find_map(|joint| self.pivot(joint, body))?;
+            let input = system.inputs().iter().find(speaks_of).map(|input| input.name.clone());
+            let pivot = system.declarations().iter().find_map(|joint| self.pivot(joint, body))?;
             (phi == *column as usize).then_some(Crank { body: body.index(), pivot, input })
         };
-        (0..system.rows.len()).filter(|&row| system.is_driver(row)).filter_map(crank).collect()
+        (0..system.rows().len()).filter(|&row| system.is_driver(row)).filter_map(crank).collect()
     }
 
     /// Where a joint holds a body to the ground.
     fn pivot(&self, joint: &Declaration, body: BodyId) -> Option<[f64; 2]> {
         let system = self.system();
         let [one, other] = joint.points.as_slice() else { return None };
-        let on_body = match [one, other].map(|point| system.points[*point].body) {
+        let on_body = match [one, other].map(|point| system.points()[*point].body) {
             [None, Some(on)] if on == body => other,
             [Some(on), None] if on == body => one,
             _ => return None,
         };
-        Some(system.points[*on_body].at.map(|id| system.value_at(id, &[])))
+        Some(system.points()[*on_body].at.map(|id| system.value_at(id, &[])))
     }
 }
 
 /// The value of a formula of time.
 fn at_time(system: &ConstraintSystem, formula: ExprId, t: f64) -> f64 {
-    system.graph.value(formula, |symbol| match symbol {
-        Symbol::Param(k) => system.params[k as usize].value,
+    system.graph().value(formula, |symbol| match symbol {
+        Symbol::Param(k) => system.params()[k as usize].value,
         Symbol::Time => t,
         Symbol::Shift(_) => 0.0,
         _ => f64::NAN,

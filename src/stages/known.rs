@@ -117,13 +117,13 @@ impl Compiled {
     pub fn first_copy(&self, name: &str) -> Option<String> {
         let system = self.system();
         let names = || {
-            let bodies = system.bodies.iter().map(|body| &body.name);
-            let declarations = system.declarations.iter().map(|declaration| &declaration.name);
-            let measures = system.measures.iter().map(|measure| &measure.name);
+            let bodies = system.bodies().iter().map(|body| &body.name);
+            let declarations = system.declarations().iter().map(|declaration| &declaration.name);
+            let measures = system.measures().iter().map(|measure| &measure.name);
             bodies
                 .chain(declarations)
                 .chain(measures)
-                .chain(system.results.outcomes.iter().map(|outcome| &outcome.name))
+                .chain(system.results().outcomes.iter().map(|outcome| &outcome.name))
         };
         names().find(|known| *known == name).or_else(|| names().find(|known| is_copy(known, name))).cloned()
     }
@@ -132,7 +132,7 @@ impl Compiled {
     #[must_use]
     pub fn points_of(&self, name: &str) -> Vec<String> {
         let system = self.system();
-        let declaration = system.declarations.iter().find(|declaration| declaration.name == name);
+        let declaration = system.declarations().iter().find(|declaration| declaration.name == name);
         let points = declaration.map(|declaration| declaration.points.as_slice()).unwrap_or_default();
         points.iter().filter_map(|&point| system.point_name(point)).collect()
     }
@@ -141,10 +141,10 @@ impl Compiled {
     #[must_use]
     pub fn input_at(&self, name: &str, t: f64) -> Option<(f64, String)> {
         let system = self.system();
-        let input = system.inputs.iter().find(|input| input.name == name)?;
-        let value = system.graph.value(input.formulas[0], |symbol| match symbol {
+        let input = system.inputs().iter().find(|input| input.name == name)?;
+        let value = system.graph().value(input.formulas[0], |symbol| match symbol {
             Symbol::Time => t,
-            Symbol::Param(k) => system.params[k as usize].value,
+            Symbol::Param(k) => system.params()[k as usize].value,
             _ => f64::NAN,
         });
         Some((value, input.unit.clone()))
@@ -154,10 +154,10 @@ impl Compiled {
     #[must_use]
     pub fn place_of(&self, point: &str, assembly: &Assembly) -> Option<[f64; 2]> {
         let system = self.system();
-        let k = system.points.ids().find(|&k| system.point_name(k).as_deref() == Some(point))?;
+        let k = system.points().ids().find(|&k| system.point_name(k).as_deref() == Some(point))?;
         let q: Vec<f64> = assembly.coordinates.iter().map(|(_, value, _)| *value).collect();
-        let [x, y] = system.points[k].at.map(|formula| system.value_at(formula, &q));
-        let Some(body) = system.points[k].body else { return Some([x, y]) };
+        let [x, y] = system.points()[k].at.map(|formula| system.value_at(formula, &q));
+        let Some(body) = system.points()[k].body else { return Some([x, y]) };
         let [origin_x, origin_y, phi] = system.pose_of(body).map(|k| q.get(k).copied());
         let (origin_x, origin_y, phi) = (origin_x?, origin_y?, phi?);
         let (sin, cos) = (crate::math::sin(phi), crate::math::cos(phi));

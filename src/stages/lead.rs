@@ -66,7 +66,7 @@ impl Leading {
         let system = determined.system();
         let begin = led.or_else(|| {
             let settings = &self.surroundings.settings;
-            (!system.parts.is_empty()).then(|| starts.with_parts((determined, program), horizon, settings))
+            (!system.parts().is_empty()).then(|| starts.with_parts((determined, program), horizon, settings))
         });
         (begin, starts.said)
     }
@@ -142,7 +142,7 @@ impl<'s> Starts<'s> {
         let (whole, inputs, span) = self.compiled(tree, &led)?;
         let from = if let Some(stand) = self.stand {
             Some(stand.to_vec())
-        } else if whole.0.system().parts.is_empty() {
+        } else if whole.0.system().parts().is_empty() {
             None
         } else {
             let settings = if self.leads_params { Vec::new() } else { self.surroundings.settings.clone() };
@@ -174,7 +174,7 @@ impl<'s> Starts<'s> {
         let (model, _) = check::check(tree, surroundings, self.sources);
         let model = model?;
         let system = lowered(&model);
-        let horizon = Horizon::of_analysis(system.analysis);
+        let horizon = Horizon::of_analysis(system.analysis());
         let (determined, _) = analysis::determine(system, self.leave_out_redundant, horizon).ok()?;
         let program = Arc::new(Program::new(determined.system()));
         Some(((Arc::new(determined), program), model.led, model.declared.span))
@@ -188,7 +188,8 @@ impl<'s> Starts<'s> {
         settings: &[Setting],
     ) -> Vec<f64> {
         let system = determined.system();
-        let estimates = system.coordinates.iter().map(|coordinate| system.value_at(coordinate.estimate, &[])).collect();
+        let estimates =
+            system.coordinates().iter().map(|coordinate| system.value_at(coordinate.estimate, &[])).collect();
         let cancel = self.options.cancel.clone();
         let mut leader = |asked: &[Request]| self.parts(system, asked, horizon.from, settings);
         analysis::with_parts(determined, program, horizon, estimates, &mut leader, &cancel)
@@ -206,7 +207,7 @@ impl<'s> Starts<'s> {
         let mut found: Vec<Option<Found>> = Vec::with_capacity(asked.len());
         let mut is_asked: FxHashSet<Ends> = FxHashSet::default();
         for Request { part, inputs } in asked {
-            let start = &system.parts[*part];
+            let start = &system.parts()[*part];
             let Some((key, alone)) = self.part_alone(system, start, settings) else {
                 found.push(None);
                 continue;
@@ -340,18 +341,18 @@ impl<'s> Starts<'s> {
         let inputs = own_inputs(&model, t);
         let system = lowered(&model);
         let drawn = |system: &ConstraintSystem| -> Vec<f64> {
-            system.coordinates.iter().map(|coordinate| system.value_at(coordinate.estimate, &[])).collect()
+            system.coordinates().iter().map(|coordinate| system.value_at(coordinate.estimate, &[])).collect()
         };
         let estimates = drawn(&system);
         let remarks = Diagnostics::default();
         let mut alone = Alone { surroundings, t, inputs, q: estimates, is_assembled: false, remarks };
-        let horizon = Horizon::of_analysis(system.analysis).beginning(t);
+        let horizon = Horizon::of_analysis(system.analysis()).beginning(t);
         let Ok((determined, _)) = analysis::determine(system, self.leave_out_redundant, horizon) else {
             return Some(alone);
         };
         let program = Arc::new(Program::new(determined.system()));
         let determined = Arc::new(determined);
-        if !determined.system().parts.is_empty() {
+        if !determined.system().parts().is_empty() {
             alone.q = self.with_parts((&determined, &program), horizon, &alone.surroundings.settings);
         }
         let LeadOptions { tolerance, cancel, .. } = self.options;

@@ -144,7 +144,7 @@ impl Compiled {
     pub fn stand(&self, t: f64, options: &RunOptions) -> Result<Stand, Diagnostics> {
         let from = self.analysis().map_or(t, |[from, ..]| from.min(t));
         let (run, said) = self.run(&Times::listed(from, vec![t]), options);
-        let n = self.system().coordinates.len();
+        let n = self.system().coordinates().len();
         match run.and_then(|mut run| run.next()) {
             Some(Ok(row)) => Ok(Stand { t, q: row[1..=n].to_vec() }),
             Some(Err(why)) => Err((*why).into()),
@@ -214,7 +214,7 @@ impl Run {
         };
         said.extend(compiled.used_at().told(started.remarks()));
         let assembly = assembly(compiled, &mut started, times.from());
-        let results = compiled.system().results.outcomes.len();
+        let results = compiled.system().results().outcomes.len();
         let interval = times.interval().filter(|_| results > 0);
         let asked = interval.map(|interval| started.asked(interval, options.pass_bifurcations, &options.cancel));
         let mut motion = started.into_motion(times);
@@ -319,7 +319,7 @@ impl Iterator for Run {
 fn assembly(compiled: &Compiled, started: &mut analysis::Started, t: f64) -> Assembly {
     let system = compiled.system();
     let conditioning = started.conditioning();
-    let coordinates = system.coordinates.iter().zip(started.q());
+    let coordinates = system.coordinates().iter().zip(started.q());
     let coordinates = coordinates.map(|(c, &q)| (c.name.clone(), q, c.kind.unit())).collect();
     Assembly { t, coordinates, moved: started.moved().in_words(system), conditioning }
 }

@@ -122,7 +122,7 @@ impl Checked {
         self.widen_places(&mut scene);
         let is_left_free = said.iter().any(|said| matches!(said.code, Code::E0502 | Code::E0503));
         let free = if is_left_free {
-            analysis::free_motions(system, Horizon::of_analysis(system.analysis))
+            analysis::free_motions(system, Horizon::of_analysis(system.analysis()))
         } else {
             Vec::new()
         };
@@ -240,7 +240,7 @@ fn poses(system: &ConstraintSystem, q: &[f64]) -> Vec<Pose> {
         let [x, y, phi] = system.pose_of(body).map(|coordinate| q[coordinate]);
         Pose { at: [x, y], phi }
     };
-    std::iter::once(Pose::default()).chain(system.bodies.ids().map(of_body)).collect()
+    std::iter::once(Pose::default()).chain(system.bodies().ids().map(of_body)).collect()
 }
 
 /// A free motion as one of frames, of which the ground is the first.

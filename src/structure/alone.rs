@@ -14,7 +14,7 @@ impl Determined {
     pub fn coupled_parts(&self) -> Result<Vec<String>, Diagnostics> {
         let mut said = Diagnostics::default();
         let (mut coupled, mut told) = (Vec::new(), Vec::new());
-        for part in &self.system.asking_parts {
+        for part in self.system.asking_parts() {
             // a fault of every copy is told once
             if told.contains(&part.places.as_slice()) {
                 continue;
@@ -23,7 +23,7 @@ impl Determined {
             let is_coupled = self.is_coupled(part);
             match self.counts_alone(part) {
                 Some([rows, columns]) => said.push(errors::not_determined_alone(part, rows, columns)),
-                None if is_coupled && !self.system.checks.is_empty() => {
+                None if is_coupled && !self.system.checks().is_empty() => {
                     said.push(errors::coupled_without_equations(part));
                 }
                 None if is_coupled => coupled.push(part.name.clone()),
@@ -44,7 +44,7 @@ impl Determined {
         let held = self.system.scopes().iter().find(|scope| scope.name == part.name);
         let mut pattern = SparseRows::new();
         for (k, &row) in rows.iter().enumerate() {
-            let own = held.map_or_else(|| self.system.phi_q.row(row as usize), |scope| scope.phi_q.row(k)).iter();
+            let own = held.map_or_else(|| self.system.phi_q().row(row as usize), |scope| scope.phi_q.row(k)).iter();
             let place = |column: &u32| part.columns.binary_search(column).ok();
             pattern.push(own.filter_map(|&(column, slope)| Some((place(&column)? as u32, slope))));
         }
@@ -54,13 +54,13 @@ impl Determined {
 
     fn is_coupled(&self, part: &AskingPart) -> bool {
         let is_own_row =
-            |row: &u32| part.declarations.binary_search(&self.system.rows[*row as usize].declaration).is_ok();
+            |row: &u32| part.declarations.binary_search(&self.system.rows()[*row as usize].declaration).is_ok();
         let is_own = |column: &u32| part.columns.binary_search(column).is_ok();
         let follows_itself = |symbol: Symbol| match symbol {
             Symbol::Coordinate { index, .. } => is_own(&index),
             _ => false,
         };
-        if self.system.graph.symbols_of_all(&part.inputs).into_iter().any(follows_itself) {
+        if self.system.graph().symbols_of_all(&part.inputs).into_iter().any(follows_itself) {
             return true;
         }
         self.blocks
@@ -70,7 +70,7 @@ impl Determined {
     }
 
     fn rows_of(&self, part: &AskingPart) -> Vec<u32> {
-        let is_own = |row: &usize| part.declarations.binary_search(&self.system.rows[*row].declaration).is_ok();
-        (0..self.system.rows.len()).filter(is_own).map(|row| row as u32).collect()
+        let is_own = |row: &usize| part.declarations.binary_search(&self.system.rows()[*row].declaration).is_ok();
+        (0..self.system.rows().len()).filter(is_own).map(|row| row as u32).collect()
     }
 }

@@ -13,19 +13,19 @@ pub fn table(system: &ConstraintSystem) -> String {
         other => other.noun().to_owned(),
     };
     let mut owners: Vec<[String; 3]> =
-        system.bodies.iter().map(|body| ["body".to_owned(), body.name.clone(), "3".to_owned()]).collect();
-    for owned in system.coordinates.chunk_by(|a, b| a.owner == b.owner) {
+        system.bodies().iter().map(|body| ["body".to_owned(), body.name.clone(), "3".to_owned()]).collect();
+    for owned in system.coordinates().chunk_by(|a, b| a.owner == b.owner) {
         if let Owner::Joint(joint) = owned[0].owner {
-            let declaration = &system.declarations[joint];
+            let declaration = &system.declarations()[joint];
             owners.push([kind_of(declaration), declaration.name.clone(), owned.len().to_string()]);
         }
     }
     let equations: Vec<[String; 3]> = system
-        .declarations
+        .declarations()
         .iter()
         .map(|declaration| [kind_of(declaration), declaration.name.clone(), declaration.rows.to_string()])
         .collect();
-    let (n, m) = (system.coordinates.len(), system.rows.len());
+    let (n, m) = (system.coordinates().len(), system.rows().len());
     let mut rows = vec![["coordinates".to_owned(), String::new(), n.to_string()]];
     rows.extend(cut(owners));
     rows.push(["equations".to_owned(), String::new(), m.to_string()]);

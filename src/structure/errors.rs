@@ -23,9 +23,9 @@ pub fn count(system: &ConstraintSystem, too_many: &Subsystem, too_few: &Subsyste
         n if n > 0 => format!("{n} degrees of freedom are left"),
         n => format!("there are {} equations too many", -n),
     };
-    let label = format!("{} coordinates, {} equations", system.coordinates.len(), system.rows.len());
-    let diagnostic = Diagnostic::new(Code::E0502, format!("{message} in mechanism `{}`", system.name))
-        .at(system.span, label)
+    let label = format!("{} coordinates, {} equations", system.coordinates().len(), system.rows().len());
+    let diagnostic = Diagnostic::new(Code::E0502, format!("{message} in mechanism `{}`", system.name()))
+        .at(system.span(), label)
         .note(table(system));
     let diagnostic = with_data(diagnostic, system, &competing(system, too_many), &too_few.columns);
     if ndof > 0 {
@@ -34,7 +34,7 @@ pub fn count(system: &ConstraintSystem, too_many: &Subsystem, too_few: &Subsyste
     } else {
         match said_twice(system) {
             Some([first, again]) => {
-                let (first, again) = (&system.declarations[first], &system.declarations[again]);
+                let (first, again) = (&system.declarations()[first], &system.declarations()[again]);
                 diagnostic.also(first.span, "joins the same points").also(again.span, "said twice").help(format!(
                     "take the {} `{}` away",
                     again.kind.noun(),
@@ -49,7 +49,7 @@ pub fn count(system: &ConstraintSystem, too_many: &Subsystem, too_few: &Subsyste
 /// Two joints of one kind at the same points.
 fn said_twice(system: &ConstraintSystem) -> Option<[DeclarationId; 2]> {
     let mut known: FxHashMap<(DeclarationKind, Vec<PointId>), DeclarationId> = FxHashMap::default();
-    let joints = system.declarations.pairs().filter(|(_, one)| matches!(one.kind, DeclarationKind::Joint(_)));
+    let joints = system.declarations().pairs().filter(|(_, one)| matches!(one.kind, DeclarationKind::Joint(_)));
     for (k, joint) in joints.filter(|(_, joint)| joint.points.len() == 2) {
         let mut points = joint.points.clone();
         points.sort_unstable();
@@ -64,7 +64,7 @@ fn said_twice(system: &ConstraintSystem) -> Option<[DeclarationId; 2]> {
 fn free_quantities(system: &ConstraintSystem, free: &[u32]) -> Vec<String> {
     let mut quantities: Vec<String> = Vec::new();
     let mut first_row = 0;
-    for declaration in &system.declarations {
+    for declaration in system.declarations() {
         let rows = first_row..first_row + declaration.rows;
         first_row = rows.end;
         let wanted = match declaration.kind {
@@ -73,12 +73,13 @@ fn free_quantities(system: &ConstraintSystem, free: &[u32]) -> Vec<String> {
             _ => continue,
         };
         // a pin at a body's origin leaves its angle out of the equations, but it is what turns
-        let owners =
-            rows.flat_map(|row| system.phi_q.row(row)).map(|(column, _)| system.coordinates[*column as usize].owner);
+        let owners = rows
+            .flat_map(|row| system.phi_q().row(row))
+            .map(|(column, _)| system.coordinates()[*column as usize].owner);
         let mut owners: Vec<Owner> = owners.collect();
         owners.dedup();
         let moves = free.iter().any(|&column| {
-            let coordinate = &system.coordinates[column as usize];
+            let coordinate = &system.coordinates()[column as usize];
             coordinate.kind == wanted && owners.contains(&coordinate.owner)
         });
         if moves {
@@ -95,7 +96,7 @@ fn drivers_to_add(system: &ConstraintSystem, free: &[u32], quantities: &[String]
     let count = if ndof == 1 { "a driver".to_owned() } else { format!("{ndof} drivers or joints") };
     if quantities.is_empty() {
         let bodies = free.iter().filter_map(|&column| system.body_of(column as usize));
-        let mut names: Vec<&str> = bodies.map(|body| system.bodies[body].name.as_str()).collect();
+        let mut names: Vec<&str> = bodies.map(|body| system.bodies()[body].name.as_str()).collect();
         names.dedup();
         names.truncate(MOST_DRIVERS);
         return match names.as_slice() {
@@ -112,7 +113,7 @@ fn drivers_to_add(system: &ConstraintSystem, free: &[u32], quantities: &[String]
 
 fn what_to_take_away(system: &ConstraintSystem) -> String {
     let drivers: Vec<String> = system
-        .declarations
+        .declarations()
         .iter()
         .filter(|declaration| declaration.kind == DeclarationKind::Driver)
         .map(|declaration| format!("`{}`", declaration.name))
@@ -140,8 +141,11 @@ pub fn structure(system: &ConstraintSystem, too_many: &Subsystem, too_few: &Subs
     for &span in free.iter().take(LISTED) {
         diagnostic = diagnostic.also(span, "not fixed by enough equations");
     }
-    let shown: Vec<String> =
-        columns.iter().take(LISTED).map(|&column| format!("`{}`", system.coordinates[column as usize].name)).collect();
+    let shown: Vec<String> = columns
+        .iter()
+        .take(LISTED)
+        .map(|&column| format!("`{}`", system.coordinates()[column as usize].name))
+        .collect();
     let diagnostic = diagnostic
         .note(format!("nothing fixes {}", shown.join(", ")))
         .help("move one of the equations to the part that lacks one");
@@ -151,9 +155,9 @@ pub fn structure(system: &ConstraintSystem, too_many: &Subsystem, too_few: &Subs
 /// The declarations among whose equations there is one too many.
 fn competing<'s>(system: &'s ConstraintSystem, too_many: &Subsystem) -> Vec<&'s Declaration> {
     let mut declarations: Vec<DeclarationId> =
-        too_many.rows.iter().map(|&row| system.rows[row as usize].declaration).collect();
+        too_many.rows.iter().map(|&row| system.rows()[row as usize].declaration).collect();
     declarations.dedup();
-    declarations.into_iter().map(|k| &system.declarations[k]).collect()
+    declarations.into_iter().map(|k| &system.declarations()[k]).collect()
 }
 
 fn with_data(
@@ -163,10 +167,10 @@ fn with_data(
     free: &[u32],
 ) -> Diagnostic {
     let redundant: Vec<String> = competing.iter().map(|declaration| declaration.name.clone()).collect();
-    let free: Vec<String> = free.iter().map(|&column| system.coordinates[column as usize].name.clone()).collect();
+    let free: Vec<String> = free.iter().map(|&column| system.coordinates()[column as usize].name.clone()).collect();
     diagnostic
-        .datum("coordinates", system.coordinates.len())
-        .datum("equations", system.rows.len())
+        .datum("coordinates", system.coordinates().len())
+        .datum("equations", system.rows().len())
         .datum("ndof", system.ndof())
         .datum("redundant", redundant)
         .datum("free", free)

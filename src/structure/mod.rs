@@ -60,8 +60,8 @@ fn is_explicit(system: &ConstraintSystem, block: &Block) -> bool {
         return false;
     };
     let own = Symbol::Coordinate { index: column, order: 0 };
-    let slope = system.phi_q.row(*row as usize).iter().find(|&&(used, _)| used == column);
-    slope.is_some_and(|&(_, slope)| !system.graph.symbols(slope).contains(&own))
+    let slope = system.phi_q().row(*row as usize).iter().find(|&&(used, _)| used == column);
+    slope.is_some_and(|&(_, slope)| !system.graph().symbols(slope).contains(&own))
 }
 
 /// Why a system is not determined.
@@ -91,9 +91,9 @@ pub struct Subsystem {
 /// # Errors
 /// Why it is not.
 pub fn prove(system: ConstraintSystem) -> Result<Determined, Box<Refused>> {
-    let matching = matching::maximum(&system.phi_q, system.rows.len(), system.coordinates.len());
+    let matching = matching::maximum(system.phi_q(), system.rows().len(), system.coordinates().len());
     if !matching.is_perfect() {
-        let [too_many, too_few] = matching.unequal_parts(&system.phi_q);
+        let [too_many, too_few] = matching.unequal_parts(system.phi_q());
         let diagnostic = if system.ndof() == 0 {
             errors::structure(&system, &too_many, &too_few)
         } else {
@@ -101,7 +101,7 @@ pub fn prove(system: ConstraintSystem) -> Result<Determined, Box<Refused>> {
         };
         return Err(Box::new(Refused { system, diagnostic, too_many, too_few }));
     }
-    let mut blocks = matching.blocks(&system.phi_q);
+    let mut blocks = matching.blocks(system.phi_q());
     for block in &mut blocks {
         block.explicit = is_explicit(&system, block);
     }

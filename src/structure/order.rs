@@ -60,7 +60,7 @@ struct Planner {
 impl Planner {
     fn new(determined: &Determined) -> Planner {
         let (system, blocks) = (determined.system(), determined.blocks());
-        let mut block_of_column = vec![0; system.coordinates.len()];
+        let mut block_of_column = vec![0; system.coordinates().len()];
         for (number, block) in blocks.iter().enumerate() {
             for &column in &block.columns {
                 block_of_column[column as usize] = number;
@@ -72,7 +72,7 @@ impl Planner {
         for (number, block) in blocks.iter().enumerate() {
             let chosen = match block.columns.as_slice() {
                 [column] => {
-                    let owner = system.coordinates[*column as usize].owner;
+                    let owner = system.coordinates()[*column as usize].owner;
                     *group_of_owner.entry(owner).or_insert(members.len())
                 }
                 _ => members.len(),
@@ -82,7 +82,7 @@ impl Planner {
             }
             members[chosen].push(number);
             group.push(chosen);
-            let entries = block.rows.iter().flat_map(|&row| system.phi_q.row(row as usize));
+            let entries = block.rows.iter().flat_map(|&row| system.phi_q().row(row as usize));
             let mut needed: Vec<usize> = entries.map(|&(column, _)| block_of_column[column as usize]).collect();
             needed.sort_unstable();
             needed.dedup();
@@ -165,10 +165,10 @@ pub fn order_of_solution(determined: &Determined) -> String {
     let mut text = String::new();
     for ((head, count), step) in heads.iter().zip(shown) {
         let mut equations: Vec<DeclarationId> =
-            step.rows.iter().map(|&row| system.rows[row as usize].declaration).collect();
+            step.rows.iter().map(|&row| system.rows()[row as usize].declaration).collect();
         equations.sort_unstable();
         equations.dedup();
-        let equations: Vec<&str> = equations.into_iter().map(|k| system.declarations[k].name.as_str()).collect();
+        let equations: Vec<&str> = equations.into_iter().map(|k| system.declarations()[k].name.as_str()).collect();
         let how = if step.together && *count > 1 { "together, from" } else { "from" };
         text += &format!("  {head:<width$}  {how} {}\n", equations.join(", "));
     }
@@ -180,14 +180,14 @@ pub fn order_of_solution(determined: &Determined) -> String {
 
 /// The bodies and joints that coordinates belong to, where these are all that they have; else the coordinates by their own names.
 fn solved_for<'d>(system: &'d ConstraintSystem, columns: &[u32]) -> Vec<&'d str> {
-    let owner = |column: u32| system.coordinates[column as usize].owner;
+    let owner = |column: u32| system.coordinates()[column as usize].owner;
     let mut names = Vec::new();
     for owned in columns.chunk_by(|&a, &b| owner(a) == owner(b)) {
-        let all = system.coordinates.iter().filter(|coordinate| coordinate.owner == owner(owned[0])).count();
+        let all = system.coordinates().iter().filter(|coordinate| coordinate.owner == owner(owned[0])).count();
         if owned.len() == all {
             names.push(system.owner_name(owned[0] as usize));
         } else {
-            names.extend(owned.iter().map(|&column| system.coordinates[column as usize].name.as_str()));
+            names.extend(owned.iter().map(|&column| system.coordinates()[column as usize].name.as_str()));
         }
     }
     names

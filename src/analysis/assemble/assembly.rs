@@ -75,7 +75,7 @@ fn moved(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Moved {
             continue;
         };
         let way = (b - a).abs();
-        match system.coordinates[k].kind {
+        match system.coordinates()[k].kind {
             CoordinateKind::Length if way > moved.length => (moved.length, moved.length_body) = (way, body),
             CoordinateKind::Angle if way > moved.angle => (moved.angle, moved.angle_body) = (way, body),
             _ => {}
@@ -215,9 +215,10 @@ fn refuse_vanishing_tangents(kinematics: &mut Kinematics, q: &[f64], t: f64) -> 
     if kinematics.set_position(q).is_err() {
         return Ok(());
     }
-    let vanishes =
-        |k: &usize| system.watches[*k].kind == WatchKind::Tangents && kinematics.watched(*k).abs() < VANISHING_TANGENT;
-    match (0..system.watches.len()).find(vanishes) {
+    let vanishes = |k: &usize| {
+        system.watches()[*k].kind == WatchKind::Tangents && kinematics.watched(*k).abs() < VANISHING_TANGENT
+    };
+    match (0..system.watches().len()).find(vanishes) {
         Some(index) => Err(Box::new(errors::no_contact(system, index, t))),
         None => Ok(()),
     }

@@ -62,10 +62,10 @@ fn farthest(
     from: &[f64],
     to: &[f64],
 ) -> Option<Doubt> {
-    let (mut farthest, mut moved) = (system.length, None);
+    let (mut farthest, mut moved) = (system.length(), None);
     for column in columns {
         let Some(body) = system.body_of(column) else { continue };
-        let kind = system.coordinates[column].kind;
+        let kind = system.coordinates()[column].kind;
         let way = distance_of(kind, from[column], to[column]);
         match kind {
             CoordinateKind::Angle if way > TURNED_OVER => return Some(Doubt { body, off: Off::Turned(way) }),
@@ -82,9 +82,9 @@ fn farthest(
 fn loops(determined: &Determined) -> Vec<Loop> {
     let system = determined.system();
     let mut loops: Vec<Loop> = Vec::new();
-    let mut loop_of: Vec<Option<usize>> = vec![None; system.coordinates.len()];
+    let mut loop_of: Vec<Option<usize>> = vec![None; system.coordinates().len()];
     for block in determined.blocks() {
-        let used = block.rows.iter().flat_map(|&row| system.phi_q.row(row as usize));
+        let used = block.rows.iter().flat_map(|&row| system.phi_q().row(row as usize));
         let found = if block.explicit {
             used.filter_map(|&(column, _)| loop_of[column as usize]).max()
         } else {
@@ -127,7 +127,7 @@ fn starts(kinematics: &Kinematics, within: &Loop, from: &[f64], to: &[f64]) -> V
     let mut mirrored = to.to_vec();
     within.columns().for_each(|column| mirrored[column] = 2.0 * from[column] - to[column]);
     let mut starts = vec![mirrored];
-    for column in within.columns().filter(|&column| system.coordinates[column].kind == CoordinateKind::Angle) {
+    for column in within.columns().filter(|&column| system.coordinates()[column].kind == CoordinateKind::Angle) {
         let mut turned = to.to_vec();
         turned[column] += PI;
         starts.push(turned);
@@ -136,9 +136,9 @@ fn starts(kinematics: &Kinematics, within: &Loop, from: &[f64], to: &[f64]) -> V
     starts.extend((0..RANDOM_STARTS).map(|_| {
         let mut start = to.to_vec();
         within.columns().for_each(|column| {
-            start[column] = match system.coordinates[column].kind {
+            start[column] = match system.coordinates()[column].kind {
                 CoordinateKind::Angle | CoordinateKind::Argument => to[column] + PI * noise.next(),
-                CoordinateKind::Length => from[column] + system.length * noise.next(),
+                CoordinateKind::Length => from[column] + system.length() * noise.next(),
             }
         });
         start
@@ -150,8 +150,8 @@ fn starts(kinematics: &Kinematics, within: &Loop, from: &[f64], to: &[f64]) -> V
 fn distance(kinematics: &Kinematics, within: &Loop, a: &[f64], b: &[f64]) -> f64 {
     let system = kinematics.system();
     let squares = within.columns().filter(|&c| system.body_of(c).is_some()).map(|c| {
-        let kind = system.coordinates[c].kind;
-        let unit = if kind == CoordinateKind::Length { system.length } else { 1.0 };
+        let kind = system.coordinates()[c].kind;
+        let unit = if kind == CoordinateKind::Length { system.length() } else { 1.0 };
         let way = distance_of(kind, a[c], b[c]) / unit;
         way * way
     });

@@ -22,13 +22,13 @@ pub fn far_estimates(
         let message = format!("the estimates do not say which way the mechanism is assembled at {}", at(t));
         return Some(
             Diagnostic::new(Code::N0601, message)
-                .at(system.span, "one of several positions was taken")
+                .at(system.span(), "one of several positions was taken")
                 .help("give estimates in `at` that are nearer to the position meant")
                 .change(assembled()),
         );
     }
     let doubt = doubt?;
-    let body = &system.bodies[doubt.body];
+    let body = &system.bodies()[doubt.body];
     let how = match doubt.off {
         Off::Moved(by) => format!("moved by {}", length(by)),
         Off::Turned(by) => format!("turned by {}", degrees(by)),
@@ -44,9 +44,9 @@ pub fn far_estimates(
 /// The assembled poses as the estimates of those bodies that assembly has moved by more than rounding.
 fn assembled_poses(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Option<Fix> {
     let mut edits = Vec::new();
-    for (id, body) in system.bodies.pairs() {
+    for (id, body) in system.bodies().pairs() {
         let pose @ [x, y, phi] = system.pose_of(id);
-        let has_moved = |&column: &usize| (to[column] - from[column]).abs() > 1e-6 * system.coordinates[column].scale;
+        let has_moved = |&column: &usize| (to[column] - from[column]).abs() > 1e-6 * system.coordinates()[column].scale;
         if !pose.iter().any(has_moved) {
             continue;
         }
@@ -71,7 +71,7 @@ pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option
     if off.abs() <= LARGEST_MISFIT * radius {
         return None;
     }
-    let joint = &system.declarations[fit.declaration];
+    let joint = &system.declarations()[fit.declaration];
     if distance < -LARGEST_MISFIT * radius {
         let message =
             format!("the pinion of `{}` is on the other side of its rack than is said at {}", joint.name, at(t));
@@ -130,9 +130,9 @@ impl Moved {
         format!(
             "assembled: moved by at most {} (`{}`) and {} (`{}`) from the estimates",
             length(self.length),
-            system.bodies[self.length_body].name,
+            system.bodies()[self.length_body].name,
             degrees(self.angle),
-            system.bodies[self.angle_body].name,
+            system.bodies()[self.angle_body].name,
         )
     }
 }

@@ -80,10 +80,10 @@ impl<'d> Placing<'d> {
         }
         let needs = |part: &PartStart| {
             let formulas: Vec<ExprId> = part.inputs.iter().map(|(_, id)| *id).chain(part.mount).collect();
-            let symbols = system.graph.symbols_of_all(&formulas).into_iter();
+            let symbols = system.graph().symbols_of_all(&formulas).into_iter();
             symbols.filter_map(coordinate).collect::<Vec<u32>>()
         };
-        let parts = &system.parts;
+        let parts = system.parts();
         let mut is_of_an_open_part = vec![false; q.len()];
         for part in parts {
             is_of_an_open_part[part.poses.clone()].fill(true);
@@ -109,8 +109,8 @@ impl<'d> Placing<'d> {
 
     fn value(&self, id: ExprId) -> f64 {
         let system = self.determined.system();
-        system.graph.value(id, |symbol| match symbol {
-            Symbol::Param(k) => system.params[k as usize].value,
+        system.graph().value(id, |symbol| match symbol {
+            Symbol::Param(k) => system.params()[k as usize].value,
             Symbol::Time => self.t,
             Symbol::Coordinate { index, order: 0 } => self.q[index as usize],
             _ => f64::NAN,
@@ -185,7 +185,7 @@ impl<'d> Placing<'d> {
     fn behind(&self, block: &'d Block) -> impl Iterator<Item = u32> + use<'d> {
         let system = self.determined.system();
         let own = &block.columns;
-        let of_row = move |&row: &'d u32| system.phi_q.row(row as usize).iter().map(|&(column, _)| column);
+        let of_row = move |&row: &'d u32| system.phi_q().row(row as usize).iter().map(|&(column, _)| column);
         block.rows.iter().flat_map(of_row).filter(move |column| !own.contains(column))
     }
 }

@@ -118,7 +118,7 @@ impl Started {
     pub fn remarks(&self) -> Diagnostics {
         let (system, state) = (self.kinematics.system(), &self.state);
         let mut diagnostics = self.far_estimates_at(state.t);
-        diagnostics.extend(system.fits.iter().filter_map(|fit| misfit(system, fit, &state.q, state.t)));
+        diagnostics.extend(system.fits().iter().filter_map(|fit| misfit(system, fit, &state.q, state.t)));
         diagnostics
     }
 

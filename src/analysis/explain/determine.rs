@@ -117,7 +117,7 @@ impl Anatomy {
 /// The equations of a part that are too many. Where one conflicts its joint is taken away before the others are judged.
 fn surplus(evaluator: &mut Evaluator<'_>, mut part: Subsystem, times: [f64; 2]) -> Vec<Dependent> {
     let system = evaluator.system;
-    let declaration_of = |row: usize| system.rows[row].declaration;
+    let declaration_of = |row: usize| system.rows()[row].declaration;
     // of joints that hold the same, one that formulas speak of stays
     let rank = |row: &u32| {
         let declaration = system.declaration_of(*row as usize);
@@ -188,27 +188,29 @@ impl Anatomy {
 }
 
 fn everything(system: &ConstraintSystem) -> Subsystem {
-    Subsystem { rows: (0..system.rows.len() as u32).collect(), columns: (0..system.coordinates.len() as u32).collect() }
+    Subsystem {
+        rows: (0..system.rows().len() as u32).collect(),
+        columns: (0..system.coordinates().len() as u32).collect(),
+    }
 }
 
 /// Makes checks of the equations that are left out.
 fn leave_out(system: &mut ConstraintSystem, dependents: &[Dependent]) {
-    let q: Vec<f64> = system.coordinates.iter().map(|coordinate| system.value_at(coordinate.estimate, &[])).collect();
+    let q: Vec<f64> = system.coordinates().iter().map(|coordinate| system.value_at(coordinate.estimate, &[])).collect();
     let mut rows: Vec<usize> = dependents.iter().map(|dependent| dependent.row).collect();
     rows.sort_unstable();
-    let checks = rows
-        .iter()
-        .map(|&row| {
-            let slopes = system
-                .phi_q
-                .row(row)
-                .iter()
-                .map(|&(column, slope)| system.value_at(slope, &q) * system.coordinates[column as usize].scale);
-            let norm = slopes.filter(|slope| slope.is_finite()).map(|slope| slope * slope).sum::<f64>().sqrt();
-            let scale = if norm > 0.0 { norm } else { 1.0 };
-            let Row { declaration, phi, unit } = system.rows[row];
-            Check { phi, unit, declaration, scale }
-        })
-        .collect();
+    let checks =
+        rows.iter()
+            .map(|&row| {
+                let slopes =
+                    system.phi_q().row(row).iter().map(|&(column, slope)| {
+                        system.value_at(slope, &q) * system.coordinates()[column as usize].scale
+                    });
+                let norm = slopes.filter(|slope| slope.is_finite()).map(|slope| slope * slope).sum::<f64>().sqrt();
+                let scale = if norm > 0.0 { norm } else { 1.0 };
+                let Row { declaration, phi, unit } = system.rows()[row];
+                Check { phi, unit, declaration, scale }
+            })
+            .collect();
     system.leave_out(&rows, checks);
 }

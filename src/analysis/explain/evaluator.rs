@@ -21,7 +21,7 @@ impl<'s> Evaluator<'s> {
     /// At the estimates.
     pub fn new(system: &'s ConstraintSystem) -> Evaluator<'s> {
         let program = Program::new(system);
-        let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
+        let params: Vec<f64> = system.params().iter().map(|param| param.value).collect();
         let registers = program.start(&params);
         let q = program.outputs.estimates.iter().map(|&register| registers.get(register)).collect();
         Evaluator { system, q, program, registers }
@@ -63,7 +63,7 @@ impl<'s> Evaluator<'s> {
     pub fn nudge(&mut self, columns: &[u32]) {
         for &column in columns {
             let column = column as usize;
-            self.q[column] += NUDGE * aslant(column) * self.system.coordinates[column].scale;
+            self.q[column] += NUDGE * aslant(column) * self.system.coordinates()[column].scale;
         }
     }
 
@@ -74,7 +74,7 @@ impl<'s> Evaluator<'s> {
 
     /// The entries of a row of `Φ_q` where it was evaluated last: column and slope.
     pub fn slopes(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
-        let pattern = &self.system.phi_q;
+        let pattern = self.system.phi_q();
         pattern
             .range(row)
             .zip(pattern.row(row))
@@ -84,14 +84,14 @@ impl<'s> Evaluator<'s> {
     /// The distance that a declaration prescribes between two points, if it does, and that between them (m).
     pub fn distance(&self, declaration: DeclarationId) -> Option<[f64; 2]> {
         let system = self.system;
-        let is_distance = match system.declarations[declaration].kind {
+        let is_distance = match system.declarations()[declaration].kind {
             DeclarationKind::Joint(kind) => kind == JointKind::RevoluteRevolute,
             _ => true,
         };
-        let &[p, q] = system.declarations[declaration].points.as_slice() else {
+        let &[p, q] = system.declarations()[declaration].points.as_slice() else {
             return None;
         };
-        let row = (0..system.rows.len()).find(|&row| system.rows[row].declaration == declaration)?;
+        let row = (0..system.rows().len()).find(|&row| system.rows()[row].declaration == declaration)?;
         let (from, to) = (self.place_of(p), self.place_of(q));
         let square = (to[0] - from[0]) * (to[0] - from[0]) + (to[1] - from[1]) * (to[1] - from[1]);
         // Φ = dᵀd − L²
@@ -101,16 +101,16 @@ impl<'s> Evaluator<'s> {
     /// How far a body would have to be moved (m), or turned (rad), for a row to hold: moved if the row is about places.
     pub fn gap(&self, row: usize) -> f64 {
         // what is said of a distance is said of the distance itself, and not of its square
-        if let Some([wanted, found]) = self.distance(self.system.rows[row].declaration) {
+        if let Some([wanted, found]) = self.distance(self.system.rows()[row].declaration) {
             return (found - wanted).abs();
         }
         let kind = errors::gap_kind(self.system, row);
-        let of_kind = self.slopes(row).filter(|&(column, _)| self.system.coordinates[column].kind == kind);
+        let of_kind = self.slopes(row).filter(|&(column, _)| self.system.coordinates()[column].kind == kind);
         let mut steepest: f64 = 0.0;
         let (mut owner, mut along) = (None, 0.0);
         for (column, slope) in of_kind {
-            if owner != Some(self.system.coordinates[column].owner) {
-                (owner, along) = (Some(self.system.coordinates[column].owner), 0.0);
+            if owner != Some(self.system.coordinates()[column].owner) {
+                (owner, along) = (Some(self.system.coordinates()[column].owner), 0.0);
             }
             along += slope * slope;
             steepest = steepest.max(along);
@@ -120,7 +120,7 @@ impl<'s> Evaluator<'s> {
 
     /// Where a point is (m).
     pub fn place_of(&self, point: PointId) -> [f64; 2] {
-        let point = &self.system.points[point];
+        let point = &self.system.points()[point];
         let [x, y] = point.at.map(|id| self.system.value_at(id, &[]));
         let Some(body) = point.body else {
             return [x, y];

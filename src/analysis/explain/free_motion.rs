@@ -10,7 +10,7 @@ pub fn motion_in_words(system: &ConstraintSystem, right: &[f64]) -> String {
     let rate = |k: usize| right[k];
     let of_kind = |wanted: CoordinateKind| {
         let mut found: Vec<usize> = (0..right.len())
-            .filter(|&k| system.coordinates[k].kind == wanted && system.body_of(k).is_some())
+            .filter(|&k| system.coordinates()[k].kind == wanted && system.body_of(k).is_some())
             .filter(|&k| right[k].abs() > SEEN * largest)
             .collect();
         found.sort_by(|&a, &b| right[b].abs().total_cmp(&right[a].abs()));

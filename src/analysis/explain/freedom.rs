@@ -46,7 +46,7 @@ impl Freedom {
         let taken = basis_of(&jacobian, part.columns.len()).span;
         let shares = taken.shares_left();
         let with_share = |least: f64| {
-            let mut count = system.bodies.map(|_| 0);
+            let mut count = system.bodies().map(|_| 0);
             for (&column, &share) in part.columns.iter().zip(&shares) {
                 if let Some(body) = system.body_of(column as usize)
                     && share > least
@@ -103,7 +103,7 @@ impl Freedom {
         if left_out > 0 {
             sentences.push(format!("and {left_out} more motions"));
         }
-        let loose: Vec<String> = self.loose.iter().map(|&body| format!("`{}`", system.bodies[body].name)).collect();
+        let loose: Vec<String> = self.loose.iter().map(|&body| format!("`{}`", system.bodies()[body].name)).collect();
         if !loose.is_empty() {
             sentences.push(format!("nothing holds {}", errors::cut_list(&loose)));
         }
@@ -154,9 +154,9 @@ fn of_bodies(system: &ConstraintSystem, motion: &[f64]) -> FreeMotion {
     let moves = |body: &BodyId| velocity(*body).iter().any(|(_, x)| x.abs() > MOVES * fastest);
     let moved = |body: BodyId| {
         let of_rounding = |x: f64| if x.abs() > MOVES * fastest { x / fastest } else { 0.0 };
-        (body, velocity(body).map(|(column, x)| of_rounding(x) * system.coordinates[column].scale))
+        (body, velocity(body).map(|(column, x)| of_rounding(x) * system.coordinates()[column].scale))
     };
-    FreeMotion { bodies: system.bodies.ids().filter(moves).map(moved).collect() }
+    FreeMotion { bodies: system.bodies().ids().filter(moves).map(moved).collect() }
 }
 
 /// The motions beside what is held, each told by itself, of all coordinates.
@@ -165,7 +165,7 @@ fn motions_beside(system: &ConstraintSystem, part: &Subsystem, mut taken: Orthon
     while let Some(motion) = next_motion(system, part, &mut taken) {
         motions.push(motion);
     }
-    apart(motions).iter().map(|motion| spread(motion.as_slice(), part, system.coordinates.len())).collect()
+    apart(motions).iter().map(|motion| spread(motion.as_slice(), part, system.coordinates().len())).collect()
 }
 
 /// A free motion beside those taken, of unit norm: that of the angle, or else the coordinate, which is freest. It is taken too.
@@ -175,7 +175,7 @@ fn next_motion(system: &ConstraintSystem, part: &Subsystem, taken: &mut Orthonor
         return None;
     }
     let shares = taken.shares_left();
-    let is_angle = |k: usize| system.coordinates[part.columns[k] as usize].kind == CoordinateKind::Angle;
+    let is_angle = |k: usize| system.coordinates()[part.columns[k] as usize].kind == CoordinateKind::Angle;
     let freest =
         |wanted: &dyn Fn(usize) -> bool| (0..n).filter(|&k| wanted(k)).max_by(|&a, &b| shares[a].total_cmp(&shares[b]));
     let any = freest(&|_| true)?;

@@ -55,7 +55,7 @@ pub fn found(determined: &Determined, q: &[f64], t: f64) -> Option<OpenLoop> {
 /// The coordinates [m, rad] where all is closed but what is told to be open.
 pub fn opened(determined: &Determined, q: &[f64], t: f64) -> Option<Vec<f64>> {
     let (open, q) = told(determined, q, t)?;
-    let far = if open.kind == CoordinateKind::Length { FAR * determined.system().length } else { FAR };
+    let far = if open.kind == CoordinateKind::Length { FAR * determined.system().length() } else { FAR };
     (open.by <= far && q.iter().all(|x| x.is_finite())).then_some(q)
 }
 
@@ -71,7 +71,7 @@ fn told(determined: &Determined, q: &[f64], t: f64) -> Option<(OpenLoop, Vec<f64
 /// All equations, or the first block that stays open.
 fn open_part(evaluator: &mut Evaluator<'_>, determined: &Determined, t: f64) -> Option<Subsystem> {
     let system = determined.system();
-    let n = system.rows.len();
+    let n = system.rows().len();
     if n <= LARGEST {
         return Some(Subsystem { rows: (0..n as u32).collect(), columns: (0..n as u32).collect() });
     }
@@ -94,7 +94,7 @@ fn open_loop(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64) -> Option<
         .iter()
         .zip(&linear.residual)
         .filter(|(_, open)| open.abs() > TAKES_PART * largest)
-        .map(|(&row, _)| system.rows[row as usize].declaration)
+        .map(|(&row, _)| system.rows()[row as usize].declaration)
         .collect();
     declarations.dedup();
     let links = links(evaluator, part, &linear, &declarations);
@@ -103,10 +103,10 @@ fn open_loop(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64) -> Option<
         .rows
         .iter()
         .zip(&linear.weights)
-        .map(|(&row, weight)| if system.rows[row as usize].declaration == at { weight * LIGHT } else { *weight })
+        .map(|(&row, weight)| if system.rows()[row as usize].declaration == at { weight * LIGHT } else { *weight })
         .collect();
     evaluator.assemble(&part.rows, &part.columns, Some(&weights), t)?;
-    let rows = part.rows.iter().map(|&row| row as usize).filter(|&row| system.rows[row].declaration == at);
+    let rows = part.rows.iter().map(|&row| row as usize).filter(|&row| system.rows()[row].declaration == at);
     let (kind, by) = widest_gap(evaluator, rows)?;
     Some(OpenLoop { at, by, kind, declarations, links, residual: largest })
 }
@@ -126,10 +126,10 @@ fn widest_gap(evaluator: &Evaluator<'_>, rows: impl Iterator<Item = usize>) -> O
     };
     let (length, angle) = (of_kind(CoordinateKind::Length), of_kind(CoordinateKind::Angle));
     // from elsewhere it closes: the estimates are too far off, and no length is wrong
-    if length <= CLOSED * system.length && angle <= CLOSED {
+    if length <= CLOSED * system.length() && angle <= CLOSED {
         return None;
     }
-    let is_length = length / system.length > 0.1 * angle;
+    let is_length = length / system.length() > 0.1 * angle;
     Some(if is_length { (CoordinateKind::Length, length) } else { (CoordinateKind::Angle, angle) })
 }
 
@@ -142,10 +142,10 @@ fn weakest(
     declarations: &[DeclarationId],
 ) -> Option<DeclarationId> {
     let is_about_places = |k: DeclarationId| {
-        let own = (0..system.rows.len()).find(|&row| system.rows[row].declaration == k);
+        let own = (0..system.rows().len()).find(|&row| system.rows()[row].declaration == k);
         own.is_some_and(|row| errors::gap_kind(system, row) == CoordinateKind::Length)
     };
-    let rank = |k: DeclarationId| match system.declarations[k].kind {
+    let rank = |k: DeclarationId| match system.declarations()[k].kind {
         DeclarationKind::Joint(JointKind::RevoluteRevolute) => 2,
         DeclarationKind::Constraint => 1,
         DeclarationKind::Driver if is_about_places(k) => 1,
@@ -153,11 +153,11 @@ fn weakest(
     };
     let open = |k: DeclarationId| {
         let own =
-            part.rows.iter().zip(&linear.residual).filter(|(row, _)| system.rows[**row as usize].declaration == k);
+            part.rows.iter().zip(&linear.residual).filter(|(row, _)| system.rows()[**row as usize].declaration == k);
         own.map(|(_, open)| open * open).sum::<f64>()
     };
     // of pins that are equally open the last one closes the loop
-    let is_no_driver = |k: DeclarationId| system.declarations[k].kind != DeclarationKind::Driver;
+    let is_no_driver = |k: DeclarationId| system.declarations()[k].kind != DeclarationKind::Driver;
     let largest = declarations.iter().map(|&k| open(k)).fold(0.0, f64::max);
     declarations.iter().copied().filter(|&k| open(k) > 0.3 * largest).max_by_key(|&k| (rank(k), is_no_driver(k), k))
 }
@@ -170,12 +170,13 @@ fn links(evaluator: &Evaluator<'_>, part: &Subsystem, linear: &Linear, declarati
         let link = |[length, found]: [f64; 2]| Link { of: LinkOf::Declaration(k), length, too_short: found > length };
         links.extend(evaluator.distance(k).map(link));
     }
-    let bodies = std::iter::once(None).chain(system.bodies.ids().map(Some));
+    let bodies = std::iter::once(None).chain(system.bodies().ids().map(Some));
     for body in bodies {
         let pulls: Vec<(DeclarationId, PointId, [f64; 2])> = declarations
             .iter()
             .filter_map(|&k| {
-                let point = *system.declarations[k].points.iter().find(|&&point| system.points[point].body == body)?;
+                let point =
+                    *system.declarations()[k].points.iter().find(|&&point| system.points()[point].body == body)?;
                 Some((k, point, force(evaluator, part, linear, k, body)))
             })
             .collect();
@@ -189,7 +190,7 @@ fn links(evaluator: &Evaluator<'_>, part: &Subsystem, linear: &Linear, declarati
         let way = [to[0] - from[0], to[1] - from[1]];
         let length = math::hypot(way[0], way[1]);
         let along = (force[0] * way[0] + force[1] * way[1]) / length;
-        if length > CLOSED * system.length && along.abs() > ALONG * largest {
+        if length > CLOSED * system.length() && along.abs() > ALONG * largest {
             links.push(Link { of: LinkOf::Body(body, [first, second]), length, too_short: along > 0.0 });
         }
     }
@@ -208,7 +209,7 @@ fn force(
     let mut force = [0.0; 2];
     for (k, &row) in part.rows.iter().enumerate() {
         let row = row as usize;
-        if system.rows[row].declaration != declaration {
+        if system.rows()[row].declaration != declaration {
             continue;
         }
         let pull = linear.residual[k] / linear.weights[k];

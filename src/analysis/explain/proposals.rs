@@ -43,9 +43,9 @@ impl Proposals<'_, '_> {
         let (evaluator, system) = (self.evaluator, self.evaluator.system);
         let mut candidates = Vec::new();
         // motors mostly stand on the ground
-        let on_ground = |one: &&Declaration| one.points.iter().any(|&point| system.points[point].body.is_none());
+        let on_ground = |one: &&Declaration| one.points.iter().any(|&point| system.points()[point].body.is_none());
         let (grounded, others): (Vec<&Declaration>, Vec<&Declaration>) =
-            system.declarations.iter().partition(on_ground);
+            system.declarations().iter().partition(on_ground);
         for declaration in grounded.into_iter().chain(others) {
             let [Some(&p), Some(&q)] = [0, 1].map(|k| declaration.points.get(k)) else {
                 continue;
@@ -65,14 +65,15 @@ impl Proposals<'_, '_> {
             candidates.push((format!("{quantity}({})", declaration.name), rates));
         }
         for &body in self.moving {
-            let name = &system.bodies[body].name;
+            let name = &system.bodies()[body].name;
             let turns = self.motions.iter().map(|motion| motion[system.pose_of(body)[2]]).collect();
-            let of_body = |point: &PointId| system.points[*point].body == Some(body);
-            let point = system.points.ids().filter(of_body).find_map(|k| Some((k, system.points[k].name.as_ref()?)));
+            let of_body = |point: &PointId| system.points()[*point].body == Some(body);
+            let point =
+                system.points().ids().filter(of_body).find_map(|k| Some((k, system.points()[k].name.as_ref()?)));
             if let Some((point, point_name)) = point {
                 for (part, word) in [(0, "x"), (1, "y")] {
                     let rates =
-                        self.motions.iter().map(|motion| velocity(evaluator, motion, point)[part] / system.length);
+                        self.motions.iter().map(|motion| velocity(evaluator, motion, point)[part] / system.length());
                     candidates.push((format!("{word}({name}.{point_name})"), rates.collect()));
                 }
             }
@@ -95,7 +96,7 @@ impl Proposals<'_, '_> {
         let size = |v: &[f64; 2]| math::hypot(v[0], v[1]);
         let fastest = all.iter().copied().max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or([0.0; 2]);
         let norm = f64::max(size(&fastest), f64::MIN_POSITIVE);
-        all.iter().map(|v| (v[0] * fastest[0] + v[1] * fastest[1]) / norm / system.length).collect()
+        all.iter().map(|v| (v[0] * fastest[0] + v[1] * fastest[1]) / norm / system.length()).collect()
     }
 
     /// Points of moving bodies that lie on points of others, and that no joint holds together.
@@ -103,7 +104,7 @@ impl Proposals<'_, '_> {
         let system = self.evaluator.system;
         // a joint takes two; it may hold what is held already, and leave one
         let is_enough = self.motions.len() >= 2 || system.ndof() < self.motions.len().cast_signed();
-        if !is_enough || system.points.len() > MOST_POINTS {
+        if !is_enough || system.points().len() > MOST_POINTS {
             return Vec::new();
         }
         let pinned = pinned_together(system);
@@ -128,16 +129,16 @@ impl Proposals<'_, '_> {
     fn pairs_drawn_together(&self, pinned: &IdVec<PointId, PointId>) -> Vec<(f64, PointId, PointId)> {
         let system = self.evaluator.system;
         let drawn = Evaluator::new(system);
-        let bodies_of = |p: PointId, q: PointId| [p, q].map(|point| system.points[point].body);
+        let bodies_of = |p: PointId, q: PointId| [p, q].map(|point| system.points()[point].body);
         let held = |p: PointId, q: PointId| {
             let bodies = bodies_of(p, q);
             let holds = |points: &[PointId]| matches!(points, &[a, b] if bodies_of(a, b) == bodies || bodies_of(b, a) == bodies);
-            pinned[p] == pinned[q] || system.declarations.iter().any(|declaration| holds(&declaration.points))
+            pinned[p] == pinned[q] || system.declarations().iter().any(|declaration| holds(&declaration.points))
         };
-        let is_used = |point: PointId| system.declarations.iter().any(|one| one.points.contains(&point));
+        let is_used = |point: PointId| system.declarations().iter().any(|one| one.points.contains(&point));
         let mut pairs = Vec::new();
-        for p in system.points.ids() {
-            for q in system.points.ids().skip(p.index() + 1) {
+        for p in system.points().ids() {
+            for q in system.points().ids().skip(p.index() + 1) {
                 let bodies = bodies_of(p, q);
                 let moves = bodies.iter().flatten().any(|body| self.moving.contains(body));
                 if bodies[0] == bodies[1] || !moves {
@@ -146,7 +147,7 @@ impl Proposals<'_, '_> {
                 let (a, b) = (drawn.place_of(p), drawn.place_of(q));
                 let apart = math::hypot(b[0] - a[0], b[1] - a[1]);
                 let near = if is_used(p) || is_used(q) { COINCIDE } else { DANGLING };
-                if apart < near * system.length && !held(p, q) {
+                if apart < near * system.length() && !held(p, q) {
                     pairs.push((apart, p, q));
                 }
             }
@@ -157,7 +158,7 @@ impl Proposals<'_, '_> {
 
 /// For each point, one that stands for all that are pinned together with it, also by way of others.
 fn pinned_together(system: &ConstraintSystem) -> IdVec<PointId, PointId> {
-    let mut stands_for: IdVec<PointId, PointId> = system.points.ids().collect();
+    let mut stands_for: IdVec<PointId, PointId> = system.points().ids().collect();
     let mut join = |a: PointId, b: PointId| {
         let (from, to) = (stands_for[a], stands_for[b]);
         for point in stands_for.iter_mut() {
@@ -166,7 +167,7 @@ fn pinned_together(system: &ConstraintSystem) -> IdVec<PointId, PointId> {
             }
         }
     };
-    for declaration in &system.declarations {
+    for declaration in system.declarations() {
         if let (DeclarationKind::Joint(JointKind::Revolute | JointKind::Weld), &[a, b]) =
             (declaration.kind, declaration.points.as_slice())
         {
@@ -175,7 +176,7 @@ fn pinned_together(system: &ConstraintSystem) -> IdVec<PointId, PointId> {
     }
     // a point may stand in a body under several names
     let mut first_at: FxHashMap<(Option<BodyId>, [u64; 2]), PointId> = FxHashMap::default();
-    for (k, point) in system.points.pairs() {
+    for (k, point) in system.points().pairs() {
         let place = point.at.map(|id| (system.value_at(id, &[]) + 0.0).to_bits());
         match first_at.entry((point.body, place)) {
             Entry::Occupied(known) => join(k, *known.get()),
@@ -187,17 +188,17 @@ fn pinned_together(system: &ConstraintSystem) -> IdVec<PointId, PointId> {
 
 /// How fast the body of a point turns.
 fn turn(system: &ConstraintSystem, motion: &[f64], point: PointId) -> f64 {
-    system.points[point].body.map_or(0.0, |body| motion[system.pose_of(body)[2]])
+    system.points()[point].body.map_or(0.0, |body| motion[system.pose_of(body)[2]])
 }
 
 /// How fast a point moves (m).
 fn velocity(evaluator: &Evaluator<'_>, motion: &[f64], point: PointId) -> [f64; 2] {
     let system = evaluator.system;
-    let Some(body) = system.points[point].body else {
+    let Some(body) = system.points()[point].body else {
         return [0.0; 2];
     };
     let [x, y] = evaluator.place_of(point);
-    let along = |k: usize| motion[k] * system.coordinates[k].scale;
+    let along = |k: usize| motion[k] * system.coordinates()[k].scale;
     let [origin_x, origin_y, phi] = system.pose_of(body);
     let turn = motion[phi];
     [along(origin_x) - turn * (y - evaluator.q[origin_y]), along(origin_y) + turn * (x - evaluator.q[origin_x])]

@@ -57,7 +57,7 @@ pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
 /// How far all that the declaration of a row asks for is off, with all other equations met.
 fn gap_of_declaration(evaluator: &mut Evaluator<'_>, part: &Subsystem, row: usize, t: f64) -> Option<f64> {
     let system = evaluator.system;
-    let is_own = |other: &u32| system.rows[*other as usize].declaration == system.rows[row].declaration;
+    let is_own = |other: &u32| system.rows()[*other as usize].declaration == system.rows()[row].declaration;
     let (own, others): (Vec<u32>, Vec<u32>) = part.rows.iter().copied().partition(is_own);
     let q = evaluator.q.clone();
     evaluator.assemble(&others, &part.columns, None, t)?;

@@ -55,7 +55,7 @@ pub fn explain_fold(
 
 /// The watch over a contact that ends where the position was set.
 fn contact_that_ends(kinematics: &Kinematics, fault: Fault, sigma: f64) -> Option<usize> {
-    let watches = &kinematics.system().watches;
+    let watches = kinematics.system().watches();
     match fault {
         // a curvature that comes to zero makes the position singular, one that jumps over it does not
         Fault::Watch { index } if watches[index].kind != WatchKind::Curvature || sigma > NEAR => Some(index),
@@ -101,14 +101,14 @@ pub fn explain_contact(kinematics: &mut Kinematics, state: &State, passed: bool)
 
 /// The watch over a line of centres that vanishes, or nearly so, where the position was set.
 pub fn centers_that_meet(kinematics: &Kinematics) -> Option<usize> {
-    let watches = &kinematics.system().watches;
+    let watches = kinematics.system().watches();
     let meet = |k: &usize| watches[*k].kind == WatchKind::LineOfCenters && kinematics.watched(*k).abs() < FLAT;
     (0..watches.len()).find(meet)
 }
 
 /// The joint at whose contact the relative curvature vanishes, or nearly so, where the position was set.
 fn flat_contact(kinematics: &Kinematics) -> Option<DeclarationId> {
-    let watches = &kinematics.system().watches;
+    let watches = kinematics.system().watches();
     let flat = |k: &usize| watches[*k].kind == WatchKind::Curvature && kinematics.watched(*k).abs() < FLAT;
     (0..watches.len()).find(flat).map(|k| watches[k].declaration)
 }
@@ -138,7 +138,7 @@ fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Diagnostic>
     let index = nearest.filter(|(_, left)| *left < AT_HAND).map(|(rim, _)| rim)?;
     let corner = corner_ahead(kinematics, &rims[index], state);
     let system = kinematics.system();
-    let declarations = &system.rims[index].declarations;
+    let declarations = &system.rims()[index].declarations;
     let has_tangent = declarations.iter().any(|&declaration| errors::has_tangent(system, declaration));
     Some(match corner.filter(|_| has_tangent) {
         Some(left) => errors::position_jump(system, declarations, true, (0, 0.0), state.t + left),
@@ -226,7 +226,7 @@ fn heaviest_driver(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
 /// The joints and constraints that the dependency is made of, those that weigh most first.
 fn joints_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId> {
     let all = declarations_in(system, left);
-    all.into_iter().filter(|&k| system.declarations[k].kind != DeclarationKind::Driver).collect()
+    all.into_iter().filter(|&k| system.declarations()[k].kind != DeclarationKind::Driver).collect()
 }
 
 /// All declarations that the dependency is made of, those that weigh most first.
@@ -238,7 +238,7 @@ fn declarations_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId
     rows.sort_by(|&a, &b| weight(b).total_cmp(&weight(a)));
     let mut joints: Vec<DeclarationId> = Vec::new();
     for row in rows {
-        let declaration = system.rows[row].declaration;
+        let declaration = system.rows()[row].declaration;
         if !joints.contains(&declaration) {
             joints.push(declaration);
         }
@@ -259,13 +259,13 @@ fn fastest_driver(kinematics: &mut Kinematics, state: &State, t: f64) -> Option<
     kinematics.restore(state);
     // the speeds that are asked for are known though those of the mechanism may not be
     let _ = kinematics.derivatives(&mut state.clone());
-    let speeds: Vec<f64> = (0..system.rows.len()).map(|row| kinematics.asked_speed(row)).collect();
+    let speeds: Vec<f64> = (0..system.rows().len()).map(|row| kinematics.asked_speed(row)).collect();
     kinematics.set_time(t);
     let is_set = kinematics.set_position(&state.q).is_ok();
     let speed = |row: usize| {
         let jump = if is_set && t > state.t { kinematics.residual(row) / (t - state.t) } else { 0.0 };
         f64::max(speeds[row], jump)
     };
-    let drivers = (0..system.rows.len()).filter(|&row| system.is_driver(row) && speed(row) > 0.0);
+    let drivers = (0..system.rows().len()).filter(|&row| system.is_driver(row) && speed(row) > 0.0);
     drivers.max_by(|&a, &b| speed(a).total_cmp(&speed(b)))
 }

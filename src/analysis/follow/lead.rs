@@ -146,6 +146,6 @@ fn follow(
 }
 
 fn is_the_same(system: &ConstraintSystem, a: &[f64], b: &[f64]) -> bool {
-    let scale = |k: usize| system.coordinates[k].scale;
+    let scale = |k: usize| system.coordinates()[k].scale;
     (0..a.len()).all(|k| (a[k] - b[k]).abs() <= KINK * scale(k))
 }

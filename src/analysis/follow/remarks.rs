@@ -21,7 +21,7 @@ pub struct Said {
 
 impl Remarks {
     pub fn new(system: &ConstraintSystem) -> Remarks {
-        let warned = system.declarations.map(|_| false);
+        let warned = system.declarations().map(|_| false);
         Remarks { said: Said { diagnostics: Diagnostics::default(), warned }, jumps: None }
     }
 

@@ -153,11 +153,11 @@ impl Formula {
         let mut moving: Vec<Moving> = graph.symbols_of_all(&formulas).into_iter().filter_map(Moving::of).collect();
         moving.sort_unstable();
         moving.dedup();
-        let coordinates = system.coordinates.len();
-        let multipliers = if system.forces.is_some() { system.rows.len() } else { 0 };
-        let counts = [system.params.len(), coordinates + smooth.count(), variations, multipliers];
+        let coordinates = system.coordinates().len();
+        let multipliers = if system.forces().is_some() { system.rows().len() } else { 0 };
+        let counts = [system.params().len(), coordinates + smooth.count(), variations, multipliers];
         let (program, roots) = Program::of_formulas(&graph, counts, &formulas);
-        let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
+        let params: Vec<f64> = system.params().iter().map(|param| param.value).collect();
         let registers = program.start(&params);
         let ranges = Ranges::new(&program, &registers, &roots, Stage::Measures, false);
         let seen = [f64::NEG_INFINITY, f64::INFINITY];

@@ -40,7 +40,7 @@ use survey::Trouble;
 #[must_use]
 pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2]) -> Diagnostics {
     let mut diagnostics = Diagnostics::default();
-    for reduction in &system.results.reductions {
+    for reduction in &system.results().reductions {
         if let ReductionKind::At(at) = reduction.kind {
             let t = system.value_at(at, &[]);
             if !(from <= t && t <= to) {
@@ -93,7 +93,7 @@ impl Asked {
     #[must_use]
     pub fn answer(self) -> Option<Answers> {
         let determined = self.kinematics.determined();
-        let count = determined.system().results.reductions.len();
+        let count = determined.system().results().reductions.len();
         let cancel = self.cancel.clone();
         let mut analysis = Analysis { asked: self, determined, found: vec![None; count] };
         while let Some(level) = analysis.next_level() {
@@ -130,7 +130,7 @@ impl Analysis {
         let mut level = Vec::new();
         let open: Vec<usize> = (0..self.found.len()).filter(|&k| self.found[k].is_none()).collect();
         for k in open {
-            let needed = needed(&system.graph, system.results.reductions[k].of);
+            let needed = needed(system.graph(), system.results().reductions[k].of);
             if let Some(trouble) = needed.iter().find_map(|&other| self.found[other].and_then(Result::err)) {
                 self.found[k] = Some(Err(trouble));
             } else if needed.iter().all(|&other| self.found[other].is_some()) {
@@ -144,7 +144,7 @@ impl Analysis {
     fn follow(&mut self, level: &[usize]) -> Result<(), Box<Diagnostic>> {
         let determined = Arc::clone(&self.determined);
         let system = determined.system();
-        let asked: Vec<(usize, Reduction)> = level.iter().map(|&k| (k, system.results.reductions[k])).collect();
+        let asked: Vec<(usize, Reduction)> = level.iter().map(|&k| (k, system.results().reductions[k])).collect();
         let mut places = Places::new(self.asked.kinematics.clone(), self.asked.solver.clone());
         let (mut all, formula_of) = self.formulas(&asked, places.variations());
         let at = |reduction: &Reduction| match reduction.kind {
@@ -167,11 +167,11 @@ impl Analysis {
     fn formulas(&self, asked: &[(usize, Reduction)], variations: usize) -> (Vec<Reduced>, Vec<usize>) {
         let system = self.system();
         let (mut graph, mut known) = (Graph::new(), FxHashMap::default());
-        graph.import_tables(&system.graph, &mut known, Graph::symbol);
+        graph.import_tables(system.graph(), &mut known, Graph::symbol);
         let mut formula_of: Vec<usize> = Vec::new();
         let mut ids: Vec<ExprId> = Vec::new();
         for (_, reduction) in asked {
-            graph.import(&system.graph, &[reduction.of], &mut known, |graph, symbol| match symbol {
+            graph.import(system.graph(), &[reduction.of], &mut known, |graph, symbol| match symbol {
                 Symbol::Named(k) => graph.constant(self.found[k as usize].and_then(Result::ok).unwrap_or(0.0)),
                 other => graph.symbol(other),
             });
@@ -224,7 +224,7 @@ impl Analysis {
 
     /// No results: the motion ends before the analysis does.
     fn without_motion(&self, why: &Diagnostic) -> Answers {
-        let outcomes = &self.system().results.outcomes;
+        let outcomes = &self.system().results().outcomes;
         let notes = outcomes.first().map(|first| errors::results_without_motion(first, outcomes.len(), why));
         Answers { values: vec![None; outcomes.len()], notes: notes.into_iter().collect() }
     }
@@ -232,9 +232,9 @@ impl Analysis {
     fn answers(&self) -> Answers {
         let system = self.system();
         let mut answers = Answers::default();
-        for outcome in &system.results.outcomes {
-            let value = system.graph.value(outcome.value, |symbol| match symbol {
-                Symbol::Param(k) => system.params[k as usize].value,
+        for outcome in &system.results().outcomes {
+            let value = system.graph().value(outcome.value, |symbol| match symbol {
+                Symbol::Param(k) => system.params()[k as usize].value,
                 Symbol::Named(k) => self.found[k as usize].and_then(Result::ok).unwrap_or(f64::NAN),
                 _ => f64::NAN,
             });
@@ -243,7 +243,7 @@ impl Analysis {
                 answers.values.push(Some(value + 0.0));
                 continue;
             }
-            let needed = needed(&system.graph, outcome.value);
+            let needed = needed(system.graph(), outcome.value);
             let trouble = needed.into_iter().find_map(|k| self.found[k].and_then(Result::err));
             answers.values.push(None);
             answers.notes.push(errors::result_without_value(outcome, trouble));

@@ -28,7 +28,7 @@ pub(super) struct Places {
 
 impl Places {
     pub fn new(kinematics: Kinematics, solver: Option<Arc<Solver>>) -> Places {
-        let n = kinematics.system().coordinates.len();
+        let n = kinematics.system().coordinates().len();
         let registers: Vec<Register> = kinematics.signals().iter().map(|signal| signal.register).collect();
         let (program, values) = kinematics.program();
         let signals = Ranges::new(program, values, &registers, Stage::Time, true);
@@ -41,7 +41,7 @@ impl Places {
             row: vec![0.0; stride],
             curve: vec![[0.0; 6]; n],
             delta: vec![0.0; n],
-            bounds: vec![0.0; kinematics.system().rows.len()],
+            bounds: vec![0.0; kinematics.system().rows().len()],
             has_bounds: false,
             signals,
             signal_count: registers.len(),

@@ -48,7 +48,7 @@ impl Smooth {
         let (mut own, mut known) = (Graph::new(), FxHashMap::default());
         own.import_tables(graph, &mut known, Graph::symbol);
         let mut towers = Vec::with_capacity(found.len());
-        let first = system.coordinates.len();
+        let first = system.coordinates().len();
         for (k, &(id, order)) in found.iter().enumerate() {
             known.insert(id, own.symbol(Symbol::Coordinate { index: (first + k) as u32, order }));
             towers.push(tower(graph, id, order, system.jerk().is_some()));
@@ -60,15 +60,15 @@ impl Smooth {
     fn new(graph: &Graph, towers: &[[Option<ExprId>; 4]], system: &ConstraintSystem) -> Smooth {
         let formulas: Vec<ExprId> = towers.iter().flatten().flatten().copied().collect();
         let (program, roots) =
-            Program::of_formulas(graph, [system.params.len(), system.coordinates.len(), 0, 0], &formulas);
+            Program::of_formulas(graph, [system.params().len(), system.coordinates().len(), 0, 0], &formulas);
         let mut roots = roots.into_iter();
         let towers = towers.iter().map(|tower| tower.map(|formula| formula.and_then(|_| roots.next()))).collect();
-        let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
+        let params: Vec<f64> = system.params().iter().map(|param| param.value).collect();
         let registers = program.start(&params);
         let symbols = graph.symbols_of_all(&formulas);
         let mut coordinates: Vec<usize> = symbols.iter().filter_map(|&symbol| coordinate_of(symbol)).collect();
         coordinates.dedup();
-        let is_turn = |&k: &usize| system.coordinates[k].kind == CoordinateKind::Angle;
+        let is_turn = |&k: &usize| system.coordinates()[k].kind == CoordinateKind::Angle;
         let turns = coordinates.iter().copied().filter(is_turn).collect();
         Smooth { program, registers, towers, coordinates, turns }
     }
@@ -127,7 +127,7 @@ fn kinds(graph: &Graph, value: ExprId, system: &ConstraintSystem) -> FxHashMap<E
 
 fn kind_of(node: Node, system: &ConstraintSystem, of: impl Fn(ExprId) -> Kind) -> Kind {
     match node {
-        Node::Symbol(Symbol::Coordinate { index, order }) => match (system.coordinates[index as usize].kind, order) {
+        Node::Symbol(Symbol::Coordinate { index, order }) => match (system.coordinates()[index as usize].kind, order) {
             (CoordinateKind::Angle, 0) => Kind::Turn,
             (CoordinateKind::Angle | CoordinateKind::Length, _) => Kind::Smooth { order, factors: 1 },
             (CoordinateKind::Argument, _) => Kind::Other,

@@ -30,7 +30,7 @@ impl<P: Fn(usize) -> f64, J: Fn(usize) -> f64> Evaluated<'_, P, J> {
     pub fn linear(&self, rows: &[u32], columns: &[u32], weights: Option<&[f64]>) -> Option<Linear> {
         let system = self.system;
         let n = columns.len();
-        let mut place = vec![usize::MAX; system.coordinates.len()];
+        let mut place = vec![usize::MAX; system.coordinates().len()];
         for (k, &column) in columns.iter().enumerate() {
             place[column as usize] = k;
         }
@@ -42,9 +42,9 @@ impl<P: Fn(usize) -> f64, J: Fn(usize) -> f64> Evaluated<'_, P, J> {
         for (k, &row) in rows.iter().enumerate() {
             let row = row as usize;
             let line = &mut linear.jacobian[k * n..(k + 1) * n];
-            for (position, &(column, _)) in system.phi_q.range(row).zip(system.phi_q.row(row)) {
+            for (position, &(column, _)) in system.phi_q().range(row).zip(system.phi_q().row(row)) {
                 if let Some(entry) = line.get_mut(place[column as usize]) {
-                    *entry = (self.phi_q)(position) * system.coordinates[column as usize].scale;
+                    *entry = (self.phi_q)(position) * system.coordinates()[column as usize].scale;
                 }
             }
             let norm = square(line).sqrt();
@@ -82,7 +82,7 @@ pub fn minimize(
         let longest = step.iter().fold(0.0, |l: f64, x| l.max(x.abs()));
         let cut = if longest > LARGEST_STEP { LARGEST_STEP / longest } else { 1.0 };
         for (&column, step) in columns.iter().zip(step) {
-            q[column as usize] += cut * step * system.coordinates[column as usize].scale;
+            q[column as usize] += cut * step * system.coordinates()[column as usize].scale;
         }
         match linear(q, Some(&weights)) {
             Some(next) if square(&next.residual) < size => {

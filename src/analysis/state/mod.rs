@@ -15,7 +15,7 @@ mod yardstick;
 
 pub use aslant::aslant;
 pub use determinant::Determinant;
-pub use kinematics::{Fault, Kinematics, State};
+pub use kinematics::{Fault, Kinematics, State, Unknown};
 pub use least_squares::{Evaluated, Linear, minimize};
 pub use linear::Singular;
 pub use times::{Horizon, Times, behind_start, shortly_after};

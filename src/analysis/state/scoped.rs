@@ -28,8 +28,7 @@ struct OwnLu {
 
 impl ScopedLu {
     pub fn new(system: &ConstraintSystem) -> ScopedLu {
-        let scopes = system.variations.iter().flat_map(|variations| &variations.scopes);
-        ScopedLu { scopes: scopes.map(|scope| OwnLu::new(scope, system)).collect() }
+        ScopedLu { scopes: system.scopes().iter().map(|scope| OwnLu::new(scope, system)).collect() }
     }
 
     /// Factors the matrices of all parts, where the right sides of the first variations have been computed; what is nearer to a singular
@@ -60,7 +59,7 @@ impl OwnLu {
         let place = |&(column, _): &(u32, _)| scope.columns.binary_search(&column).unwrap_or(0);
         OwnLu {
             columns: scope.columns.clone(),
-            scales: scope.columns.iter().map(|&column| system.coordinates[column as usize].scale).collect(),
+            scales: scope.columns.iter().map(|&column| system.coordinates()[column as usize].scale).collect(),
             pattern: (0..scope.phi.len()).map(|row| scope.phi_q.row(row).iter().map(place).collect()).collect(),
             inverse_norms: vec![0.0; n],
             a: vec![0.0; n * n],

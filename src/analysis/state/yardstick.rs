@@ -89,7 +89,7 @@ pub struct Yardstick {
 
 impl Yardstick {
     pub fn new(system: &ConstraintSystem, blocks: &[Block]) -> Yardstick {
-        let n = system.coordinates.len();
+        let n = system.coordinates().len();
         let features = Features::of(system);
         let mut yardstick = Yardstick {
             parts: Vec::with_capacity(blocks.len()),
@@ -98,15 +98,15 @@ impl Yardstick {
             entries: Vec::new(),
             centroids: Vec::new(),
             magnitudes: Vec::new(),
-            beside: vec![0.0; system.phi_q.entries().len()],
+            beside: vec![0.0; system.phi_q().entries().len()],
             row_scale: vec![1.0; n],
             column_scale: vec![1.0; n],
-            size: system.coordinates.iter().map(|coordinate| coordinate.scale).collect(),
+            size: system.coordinates().iter().map(|coordinate| coordinate.scale).collect(),
             gathered: vec![[0.0; 2]; n],
             is_measured: false,
         };
         let mut place_of = vec![NONE; n];
-        let mut centroid_of = system.bodies.map(|_| NONE);
+        let mut centroid_of = system.bodies().map(|_| NONE);
         for block in blocks {
             for (place, &column) in block.columns.iter().enumerate() {
                 place_of[column as usize] = place as u32;
@@ -136,7 +136,7 @@ impl Yardstick {
             self.centroids.push(Centroid { turn: phi, moves, local, from_origin: local });
         }
         for &row in &block.rows {
-            for (position, &(column, _)) in system.phi_q.range(row as usize).zip(system.phi_q.row(row as usize)) {
+            for (position, &(column, _)) in system.phi_q().range(row as usize).zip(system.phi_q().row(row as usize)) {
                 if place_of[column as usize] != NONE {
                     let (along, kind) = self.kind_of(system, [row, column], features, centroid_of);
                     self.entries.push(Entry { row, column, position: position as u32, along, kind });
@@ -167,7 +167,7 @@ impl Yardstick {
             let [x, y, _] = system.pose_of(body);
             [x, y].map(|column| slope(system, row, column))
         });
-        let kind = match (system.coordinates[column as usize].kind, body) {
+        let kind = match (system.coordinates()[column as usize].kind, body) {
             (CoordinateKind::Angle, Some(body)) => {
                 let about = centroid_of[body];
                 let centroid = self.centroids.get(about as usize).map_or([0.0; 2], |one| one.local);
@@ -327,8 +327,8 @@ impl Mean {
 
 /// The position of a row's slope in a coordinate.
 fn slope(system: &ConstraintSystem, row: u32, column: usize) -> u32 {
-    let at = system.phi_q.row(row as usize).binary_search_by_key(&(column as u32), |&(column, _)| column);
-    at.map_or(NONE, |at| (system.phi_q.range(row as usize).start + at) as u32)
+    let at = system.phi_q().row(row as usize).binary_search_by_key(&(column as u32), |&(column, _)| column);
+    at.map_or(NONE, |at| (system.phi_q().range(row as usize).start + at) as u32)
 }
 
 /// Whether a row is of a joint or of a distance, whose slopes in places have one magnitude wherever it points.
@@ -343,16 +343,16 @@ fn changes(system: &ConstraintSystem, row: usize) -> bool {
         DeclarationKind::Joint(kind) => {
             !matches!(kind, JointKind::Revolute | JointKind::Weld | JointKind::RevoluteRevolute)
         }
-        _ => system.phi_q.row(row).iter().any(|&(_, slope)| !system.graph.dependence(slope).is_constant()),
+        _ => system.phi_q().row(row).iter().any(|&(_, slope)| !system.graph().dependence(slope).is_constant()),
     }
 }
 
 /// Whether a row's slopes are to be looked at beside a position: it is written by hand, or moves along a curve or line of
 /// centres.
 pub fn is_looked_at_beside(system: &ConstraintSystem, row: usize) -> bool {
-    let slopes = system.phi_q.row(row);
+    let slopes = system.phi_q().row(row);
     let has_own = slopes.iter().any(|&(column, _)| system.body_of(column as usize).is_none());
-    let constant = |&(_, slope): &(u32, _)| system.graph.dependence(slope).is_constant();
+    let constant = |&(_, slope): &(u32, _)| system.graph().dependence(slope).is_constant();
     (has_own || !is_of_joint(system, row)) && !slopes.iter().all(constant)
 }
 
@@ -363,17 +363,17 @@ struct Features {
 
 impl Features {
     fn of(system: &ConstraintSystem) -> Features {
-        let formulas: Vec<_> = system.points.iter().flat_map(|point| point.at).collect();
+        let formulas: Vec<_> = system.points().iter().flat_map(|point| point.at).collect();
         let mut values = Vec::new();
         if !formulas.is_empty() {
             let value = |symbol| match symbol {
-                crate::expr::Symbol::Param(k) => system.params[k as usize].value,
+                crate::expr::Symbol::Param(k) => system.params()[k as usize].value,
                 crate::expr::Symbol::Shift(_) => 0.0,
                 _ => f64::NAN,
             };
-            system.graph.extend_values(&mut values, value);
+            system.graph().extend_values(&mut values, value);
         }
-        Features { places: system.points.map(|point| point.at.map(|id| values[id.index()])) }
+        Features { places: system.points().map(|point| point.at.map(|id| values[id.index()])) }
     }
 
     /// The features of a body that a row speaks of.
@@ -384,7 +384,7 @@ impl Features {
         body: BodyId,
     ) -> impl Iterator<Item = [f64; 2]> + 'f {
         let features = &system.declaration_of(row).features;
-        features.iter().filter(move |&&k| system.points[k].body == Some(body)).map(|&k| self.places[k])
+        features.iter().filter(move |&&k| system.points()[k].body == Some(body)).map(|&k| self.places[k])
     }
 
     /// How far from a centroid a row takes hold of a body at most (m).
@@ -397,7 +397,7 @@ impl Features {
         if system.declaration_of(row).axes.is_empty() {
             return longest;
         }
-        let bodies = system.phi_q.row(row).iter().filter_map(|&(column, _)| system.body_of(column as usize));
+        let bodies = system.phi_q().row(row).iter().filter_map(|&(column, _)| system.body_of(column as usize));
         let smallest = bodies.map(|body| system.size_of(body)).fold(f64::INFINITY, f64::min);
         f64::max(longest, if smallest.is_finite() { LEAST_LEVER * smallest } else { 0.0 })
     }
@@ -419,7 +419,7 @@ impl Features {
         }
         for &row in &block.rows {
             let mut touched: Vec<BodyId> = system
-                .phi_q
+                .phi_q()
                 .row(row as usize)
                 .iter()
                 .filter_map(|&(column, _)| system.body_of(column as usize))

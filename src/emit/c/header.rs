@@ -27,7 +27,7 @@ impl Interface<'_> {
     /// The header.
     pub(super) fn header(&self) -> String {
         let mut page = Page::default();
-        let (name, guard) = (&self.unit.system.name, format!("{}_H", self.constants()));
+        let (name, guard) = (self.unit.system.name(), format!("{}_H", self.constants()));
         page.line(&comment(self.mark));
         page.blank();
         page.line("/*");
@@ -65,14 +65,14 @@ impl Interface<'_> {
     /// Places and counts.
     fn numbers(&self, page: &mut Page) {
         let (system, constants) = (self.unit.system, self.constants());
-        let coordinates = Case::Constant.names(system.coordinates.iter().map(|of| of.name.as_str()));
-        let said = system.coordinates.iter().map(|of| format!("{} ({})", of.name, unit(of.kind.unit())));
+        let coordinates = Case::Constant.names(system.coordinates().iter().map(|of| of.name.as_str()));
+        let said = system.coordinates().iter().map(|of| format!("{} ({})", of.name, unit(of.kind.unit())));
         let coordinates = coordinates.into_iter().zip(said).collect::<Vec<_>>();
         self.places(page, "COLUMN", "COLUMNS", "Where each result stands in a row.", &self.columns());
         self.places(page, "COORDINATE", "COORDINATES", "Where each coordinate stands in a list of them.", &coordinates);
         if self.has_params() {
-            let names = Case::Constant.names(system.params.iter().map(|of| of.name.as_str()));
-            let said = system.params.iter().map(|of| format!("{} ({})", of.name, unit(&of.unit())));
+            let names = Case::Constant.names(system.params().iter().map(|of| of.name.as_str()));
+            let said = system.params().iter().map(|of| format!("{} ({})", of.name, unit(&of.unit())));
             self.places(
                 page,
                 "PARAM",
@@ -82,11 +82,24 @@ impl Interface<'_> {
             );
         }
         if let Some(following) = &self.unit.following {
-            let inputs = &following.unit.system.inputs;
+            let inputs = following.unit.system.inputs();
             let names = Case::Constant.names_of_inputs(inputs);
             let own = inputs.iter().zip(names).filter(|(of, _)| !of.is_time());
             let own = own.map(|(of, name)| (name, format!("{} ({})", of.name, unit(&of.unit)))).collect::<Vec<_>>();
             self.places(page, "INPUT", "INPUTS", "The numbers of the inputs.", &own);
+        }
+        if self.has_forces() {
+            let reactions = system.reactions();
+            let names = Case::Constant.names(reactions.iter().map(|of| of.name.as_str()));
+            let said = reactions.iter().map(|of| format!("{} ({})", of.name, unit(&of.unit)));
+            let named = names.into_iter().zip(said).collect::<Vec<_>>();
+            self.places(
+                page,
+                "FORCE",
+                "FORCES",
+                "Where each force, moment and effort stands in a list of them.",
+                &named,
+            );
         }
         let Some(motion) = &self.unit.motion else {
             return;
@@ -156,7 +169,7 @@ impl Interface<'_> {
                     let inner = |part: usize| format!("{}_{}", self.prefix, called(&params.types[part].name));
                     let (declared, says) = match &own.of {
                         Of::Number(param) => {
-                            let of = self.unit.system.params[*param].unit();
+                            let of = self.unit.system.params()[*param].unit();
                             (format!("double {name}"), format!("{} ({})", own.source, unit(&of)))
                         }
                         Of::Part(part) => (format!("{} {name}", inner(*part)), own.source.clone()),

@@ -138,16 +138,16 @@ impl<'s> Formulas<'s> {
         let mut graph = Graph::new();
         let mut known = FxHashMap::default();
         let leaf = |graph: &mut Graph, symbol: Symbol| graph.symbol(symbol);
-        graph.import_tables(&system.graph, &mut known, leaf);
+        graph.import_tables(system.graph(), &mut known, leaf);
         known.clear();
         let mut shared = Vec::new();
-        for id in shared_parts(&system.graph, roots) {
-            graph.import(&system.graph, &[id], &mut known, leaf);
+        for id in shared_parts(system.graph(), roots) {
+            graph.import(system.graph(), &[id], &mut known, leaf);
             shared.extend(known.get(&id));
             let name = graph.symbol(Symbol::Named(shared.len() as u32 - 1));
             known.insert(id, name);
         }
-        graph.import(&system.graph, roots, &mut known, leaf);
+        graph.import(system.graph(), roots, &mut known, leaf);
         let (terms, open) = (FxHashMap::default(), Vec::new());
         Formulas { system, graph, roots: known, shared, terms, open }
     }
@@ -651,7 +651,7 @@ fn reference(number: usize) -> Piece {
 
 /// A parameter's symbol.
 pub(super) fn param(system: &ConstraintSystem, number: usize) -> Set {
-    let name = &system.params[number].name;
+    let name = &system.params()[number].name;
     match name.split_once('.') {
         None => symbol(name, Style::Italic, number),
         // a coordinate of a point
@@ -664,12 +664,12 @@ pub(super) fn param(system: &ConstraintSystem, number: usize) -> Set {
 
 /// A table's symbol.
 fn table_name(system: &ConstraintSystem, table: TableId) -> Set {
-    symbol(&system.graph.tables()[table.index()].name, Style::Upright, table.index())
+    symbol(&system.graph().tables()[table.index()].name, Style::Upright, table.index())
 }
 
 /// A coordinate's symbol, or that of a derivative of it: `\dot{\phi}_{\mathrm{crank}}`.
 pub(super) fn coordinate(system: &ConstraintSystem, index: usize, order: u8) -> Set {
-    let name = &system.coordinates[index].name;
+    let name = &system.coordinates()[index].name;
     let own = name.rsplit('.').next().unwrap_or(name);
     let letter = match own {
         "phi" | "theta" => format!(r"\{own}"),
@@ -679,9 +679,9 @@ pub(super) fn coordinate(system: &ConstraintSystem, index: usize, order: u8) -> 
         0 => letter,
         order => format!(r"\{}ot{{{letter}}}", "d".repeat(usize::from(order))),
     };
-    let number = match system.coordinates[index].owner {
+    let number = match system.coordinates()[index].owner {
         Owner::Body(body) => body.index(),
-        Owner::Joint(joint) => system.bodies.len() + joint.index(),
+        Owner::Joint(joint) => system.bodies().len() + joint.index(),
     };
     let owner = symbol(system.owner_name(index), Style::Upright, number);
     Set { text: format!("{dotted}_{{{}}}", owner.text), width: 0.7 + 0.72 * owner.width }

@@ -8,7 +8,7 @@ mod formula;
 mod letters;
 
 use crate::expr::{ExprId, Node, Table};
-use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, IdVec};
+use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, IdVec, Mechanics};
 use formula::{Formulas, coordinate, param};
 use letters::{Set, Style, numeral, symbol, words};
 
@@ -48,14 +48,17 @@ const PREAMBLE: &str = r"\documentclass[a4paper,10pt,fleqn]{article}
 
 /// One document; `file` is the name of the source for its head.
 #[must_use]
-pub fn latex(system: &ConstraintSystem, file: &str) -> String {
-    let mut writer = Writer { system, formulas: Formulas::new(system, &roots(system)), text: String::new() };
+pub fn latex(system: &ConstraintSystem, mechanics: Option<&Mechanics>, file: &str) -> String {
+    let mut writer = Writer { system, formulas: Formulas::new(system, &roots(system, mechanics)), text: String::new() };
     writer.head(file);
     writer.coordinates();
     writer.params();
     writer.inputs();
     writer.tables();
     writer.equations();
+    if let Some(mechanics) = mechanics {
+        writer.forces(mechanics);
+    }
     writer.measures();
     writer.text + "\n\\end{document}\n"
 }
@@ -63,21 +66,25 @@ pub fn latex(system: &ConstraintSystem, file: &str) -> String {
 /// A measure's formula, without the condition under which it has a value: a reader sees from a table where that ends.
 fn where_it_has_a_value(system: &ConstraintSystem, measure: ExprId) -> ExprId {
     let is_none =
-        |id: ExprId| system.graph.dependence(id).is_constant() && !system.graph.value(id, |_| 0.0).is_finite();
-    match system.graph.node(measure) {
+        |id: ExprId| system.graph().dependence(id).is_constant() && !system.graph().value(id, |_| 0.0).is_finite();
+    match system.graph().node(measure) {
         Node::Select(_, value, otherwise) if is_none(otherwise) => value,
         _ => measure,
     }
 }
 
 /// Every formula that is written.
-fn roots(system: &ConstraintSystem) -> Vec<ExprId> {
-    let mut roots: Vec<ExprId> = system.rows.iter().map(|row| row.phi).collect();
-    roots.extend(system.phi_q.entries().iter().map(|&(_, id)| id));
+fn roots(system: &ConstraintSystem, mechanics: Option<&Mechanics>) -> Vec<ExprId> {
+    let mut roots: Vec<ExprId> = system.rows().iter().map(|row| row.phi).collect();
+    roots.extend(system.phi_q().entries().iter().map(|&(_, id)| id));
     roots.extend(system.nu().iter().chain(system.gamma()));
-    roots.extend(system.inputs.iter().map(|input| input.formulas[0]));
-    roots.extend(system.measures.iter().map(|measure| where_it_has_a_value(system, measure.value)));
-    roots.extend(system.graph.tables().iter().flat_map(|table| table.knots.iter().chain(&table.values).copied()));
+    roots.extend(system.inputs().iter().map(|input| input.formulas[0]));
+    roots.extend(system.measures().iter().map(|measure| where_it_has_a_value(system, measure.value)));
+    if let Some(Mechanics { mass_matrix, applied }) = mechanics {
+        roots.extend(mass_matrix.entries().iter().map(|&(_, id)| id).chain(applied.iter().copied()));
+        roots.extend(system.reactions().iter().map(|of| of.value));
+    }
+    roots.extend(system.graph().tables().iter().flat_map(|table| table.knots.iter().chain(&table.values).copied()));
     roots
 }
 
@@ -90,12 +97,12 @@ struct Writer<'s> {
 impl Writer<'_> {
     fn head(&mut self, file: &str) {
         let system = self.system;
-        let (n, m) = (system.coordinates.len(), system.rows.len());
+        let (n, m) = (system.coordinates().len(), system.rows().len());
         self.text += &format!("% Written by mechc {}; pdflatex sets it.\n{PREAMBLE}\n", env!("CARGO_PKG_VERSION"));
         self.text += &format!(
             "\\section*{{Constraint system of {}}}\n\nWritten by mechc {} from \\texttt{{{}}}. \
              {n} coordinates $q$, {m} equations:\n",
-            words(&system.name),
+            words(system.name()),
             env!("CARGO_PKG_VERSION"),
             words(file),
         );
@@ -105,8 +112,8 @@ impl Writer<'_> {
         self.text += "Of $\\Phi_q$ the columns are given that do not vanish.\n";
         self.text +=
             "Each $\\mathcal{T}_k$ stands for a part of a formula, and is written out where it is met first.\n";
-        let left_out = system.checks.chunk_by(|a, b| a.declaration == b.declaration).map(|of| {
-            let name = words(&system.declarations[of[0].declaration].name);
+        let left_out = system.checks().chunk_by(|a, b| a.declaration == b.declaration).map(|of| {
+            let name = words(&system.declarations()[of[0].declaration].name);
             format!("{} of \\textbf{{{name}}}", of.len())
         });
         let left_out: Vec<String> = left_out.collect();
@@ -123,7 +130,7 @@ impl Writer<'_> {
     fn coordinates(&mut self) {
         self.section("Coordinates");
         let mut last = None;
-        for (k, of) in self.system.coordinates.iter().enumerate() {
+        for (k, of) in self.system.coordinates().iter().enumerate() {
             let start = if last == Some(of.owner) {
                 ",\n".to_owned()
             } else {
@@ -140,10 +147,10 @@ impl Writer<'_> {
     }
 
     fn params(&mut self) {
-        if !self.system.params.is_empty() {
+        if !self.system.params().is_empty() {
             self.section("Parameters");
         }
-        for (k, of) in self.system.params.iter().enumerate() {
+        for (k, of) in self.system.params().iter().enumerate() {
             let sign = if of.value < 0.0 { "-" } else { "" };
             let value = format!("{sign}{}", numeral(of.value.abs()).text);
             let unit = unit(&of.unit());
@@ -153,12 +160,12 @@ impl Writer<'_> {
 
     /// What inputs are by the text; equations hold these formulas.
     fn inputs(&mut self) {
-        if !self.system.inputs.is_empty() {
+        if !self.system.inputs().is_empty() {
             self.section("Inputs");
             self.text +=
                 "What each is as long as nobody says otherwise; the equations hold these formulas in its place.\n\n";
         }
-        for (k, input) in self.system.inputs.iter().enumerate() {
+        for (k, input) in self.system.inputs().iter().enumerate() {
             let text = self.formulas.text(input.formulas[0]);
             self.entry(&symbol(&input.name, Style::Italic, k).text, &text);
             self.terms();
@@ -166,7 +173,7 @@ impl Writer<'_> {
     }
 
     fn tables(&mut self) {
-        let tables = self.system.graph.tables();
+        let tables = self.system.graph().tables();
         if !tables.is_empty() {
             self.section("Tables");
             self.text += "A table is a cubic spline through its points, natural or periodic; \
@@ -199,11 +206,11 @@ impl Writer<'_> {
     /// Element by element, in the order of declaration.
     fn equations(&mut self) {
         self.section("Equations");
-        let mut rows: IdVec<DeclarationId, Vec<usize>> = self.system.declarations.map(|_| Vec::new());
-        for (k, row) in self.system.rows.iter().enumerate() {
+        let mut rows: IdVec<DeclarationId, Vec<usize>> = self.system.declarations().map(|_| Vec::new());
+        for (k, row) in self.system.rows().iter().enumerate() {
             rows[row.declaration].push(k);
         }
-        for (declaration, rows) in self.system.declarations.iter().zip(&rows) {
+        for (declaration, rows) in self.system.declarations().iter().zip(&rows) {
             if !rows.is_empty() {
                 self.element(declaration, rows);
             }
@@ -217,7 +224,7 @@ impl Writer<'_> {
         };
         self.text += &format!("\n\\element{{{}}}{{{kind}}}\n", words(&declaration.name));
         for &row in rows {
-            let phi = self.formulas.text(self.system.rows[row].phi);
+            let phi = self.formulas.text(self.system.rows()[row].phi);
             self.entry(&format!(r"\Phi_{{{}}}", row + 1), &phi);
         }
         self.terms();
@@ -229,7 +236,7 @@ impl Writer<'_> {
 
     /// The right sides of an element's rows; those that vanish in one equation.
     fn right_sides(&mut self, letter: &str, rows: &[usize], of: &[ExprId]) {
-        let is_zero = |row: &usize| of.get(*row).and_then(|&id| self.system.graph.as_const(id)) == Some(0.0);
+        let is_zero = |row: &usize| of.get(*row).and_then(|&id| self.system.graph().as_const(id)) == Some(0.0);
         let (zero, others): (Vec<usize>, Vec<usize>) = rows.iter().copied().partition(is_zero);
         let names: Vec<String> = zero.iter().map(|row| format!("{letter}_{{{}}}", row + 1)).collect();
         if let Some((first, rest)) = names.split_first() {
@@ -245,7 +252,7 @@ impl Writer<'_> {
     /// The columns of `Φ_q` in which an element's rows do not vanish, as many side by side as the line has room for.
     fn matrix(&mut self, rows: &[usize]) {
         let mut columns: Vec<u32> =
-            rows.iter().flat_map(|&row| self.system.phi_q.row(row)).map(|&(column, _)| column).collect();
+            rows.iter().flat_map(|&row| self.system.phi_q().row(row)).map(|&(column, _)| column).collect();
         columns.sort_unstable();
         columns.dedup();
         let mut group: Vec<Vec<Set>> = Vec::new();
@@ -271,7 +278,7 @@ impl Writer<'_> {
         let system = self.system;
         let mut cells = vec![coordinate(system, column as usize, 0)];
         for &row in rows {
-            let entries = system.phi_q.row(row);
+            let entries = system.phi_q().row(row);
             let entry = entries.binary_search_by_key(&column, |&(column, _)| column).ok().and_then(|k| entries.get(k));
             cells.push(match entry {
                 Some(&(_, id)) => self.formulas.confined(id, WIDEST_ENTRY),
@@ -296,11 +303,42 @@ impl Writer<'_> {
         self.text += "}\n";
     }
 
+    /// What the multipliers hold, and what they exert.
+    fn forces(&mut self, Mechanics { mass_matrix, applied }: &Mechanics) {
+        self.section("Forces");
+        self.text += r"The multipliers $\lambda$, one for each equation, hold what inertia asks for and what weights and loads do not give:";
+        self.text += "\n\\[ \\Phi_q^{\\mathsf T}\\,\\lambda = M\\,\\ddot q - Q. \\]\n";
+        self.text += "In SI: kilograms, newtons. Entries that are not written vanish.\n\n";
+        for row in 0..mass_matrix.rows() {
+            for &(column, mass) in mass_matrix.row(row).iter().filter(|(column, _)| *column as usize >= row) {
+                let text = self.formulas.text(mass);
+                let twin =
+                    if column as usize == row { String::new() } else { format!(" = M_{{{},{}}}", column + 1, row + 1) };
+                self.entry(&format!("M_{{{},{}}}{twin}", row + 1, column + 1), &text);
+            }
+        }
+        for (k, &of) in applied.iter().enumerate() {
+            if self.system.graph().as_const(of) != Some(0.0) {
+                let text = self.formulas.text(of);
+                self.entry(&format!("Q_{{{}}}", k + 1), &text);
+            }
+        }
+        self.terms();
+        if !self.system.reactions().is_empty() {
+            self.text += "\nWhat joints exert on their second bodies, and what drivers supply:\n\n";
+        }
+        for reaction in self.system.reactions() {
+            let text = self.formulas.text(reaction.value);
+            self.entry(&format!(r"\text{{{}}}", words(&reaction.name)), &text);
+            self.terms();
+        }
+    }
+
     fn measures(&mut self) {
-        if !self.system.measures.is_empty() {
+        if !self.system.measures().is_empty() {
             self.section("Measures");
         }
-        for (k, measure) in self.system.measures.iter().enumerate() {
+        for (k, measure) in self.system.measures().iter().enumerate() {
             let text = self.formulas.text(where_it_has_a_value(self.system, measure.value));
             self.entry(&symbol(&measure.name, Style::Italic, k).text, &text);
             self.terms();

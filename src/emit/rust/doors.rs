@@ -61,7 +61,7 @@ impl Writer<'_> {
 
     /// What a state of this mechanism has beside what every state has.
     fn of_state(&self, page: &mut Page) {
-        let (has_bodies, has_inputs) = (!self.unit.system.bodies.is_empty(), self.unit.following.is_some());
+        let (has_bodies, has_inputs) = (!self.unit.system.bodies().is_empty(), self.unit.following.is_some());
         if !has_bodies && !has_inputs {
             return;
         }

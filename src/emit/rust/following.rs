@@ -55,9 +55,9 @@ pub(super) fn module(following: &Following<'_>, page: &mut Page) -> (Uses, usize
     writer.led(&solution, &mut body);
     let words = writer.words_of_lead(&solution);
     uses.add(&equations.uses.take());
-    let inputs = Inputs { all: &unit.system.inputs, names: &names, for_c: unit.for_c };
+    let inputs = Inputs { all: unit.system.inputs(), names: &names, for_c: unit.for_c };
     inputs.print(page);
-    inputs.doors(!unit.system.checks.is_empty(), page);
+    inputs.doors(!unit.system.checks().is_empty(), page);
     page.docs("What follows inputs: along a way from 0 to 1, on which `t` is a place.");
     page.line("#[rustfmt::skip]");
     page.item("mod following", |page| {
@@ -85,16 +85,13 @@ fn by_text(following: &Following<'_>, names: &Names, tables: &Tables, page: &mut
     };
     equations.function(
         &Wanted {
-            name: "by_text",
-            docs: "Value, rate and acceleration of each signal by the text's formulas.",
-            is_public: false,
-            orders: 0,
-            has_time: true,
-            varied: false,
-            outputs: &outputs,
-            length: "3 * SIGNALS",
-            negated: false,
             given: Given::None,
+            ..Wanted::of(
+                "by_text",
+                "Value, rate and acceleration of each signal by the text's formulas.",
+                &outputs,
+                "3 * SIGNALS",
+            )
         },
         page,
     );
@@ -106,20 +103,21 @@ impl Writer<'_> {
     fn led(&self, solution: &Solution<'_>, page: &mut Page) {
         let system = self.unit.system;
         page.constant("A way of the signals.", "type Way", "super::runtime::way::Way<Params, SIGNALS>");
-        page.line(&format!("const ENTRIES: usize = {};\n", system.phi_q.entries().len()));
+        page.line(&format!("const ENTRIES: usize = {};\n", system.phi_q().entries().len()));
         self.pattern("", "Row and column of each value that `phi_q` gives.", page);
         if self.equations.has_varied() {
-            let count = 3 * system.variations().len() * system.coordinates.len();
+            let count = 3 * system.variations().len() * system.coordinates().len();
             page.line(&format!("const VARIED: usize = {count};\n"));
         }
-        if !system.checks.is_empty() {
-            page.line(&format!("const LEFT_OUT: usize = {};\n", system.checks.len()));
+        if !system.checks().is_empty() {
+            page.line(&format!("const LEFT_OUT: usize = {};\n", system.checks().len()));
         }
         self.model("way", "Way", "way", solution, page);
         self.solved(solution, page);
         self.left_out_slopes("signal", &self.unit.program.outputs.check_slopes.signals, page);
         self.along_signals(solution, page);
         self.sensitivity(solution, page);
+        self.forces(solution, page);
         self.equations.print_book(page);
     }
 
@@ -142,7 +140,7 @@ impl Writer<'_> {
                 page.line("let get = |k: usize| all.get(k).copied().unwrap_or(f64::NAN);");
                 page.line("core::array::from_fn(|order| core::array::from_fn(|k| get(3 * k + order)))");
             });
-            if !self.unit.system.checks.is_empty() {
+            if !self.unit.system.checks().is_empty() {
                 let arguments = [("&self", ""), ("by", "&mut [Q; SIGNALS]"), ("at", "&Solution")];
                 let head = Head { kind: "fn", name: "hold_apart", arguments: &arguments, result: "" };
                 let with = if self.has_sides() { "&self.way, &at.sides" } else { "&self.way" };

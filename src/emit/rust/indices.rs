@@ -8,15 +8,15 @@ use crate::ir::{Measure, Units};
 impl Writer<'_> {
     pub fn indices(&self, page: &mut Page) {
         let system = self.unit.system;
-        let (n, entries) = (system.coordinates.len(), system.phi_q.entries().len());
+        let (n, entries) = (system.coordinates().len(), system.phi_q().entries().len());
         page.constant("Number of coordinates, and of equations.", "pub const N: usize", &n.to_string());
         let docs = "Number of entries of `phi_q` that do not vanish.";
         page.constant(docs, "pub const ENTRIES: usize", &entries.to_string());
         page.constant("Coordinates (m, rad).", "pub type Q", "[f64; N]");
         page.constant("Velocities (m/s, rad/s).", "pub type Qd", "[f64; N]");
         page.constant("Accelerations (m/s^2, rad/s^2).", "pub type Qdd", "[f64; N]");
-        let names = Case::Constant.names(system.coordinates.iter().map(|coordinate| coordinate.name.as_str()));
-        let coordinates = system.coordinates.iter().enumerate().map(|(k, coordinate)| {
+        let names = Case::Constant.names(system.coordinates().iter().map(|coordinate| coordinate.name.as_str()));
+        let coordinates = system.coordinates().iter().enumerate().map(|(k, coordinate)| {
             let unit = match coordinate.kind.unit() {
                 "" => "a pure number",
                 unit => unit,
@@ -24,11 +24,11 @@ impl Writer<'_> {
             format!("`{}` ({unit}){}", coordinate.name, self.line(system.owner_span(k)))
         });
         numbered(page, "Where each coordinate stands in `q`.", "coordinate", coordinates.zip(&names));
-        let rows: Vec<String> = (0..system.rows.len()).map(|k| system.row_name(k)).collect();
+        let rows: Vec<String> = (0..system.rows().len()).map(|k| system.row_name(k)).collect();
         let names = Case::Constant.names(rows.iter().map(String::as_str));
         let equations = rows.iter().enumerate().map(|(k, row)| {
             let declaration = system.declaration_of(k);
-            let unit = match system.rows[k].unit.to_string() {
+            let unit = match system.rows()[k].unit.to_string() {
                 unit if unit == "1" => "a pure number".to_owned(),
                 unit => unit,
             };
@@ -43,6 +43,7 @@ impl Writer<'_> {
         self.pattern("pub ", "Row and column of each value that [`phi_q`] gives.", page);
         self.bodies(page);
         self.measure_indices(page);
+        self.force_indices(page);
     }
 
     /// Where the entries of the Jacobian stand.
@@ -51,8 +52,8 @@ impl Writer<'_> {
         page.docs(docs);
         page.line("#[rustfmt::skip]");
         page.line(&format!("{visibility}static PHI_Q_PATTERN: [(usize, usize); ENTRIES] = ["));
-        for row in 0..system.rows.len() {
-            for (column, _) in system.phi_q.row(row) {
+        for row in 0..system.rows().len() {
+            for (column, _) in system.phi_q().row(row) {
                 page.line(&format!("    ({row}, {column}),"));
             }
         }
@@ -62,14 +63,14 @@ impl Writer<'_> {
     /// The bodies, and where they are.
     fn bodies(&self, page: &mut Page) {
         let system = self.unit.system;
-        if system.bodies.is_empty() {
+        if system.bodies().is_empty() {
             return;
         }
-        let names = Case::Camel.names(system.bodies.iter().map(|body| body.name.as_str()));
+        let names = Case::Camel.names(system.bodies().iter().map(|body| body.name.as_str()));
         page.docs("The bodies.");
         page.line("#[derive(Clone, Copy, Debug, PartialEq, Eq)]");
         page.item("pub enum Body", |page| {
-            for (body, name) in system.bodies.iter().zip(&names) {
+            for (body, name) in system.bodies().iter().zip(&names) {
                 page.docs(&format!("`{}`{}", body.name, self.line(body.span)));
                 page.line(&format!("{name},"));
             }
@@ -89,7 +90,7 @@ impl Writer<'_> {
             let head = Head { kind: "pub fn", name: "of", arguments: &of, result: "Self" };
             page.function(&head, |page| {
                 page.block("match body", |page| {
-                    for ((id, _), name) in system.bodies.pairs().zip(&names) {
+                    for ((id, _), name) in system.bodies().pairs().zip(&names) {
                         let [x, y, phi] = system.pose_of(id);
                         page.line(&format!("Body::{name} => Self {{ x: q[{x}], y: q[{y}], phi: q[{phi}] }},"));
                     }
@@ -99,7 +100,7 @@ impl Writer<'_> {
     }
 
     fn measure_indices(&self, page: &mut Page) {
-        let measures = &self.unit.system.measures;
+        let measures = self.unit.system.measures();
         if measures.is_empty() {
             return;
         }

@@ -91,7 +91,7 @@ impl Writer<'_> {
     /// What is asked of a mechanism in lanes.
     fn laned(&self, solution: &Solution<'_>, page: &mut Page) {
         let length = |is_there: bool, length: &'static str| if is_there { length } else { "0" };
-        let has_measures = !self.unit.system.measures.is_empty();
+        let has_measures = !self.unit.system.measures().is_empty();
         page.item("impl Laned<LANES> for Model", |page| {
             let types = [
                 ("Coordinates", "Each", "N"),

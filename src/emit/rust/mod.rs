@@ -2,6 +2,7 @@
 
 mod doors;
 mod following;
+mod forces;
 mod functions;
 mod indices;
 mod lanes;
@@ -113,23 +114,29 @@ struct Writer<'w> {
 impl Writer<'_> {
     fn header(&self, needs_libm: bool, page: &mut Page) {
         let system = self.unit.system;
-        let (n, entries) = (system.coordinates.len(), system.phi_q.entries().len());
-        let (name, file) = (one_line(&system.name), one_line(self.unit.file));
+        let (n, entries) = (system.coordinates().len(), system.phi_q().entries().len());
+        let (name, file) = (one_line(system.name()), one_line(self.unit.file));
         page.line(&format!(
             "//! Kinematics of mechanism `{name}`, written by mechc {} from `{file}`.",
             env!("CARGO_PKG_VERSION")
         ));
         page.line("//!");
         let mut said = vec![
-            format!("coordinates `q`: {n} (m, rad), equations `phi = 0`: {}", system.rows.len()),
+            format!("coordinates `q`: {n} (m, rad), equations `phi = 0`: {}", system.rows().len()),
             format!("`phi_q`: {entries} entries that do not vanish, see [`PHI_Q_PATTERN`]"),
-            format!("parameters: {}; those that follow from others are worked out", system.params.len()),
+            format!("parameters: {}; those that follow from others are worked out", system.params().len()),
         ];
-        if !system.checks.is_empty() {
-            said.push(format!("equations that were left out as redundant: {}, see [`left_out`]", system.checks.len()));
+        if !system.checks().is_empty() {
+            said.push(format!(
+                "equations that were left out as redundant: {}, see [`left_out`]",
+                system.checks().len()
+            ));
         }
         if self.unit.motion.is_some() {
             said.push("the motion: [`assemble`], then [`step`] from time to time".to_owned());
+        }
+        if self.unit.motion.as_ref().is_some_and(|motion| motion.forced.is_some()) {
+            said.push("the forces: [`forces`] of a state".to_owned());
         }
         if self.unit.following.is_some() {
             said.push("the motion by its inputs: [`follow`] from [`Inputs`] to others".to_owned());

@@ -16,7 +16,7 @@ const TOWARDS: Head<'_> = Head {
 impl Writer<'_> {
     pub fn parameters(&self, page: &mut Page) {
         let system = self.unit.system;
-        if system.params.is_empty() {
+        if system.params().is_empty() {
             return self.no_parameters(page);
         }
         let params = Params::new(system);
@@ -24,7 +24,7 @@ impl Writer<'_> {
         page.item("impl Default for Params", |page| {
             page.line("#[rustfmt::skip]");
             page.block("fn default() -> Self", |page| {
-                page.text(&params.value("Self", "", &|param| literal(system.params[param].value)));
+                page.text(&params.value("Self", "", &|param| literal(system.params()[param].value)));
             });
         });
         let fields: Vec<String> = self.names.params.iter().map(|name| format!("self.{name}")).collect();
@@ -91,7 +91,7 @@ impl Writer<'_> {
                     let (source, name) = (one_line(&field.source), &field.name);
                     let (docs, of) = match &field.of {
                         Of::Number(param) => {
-                            let param = &self.unit.system.params[*param];
+                            let param = &self.unit.system.params()[*param];
                             (format!("`{source}` ({}){}", param.unit(), self.line(param.span)), "f64".to_owned())
                         }
                         Of::Part(part) => (format!("Those of `{source}`."), params.types[*part].name.clone()),

@@ -2,7 +2,7 @@
 
 use super::Writer;
 use super::indices::numbered;
-use crate::emit::equations::{Given, Wanted};
+use crate::emit::equations::Wanted;
 use crate::emit::names::Case;
 use crate::emit::print::{Head, Page};
 use crate::emit::solution::Solution;
@@ -12,7 +12,7 @@ use crate::program::Register;
 impl Writer<'_> {
     /// What gives them, where they are wanted.
     pub fn sensitivity(&self, solution: &Solution<'_>, page: &mut Page) {
-        let (params, is_led) = (&self.unit.system.params, self.equations.is_led);
+        let (params, is_led) = (self.unit.system.params(), self.equations.is_led);
         if solution.motion.sensitive.is_none() || (params.is_empty() && is_led) {
             return;
         }
@@ -47,7 +47,7 @@ impl Writer<'_> {
             if has_pivoting {
                 self.pivoted_by_params(page);
             }
-            if !self.unit.system.checks.is_empty() {
+            if !self.unit.system.checks().is_empty() {
                 let (sides, given) = (if self.has_sides() { "sides" } else { "_sides" }, self.given());
                 let arguments = [("&self", ""), ("by", "&mut [Q; PARAMS]"), ("at", "&Solution"), (sides, "&Sides")];
                 let head = Head { kind: "fn", name: "hold_apart_by_params", arguments: &arguments, result: "" };
@@ -78,7 +78,7 @@ impl Writer<'_> {
 
     /// Where equations that were left out have entries in their Jacobian.
     pub fn left_out_pattern(&self, page: &mut Page) {
-        let pattern = &self.unit.system.check_slopes.pattern;
+        let pattern = &self.unit.system.check_slopes().pattern;
         let entries: Vec<String> = pattern.iter().map(|entry| format!("{entry:?}")).collect();
         let docs = "Row and column of the slopes of each equation that was left out.";
         page.text(&constant(docs, "LEFT_OUT_PATTERN", "(usize, usize)", &entries.len().to_string(), &entries));
@@ -87,7 +87,7 @@ impl Writer<'_> {
     /// How equations that were left out change; nothing where none was.
     pub fn left_out_slopes(&self, by: &str, lists: &[Vec<Register>], page: &mut Page) {
         let slopes = &self.unit.program.outputs.check_slopes;
-        if self.unit.system.checks.is_empty() {
+        if self.unit.system.checks().is_empty() {
             return;
         }
         if by == "signal" || !self.equations.is_led {
@@ -96,18 +96,15 @@ impl Writer<'_> {
         let all: Vec<Register> = slopes.coordinates.iter().chain(lists.iter().flatten()).copied().collect();
         self.equations.function(
             &Wanted {
-                name: &format!("left_out_slopes_by_{by}"),
-                docs: &format!(
-                    "How the equations that were left out change with the coordinates, and then with each {by}."
-                ),
-                is_public: false,
                 orders: 1,
-                has_time: true,
-                varied: false,
-                outputs: &all,
-                length: &all.len().to_string(),
-                negated: false,
-                given: Given::All,
+                ..Wanted::of(
+                    &format!("left_out_slopes_by_{by}"),
+                    &format!(
+                        "How the equations that were left out change with the coordinates, and then with each {by}."
+                    ),
+                    &all,
+                    &all.len().to_string(),
+                )
             },
             page,
         );
@@ -117,7 +114,7 @@ impl Writer<'_> {
     fn public_sensitivity(&self, page: &mut Page) {
         let head =
             |arguments| Head { kind: "pub fn", name: "sensitivity", arguments, result: "Result<[Q; PARAMS], Error>" };
-        if self.unit.system.params.is_empty() {
+        if self.unit.system.params().is_empty() {
             page.docs("The derivatives of the coordinates by each parameter: there is none.\n\n# Errors\nNever; of mechanisms with parameters there are some.");
             return page.function(&head(&[("_", "&Params"), ("_", "&State")]), |page| page.line("Ok([])"));
         }
@@ -130,7 +127,7 @@ impl Writer<'_> {
             page.docs("Where inputs have led, they stay what they are.");
         }
         page.line("///");
-        if !self.unit.system.checks.is_empty() {
+        if !self.unit.system.checks().is_empty() {
             page.docs(
                 "Where a parameter alone cannot change, because an equation that was left out would cease to hold,\n\
                  its derivatives are `NAN`.",

@@ -58,7 +58,7 @@ impl Writer<'_> {
 
     /// What coordinates are judged against, and where the motion starts.
     pub fn scales(&self, solution: &Solution<'_>, page: &mut Page) {
-        let coordinates = &self.unit.system.coordinates;
+        let coordinates = self.unit.system.coordinates();
         debug_assert_eq!(solution.motion.q.len(), coordinates.len());
         let scales: Vec<String> = coordinates.iter().map(|coordinate| literal(coordinate.scale)).collect();
         let docs = "What a change of each coordinate is judged against.";
@@ -69,7 +69,7 @@ impl Writer<'_> {
 
     /// What the solver's function is about: coordinates that Newton solves for, blocks whose determinants change.
     pub fn solved_for(&self, solution: &Solution<'_>, page: &mut Page) {
-        let (solver, coordinates) = (&solution.motion.solver, &self.unit.system.coordinates);
+        let (solver, coordinates) = (&solution.motion.solver, self.unit.system.coordinates());
         let tears = solver.tears();
         let docs = "Number of coordinates that Newton solves for; the others follow.";
         page.constant(docs, "const TEARS: usize", &tears.len().to_string());

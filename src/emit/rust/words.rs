@@ -12,20 +12,20 @@ const WORD: usize = 8;
 impl Writer<'_> {
     /// Words of a state, but for what leads it: the mechanism, two solutions, how far steps go, which rims were passed.
     pub fn words(&self, solution: &Solution<'_>) -> usize {
-        let of_model = self.unit.system.params.len() + solution.known.len();
+        let of_model = self.unit.system.params().len() + solution.known.len();
         of_model + 2 * self.words_of_solution(solution) + self.rims().count() + 2 + words_of(2)
     }
 
     /// Words of what leads it: the mechanism on a way of signals, two solutions, how far it goes.
     pub fn words_of_lead(&self, solution: &Solution<'_>) -> usize {
-        let of_way = self.unit.system.params.len() + 4 * self.unit.system.inputs.len();
+        let of_way = self.unit.system.params().len() + 4 * self.unit.system.inputs().len();
         of_way + solution.known.len() + 2 * self.words_of_solution(solution) + 1 + words_of(3)
     }
 
     fn words_of_solution(&self, solution: &Solution<'_>) -> usize {
-        let (n, outputs) = (self.unit.system.coordinates.len(), &self.unit.program.outputs);
+        let (n, outputs) = (self.unit.system.coordinates().len(), &self.unit.program.outputs);
         let of_measures = outputs.measures.len() + outputs.measures_d.len() + outputs.measures_dd.len();
-        let signals = if self.equations.is_led { self.unit.system.inputs.len() } else { 0 };
+        let signals = if self.equations.is_led { self.unit.system.inputs().len() } else { 0 };
         let answers = outputs.watches.len() + solution.motion.solver.turns().len() + 2;
         let numbers = 3 + 3 * n + of_measures + solution.joined.len() + self.equations.sides.len();
         numbers + signals * (n + 1) + words_of(answers)

@@ -13,9 +13,9 @@ const FAR_OFF: &str =
 
 /// A loop that does not close.
 pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnostic {
-    let declaration = &system.declarations[open.at];
+    let declaration = &system.declarations()[open.at];
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
-    let far = if open.kind == CoordinateKind::Length { 100.0 * system.length } else { std::f64::consts::TAU };
+    let far = if open.kind == CoordinateKind::Length { 100.0 * system.length() } else { std::f64::consts::TAU };
     let is_joint = matches!(declaration.kind, DeclarationKind::Joint(_));
     if open.by > far && !(is_joint && open.by.is_finite()) {
         return without_value(system, open, t);
@@ -41,9 +41,9 @@ pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnost
     if open.by > far {
         return diagnostic.help(FAR_OFF);
     }
-    let driver = open.declarations.iter().find(|&&k| system.declarations[k].kind == DeclarationKind::Driver);
+    let driver = open.declarations.iter().find(|&&k| system.declarations()[k].kind == DeclarationKind::Driver);
     let driver = driver
-        .map_or(String::new(), |&k| format!(", or begin with another value of `{}`", system.declarations[k].name));
+        .map_or(String::new(), |&k| format!(", or begin with another value of `{}`", system.declarations()[k].name));
     let mend = if open.links.is_empty() {
         format!(
             "look at what these joints hold{driver}; estimates in `at` that are nearer to the position meant may help too"
@@ -58,7 +58,7 @@ pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnost
 
 /// An equation that no motion brings nearer to what it is to be.
 fn without_value(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnostic {
-    let declaration = &system.declarations[open.at];
+    let declaration = &system.declarations()[open.at];
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
     let message =
         format!("the mechanism cannot be assembled at {}: {noun} `{name}` does not hold in any position", at(t));
@@ -86,10 +86,10 @@ fn at_least(value: f64) -> f64 {
 fn link_as_data(system: &ConstraintSystem, link: &Link) -> Value {
     let is = if link.too_short { "too short" } else { "too long" };
     match link.of {
-        LinkOf::Declaration(k) => json!({ "of": system.declarations[k].name, "length": link.length, "is": is }),
+        LinkOf::Declaration(k) => json!({ "of": system.declarations()[k].name, "length": link.length, "is": is }),
         LinkOf::Body(body, ends) => {
-            let of = body.map_or("ground", |body| &system.bodies[body].name);
-            let [from, to] = ends.map(|k| &system.declarations[k].name);
+            let of = body.map_or("ground", |body| &system.bodies()[body].name);
+            let [from, to] = ends.map(|k| &system.declarations()[k].name);
             json!({ "of": of, "from": from, "to": to, "length": link.length, "is": is })
         }
     }
@@ -99,10 +99,10 @@ fn link_as_data(system: &ConstraintSystem, link: &Link) -> Value {
 fn link_in_words(system: &ConstraintSystem, link: &Link) -> String {
     let length = length(link.length);
     match link.of {
-        LinkOf::Declaration(k) => format!("`{}` ({length})", system.declarations[k].name),
+        LinkOf::Declaration(k) => format!("`{}` ({length})", system.declarations()[k].name),
         LinkOf::Body(body, [from, to]) => {
-            let body = body.map_or("the ground".to_owned(), |body| format!("`{}`", system.bodies[body].name));
-            let [from, to] = [from, to].map(|k| &system.declarations[k].name);
+            let body = body.map_or("the ground".to_owned(), |body| format!("`{}`", system.bodies()[body].name));
+            let [from, to] = [from, to].map(|k| &system.declarations()[k].name);
             format!("{body} ({length} from `{from}` to `{to}`)")
         }
     }

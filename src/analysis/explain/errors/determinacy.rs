@@ -44,16 +44,16 @@ fn told_together<'d>(
 }
 
 fn by_declaration<'d>(system: &ConstraintSystem, dependents: &'d [Dependent]) -> Vec<&'d [Dependent]> {
-    dependents.chunk_by(|a, b| system.rows[a.row].declaration == system.rows[b.row].declaration).collect()
+    dependents.chunk_by(|a, b| system.rows()[a.row].declaration == system.rows()[b.row].declaration).collect()
 }
 
 /// The declaration of a group of rows of one declaration.
 fn declaration_of(system: &ConstraintSystem, group: &[Dependent]) -> DeclarationId {
-    system.rows[group[0].row].declaration
+    system.rows()[group[0].row].declaration
 }
 
 fn is_driver(system: &ConstraintSystem, declaration: DeclarationId) -> bool {
-    system.declarations[declaration].kind == DeclarationKind::Driver
+    system.declarations()[declaration].kind == DeclarationKind::Driver
 }
 
 /// Whether a group is a driver's that conflicts with joints alone: they leave it nothing to move.
@@ -66,7 +66,7 @@ fn is_stuck(system: &ConstraintSystem, group: &[Dependent]) -> bool {
 /// The declarations that a group of rows of one declaration depends on, in order.
 fn depends_on(system: &ConstraintSystem, group: &[Dependent]) -> Vec<DeclarationId> {
     let own = declaration_of(system, group);
-    let rows = group.iter().flat_map(|one| &one.on).map(|&row| system.rows[row].declaration);
+    let rows = group.iter().flat_map(|one| &one.on).map(|&row| system.rows()[row].declaration);
     let mut declarations: Vec<DeclarationId> = rows.filter(|&declaration| declaration != own).collect();
     declarations.sort_unstable();
     declarations.dedup();
@@ -74,17 +74,17 @@ fn depends_on(system: &ConstraintSystem, group: &[Dependent]) -> Vec<Declaration
 }
 
 fn count_data(diagnostic: Diagnostic, system: &ConstraintSystem, declaration: DeclarationId) -> Diagnostic {
-    let (n, m) = (system.coordinates.len(), system.rows.len());
+    let (n, m) = (system.coordinates().len(), system.rows().len());
     diagnostic
         .note(format!("{n} coordinates, {m} equations: NDOF = {}", system.ndof()))
         .datum("coordinates", n)
         .datum("equations", m)
         .datum("ndof", system.ndof())
-        .datum("redundant", vec![system.declarations[declaration].name.clone()])
+        .datum("redundant", vec![system.declarations()[declaration].name.clone()])
 }
 
 fn headline_of_redundant(system: &ConstraintSystem, group: &[Dependent]) -> String {
-    let declaration = &system.declarations[declaration_of(system, group)];
+    let declaration = &system.declarations()[declaration_of(system, group)];
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
     match group.len() {
         k if k == declaration.rows => format!("{noun} `{name}` is redundant"),
@@ -97,7 +97,7 @@ fn headline_of_redundant(system: &ConstraintSystem, group: &[Dependent]) -> Stri
 fn redundant(system: &ConstraintSystem, group: &[Dependent], stuck: &[DeclarationId]) -> Diagnostic {
     let on = depends_on(system, group);
     let index = declaration_of(system, group);
-    let declaration = &system.declarations[index];
+    let declaration = &system.declarations()[index];
     let them = if group.len() == 1 || group.len() == declaration.rows { "it" } else { "them" };
     let message = format!("{}: the others hold {them} already", headline_of_redundant(system, group));
     let mut diagnostic = Diagnostic::new(Code::E0506, message).at(declaration.span, "says nothing new");
@@ -118,7 +118,7 @@ fn take_away(declaration: &Declaration) -> String {
 /// What to write instead of a redundant joint, constraint or driver.
 fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
     let index = declaration_of(system, group);
-    let declaration = &system.declarations[index];
+    let declaration = &system.declarations()[index];
     let name = &declaration.name;
     let whole = take_away(declaration);
     let [one] = group else { return whole };
@@ -133,7 +133,7 @@ fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
             )
         }),
         DeclarationKind::Joint(JointKind::Translational) => {
-            let axes: Vec<&String> = declaration.axes.iter().map(|&axis| &system.axes[axis].name).collect();
+            let axes: Vec<&String> = declaration.axes.iter().map(|&axis| &system.axes()[axis].name).collect();
             match (gap_kind(system, one.row), axes.as_slice()) {
                 (CoordinateKind::Length, [a, b]) => {
                     format!("let `{name}` hold the angle only: `constraint {name}: angle({a}, {b}) = 0`")
@@ -160,20 +160,20 @@ fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
 
 /// A link of two pins, one of which is a redundant joint: its length is what says nothing new, so let the pin slide along it.
 fn sliding_pin(system: &ConstraintSystem, index: DeclarationId) -> Option<String> {
-    let joint = &system.declarations[index];
+    let joint = &system.declarations()[index];
     let &[p, q] = joint.points.as_slice() else {
         return None;
     };
     [(p, q), (q, p)].into_iter().find_map(|(own, other)| {
-        let body = system.points[own].body?;
-        let on_body = |point: &&PointId| system.points[**point].body == Some(body);
+        let body = system.points()[own].body?;
+        let on_body = |point: &&PointId| system.points()[**point].body == Some(body);
         let pins: Vec<PointId> =
-            system.declarations.iter().filter_map(|one| one.points.iter().find(on_body)).copied().collect();
+            system.declarations().iter().filter_map(|one| one.points.iter().find(on_body)).copied().collect();
         let &[far] = pins.iter().copied().filter(|&pin| pin != own).collect::<Vec<PointId>>().as_slice() else {
             return None;
         };
         let (body, from, to) =
-            (&system.bodies[body].name, system.points[far].name.as_ref()?, system.points[own].name.as_ref()?);
+            (&system.bodies()[body].name, system.points()[far].name.as_ref()?, system.points()[own].name.as_ref()?);
         Some(format!(
             "let its pin slide along `{body}`: write `axis {0}_slot = {from} to {to}` in `{body}`, \
              and `joint {0}: revolute_translational({1}, {body}.{0}_slot)`",
@@ -185,8 +185,8 @@ fn sliding_pin(system: &ConstraintSystem, index: DeclarationId) -> Option<String
 
 fn conflicting(system: &ConstraintSystem, group: &[Dependent], one: &Dependent, by: f64, t: f64) -> Diagnostic {
     let on = depends_on(system, group);
-    let index = system.rows[one.row].declaration;
-    let declaration = &system.declarations[index];
+    let index = system.rows()[one.row].declaration;
+    let declaration = &system.declarations()[index];
     let diagnostic = Diagnostic::new(Code::E0507, headline_of_conflict(system, group))
         .at(declaration.span, gap_in_words(system, one.row, by, t));
     let diagnostic = with_places(diagnostic, system, &on, ["", ""]);
@@ -202,7 +202,7 @@ fn conflicting(system: &ConstraintSystem, group: &[Dependent], one: &Dependent, 
 
 fn headline_of_conflict(system: &ConstraintSystem, group: &[Dependent]) -> String {
     let on = depends_on(system, group);
-    let declaration = &system.declarations[declaration_of(system, group)];
+    let declaration = &system.declarations()[declaration_of(system, group)];
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
     match on.len() {
         0 => format!("no motion of the bodies changes {noun} `{name}`, which does not hold"),
@@ -217,12 +217,12 @@ fn headline_of_conflict(system: &ConstraintSystem, group: &[Dependent]) -> Strin
 /// Joints, constraints and drivers by their names.
 fn by_kinds(system: &ConstraintSystem, declarations: &[DeclarationId]) -> String {
     let kinds =
-        declarations.chunk_by(|&a, &b| system.declarations[a].kind.noun() == system.declarations[b].kind.noun());
+        declarations.chunk_by(|&a, &b| system.declarations()[a].kind.noun() == system.declarations()[b].kind.noun());
     let parts: Vec<String> = kinds
         .map(|group| {
-            let noun = system.declarations[group[0]].kind.noun();
+            let noun = system.declarations()[group[0]].kind.noun();
             let names: Vec<String> =
-                group.iter().take(3).map(|&k| format!("`{}`", system.declarations[k].name)).collect();
+                group.iter().take(3).map(|&k| format!("`{}`", system.declarations()[k].name)).collect();
             let more = if group.len() > 3 { format!(" and {} more", group.len() - 3) } else { String::new() };
             let plural = if group.len() > 1 { "s" } else { "" };
             format!("{noun}{plural} {}{more}", names.join(", "))
@@ -236,7 +236,7 @@ pub fn left_out(system: &ConstraintSystem, dependents: &[Dependent]) -> Diagnost
     let mut diagnostics = Diagnostics::default();
     for group in by_declaration(system, dependents) {
         let index = declaration_of(system, group);
-        let declaration = &system.declarations[index];
+        let declaration = &system.declarations()[index];
         let what = if group.len() == 1 { "1 equation".to_owned() } else { format!("{} equations", group.len()) };
         let message = format!(
             "{what} of {} `{}` left out: the others hold it already",
@@ -265,17 +265,17 @@ pub fn is_shared(graph: &Graph, dependents: &[Dependent], formula: ExprId) -> bo
 
 /// The first force that is asked for and is not determined if redundant equations are left out.
 pub fn force_in_a_loop(system: &ConstraintSystem, dependents: &[Dependent]) -> Option<Diagnostic> {
-    let is_open = |id: ExprId| is_shared(&system.graph, dependents, id);
+    let is_open = |id: ExprId| is_shared(system.graph(), dependents, id);
     let reactions = system.reactions().iter().map(|of| (of.value, format!("`{}`", of.name), of.span));
-    let measures = system.measures.iter().map(|of| (of.value, format!("measure `{}`", of.name), of.span));
-    let results = system.results.reductions.iter().map(|of| (of.of, "what a result asks for".to_owned(), of.span));
+    let measures = system.measures().iter().map(|of| (of.value, format!("measure `{}`", of.name), of.span));
+    let results = system.results().reductions.iter().map(|of| (of.of, "what a result asks for".to_owned(), of.span));
     let (_, name, span) = reactions.chain(measures).chain(results).find(|(value, ..)| is_open(*value))?;
-    let mut of_loop: Vec<DeclarationId> = (0..system.rows.len())
+    let mut of_loop: Vec<DeclarationId> = (0..system.rows().len())
         .filter(|&row| is_in_loop(dependents, row))
-        .map(|row| system.rows[row].declaration)
+        .map(|row| system.rows()[row].declaration)
         .collect();
     of_loop.dedup();
-    of_loop.retain(|&declaration| system.declarations[declaration].span != span);
+    of_loop.retain(|&declaration| system.declarations()[declaration].span != span);
     let message = format!("{name} is not determined: its loop has redundant equations");
     let diagnostic = Diagnostic::new(Code::E0509, message).at(span, "asks how the load is shared");
     let diagnostic = with_places(diagnostic, system, &of_loop, ["shares it in any way", "these share it in any way"]);
@@ -287,7 +287,7 @@ pub fn force_in_a_loop(system: &ConstraintSystem, dependents: &[Dependent]) -> O
 
 /// An equation that was left out and does not follow from the others any more.
 pub fn ceases_to_hold(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
-    let declaration = &system.declarations[system.checks[index].declaration];
+    let declaration = &system.declarations()[system.checks()[index].declaration];
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
     Diagnostic::new(Code::E0611, format!("{noun} `{name}`, which was left out, ceases to hold at {}", at(t)))
         .at(declaration.span, "redundant at the start, but not here")
@@ -335,19 +335,19 @@ pub fn too_many_and_too_few(system: &ConstraintSystem, dependents: &[Dependent],
         diagnostic = with_places(diagnostic, system, stuck, NOTHING_TO_MOVE);
     }
     for &body in freedom.moving().iter().take(MOST_MOVING) {
-        diagnostic = diagnostic.also(system.bodies[body].span, "can still move");
+        diagnostic = diagnostic.also(system.bodies()[body].span, "can still move");
     }
-    let (n, m) = (system.coordinates.len(), system.rows.len());
+    let (n, m) = (system.coordinates().len(), system.rows().len());
     diagnostic = diagnostic.note(format!("{n} coordinates, {m} equations: NDOF = {}", system.ndof()));
     diagnostic.notes.extend(freedom.in_words(system));
     if let Some((group, stuck)) = groups.first() {
-        let declaration = &system.declarations[declaration_of(system, group)];
+        let declaration = &system.declarations()[declaration_of(system, group)];
         let mend = if is_conflict || !stuck.is_empty() { take_away(declaration) } else { mend(system, group) };
         diagnostic = diagnostic.help(mend);
     }
     diagnostic.help.extend(freedom.helps());
-    let named = named.iter().map(|&k| system.declarations[k].name.clone()).collect::<Vec<String>>();
-    let free = freedom.moving().iter().map(|&body| system.bodies[body].name.clone()).collect::<Vec<String>>();
+    let named = named.iter().map(|&k| system.declarations()[k].name.clone()).collect::<Vec<String>>();
+    let free = freedom.moving().iter().map(|&body| system.bodies()[body].name.clone()).collect::<Vec<String>>();
     diagnostic
         .drives(freedom.drives().to_vec())
         .datum("coordinates", n)
@@ -370,7 +370,7 @@ fn headline_of_both(system: &ConstraintSystem, faults: &[Culprit], degrees: usiz
     };
     let mut diagnostic = Diagnostic::new(Code::E0503, format!("{}{more}, and yet {left}", headlines.join(", ")));
     for (k, fault) in faults.iter().enumerate().take(LISTED) {
-        let span = system.declarations[fault.declaration].span;
+        let span = system.declarations()[fault.declaration].span;
         diagnostic = if k == 0 { diagnostic.at(span, &fault.label) } else { diagnostic.also(span, &fault.label) };
     }
     diagnostic

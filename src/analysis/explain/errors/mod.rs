@@ -53,7 +53,7 @@ pub fn degrees(radians: f64) -> String {
 }
 
 pub fn in_units(system: &ConstraintSystem, column: usize, value: f64) -> String {
-    match system.coordinates[column].kind {
+    match system.coordinates()[column].kind {
         CoordinateKind::Length => length(value),
         CoordinateKind::Angle => degrees(value),
         CoordinateKind::Argument => three_digits(value),
@@ -70,14 +70,14 @@ pub fn named_all(system: &ConstraintSystem, declarations: &[DeclarationId]) -> S
     let names: Vec<String> = declarations
         .iter()
         .take(LISTED)
-        .map(|&k| format!("{} `{}`", system.declarations[k].kind.noun(), system.declarations[k].name))
+        .map(|&k| format!("{} `{}`", system.declarations()[k].kind.noun(), system.declarations()[k].name))
         .collect();
     names.join(" and ")
 }
 
 /// Whether a row is about places, or about angles alone.
 pub fn gap_kind(system: &ConstraintSystem, row: usize) -> CoordinateKind {
-    let mut kinds = system.phi_q.row(row).iter().map(|&(column, _)| system.coordinates[column as usize].kind);
+    let mut kinds = system.phi_q().row(row).iter().map(|&(column, _)| system.coordinates()[column as usize].kind);
     if kinds.any(|kind| kind == CoordinateKind::Length) { CoordinateKind::Length } else { CoordinateKind::Angle }
 }
 
@@ -89,7 +89,7 @@ pub fn with_places(
     [of_one, of_all]: [&str; 2],
 ) -> Diagnostic {
     for (k, &declaration) in declarations.iter().take(LISTED).enumerate() {
-        let span = system.declarations[declaration].span;
+        let span = system.declarations()[declaration].span;
         let text = match (k, declarations.len()) {
             (0, 1) => of_one,
             (0, _) => of_all,

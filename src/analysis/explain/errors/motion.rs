@@ -1,7 +1,7 @@
 //! A motion that cannot go on: formulas without a value, jumps, haste.
 
 use super::{at, ceases_to_hold, in_units, named_all, no_contact, short, with_places};
-use crate::analysis::state::Fault;
+use crate::analysis::state::{Fault, Unknown};
 use crate::diag::{Code, Diagnostic};
 use crate::expr::TableId;
 use crate::ir::{ConditionKind, ConstraintSystem, DeclarationId, DeclarationKind, JointKind, LoadForce};
@@ -12,7 +12,7 @@ const MOST_COLUMNS: usize = 12;
 /// A formula that has no value, or not one that it may have.
 pub fn no_value(system: &ConstraintSystem, fault: Fault, t: f64) -> Diagnostic {
     match fault {
-        Fault::NotFinite { row } => formula_not_finite(system, &[system.rows[row].declaration], t),
+        Fault::NotFinite { row } => formula_not_finite(system, &[system.rows()[row].declaration], t),
         Fault::Condition { index } => condition(system, index, t),
         Fault::Watch { index } => no_contact(system, index, t),
         Fault::Check { index } => ceases_to_hold(system, index, t),
@@ -39,7 +39,7 @@ pub fn load_not_finite(load: &LoadForce, t: f64) -> Diagnostic {
 
 /// A warning that a contact would have to pull with a force (N, below zero), at `t` (s) for the first time.
 pub fn contact_pulls(system: &ConstraintSystem, contact: DeclarationId, force: f64, t: f64) -> Diagnostic {
-    let declaration = &system.declarations[contact];
+    let declaration = &system.declarations()[contact];
     Diagnostic::new(Code::W0604, format!("contact `{}` would have to pull at {}", declaration.name, at(t)))
         .at(declaration.span, format!("its bodies would part, unless they are held together by {} N", short(-force)))
         .help("press them together: a spring is a load on a distance or displacement, as in `load spring: -k * K on K`")
@@ -49,56 +49,42 @@ pub fn contact_pulls(system: &ConstraintSystem, contact: DeclarationId, force: f
 
 /// Whether a declaration is a contact that needs a tangent of its curve.
 pub fn has_tangent(system: &ConstraintSystem, declaration: DeclarationId) -> bool {
-    matches!(system.declarations[declaration].kind, DeclarationKind::Joint(JointKind::Cam | JointKind::FlatFollower))
+    matches!(system.declarations()[declaration].kind, DeclarationKind::Joint(JointKind::Cam | JointKind::FlatFollower))
 }
 
-/// A warning that a measure has no value in some rows, the first of them at `t` (s).
-pub fn measure_without_value(system: &ConstraintSystem, index: usize, t: f64, rows: u64) -> Diagnostic {
-    let measure = &system.measures[index];
-    let message = format!("measure `{}` or a derivative of it has no value at {}", measure.name, at(t));
-    let how_many = if rows == 1 { "in 1 row".to_owned() } else { format!("in {rows} rows, first at {}", at(t)) };
-    Diagnostic::new(Code::W0603, message)
-        .at(measure.span, format!("infinite or undefined {how_many}"))
-        .note("its cells are empty there; everything else is as good as ever")
-        .datum("t", t)
-        .datum("rows", rows as usize)
-}
-
-/// The columns of derivatives by an input or parameter have no value in some rows.
-pub fn derivatives_without_value(system: &ConstraintSystem, variable: usize, t: f64, rows: u64) -> Diagnostic {
-    let variables = system.variations.as_ref().map(|variations| &variations.variables);
-    let variable = variables.and_then(|variables| variables.get(variable));
-    let name = variable.map_or("", |variable| &variable.name);
-    let how_many = if rows == 1 { "in 1 row".to_owned() } else { format!("in {rows} rows, first at {}", at(t)) };
-    let message = format!("derivatives by `{name}` have no value at {}", at(t));
-    let diagnostic = Diagnostic::new(Code::W0603, message);
-    let label = format!("infinite, undefined, or too near to a singular position {how_many}");
-    let diagnostic = match variable {
-        Some(variable) => diagnostic.at(variable.span, label),
-        None => diagnostic.note(label),
+/// A warning that something has no value in some rows, the first of them at `t` (s).
+pub fn without_value(system: &ConstraintSystem, what: Unknown, t: f64, rows: u64) -> Diagnostic {
+    let place = at(t);
+    let how_many = if rows == 1 { "in 1 row".to_owned() } else { format!("in {rows} rows, first at {place}") };
+    let (message, span, why, cells) = match what {
+        Unknown::Measure(index) => {
+            let measure = &system.measures()[index];
+            let message = format!("measure `{}` or a derivative of it has no value at {place}", measure.name);
+            (message, measure.span, "infinite or undefined", "its")
+        }
+        Unknown::Derivative(index) => {
+            let variable = &system.variables()[index];
+            let message = format!("derivatives by `{}` have no value at {place}", variable.name);
+            (message, variable.span, "infinite, undefined, or too near to a singular position", "their")
+        }
+        Unknown::Forces => {
+            let message = format!("reactions and efforts have no value at {place}");
+            (message, system.span(), "too near to a singular position", "their")
+        }
     };
-    diagnostic
-        .note("their cells are empty there; everything else is as good as ever")
-        .datum("t", t)
-        .datum("rows", rows as usize)
-}
-
-/// The columns of reactions and efforts have no value in some rows.
-pub fn forces_without_value(system: &ConstraintSystem, t: f64, rows: u64) -> Diagnostic {
-    let how_many = if rows == 1 { "in 1 row".to_owned() } else { format!("in {rows} rows, first at {}", at(t)) };
-    Diagnostic::new(Code::W0603, format!("reactions and efforts have no value at {}", at(t)))
-        .at(system.span, format!("too near to a singular position {how_many}"))
-        .note("their cells are empty there; everything else is as good as ever")
+    Diagnostic::new(Code::W0603, message)
+        .at(span, format!("{why} {how_many}"))
+        .note(format!("{cells} cells are empty there; everything else is as good as ever"))
         .datum("t", t)
         .datum("rows", rows as usize)
 }
 
 fn condition(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
-    let condition = &system.conditions[index];
+    let condition = &system.conditions()[index];
     let diagnostic = |code: Code, what: &str| Diagnostic::new(code, format!("{what} at {}", at(t))).datum("t", t);
     let owner = &condition.owner;
     let ends = |table: TableId| {
-        let knots = &system.graph.tables()[table.index()].knots;
+        let knots = &system.graph().tables()[table.index()].knots;
         [knots.first(), knots.last()].map(|end| end.map_or(f64::NAN, |&end| system.value_at(end, &[])))
     };
     match condition.kind {
@@ -110,7 +96,7 @@ fn condition(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
             .help("the arguments are `(u, u0, v0, u1, v1)`, and `u0 < u1` must hold at all times"),
         ConditionKind::Range(table) => {
             let [first, last] = ends(table);
-            let table = &system.graph.tables()[table.index()];
+            let table = &system.graph().tables()[table.index()];
             diagnostic(Code::E0608, &format!("table `{}` does not reach as far as `{owner}` goes", table.name))
                 .at(condition.span, format!("leaves its range, {} to {} in SI units", short(first), short(last)))
                 .help("add rows, or let the analysis end before; a table that ends as it begins can repeat: `periodic spline`")
@@ -136,7 +122,7 @@ pub fn position_jump(
     t: f64,
 ) -> Diagnostic {
     if let Some(&joint) = behind.iter().find(|&&k| is_corner && has_tangent(system, k)) {
-        let joint = &system.declarations[joint];
+        let joint = &system.declarations()[joint];
         let message = format!("the contact of `{}` comes to a corner of its curve at {}", joint.name, at(t));
         return Diagnostic::new(Code::E0609, message)
             .at(joint.span, "the tangent of the curve jumps there")
@@ -144,7 +130,7 @@ pub fn position_jump(
             .datum("t", t);
     }
     let message = format!("{} jumps at {}", named_all(system, behind), at(t));
-    let how = format!("`{}` would have to jump by {}", system.coordinates[column].name, in_units(system, column, by));
+    let how = format!("`{}` would have to jump by {}", system.coordinates()[column].name, in_units(system, column, by));
     with_places(Diagnostic::new(Code::E0609, message), system, behind, [&how; 2])
         .help("let the two branches meet there, or lead from one to the other with `step5(t, t0, v0, t1, v1)`")
         .datum("t", t)
@@ -160,7 +146,8 @@ pub fn velocity_jump(
 ) -> Diagnostic {
     let message = format!("the velocity of {} jumps at {}: there is no acceleration", named_all(system, behind), at(t));
     let velocity = |value: f64| format!("{}/s", in_units(system, column, value));
-    let how = format!("`{}.d` jumps from {} to {}", system.coordinates[column].name, velocity(before), velocity(after));
+    let how =
+        format!("`{}.d` jumps from {} to {}", system.coordinates()[column].name, velocity(before), velocity(after));
     with_places(Diagnostic::new(Code::E0609, message), system, behind, [&how; 2])
         .help("motions that begin and end at rest: `step`, `harmonic`; smooth to the acceleration: `step5`, `cycloidal`, `modsine`")
         .datum("t", t)
@@ -196,7 +183,7 @@ pub fn cannot_follow(system: &ConstraintSystem, t: f64, driver: Option<usize>) -
         .datum("t", t);
     match driver {
         Some(row) => diagnostic.at(system.declaration_of(row).span, "the fastest driver there"),
-        None => diagnostic.at(system.span, "in this mechanism"),
+        None => diagnostic.at(system.span(), "in this mechanism"),
     }
 }
 
@@ -210,6 +197,6 @@ pub fn too_fast(system: &ConstraintSystem, t: f64, target: f64, steps: u64, driv
         .datum("t", t);
     match driver {
         Some(row) => diagnostic.at(system.declaration_of(row).span, "the fastest driver there"),
-        None => diagnostic.at(system.span, "in this mechanism"),
+        None => diagnostic.at(system.span(), "in this mechanism"),
     }
 }

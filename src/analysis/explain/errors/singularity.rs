@@ -19,8 +19,8 @@ pub enum StartVerdict {
 
 /// A contact where a tangent vanishes, or gears whose centres meet.
 pub fn no_contact(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
-    let watch = &system.watches[index];
-    let joint = &system.declarations[watch.declaration];
+    let watch = &system.watches()[index];
+    let joint = &system.declarations()[watch.declaration];
     let diagnostic = |message: String| Diagnostic::new(Code::E0607, message).datum("t", t);
     match watch.kind {
         WatchKind::LineOfCenters => diagnostic(format!("the centres of `{}` meet at {}", joint.name, at(t)))
@@ -44,8 +44,8 @@ pub fn no_contact(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic
 
 /// Why a contact is singular, and what to do about it.
 pub fn equal_curvatures(diagnostic: Diagnostic, system: &ConstraintSystem, joint: DeclarationId) -> Diagnostic {
-    let name = &system.declarations[joint].name;
-    match system.declarations[joint].kind {
+    let name = &system.declarations()[joint].name;
+    match system.declarations()[joint].kind {
         DeclarationKind::Joint(JointKind::FlatFollower) => {
             diagnostic.note(format!("at the contact `{name}` the curve is as flat as the face")).help(
                 "a flat face needs a curve that is round all the way it touches it: without hollows and straight parts",
@@ -83,9 +83,9 @@ pub fn bifurcation(system: &ConstraintSystem, joints: &[DeclarationId], columns:
     );
     let diagnostic = with_places(diagnostic, system, joints, ["this leaves it open", "these leave it open"])
         .note(owners(system, columns, "could go either way"));
-    let diagnostic = match system.checks.first() {
+    let diagnostic = match system.checks().first() {
         Some(check) => diagnostic
-            .note(format!("`{}`, which was left out, may decide", system.declarations[check.declaration].name)),
+            .note(format!("`{}`, which was left out, may decide", system.declarations()[check.declaration].name)),
         None => diagnostic,
     };
     diagnostic
@@ -185,9 +185,9 @@ pub fn singular_start(
     )
     .help(help)
     .datum("t", t)
-    .datum("coordinates", system.coordinates.len())
-    .datum("equations", system.rows.len())
+    .datum("coordinates", system.coordinates().len())
+    .datum("equations", system.rows().len())
     .datum("ndof", system.ndof())
-    .datum("redundant", names(joints.iter().map(|&k| &system.declarations[k].name)))
-    .datum("free", names(columns.iter().map(|&k| &system.coordinates[k].name)))
+    .datum("redundant", names(joints.iter().map(|&k| &system.declarations()[k].name)))
+    .datum("free", names(columns.iter().map(|&k| &system.coordinates()[k].name)))
 }

@@ -44,7 +44,7 @@ impl Gauges {
         let all = kinematics.rims().to_vec();
         let of = |on_time: bool| (0..all.len()).filter(|&k| all[k].on_time == on_time).collect();
         let [in_time, along] = kinematics.enclosures_of_rims();
-        let n = kinematics.system().coordinates.len();
+        let n = kinematics.system().coordinates().len();
         Gauges {
             of_time: of(true),
             of_motion: of(false),

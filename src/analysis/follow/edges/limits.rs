@@ -87,7 +87,7 @@ impl Limits {
     }
 
     pub fn begin(&mut self, system: &ConstraintSystem, span: f64) {
-        for (is_of_body, coordinate) in self.bodies.iter_mut().zip(&system.coordinates) {
+        for (is_of_body, coordinate) in self.bodies.iter_mut().zip(system.coordinates()) {
             // a contact may run along its curve as it likes: what counts is how bodies move
             *is_of_body = coordinate.kind != CoordinateKind::Argument;
         }

@@ -161,7 +161,7 @@ impl Rims {
         kinematics.restore(step.state());
         // the state was computed once, so that this cannot fail now
         let _ = step.derive_state(kinematics);
-        let (system, behind) = (kinematics.system(), &kinematics.system().rims[rim].declarations);
+        let (system, behind) = (kinematics.system(), &kinematics.system().rims()[rim].declarations);
         let [before, after] = self.limits.sides();
         let why = match verdict {
             Verdict::Smooth => return,
@@ -204,7 +204,7 @@ impl Rims {
             distance *= 0.25;
         }
         let system = kinematics.system();
-        let is_contact = system.rims[rim].declarations.iter().any(|&k| errors::has_tangent(system, k));
+        let is_contact = system.rims()[rim].declarations.iter().any(|&k| errors::has_tangent(system, k));
         let passes = self.is_passed(kinematics, step.state(), rim, t);
         self.limits.verdict(is_contact && passes)
     }

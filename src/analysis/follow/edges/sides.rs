@@ -137,7 +137,7 @@ impl Sides {
         let bends = |k: &usize| scaled(*k, now.qdd[*k] - before.qdd[*k]) > acceleration;
         let mut all = 0..now.qd.len();
         // a contact may run along its curve as it likes: what counts is how bodies move
-        match all.clone().filter(jumps).find(|&k| system.coordinates[k].kind != CoordinateKind::Argument) {
+        match all.clone().filter(jumps).find(|&k| system.coordinates()[k].kind != CoordinateKind::Argument) {
             Some(column) => Some(Jump::Velocity { column }),
             None => all.any(|k| jumps(&k) || bends(&k)).then_some(Jump::Acceleration),
         }
@@ -187,11 +187,11 @@ impl Sides {
                 Jump::Acceleration => acceleration.max(velocity / self.span),
             }
         };
-        let open: Vec<f64> = (0..system.rows.len()).map(open).collect();
+        let open: Vec<f64> = (0..system.rows().len()).map(open).collect();
         let widest = open.iter().copied().fold(0.0, f64::max);
         let mut behind: Vec<DeclarationId> = (0..open.len())
             .filter(|&row| open[row] > TAKES_PART * widest)
-            .map(|row| system.rows[row].declaration)
+            .map(|row| system.rows()[row].declaration)
             .collect();
         behind.dedup();
         behind
@@ -226,10 +226,11 @@ pub(super) fn columns_that_jump(system: &ConstraintSystem, span: f64, [before, a
 /// Whether the position stays, and only the tangents of a contact do not agree: the last row of its joint.
 fn is_corner(kinematics: &Kinematics) -> bool {
     let system = kinematics.system();
-    let widest =
-        (0..system.rows.len()).max_by(|&a, &b| kinematics.residual(a).total_cmp(&kinematics.residual(b))).unwrap_or(0);
-    let declaration = system.rows[widest].declaration;
-    let is_last = system.rows.get(widest + 1).is_none_or(|next| next.declaration != declaration);
-    let others = (0..widest).rev().take_while(|&row| system.rows[row].declaration == declaration);
+    let widest = (0..system.rows().len())
+        .max_by(|&a, &b| kinematics.residual(a).total_cmp(&kinematics.residual(b)))
+        .unwrap_or(0);
+    let declaration = system.rows()[widest].declaration;
+    let is_last = system.rows().get(widest + 1).is_none_or(|next| next.declaration != declaration);
+    let others = (0..widest).rev().take_while(|&row| system.rows()[row].declaration == declaration);
     is_last && others.map(|row| kinematics.residual(row)).all(|open| open < POSITION_JUMP)
 }

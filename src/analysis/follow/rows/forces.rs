@@ -28,16 +28,15 @@ impl ForceWatch {
     /// Of equations in a state; none where there is nothing to watch.
     pub fn of(kinematics: &Kinematics, state: &State) -> Option<ForceWatch> {
         let system = kinematics.system();
-        let forces = system.forces.as_ref()?;
-        if forces.loads.is_empty() && forces.presses.is_empty() {
+        if system.loads().is_empty() && system.presses().is_empty() {
             return None;
         }
-        let formulas: Vec<ExprId> =
-            forces.presses.iter().map(|press| press.force).chain(forces.loads.iter().map(|load| load.force)).collect();
-        let counts = [system.params.len(), system.coordinates.len(), 0, system.rows.len()];
-        let (program, mut presses) = Program::of_formulas(&system.graph, counts, &formulas);
-        let loads = presses.split_off(forces.presses.len());
-        let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
+        let presses = system.presses().iter().map(|press| press.force);
+        let formulas: Vec<ExprId> = presses.chain(system.loads().iter().map(|load| load.force)).collect();
+        let counts = [system.params().len(), system.coordinates().len(), 0, system.rows().len()];
+        let (program, mut presses) = Program::of_formulas(system.graph(), counts, &formulas);
+        let loads = presses.split_off(system.presses().len());
+        let params: Vec<f64> = system.params().iter().map(|param| param.value).collect();
         let registers = program.start(&params);
         let coordinates = RowLayout::new(system).coordinates.map(|first| first as usize);
         let has_pulled = vec![false; presses.len()];
@@ -54,13 +53,12 @@ impl ForceWatch {
         }
         self.compute(row);
         let system = self.kinematics.system();
-        let Some(forces) = &system.forces else { return Ok(()) };
         let value = |register: &Register| self.registers.get(*register);
         if let Some(number) = self.loads.iter().position(|load| !value(load).is_finite()) {
-            return Err(Box::new(errors::load_not_finite(&forces.loads[number], row[0])));
+            return Err(Box::new(errors::load_not_finite(&system.loads()[number], row[0])));
         }
         let largest = self.largest(system);
-        for ((press, told), of) in self.presses.iter().zip(&mut self.has_pulled).zip(&forces.presses) {
+        for ((press, told), of) in self.presses.iter().zip(&mut self.has_pulled).zip(system.presses()) {
             let force = self.registers.get(*press);
             if !*told && force < -PULLS * largest {
                 *told = true;
@@ -72,7 +70,7 @@ impl ForceWatch {
 
     /// The largest of the multipliers.
     fn largest(&self, system: &ConstraintSystem) -> f64 {
-        (0..system.rows.len()).map(|row| self.kinematics.multiplier(row).abs()).fold(0.0, f64::max)
+        (0..system.rows().len()).map(|row| self.kinematics.multiplier(row).abs()).fold(0.0, f64::max)
     }
 
     /// Computes what is watched at a row's state.
@@ -90,7 +88,7 @@ impl ForceWatch {
         for (first, values) in inputs.coordinates.into_iter().zip([&state.q, &state.qd, &state.qdd]) {
             registers.set_all(first, values);
         }
-        for row in 0..kinematics.system().rows.len() {
+        for row in 0..kinematics.system().rows().len() {
             registers.set(inputs.multipliers + row as Register, kinematics.multiplier(row));
         }
         program.run(Stage::Measures, registers);

@@ -73,7 +73,7 @@ impl Leap {
     /// With the operations of a solver, for a motion that is at a bookmark and is measured against a span (s).
     pub fn new(kinematics: &Kinematics, solver: Arc<Solver>, origin: Bookmark, span: f64) -> Leap {
         let threads = threads(&solver);
-        let n = kinematics.system().coordinates.len();
+        let n = kinematics.system().coordinates().len();
         Leap {
             lanes: vec![Lanes::new(&solver); threads],
             values: vec![0.0; threads * LANES * solver.layout().stride],
@@ -86,7 +86,7 @@ impl Leap {
             first: 0,
             end: 0,
             last: 0,
-            bounds: vec![0.0; kinematics.system().rows.len()],
+            bounds: vec![0.0; kinematics.system().rows().len()],
             has_bounds: false,
             before: origin.state().clone(),
             origin,

@@ -1,10 +1,11 @@
-//! Rows in which a measure has no value.
+//! Rows in which a measure, derivative or force has no value.
 
 use crate::analysis::explain::errors;
 use crate::analysis::follow::remarks::Remarks;
+use crate::analysis::state::Unknown;
 use crate::ir::ConstraintSystem;
 
-/// The rows in which one measure has no value.
+/// The rows in which one of them has none.
 #[derive(Clone, Copy)]
 struct Gap {
     /// Times of the first and the last of them (s).
@@ -28,32 +29,38 @@ impl Gap {
     }
 }
 
-/// By measure, then by variable that derivatives are taken by, and last of reactions and efforts.
-pub(super) struct Missing(Vec<Gap>);
+/// The rows in which something has no value, by what has none.
+pub(super) struct Missing {
+    measures: Vec<Gap>,
+    derivatives: Vec<Gap>,
+    forces: Gap,
+}
 
 impl Missing {
     pub fn new(system: &ConstraintSystem) -> Missing {
-        let variables = system.variations.as_ref().map_or(0, |variations| variations.variables.len());
-        Missing(vec![Gap::NONE; system.measures.len() + variables + 1])
+        let gaps = |count: usize| vec![Gap::NONE; count];
+        let (measures, derivatives) = (gaps(system.measures().len()), gaps(system.variables().len()));
+        Missing { measures, derivatives, forces: Gap::NONE }
     }
 
-    /// There is no number in a cell of a measure, or of a derivative by a variable, in the row of a time (s).
-    pub fn take_note(&mut self, measure: usize, t: f64) {
-        self.0[measure].take_note(t);
+    /// There is no number in a cell of the row of a time (s).
+    pub fn take_note(&mut self, what: Unknown, t: f64) {
+        let gap = match what {
+            Unknown::Measure(index) => &mut self.measures[index],
+            Unknown::Derivative(variable) => &mut self.derivatives[variable],
+            Unknown::Forces => &mut self.forces,
+        };
+        gap.take_note(t);
     }
 
     /// A warning for each, once.
     pub fn say(&mut self, system: &ConstraintSystem, remarks: &mut Remarks) {
-        let variables = system.variations.as_ref().map_or(0, |variations| variations.variables.len());
-        for (index, gap) in self.0.iter_mut().enumerate().filter(|(_, gap)| gap.rows > 0 && !gap.is_told) {
+        let measures = self.measures.iter_mut().enumerate().map(|(k, gap)| (Unknown::Measure(k), gap));
+        let derivatives = self.derivatives.iter_mut().enumerate().map(|(k, gap)| (Unknown::Derivative(k), gap));
+        let all = measures.chain(derivatives).chain([(Unknown::Forces, &mut self.forces)]);
+        for (what, gap) in all.filter(|(_, gap)| gap.rows > 0 && !gap.is_told) {
             gap.is_told = true;
-            remarks.push(match index.checked_sub(system.measures.len()) {
-                None => errors::measure_without_value(system, index, gap.first, gap.rows),
-                Some(variable) if variable < variables => {
-                    errors::derivatives_without_value(system, variable, gap.first, gap.rows)
-                }
-                Some(_) => errors::forces_without_value(system, gap.first, gap.rows),
-            });
+            remarks.push(errors::without_value(system, what, gap.first, gap.rows));
         }
     }
 }

@@ -57,7 +57,7 @@ impl Rows {
             steps: 0,
             careful_until: f64::NEG_INFINITY,
             // what was left out of the equations is looked at wherever a row is printed
-            may_leap: kinematics.system().checks.is_empty(),
+            may_leap: kinematics.system().checks().is_empty(),
             leap,
             row: vec![0.0; kinematics.row_length()],
             trust: Trust::Certain,
@@ -208,7 +208,7 @@ impl Rows {
             let cell = &mut self.row_mut(place)[column];
             if !cell.is_finite() {
                 *cell = f64::NAN;
-                self.missing.take_note(kinematics.measure_of_column(column), t);
+                self.missing.take_note(kinematics.unknown_in(column), t);
             }
         }
     }

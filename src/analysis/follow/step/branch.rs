@@ -14,7 +14,7 @@ pub struct Signs {
 impl Signs {
     fn new(kinematics: &Kinematics) -> Signs {
         let determinants = vec![Determinant::ONE; kinematics.linear().blocks()];
-        Signs { determinants, sides: vec![true; kinematics.system().watches.len()] }
+        Signs { determinants, sides: vec![true; kinematics.system().watches().len()] }
     }
 
     pub fn copy_from(&mut self, other: &Signs) {

@@ -17,6 +17,7 @@ use crate::solver::{Equations, Solver, Values};
 use crate::structure::Determined;
 use derivatives::Spread;
 pub use fault::Fault;
+pub use row::Unknown;
 use row::Varied;
 use std::sync::Arc;
 
@@ -84,11 +85,11 @@ impl Kinematics {
         cancel: Cancel,
     ) -> Kinematics {
         let system = determined.system();
-        let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
+        let params: Vec<f64> = system.params().iter().map(|param| param.value).collect();
         let (registers, linear) = (program.start(&params), BlockLu::new(system, determined.blocks()));
-        let bent = (0..system.rows.len()).filter(|&row| is_bent(system, row)).collect();
-        let looked_at_beside = (0..system.rows.len()).filter(|&row| is_looked_at_beside(system, row)).collect();
-        let n = system.coordinates.len();
+        let bent = (0..system.rows().len()).filter(|&row| is_bent(system, row)).collect();
+        let looked_at_beside = (0..system.rows().len()).filter(|&row| is_looked_at_beside(system, row)).collect();
+        let n = system.coordinates().len();
         let other_estimates = None;
         let holds = layout::holds(system);
         let (beside, doubt, variations) = (vec![0.0; n], Spread::new(n), Varied::new(system, &holds));
@@ -216,8 +217,9 @@ impl Kinematics {
     }
 
     fn not_finite_slope(&self) -> Option<usize> {
-        let pattern = &self.system().phi_q;
-        (0..self.system().rows.len()).find(|&row| pattern.range(row).any(|position| !self.phi_q(position).is_finite()))
+        let pattern = self.system().phi_q();
+        (0..self.system().rows().len())
+            .find(|&row| pattern.range(row).any(|position| !self.phi_q(position).is_finite()))
     }
 
     /// Newton's correction of the position, and its largest scaled entry.
@@ -272,7 +274,7 @@ impl Equations for Kinematics {
 
 impl Values for Kinematics {
     fn entry(&self, position: usize) -> f64 {
-        let pattern = &self.system().phi_q;
+        let pattern = self.system().phi_q();
         let column = pattern.entries()[position].0 as usize;
         self.phi_q(position) * self.linear.column_scale(column) / self.linear.row_norm(pattern.row_of(position))
     }
@@ -286,5 +288,5 @@ impl Values for Kinematics {
 fn is_bent(system: &ConstraintSystem, row: usize) -> bool {
     let declaration = system.declaration_of(row);
     let by_hand = !matches!(declaration.kind, DeclarationKind::Joint(_)) && declaration.points.is_empty();
-    by_hand && !system.phi_q.row(row).iter().any(|&(_, slope)| system.graph.dependence(slope).is_constant())
+    by_hand && !system.phi_q().row(row).iter().any(|&(_, slope)| system.graph().dependence(slope).is_constant())
 }

@@ -19,14 +19,14 @@ impl Kinematics {
 
     /// The equation that was left out and does not hold where the position was set.
     pub fn broken_check(&self) -> Option<usize> {
-        let checks = self.system().checks.iter().zip(&self.program.outputs.checks);
+        let checks = self.system().checks().iter().zip(&self.program.outputs.checks);
         let mut open = checks.map(|(check, &register)| self.registers.get(register).abs() / check.scale);
         open.position(|open| open.is_nan() || open > LARGEST_OPENING)
     }
 
     /// A quantity that is watched, against its scale, where the position was set.
     pub fn watched(&self, index: usize) -> f64 {
-        self.registers.get(self.program.outputs.watches[index]) / self.system().watches[index].scale
+        self.registers.get(self.program.outputs.watches[index]) / self.system().watches()[index].scale
     }
 
     /// Writes the sign of everything that is watched.
@@ -39,9 +39,10 @@ impl Kinematics {
     /// The coordinates `θ` of lines of centres that point away from the other centre, where the position was set.
     pub fn turned_lines(&self) -> Vec<usize> {
         let system = self.system();
-        let is_turned = |k: &usize| system.watches[*k].kind == WatchKind::LineOfCenters && self.watched(*k) < 0.0;
-        let joints = (0..system.watches.len()).filter(is_turned).map(|k| Owner::Joint(system.watches[k].declaration));
-        joints.filter_map(|owner| system.coordinates.iter().position(|c| c.owner == owner)).collect()
+        let is_turned = |k: &usize| system.watches()[*k].kind == WatchKind::LineOfCenters && self.watched(*k) < 0.0;
+        let joints =
+            (0..system.watches().len()).filter(is_turned).map(|k| Owner::Joint(system.watches()[k].declaration));
+        joints.filter_map(|owner| system.coordinates().iter().position(|c| c.owner == owner)).collect()
     }
 
     /// By row, one over what may be left of it: its tolerance and what the coordinates' rounding makes, where the position was
@@ -68,7 +69,7 @@ impl Kinematics {
     /// A row's tolerance is `--tolerance` times its norm, plus what rounding alone makes of its terms and of the
     /// coordinates that it depends on.
     pub fn violated(&self) -> Option<(usize, f64)> {
-        let n = self.system().rows.len();
+        let n = self.system().rows().len();
         let mut worst: Option<(usize, f64)> = None;
         for row in (0..n).filter(|&row| !self.is_met(row)) {
             let residual = self.residual(row);
@@ -92,7 +93,7 @@ impl Kinematics {
 
     /// What is left of Φ, scaled: the largest of all rows.
     pub fn largest_residual(&self) -> f64 {
-        (0..self.system().rows.len()).map(|row| self.residual(row)).fold(0.0, f64::max)
+        (0..self.system().rows().len()).map(|row| self.residual(row)).fold(0.0, f64::max)
     }
 
     /// 8 eps times the largest term of a row, the steps of its coordinates included.
@@ -107,7 +108,7 @@ impl Kinematics {
 
     /// What each coordinate contributes to a row by its slope.
     fn steps(&self, row: usize) -> impl Iterator<Item = f64> {
-        let pattern = &self.system().phi_q;
+        let pattern = self.system().phi_q();
         pattern.range(row).zip(pattern.row(row)).map(|(position, &(column, _))| {
             let q = self.registers.get(self.program.inputs.coordinates[0] + column);
             (self.phi_q(position) * q).abs()
@@ -132,7 +133,7 @@ impl Kinematics {
 
     /// A row of `Φ_q x`.
     pub(super) fn left(&self, row: usize, x: &[f64]) -> f64 {
-        let pattern = &self.system().phi_q;
+        let pattern = self.system().phi_q();
         pattern.range(row).zip(pattern.row(row)).map(|(at, &(column, _))| self.phi_q(at) * x[column as usize]).sum()
     }
 }

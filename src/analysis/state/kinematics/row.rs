@@ -27,25 +27,35 @@ pub(super) struct Varied {
 /// Whether a column holds what is not known at every position: forces, and what is differentiated by something else than time.
 fn may_be_missing(system: &ConstraintSystem, holds: &Holds) -> bool {
     let is_of_solution = |id: ExprId| {
-        let dependence = system.graph.dependence(id);
-        dependence.highest_varied_order().is_some()
-            || dependence.on(Dependence::MULTIPLIERS.or(Dependence::VARIED_MULTIPLIERS))
+        let dependence = system.graph().dependence(id);
+        dependence.highest_varied_order().is_some() || dependence.on(Dependence::FORCES)
     };
     match *holds {
         Holds::Time | Holds::Coordinate { .. } | Holds::Slope { .. } | Holds::Varied | Holds::Multiplier => false,
-        Holds::Measure { index, order } => system.measures[index].derivative(order).is_some_and(is_of_solution),
+        Holds::Measure { index, order } => system.measures()[index].derivative(order).is_some_and(is_of_solution),
         Holds::Reaction(_) | Holds::Appended(_) => true,
     }
+}
+
+/// What may have no value at a position where the mechanism has one.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Unknown {
+    /// A measure, by its index.
+    Measure(usize),
+    /// All derivatives by one variable, by its index.
+    Derivative(usize),
+    /// All reactions and efforts.
+    Forces,
 }
 
 impl Varied {
     pub fn new(system: &ConstraintSystem, holds: &[Holds]) -> Varied {
         let scoped = ScopedLu::new(system);
-        if system.variations.is_none() && system.forces.is_none() {
+        if system.all_variations().is_none() && system.forces().is_none() {
             return Varied { solution: Vec::new(), columns: Vec::new(), scoped };
         }
         let columns = holds.iter().map(|holds| may_be_missing(system, holds)).collect();
-        Varied { solution: vec![0.0; system.coordinates.len()], columns, scoped }
+        Varied { solution: vec![0.0; system.coordinates().len()], columns, scoped }
     }
 }
 
@@ -65,7 +75,7 @@ impl Kinematics {
     pub fn with_variations_of_results(&self) -> Option<Kinematics> {
         let determined = Arc::new(self.determined.for_variations_of_results()?);
         let program = Arc::new(Program::new(determined.system()));
-        let params: Vec<f64> = determined.system().params.iter().map(|param| param.value).collect();
+        let params: Vec<f64> = determined.system().params().iter().map(|param| param.value).collect();
         let holds = layout::holds(determined.system());
         let (registers, variations) = (program.start(&params), Varied::new(determined.system(), &holds));
         Some(Kinematics { determined, program, registers, variations, holds, ..self.clone() })
@@ -108,13 +118,13 @@ impl Kinematics {
 
     /// Whether there is more to solve for than the motion.
     fn has_more_to_solve(&self) -> bool {
-        self.system().forces.is_some() || !self.system().variations().is_empty()
+        self.system().forces().is_some() || !self.system().variations().is_empty()
     }
 
     /// There are no forces and variations at this position.
     fn leave_variations_out(&mut self) {
         let inputs = self.program.inputs;
-        let (variations, has_forces) = (self.system().variations().len() as u32, self.system().forces.is_some());
+        let (variations, has_forces) = (self.system().variations().len() as u32, self.system().forces().is_some());
         let last = if has_forces { inputs.varied_multipliers(variations) } else { inputs.varied(variations, 0) };
         for register in inputs.varied..last {
             self.registers.set(register, f64::NAN);
@@ -187,17 +197,12 @@ impl Kinematics {
         self.write_columns(state, row);
     }
 
-    /// The measure behind a column of a result row, which must be one of a measure; behind the last one follow the variables, for the
-    /// columns of derivatives by them, and then all reactions and efforts together.
-    pub fn measure_of_column(&self, column: usize) -> usize {
-        let system = self.system();
+    /// Whose number there is none of where a cell of a result row is empty, which must be one of a measure, derivative or force.
+    pub fn unknown_in(&self, column: usize) -> Unknown {
         match self.holds.get(column) {
-            Some(&Holds::Measure { index, .. }) => index,
-            Some(&Holds::Appended(k)) => system.measures.len() + system.appended()[k].variable as usize,
-            Some(Holds::Reaction(_)) => {
-                system.measures.len() + system.variations.as_ref().map_or(0, |all| all.variables.len())
-            }
-            _ => 0,
+            Some(&Holds::Measure { index, .. }) => Unknown::Measure(index),
+            Some(&Holds::Appended(k)) => Unknown::Derivative(self.system().appended()[k].variable as usize),
+            _ => Unknown::Forces,
         }
     }
 

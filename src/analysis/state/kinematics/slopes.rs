@@ -27,7 +27,7 @@ impl Kinematics {
 
     fn look_beside(&mut self, q: &[f64]) {
         let determined = self.determined();
-        let pattern = &determined.system().phi_q;
+        let pattern = determined.system().phi_q();
         // where a formula has no value it has no slope
         let lesser = |known: f64, found: f64| if found.is_finite() { f64::min(known, found) } else { known };
         let or_none = |least: f64| if least.is_finite() { least } else { 0.0 };
@@ -62,7 +62,7 @@ impl Kinematics {
 
     /// The norm of a row of the scaled Φ_q where the position was set.
     fn slope(&self, row: usize) -> f64 {
-        let pattern = &self.system().phi_q;
+        let pattern = self.system().phi_q();
         let scaled = pattern
             .range(row)
             .zip(pattern.row(row))

@@ -142,7 +142,7 @@ impl Kinematics {
         let _ = self.set_position(q);
         let effects = signals.iter().zip(&before).zip(&values).map(|((signal, before), value)| {
             let rows = signal.rows.iter().map(|&row| (self.phi(row), self.linear.row_norm(row)));
-            let scales = &self.system().checks;
+            let scales = self.system().checks();
             let all = rows.chain(signal.checks.iter().map(|&k| (checks(self, k), scales[k].scale)));
             let changes = all.zip(before).map(|((after, scale), before)| (after - before).abs() / scale);
             changes.fold(0.0, f64::max) / step(*value)

@@ -126,7 +126,7 @@ impl Pattern {
             part.inside.start = inside.len();
             for (place, &row) in rows[part.at..part.at + part.size].iter().enumerate() {
                 let row = row as usize;
-                for (position, &(column, _)) in system.phi_q.range(row).zip(system.phi_q.row(row)) {
+                for (position, &(column, _)) in system.phi_q().range(row).zip(system.phi_q().row(row)) {
                     let (block, column_place) = place_of(column as usize);
                     let is_inside = block == k as u32;
                     if is_inside {
@@ -184,7 +184,7 @@ pub enum Factored {
 
 impl BlockLu {
     pub fn new(system: &ConstraintSystem, blocks: &[Block]) -> BlockLu {
-        let n = system.coordinates.len();
+        let n = system.coordinates().len();
         let mut place_of_column = vec![0_u32; n];
         let mut part_of_column = vec![0_u32; n];
         let (mut parts, mut rows, mut columns) = (Vec::new(), Vec::new(), Vec::new());
@@ -202,7 +202,7 @@ impl BlockLu {
         }
         let Pattern { starts, entries, inside } =
             Pattern::new(system, &mut parts, &rows, |column| (part_of_column[column], place_of_column[column]));
-        let column_scale = system.coordinates.iter().map(|coordinate| coordinate.scale).collect();
+        let column_scale = system.coordinates().iter().map(|coordinate| coordinate.scale).collect();
         let judged = judged_coordinates(system);
         let is_implicit = |column: &u32| !parts[part_of_column[*column as usize] as usize].explicit;
         let judged_implicit = judged.iter().copied().filter(is_implicit).collect();
@@ -311,16 +311,16 @@ impl BlockLu {
 /// The coordinates that a step is judged by: those that `Φ_q` depends on, those that an equation of time speaks of, and all
 /// angles. The places that are left follow from these, however far they go.
 fn judged_coordinates(system: &ConstraintSystem) -> Vec<u32> {
-    let slopes: Vec<ExprId> = system.phi_q.entries().iter().map(|&(_, slope)| slope).collect();
-    let mut is_judged: Vec<bool> = system.coordinates.iter().map(|c| c.kind != CoordinateKind::Length).collect();
-    for symbol in system.graph.symbols_of_all(&slopes) {
+    let slopes: Vec<ExprId> = system.phi_q().entries().iter().map(|&(_, slope)| slope).collect();
+    let mut is_judged: Vec<bool> = system.coordinates().iter().map(|c| c.kind != CoordinateKind::Length).collect();
+    for symbol in system.graph().symbols_of_all(&slopes) {
         if let Symbol::Coordinate { index, .. } = symbol {
             is_judged[index as usize] = true;
         }
     }
-    for (k, row) in system.rows.iter().enumerate() {
-        if system.graph.dependence(row.phi).on(Dependence::TIME) {
-            system.phi_q.row(k).iter().for_each(|&(column, _)| is_judged[column as usize] = true);
+    for (k, row) in system.rows().iter().enumerate() {
+        if system.graph().dependence(row.phi).on(Dependence::TIME) {
+            system.phi_q().row(k).iter().for_each(|&(column, _)| is_judged[column as usize] = true);
         }
     }
     (0..is_judged.len() as u32).filter(|&column| is_judged[column as usize]).collect()
