@@ -39,6 +39,8 @@ pub struct Choice {
     pub by: Vec<String>,
     /// Whether what all joints exert and all drivers supply is tabulated.
     pub reactions: bool,
+    /// Whether pictures are to show forces, where there are any.
+    pub pictures_forces: bool,
 }
 
 /// A mechanism that was checked, whatever is wrong with it.
@@ -151,9 +153,17 @@ impl Checked {
             }
             (Ok(settings), Ok(given)) => {
                 let library = library.clone();
-                let reactions = choice.reactions;
-                let surroundings =
-                    Surroundings { settings, library, files, given, by, reactions, ..Surroundings::default() };
+                let (reactions, pictures_forces) = (choice.reactions, choice.pictures_forces);
+                let surroundings = Surroundings {
+                    settings,
+                    library,
+                    files,
+                    given,
+                    by,
+                    reactions,
+                    pictures_forces,
+                    ..Surroundings::default()
+                };
                 checked_with = surroundings.clone();
                 let (found, said) = check::check(tree, &surroundings, &sources);
                 diagnostics.extend(said);

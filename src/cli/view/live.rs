@@ -11,7 +11,7 @@ use crate::cli::{input, interrupts};
 use crate::diag::Diagnostics;
 use crate::live::{Host, Server, Workshop};
 use crate::source::Sources;
-use crate::stages::{Compiled, Redundant};
+use crate::stages::{Choice, Compiled, Redundant};
 use crate::world::World;
 use std::io::Write;
 use std::process::{Command, Stdio};
@@ -38,7 +38,8 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     let desk = Desk { file: given.file.clone(), interval: arguments.interval.clone() };
     let redundant = if arguments.allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
     let options = (redundant, arguments.pass_bifurcations);
-    let workshop = Workshop::new(input::path(given), input::choice(given), options, Box::new(desk));
+    let choice = Choice { pictures_forces: true, ..input::choice(given) };
+    let workshop = Workshop::new(input::path(given), choice, options, Box::new(desk));
     let workshop = Arc::new(workshop);
     let serving = Server::bind(arguments.port.unwrap_or(0)).and_then(|server| {
         let port = server.port();
@@ -62,13 +63,14 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
 
 /// What is asked for that a live page has not.
 fn not_of_live_pages(arguments: &ViewArguments) -> Option<&'static str> {
-    let ViewArguments { vary, plots, at, trace, vectors, labels, size, scale, body, .. } = arguments;
+    let ViewArguments { vary, plots, at, trace, vectors, forces, labels, size, scale, body, .. } = arguments;
     let asked = [
         ("--vary", !vary.is_empty()),
         ("--plots", *plots),
         ("--at", !at.is_empty()),
         ("--trace", !trace.is_empty()),
         ("--vectors", *vectors),
+        ("--forces", *forces),
         ("--labels", *labels),
         ("--size", size.is_some()),
         ("--scale", scale.is_some()),
