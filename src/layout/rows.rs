@@ -189,6 +189,12 @@ impl RowLayout {
         layout
     }
 
+    /// The coordinates in a row (m, rad).
+    #[must_use]
+    pub fn position<'r>(&self, row: &'r [f64]) -> &'r [f64] {
+        &row[self.coordinates[0] as usize..self.reactions as usize]
+    }
+
     /// The columns of x, y and phi of a body; of their first, and of their second time derivatives.
     #[must_use]
     pub fn pose(&self, system: &ConstraintSystem, body: BodyId) -> [[usize; 3]; 3] {

@@ -1,4 +1,4 @@
-//! What is drawn for each joint: pins and welds here, the others in files of their own.
+//! What is drawn for each joint, by its kind: each in a file of its own.
 
 use super::drawing::Drawing;
 use super::{contacts, guides, pins};

@@ -5,7 +5,7 @@ use super::used_at::UsedAt;
 use crate::analysis::{self, Answers, Asked, Follower, Horizon, LeadOptions, Started, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::layout::ColumnUnit;
+use crate::layout::{ColumnUnit, RowLayout};
 use crate::program::Program;
 use crate::structure::Determined;
 use std::sync::Arc;
@@ -144,9 +144,9 @@ impl Compiled {
     pub fn stand(&self, t: f64, options: &RunOptions) -> Result<Stand, Diagnostics> {
         let from = self.analysis().map_or(t, |[from, ..]| from.min(t));
         let (run, said) = self.run(&Times::listed(from, vec![t]), options);
-        let n = self.system().coordinates().len();
+        let layout = RowLayout::new(self.system());
         match run.and_then(|mut run| run.next()) {
-            Some(Ok(row)) => Ok(Stand { t, q: row[1..=n].to_vec() }),
+            Some(Ok(row)) => Ok(Stand { t, q: layout.position(&row).to_vec() }),
             Some(Err(why)) => Err((*why).into()),
             None => Err(said),
         }

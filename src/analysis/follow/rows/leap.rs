@@ -65,7 +65,7 @@ fn threads(_: &Solver) -> usize {
 pub fn state_of_row(layout: &RowLayout, row: &[f64], like: &State, t: f64) -> State {
     let n = like.q.len();
     let part = |order: usize| row[layout.coordinates[order] as usize..][..n].to_vec();
-    let qddd = if layout.stride > layout.printed { part(3) } else { like.qddd.clone() };
+    let qddd = if layout.has_jerk { part(3) } else { like.qddd.clone() };
     State { t, q: part(0), qd: part(1), qdd: part(2), qddd }
 }
 
@@ -303,7 +303,7 @@ impl Leap {
     /// Solves from the position of a row; says whether it holds.
     fn solve_at_rest(&mut self, kinematics: &Kinematics, t: f64, row: &[f64]) -> bool {
         kinematics.write_bounds(&mut self.bounds);
-        for (rest, q) in self.rest.iter_mut().zip(&row[1..]) {
+        for (rest, q) in self.rest.iter_mut().zip(self.solver.layout().position(row)) {
             rest[0] = *q;
         }
         let batch = Batch { times: [t], from: t, length: 1.0, curve: &self.rest, bends: &[], bounds: &self.bounds };
@@ -318,8 +318,7 @@ impl Leap {
             return false;
         };
         self.pivoted.t = t;
-        let n = self.pivoted.q.len();
-        self.pivoted.q.copy_from_slice(&row[1..=n]);
+        self.pivoted.q.copy_from_slice(self.solver.layout().position(row));
         let is_solved = kinematics.pivoted_row(pivoting, &mut self.pivoted, &mut self.alone_row[..row.len()]);
         kinematics.restore(here);
         is_solved
