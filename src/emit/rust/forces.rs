@@ -145,8 +145,12 @@ impl Writer<'_> {
         page.text(&constant(docs, "PLACES", "usize", "ENTRIES", &places));
         let docs = "How the transposed equations fall apart into blocks.";
         Self::table_of_blocks("TRANSPOSED", docs, &transposed, page);
-        let docs = "The transposed Jacobian.";
-        page.constant(docs, "static ACROSS: Transposed", "Transposed { blocks: &TRANSPOSED, places: &PLACES }");
+        page.docs("The transposed Jacobian.");
+        page.block("static ACROSS: Transposed = Transposed", |page| {
+            page.line("blocks: &TRANSPOSED,");
+            page.line("places: &PLACES,");
+        });
+        page.end_statement();
     }
 
     /// What elimination with partial pivoting asks for.
