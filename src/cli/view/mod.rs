@@ -30,7 +30,8 @@ use std::path::Path;
 const MOST_ROWS: usize = 2000;
 
 /// What is said where `--forces` has nothing to show.
-const NO_FORCES: &str = "there are no forces: the text has neither masses nor loads\n";
+const NO_FORCES: &str =
+    "there are no forces to draw: there are neither masses nor loads, or redundant equations share them in any way\n";
 
 /// What is said where `--vectors` has nothing to show.
 const NO_ARROWS: &str = "there are no arrows: no pin, traced point or point that has a name moves\n";

@@ -35,7 +35,6 @@ pub enum Theme {
 
 /// What a picture shows beside the mechanism.
 #[derive(Clone, Debug, Default)]
-#[allow(clippy::struct_excessive_bools)] // each is asked for by itself
 pub struct Options {
     /// Width and height in pixels; by the mechanism's extent if not given.
     pub size: Option<[f64; 2]>,

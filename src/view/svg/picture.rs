@@ -71,10 +71,12 @@ impl<'s> Picture<'s> {
         let [low, high] = with_traces(scene, motion, options);
         let extent = [high[0] - low[0], high[1] - low[1]].map(|side| side.max(4.0 * scene.unit));
         let is_labelled = options.labels || options.vectors || !scene.remarks.is_empty();
-        let margin = match is_labelled {
-            _ if options.forces && !scene.forces.is_empty() => MARGIN_OF_FORCES,
-            true => LABELLED_MARGIN,
-            false => MARGIN,
+        let margin = if options.forces && !scene.forces.is_empty() {
+            MARGIN_OF_FORCES
+        } else if is_labelled {
+            LABELLED_MARGIN
+        } else {
+            MARGIN
         };
         let inner = |side: f64| (side - 2.0 * margin).max(0.2 * side);
         let largest = LARGEST_UNIT / scene.unit;
