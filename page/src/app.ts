@@ -56,7 +56,10 @@ export class App implements Deeds {
     private readonly transport = new Transport(this.clock, this);
     private readonly plots = new Plots(this);
     private readonly variants: Variants;
-    private readonly panes: Pane[];
+    /** What a reader looks at who moves something, and what is a moment later when it is another motion. */
+    private readonly near: Pane[];
+    private readonly far: Pane[];
+    private isBehind = false;
     private readonly helping: HTMLDialogElement;
     private readonly switches = new Map<Switch, HTMLButtonElement>();
     private document: Document | undefined;
@@ -66,6 +69,8 @@ export class App implements Deeds {
     private before: number | undefined;
     private wanted = 0;
     private inputs: ReadonlyMap<string, Float64Array> = new Map();
+    /** Whether the picture is that of a moment of another motion, which is not there yet. */
+    private isGlimpse = false;
     /** Where everything stands while inputs are moved by hand. */
     private standing: Document | undefined;
     private chosen: number | undefined;
@@ -90,7 +95,8 @@ export class App implements Deeds {
         this.plots.whenPlotted(() => rows.plottedAnew());
         const knobs = following?.knobs;
         this.picture.hand = following?.hand;
-        this.panes = [this.picture, this.transport, knobs ?? this.variants, results, this.plots, text, closer, rows];
+        this.near = [this.picture, this.transport, knobs ?? this.variants];
+        this.far = [results, this.plots, text, closer, rows];
         const tabs = new Tabs([["Text", text.element], ["Closer look", closer.element], ["Table", rows.element]], () => this.draw());
         this.element.append(
             html(
@@ -137,6 +143,7 @@ export class App implements Deeds {
         const { rows } = document.table;
         this.document = document;
         this.standing = undefined;
+        this.isGlimpse = false;
         this.moment = document.motion.moment();
         // what is broken has no time of its own, and takes none away
         if (rows > 0) this.clock.span(from, to, !this.hasMoved);
@@ -144,8 +151,38 @@ export class App implements Deeds {
         this.element.classList.toggle("still", document.table.rows < 2);
         const forces = this.switches.get("forces");
         if (forces) forces.hidden = !document.scene.forces;
-        for (const pane of this.panes) pane.show(document, this.wishes);
+        for (const pane of this.near) pane.show(document, this.wishes);
+        this.isBehind = true;
         this.draw();
+        void painted().then(() => this.catchUp());
+    }
+
+    /** A moment of another motion, which follows; until then the picture alone is of it. */
+    glimpse(document: Document): void {
+        this.isGlimpse = true;
+        this.picture.glimpse(document, document.motion.atRow(0, document.motion.moment()));
+    }
+
+    /** The motion that was glimpsed does not follow. */
+    goBack(): void {
+        if (this.isGlimpse && this.document) this.show(this.document);
+    }
+
+    /** All is of the document whose picture is shown. */
+    private catchUp(): void {
+        const { document, moment } = this;
+        if (!this.isBehind || !document || !moment) return;
+        this.isBehind = false;
+        for (const pane of this.far) {
+            pane.show(document, this.wishes);
+            pane.draw(moment);
+        }
+    }
+
+    /** Settles when everything that was changed is on the screen. */
+    async drawn(): Promise<void> {
+        this.catchUp();
+        await frame();
     }
 
     /** Shows where inputs that are moved by hand have brought everything; time stands still. */
@@ -179,6 +216,7 @@ export class App implements Deeds {
 
     /** Begins to move, unless the reader asked for little motion. */
     begin(): void {
+        this.catchUp();
         if (!matchMedia("(prefers-reduced-motion: reduce)").matches) this.play();
         this.draw();
         this.source.prepare?.();
@@ -206,7 +244,7 @@ export class App implements Deeds {
         this.clock.go(time);
         this.draw();
         if (!this.clock.playing) this.transport.say();
-        return drawn();
+        return this.drawn();
     }
 
     step(rows: number): void {
@@ -223,7 +261,7 @@ export class App implements Deeds {
 
     async set(name: string, value: number): Promise<void> {
         await this.turnTo(this.variants.nearest(name, value));
-        await drawn();
+        await this.drawn();
     }
 
     private async turnTo(variant: number): Promise<void> {
@@ -255,12 +293,15 @@ export class App implements Deeds {
         if (!document || !moment) return;
         (this.standing ?? document).motion.at(this.time, moment);
         if (this.standing) moment.row = document.table.rowAt(this.time);
-        for (const pane of this.panes) pane.draw(moment);
+        for (const pane of this.near) if (pane !== this.picture || !this.isGlimpse) pane.draw(moment);
+        if (!this.isBehind) for (const pane of this.far) pane.draw(moment);
     }
 
     private wish(change: Change): void {
         if (!this.document) return;
-        for (const pane of this.panes) {
+        if (change === "wish") this.isGlimpse = false;
+        this.catchUp();
+        for (const pane of [...this.near, ...this.far]) {
             if (change === "pointer") pane.light?.(this.wishes);
             else pane.show(this.document, this.wishes);
         }
@@ -332,7 +373,12 @@ export class App implements Deeds {
     }
 }
 
-/** When what was changed is on the screen. */
-function drawn(): Promise<void> {
+function frame(): Promise<void> {
     return new Promise((resolve) => requestAnimationFrame(() => resolve()));
+}
+
+/** When what was changed is on the screen. */
+async function painted(): Promise<void> {
+    await frame();
+    await new Promise((resolve) => setTimeout(resolve));
 }

@@ -14,6 +14,8 @@ pub struct Question {
     pub page: String,
     /// Params with what they are set to, as `--set` takes them.
     pub set: Vec<(String, String)>,
+    /// The time (s) whose picture alone is wanted.
+    pub at: Option<f64>,
     /// Whether time stands still.
     pub jog: Option<Jogged>,
 }
@@ -69,7 +71,11 @@ impl Question {
                 Some(Jogged { time: number(&jog["time"])?, inputs: inputs.collect::<Result<_, Wrong>>()? })
             }
         };
-        Ok(Question { page, set: set.collect::<Result<_, Wrong>>()?, jog })
+        let at = match &body["at"] {
+            Value::Null => None,
+            at => Some(number(at)?),
+        };
+        Ok(Question { page, set: set.collect::<Result<_, Wrong>>()?, at, jog })
     }
 }
 
@@ -131,7 +137,9 @@ mod tests {
         let asked = Question::of(br#"{"page":"a","set":[["rod","2 mm"]],"jog":{"time":0.5,"inputs":[["turn",1]]}}"#);
         let jog = Some(Jogged { time: 0.5, inputs: vec![("turn".into(), 1.0)] });
         let set = vec![("rod".to_owned(), "2 mm".to_owned())];
-        assert_eq!(asked, Ok(Question { page: "a".into(), set, jog }));
+        assert_eq!(asked, Ok(Question { page: "a".into(), set, at: None, jog }));
+        let glimpse = Question::of(br#"{"page":"a","at":0.25}"#);
+        assert_eq!(glimpse, Ok(Question { page: "a".into(), at: Some(0.25), ..Question::default() }));
         let write =
             Write::of(br#"{"version":3,"changes":[{"name":"rod","old":"2 mm","value":3}]}"#).expect("it is one");
         let rod = Change { name: "rod".into(), old: "2 mm".into(), value: 3.0 };
@@ -150,6 +158,7 @@ mod tests {
             r#"{"page":"a","set":1}"#,
             r#"{"page":"a","set":[["rod"]]}"#,
             r#"{"page":"a","set":[[["rod"],"2"]]}"#,
+            r#"{"page":"a","at":"0"}"#,
             r#"{"page":"a","jog":{}}"#,
             r#"{"page":"a","jog":{"time":"0"}}"#,
             r#"{"page":"a","jog":{"time":0,"inputs":[["turn",null]]}}"#,

@@ -10,7 +10,7 @@ pub use crate::view::page::{base64, shell};
 /// The page of one motion.
 #[must_use]
 pub fn written(seen: &Seen, sources: &Sources) -> String {
-    written_with(seen, Vec::new(), vec![variant(seen)], sources)
+    of_one(seen, sources).written()
 }
 
 /// The page of what varies; `first` is the variant that it begins with.
@@ -19,8 +19,12 @@ pub fn written_with(first: &Seen, vary: Vec<Vary>, variants: Vec<Variant>, sourc
     made(first, vary, variants, sources).written()
 }
 
-/// The same, not yet written.
-pub(super) fn made<'a>(first: &'a Seen, vary: Vec<Vary>, variants: Vec<Variant<'a>>, sources: &'a Sources) -> Page<'a> {
+/// The page of one motion, not yet written.
+pub(super) fn of_one<'a>(seen: &'a Seen, sources: &'a Sources) -> Page<'a> {
+    made(seen, Vec::new(), vec![variant(seen)], sources)
+}
+
+fn made<'a>(first: &'a Seen, vary: Vec<Vary>, variants: Vec<Variant<'a>>, sources: &'a Sources) -> Page<'a> {
     let kinds = first.kinds.iter().map(|kind| word(*kind));
     let columns = first.columns.iter().zip(&first.units).zip(kinds);
     let columns = columns.map(|((name, unit), kind)| Column { kind, ..column(name, unit) }).collect();

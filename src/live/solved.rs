@@ -1,13 +1,14 @@
 //! A mechanism as a page asks for it: checked, proven, assembled, followed.
 
 use super::shelf::Shelf;
+use super::workshop::Host;
 use crate::analysis::Times;
 use crate::cancel::Cancel;
 use crate::diag::{Code, Color, Diagnostic, Diagnostics, Format, render};
 use crate::source::Sources;
 use crate::stages::{Checked, Choice, Compiled, Crank, Jog, Knob, Parsed, Redundant, RunOptions, Seen, Stand};
 use serde_json::{Value, json};
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Of more rows some are left out.
 const MOST_ROWS: usize = 2000;
@@ -19,15 +20,25 @@ pub(super) struct Solved {
     pub sources: Sources,
     pub checked: Option<Checked>,
     compiled: Option<Compiled>,
-    pub seen: Option<Seen>,
+    times: Option<Times>,
     said: Diagnostics,
+    /// Its motion, once somebody has asked for it.
+    watched: Mutex<Option<Arc<Watched>>>,
     /// Where it stood when it was moved by hand last.
     stand: Mutex<Option<Stand>>,
 }
 
+/// The motion of a mechanism, or what there is to see instead.
+pub(super) struct Watched {
+    pub seen: Option<Seen>,
+    /// All that is said of the mechanism.
+    said: Diagnostics,
+}
+
 impl Solved {
     fn nothing(sources: Sources, said: Diagnostics) -> Solved {
-        Solved { sources, checked: None, compiled: None, seen: None, said, stand: Mutex::default() }
+        let (watched, stand) = Default::default();
+        Solved { sources, checked: None, compiled: None, times: None, said, watched, stand }
     }
 
     pub fn is_sound(&self) -> bool {
@@ -36,24 +47,20 @@ impl Solved {
 
     /// All that is said, as `run` prints it.
     pub fn rendered(&self) -> String {
-        rendered(&self.said, &self.sources)
+        let watched = lock(&self.watched).clone();
+        rendered(watched.as_ref().map_or(&self.said, |watched| &watched.said), &self.sources)
     }
 
     pub fn knobs(&self) -> Vec<Knob> {
         self.checked.as_ref().map(Checked::knobs).unwrap_or_default()
     }
 
-    /// The inputs, with what they are at the times of the rows.
-    pub fn jogs(&self) -> Vec<Jog> {
-        let times: Vec<f64> = self.seen.iter().flat_map(|seen| seen.motion.rows()).map(|row| row[0]).collect();
-        self.jogs_at(&times)
-    }
-
     pub fn cranks(&self) -> Vec<Crank> {
         self.compiled.as_ref().map(Compiled::cranks).unwrap_or_default()
     }
 
-    fn jogs_at(&self, times: &[f64]) -> Vec<Jog> {
+    /// The inputs, with what they are at some times (s).
+    pub fn jogs(&self, times: &[f64]) -> Vec<Jog> {
         let both = self.checked.as_ref().zip(self.compiled.as_ref());
         both.map(|(checked, compiled)| checked.jogs(compiled, times)).unwrap_or_default()
     }
@@ -68,12 +75,9 @@ pub(super) struct Solver<'s> {
     pub choice: &'s Choice,
     pub redundant: Redundant,
     pub pass_bifurcations: bool,
-    /// The times of a mechanism.
-    pub times: &'s TimesOf<'s>,
+    /// Who says the times of a mechanism.
+    pub host: &'s dyn Host,
 }
-
-/// Says the times of a mechanism, or why they cannot be told.
-type TimesOf<'s> = dyn Fn(&Compiled, &mut Sources) -> Result<Times, Diagnostics> + 's;
 
 impl Solver<'_> {
     /// The file as it is.
@@ -81,16 +85,9 @@ impl Solver<'_> {
         self.solved(self.choice, cancel)
     }
 
-    /// With params that are set; symbols and extent are those of the file as it is, so that nothing jumps under a
-    /// hand. Nothing if it is given up.
+    /// With params that are set; nothing if it is given up.
     pub fn set(&self, own: &Solved, set: &[(String, String)], cancel: &Cancel) -> Option<Solved> {
-        let mut solved = self.solved(&self.choice(own, set), cancel);
-        if let (Some(seen), Some(before), Some(checked)) = (&mut solved.seen, &own.seen, &solved.checked) {
-            if !seen.motion.rows().is_empty() {
-                seen.scene = checked.drawn_with_symbols(seen, before.scene.unit)?;
-            }
-            seen.scene.extent = before.scene.extent;
-        }
+        let solved = self.solved(&self.choice(own, set), cancel);
         (!cancel.is_cancelled()).then_some(solved)
     }
 
@@ -117,17 +114,43 @@ impl Solver<'_> {
         let (mut said, mut sources) = (checked.diagnostics().clone(), checked.sources().clone());
         let (compiled, more) = checked.compile(self.redundant, cancel);
         said.extend(more);
-        let times = compiled.as_ref().map(|compiled| (self.times)(compiled, &mut sources));
+        let times = compiled.as_ref().map(|compiled| self.host.times(compiled, &mut sources));
         let times = times.and_then(|times| times.map_err(|why| said.extend(why)).ok());
+        let (watched, stand) = Default::default();
+        Solved { sources, checked: Some(checked), compiled, times, said, watched, stand }
+    }
+
+    /// Its motion; symbols and extent are those of the file as it is, so that nothing jumps under a hand. Nothing if it is given up.
+    pub fn watched(&self, solved: &Solved, own: Option<&Seen>, cancel: &Cancel) -> Option<Arc<Watched>> {
+        if let Some(known) = &*lock(&solved.watched) {
+            return Some(Arc::clone(known));
+        }
+        let mut said = solved.said.clone();
         let options = self.options(None, cancel);
-        let seen = compiled.as_ref().zip(times.as_ref()).and_then(|(compiled, times)| {
-            let (seen, more) = checked.seen(compiled, times, &options, MOST_ROWS);
-            said.extend(more);
-            seen
+        let seen = solved.checked.as_ref().and_then(|checked| {
+            let (compiled, times) = (solved.compiled.as_ref(), solved.times.as_ref());
+            let moving = compiled.zip(times).and_then(|(compiled, times)| {
+                let (seen, more) = checked.seen_beside(compiled, times, &options, MOST_ROWS, own);
+                said.extend(more);
+                seen
+            });
+            let from = times.map_or(0.0, Times::from);
+            let mut at_rest = || {
+                let mut seen = checked.seen_at_rest(compiled, (from, &options), &said)?;
+                seen.scene.extent = own.map_or(seen.scene.extent, |own| own.scene.extent);
+                Some(seen)
+            };
+            moving.or_else(&mut at_rest)
         });
-        let from = times.as_ref().map_or(0.0, Times::from);
-        let seen = seen.or_else(|| checked.seen_at_rest(compiled.as_ref(), (from, &options), &said));
-        Solved { sources, checked: Some(checked), compiled, seen, said, stand: Mutex::default() }
+        let watched = Arc::new(Watched { seen, said });
+        (!cancel.is_cancelled()).then(|| Arc::clone(lock(&solved.watched).insert(watched)))
+    }
+
+    /// Its picture at a time alone, which is there sooner than the motion; nothing where it does not get there, or is given up.
+    pub fn glimpse(&self, solved: &Solved, own: &Seen, t: f64, cancel: &Cancel) -> Option<Seen> {
+        let (checked, compiled) = solved.checked.as_ref().zip(solved.compiled.as_ref())?;
+        let from = solved.times.as_ref().map(Times::from).filter(|from| *from <= t)?;
+        checked.glimpse(compiled, [from, t], &self.options(None, cancel), own).filter(|_| !cancel.is_cancelled())
     }
 
     /// A mechanism whose inputs are moved by hand while time stands still: how far they got, what is to be said, and the row there, a
@@ -147,7 +170,7 @@ impl Solver<'_> {
             Err(_) if cancel.is_cancelled() => return None,
             Err(said) => return stays(rendered(&said, &solved.sources)),
         };
-        let own = solved.jogs_at(&[t]);
+        let own = solved.jogs(&[t]);
         let inputs: Vec<Moved> = inputs.iter().filter_map(|(name, to)| Moved::of(&own, name, *to)).collect();
         let (mut told, mut part) = (None, 1.0);
         for shortened in std::iter::once(1.0).chain(BEFORE_A_DEAD_POINT) {
@@ -174,7 +197,7 @@ impl Solver<'_> {
 
     /// Where it stands at a time, with its own inputs.
     fn stand(&self, solved: &Solved, compiled: &Compiled, t: f64, cancel: &Cancel) -> Result<Stand, Diagnostics> {
-        let mut known = solved.stand.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut known = lock(&solved.stand);
         if let Some(stand) = known.as_ref().filter(|stand| stand.t.to_bits() == t.to_bits()) {
             return Ok(stand.clone());
         }
@@ -270,4 +293,8 @@ fn without_fallback(said: &Diagnostics) -> Diagnostics {
 
 fn rendered(said: &Diagnostics, sources: &Sources) -> String {
     said.iter().map(|one| render(one, sources, Format::Human, Color::Never)).collect()
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -10,7 +10,7 @@ use crate::analysis::Times;
 use crate::cancel::Cancel;
 use crate::diag::Diagnostics;
 use crate::source::Sources;
-use crate::stages::{Choice, Compiled, Parsed, Redundant};
+use crate::stages::{Choice, Compiled, Knob, Parsed, Redundant};
 use crate::world::World;
 use rustc_hash::FxHashMap;
 use serde_json::{Value, json};
@@ -175,46 +175,23 @@ impl Workshop {
         framed(&answer, &columns)
     }
 
-    fn answered(&self, texts: &Texts, asked: &Question, cancel: &Cancel) -> Option<(Value, Vec<Vec<f64>>)> {
+    fn answered(&self, texts: &Texts, asked: &Question, cancel: &Cancel) -> Option<Answer> {
         let own = self.own(texts)?;
         if !own.is_sound() {
             return Some((wrong(texts.version, &own), Vec::new()));
         }
         let knobs = own.knobs();
         let known = |(name, _): &&(String, String)| knobs.iter().any(|knob| knob.name == *name);
-        let set: Vec<(String, String)> = asked.set.iter().filter(known).cloned().collect();
-        let solved = if set.is_empty() {
-            own.clone()
-        } else {
-            remembered(texts, &set, || self.with_solver(texts, |solver| solver.set(&own, &set, cancel)))?
-        };
-        if let Some(Jogged { time, inputs }) = &asked.jog {
-            let (reached, said, row) =
-                self.with_solver(texts, |solver| solver.jogged(&solved, &set, *time, inputs, cancel))?;
-            let jog = json!({ "reached": reached, "said": said });
-            return Some((json!({ "live": { "version": texts.version, "jog": jog } }), row));
+        let set: Settings = asked.set.iter().filter(known).cloned().collect();
+        let solver = self.solver(texts);
+        let solved =
+            if set.is_empty() { Arc::clone(&own) } else { remembered(texts, &set, || solver.set(&own, &set, cancel))? };
+        let what = Asked { version: texts.version, solver, own, solved, cancel };
+        match (&asked.jog, asked.at) {
+            (Some(jog), _) => what.jogged(&set, jog),
+            (None, Some(t)) => what.glimpse(&texts.cancel, t),
+            (None, None) => what.motion(&texts.cancel, &knobs),
         }
-        let Some(seen) = &solved.seen else {
-            return Some((wrong(texts.version, &solved), Vec::new()));
-        };
-        let page = page::made(seen, Vec::new(), vec![page::variant(seen)], &solved.sources);
-        let (mut data, mut columns) = page.data();
-        let jogs = solved.jogs();
-        columns.extend(jogs.iter().map(|jog| jog.values.clone()));
-        data["live"] = json!({
-            "version": texts.version,
-            "knobs": knobs.iter().map(|knob| json!({
-                "name": knob.name, "unit": knob.unit, "value": knob.value, "formula": knob.formula,
-                "text": knob.place.map(|place| own.sources.text(place)),
-            })).collect::<Vec<_>>(),
-            "cranks": solved.cranks().iter().map(|crank| json!({
-                "frame": crank.body + 1, "pivot": crank.pivot, "input": crank.input,
-            })).collect::<Vec<_>>(),
-            "jogs": jogs.iter().map(|jog| json!({
-                "name": jog.name, "unit": jog.unit, "formula": jog.formula,
-            })).collect::<Vec<_>>(),
-        });
-        Some((data, columns))
     }
 
     /// Writes values into the file, or says why not.
@@ -254,20 +231,26 @@ impl Workshop {
 
     /// The file as it is.
     fn own(&self, texts: &Texts) -> Option<Arc<Solved>> {
-        let make = || Arc::new(self.with_solver(texts, |solver| solver.own(&texts.cancel)));
+        let make = || {
+            let solver = self.solver(texts);
+            let own = solver.own(&texts.cancel);
+            // once for all pages, which wait for it
+            solver.watched(&own, None, &texts.cancel);
+            Arc::new(own)
+        };
         let own = texts.own.get_or_init(make);
         (!texts.cancel.is_cancelled()).then(|| Arc::clone(own))
     }
 
-    fn with_solver<T>(&self, texts: &Texts, work: impl FnOnce(&Solver) -> T) -> T {
-        work(&Solver {
+    fn solver<'s>(&'s self, texts: &'s Texts) -> Solver<'s> {
+        Solver {
             parsed: &texts.parsed,
             shelf: &texts.shelf,
             choice: &self.choice,
             redundant: self.redundant,
             pass_bifurcations: self.pass_bifurcations,
-            times: &|compiled, sources| self.host.times(compiled, sources),
-        })
+            host: &*self.host,
+        }
     }
 
     fn texts(&self) -> Arc<Texts> {
@@ -285,6 +268,68 @@ impl Workshop {
             before.cancel();
         }
         cancel
+    }
+}
+
+/// The JSON of an answer, and the numbers behind it.
+type Answer = (Value, Vec<Vec<f64>>);
+
+/// What is asked, with what is known by then.
+struct Asked<'a> {
+    version: u64,
+    solver: Solver<'a>,
+    /// The file as it is.
+    own: Arc<Solved>,
+    /// With the params that are set.
+    solved: Arc<Solved>,
+    cancel: &'a Cancel,
+}
+
+impl Asked<'_> {
+    fn jogged(&self, set: &[(String, String)], Jogged { time, inputs }: &Jogged) -> Option<Answer> {
+        let (reached, said, row) = self.solver.jogged(&self.solved, set, *time, inputs, self.cancel)?;
+        let jog = json!({ "reached": reached, "said": said });
+        Some((json!({ "live": { "version": self.version, "jog": jog } }), row))
+    }
+
+    /// The picture at a time alone.
+    fn glimpse(&self, of_texts: &Cancel, t: f64) -> Option<Answer> {
+        let before = self.solver.watched(&self.own, None, of_texts)?;
+        let seen = before.seen.as_ref().and_then(|own| self.solver.glimpse(&self.solved, own, t, self.cancel));
+        let live = json!({ "version": self.version, "glimpse": seen.is_some() });
+        let page = seen.as_ref().map(|seen| page::of_one(seen, &self.solved.sources));
+        let (scene, row) = page.map(|page| page.picture()).unwrap_or_default();
+        Some((json!({ "live": live, "scene": scene }), row))
+    }
+
+    /// The whole motion, and what there is to turn.
+    fn motion(&self, of_texts: &Cancel, knobs: &[Knob]) -> Option<Answer> {
+        let Asked { own, solved, .. } = self;
+        let mut watched = self.solver.watched(own, None, of_texts)?;
+        if !Arc::ptr_eq(own, solved) {
+            watched = self.solver.watched(solved, watched.seen.as_ref(), self.cancel)?;
+        }
+        let Some(seen) = &watched.seen else {
+            return Some((wrong(self.version, solved), Vec::new()));
+        };
+        let (mut data, mut columns) = page::of_one(seen, &solved.sources).data();
+        let times: Vec<f64> = seen.motion.rows().iter().map(|row| row[0]).collect();
+        let jogs = solved.jogs(&times);
+        columns.extend(jogs.iter().map(|jog| jog.values.clone()));
+        data["live"] = json!({
+            "version": self.version,
+            "knobs": knobs.iter().map(|knob| json!({
+                "name": knob.name, "unit": knob.unit, "value": knob.value, "formula": knob.formula,
+                "text": knob.place.map(|place| own.sources.text(place)),
+            })).collect::<Vec<_>>(),
+            "cranks": solved.cranks().iter().map(|crank| json!({
+                "frame": crank.body + 1, "pivot": crank.pivot, "input": crank.input,
+            })).collect::<Vec<_>>(),
+            "jogs": jogs.iter().map(|jog| json!({
+                "name": jog.name, "unit": jog.unit, "formula": jog.formula,
+            })).collect::<Vec<_>>(),
+        });
+        Some((data, columns))
     }
 }
 

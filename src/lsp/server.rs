@@ -262,9 +262,27 @@ impl Server {
         Some(())
     }
 
+    /// A panel is closed.
+    fn left(&mut self, params: &Value) -> Option<()> {
+        let path = self.file_of(params.pointer("/textDocument/uri")?.as_str()?);
+        self.views.leave(&path, params.get("mechanism").and_then(Value::as_str));
+        Some(())
+    }
+
+    /// The text of a file: what the client has open, or what is on the disk.
+    fn text_of(&self, path: &Path) -> Option<Document> {
+        if let Some(document) = self.documents.get(path) {
+            return Some(Document::clone(document));
+        }
+        let contents = self.snapshot.buffers().read(path).ok()?;
+        Some(Document::new(super::uri::uri_of(path), 0, std::str::from_utf8(&contents.bytes).ok()?))
+    }
+
     /// Has the client change what differs between a text and another one.
     fn write(&mut self, path: &Path, text: &str) {
-        let Some(document) = self.documents.get(path) else { return };
+        let Some(document) = &self.text_of(path) else { return };
+        // it stands before a file, and the client's places do not count it
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let (range, new) = super::views::difference(document.text(), text);
         let [start, end] = [range.start, range.end].map(|at| self.range_end(document, at));
         let edit = json!({ "range": { "start": start, "end": end }, "newText": new });
@@ -274,7 +292,7 @@ impl Server {
 
     /// Has the client show a place of a file (UTF-16).
     fn show(&mut self, path: &Path, at: u32) {
-        let Some(document) = self.documents.get(path) else { return };
+        let Some(document) = &self.text_of(path) else { return };
         let mut left = at as usize;
         let letters = document.text().chars().take_while(|c| {
             let is_before = left > 0;
@@ -335,6 +353,7 @@ impl Server {
             "workspace/didChangeWatchedFiles" => self.changed_behind(&params),
             "$/cancelRequest" => self.cancelled(&params),
             "mechc/cursor" => self.pointed(&params),
+            "mechc/view/close" => self.left(&params),
             _ => Some(()),
         };
         if done.is_none() {
@@ -391,7 +410,6 @@ impl Server {
     fn closed(&mut self, params: &Value) -> Option<()> {
         let uri = params.get("textDocument")?.get("uri")?.as_str()?;
         let path = self.documents.close(uri)?;
-        self.views.close(&path);
         self.shown.remove(&path)?;
         self.answer_pulls(Some(&path));
         if !self.client.pulls_diagnostics {

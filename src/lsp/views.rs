@@ -1,4 +1,4 @@
-//! Live pages of open texts: a workshop for each, whose files are the editor's buffers.
+//! Live pages of texts: a workshop for each, whose files are the editor's buffers. A page whose text the editor closes follows the file.
 //!
 //! What pages ask is answered in threads of their own, and new versions are looked at a moment after the last keystroke: who types waits
 //! for none of it.
@@ -13,6 +13,7 @@ use crossbeam_channel::{Receiver, Sender, bounded};
 use serde_json::{Value, json};
 use std::ops::Range;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
@@ -51,6 +52,8 @@ struct View {
     mechanism: Option<String>,
     workshop: Arc<Workshop>,
     serving: Mutex<Option<Serving>>,
+    /// Whether a panel is told of what is new.
+    has_panel: AtomicBool,
 }
 
 /// A text whose page is meant: the file, as the client calls it, and which mechanism of it.
@@ -92,6 +95,11 @@ impl Views {
     pub fn panel(&mut self, meant: Meant) -> Value {
         let uri = meant.uri.clone();
         let view = self.view(meant);
+        let page = json!({ "html": crate::live::page::shell() });
+        if view.has_panel.swap(true, Ordering::AcqRel) {
+            // one that is made anew asks by itself what there is
+            return page;
+        }
         let (weak, told_of) = (Arc::downgrade(&view.workshop), self.shared.tell.clone());
         let tell = move || {
             let mut told = None;
@@ -107,7 +115,13 @@ impl Views {
             }
         };
         let _ = thread::Builder::new().name("live news".to_owned()).spawn(tell);
-        json!({ "html": crate::live::page::shell() })
+        page
+    }
+
+    /// A panel is closed; of its page there is nothing left, unless a browser has it too.
+    pub fn leave(&self, path: &Path, mechanism: Option<&str>) {
+        let is_left = |view: &View| *view.path == *path && view.mechanism.as_deref() == mechanism;
+        lock(&self.shared.open).retain(|view| !is_left(view) || lock(&view.serving).is_some());
     }
 
     /// What a panel asks; it is answered when it is known.
@@ -140,11 +154,6 @@ impl Views {
         }
     }
 
-    /// A text is closed: so are its pages.
-    pub fn close(&self, path: &Path) {
-        lock(&self.shared.open).retain(|view| *view.path != *path);
-    }
-
     fn view(&mut self, meant: Meant) -> Arc<View> {
         let Meant { path, mechanism, .. } = meant;
         if self.wake.is_none() {
@@ -162,7 +171,8 @@ impl Views {
         let choice = Choice { mechanism: mechanism.clone(), pictures_forces: true, ..Choice::default() };
         let host = Editor { shared: Arc::clone(&self.shared), path: Arc::clone(&path) };
         let workshop = Arc::new(Workshop::new(&path, choice, (Redundant::Refused, false), Box::new(host)));
-        let view = Arc::new(View { path, mechanism, workshop, serving: Mutex::default() });
+        let view = View { path, mechanism, workshop, serving: Mutex::default(), has_panel: AtomicBool::default() };
+        let view = Arc::new(view);
         open.push(Arc::clone(&view));
         view
     }

@@ -67,6 +67,19 @@ impl Checked {
         options: &RunOptions,
         most: usize,
     ) -> (Option<Seen>, Diagnostics) {
+        self.seen_beside(compiled, times, options, most, None)
+    }
+
+    /// The same; where something was seen before it, in a picture of the extent of that one, with symbols of its size.
+    #[must_use]
+    pub fn seen_beside(
+        &self,
+        compiled: &Compiled,
+        times: &Times,
+        options: &RunOptions,
+        most: usize,
+        before: Option<&Seen>,
+    ) -> (Option<Seen>, Diagnostics) {
         let Some(model) = self.model() else { return (None, Diagnostics::default()) };
         let (run, mut said) = compiled.run(times, options);
         let Some(run) = run else { return (None, said) };
@@ -78,9 +91,15 @@ impl Checked {
         } else {
             Motion::of_rows(&compiled.columns_of_poses(), &columns, found.kept, found.edges)
         };
-        let mut scene = Scene::of(model, &motion);
+        let mut scene = match before.filter(|_| !motion.rows().is_empty()) {
+            Some(before) => Scene::with_symbols(model, &motion, before.scene.unit),
+            None => Scene::of(model, &motion),
+        };
         self.widen_places(&mut scene);
         show_stop(&mut scene, model, &motion, found.stopped.as_ref());
+        if let Some(before) = before {
+            scene.extent = before.scene.extent;
+        }
         let values = found.results.into_iter();
         let results =
             compiled.results().into_iter().zip(values).map(|((name, unit), value)| (name, unit, value)).collect();
@@ -90,6 +109,31 @@ impl Checked {
             Some(Seen { scene, motion, columns, units, kinds, all_rows, stopped, said: said.clone(), results, texts }),
             said,
         )
+    }
+
+    /// The picture at one time (s) alone, followed from another one, beside a motion that was seen before: guides and slots are as long
+    /// as that one asks for, be there other values of params or not. Nothing where it does not get there.
+    #[must_use]
+    pub fn glimpse(
+        &self,
+        compiled: &Compiled,
+        [from, t]: [f64; 2],
+        options: &RunOptions,
+        before: &Seen,
+    ) -> Option<Seen> {
+        let model = self.model()?;
+        let (run, _) = compiled.run(&Times::listed(from, vec![t]), options);
+        let row = run?.next()?.ok()?;
+        let motion = Motion::of_rows(&compiled.columns_of_poses(), &before.columns, vec![row], Vec::new());
+        if motion.frames() != before.motion.frames() {
+            return None;
+        }
+        let mut scene = Scene::with_symbols(model, &before.motion, before.scene.unit);
+        self.widen_places(&mut scene);
+        scene.extent = before.scene.extent;
+        let (columns, units, kinds) = (before.columns.clone(), before.units.clone(), before.kinds.clone());
+        let (stopped, said, results, texts) = (None, Diagnostics::default(), Vec::new(), before.texts.clone());
+        Some(Seen { scene, motion, columns, units, kinds, all_rows: 1, stopped, said, results, texts })
     }
 
     /// What there is to draw of a motion that was seen, with symbols of a size (m); nothing where it is not sound.

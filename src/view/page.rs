@@ -105,6 +105,14 @@ impl Page<'_> {
         (json::value(self, 1, json::Tables::Beside), columns)
     }
 
+    /// What there is to draw, for a page that has all else; and the table's columns.
+    #[must_use]
+    pub fn picture(&self) -> (serde_json::Value, Vec<Vec<f64>>) {
+        let texts = places::Texts::of(&self.texts);
+        let of_first = |first: &Variant| (json::scene(first.scene, &texts), json::table(first, 1, self.columns.len()));
+        self.first().map_or_else(Default::default, of_first)
+    }
+
     /// The variant that it begins with.
     fn first(&self) -> Option<&Variant<'_>> {
         let place = self.vary.iter().fold(0, |place, vary| place * vary.values.len() + vary.nearest);

@@ -3,6 +3,7 @@
 use super::client::Client;
 use super::{TEXT, URI, edit, position, pushed_to};
 use lsp_server::Message;
+use mechc::Memory;
 use serde_json::{Value, json};
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -60,12 +61,42 @@ fn a_panel_follows_the_text_and_the_cursor() {
 }
 
 #[test]
+fn a_panel_whose_text_is_closed_follows_the_file() {
+    let on_disk = TEXT.replace("mechanism slider_crank", "mechanism on_disk");
+    let mut client = Client::new(&json!({}), Memory::default().with("/work/slider_crank.mech", on_disk.as_str()));
+    let mut own = TEXT.to_owned();
+    client.open(URI, &own);
+    client.request("mechc/view/panel", text());
+    assert_eq!(news(&mut client)["version"], 1);
+    client.notify("textDocument/didClose", text());
+    assert_eq!(news(&mut client)["version"], 2);
+    assert!(asked(&mut client, &json!([])).contains("on_disk"), "the page has the text that was closed");
+    // what it writes opens the text again
+    let change = json!({ "name": "rod_length", "old": value_of("rod_length"), "value": 321.5 });
+    let mut params = text();
+    params["asked"] = json!({ "version": 2, "changes": [change], "sure": false });
+    assert_eq!(client.request("mechc/view/write", params), json!({ "written": true }));
+    client.asked("workspace/applyEdit");
+    client.open(URI, &own);
+    let change = edit(&mut own, "mechanism slider_crank", "mechanism another_name");
+    client.change(URI, &change);
+    assert!(news(&mut client)["version"].as_u64() > Some(2), "a panel that was there before is told nothing");
+    assert!(asked(&mut client, &json!([])).contains("another_name"));
+    client.notify("mechc/view/close", text());
+    client.end();
+}
+
+/// What the text says of a param.
+fn value_of(param: &str) -> &'static str {
+    let line = TEXT.lines().find(|line| line.contains(&format!("param {param}"))).expect("a param");
+    line.split_once("= ").expect("a value").1.split("//").next().expect("a value").trim()
+}
+
+#[test]
 fn what_a_panel_writes_is_an_edit_of_the_text() {
     let mut client = pushed_to();
     client.open(URI, TEXT);
-    let line = TEXT.lines().find(|line| line.contains("param rod_length")).expect("a param");
-    let old = line.split_once("= ").expect("a value").1.split("//").next().expect("a value").trim();
-    let change = json!({ "name": "rod_length", "old": old, "value": 321.5 });
+    let change = json!({ "name": "rod_length", "old": value_of("rod_length"), "value": 321.5 });
     let write = json!({ "version": 1, "changes": [change], "sure": false });
     let mut params = text();
     params["asked"] = write;

@@ -31,10 +31,20 @@ class Panel {
     }
   }
 
+  /** Nobody looks any more. */
+  end() {
+    // a server that has ended knows of no page
+    void this.client()?.sendNotification('mechc/view/close', this.meant()).catch(() => undefined);
+  }
+
+  meant() {
+    return { textDocument: { uri: this.uri.toString() }, mechanism: this.mechanism ?? null };
+  }
+
   /** @param {string} method @param {object} params @returns {Promise<any>} */
   request(method, params) {
     const client = this.client();
-    const all = { textDocument: { uri: this.uri.toString() }, mechanism: this.mechanism ?? null, ...params };
+    const all = { ...this.meant(), ...params };
     return client ? client.sendRequest(method, all) : Promise.reject(new Error('mechc does not run'));
   }
 
@@ -101,6 +111,7 @@ class Panels {
     this.open.push(panel);
     panel.panel.onDidDispose(() => {
       this.open = this.open.filter((other) => other !== panel);
+      panel.end();
     });
     await panel.begin();
   }

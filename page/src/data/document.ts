@@ -19,23 +19,21 @@ export interface Document {
     readonly named: readonly number[];
 }
 
-const outlines = new WeakMap<Scene, string>();
-
-/** What a scene declares, as one text: two with the same one have the same names, places in the text, bodies and points. */
-export function outline(scene: Scene): string {
-    let text = outlines.get(scene);
-    if (text === undefined) {
-        const points = scene.points.map(({ name, frame, pin }) => [name, frame, pin]);
-        const contacts = scene.contacts.map(({ declaration, cam, follower }) => [declaration, cam, follower]);
-        text = JSON.stringify([scene.declarations, scene.frames, points, contacts]);
-        outlines.set(scene, text);
-    }
-    return text;
+function listed<T>(one: readonly T[], other: readonly T[], same: (one: T, other: T) => boolean): boolean {
+    return one.length === other.length && one.every((entry, k) => same(entry, other[k]!));
 }
 
-/** Whether two documents declare the same. */
+/** Whether two documents declare the same: names, places in the text, bodies and points. */
 export function declareAlike(one: Document | undefined, other: Document): boolean {
-    return one !== undefined && (one.scene === other.scene || outline(one.scene) === outline(other.scene));
+    if (one === undefined) return false;
+    const [a, b] = [one.scene, other.scene];
+    return (
+        a === b ||
+        (listed(a.declarations, b.declarations, (one, other) => listed<unknown>(one, other, Object.is)) &&
+            listed(a.frames, b.frames, Object.is) &&
+            listed(a.points, b.points, (one, other) => one.name === other.name && one.frame === other.frame && one.pin === other.pin) &&
+            listed(a.contacts, b.contacts, (one, other) => one.declaration === other.declaration && one.cam === other.cam && one.follower === other.follower))
+    );
 }
 
 /** Where documents come from. */

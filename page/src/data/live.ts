@@ -1,6 +1,6 @@
 // What a page is told by a program that runs: JSON, and behind it the table's columns as they are in memory (`src/live/answer.rs`).
 
-import { type Page } from "./format.ts";
+import type { Page, Scene } from "./format.ts";
 import type { Document } from "./document.ts";
 import { Motion } from "../motion/motion.ts";
 import { Table } from "./table.ts";
@@ -40,6 +40,8 @@ export interface Told {
     wrong?: string;
     /** The question was given up. */
     superseded?: boolean;
+    /** Whether there is a picture of the moment that was asked for. */
+    glimpse?: boolean;
     /** How far inputs got by hand, and what is to be said of that. */
     jog?: { reached: [name: string, value: number][]; said: string | null };
     knobs?: Knob[];
@@ -51,6 +53,8 @@ export interface Answer {
     live: Told;
     /** The page, of an answer that has one. */
     page: Page | undefined;
+    /** What there is to draw, of an answer that has a moment. */
+    scene: Scene | undefined;
     columns: Float64Array[];
 }
 
@@ -60,10 +64,10 @@ export function answerOf(bytes: ArrayBuffer): Answer {
     const page = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length))) as Partial<Page> & { live: Told };
     const numbers = new Float64Array(bytes, 4 + length);
     const { live } = page;
-    const rows = live.jog ? Math.min(1, numbers.length) : (page.variants?.[0]?.rows ?? 0);
+    const rows = live.jog || live.glimpse ? Math.min(1, numbers.length) : (page.variants?.[0]?.rows ?? 0);
     const count = rows === 0 ? 0 : numbers.length / rows;
     const columns = Array.from({ length: count }, (_, k) => numbers.subarray(k * rows, (k + 1) * rows));
-    return { live, page: page.variants ? (page as Page) : undefined, columns };
+    return { live, page: page.variants ? (page as Page) : undefined, scene: page.scene, columns };
 }
 
 /** What is shown of an answer that has a page. */
@@ -76,9 +80,10 @@ export function documentOf({ columns }: Answer, page: Page): Document {
     return { page, variant: 0, scene, table, motion: new Motion(scene, table, edges, drawn), results, messages, named };
 }
 
-/** What is shown where inputs got by hand: the same, of one row. */
-export function jogged({ columns }: Answer, of: Document): Document | undefined {
+/** What is shown of a moment: the same, of one row; where params are others, with a scene of its own. */
+export function momentOf({ columns, scene = undefined }: Answer, of: Document): Document | undefined {
     if (columns.length < of.table.columns.length) return undefined;
     const table = new Table(of.table.columns, columns.slice(0, of.table.columns.length));
-    return { ...of, table, motion: new Motion(of.scene, table, []) };
+    const drawn = scene ?? of.scene;
+    return { ...of, scene: drawn, table, motion: new Motion(drawn, table, []) };
 }

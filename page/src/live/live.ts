@@ -1,7 +1,7 @@
 // A page that follows a file: what its reader has set, what was asked for that, and what is shown of the answers.
 
 import { App } from "../app.ts";
-import { answerOf, documentOf, jogged, type Answer, type Told } from "../data/live.ts";
+import { answerOf, documentOf, momentOf, type Answer, type Told } from "../data/live.ts";
 import type { Document } from "../data/document.ts";
 import type { Page } from "../data/format.ts";
 import { html } from "../elements.ts";
@@ -13,6 +13,11 @@ import type { News, State, Transport } from "./transport.ts";
 
 /** A question whose answer takes longer is given up for the next one, if there is one (ms). */
 const PATIENCE = 150;
+/** Where a picture of now takes longer (ms), the next one is asked for after so many times that: the motion alone is sooner there. */
+const GLIMPSE = 80;
+const SELDOM = 10;
+/** The whole motion is asked for when a hand has rested so long (ms): the next picture does not wait for it. */
+const REST = 50;
 /** After a question that nobody answered (ms). */
 const PAUSE = 250;
 
@@ -34,6 +39,9 @@ export class Live {
     /** With what the motion was asked for that is shown. */
     private key = "";
     private hasChanged = false;
+    /** From when on pictures of now are asked for. */
+    private glimpsesFrom = 0;
+    private interrupt: () => void = () => {};
     private working: Promise<void> | undefined;
 
     constructor(
@@ -87,9 +95,11 @@ export class Live {
         } else {
             throw new Error(`there is no param and no input that is called ${name}`);
         }
+        // what is asked is on its way before the page is busy
+        const changed = this.change();
         this.knobs.at(this.set, this.moved);
-        await this.change();
-        await new Promise((resolve) => requestAnimationFrame(resolve));
+        await changed;
+        await this.app?.drawn();
     }
 
     private async movePoint(name: string, [x, y]: [number, number]): Promise<void> {
@@ -97,8 +107,9 @@ export class Live {
             const knob = this.told?.knobs?.find((knob) => knob.name === `${name}.${axis}`);
             if (knob) this.set.set(knob.name, value);
         }
+        const changed = this.change();
         this.knobs.at(this.set, this.moved);
-        await this.change();
+        await changed;
     }
 
     /** What an input is now (SI). */
@@ -141,38 +152,86 @@ export class Live {
     /** Asks until what is shown is what is wanted. */
     private change(): Promise<void> {
         this.hasChanged = true;
+        this.interrupt();
         this.working ??= this.work().finally(() => (this.working = undefined));
         return this.working;
     }
 
+    /** First the picture of now, which comes sooner; then the motion, once the hand rests. */
     private async work(): Promise<void> {
         while (this.hasChanged) {
             this.hasChanged = false;
-            await this.once();
+            const isGlimpsed = await this.glimpse();
+            if (isGlimpsed) await this.rest();
+            if (isGlimpsed && this.hasChanged) continue;
+            this.hasChanged = false;
+            await this.once(isGlimpsed ? 0 : PATIENCE);
         }
     }
 
-    private async once(): Promise<void> {
-        const set = [...this.set].map(([name, value]) => [name, withUnit(value, this.unit(name))]);
-        const key = JSON.stringify(set);
+    /** Settles when the hand has rested, or moves on. */
+    private rest(): Promise<void> {
+        return new Promise((resolve) => {
+            if (this.hasChanged) resolve();
+            this.interrupt = resolve;
+            setTimeout(resolve, REST);
+        });
+    }
+
+    /** What is set, as options have it. */
+    private asked(): { set: [name: string, value: string][]; key: string } {
+        const set = [...this.set].map(([name, value]): [string, string] => [name, withUnit(value, this.unit(name))]);
+        return { set, key: JSON.stringify(set) };
+    }
+
+    /** Shows where everything is now with what is set; says whether it does. */
+    private async glimpse(): Promise<boolean> {
+        const { app, document, told } = this;
+        const { set, key } = this.asked();
+        const isOther = this.still === undefined && told?.version === this.newest && key !== this.key;
+        if (!app || !document || !isOther || performance.now() < this.glimpsesFrom || document.table.rows < 2) return false;
+        const began = performance.now();
+        const answer = await this.ask({ set, at: app.time, jog: null }, PATIENCE).catch(() => undefined);
+        const took = performance.now() - began;
+        if (took > GLIMPSE) this.glimpsesFrom = began + SELDOM * took;
+        const there = answer?.live.glimpse && answer.live.version === this.shown ? momentOf(answer, document) : undefined;
+        if (there) app.glimpse(there);
+        return there !== undefined;
+    }
+
+    /** Asks for the motion, or where inputs are in it. */
+    private async once(patience: number): Promise<void> {
+        const { set, key } = this.asked();
         // the motion first, then where inputs are in it
         const isOfMotion = this.still === undefined || this.told?.version !== this.newest || key !== this.key;
         const jog = isOfMotion ? null : { time: this.still, inputs: [...this.moved] };
-        const asked = { page: this.id, set, jog };
-        const abort = new AbortController();
-        const began = performance.now();
-        const watch = setInterval(() => {
-            if (this.hasChanged && performance.now() - began > PATIENCE) abort.abort();
-        }, 20);
         try {
-            this.take(answerOf(await this.transport.ask(asked, abort.signal)), key);
+            const answer = await this.ask({ set, jog }, patience);
+            if (answer) this.take(answer, key);
         } catch (error) {
-            if (abort.signal.aborted) return;
             // nobody is there, which is said elsewhere, or what came cannot be shown
             if (!(error instanceof TypeError)) console.error(error);
+            this.app?.goBack();
             await new Promise((resolve) => setTimeout(resolve, PAUSE));
+        }
+    }
+
+    /** The answer to a question; none if there is another question by now, and this one took longer than some time (ms). */
+    private async ask(asked: object, patience: number): Promise<Answer | undefined> {
+        const abort = new AbortController();
+        const began = performance.now();
+        this.interrupt = () => {
+            if (this.hasChanged && performance.now() - began >= patience) abort.abort();
+        };
+        const watch = setInterval(() => this.interrupt(), 20);
+        try {
+            return answerOf(await this.transport.ask({ page: this.id, ...asked }, abort.signal));
+        } catch (error) {
+            if (abort.signal.aborted) return undefined;
+            throw error;
         } finally {
             clearInterval(watch);
+            this.interrupt = () => {};
         }
     }
 
@@ -187,6 +246,7 @@ export class Live {
         this.shown = live.version;
         if (live.wrong !== undefined) {
             this.said.wrong(live.wrong, this.app !== undefined);
+            this.app?.goBack();
             return;
         }
         this.said.wrong(undefined, true);
@@ -195,6 +255,7 @@ export class Live {
             return;
         }
         if (!page) return;
+        if (live.version !== this.told?.version) this.glimpsesFrom = 0;
         [this.told, this.key] = [live, key];
         const document = documentOf(answer, page);
         this.document = document;
@@ -219,7 +280,7 @@ export class Live {
             if (!this.hasChanged) this.moved.set(name, value);
         }
         if (!this.hasChanged) this.knobs.at(this.set, this.moved);
-        const there = jogged(answer, this.document);
+        const there = momentOf(answer, this.document);
         if (there) this.app?.stand(there);
     }
 

@@ -75,10 +75,19 @@ export class Connection implements Transport {
         }
     }
 
-    async ask(asked: object, signal: AbortSignal): Promise<ArrayBuffer> {
-        const response = await this.post("/motion", asked, signal);
-        if (!response.ok) throw new Error(`the program refuses (${response.status})`);
-        return response.arrayBuffer();
+    /** By an older door than `fetch`, which takes a millisecond or two less: a slider's picture waits for it. */
+    ask(asked: object, signal: AbortSignal): Promise<ArrayBuffer> {
+        return new Promise((done, failed) => {
+            const request = new XMLHttpRequest();
+            request.open("POST", "/motion");
+            request.responseType = "arraybuffer";
+            for (const [name, value] of Object.entries(this.headers)) request.setRequestHeader(name, value);
+            request.onload = () => (request.status === 200 ? done(request.response as ArrayBuffer) : failed(new Error(`the program refuses (${request.status})`)));
+            request.onerror = () => failed(new TypeError("nobody is there"));
+            request.onabort = () => failed(new TypeError("given up"));
+            signal.addEventListener("abort", () => request.abort());
+            request.send(JSON.stringify(asked));
+        });
     }
 
     async write(writing: Writing): Promise<Written> {
@@ -91,8 +100,8 @@ export class Connection implements Transport {
         void this.post("/show", { at }).catch(() => undefined);
     }
 
-    private post(path: string, body: object, signal?: AbortSignal): Promise<Response> {
-        return fetch(path, { method: "POST", headers: this.headers, body: JSON.stringify(body), signal: signal ?? null, cache: "no-store" });
+    private post(path: string, body: object): Promise<Response> {
+        return fetch(path, { method: "POST", headers: this.headers, body: JSON.stringify(body), cache: "no-store" });
     }
 }
 

@@ -94,6 +94,13 @@ export class Picture implements Pane {
         this.light();
     }
 
+    /** The mechanism as another document has it at a moment; what is drawn of its whole motion stays. */
+    glimpse(document: Document, moment: Moment): void {
+        this.unfold(document);
+        if (this.shownLayers().includes(this.pointsLayer)) this.pointsLayer.show(document);
+        this.draw(moment);
+    }
+
     draw(moment: Moment): void {
         this.moment = moment;
         const { camera, drawing } = this;
@@ -115,6 +122,7 @@ export class Picture implements Pane {
         this.document = document;
         this.wrong = new Set(document.named);
         if (sameScene && this.drawing) return;
+        if (before?.fits(document.scene) && this.drawing?.renew(document.scene, before)) return;
         this.camera = new Camera(document.scene);
         if (before) this.camera.as(before);
         const many = document.scene.frames.length > BODIES_IN_SVG;

@@ -30,12 +30,17 @@ export class Said {
         this.broken.hidden = text === undefined;
         if (text === undefined) return;
         const head = hasPicture ? "The text is wrong; the picture is that of before." : "The text is wrong.";
-        this.broken.replaceChildren(html("strong", {}, head), html("pre", {}, text.trimEnd()));
+        this.broken.replaceChildren(html("strong", {}, head), printed(text));
     }
 
     /** Why inputs do not go on. */
     jog(text: string | null): void {
         this.stopped.hidden = text === null;
-        if (text !== null) this.stopped.replaceChildren(html("strong", {}, "It does not go on."), html("pre", {}, text.trimEnd()));
+        if (text !== null) this.stopped.replaceChildren(html("strong", {}, "It does not go on."), printed(text));
     }
+}
+
+/** What is wider than the page is reached by keys too. */
+function printed(text: string): HTMLElement {
+    return html("pre", { tabindex: 0, role: "region", "aria-label": "as mechc run prints it" }, text.trimEnd());
 }

@@ -49,7 +49,7 @@ export class Text implements Pane {
         this.wishes = wishes;
         const { page, scene } = document;
         const isNew = this.document !== document;
-        const alike = this.texts === page.texts && declareAlike(this.document, document);
+        const alike = sameTexts(this.texts, page.texts) && declareAlike(this.document, document);
         this.document = document;
         if (!alike) {
             [this.texts, this.declarations] = [page.texts, scene.declarations];
@@ -191,6 +191,10 @@ export class Text implements Pane {
         const [sheet, at] = [this.sheet.getBoundingClientRect(), mark.getBoundingClientRect()];
         if (at.top < sheet.top || at.bottom > sheet.bottom) this.sheet.scrollTop += at.top - sheet.top - sheet.height / 3;
     }
+}
+
+function sameTexts(one: Document["page"]["texts"] | undefined, other: Document["page"]["texts"]): boolean {
+    return one === other || (one?.length === other.length && one.every(({ name, text }, k) => name === other[k]!.name && text === other[k]!.text));
 }
 
 const TOKEN = /(\/\/[^\n]*)|\b(\d[\d.]*(?:[eE][-+]?\d+)?)\b|(?<=^|\n|\{)([ \t]*)([a-z]+)\b|("[^"\n]*")/g;

@@ -24,7 +24,7 @@ export class Camera {
     private zoom = 1;
     private moved: Pair = [0, 0];
 
-    constructor(scene: Scene) {
+    constructor(private readonly scene: Scene) {
         const [[left, bottom], [right, top]] = scene.extent;
         // what is no extent at all is given the size of a symbol
         const least = 8 * (scene.unit > 0 ? scene.unit : 1);
@@ -85,6 +85,11 @@ export class Camera {
 
     get isWhole(): boolean {
         return this.zoom === 1 && this.moved[0] === 0 && this.moved[1] === 0;
+    }
+
+    /** Whether it is one for a scene. */
+    fits(scene: Scene): boolean {
+        return this.scene.unit === scene.unit && String(this.scene.extent) === String(scene.extent);
     }
 
     /** As another one looks. */

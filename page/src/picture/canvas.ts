@@ -48,6 +48,10 @@ export class CanvasDrawing implements Drawing {
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.forget());
     }
 
+    renew(): boolean {
+        return false;
+    }
+
     look(camera: Camera): void {
         this.sharp = Math.min(devicePixelRatio, SHARPEST);
         this.element.width = Math.round(camera.width * this.sharp);

@@ -10,24 +10,51 @@ const TINTS = 8;
 /** A turn and a place: `matrix(cos sin -sin cos x y)`. */
 export type Placed = [cos: number, sin: number, x: number, y: number];
 
+export interface Shape {
+    look: string;
+    /** As the scene has it, and in the picture's units. */
+    from: string;
+    path: Command[];
+    d: string;
+}
+
 export interface Figure {
     node: Node;
     /** The frame that gives it its colour; 0 for none. */
     frame: number;
     tint: string;
-    shapes: { look: string; path: Command[]; d: string }[];
+    shapes: Shape[];
     /** Whether its paths change as it moves. */
     stretches: boolean;
 }
 
 export function figures(scene: Scene, camera: Camera): Figure[] {
     return scene.nodes.map((node) => {
-        const shapes = node.shapes.map(({ look, d }) => {
-            const path = upright(parsed(d), camera.scale);
-            return { look, path, d: written(path) };
-        });
+        const shapes = node.shapes.map((shape) => shaped(shape, camera));
         const frame = node.fixed ?? node.upright?.[0] ?? 0;
         return { node, frame, tint: tint(frame), shapes, stretches: node.between?.[2] === "stretched" };
+    });
+}
+
+function shaped({ look, d: from }: Node["shapes"][number], camera: Camera): Shape {
+    const path = upright(parsed(from), camera.scale);
+    return { look, from, path, d: written(path) };
+}
+
+/** Whether nodes differ in nothing but shapes and places. */
+export function areAlike(one: Node, other: Node): boolean {
+    const looks = one.shapes.length === other.shapes.length && one.shapes.every(({ look }, k) => look === other.shapes[k]!.look);
+    const frames = one.fixed === other.fixed && one.upright?.[0] === other.upright?.[0];
+    return looks && frames && one.declaration === other.declaration && one.between?.[2] === other.between?.[2];
+}
+
+/** Takes another node that is alike; says which shapes are others. */
+export function renewed(figure: Figure, node: Node, camera: Camera): number[] {
+    figure.node = node;
+    return node.shapes.flatMap((shape, k) => {
+        if (shape.d === figure.shapes[k]!.from) return [];
+        figure.shapes[k] = shaped(shape, camera);
+        return [k];
     });
 }
 

@@ -5,7 +5,7 @@ import { svg } from "../elements.ts";
 import type { Moment, Pair } from "../motion/motion.ts";
 import type { Camera } from "./camera.ts";
 import type { Drawing } from "./drawing.ts";
-import { figures, placed, stretched, type Figure } from "./figures.ts";
+import { areAlike, figures, placed, renewed, stretched, type Figure } from "./figures.ts";
 
 interface Drawn {
     figure: Figure;
@@ -21,6 +21,16 @@ export class SvgDrawing implements Drawing {
     constructor(scene: Scene, camera: Camera) {
         this.drawn = figures(scene, camera).map((figure) => drawnFigure(scene, figure));
         this.element.append(this.behind, ...this.drawn.map(({ group }) => group));
+    }
+
+    renew({ nodes }: Scene, camera: Camera): boolean {
+        const { drawn } = this;
+        if (nodes.length !== drawn.length || !nodes.every((node, k) => areAlike(drawn[k]!.figure.node, node))) return false;
+        nodes.forEach((node, k) => {
+            const { figure, paths } = drawn[k]!;
+            for (const shape of renewed(figure, node, camera)) paths[shape]!.setAttribute("d", figure.shapes[shape]!.d);
+        });
+        return true;
     }
 
     look(camera: Camera): void {

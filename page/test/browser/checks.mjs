@@ -17,6 +17,18 @@ export async function tableOf(data, variant = 0) {
     return { rows, values, named: (name) => values[data.columns.findIndex((column) => column.name === name)] };
 }
 
+/** The rows that a page has at some times. */
+export async function rowsOf(page, times) {
+    return page.evaluate(async (times) => {
+        const rows = [];
+        for (const time of times) {
+            await mechc.seek(time);
+            rows.push(mechc.row());
+        }
+        return rows;
+    }, times);
+}
+
 /** Ten rows, evenly spread. */
 export const tenRows = (rows) => [...new Set(Array.from({ length: 10 }, (_, k) => Math.round((k * (rows - 1)) / 9)))];
 

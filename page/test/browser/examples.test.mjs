@@ -90,14 +90,7 @@ test("what varies is what `run --set` computes, to the bit", { skip: !existsSync
             const table = await checks.tableOf(data, variant);
             assert.equal(table.rows, rows.length);
             const times = rows.map(([t]) => t);
-            const told = await shown.page.evaluate(async (times) => {
-                const rows = [];
-                for (const time of times) {
-                    await mechc.seek(time);
-                    rows.push(mechc.row());
-                }
-                return rows;
-            }, times);
+            const told = await checks.rowsOf(shown.page, times);
             told.forEach((row, k) => row.forEach((value, c) => {
                 assert.ok(Object.is(value, rows[k][c]), `${columns[c]} in row ${k}: ${value}, not ${rows[k][c]}`);
             }));

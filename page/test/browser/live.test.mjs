@@ -7,7 +7,9 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { close } from "./browser.mjs";
-import { CRANK, ROCKING, looked, served, table } from "./served.mjs";
+import { axeFindsNothing, rowsOf } from "./checks.mjs";
+import { CRANK, ROCKING, ROW, looked, served, table } from "./served.mjs";
+import { sliderToPicture } from "./speed.mjs";
 
 after(close);
 
@@ -22,18 +24,6 @@ async function following(text, work, options) {
     } finally {
         await server.end();
     }
-}
-
-/** The rows of the page at some times, as the table has them. */
-async function rowsOf(page, times) {
-    return page.evaluate(async (times) => {
-        const rows = [];
-        for (const time of times) {
-            await mechc.seek(time);
-            rows.push(mechc.row());
-        }
-        return rows;
-    }, times);
 }
 
 /** Waits until something is so, and says how long it took (ms). */
@@ -60,6 +50,31 @@ test("sliders have the numbers of run --lead --set, to the bit", async () => {
             const set = `${name}=${value}${unit}`;
             assert.deepEqual(await rowsOf(page, times), at(table(server.path, ["--lead", "--set", set]).rows), set);
         }
+    });
+});
+
+test("the picture of now comes before the motion, and is the same", async () => {
+    await following(CRANK, async ({ page }) => {
+        await page.evaluate(() => mechc.seek(0.5));
+        const seen = await page.evaluate(async () => {
+            const asked = [];
+            const { send } = XMLHttpRequest.prototype;
+            XMLHttpRequest.prototype.send = function (body) {
+                asked.push(JSON.parse(body).at ?? null);
+                send.call(this, body);
+            };
+            const pin = () => document.querySelector('[data-point="rocker.B"]').getAttribute("transform");
+            const slider = document.querySelector('[data-param="rod"]');
+            const places = new Set([pin()]);
+            new MutationObserver(() => places.add(pin())).observe(document.querySelector(".over"), { subtree: true, attributes: true });
+            slider.value = "95";
+            slider.dispatchEvent(new Event("input"));
+            while (mechc.row()[mechc.columns.indexOf("coupler.phi")] === undefined || asked.length < 2) await new Promise((resolve) => setTimeout(resolve, 10));
+            await mechc.set("rod", 95);
+            return { asked, places: places.size };
+        });
+        assert.deepEqual(seen.asked.slice(0, 2), [0.5, null]);
+        assert.equal(seen.places, 2, "the picture moves once more when the motion comes");
     });
 });
 
@@ -330,53 +345,73 @@ test("whatever is done to the file and the process, no page is stuck", { timeout
 });
 
 test("a slider is followed by the picture within a frame", { skip: process.env.SPEED !== "1" }, async () => {
-    // twenty bodies and a thousand rows: six four-bars, one behind the other, and a crank
-    const links = Array.from({ length: 6 }, (_, k) => `
-    body coupler_${k} at (${26 + 100 * k} mm, 15 mm, 40 deg) { point A = (0, 0)  point B = (rod, 0) }
-    body rocker_${k} at (${100 + 100 * k} mm, 0, 80 deg) { point C = (0, 0)  point B = (70 mm, 0) }
-    body crank_${k + 1} at (${100 + 100 * k} mm, 0, 30 deg) { point O = (0, 0)  point A = (30 mm, 0) }
-    joint left_${k}: revolute(crank_${k}.A, coupler_${k}.A)
-    joint right_${k}: revolute(coupler_${k}.B, rocker_${k}.B)
-    joint back_${k}: revolute(ground.C_${k}, rocker_${k}.C)
-    joint next_${k}: revolute(ground.C_${k}, crank_${k + 1}.O)
-    driver motor_${k + 1}: rotation(next_${k}) = 30 deg + 1 rev/s * t`);
-    const text = `mechanism row {
-    param rod = 90 mm
-    ground { point O = (0, 0) ${links.map((_, k) => `point C_${k} = (${100 + 100 * k} mm, 0)`).join(" ")} }
-    body crank_0 at (0, 0, 30 deg) { point O = (0, 0)  point A = (30 mm, 0) }
-    body lid at (0, 0, 0) { point O = (0, 0)  point P = (10 mm, 0) }
-    joint main: revolute(ground.O, crank_0.O)
-    joint fast: weld(ground.O, lid.O)
-    driver motor_0: rotation(main) = 30 deg + 1 rev/s * t${links.join("")}
-    analysis from 0 s to 0.999 s every 1 ms
-}
-`;
-    await following(text, async ({ page }) => {
+    await following(ROW, async ({ page }) => {
         assert.equal(await page.evaluate(() => document.querySelectorAll("[data-body]").length >= 20), true);
-        const times = await page.evaluate(async () => {
-            const slider = document.querySelector('[data-param="rod"]');
-            const picture = document.querySelector(".over");
-            const times = [];
-            for (let round = 0; round < 300; round++) {
-                const began = performance.now();
-                const changed = new Promise((resolve) => {
-                    const observer = new MutationObserver(() => {
-                        observer.disconnect();
-                        resolve();
-                    });
-                    observer.observe(picture, { subtree: true, attributes: true, childList: true });
-                });
-                slider.value = String(80 + (round % 40) / 2);
-                slider.dispatchEvent(new Event("input", { bubbles: true }));
-                await changed;
-                times.push(performance.now() - began);
-                await new Promise((resolve) => setTimeout(resolve, 30));
-            }
-            return times.sort((a, b) => a - b);
-        });
-        const [middle, most] = [times[150], times[285]];
+        const { median: middle, most } = await sliderToPicture(page, { param: "rod", from: 80, to: 100, point: "rocker_0.B" }, 300);
         console.log(`slider to picture: median ${middle.toFixed(1)} ms, 95 % ${most.toFixed(1)} ms`);
         assert.ok(middle <= 16 && most <= 33, `median ${middle} ms, 95 % ${most} ms`);
+    });
+});
+
+test("nothing is in the way of who reads with ears, in the dark or on a narrow screen", async () => {
+    for (const options of [{}, { colorScheme: "dark" }, { viewport: { width: 390, height: 800 } }]) {
+        const server = await served(ROCKING);
+        const { page, faults, close } = await looked(server.url, options);
+        const holds = async () => {
+            await axeFindsNothing({ page });
+            assert.deepEqual(await page.evaluate(() => [document.documentElement.scrollWidth <= innerWidth, document.querySelector(".knobs").checkVisibility()]), [true, true]);
+        };
+        await holds();
+        await page.evaluate(() => mechc.set("rod", 95));
+        await page.evaluate(() => mechc.seek(0).then(() => mechc.set("turn", 3)));
+        await page.waitForSelector(".stopped:not([hidden])");
+        await holds();
+        // what is said does not lie over what is turned, or can be scrolled from it; a slider has a way to go
+        await page.locator('[data-param="C.y"]').evaluate((slider) => slider.scrollIntoView({ block: "center" }));
+        const [said, slider] = [await page.locator(".said").boundingBox(), await page.locator('[data-param="C.y"]').boundingBox()];
+        assert.ok(slider.width > 150, `${slider.width} px`);
+        assert.ok(slider.x + slider.width <= said.x || slider.y + slider.height <= said.y, JSON.stringify([said, slider]));
+        server.save(ROCKING.replace(linkage, "joint right: revolute(coupler.B, rocker.Z)"));
+        await page.waitForSelector(".broken:not([hidden])");
+        await holds();
+        assert.deepEqual(faults, []);
+        await close();
+        await server.end();
+    }
+});
+
+test("keys alone turn, set, write and let go", async () => {
+    await following(CRANK, async ({ server, page }) => {
+        await page.evaluate(() => mechc.seek(0));
+        const value = (name) => page.evaluate((name) => Number(document.querySelector(`[data-param="${name}"]`).value), name);
+        const changed = (name) => page.waitForSelector(`.knob.changed [data-param="${name}"]`);
+        const reach = async (what) => {
+            for (let k = 0; k < 60; k++) {
+                await page.keyboard.press("Tab");
+                if (await page.evaluate((what) => document.activeElement.matches(what), what)) return;
+            }
+            assert.fail(`${what} cannot be reached`);
+        };
+        await page.evaluate(() => document.activeElement?.blur());
+        await reach('[data-param="turn"]');
+        const before = await value("turn");
+        await page.keyboard.press("ArrowRight");
+        await changed("turn");
+        assert.ok((await value("turn")) > before);
+        await reach(".time-again");
+        await page.keyboard.press("Enter");
+        await page.waitForSelector(".time-again", { state: "hidden" });
+        await reach('[data-param="rod"]');
+        await page.keyboard.press("ArrowRight");
+        await changed("rod");
+        await reach("input[type=text]");
+        await page.keyboard.type("95.5");
+        await page.keyboard.press("Enter");
+        await page.waitForFunction(() => document.querySelector('[data-param="rod"]').getAttribute("aria-valuetext") === "95.5");
+        await reach("[title^='what is set takes']");
+        await page.keyboard.press("Enter");
+        await until(page, shows, "rod = 95.5 mm");
+        assert.match(readFileSync(server.path, "utf8"), /rod = 95.5 mm/);
     });
 });
 

@@ -89,3 +89,26 @@ mechanism rocker {
 
 /** The same with a ground so long that the crank cannot turn around. */
 export const ROCKING = CRANK.replaceAll("100 mm", "150 mm").replace("1 rev/s", "10 deg/s");
+
+const links = Array.from({ length: 6 }, (_, k) => `
+    body coupler_${k} at (${26 + 100 * k} mm, 15 mm, 40 deg) { point A = (0, 0)  point B = (rod, 0) }
+    body rocker_${k} at (${100 + 100 * k} mm, 0, 80 deg) { point C = (0, 0)  point B = (70 mm, 0) }
+    body crank_${k + 1} at (${100 + 100 * k} mm, 0, 30 deg) { point O = (0, 0)  point A = (30 mm, 0) }
+    joint left_${k}: revolute(crank_${k}.A, coupler_${k}.A)
+    joint right_${k}: revolute(coupler_${k}.B, rocker_${k}.B)
+    joint back_${k}: revolute(ground.C_${k}, rocker_${k}.C)
+    joint next_${k}: revolute(ground.C_${k}, crank_${k + 1}.O)
+    driver motor_${k + 1}: rotation(next_${k}) = 30 deg + 1 rev/s * t`);
+
+/** Twenty bodies and a thousand rows: six four-bars, one behind the other, and a crank. */
+export const ROW = `mechanism row {
+    param rod = 90 mm
+    ground { point O = (0, 0) ${links.map((_, k) => `point C_${k} = (${100 + 100 * k} mm, 0)`).join(" ")} }
+    body crank_0 at (0, 0, 30 deg) { point O = (0, 0)  point A = (30 mm, 0) }
+    body lid at (0, 0, 0) { point O = (0, 0)  point P = (10 mm, 0) }
+    joint main: revolute(ground.O, crank_0.O)
+    joint fast: weld(ground.O, lid.O)
+    driver motor_0: rotation(main) = 30 deg + 1 rev/s * t${links.join("")}
+    analysis from 0 s to 0.999 s every 1 ms
+}
+`;

@@ -17,6 +17,29 @@ pub(super) enum Form {
 /// The forms by their endings.
 const FORMS: [(&str, Form); 3] = [("html", Form::Page), ("svg", Form::Picture), ("dxf", Form::Dxf)];
 
+/// An option that says how something is drawn: its name, whether it is given, and the forms that have it.
+type Said = (&'static str, fn(&ViewArguments) -> bool, &'static [Form]);
+
+/// All of them; a page that follows a file has none.
+const OPTIONS: [Said; 10] = [
+    ("--vary", |asked| !asked.vary.is_empty(), &[Form::Page]),
+    ("--plots", |asked| asked.plots, &[Form::Plots]),
+    ("--at", |asked| !asked.at.is_empty(), &[Form::Page, Form::Picture, Form::Dxf]),
+    ("--trace", |asked| !asked.trace.is_empty(), &[Form::Page, Form::Picture, Form::Dxf]),
+    ("--vectors", |asked| asked.vectors, &[Form::Page, Form::Picture, Form::Dxf]),
+    ("--forces", |asked| asked.forces, &[Form::Page, Form::Picture, Form::Dxf]),
+    ("--labels", |asked| asked.labels, &[Form::Page, Form::Picture, Form::Dxf]),
+    ("--size", |asked| asked.size.is_some(), &[Form::Page, Form::Picture, Form::Plots, Form::Dxf]),
+    ("--scale", |asked| asked.scale.is_some(), &[Form::Picture, Form::Dxf]),
+    ("--body", |asked| asked.body.is_some(), &[Form::Picture, Form::Dxf]),
+];
+
+/// The first option that is given and that a form has not; without a form the first that is given at all.
+pub(super) fn not_of(form: Option<Form>, arguments: &ViewArguments) -> Option<&'static str> {
+    let lacks = |forms: &[Form]| form.is_none_or(|form| !forms.contains(&form));
+    OPTIONS.iter().find(|(_, is_given, forms)| is_given(arguments) && lacks(forms)).map(|(option, ..)| *option)
+}
+
 /// What is drawn, by the name of a file and its ending.
 pub(super) fn form(output: &str, arguments: &ViewArguments) -> Result<Form, Failure> {
     let form = if output == "-" || endings::is_special(output) { Form::Picture } else { form_of_ending(output)? };
@@ -26,8 +49,9 @@ pub(super) fn form(output: &str, arguments: &ViewArguments) -> Result<Form, Fail
             .into());
     }
     let with_plots = arguments.plots || is_called_plots(output);
+    let foreign = |form| not_of(Some(form), arguments);
     match form {
-        Form::Picture if with_plots => match not_of_plots(arguments) {
+        Form::Picture if with_plots => match foreign(Form::Plots) {
             None => Ok(Form::Plots),
             Some(option) => Err(unusable(format!("`{option}` is for pictures, and `{output}` is to hold plots"))
                 .help("name it otherwise: `plots.svg` and `NAME.plots.svg` hold plots of all measures over time")
@@ -41,28 +65,14 @@ pub(super) fn form(output: &str, arguments: &ViewArguments) -> Result<Form, Fail
                 .help("name a `.svg` file")
                 .into())
         }
-        Form::Page if arguments.scale.is_some() || arguments.body.is_some() => {
-            let option = if arguments.scale.is_some() { "--scale" } else { "--body" };
-            Err(unusable(format!("`{option}` is for pictures and DXF, and `{output}` is a page"))
+        Form::Page => match foreign(Form::Page) {
+            None => Ok(Form::Page),
+            Some(option) => Err(unusable(format!("`{option}` is for pictures and DXF, and `{output}` is a page"))
                 .help("name a `.svg` or `.dxf` file")
-                .into())
-        }
+                .into()),
+        },
         form => Ok(form),
     }
-}
-
-/// What is asked for that plots do not have.
-fn not_of_plots(arguments: &ViewArguments) -> Option<&'static str> {
-    let ViewArguments { at, trace, vectors, labels, scale, body, .. } = arguments;
-    let asked = [
-        ("--at", !at.is_empty()),
-        ("--trace", !trace.is_empty()),
-        ("--vectors", *vectors),
-        ("--labels", *labels),
-        ("--scale", scale.is_some()),
-        ("--body", body.is_some()),
-    ];
-    asked.into_iter().find(|(_, is_asked)| *is_asked).map(|(option, _)| option)
 }
 
 /// Whether a file is called `plots.svg`, or `NAME.plots.svg`.

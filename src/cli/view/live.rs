@@ -1,5 +1,6 @@
 //! `mechc view FILE`: a page that follows the file, from a server on this machine.
 
+use super::form;
 use super::watch::Watch;
 use crate::analysis::Times;
 use crate::cli::arguments::{Interval, ViewArguments};
@@ -28,7 +29,7 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
         let help = "name a file, or write a page with `-o OUT.html`";
         return Err(unusable("a live page follows a file, and standard input is none").help(help).into());
     }
-    if let Some(option) = not_of_live_pages(arguments) {
+    if let Some(option) = form::not_of(None, arguments) {
         let help = "add `-o OUT.html` or another file, or leave it out";
         return Err(unusable(format!("`{option}` is for what is written")).help(help).into());
     }
@@ -59,24 +60,6 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
         watch.wait(&workshop.files());
         workshop.look();
     }
-}
-
-/// What is asked for that a live page has not.
-fn not_of_live_pages(arguments: &ViewArguments) -> Option<&'static str> {
-    let ViewArguments { vary, plots, at, trace, vectors, forces, labels, size, scale, body, .. } = arguments;
-    let asked = [
-        ("--vary", !vary.is_empty()),
-        ("--plots", *plots),
-        ("--at", !at.is_empty()),
-        ("--trace", !trace.is_empty()),
-        ("--vectors", *vectors),
-        ("--forces", *forces),
-        ("--labels", *labels),
-        ("--size", size.is_some()),
-        ("--scale", scale.is_some()),
-        ("--body", body.is_some()),
-    ];
-    asked.into_iter().find(|(_, is_asked)| *is_asked).map(|(option, _)| option)
 }
 
 /// What is said beside the address.

@@ -38,7 +38,7 @@ pub(super) fn value(page: &Page, every: usize, tables: Tables) -> Value {
         .map(|variant| {
             let table = if tables == Tables::Within { table(variant, every, page.columns.len()) } else { Vec::new() };
             let packed = if table.is_empty() { String::new() } else { columns::written(&table) };
-            variant_with(variant, every, &packed, &texts, &scene)
+            variant_with(variant, every, &packed, &texts, (first.scene, &scene))
         })
         .collect();
     let mut all = json!({
@@ -104,7 +104,13 @@ pub(super) fn table(variant: &Variant, every: usize, count: usize) -> Vec<Vec<f6
     if rows.is_empty() { Vec::new() } else { (0..count).map(of_column).collect() }
 }
 
-fn variant_with(variant: &Variant, every: usize, packed: &str, texts: &Texts, shared: &Value) -> Value {
+fn variant_with(
+    variant: &Variant,
+    every: usize,
+    packed: &str,
+    texts: &Texts,
+    (first, shared): (&Scene, &Value),
+) -> Value {
     let motion = variant.motion;
     let rows = kept(motion.rows().len(), every).count();
     let results = variant.results.iter().map(|(column, value)| {
@@ -127,7 +133,9 @@ fn variant_with(variant: &Variant, every: usize, packed: &str, texts: &Texts, sh
         if !variant.scene.named.is_empty() {
             object.insert("named".to_owned(), json!(variant.scene.named));
         }
-        if let Some(changes) = changes(shared, &scene(variant.scene, texts)) {
+        let is_first = std::ptr::eq(first, variant.scene);
+        let own = if is_first { None } else { changes(shared, &scene(variant.scene, texts)) };
+        if let Some(changes) = own {
             object.insert("scene".to_owned(), changes);
         }
     }
@@ -173,7 +181,8 @@ fn message(said: &Diagnostic, texts: &Texts) -> Value {
     object
 }
 
-fn scene(scene: &Scene, texts: &Texts) -> Value {
+/// What there is to draw, with the places of declarations in the texts.
+pub(super) fn scene(scene: &Scene, texts: &Texts) -> Value {
     let decimals = decimals(scene.unit);
     let declarations = scene.declarations.iter().map(|declaration| {
         let (text, from, to) = texts.place(declaration.span).unwrap_or_default();
