@@ -440,7 +440,7 @@ impl Pivoting for Model {
         []
     }
 
-    fn measured(&self, _orders: [&Q; 4], _varied: &[f64; 0], _t: f64) {}
+    fn measured(&self, _orders: [&Q; 4], _varied: &[f64; 0], _multipliers: &Q, _t: f64) {}
 }
 
 impl Timed for Model {
@@ -840,7 +840,7 @@ mod following {
             rights_by_signal(q, t, &self.way)
         }
 
-        fn measured(&self, _orders: [&Q; 4], _varied: &[f64; 0], _t: f64) {}
+        fn measured(&self, _orders: [&Q; 4], _varied: &[f64; 0], _multipliers: &Q, _t: f64) {}
     }
 
     impl Led<SIGNALS> for Model {

@@ -462,7 +462,7 @@ impl Pivoting for Model {
         []
     }
 
-    fn measured(&self, _orders: [&Q; 4], _varied: &[f64; 0], _t: f64) {}
+    fn measured(&self, _orders: [&Q; 4], _varied: &[f64; 0], _multipliers: &Q, _t: f64) {}
 }
 
 /// Number of places where a formula of time may end.

@@ -1,0 +1,738 @@
+//! Kinematics of mechanism `pendulum`, written by mechc 0.1.0 from `forces.mech`.
+//!
+//! - coordinates `q`: 3 (m, rad), equations `phi = 0`: 3
+//! - `phi_q`: 3 entries that do not vanish, see [`PHI_Q_PATTERN`]
+//! - parameters: 0; those that follow from others are worked out
+//! - the motion: [`assemble`], then [`step`] from time to time
+//! - the forces: [`forces`] of a state
+//! - needs no other crate
+//! - needs no heap and no standard library; nothing in it panics
+//!
+//! This code carries no licence of mechc's: use, change and pass it on as you like.
+
+#![allow(clippy::approx_constant, clippy::eq_op)]
+#![allow(clippy::excessive_precision, clippy::large_const_arrays)]
+
+use runtime::blocks::Blocks;
+use runtime::blocks::work_of;
+use runtime::equations::Branches;
+use runtime::equations::Checks;
+use runtime::equations::Equations;
+use runtime::error::Fault;
+use runtime::forces::Forced;
+use runtime::measured::Measured;
+use runtime::pivoted_forces::forces_with_pivoting;
+use runtime::pivoting::Pivoting;
+use runtime::pivoting::Transposed;
+use runtime::pivoting::solve_with_pivoting;
+use runtime::sine_and_cosine::sin_cos;
+use runtime::solution::Solved;
+use runtime::state::Parameters;
+use runtime::state::Time;
+use runtime::state::Timed;
+
+/// The mechanism has no parameters.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Params;
+
+impl Parameters for Params {
+    fn towards(&self, _: &Self, _: f64) -> Self {
+        Self
+    }
+
+    fn is_finite(&self) -> bool {
+        true
+    }
+}
+
+/// Number of coordinates, and of equations.
+pub const N: usize = 3;
+
+/// Number of entries of `phi_q` that do not vanish.
+pub const ENTRIES: usize = 3;
+
+/// Coordinates (m, rad).
+pub type Q = [f64; N];
+
+/// Velocities (m/s, rad/s).
+pub type Qd = [f64; N];
+
+/// Accelerations (m/s^2, rad/s^2).
+pub type Qdd = [f64; N];
+
+/// Where each coordinate stands in `q`.
+pub mod coordinate {
+    /// `arm.x` (m), line 3
+    pub const ARM_X: usize = 0;
+    /// `arm.y` (m), line 3
+    pub const ARM_Y: usize = 1;
+    /// `arm.phi` (rad), line 3
+    pub const ARM_PHI: usize = 2;
+}
+
+/// Which equation each joint, constraint or driver wrote, and its unit.
+pub mod row {
+    /// joint `main 1` (m), line 8
+    pub const MAIN_1: usize = 0;
+    /// joint `main 2` (m), line 8
+    pub const MAIN_2: usize = 1;
+    /// driver `motor` (rad), line 9
+    pub const MOTOR: usize = 2;
+}
+
+/// Row and column of each value that [`phi_q`] gives.
+#[rustfmt::skip]
+pub static PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [
+    (0, 0),
+    (1, 1),
+    (2, 2),
+];
+
+/// The bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Body {
+    /// `arm`, line 3
+    Arm,
+}
+
+/// Where a body is, or how its place changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// (m)
+    pub x: f64,
+    /// (m)
+    pub y: f64,
+    /// (rad)
+    pub phi: f64,
+}
+
+impl Pose {
+    /// That of a body, out of the coordinates or their derivatives.
+    #[rustfmt::skip]
+#[must_use]
+    pub fn of(q: &[f64; N], body: Body) -> Self {
+        match body {
+            Body::Arm => Self { x: q[0], y: q[1], phi: q[2] },
+        }
+    }
+}
+
+/// Where each measure stands among the values, all in SI.
+pub mod measure {
+    /// `power`, line 11
+    pub const POWER: usize = 0;
+}
+
+/// How many they are.
+pub const MEASURES: usize = 1;
+
+/// Where the first time derivative of each measure that has one stands among the rates.
+pub mod measure_rate {
+}
+
+/// How many they are.
+pub const RATES: usize = 0;
+
+/// Where the second time derivative of each measure that has one stands among the accelerations.
+pub mod measure_acceleration {
+}
+
+/// How many they are.
+pub const ACCELERATIONS: usize = 0;
+
+/// The measures with their time derivatives; `NAN` where one has no value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measures {
+    /// By the indices in [`measure`].
+    pub values: [f64; MEASURES],
+    /// First time derivatives, by the indices in [`measure_rate`].
+    pub rates: [f64; RATES],
+    /// Second time derivatives, by the indices in [`measure_acceleration`].
+    pub accelerations: [f64; ACCELERATIONS],
+}
+
+/// Where each force and moment that a joint exerts, and what each driver supplies, stands in [`Forces`].
+pub mod force {
+    /// `main.fx` (N), line 8
+    pub const MAIN_FX: usize = 0;
+    /// `main.fy` (N), line 8
+    pub const MAIN_FY: usize = 1;
+    /// `motor.effort` (N*m), line 9
+    pub const MOTOR_EFFORT: usize = 2;
+}
+
+/// How many they are.
+pub const FORCES: usize = 3;
+
+/// What joints exert on their second bodies, and what drivers supply.
+pub type Forces = [f64; FORCES];
+
+/// The residual of the equations, each in its unit: see [`row`].
+///
+/// 3 operations.
+pub fn phi(q: &[f64; N], t: f64, _p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    let arm_x = q[0];
+    let arm_y = q[1];
+    let arm_phi = q[2];
+
+    let v1 = -arm_x;
+    let v2 = -arm_y;
+    let v3 = arm_phi - t;
+
+    out[0] = v1;
+    out[1] = v2;
+    out[2] = v3;
+    out
+}
+
+/// The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`] (the equation's unit per m or
+/// rad).
+///
+/// 0 operations.
+pub fn phi_q(_q: &[f64; N], _t: f64, _p: &Params) -> [f64; ENTRIES] {
+    let mut out = [0.0; ENTRIES];
+    out[0] = -1.0;
+    out[1] = -1.0;
+    out[2] = 1.0;
+    out
+}
+
+/// The partial derivative of `phi` by time (the equation's unit per s).
+///
+/// 0 operations.
+pub fn phi_t(_q: &[f64; N], _t: f64, _p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    out[2] = -1.0;
+    out
+}
+
+/// Right side of the velocity equation `phi_q qd = nu` (the equation's unit per s).
+///
+/// 0 operations.
+pub fn nu(_q: &[f64; N], _t: f64, _p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    out[2] = 1.0;
+    out
+}
+
+/// Right side of the acceleration equation `phi_q qdd = gamma` (the equation's unit per s^2).
+///
+/// 0 operations.
+pub fn gamma(_q: &[f64; N], _qd: &[f64; N], _t: f64, _p: &Params) -> [f64; N] {
+    [0.0; N]
+}
+
+/// The Jacobian as a full matrix, row by row.
+pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {
+    let mut full = [[0.0; N]; N];
+    for (&(row, column), value) in PHI_Q_PATTERN.iter().zip(phi_q(q, t, p)) {
+        if let Some(entry) = full.get_mut(row).and_then(|line| line.get_mut(column)) {
+            *entry = value;
+        }
+    }
+    full
+}
+
+/// What the multipliers of the equations have to hold: `phi_q^T multipliers = needed`, by coordinate (N where that is a
+/// length, N m where it is an angle). It is what the inertia of the bodies asks for, less weights and loads.
+///
+/// 23 operations.
+pub fn needed(q: &[f64; N], qd: &[f64; N], qdd: &[f64; N], _t: f64, _p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    let arm_phi = q[2];
+    let arm_phi_d = qd[2];
+    let arm_phi_dd = qdd[2];
+    let arm_x_dd = qdd[0];
+    let arm_y_dd = qdd[1];
+
+    let (s1, c1) = sin_cos(arm_phi);
+    let v2 = arm_phi_d * s1;
+    let v3 = arm_phi_d * c1;
+    let v4 = s1 * arm_phi_dd;
+    let v5 = arm_phi_d * v3;
+    let v6 = v4 + v5;
+    let v7 = -0.5 * v6;
+    let v8 = arm_x_dd + v7;
+    let v9 = 2.0 * v8;
+    let v10 = s1 * v8;
+    let v11 = c1 * arm_phi_dd;
+    let v12 = arm_phi_d * v2;
+    let v13 = v11 - v12;
+    let v14 = 0.5 * v13;
+    let v15 = arm_y_dd + v14;
+    let v16 = v15 + 9.81;
+    let v17 = 2.0 * v16;
+    let v18 = c1 * v16;
+    let v19 = v18 - v10;
+    let v20 = 0.1 * arm_phi_dd;
+    let v21 = v19 + v20;
+    let v22 = 0.3 * arm_phi_d;
+    let v23 = v21 + v22;
+
+    out[0] = v9;
+    out[1] = v17;
+    out[2] = v23;
+    out
+}
+
+/// What joints exert and drivers supply, by the numbers in [`force`], from the coordinates and the multipliers of
+/// [`needed`].
+///
+/// 2 operations.
+pub fn exerted(_q: &[f64; N], multipliers: &[f64; N], _t: f64, _p: &Params) -> [f64; FORCES] {
+    let mut out = [0.0; FORCES];
+    let v1 = -multipliers[0];
+    let v2 = -multipliers[1];
+
+    out[0] = v1;
+    out[1] = v2;
+    out[2] = multipliers[2];
+    out
+}
+
+/// The measures with their time derivatives, from the coordinates, their velocities and
+/// accelerations,
+/// and the multipliers of [`needed`].
+pub fn measures(q: &Q, qd: &Qd, qdd: &Qdd, multipliers: &[f64; N], t: f64, p: &Params) -> Measures {
+    let mut all = all_measures(q, qd, qdd, multipliers, t, p).into_iter();
+    let mut next = || all.next().unwrap_or(f64::NAN) + 0.0;
+    Measures {
+        values: core::array::from_fn(|_| next()),
+        rates: core::array::from_fn(|_| next()),
+        accelerations: core::array::from_fn(|_| next()),
+    }
+}
+
+/// The measures, their rates and their accelerations, one behind the other.
+///
+/// 1 operations.
+fn all_measures(
+    _q: &[f64; N],
+    qd: &[f64; N],
+    _qdd: &[f64; N],
+    multipliers: &[f64; N],
+    _t: f64,
+    _p: &Params,
+) -> [f64; 1] {
+    let mut out = [0.0; 1];
+    let arm_phi_d = qd[2];
+
+    let v1 = arm_phi_d * multipliers[2];
+
+    out[0] = v1;
+    out
+}
+
+pub use runtime::error::Error;
+pub use runtime::limits::MOST_STEPS;
+
+/// The mechanism at a time.
+pub type State = runtime::state::State<Model>;
+
+impl State {
+    /// Where a body is (m, m, rad).
+    #[must_use]
+    pub fn pose(&self, body: Body) -> Pose {
+        Pose::of(self.q(), body)
+    }
+
+    /// How fast a body moves (m/s, m/s, rad/s).
+    #[must_use]
+    pub fn velocity(&self, body: Body) -> Pose {
+        Pose::of(self.qd(), body)
+    }
+
+    /// How a body's velocity changes (m/s^2, m/s^2, rad/s^2).
+    #[must_use]
+    pub fn acceleration(&self, body: Body) -> Pose {
+        Pose::of(self.qdd(), body)
+    }
+}
+
+/// Brings the mechanism to its first time with some parameters, along the branch that the file's
+/// parameters give.
+///
+/// # Errors
+/// It cannot be assembled with these, or not on that branch.
+pub fn assemble(params: &Params) -> Result<State, Error> {
+    runtime::assemble::assemble(params)
+}
+
+/// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
+/// and acceleration are those of the branch that it is on, whichever way `t` lies.
+///
+/// It takes [`MOST_STEPS`] steps at most, and mostly one; [`step_within`] takes as many as it is
+/// allowed. What a driver does and undoes within a
+/// step, by formulas without branches, is not seen: no step is longer than [`LONGEST_STEP`].
+///
+/// # Errors
+/// Why it cannot get there; the state stays at the last time that it could reach.
+pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
+    step_within(t, state, MOST_STEPS)
+}
+
+/// As [`step`], in so many steps at most, for those who have a deadline: each solves the equations
+/// about once, and one that has to be made shorter counts as well.
+///
+/// # Errors
+/// Why it cannot get there; the state stays at the last time that it could reach. Where that is
+/// [`Error::TooFar`] the same call goes on from there.
+pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> {
+    runtime::step::step_within(t, state, most)
+}
+
+/// Number of results at a time.
+pub const COLUMNS: usize = 11;
+
+/// The first time of the file's analysis (s), at which the mechanism is assembled.
+pub const START_TIME: f64 = 0.0;
+
+/// How long the file's analysis takes (s).
+const SPAN: f64 = 1.0;
+
+/// The longest step (s).
+pub const LONGEST_STEP: f64 = 0.03125;
+
+/// The shortest step (s).
+const SMALLEST_STEP: f64 = 1e-12;
+
+/// What a change of each coordinate is judged against.
+#[rustfmt::skip]
+static SCALES: [f64; N] = [
+    1.0, 1.0, 1.0,
+];
+
+/// The assembled position (m, rad).
+#[rustfmt::skip]
+static START: [f64; N] = [
+    0.0, 0.0, 0.0,
+];
+
+impl Measured for Measures {
+    const ZERO: Self = Self {
+        values: [0.0; MEASURES],
+        rates: [0.0; RATES],
+        accelerations: [0.0; ACCELERATIONS],
+    };
+
+    #[rustfmt::skip]
+    const IS_VARIED: &'static [bool] = &[
+        true,
+    ];
+
+    fn lists(&self) -> [&[f64]; 3] {
+        [&self.values, &self.rates, &self.accelerations]
+    }
+
+    fn lists_mut(&mut self) -> [&mut [f64]; 3] {
+        [&mut self.values, &mut self.rates, &mut self.accelerations]
+    }
+}
+
+/// The mechanism with its parameters.
+#[derive(Clone, Debug)]
+pub struct Model {
+    params: Params,
+}
+
+/// Number of coordinates that Newton solves for; the others follow.
+const TEARS: usize = 0;
+
+/// What a change of each of them is judged against (m, or 1 rad).
+static TEAR_SCALES: [f64; TEARS] = [];
+
+/// Number of blocks of equations whose determinants change with the position.
+const TURNS: usize = 0;
+
+/// Whether they are negative where all pivots are positive.
+static TURNED: [bool; TURNS] = [];
+
+/// Number of places where formulas have branches.
+const SIDES: usize = 0;
+
+/// Which branch is taken at each: what a comparison gives, the number of a piece.
+type Sides = [f64; SIDES];
+
+/// What solves the equations at a time.
+type Solution = runtime::solution::Solution<Model>;
+
+/// Position, velocity and acceleration at a time. Every coordinate follows from those before it.
+///
+/// 6 operations.
+fn solve(_guess: &[f64; TEARS], t: f64, _m: &Model, at: &mut Solution) {
+    at.begin(t);
+    at.q[2] = t + 0.0;
+    at.qd[2] = 1.0;
+    let (s1, c1) = sin_cos(t);
+    let v2 = -0.5 * c1;
+    let v3 = 9.81 - 0.5 * s1;
+    let v4 = c1 * v3;
+    let v5 = v4 - s1 * v2;
+    let v6 = v5 + 0.3;
+    at.measures.values[0] = v6 + 0.0;
+}
+
+impl Equations for Model {
+    type Q = Q;
+    type Entries = [f64; ENTRIES];
+    type Sides = Sides;
+
+    fn pattern() -> &'static [(usize, usize)] {
+        &PHI_Q_PATTERN
+    }
+
+    fn scales() -> &'static Q {
+        &SCALES
+    }
+
+    fn phi(&self, q: &Q, t: f64, _sides: &Sides) -> Q {
+        phi(q, t, &self.params)
+    }
+
+    fn phi_q(&self, q: &Q, t: f64, _sides: &Sides) -> Self::Entries {
+        phi_q(q, t, &self.params)
+    }
+
+    fn nu(&self, q: &Q, t: f64, _sides: &Sides) -> Q {
+        nu(q, t, &self.params)
+    }
+
+    fn gamma(&self, q: &Q, qd: &Qd, t: f64, _sides: &Sides) -> Qdd {
+        gamma(q, qd, t, &self.params)
+    }
+}
+
+impl Branches for Model {}
+
+impl Checks for Model {
+    type Watched = [bool; 0];
+}
+
+impl Solved for Model {
+    type Tears = [f64; TEARS];
+    type Turns = [bool; TURNS];
+    type Measures = Measures;
+    type Joined = [f64; 0];
+    type Along = Time;
+
+    fn tear_scales() -> &'static Self::Tears {
+        &TEAR_SCALES
+    }
+
+    fn turned() -> &'static Self::Turns {
+        &TURNED
+    }
+
+    #[rustfmt::skip]
+    fn tears(_q: &Q) -> Self::Tears {
+        []
+    }
+
+    fn solve(&self, guess: &Self::Tears, t: f64, _sides: &Sides, at: &mut Solution) {
+        solve(guess, t, self, at);
+    }
+
+    fn pivoted(&self, q: &Q, t: f64, sides: &Sides, _at: &Solution) -> Result<Solution, Fault> {
+        solve_with_pivoting(self, q, t, sides)
+    }
+}
+
+/// The width of a cell of each coordinate's grid.
+#[rustfmt::skip]
+static CELLS: [f64; N] = [
+    7.450580596923828e-9, 7.450580596923828e-9, 7.450580596923828e-9,
+];
+
+/// Number of blocks of equations that can be solved one after the other.
+const BLOCKS: usize = 3;
+
+/// The blocks whose determinants change.
+static TURNING: [usize; TURNS] = [];
+
+/// Numbers that the elimination of the largest block works on.
+const WORK: usize = work_of(1);
+
+/// How the equations fall apart into blocks.
+#[rustfmt::skip]
+static EQUATIONS: Blocks<'static> = Blocks {
+    sizes: &[
+        1, 1, 1,
+    ],
+    rows: &[
+        0, 1, 2,
+    ],
+    columns: &[
+        0, 1, 2,
+    ],
+    starts: &[
+        0, 1, 2, 3,
+    ],
+    entries: &[
+        0, 1, 2,
+    ],
+    places: &[
+        0, 1, 2,
+    ],
+    units: &[
+        1.0, 1.0, 1.0,
+    ],
+};
+
+/// The place of each entry of the transposed Jacobian in the Jacobian.
+#[rustfmt::skip]
+static PLACES: [usize; ENTRIES] = [
+    0, 1, 2,
+];
+
+/// How the transposed equations fall apart into blocks.
+#[rustfmt::skip]
+static TRANSPOSED: Blocks<'static> = Blocks {
+    sizes: &[
+        1, 1, 1,
+    ],
+    rows: &[
+        2, 1, 0,
+    ],
+    columns: &[
+        2, 1, 0,
+    ],
+    starts: &[
+        0, 1, 2, 3,
+    ],
+    entries: &[
+        0, 1, 2,
+    ],
+    places: &[
+        2, 1, 0,
+    ],
+    units: &[
+        1.0, 1.0, 1.0,
+    ],
+};
+
+/// The transposed Jacobian.
+static ACROSS: Transposed = Transposed {
+    blocks: &TRANSPOSED,
+    places: &PLACES,
+};
+
+impl Pivoting for Model {
+    type Work = [f64; WORK];
+    type Blocks = [bool; BLOCKS];
+    type Varied = [f64; 0];
+    type Rights = [Q; 0];
+
+    const TOLERANCE: f64 = 1e-12;
+
+    fn blocks() -> &'static Blocks<'static> {
+        &EQUATIONS
+    }
+
+    fn turning() -> &'static [usize] {
+        &TURNING
+    }
+
+    fn cells() -> &'static Q {
+        &CELLS
+    }
+
+    fn rights(&self, _q: &Q, _t: f64, _sides: &Sides) -> [Q; 0] {
+        []
+    }
+
+    fn transposed() -> Option<&'static Transposed> {
+        Some(&ACROSS)
+    }
+
+    fn needed(&self, [q, qd, qdd]: [&Q; 3], t: f64, _sides: &Sides) -> Q {
+        needed(q, qd, qdd, t, &self.params)
+    }
+
+    fn measured(
+        &self,
+        [q, qd, qdd, _]: [&Q; 4],
+        _varied: &[f64; 0],
+        multipliers: &Q,
+        t: f64,
+    ) -> Measures {
+        measures(q, qd, qdd, multipliers, t, &self.params)
+    }
+}
+
+impl Timed for Model {
+    type Params = Params;
+    type Lead = ();
+    type Passed = [f64; 0];
+    type Row = [f64; COLUMNS];
+
+    const START_TIME: f64 = START_TIME;
+    const SPAN: f64 = SPAN;
+    const LONGEST_STEP: f64 = LONGEST_STEP;
+    const SMALLEST_STEP: f64 = SMALLEST_STEP;
+
+    fn new(params: &Params) -> Self {
+        Self { params: *params }
+    }
+
+    fn params(&self) -> &Params {
+        &self.params
+    }
+
+    fn start() -> &'static Q {
+        &START
+    }
+}
+
+/// What joints exert and drivers supply at a state, by the numbers in [`force`]; `NAN` close to a singular
+/// position, where there is none.
+#[must_use]
+pub fn forces(state: &State) -> Forces {
+    runtime::forces::forces(state)
+}
+
+/// As [`solve`], with what joints exert and drivers supply.
+///
+/// 8 operations.
+fn solve_with_forces(
+    _guess: &[f64; TEARS],
+    t: f64,
+    _m: &Model,
+    at: &mut Solution,
+    forces: &mut Forces,
+) {
+    at.begin(t);
+    at.q[2] = t + 0.0;
+    at.qd[2] = 1.0;
+    let (s1, c1) = sin_cos(t);
+    let v2 = -0.5 * c1;
+    let v3 = 9.81 - 0.5 * s1;
+    let v4 = c1 * v3;
+    let v5 = v4 - s1 * v2;
+    let v6 = v5 + 0.3;
+    let v7 = 2.0 * v3;
+    let v8 = 2.0 * v2;
+    forces[0] = v8 + 0.0;
+    forces[1] = v7 + 0.0;
+    forces[2] = v6 + 0.0;
+    at.measures.values[0] = v6 + 0.0;
+}
+
+impl Forced for Model {
+    type Forces = Forces;
+
+    #[rustfmt::skip]
+    fn solve_with_forces(&self, guess: &Self::Tears, t: f64, _sides: &Sides, at: &mut Solution, forces: &mut Forces) {
+        solve_with_forces(guess, t, self, at, forces);
+    }
+
+    fn pivoted_forces(
+        &self,
+        from: &Solution,
+        at: &mut Solution,
+        forces: &mut Forces,
+    ) -> Result<(), Fault> {
+        let exerted = |q: &Q, multipliers: &Q| exerted(q, multipliers, from.t, &self.params);
+        forces_with_pivoting(self, from, at, forces, exerted)
+    }
+}
