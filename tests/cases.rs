@@ -185,7 +185,7 @@ fn main() {
     tests.each("coarse_steps", cases(), 55, |case| has_the_same_numbers_at_ten_times_larger_output_steps(&case));
     tests.each("composed", of("tests/cases2"), 5, |path| is_told_by_the_command_line(&path));
     tests.each("forces", of("tests/cases3"), 4, |path| is_told_by_the_command_line(&path));
-    tests.each("by_hand", of("tests/forces"), 22, |path| has_the_forces_of_newton_and_euler(&path));
+    tests.each("by_hand", of("tests/forces"), 24, |path| has_the_forces_of_newton_and_euler(&path));
     tests.each("example", of("examples"), 20, |path| runs_without_a_word(&path));
     tests.run()
 }

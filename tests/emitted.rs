@@ -88,7 +88,7 @@ mod slider_crank;
 const GOES_ALONG: &str = "\n/// What solves the equations and follows the motion, the same for all mechanisms.\n";
 
 /// Constructs whose code is that of the motion too; of the others it is that of the equations.
-const OF_MOTION: [&str; 6] = ["branches_of_motion", "branches_of_time", "inputs", "loop", "plain", "rims"];
+const OF_MOTION: [&str; 7] = ["branches_of_motion", "branches_of_time", "forces", "inputs", "loop", "plain", "rims"];
 
 #[test]
 fn what_is_generated_for_each_construct_is_as_a_reviewer_has_read_it() {

@@ -35,6 +35,8 @@ struct Made {
     emitted: Emitted,
     text: String,
     rows: Vec<Vec<f64>>,
+    /// What it says of the forces in these, where there are any.
+    forces: Vec<Vec<f64>>,
     ends_well: bool,
 }
 
@@ -47,8 +49,8 @@ impl Module {
         self.made.get_or_init(|| {
             let emitted = (self.make)(self.name.clone());
             let text = emitted.text_of(emitted.lanes(), emitted.largest_straight());
-            let (rows, ends_well) = emitted.rows();
-            Made { emitted, text, rows, ends_well }
+            let ((rows, ends_well), forces) = (emitted.rows(), emitted.forces());
+            Made { emitted, text, rows, forces, ends_well }
         })
     }
 }
@@ -81,9 +83,9 @@ const HELD_BY_OTHERS: &str = "leg";
 
 /// Examples, reference cases and the stages; formulas with rims; and one that takes several functions.
 fn determined() -> Vec<Module> {
-    let paths = ["examples", "tests/cases", "tests/stages", "tests/following", "tests/slopes"]
-        .map(|folder| files(folder, "mech"))
-        .concat();
+    let folders =
+        ["examples", "tests/cases", "tests/cases3", "tests/forces", "tests/stages", "tests/following", "tests/slopes"];
+    let paths = folders.map(|folder| files(folder, "mech")).concat();
     let mut list: Vec<Module> = Vec::new();
     for path in paths {
         let names = mechanisms(&fs::read_to_string(&path).expect("a text"));
@@ -98,6 +100,11 @@ fn determined() -> Vec<Module> {
     list.extend(["everything", "odd_names"].map(|stage| {
         let path = PathBuf::from(format!("tests/stages/{stage}/input.mech"));
         Module::new(format!("{stage}_as_lines"), move |name| Emitted::new(name, &path, 0).expect("determined"))
+    }));
+    list.extend(["equations", "three_rpr", "rack_moving"].map(|case| {
+        let path = PathBuf::from(format!("tests/forces/{case}.mech"));
+        let make = move |name| Emitted::new(name, &path, 0).expect("determined");
+        Module::new(format!("{case}_as_numbers"), make)
     }));
     let texts = texts::with_rims().into_iter().chain([("lift".to_owned(), texts::scissor_lift(50))]);
     list.extend(texts.map(|(name, text)| {
@@ -146,7 +153,7 @@ fn stands_alone(batch: &Batch, number: usize) {
 
 fn has_the_bits_of_the_interpreter(batch: &Batch, number: usize) {
     let module = &batch.modules[number];
-    let (name, Made { emitted, rows, ends_well, .. }) = (&module.name, module.made());
+    let (name, Made { emitted, rows, forces, ends_well, .. }) = (&module.name, module.made());
     let output = Command::new(batch.binary()).arg(name).output().expect("it runs");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).expect("text");
@@ -155,8 +162,12 @@ fn has_the_bits_of_the_interpreter(batch: &Batch, number: usize) {
     for seed in 1..=POINTS {
         compare(name, next(), &interpreted(&emitted.compiled, seed));
     }
-    for row in rows {
-        compare(name, next(), &row.iter().copied().map(bits_of).collect::<Vec<u64>>());
+    let bits = |row: &Vec<f64>| row.iter().copied().map(bits_of).collect::<Vec<u64>>();
+    for (k, row) in rows.iter().enumerate() {
+        compare(name, next(), &bits(row));
+        if let Some(forces) = forces.get(k) {
+            compare(name, next(), &bits(forces));
+        }
     }
     if !ends_well {
         let error = next();
@@ -181,13 +192,17 @@ fn main_of(modules: &[Module]) -> String {
     let mut calls = String::new();
     for module in modules {
         let name = &module.name;
-        let Made { emitted, rows, ends_well, .. } = module.made();
+        let Made { emitted, rows, forces, ends_well, .. } = module.made();
         // where the motion ends, a time beyond it must be refused
         let beyond = rows.last().map_or(0.0, |row| row[0]) + 1.0;
         let times: Vec<f64> = rows.iter().map(|row| row[0]).chain((!ends_well).then_some(beyond)).collect();
         let times = format!("{times:?} as [f64; {}]", times.len());
-        writeln!(main, "#[path = \"{name}.rs\"]\nmod {name};\n{}", function_of(name, &times, emitted.lanes()))
-            .expect("a string takes everything");
+        writeln!(
+            main,
+            "#[path = \"{name}.rs\"]\nmod {name};\n{}",
+            function_of(name, &times, emitted.lanes(), !forces.is_empty())
+        )
+        .expect("a string takes everything");
         writeln!(calls, "        Some(\"{name}\") => run_{name}(),").expect("a string takes everything");
     }
     main + &format!(
@@ -210,7 +225,8 @@ fn main() {{
 }
 
 /// The function for one module, at some times and in some lanes.
-fn function_of(name: &str, times: &str, lanes: Option<usize>) -> String {
+fn function_of(name: &str, times: &str, lanes: Option<usize>, has_forces: bool) -> String {
+    let forces = if has_forces { format!("; print(&{name}::forces(&state));") } else { String::new() };
     let mut text = format!(
         "fn run_{name}() {{
     for (q, qd, t) in points({name}::N) {{
@@ -222,7 +238,7 @@ fn function_of(name: &str, times: &str, lanes: Option<usize>) -> String {
     let mut state = {name}::assemble(&{name}::Params::default()).unwrap();
     for t in {times} {{
         match {name}::step(t, &mut state) {{
-            Ok(()) => print(&state.row()),
+            Ok(()) => {{ print(&state.row()){forces} }}
             Err(error) => println!(\"{{error:?}}\"),
         }}
     }}

@@ -257,6 +257,30 @@ fn formulas_with_kinks_and_jumps_are_reduced() {
 }
 
 #[test]
+fn forces_of_loads_that_jump_and_their_powers_are_reduced() {
+    let text = arm(
+        "1 rad/s * t",
+        "load brake: if sin(10 * rotation(main)) < 0 then -5 N*m else -4 N*m on rotation(main)
+         result a = mean(effort(motor)) result b = max(effort(motor)) result c = min(effort(motor)) result d = last(effort(motor))",
+    );
+    // 5 N·m count from π/10 to 2π/10, and from 3π/10 on
+    check(&text, 1.0, &[(5.0 - PI / 5.0, 1e-9), (5.0, 1e-12), (4.0, 1e-12), (5.0, 1e-12)]);
+    // a power has no derivative, but is as smooth as what it is a product of
+    let text = arm(
+        "5 rad/s^2 * t^2",
+        "load drag: -(2 N*m + 1 N*m * sin(rotation(main))) on rotation(main)
+         result a = max(effort(motor) * der(rotation(main))) result b = argmax(effort(motor) * der(rotation(main)))",
+    );
+    let slope = |t: f64| {
+        let (s, c) = (sin(5.0 * t * t), cos(5.0 * t * t));
+        (2.0 + s + 10.0 * t * t * c, 30.0 * t * c - 100.0 * t * t * t * s)
+    };
+    let t = newton(0.72, slope);
+    let most = 10.0 * t * (2.0 + sin(5.0 * t * t));
+    check(&text, 0.9, &[(most, 1e-8), (t, 1e-4)]);
+}
+
+#[test]
 fn results_speak_of_each_other_and_are_repeated() {
     let text = arm(
         "1 rad/s * t",

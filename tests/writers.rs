@@ -8,7 +8,7 @@ use assert_cmd::Command;
 use mechc::Compiled;
 use mechc::rooms::emit;
 use mechc::rooms::expr::{ExprId, Graph, Node, Symbol, TableId};
-use mechc::rooms::ir::ConstraintSystem;
+use mechc::rooms::ir::{ConstraintSystem, Mechanics};
 use serde_json::Value;
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -16,7 +16,7 @@ use std::fs;
 use support::random::Random;
 use support::reading::{Names, parse, read};
 use support::tex::Meaning;
-use support::{compile_number, compiled, files, mechanisms, stem};
+use support::{compile_number, compile_with_forces, compiled, files, mechanisms, stem};
 
 struct Emitted {
     name: String,
@@ -25,13 +25,14 @@ struct Emitted {
 
 /// Examples, reference cases and stages, each mechanism of theirs.
 fn all() -> Vec<Emitted> {
-    let paths =
-        ["examples", "tests/cases", "tests/stages", "tests/following"].map(|folder| files(folder, "mech")).concat();
+    let paths = ["examples", "tests/cases", "tests/forces", "tests/stages", "tests/following"]
+        .map(|folder| files(folder, "mech"));
+    let paths = paths.concat();
     let mut list = Vec::new();
     for path in paths {
         let text = fs::read_to_string(&path).expect("a text");
         for number in 0..mechanisms(&text).len() {
-            let (compiled, _) = compile_number(&path, &text, number);
+            let compiled = compile_with_forces(&path, &text, number).or_else(|| compile_number(&path, &text, number).0);
             let folder = stem(path.parent().expect("a folder"));
             let name = format!("{folder}/{}", stem(&path));
             // derivatives by inputs and parameters are for `run` and code
@@ -98,6 +99,8 @@ const LAYOUT: &[(&str, &[(&str, &str)])] = &[
     ("terms", &[("name", "text"), ("value", "text")]),
     ("rows", &[("name", "text"), ("declaration", "count"), ("unit", "text"), ("phi", "text")]),
     ("phi_q", &[("row", "count"), ("column", "count"), ("value", "text")]),
+    ("mass_matrix", &[("row", "count"), ("column", "count"), ("value", "text")]),
+    ("reactions", &[("name", "text"), ("line", "count"), ("unit", "text"), ("value", "text")]),
     (
         "measures",
         &[
@@ -114,7 +117,7 @@ const LAYOUT: &[(&str, &[(&str, &str)])] = &[
     ("left_out", &[("declaration", "count"), ("unit", "text"), ("phi", "text")]),
 ];
 
-const FIELDS: [&str; 20] = [
+const FIELDS: [&str; 23] = [
     "layout",
     "mechc",
     "mechanism",
@@ -131,6 +134,9 @@ const FIELDS: [&str; 20] = [
     "phi_q",
     "nu",
     "gamma",
+    "mass_matrix",
+    "applied",
+    "reactions",
     "measures",
     "conditions",
     "watches",
@@ -178,9 +184,14 @@ fn json_has_the_layout_of_its_page() {
     for Emitted { name, compiled } in all() {
         let (determined, _) = compiled.inside();
         let json: Value = serde_json::from_str(&compiled.json("f.mech")).expect("JSON");
-        // inputs are told where there are any
+        // inputs and forces are told where there are any
         let has_inputs = !determined.system().inputs().is_empty();
-        let is_there = |field: &str| field != "inputs" || has_inputs;
+        let has_forces = determined.system().forces().is_some();
+        let is_there = |field: &str| match field {
+            "inputs" => has_inputs,
+            "mass_matrix" | "applied" | "reactions" => has_forces,
+            _ => true,
+        };
         let fields: Vec<&str> = FIELDS.iter().copied().filter(|field| is_there(field)).collect();
         assert_eq!(keys(&json), fields, "{name}");
         for (field, fields) in LAYOUT.iter().filter(|(field, _)| is_there(field)) {
@@ -270,7 +281,7 @@ fn formula(
         };
         let end = rest.find(|c| !is_name(c)).unwrap_or(rest.len()).max(first.len_utf8());
         let word = &rest[..end];
-        if !first.is_ascii_digit() && word.contains(['.', '\'']) {
+        if !first.is_ascii_digit() && word.contains(['.', '\'', '[']) {
             plain += &format!("word_of_test_{}", words.len());
             words.push(word.to_owned());
         } else {
@@ -285,14 +296,19 @@ fn formula(
 fn formulas_of_the_json_are_those_of_the_system() {
     for Emitted { name, compiled } in all() {
         let (determined, _) = compiled.inside();
-        let system = determined.system();
+        let mut system = determined.system().clone();
+        let mechanics = system.mechanics();
         let json: Value = serde_json::from_str(&compiled.json("f.mech")).expect("JSON");
         let mut graph = system.graph().clone();
         let mut symbols: HashMap<String, ExprId> = HashMap::new();
         for (_, node) in system.graph().nodes() {
             if let Node::Symbol(symbol) = node {
                 let id = graph.symbol(symbol);
-                let word = if symbol == Symbol::Time { "t".to_owned() } else { system.symbol_name(symbol) };
+                let word = match symbol {
+                    Symbol::Time => "t".to_owned(),
+                    Symbol::Multiplier(row) => format!("lambda[{row}]"),
+                    symbol => system.symbol_name(symbol),
+                };
                 assert!(symbols.insert(word, id).is_none(), "{name}: two symbols of one name");
             }
         }
@@ -319,6 +335,17 @@ fn formulas_of_the_json_are_those_of_the_system() {
         }
         for (k, (_, id)) in system.phi_q().entries().iter().enumerate() {
             same(&json["phi_q"][k]["value"], *id);
+        }
+        if let Some(Mechanics { mass_matrix, applied }) = &mechanics {
+            for (entry, (_, id)) in list(&json, "mass_matrix").iter().zip(mass_matrix.entries()) {
+                same(&entry["value"], *id);
+            }
+            for (text, id) in list(&json, "applied").iter().zip(applied) {
+                same(text, *id);
+            }
+            for (item, of) in list(&json, "reactions").iter().zip(system.reactions()) {
+                same(&item["value"], of.value);
+            }
         }
         for (k, coordinate) in system.coordinates().iter().enumerate() {
             same(&json["coordinates"][k]["estimate"], coordinate.estimate);
@@ -389,7 +416,7 @@ fn every_document_is_sound() {
     for Emitted { name, compiled } in all() {
         let (determined, _) = compiled.inside();
         let system = determined.system();
-        let document = emit::latex(system, "a_b%c.mech");
+        let document = compiled.latex("a_b%c.mech");
         is_sound(&name, &document);
         for row in 1..=system.rows().len() {
             assert!(document.contains(&format!("\\Phi_{{{row}}}")), "{name}: no row {row}");
@@ -405,7 +432,7 @@ fn every_document_is_sound() {
 }
 
 /// The arguments of each `\entry` of a part of a document, the relation taken off.
-fn entries(text: &str) -> impl Iterator<Item = (&str, &str)> {
+fn entries(text: &str) -> impl Iterator<Item = (&str, &str)> + Clone {
     text.lines().filter_map(|line| line.strip_prefix(r"\entry{")).map(|line| {
         let (left, right) = line.split_once("}{").expect("two arguments");
         let right = right.strip_suffix('}').expect("an end");
@@ -439,6 +466,9 @@ fn symbols(document: &str, system: &ConstraintSystem, value: &dyn Fn(Symbol) -> 
         }
     }
     assert_eq!(symbols.len(), 1 + system.params().len() + 4 * system.coordinates().len());
+    for row in 0..system.rows().len() {
+        symbols.insert(format!("\\lambda_{{{}}}", row + 1), value(Symbol::Multiplier(row as u32)));
+    }
     symbols
 }
 
@@ -446,6 +476,7 @@ fn symbols(document: &str, system: &ConstraintSystem, value: &dyn Fn(Symbol) -> 
 fn some_number(symbol: Symbol, seed: u64) -> f64 {
     let number = match symbol {
         Symbol::Coordinate { index, order } => 10 + 4 * u64::from(index) + u64::from(order),
+        Symbol::Multiplier(row) => 100_000 + u64::from(row),
         _ => 1,
     };
     Random::new(number * 1000 + seed).between(-1.0, 1.0)
@@ -464,7 +495,9 @@ fn what_is_typeset_has_the_values_of_the_system() {
 }
 
 fn values_agree(name: &str, system: &ConstraintSystem, seed: u64) {
-    let document = emit::latex(system, "f.mech");
+    let mut system = system.clone();
+    let mechanics = system.mechanics();
+    let document = emit::latex(&system, mechanics.as_ref(), "f.mech");
     let value = |symbol: Symbol| match symbol {
         Symbol::Param(k) => system.params()[k as usize].value,
         symbol => some_number(symbol, seed),
@@ -484,7 +517,7 @@ fn values_agree(name: &str, system: &ConstraintSystem, seed: u64) {
     };
     let terms = entries(&document).filter(|(name, _)| name.starts_with(r"\mathcal"));
     let meaning = Meaning {
-        symbols: symbols(&document, system, &value),
+        symbols: symbols(&document, &system, &value),
         terms: terms.map(|(name, text)| (name.to_owned(), text.to_owned())).collect(),
         table: &table,
         known: RefCell::default(),
@@ -516,12 +549,40 @@ fn values_agree(name: &str, system: &ConstraintSystem, seed: u64) {
         }
         assert!(cells.values().all(|text| *text == "0"), "{name}: {cells:?}");
     }
+    if let Some(mechanics) = &mechanics {
+        forces_agree(&system, mechanics, section(&document, "Forces"), &agrees);
+    }
     for (measure, (_, text)) in system
         .measures()
         .iter()
         .zip(entries(section(&document, "Measures")).filter(|(name, _)| !name.starts_with(r"\mathcal")))
     {
         agrees(&measure.name, text, measure.value);
+    }
+}
+
+/// The entries of `M` and `Q` that do not vanish, and what joints exert.
+fn forces_agree(
+    system: &ConstraintSystem,
+    Mechanics { mass_matrix, applied }: &Mechanics,
+    section: &str,
+    agrees: &dyn Fn(&str, &str, ExprId),
+) {
+    let typeset: HashMap<&str, &str> =
+        entries(section).flat_map(|(names, text)| names.split(" = ").map(move |name| (name, text))).collect();
+    let of = |name: &str, id: ExprId| agrees(name, typeset.get(name).copied().unwrap_or("0"), id);
+    for row in 0..mass_matrix.rows() {
+        for &(column, id) in mass_matrix.row(row) {
+            of(&format!("M_{{{},{}}}", row + 1, column + 1), id);
+        }
+    }
+    for (k, &id) in applied.iter().enumerate() {
+        of(&format!("Q_{{{}}}", k + 1), id);
+    }
+    let texts = entries(section).filter(|(name, _)| name.starts_with(r"\text"));
+    assert_eq!(texts.clone().count(), system.reactions().len());
+    for (reaction, (_, text)) in system.reactions().iter().zip(texts) {
+        agrees(&reaction.name, text, reaction.value);
     }
 }
 

@@ -17,6 +17,7 @@ mod four_bar;
 #[allow(clippy::pedantic, dead_code)]
 #[rustfmt::skip]
 mod followed;
+mod forces;
 mod mechanisms;
 mod newton;
 mod timing;
@@ -45,6 +46,7 @@ fn main() {
     single(floor);
     four_bars(floor);
     scissor_lifts(floor);
+    forces::forces();
     set_up();
     output();
 }

@@ -28,6 +28,7 @@ const PACE = 60;
 const SWITCHES = [
     ["L", "labels", "Labels"],
     ["V", "vectors", "Vectors"],
+    ["N", "forces", "Forces"],
     ["T", "traces", "Traces"],
     ["S", "strobe", "Strobe"],
 ] as const;
@@ -148,6 +149,8 @@ export class App implements Deeds {
         if (rows > 0) this.clock.span(from, to, !this.hasMoved);
         this.hasMoved ||= rows > 1;
         this.element.classList.toggle("still", document.table.rows < 2);
+        const forces = this.switches.get("forces");
+        if (forces) forces.hidden = !document.scene.forces;
         for (const pane of this.near) pane.show(document, this.wishes);
         this.isBehind = true;
         this.draw();

@@ -21,6 +21,8 @@ export class Wishes {
     strobe = false;
     /** Vectors at all pins. */
     vectors = false;
+    /** What joints exert, loads and weights. */
+    forces = false;
     /** Points with vectors of their own, by number. */
     readonly vectorsAt = new Set<number>();
     /** Points with a trace, beside those that the text declares. */

@@ -107,6 +107,8 @@ pub struct Surroundings {
     pub by: Vec<String>,
     /// Whether what all joints exert and all drivers supply is tabulated.
     pub reactions: bool,
+    /// Whether pictures are to show forces.
+    pub pictures_forces: bool,
     /// Whether inputs stay signals in the model, rather than being replaced by what they are.
     pub has_signals: bool,
     /// The paths of parts whose derivatives are by their own equations alone, though they move together with what is around them.
@@ -390,6 +392,7 @@ impl<'a> Checker<'a> {
             model: Mechanism {
                 has_signals: surroundings.has_signals,
                 reactions: surroundings.reactions,
+                pictures_forces: surroundings.pictures_forces,
                 ..Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone())
             },
             space: Space::new(),

@@ -478,6 +478,10 @@ pub(super) struct ViewArguments {
     #[arg(long)]
     pub vectors: bool,
 
+    /// What joints exert, loads and weights, as arrows to one scale; with `--plots` plots of these, and of what drivers supply
+    #[arg(long)]
+    pub forces: bool,
+
     /// The names of bodies and pins
     #[arg(long)]
     pub labels: bool,
@@ -491,7 +495,7 @@ pub(super) struct ViewArguments {
     pub scale: Option<f64>,
 
     /// One body alone, in its own frame, with all that is fixed to it
-    #[arg(long, value_name = "NAME", conflicts_with_all = ["at", "trace", "vectors"])]
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["at", "trace", "vectors", "forces"])]
     pub body: Option<String>,
 
     /// Which colours

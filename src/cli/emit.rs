@@ -32,7 +32,6 @@ pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result
     let compiled = input::compiled(&parsed, input, arguments.allow_redundant, reporter, &mut timings)?;
     if format != EmitFormat::Rust {
         compiled.has_no_variations()?;
-        compiled.has_no_forces()?;
     }
     // the name without its folder: the same output wherever the file lies
     let file = Path::new(&arguments.input.file).file_name().map_or("-".into(), |name| name.to_string_lossy());

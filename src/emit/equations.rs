@@ -2,7 +2,7 @@
 
 use super::code::{Code, Function, Input, Out, Scene};
 use super::goods::Uses;
-use super::names::{Names, VARIED};
+use super::names::{MULTIPLIERS, Names, VARIED};
 use super::operand::{Arguments, Operand};
 use super::operations::slice;
 use super::print::{Head, Page};
@@ -40,12 +40,23 @@ pub(super) struct Wanted<'f> {
     pub has_time: bool,
     /// Whether it is given the derivatives by inputs and parameters too, of a mechanism that has such.
     pub varied: bool,
+    /// Whether it is given the multipliers too, of a mechanism whose forces are asked for.
+    pub multipliers: bool,
     /// Its outputs, and the length of the array that they make.
     pub outputs: &'f [Register],
     pub length: &'f str,
     pub negated: bool,
     /// Which switches are given instead of computed.
     pub given: Given,
+}
+
+impl<'f> Wanted<'f> {
+    /// A function of its own of time, on branches that are given.
+    pub fn of(name: &'f str, docs: &'f str, outputs: &'f [Register], length: &'f str) -> Wanted<'f> {
+        let (is_public, has_time, negated) = (false, true, false);
+        let (orders, varied, multipliers, given) = (0, false, false, Given::All);
+        Wanted { name, docs, is_public, orders, has_time, varied, multipliers, outputs, length, negated, given }
+    }
 }
 
 /// Which switches a function is given.
@@ -88,6 +99,9 @@ impl Equations<'_> {
             ARRAYS[..wanted.orders].iter().map(|name| (*name, "&[f64; N]".to_owned())).collect();
         if wanted.varied && self.has_varied() {
             arguments.push((VARIED, "&[f64; VARIED]".to_owned()));
+        }
+        if wanted.multipliers && self.has_forces() {
+            arguments.push((MULTIPLIERS, "&[f64; N]".to_owned()));
         }
         if wanted.has_time {
             arguments.push(("t", "f64".to_owned()));
@@ -143,7 +157,7 @@ impl Equations<'_> {
         let time = if self.is_led { "&p.list::<{ 3 * SIGNALS }>(t)" } else { "&[t]" };
         lists.push(if given("t") { time } else { "&[]" }.to_owned());
         lists.extend(ARRAYS.map(|array| if given(array) { array } else { "&[]" }.to_owned()));
-        lists.push(if given(VARIED) { VARIED } else { "&[]" }.to_owned());
+        lists.extend([VARIED, MULTIPLIERS].map(|array| if given(array) { array } else { "&[]" }.to_owned()));
         let mut uses = self.uses.borrow_mut();
         uses.name("tables", "Arrays");
         uses.name("tables", "run");
@@ -195,6 +209,9 @@ impl Equations<'_> {
         if let Some(place) = self.varied(register) {
             return input(4 + ARRAYS.len() as u32, place);
         }
+        if let Some(place) = self.multiplier(register) {
+            return input(5 + ARRAYS.len() as u32, place);
+        }
         let order =
             (0..4).find(|&order| (inputs.coordinates[order]..inputs.coordinates[order] + inputs.n).contains(&register));
         order.map_or(Loaded::Number(f64::NAN), |order| {
@@ -236,6 +253,9 @@ impl Equations<'_> {
         if let Some(place) = self.varied(register) {
             return Input::Is(Operand::of(format!("{VARIED}[{place}]"), &[VARIED]));
         }
+        if let Some(place) = self.multiplier(register) {
+            return Input::Is(Operand::of(format!("{MULTIPLIERS}[{place}]"), &[MULTIPLIERS]));
+        }
         for (order, (array, of)) in ARRAYS.iter().zip(OF_ARRAYS).enumerate() {
             let first = inputs.coordinates[order];
             if (first..first + inputs.n).contains(&register) {
@@ -257,6 +277,17 @@ impl Equations<'_> {
         let (first, count) = (self.program.inputs.varied, self.program.outputs.variations.len() as u32);
         let is_varied = (first..first + 3 * count * self.program.inputs.n).contains(&register);
         is_varied.then(|| (register - first) as usize)
+    }
+
+    /// Whether forces are asked for.
+    pub fn has_forces(&self) -> bool {
+        !self.program.outputs.forces.is_empty()
+    }
+
+    /// The place of a register among the multipliers.
+    fn multiplier(&self, register: Register) -> Option<usize> {
+        let (first, count) = (self.program.inputs.multipliers, self.program.outputs.forces.len() as u32);
+        (first..first + count).contains(&register).then(|| (register - first) as usize)
     }
 
     /// What a column of a table is called: a constant, or a variable where it depends on parameters.

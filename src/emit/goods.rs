@@ -62,6 +62,9 @@ files! {
         [FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LARGEST_TURN, POSITION_JUMP, SHORTEST_STEP, SINGULAR];
     "sensitivity" at "runtime/sensitivity.rs": ["numbers", "error", "solution", "state"], [];
     "sensitivity_led" at "runtime/sensitivity_led.rs": ["error", "state", "way", "follow", "sensitivity"], [];
+    "forces" at "runtime/forces.rs": ["numbers", "error", "solution", "state"], [STEEP];
+    "forces_led" at "runtime/forces_led.rs": ["state", "way", "follow", "forces"], [];
+    "pivoted_forces" at "runtime/pivoted_forces.rs": ["error", "solution", "pivoting", "forces"], [];
     "lane_solutions" at "runtime/lane_solutions.rs": ["measured", "solution", "state"], [];
     "lane_strain" at "runtime/lane_strain.rs": ["so_far", "lane_solutions"], [];
     "lane_pivots" at "runtime/lane_pivots.rs": ["so_far", "lane_solutions"], [];
@@ -81,7 +84,7 @@ files! {
     "codes" at "../program/codes.rs": [], [];
     "tables" at "runtime/tables.rs": ["codes", "sine_and_cosine", "select", "either", "piece", "pick"], [];
     "listed" at "runtime/listed.rs": ["measured", "solution", "pivots", "grid", "newton", "tables"], [ITERATIONS];
-    "listed_slopes" at "runtime/listed_slopes.rs": ["solution", "newton", "tables", "listed"], [];
+    "listed_more" at "runtime/listed_more.rs": ["solution", "newton", "tables", "listed"], [];
 }
 
 /// What the code of a module uses.

@@ -3,8 +3,10 @@
 //! `docs/emit-json.md` is the contract. A formula shares its parts and a text does not, so large parts that stand in several
 //! places are listed once as `terms`, and the size of the whole stays that of the expression graph.
 
-use crate::expr::{ExprId, Printer, Table};
-use crate::ir::{ConditionKind, ConstraintSystem, CoordinateKind, DeclarationKind, Owner, WatchKind};
+use crate::expr::{ExprId, Printer, Symbol, Table};
+use crate::ir::{
+    ConditionKind, ConstraintSystem, CoordinateKind, DeclarationKind, Mechanics, Owner, SparseRows, WatchKind,
+};
 use crate::source::{Sources, Span};
 use serde_json::{Value, json};
 
@@ -15,10 +17,13 @@ const LAYOUT: u32 = 1;
 ///
 /// `file` is the name of the source, and `sources` has the text that the system's places lie in.
 #[must_use]
-pub fn json(system: &ConstraintSystem, sources: &Sources, file: &str) -> String {
+pub fn json(system: &ConstraintSystem, mechanics: Option<&Mechanics>, sources: &Sources, file: &str) -> String {
     let prefix = prefix_of_terms(system);
-    let mut printer = Printer::new(system.graph(), |symbol| system.symbol_name(symbol));
-    let terms = printer.name_shared(&roots(system), |k| format!("{prefix}{}", k + 1));
+    let mut printer = Printer::new(system.graph(), |symbol| match symbol {
+        Symbol::Multiplier(row) => format!("lambda[{row}]"),
+        symbol => system.symbol_name(symbol),
+    });
+    let terms = printer.name_shared(&roots(system, mechanics), |k| format!("{prefix}{}", k + 1));
     let terms = terms.iter().map(|(name, id)| json!({ "name": name, "value": printer.definition(*id) })).collect();
     let writer = Writer { system, sources, text: &|id| printer.text(id) };
     let mut object = Object::new();
@@ -37,9 +42,14 @@ pub fn json(system: &ConstraintSystem, sources: &Sources, file: &str) -> String 
     object.list("declarations", writer.declarations());
     object.list("terms", terms);
     object.list("rows", writer.rows());
-    object.list("phi_q", writer.phi_q());
+    object.list("phi_q", writer.entries(system.phi_q()));
     object.list("nu", writer.texts(system.nu()));
     object.list("gamma", writer.texts(system.gamma()));
+    if let Some(Mechanics { mass_matrix, applied }) = mechanics {
+        object.list("mass_matrix", writer.entries(mass_matrix));
+        object.list("applied", writer.texts(applied));
+        object.list("reactions", writer.reactions());
+    }
     object.list("measures", writer.measures());
     object.list("conditions", writer.conditions());
     object.list("watches", writer.watches());
@@ -48,13 +58,17 @@ pub fn json(system: &ConstraintSystem, sources: &Sources, file: &str) -> String 
 }
 
 /// Every formula that is written.
-fn roots(system: &ConstraintSystem) -> Vec<ExprId> {
+fn roots(system: &ConstraintSystem, mechanics: Option<&Mechanics>) -> Vec<ExprId> {
     let mut roots: Vec<ExprId> = system.rows().iter().map(|row| row.phi).collect();
     roots.extend(system.phi_q().entries().iter().map(|&(_, id)| id));
     roots.extend(system.nu().iter().chain(system.gamma()));
     roots.extend(system.coordinates().iter().map(|coordinate| coordinate.estimate));
     roots.extend(system.inputs().iter().flat_map(|input| input.formulas));
     roots.extend(system.measures().iter().flat_map(|m| [Some(m.value), m.first, m.second].into_iter().flatten()));
+    if let Some(Mechanics { mass_matrix, applied }) = mechanics {
+        roots.extend(mass_matrix.entries().iter().map(|&(_, id)| id).chain(applied.iter().copied()));
+        roots.extend(system.reactions().iter().map(|of| of.value));
+    }
     roots.extend(system.conditions().iter().map(|condition| condition.positive));
     roots.extend(system.watches().iter().map(|watch| watch.value));
     roots.extend(system.checks().iter().map(|check| check.phi));
@@ -198,13 +212,21 @@ impl Writer<'_> {
         rows.collect()
     }
 
-    fn phi_q(&self) -> Vec<Value> {
-        let phi_q = self.system.phi_q();
-        let entries = (0..self.system.rows().len()).flat_map(|row| {
-            let entries = phi_q.row(row).iter();
+    /// The entries of a matrix that do not vanish.
+    fn entries(&self, matrix: &SparseRows) -> Vec<Value> {
+        let entries = (0..matrix.rows()).flat_map(|row| {
+            let entries = matrix.row(row).iter();
             entries.map(move |&(column, id)| json!({ "row": row, "column": column, "value": (self.text)(id) }))
         });
         entries.collect()
+    }
+
+    fn reactions(&self) -> Vec<Value> {
+        let reactions = self.system.reactions().iter();
+        let reactions = reactions.map(|of| {
+            json!({ "name": of.name, "line": self.line(of.span), "unit": of.unit, "value": (self.text)(of.value) })
+        });
+        reactions.collect()
     }
 
     fn measures(&self) -> Vec<Value> {

@@ -72,6 +72,8 @@ pub struct Motion {
     pub solver: Solver,
     /// The same with the derivatives of the coordinates by parameters, where these are wanted.
     pub sensitive: Option<Solver>,
+    /// The operations that give what joints exert and drivers supply too, where there are masses or loads.
+    pub forced: Option<Solver>,
     /// For elimination with partial pivoting; none where a block is too large.
     pub blocks: Option<BlockTables>,
     /// The assembled position [m, rad].

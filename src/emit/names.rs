@@ -26,6 +26,12 @@ pub(super) const TIME: &str = "t";
 /// The array of the derivatives by inputs and parameters, of a mechanism that has such.
 pub(super) const VARIED: &str = "varied";
 
+/// What forces are written to.
+pub(super) const FORCES: &str = "forces";
+
+/// The array of the multipliers, of a mechanism whose forces are asked for.
+pub(super) const MULTIPLIERS: &str = "multipliers";
+
 /// Longer names of variables would make lines that a formatter breaks.
 const LONGEST_VARIABLE: usize = 20;
 
@@ -53,6 +59,10 @@ impl Names {
         }
         if !system.variations().is_empty() {
             variables.snake(VARIED);
+        }
+        if system.forces().is_some() {
+            variables.snake(MULTIPLIERS);
+            variables.snake(FORCES);
         }
         for array in arrays {
             variables.snake(array);

@@ -40,6 +40,8 @@ pub struct Reference {
     pub columns: Vec<String>,
     /// Rows of it, at least one: the first and the last, and some in between, in order (s, m, rad).
     pub rows: Vec<Vec<f64>>,
+    /// Of each row what joints exert and drivers supply; empty lists where there are no masses and loads.
+    pub forces: Vec<Vec<f64>>,
     /// Output times after the first, up to that of the last row.
     pub steps: u64,
     /// From one output time to the next (s).
@@ -172,7 +174,9 @@ impl Writer<'_> {
             let values: Vec<String> = row.iter().copied().map(literal).collect();
             format!("    [\n{}    ],\n", lines(&values, "    "))
         };
-        let [uses, more] = if self.unit.following.is_some() { ["Inputs, ", ", follow"] } else { [""; 2] };
+        let (has_inputs, has_forces) = (self.unit.following.is_some(), self.has_forces());
+        let uses = [if has_forces { "FORCES, " } else { "" }, if has_inputs { "Inputs, " } else { "" }].concat();
+        let more = [if has_inputs { ", follow" } else { "" }, if has_forces { ", forces" } else { "" }].concat();
         format!(
             include_str!("package/reference.rs.txt"),
             mark = self.mark(),
@@ -180,7 +184,7 @@ impl Writer<'_> {
             uses = uses,
             more = more,
             params = self.params(),
-            follow = self.follows(),
+            follow = self.follows() + &self.exerts(),
             names = lines(&names, ""),
             count = rows.len(),
             rows = rows.iter().map(row).collect::<String>(),
@@ -193,6 +197,23 @@ impl Writer<'_> {
             return String::new();
         }
         format!(include_str!("package/follows.rs.txt"), params = self.params())
+    }
+
+    /// What holds `forces` against what `run` says; nothing where there are none.
+    fn exerts(&self) -> String {
+        if !self.has_forces() {
+            return String::new();
+        }
+        let row = |row: &Vec<f64>| {
+            let values: Vec<String> = row.iter().copied().map(literal).collect();
+            format!("    [\n{}    ],\n", lines(&values, "    "))
+        };
+        format!(
+            include_str!("package/exerts.rs.txt"),
+            params = self.params(),
+            count = self.reference.forces.len(),
+            rows = self.reference.forces.iter().map(row).collect::<String>(),
+        )
     }
 
     fn benchmark(&self) -> String {
@@ -242,7 +263,7 @@ impl Writer<'_> {
             parameters = self.parameters() + &self.inputs(),
             bodies = self.bodies(),
             coordinates = self.coordinates(),
-            measures = self.measures(),
+            measures = self.measures() + &self.forces(),
             errors = errors.collect::<String>(),
             end = end.unwrap_or_default(),
             c = self.for_c(),
@@ -299,6 +320,11 @@ impl Writer<'_> {
         }
         if self.unit.motion.as_ref().is_some_and(|motion| motion.sensitive.is_some()) {
             text += "| `sensitivity(&params, &state)` | those by each parameter, by the numbers in `param` |\n";
+        }
+        if self.has_forces() {
+            text += "| `forces(&state)` | what joints exert and drivers supply, by the numbers in `force`; `NAN` close to a singular position |\n";
+            text +=
+                "| `needed`, `exerted` | what the multipliers of the equations have to hold, and what they exert |\n";
         }
         if let Some(lanes) = self.unit.lanes {
             text += &format!(
@@ -367,6 +393,26 @@ impl Writer<'_> {
             [index, format!("`{}`", coordinate.name), unit(coordinate.kind.unit())]
         });
         rows.map(|cells| line(&cells)).collect()
+    }
+
+    fn has_forces(&self) -> bool {
+        self.unit.motion.as_ref().is_some_and(|motion| motion.forced.is_some())
+    }
+
+    fn forces(&self) -> String {
+        if !self.has_forces() {
+            return String::new();
+        }
+        let reactions = self.unit.system.reactions();
+        let names = Case::Constant.names(reactions.iter().map(|of| of.name.as_str()));
+        let rows = reactions.iter().zip(names);
+        let rows: String = rows
+            .map(|(of, name)| line(&[format!("`force::{name}`"), format!("`{}`", of.name), unit(&of.unit)]))
+            .collect();
+        format!(
+            "## Forces\n\nWhat `forces(&state)` gives, by these indices: what joints exert on their second bodies, and what drivers and \
+             constraints supply, as `mechc run --reactions` has it.\n\n| index | force | unit |\n| --- | --- | --- |\n{rows}\n"
+        )
     }
 
     fn measures(&self) -> String {

@@ -2,7 +2,7 @@
 
 use super::code::{Code, Function, Input, MODULE, Out, Scene};
 use super::equations::{ARRAYS, Equations, Reached};
-use super::names::Names;
+use super::names::{FORCES, Names};
 use super::operand::{Arguments, Operand};
 use super::print::Page;
 use super::tape::{self, Book, Notes, Shared, Tape};
@@ -29,12 +29,12 @@ pub(super) struct Solution<'s> {
 
 impl<'s> Solution<'s> {
     pub fn new(unit: &'s Unit<'s>, motion: &'s Motion, equations: &'s Equations<'s>) -> Solution<'s> {
-        let joined = joined(&motion.solver);
+        let joined = joined([Some(&motion.solver), motion.forced.as_ref()].into_iter().flatten());
         let mut solution =
             Solution { unit, motion, equations, known: FxHashMap::default(), joined, holds: row_holds(unit.system) };
         let instructions = || {
-            let sensitive = motion.sensitive.iter().flat_map(Solver::instructions);
-            motion.solver.instructions().iter().chain(sensitive)
+            let more = motion.sensitive.iter().chain(&motion.forced).flat_map(Solver::instructions);
+            motion.solver.instructions().iter().chain(more)
         };
         for instruction in instructions() {
             if let Some((table, column)) = instruction.column()
@@ -142,7 +142,18 @@ impl<'s> Solution<'s> {
 
     /// The function that gives the derivatives of the coordinates by parameters too; none where they are not wanted.
     pub fn sensitive_function(&self) -> Option<String> {
-        let solver = self.motion.sensitive.as_ref()?;
+        let what = "the derivatives of the coordinates by parameters";
+        Some(self.function_with(self.motion.sensitive.as_ref()?, "solve_by_params", what, ("by", "&mut [Q; PARAMS]")))
+    }
+
+    /// The function that gives what joints exert and drivers supply too; none where there are no masses and loads.
+    pub fn forced_function(&self) -> Option<String> {
+        let what = "what joints exert and drivers supply";
+        Some(self.function_with(self.motion.forced.as_ref()?, "solve_with_forces", what, (FORCES, "&mut Forces")))
+    }
+
+    /// The function of a solver that gives more.
+    fn function_with(&self, solver: &Solver, name: &str, what: &str, more: (&'static str, &str)) -> String {
         let code =
             Code { instructions: solver.instructions(), segments: solver.segments(), registers: solver.registers() };
         let has_sides = !self.equations.sides.is_empty();
@@ -152,22 +163,19 @@ impl<'s> Solution<'s> {
             ("m", "&Model"),
             ("sides", "&Sides"),
             ("at", "&mut Solution"),
-            ("by", "&mut [Q; PARAMS]"),
+            more,
         ];
         let arguments = arguments.into_iter().filter(|(name, _)| has_sides || *name != "sides");
         let function = Function {
-            name: "solve_by_params",
-            docs: format!(
-                "As [`solve`], with the derivatives of the coordinates by parameters.\n\n{} operations.",
-                code.count()
-            ),
+            name,
+            docs: format!("As [`solve`], with {what}.\n\n{} operations.", code.count()),
             is_public: false,
             arguments: arguments.map(|(name, of)| (name, of.to_owned())).collect(),
             out: Out::Given { begin: "at.begin(t);", names: &["at", "t"] },
             margin: 0,
         };
         self.note(solver, false);
-        Some(code.print(&SolverScene { solution: self, solver, has_lanes: false }, &function))
+        code.print(&SolverScene { solution: self, solver, has_lanes: false }, &function)
     }
 
     /// A solver's operations as numbers: the listing, the registers that it takes, by names with an ending.
@@ -237,15 +245,20 @@ impl<'s> Solution<'s> {
         self.joined.binary_search(&column).ok()
     }
 
-    /// The column of the first derivative by parameters.
-    pub fn first_by_params(&self) -> u32 {
+    /// The column of what stands behind all else: the derivatives by parameters, or forces.
+    pub fn first_of_more(&self) -> u32 {
         self.results() + self.joined.len() as u32
     }
 
     /// The place behind the lists of results of a solution, one behind the other.
     fn results(&self) -> u32 {
         let inputs = &self.unit.program.inputs;
-        self.motion.solver.layout().printed as u32 + inputs.n * inputs.count
+        self.columns() + inputs.n * inputs.count
+    }
+
+    /// Columns of a row, in which no reactions stand.
+    pub fn columns(&self) -> u32 {
+        (self.motion.solver.layout().printed - self.unit.system.reactions().len()) as u32
     }
 
     /// An operation whose column is the place in the lists of a solution, one behind the other: what is joined behind the results, and
@@ -257,11 +270,13 @@ impl<'s> Solution<'s> {
             (None, Holds::Slope { of, by }) => {
                 let (of, by) = (of as u32, by as u32);
                 match by.checked_sub(inputs.count) {
-                    None => self.motion.solver.layout().printed as u32 + by * inputs.n + of,
-                    Some(param) => self.first_by_params() + param * inputs.n + of,
+                    None => self.columns() + by * inputs.n + of,
+                    Some(param) => self.first_of_more() + param * inputs.n + of,
                 }
             }
-            (None, _) => column,
+            (None, Holds::Reaction(k)) => self.first_of_more() + k as u32,
+            (None, _) if column < self.motion.solver.layout().reactions => column,
+            (None, _) => column - self.unit.system.reactions().len() as u32,
         };
         match op {
             Instruction::Column { to, column } => Instruction::Column { to, column: place(column) },
@@ -289,14 +304,16 @@ impl<'s> Solution<'s> {
     }
 }
 
-/// The columns that a solver stores to read them again, but those of results.
-fn joined(solver: &Solver) -> Vec<u32> {
-    let printed = solver.layout().printed as u32;
-    let read = |op: &Instruction| match *op {
-        Instruction::Column { column, .. } => Some(column).filter(|column| *column >= printed),
-        _ => None,
+/// The columns that solvers store to read them again, but those of results.
+fn joined<'s>(solvers: impl Iterator<Item = &'s Solver>) -> Vec<u32> {
+    let read = |solver: &'s Solver| {
+        let printed = solver.layout().printed as u32;
+        solver.instructions().iter().filter_map(move |op| match *op {
+            Instruction::Column { column, .. } => Some(column).filter(|column| *column >= printed),
+            _ => None,
+        })
     };
-    let mut columns: Vec<u32> = solver.instructions().iter().filter_map(read).collect();
+    let mut columns: Vec<u32> = solvers.flat_map(read).collect();
     columns.sort_unstable();
     columns.dedup();
     columns
@@ -370,7 +387,8 @@ impl Scene for SolverScene<'_> {
                 None => at(format!("at.along.by_signal[{by}][{of}]")),
                 Some(param) => Operand::of(format!("by[{param}][{of}]"), &["by"]),
             },
-            Holds::Time | Holds::Appended(_) | Holds::Varied | Holds::Multiplier | Holds::Reaction(_) => {
+            Holds::Reaction(k) => Operand::of(format!("{FORCES}[{k}]"), &[FORCES]),
+            Holds::Time | Holds::Appended(_) | Holds::Varied | Holds::Multiplier => {
                 debug_assert!(false, "no code has a place for {held:?}");
                 Operand::Number(f64::NAN)
             }

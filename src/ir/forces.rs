@@ -4,8 +4,8 @@
 //! kind; E. J. Haug, *Computer-Aided Kinematics and Dynamics of Mechanical Systems*, 1989, 11.3). The equations exert `Φ_qᵀ λ`
 //! on the coordinates.
 
-use super::ConstraintSystem;
-use crate::expr::{ExprId, Symbol};
+use super::{ConstraintSystem, DeclarationId, SparseRows};
+use crate::expr::{Dependence, ExprId, Graph, Symbol};
 use crate::source::Span;
 
 /// The equations for the multipliers.
@@ -15,9 +15,35 @@ pub struct Forces {
     pub needed: Vec<ExprId>,
     /// What is tabulated of all joints, constraints and drivers, where that is asked for.
     pub reactions: Vec<Reaction>,
+    /// Whether they are there to be drawn, and may be left out where they are not determined.
+    pub are_pictured: bool,
+    /// The loads.
+    pub loads: Vec<LoadForce>,
+    /// Of contacts.
+    pub presses: Vec<Press>,
 }
 
-/// A column of what a joint exerts, or of what a constraint or driver supplies.
+/// A load, as its formula gives it.
+#[derive(Clone, Debug)]
+pub struct LoadForce {
+    /// Its name.
+    pub name: String,
+    /// The place of that.
+    pub span: Span,
+    /// In SI.
+    pub force: ExprId,
+}
+
+/// What a contact presses with.
+#[derive(Clone, Copy, Debug)]
+pub struct Press {
+    /// The contact.
+    pub declaration: DeclarationId,
+    /// The normal force (N); below zero where it pulls.
+    pub force: ExprId,
+}
+
+/// A column of what a joint exerts, or of what a constraint or driver supplies; in pictures of what a load is, too.
 #[derive(Clone, Debug)]
 pub struct Reaction {
     /// `big_end.fx`, `motor.effort`
@@ -30,7 +56,35 @@ pub struct Reaction {
     pub span: Span,
 }
 
+/// What multipliers have to hold, in the words of mechanics: `Φ_qᵀ λ = M q̈ − Q`.
+#[derive(Clone, Debug)]
+pub struct Mechanics {
+    /// `M`, by rows (kg, kg·m, kg·m²).
+    pub mass_matrix: SparseRows,
+    /// `Q`, by coordinate (N, N·m): weights, loads, and what turning bodies need whose centres are not at their origins.
+    pub applied: Vec<ExprId>,
+}
+
 impl ConstraintSystem {
+    /// What multipliers have to hold, in the words of mechanics; nothing where nobody asks for forces.
+    pub fn mechanics(&mut self) -> Option<Mechanics> {
+        let needed = self.forces.as_ref()?.needed.clone();
+        let mut mass_matrix = SparseRows::new();
+        for &of in &needed {
+            let gradient = self.graph.gradient(of, Dependence::coordinates(2));
+            mass_matrix.push(gradient.into_iter().filter_map(|(symbol, mass)| match symbol {
+                Symbol::Coordinate { index, order: 2 } => Some((index, mass)),
+                _ => None,
+            }));
+        }
+        let nothing = self.graph.constant(0.0);
+        let at_rest = self
+            .graph
+            .substituted(&needed, |symbol| matches!(symbol, Symbol::Coordinate { order: 2, .. }).then_some(nothing));
+        let applied = at_rest.into_iter().map(|of| self.graph.neg(of)).collect();
+        Some(Mechanics { mass_matrix, applied })
+    }
+
     /// `p` of `Φ_qᵀ λ = p`, one entry per coordinate; none where nobody asks for forces.
     #[must_use]
     pub fn needed_forces(&self) -> &[ExprId] {
@@ -41,6 +95,26 @@ impl ConstraintSystem {
     #[must_use]
     pub fn reactions(&self) -> &[Reaction] {
         self.forces.as_ref().map_or(&[], |forces| &forces.reactions)
+    }
+
+    /// The loads, as their formulas give them; none where nobody asks for forces.
+    #[must_use]
+    pub fn loads(&self) -> &[LoadForce] {
+        self.forces.as_ref().map_or(&[], |forces| &forces.loads)
+    }
+
+    /// What contacts press with; none where nobody asks for forces.
+    #[must_use]
+    pub fn presses(&self) -> &[Press] {
+        self.forces.as_ref().map_or(&[], |forces| &forces.presses)
+    }
+
+    /// Leaves out what nobody asked for: columns of what is drawn, and what contacts press with.
+    pub fn retain_forces(&mut self, mut is_kept: impl FnMut(ExprId, &Graph) -> bool) {
+        if let Some(forces) = &mut self.forces {
+            forces.reactions.retain(|of| !forces.are_pictured || is_kept(of.value, &self.graph));
+            forces.presses.retain(|press| is_kept(press.force, &self.graph));
+        }
     }
 
     /// Multipliers get the numbers that their rows have when some are taken out; nobody asks for those of rows that are not kept.
@@ -58,10 +132,12 @@ impl ConstraintSystem {
             _ => None,
         };
         let formulas = self.measures.iter_mut().map(|measure| &mut measure.value);
-        let reactions = self.forces.iter_mut().flat_map(|forces| &mut forces.reactions);
         let reduced = self.results.reductions.iter_mut().map(|reduction| &mut reduction.of);
-        let reactions = reactions.map(|reaction| &mut reaction.value);
-        let places: Vec<&mut ExprId> = formulas.chain(reactions).chain(reduced).collect();
+        let own = self.forces.iter_mut().flat_map(|Forces { reactions, presses, .. }| {
+            let reactions = reactions.iter_mut().map(|reaction| &mut reaction.value);
+            reactions.chain(presses.iter_mut().map(|press| &mut press.force))
+        });
+        let places: Vec<&mut ExprId> = formulas.chain(own).chain(reduced).collect();
         let roots: Vec<ExprId> = places.iter().map(|place| **place).collect();
         for (place, id) in places.into_iter().zip(self.graph.substituted(&roots, of)) {
             *place = id;

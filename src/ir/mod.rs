@@ -46,7 +46,7 @@ pub use declared::{
     Body, Coordinate, CoordinateKind, Declaration, DeclarationKind, Input, Measure, Owner, Param, Units,
 };
 pub use features::{Axis, Circle, Point};
-pub use forces::{Forces, Reaction};
+pub use forces::{Forces, LoadForce, Mechanics, Press, Reaction};
 pub use ids::{AxisId, BodyId, CircleId, DeclarationId, IdVec, PointId};
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use right_sides::{RightSide, With};

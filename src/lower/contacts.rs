@@ -12,7 +12,7 @@ pub(super) struct Local {
     pub at: Vector,
     pub tangent: Vector,
     /// The tangent's derivative by the argument.
-    bend: Vector,
+    pub bend: Vector,
 }
 
 impl Lowering<'_> {

@@ -50,8 +50,24 @@ impl Lowering<'_> {
         for load in &model.loads {
             self.add_load(load, &mut needed);
         }
-        let reactions = if model.reactions { self.reactions() } else { Vec::new() };
-        Some(Forces { needed, reactions })
+        let are_pictured = model.draws_forces() && !model.reactions;
+        let mut reactions = if model.reactions || are_pictured { self.reactions() } else { Vec::new() };
+        if model.draws_forces() {
+            reactions.extend(model.loads.iter().map(|load| self.column_of_load(load)));
+        }
+        let loads = model.loads.iter().map(|load| self.given(load)).collect();
+        Some(Forces { needed, reactions, are_pictured, loads, presses: self.presses() })
+    }
+
+    /// What a load is.
+    fn given(&mut self, load: &Load) -> ir::LoadForce {
+        ir::LoadForce { name: load.declared.name.clone(), span: load.declared.span, force: self.value_of(load) }
+    }
+
+    /// The same, for those who draw it.
+    fn column_of_load(&mut self, load: &Load) -> ir::Reaction {
+        let ir::LoadForce { name, span, force } = self.given(load);
+        ir::Reaction { name: format!("{name}.load"), value: force, unit: load.dimension.unit(), span }
     }
 
     /// A column for all that each joint exerts, as far as it is not zero by its kind, and then for what each constraint or driver supplies.
@@ -102,12 +118,16 @@ impl Lowering<'_> {
 
     /// A load is not asked for but given: `−F ∂K/∂q`.
     fn add_load(&mut self, load: &Load, needed: &mut [ExprId]) {
-        let force = self.formula(load.force);
-        let holds = self.all_hold(&load.conditions);
-        let force = self.only_where(holds, force);
+        let force = self.value_of(load);
         let on = self.quantity(load.part, load.on);
         let asked = self.graph.neg(force);
         self.add_work(on, asked, needed);
+    }
+
+    fn value_of(&mut self, load: &Load) -> ExprId {
+        let force = self.formula(load.force);
+        let holds = self.all_hold(&load.conditions);
+        self.only_where(holds, force)
     }
 
     /// A force on what changes with the coordinates works on each of them.
@@ -129,6 +149,11 @@ impl Lowering<'_> {
                 self.handed(view, moment)
             }
         }
+    }
+
+    /// What a joint exerts on its second body, or on the ground, in the ground's frame (N).
+    pub(super) fn reaction_on_second(&mut self, joint: JointId) -> Vector {
+        self.reaction(joint).force
     }
 
     fn reaction_in(&mut self, view: Option<PartId>, joint: JointId, part: usize) -> ExprId {

@@ -12,6 +12,7 @@ mod joints;
 mod led;
 mod numbering;
 mod parts;
+mod presses;
 mod quantities;
 mod results;
 mod scopes;

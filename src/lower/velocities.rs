@@ -26,7 +26,7 @@ impl Lowering<'_> {
         [rates[0], rates[1]]
     }
 
-    fn length(&mut self, [x, y]: Vector) -> ExprId {
+    pub(super) fn length(&mut self, [x, y]: Vector) -> ExprId {
         self.graph.binary(Binary::Hypot, x, y)
     }
 

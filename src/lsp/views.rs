@@ -168,7 +168,7 @@ impl Views {
         if let Some(view) = open.iter().find(|view| view.path == path && view.mechanism == mechanism) {
             return Arc::clone(view);
         }
-        let choice = Choice { mechanism: mechanism.clone(), ..Choice::default() };
+        let choice = Choice { mechanism: mechanism.clone(), pictures_forces: true, ..Choice::default() };
         let host = Editor { shared: Arc::clone(&self.shared), path: Arc::clone(&path) };
         let workshop = Arc::new(Workshop::new(&path, choice, (Redundant::Refused, false), Box::new(host)));
         let view = View { path, mechanism, workshop, serving: Mutex::default(), has_panel: AtomicBool::default() };

@@ -78,7 +78,13 @@ impl Mechanism {
     /// Whether forces are to be computed.
     #[must_use]
     pub fn asks_for_forces(&self) -> bool {
-        self.reactions || self.named.iter().any(|named| matches!(named, Named::Force(..)))
+        self.reactions || self.draws_forces() || self.named.iter().any(|named| matches!(named, Named::Force(..)))
+    }
+
+    /// Whether there are forces to draw, and they are to be drawn.
+    #[must_use]
+    pub fn draws_forces(&self) -> bool {
+        self.pictures_forces && !(self.masses.is_empty() && self.loads.is_empty())
     }
 
     /// Whether anything in it speaks of masses, gravity or loads.

@@ -109,6 +109,9 @@ pub struct Mechanism {
     pub by: Vec<u32>,
     /// Whether what all joints exert and all drivers supply is tabulated.
     pub reactions: bool,
+    /// Whether pictures are to show forces: then all reactions are tabulated as far as they are determined, and all loads, if there are masses
+    /// or loads at all.
+    pub pictures_forces: bool,
     /// Whether formulas hold inputs as signals, rather than what these are.
     pub has_signals: bool,
     /// In order of declaration.
@@ -164,6 +167,7 @@ impl Mechanism {
             asked_in_parts: Vec::new(),
             by: Vec::new(),
             reactions: false,
+            pictures_forces: false,
             has_signals: false,
             bodies: Vec::new(),
             points: Vec::new(),

@@ -101,12 +101,11 @@ impl Program {
         pick_in(&self.tables[table as usize], column, piece, &registers.values)
     }
 
-    /// Runs the operations of one stage; where registers are frozen, all but the switches.
+    /// Runs the operations of one stage; where registers are frozen, all but the switches of the equations.
     pub fn run(&self, stage: Stage, registers: &mut Registers) {
         let frozen = match stage {
-            Stage::Prologue | Stage::Variation | Stage::Measures | Stage::Rims => false,
             Stage::Time => registers.frozen.time,
-            _ => registers.frozen.motion,
+            _ => stage.can_switch() && registers.frozen.motion,
         };
         let mut numbers = Numbers { tables: &self.tables, v: registers.values.as_mut_slice() };
         if frozen {

@@ -381,6 +381,14 @@ impl Program {
         program
     }
 
+    /// The same without what joints exert and drivers supply, as columns of their own.
+    #[must_use]
+    pub fn without_reactions(&self) -> Program {
+        let mut program = self.clone();
+        program.outputs.reactions.clear();
+        program
+    }
+
     /// The tables, by their number.
     #[must_use]
     pub fn tables(&self) -> &[TableLayout] {

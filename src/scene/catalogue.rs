@@ -69,6 +69,7 @@ pub fn catalogue(span: Span) -> (Scene, Motion, Vec<(Vector, String)>) {
         traces: Vec::new(),
         profiles: Vec::new(),
         contacts: Vec::new(),
+        forces: Vec::new(),
         outlines: Vec::new(),
         unit: 1.0,
         extent,

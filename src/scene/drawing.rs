@@ -72,6 +72,7 @@ pub(super) struct First {
     pub joints: usize,
     pub equations: usize,
     pub traces: usize,
+    pub loads: usize,
 }
 
 impl Drawing<'_> {

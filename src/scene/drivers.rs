@@ -69,11 +69,7 @@ fn arrow(drawing: &mut Drawing, declaration: usize, quantity: Quantity) {
             turning(drawing, declaration, p, [p.frame, q.frame]);
         }
         Quantity::Angle(from, to) => {
-            let frame = |direction: Direction| match direction {
-                Direction::Frame(frame) => drawing.features.frame(frame),
-                Direction::Axis(axis) => drawing.features.axis(axis).frame,
-            };
-            let frames = [from.map_or(0, frame), frame(to)];
+            let frames = [from.map_or(0, |from| frame_of(drawing, from)), frame_of(drawing, to)];
             let at = pivot(drawing, frames);
             turning(drawing, declaration, at, frames);
         }
@@ -91,6 +87,18 @@ fn arrow(drawing: &mut Drawing, declaration: usize, quantity: Quantity) {
             drawing.add(Layer::Arrows, Node { declaration, place: Place::Upright(tip), shapes });
         }
         _ => {}
+    }
+}
+
+/// Where what an angle is between is pinned to each other.
+pub(super) fn pivot_of(drawing: &Drawing, from: Option<Direction>, to: Direction) -> Anchor {
+    pivot(drawing, [from.map_or(0, |from| frame_of(drawing, from)), frame_of(drawing, to)])
+}
+
+fn frame_of(drawing: &Drawing, direction: Direction) -> usize {
+    match direction {
+        Direction::Frame(frame) => drawing.features.frame(frame),
+        Direction::Axis(axis) => drawing.features.axis(axis).frame,
     }
 }
 

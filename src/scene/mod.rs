@@ -16,6 +16,7 @@ mod drawing;
 mod drivers;
 mod faults;
 mod features;
+mod forces;
 mod gears;
 mod guides;
 mod joints;
@@ -24,6 +25,7 @@ mod motion;
 mod pins;
 mod plane;
 mod sizes;
+mod springs;
 mod symbols;
 mod teeth;
 mod whole;
@@ -31,6 +33,7 @@ mod whole;
 pub use catalogue::catalogue;
 pub use faults::{Faults, Joints};
 pub use features::drawn_poses;
+pub use forces::{ForceKind, ForceValue, ForceVector};
 pub use lengths::Length;
 pub use motion::Motion;
 pub use plane::{
@@ -64,6 +67,8 @@ pub struct Scene {
     pub profiles: Vec<Profile>,
     /// Where cams move followers.
     pub contacts: Vec<Contact>,
+    /// Forces, where the motion's table tells them.
+    pub forces: Vec<ForceVector>,
     /// Of what has teeth, finer than they are drawn.
     pub outlines: Vec<Outline>,
     /// The size of symbols (m): a pin is a little smaller, a block a little larger.
@@ -113,9 +118,21 @@ impl Scene {
         let extent = bounds(places).map_or(self.extent, |[low, high]| [minus(low, margin), plus(high, margin)]);
         let profiles = self.profiles.iter().filter(|profile| profile.frame == frame).cloned().collect();
         let outlines = self.outlines.iter().filter(|outline| outline.frame == frame).cloned().collect();
-        let (traces, contacts, named, remarks) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let scene =
-            Scene { points, nodes, traces, profiles, contacts, outlines, extent, named, remarks, ..self.clone() };
+        let (traces, contacts, forces) = (Vec::new(), Vec::new(), Vec::new());
+        let (named, remarks) = (Vec::new(), Vec::new());
+        let scene = Scene {
+            points,
+            nodes,
+            traces,
+            profiles,
+            contacts,
+            forces,
+            outlines,
+            extent,
+            named,
+            remarks,
+            ..self.clone()
+        };
         (scene, Motion::still(vec![Pose::default(); self.frames.len()]))
     }
 
@@ -306,7 +323,7 @@ pub enum Look {
     Roller,
     /// A flat face on a cam.
     Face,
-    /// A spring.
+    /// A spring, or a damper.
     Spring,
     /// What a driver does: the line of an arrow.
     Arrow,

@@ -126,6 +126,13 @@ impl Motion {
         Some(self.rows.iter().map(move |row| row[column]))
     }
 
+    /// What a column has in a row, in SI; not a number where the table has none of that name.
+    #[must_use]
+    pub fn value(&self, column: &str, row: usize) -> f64 {
+        let column = self.columns.get(column).copied();
+        column.zip(self.rows.get(row)).and_then(|(column, row)| row.get(column)).copied().unwrap_or(f64::NAN)
+    }
+
     /// The rows of the table, all columns in SI; none of a still.
     #[must_use]
     pub fn rows(&self) -> &[Vec<f64>] {

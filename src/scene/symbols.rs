@@ -137,15 +137,37 @@ impl Symbols {
 
     /// A spring from 0 to 1 along x, to be stretched between its ends.
     pub fn spring(self, coils: u32) -> Shape {
+        self.spring_beside(coils, 0.0, [0.0, 1.0])
+    }
+
+    /// The same so far to the left (m), over a part of the way.
+    pub fn spring_beside(self, coils: u32, aside: f64, [from, to]: [f64; 2]) -> Shape {
         let half = 0.6 * self.unit;
-        let (begin, end) = (0.18, 0.82);
+        let along = |part: f64| from + part * (to - from);
+        let (begin, end) = (along(0.18), along(0.82));
         let step = (end - begin) / f64::from(2 * coils);
         let zigzag = (0..2 * coils).map(|k| {
             let side = if k % 2 == 0 { half } else { -half };
-            [begin + (f64::from(k) + 0.5) * step, side]
+            [begin + (f64::from(k) + 0.5) * step, aside + side]
         });
-        let places = [[0.0, 0.0], [begin, 0.0]].into_iter().chain(zigzag).chain([[end, 0.0], [1.0, 0.0]]);
+        let places = [[from, aside], [begin, aside]].into_iter().chain(zigzag).chain([[end, aside], [to, aside]]);
         Shape { path: Path::line(places), look: Look::Spring, point: None }
+    }
+
+    /// A dashpot so far to the left (m), over a part of the way from 0 to 1 along x, to be stretched between its ends.
+    pub fn damper(self, aside: f64, [from, to]: [f64; 2]) -> Shape {
+        let half = 0.5 * self.unit;
+        let place = |part: f64, across: f64| [from + part * (to - from), aside + across * half];
+        let (bottom, piston, rim) = (0.36, 0.52, 0.66);
+        let strokes = [
+            [place(0.0, 0.0), place(bottom, 0.0)],
+            [place(bottom, -1.0), place(bottom, 1.0)],
+            [place(bottom, -1.0), place(rim, -1.0)],
+            [place(bottom, 1.0), place(rim, 1.0)],
+            [place(piston, -0.75), place(piston, 0.75)],
+            [place(piston, 0.0), place(1.0, 0.0)],
+        ];
+        Shape { path: Path::strokes(strokes), look: Look::Spring, point: None }
     }
 
     /// A cylinder from its hinge on along x.

@@ -3,7 +3,9 @@
 use super::drawing::{Drawing, First, Layer, Outline};
 use super::features::Features;
 use super::plane::{Vector, bounds, distance, minus, plus};
-use super::{Anchor, Declaration, Motion, Node, Point, Scene, bodies, contacts, drivers, gears, joints, sizes};
+use super::{
+    Anchor, Declaration, Motion, Node, Point, Scene, bodies, contacts, drivers, forces, gears, joints, sizes, springs,
+};
 use crate::model::{self, Frame, Mechanism, Named, PointId, Quantity};
 
 /// Rows that are looked at for the extent of everything.
@@ -29,8 +31,10 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Sc
     gears::draw(&mut drawing);
     joints::draw(&mut drawing);
     drivers::draw(&mut drawing);
+    springs::draw(&mut drawing);
     bodies::draw(&mut drawing);
     let traces = drawing.traces();
+    let forces = forces::vectors(&drawing.features, motion, [first.joints, first.equations, first.loads]);
     drawing.mark_pens(&traces);
     let Drawing { mut nodes, profiles, fine: outlines, .. } = drawing;
     nodes.sort_by_key(|(layer, _): &(Layer, Node)| *layer);
@@ -49,6 +53,7 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Sc
         traces,
         profiles,
         contacts,
+        forces,
         outlines,
         unit,
         extent,
@@ -94,6 +99,8 @@ fn declarations(model: &Mechanism) -> (Vec<Declaration>, First) {
     all.extend(model.measures.iter().map(|measure| of(&measure.declared, "measure")));
     first.traces = all.len();
     all.extend(model.traces.iter().map(|trace| of(&trace.declared, "trace")));
+    first.loads = all.len();
+    all.extend(model.loads.iter().map(|load| of(&load.declared, "load")));
     (all, first)
 }
 
@@ -129,7 +136,7 @@ fn points(features: &Features) -> (Vec<Point>, Vec<Option<usize>>) {
     (points, numbers)
 }
 
-/// The points that show what a body is: where joints and drivers take hold, what is traced and measured.
+/// The points that show what a body is: where joints and drivers take hold, what is traced and measured, what is heavy.
 pub(super) fn places_of_bodies(model: &Mechanism) -> Vec<PointId> {
     let mut points: Vec<PointId> = model.joints.iter().flat_map(|joint| joint.kind.points(model)).collect();
     for equation in &model.equations {
@@ -138,6 +145,7 @@ pub(super) fn places_of_bodies(model: &Mechanism) -> Vec<PointId> {
         }
     }
     points.extend(model.traces.iter().filter_map(|trace| trace.point));
+    points.extend(model.masses.iter().map(|mass| mass.at).filter(|at| model[*at].name.is_some()));
     for named in &model.named {
         let Named::Quantity(_, quantity) = named else { continue };
         match *quantity {

@@ -30,7 +30,7 @@ pub(super) fn build(
 ) -> Option<Solver> {
     let system = determined.system();
     let groups = Groups::new(determined);
-    let wanted = groups.wanted(system);
+    let wanted = groups.wanted(system, !program.outputs.reactions.is_empty());
     let across = groups.blocks.len();
     let mut builder = Builder::new(determined, program, values, &groups, purpose);
     builder.joined = joined(system, &builder.layout, &wanted[across]);
@@ -218,6 +218,7 @@ impl<'s, V: Values> Builder<'s, V> {
         let slope = self.inside(block)[0][0].1;
         let rest = self.terms.without(self.program.outputs.phi[row], self.coordinate(0, column));
         let value = self.terms.tape.div(rest.negated(), slope);
+        self.terms.tape.trust(value);
         self.terms.know(self.coordinate(0, column), value);
         Factors::of_one(&mut self.terms.tape, slope)
     }
@@ -299,6 +300,7 @@ impl<'s, V: Values> Builder<'s, V> {
             let slope = slope.map_or(Value::Number(1.0), |at| self.terms.value(self.program.outputs.phi_q[at]));
             let rest = self.terms.without(self.program.outputs.phi[row as usize], register);
             let value = self.terms.tape.div(rest.negated(), slope);
+            self.terms.tape.trust(value);
             self.terms.know(register, value);
         }
     }

@@ -82,10 +82,11 @@ impl Groups {
         Groups { blocks: groups, group_of_column, block_of_column, group_of_row }
     }
 
-    /// What is wanted of each group beside its motion, and last what joins groups.
-    pub fn wanted(&self, system: &ConstraintSystem) -> Vec<Wanted> {
+    /// What is wanted of each group beside its motion, with or without what joints exert; and last what joins groups.
+    pub fn wanted(&self, system: &ConstraintSystem, with_reactions: bool) -> Vec<Wanted> {
         let mut wanted = vec![Wanted::default(); self.blocks.len() + 1];
-        for (k, reaction) in system.reactions().iter().enumerate() {
+        let reactions = if with_reactions { system.reactions() } else { &[] };
+        for (k, reaction) in reactions.iter().enumerate() {
             wanted[self.of(system, [reaction.value])].reactions.push(k);
         }
         for (k, measure) in system.measures().iter().enumerate() {

@@ -4,7 +4,7 @@ use super::Instruction;
 use super::age::Age;
 use crate::math;
 use crate::program::{Op, Register};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
 /// A number that is known already, or what an operation gives.
@@ -53,11 +53,14 @@ pub(super) struct Tape {
     /// The age of what depends on no unknown of this component.
     first: Age,
     numbers: FxHashMap<u64, Register>,
+    /// What formulas give that may be no finite number: of that even nothing, times it, is not known to be nothing.
+    doubtful: FxHashSet<Register>,
 }
 
 impl Tape {
     pub fn new(first: Age) -> Tape {
-        Tape { instructions: Vec::new(), in_loop: Vec::new(), ages: Vec::new(), first, numbers: FxHashMap::default() }
+        let (numbers, doubtful) = (FxHashMap::default(), FxHashSet::default());
+        Tape { instructions: Vec::new(), in_loop: Vec::new(), ages: Vec::new(), first, numbers, doubtful }
     }
 
     /// The age of what depends on no unknown of this component.
@@ -164,6 +167,28 @@ impl Tape {
                 let turned = self.compute(|to| Op::Neg { to, a: at });
                 self.register(turned)
             }
+        }
+    }
+
+    /// Whether a value may be no finite number, though no unknown that it comes from is none.
+    pub fn is_doubtful(&self, value: Value) -> bool {
+        match value {
+            Value::Number(x) => !x.is_finite(),
+            Value::Of { at, .. } => self.doubtful.contains(&at),
+        }
+    }
+
+    /// Notes that a value may be no finite number.
+    pub fn doubt(&mut self, value: Value) {
+        if let Value::Of { at, .. } = value {
+            self.doubtful.insert(at);
+        }
+    }
+
+    /// Notes that a value is an unknown: where it is no finite number, there is no row.
+    pub fn trust(&mut self, value: Value) {
+        if let Value::Of { at, .. } = value {
+            self.doubtful.remove(&at);
         }
     }
 

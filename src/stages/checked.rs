@@ -1,9 +1,9 @@
 //! The second stage: a mechanism whose names, units and values are known.
 
+use super::again::Again;
 use super::asked::Asked;
 use super::lead::Leading;
 use super::lowered::lowered;
-use super::signals::WithSignals;
 use super::used::{self, Used};
 use super::used_at::UsedAt;
 use super::{Compiled, Parsed, Redundant};
@@ -39,6 +39,8 @@ pub struct Choice {
     pub by: Vec<String>,
     /// Whether what all joints exert and all drivers supply is tabulated.
     pub reactions: bool,
+    /// Whether pictures are to show forces, where there are any.
+    pub pictures_forces: bool,
 }
 
 /// A mechanism that was checked, whatever is wrong with it.
@@ -151,9 +153,17 @@ impl Checked {
             }
             (Ok(settings), Ok(given)) => {
                 let library = library.clone();
-                let reactions = choice.reactions;
-                let surroundings =
-                    Surroundings { settings, library, files, given, by, reactions, ..Surroundings::default() };
+                let (reactions, pictures_forces) = (choice.reactions, choice.pictures_forces);
+                let surroundings = Surroundings {
+                    settings,
+                    library,
+                    files,
+                    given,
+                    by,
+                    reactions,
+                    pictures_forces,
+                    ..Surroundings::default()
+                };
                 checked_with = surroundings.clone();
                 let (found, said) = check::check(tree, &surroundings, &sources);
                 diagnostics.extend(said);
@@ -192,12 +202,9 @@ impl Checked {
         self
     }
 
-    /// The model in which inputs are signals, where there are any.
-    fn with_signals(&self) -> Option<WithSignals> {
-        let has_inputs = self.model.as_ref().is_some_and(|model| !model.inputs.is_empty());
-        let surroundings = Surroundings { has_signals: true, ..(*self.surroundings).clone() };
-        let number = self.number.filter(|_| has_inputs)?;
-        Some(WithSignals::new(self.parsed.clone(), number, surroundings))
+    /// What it takes to have the mechanism once more.
+    fn again(&self) -> Option<Again> {
+        Some(Again::new(self.parsed.clone(), self.number?, Arc::clone(&self.surroundings)))
     }
 
     fn with(
@@ -325,7 +332,7 @@ impl Checked {
                         (None, said)
                     }
                 };
-                (compiled.map(|compiled| compiled.with_signals(self.with_signals())), said)
+                (compiled.map(|compiled| compiled.with_again(self.again())), said)
             }
         }
     }

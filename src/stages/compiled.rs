@@ -1,13 +1,13 @@
 //! The third stage: a mechanism that is determined, with the operations that evaluate it.
 
+use super::again::Again;
 use super::lead::Leading;
-use super::signals::WithSignals;
 use super::used_at::UsedAt;
 use crate::analysis::{self, Horizon, Times};
 use crate::cancel::Cancel;
 use crate::diag::Diagnostics;
 use crate::emit;
-use crate::ir::{ConstraintSystem, DeclarationKind};
+use crate::ir::{ConstraintSystem, DeclarationKind, Mechanics};
 use crate::layout::{self, ColumnUnit, RowLayout};
 use crate::program::Program;
 use crate::source::Sources;
@@ -50,8 +50,8 @@ pub struct Compiled {
     leading: Option<Arc<Leading>>,
     used_at: UsedAt,
     redundant: Redundant,
-    /// The same with its inputs as signals, where it has any.
-    with_signals: Option<WithSignals>,
+    /// What it takes to have it once more, with more.
+    again: Option<Again>,
 }
 
 impl Compiled {
@@ -72,24 +72,24 @@ impl Compiled {
             Err(why) => (None, used_at.told(why)),
             Ok((determined, said)) => {
                 let (determined, said) = (Arc::new(determined), used_at.told(said));
-                let (program, with_signals) = (Arc::default(), None);
-                let compiled = Compiled { sources, determined, program, leading, used_at, redundant, with_signals };
+                let (program, again) = (Arc::default(), None);
+                let compiled = Compiled { sources, determined, program, leading, used_at, redundant, again };
                 (Some(compiled), said)
             }
         }
     }
 
-    /// The same, with what it takes to have it with its inputs as signals.
-    pub(super) fn with_signals(self, with_signals: Option<WithSignals>) -> Compiled {
-        Compiled { with_signals, ..self }
+    /// The same, with what it takes to have it once more.
+    pub(super) fn with_again(self, again: Option<Again>) -> Compiled {
+        Compiled { again, ..self }
     }
 
     /// The same mechanism with its inputs as signals, where it has any: its measures have the derivatives that they have here.
     pub(super) fn signals(&self, cancel: &Cancel) -> Result<Option<Compiled>, Diagnostics> {
-        let Some(with_signals) = &self.with_signals else {
+        let Some(again) = self.again.as_ref().filter(|_| !self.system().inputs().is_empty()) else {
             return Ok(None);
         };
-        let mut system = with_signals.system()?;
+        let mut system = again.with_signals()?;
         system.align_measures(self.system().measures());
         if self.system().by_params().len() > 0 {
             system.derive_by_params();
@@ -112,7 +112,17 @@ impl Compiled {
             self.used_at.clone(),
             &Cancel::default(),
         );
-        compiled.map(|compiled| compiled.with_signals(self.with_signals.clone())).ok_or(said)
+        compiled.map(|compiled| compiled.with_again(self.again.clone())).ok_or(said)
+    }
+
+    /// The same mechanism with all that joints exert and drivers supply; none where it has no masses and loads, or where left-out
+    /// equations leave that open.
+    pub(super) fn with_reactions(&self) -> Option<Compiled> {
+        let (system, again) = self.again.as_ref()?.with_reactions()?;
+        let (leading, used_at) = (self.leading.clone(), self.used_at.clone());
+        let (compiled, _) =
+            Compiled::of(self.sources.clone(), system, self.redundant, leading, used_at, &Cancel::default());
+        Some(compiled?.with_again(Some(again)))
     }
 
     /// The texts that its diagnostics speak of.
@@ -202,13 +212,23 @@ impl Compiled {
     /// The equations typeset for a report; the file is named in it.
     #[must_use]
     pub fn latex(&self, file: &str) -> String {
-        emit::latex(self.system(), file)
+        let (system, mechanics) = self.with_mechanics();
+        emit::latex(&system, mechanics.as_ref(), file)
     }
 
     /// The whole constraint system as data for other programs; the file is named in it.
     #[must_use]
     pub fn json(&self, file: &str) -> String {
-        emit::json(self.system(), &self.sources, file)
+        let (system, mechanics) = self.with_mechanics();
+        emit::json(&system, mechanics.as_ref(), &self.sources, file)
+    }
+
+    /// The system with all that joints exert, and what that follows from, where it has masses and loads.
+    fn with_mechanics(&self) -> (ConstraintSystem, Option<Mechanics>) {
+        let with_reactions = self.with_reactions();
+        let mut system = with_reactions.as_ref().unwrap_or(self).system().clone();
+        let mechanics = system.mechanics();
+        (system, mechanics)
     }
 
     /// What leads it to the inputs that it is told, if it is told any, and whether redundant equations are left out there too.

@@ -6,6 +6,7 @@ use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::emit::{self, File, Following, LARGEST_STRAIGHT, Motion, Reference, Unit};
 use crate::expr::Dependence;
+use crate::layout::RowLayout;
 use crate::program::Program;
 use crate::solver::BlockTables;
 use std::sync::Arc;
@@ -45,15 +46,15 @@ impl Compiled {
     /// A Rust module; with what is to be said of it. Nothing where the start cannot be assembled, or it would be too large.
     #[must_use]
     pub fn rust(&self, options: &RustOptions) -> (Option<String>, Diagnostics) {
-        self.emitted(options, |unit, _| Ok(emit::rust(unit)))
+        self.emitted(options, |_, unit, _| Ok(emit::rust(unit)))
     }
 
     /// The files of a crate of a name around that module, which holds itself against the rows of the file's analysis, or of the
     /// first second. Where the motion stops on its way, what is said tells why.
     #[must_use]
     pub fn package(&self, name: &str, options: &RustOptions) -> (Option<Vec<File>>, Diagnostics) {
-        self.emitted(options, |unit, said| {
-            let reference = self.reference(said)?;
+        self.emitted(options, |compiled, unit, said| {
+            let reference = compiled.reference(said)?;
             Ok(emit::package(unit, &reference, name))
         })
     }
@@ -62,23 +63,26 @@ impl Compiled {
     fn emitted<T>(
         &self,
         options: &RustOptions,
-        make: impl FnOnce(&Unit<'_>, &mut Diagnostics) -> Result<T, Box<Diagnostic>>,
+        make: impl FnOnce(&Compiled, &Unit<'_>, &mut Diagnostics) -> Result<T, Box<Diagnostic>>,
     ) -> (Option<T>, Diagnostics) {
-        if let Err(why) = self.has_no_forces() {
+        if let Err(why) = self.has_no_varied_forces() {
             return (None, (*why).into());
         }
-        let by_params = if options.with_sensitivities { self.by_params().map(Some) } else { Ok(None) };
+        let with_reactions = self.with_reactions();
+        let compiled = with_reactions.as_ref().unwrap_or(self);
+        let by_params = if options.with_sensitivities { compiled.by_params().map(Some) } else { Ok(None) };
         let by_params = match by_params {
             Ok(compiled) => compiled,
             Err(why) => return (None, why),
         };
-        let compiled = by_params.as_ref().unwrap_or(self);
+        let compiled = by_params.as_ref().unwrap_or(compiled);
         let signals = match compiled.signals_for_code(options) {
             Ok(signals) => signals,
             Err(why) => return (None, why),
         };
         let mut said = Diagnostics::default();
-        let made = compiled.unit(options, signals.as_ref(), &mut said).and_then(|unit| make(&unit, &mut said));
+        let made =
+            compiled.unit(options, signals.as_ref(), &mut said).and_then(|unit| make(compiled, &unit, &mut said));
         match made {
             Ok(made) => (Some(made), said),
             Err(why) => (None, (*why).into()),
@@ -102,21 +106,23 @@ impl Compiled {
         }
     }
 
-    /// Whether it can be written as code, JSON or LaTeX.
+    /// Whether it can be written as code.
     ///
     /// # Errors
-    /// A measure holds a force, which only `run` computes.
-    pub(crate) fn has_no_forces(&self) -> Result<(), Box<Diagnostic>> {
+    /// A measure holds how a force changes with an input or parameter, which only `run` computes.
+    fn has_no_varied_forces(&self) -> Result<(), Box<Diagnostic>> {
+        self.has_none(Dependence::VARIED_MULTIPLIERS, "the derivative of a force", "is for `run` alone")
+    }
+
+    /// Whether no measure holds what depends on something.
+    fn has_none(&self, of: Dependence, what: &str, label: &str) -> Result<(), Box<Diagnostic>> {
         let system = self.system();
-        let is_force = |id| system.graph().dependence(id).on(Dependence::FORCES);
-        match system.measures().iter().find(|measure| is_force(measure.value)) {
-            None => Ok(()),
-            Some(measure) => {
-                let message = format!("measure `{}` holds a force", measure.name);
-                let diagnostic = Diagnostic::new(Code::E0706, message).at(measure.span, "is for `run` alone");
-                Err(Box::new(diagnostic.help("leave the measure out here; `mechc run` computes it")))
-            }
-        }
+        let Some(measure) = system.measures().iter().find(|of_it| system.graph().dependence(of_it.value).on(of)) else {
+            return Ok(());
+        };
+        let message = format!("measure `{}` holds {what}", measure.name);
+        let diagnostic = Diagnostic::new(Code::E0706, message).at(measure.span, label);
+        Err(Box::new(diagnostic.help("leave the measure out here; `mechc run` computes it")))
     }
 
     /// The mechanism with its inputs as signals, where it has any and is to be solved.
@@ -180,11 +186,15 @@ impl Compiled {
         said.extend(started.remarks());
         let mut solver_of =
             |program: &Program| started.solver_for_code_of(program).ok_or_else(|| Box::new(too_large()));
-        let solver = solver_of(&program.without_params())?;
-        let sensitive = if options.with_sensitivities { Some(solver_of(program)?) } else { None };
+        let plain = program.without_reactions();
+        let solver = solver_of(&plain.without_params())?;
+        let sensitive = if options.with_sensitivities { Some(solver_of(&plain)?) } else { None };
+        let with_reactions = !program.outputs.reactions.is_empty();
+        let forced = if with_reactions { Some(solver_of(&program.without_params())?) } else { None };
         Ok(Motion {
             solver,
             sensitive,
+            forced,
             blocks: BlockTables::new(self.determined()),
             q: started.q().to_vec(),
             bounds: started.bounds(),
@@ -204,7 +214,12 @@ impl Compiled {
         let Some(mut run) = run else {
             return Err(Box::new(remarks.into_iter().next_back().unwrap_or_else(too_large)));
         };
-        let columns = run.columns().to_vec();
+        let mut columns = run.columns().to_vec();
+        let reactions = {
+            let (layout, count) = (RowLayout::new(self.system()), self.system().reactions().len());
+            layout.reactions as usize..layout.reactions as usize + count
+        };
+        columns.drain(reactions.clone());
         let wanted = (MOST_NUMBERS / columns.len()).clamp(2, MOST_ROWS) as u64;
         // spread evenly, the first and the last among them
         let is_wanted = |k: u64| k == 0 || k * (wanted - 1) / (count - 1) > (k - 1) * (wanted - 1) / (count - 1);
@@ -228,9 +243,10 @@ impl Compiled {
         if rows.last().map(|row| row[0]) < last.first().copied() {
             rows.push(last);
         }
+        let forces = rows.iter_mut().map(|row: &mut Vec<f64>| row.drain(reactions.clone()).collect()).collect();
         said.extend(run.take_remarks());
         said.extend(why);
-        Ok(Reference { columns, rows, steps: number - 1, every, stopped })
+        Ok(Reference { columns, rows, forces, steps: number - 1, every, stopped })
     }
 }
 

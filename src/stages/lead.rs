@@ -131,7 +131,13 @@ impl<'s> Starts<'s> {
     fn led_to_what_it_is_told(&mut self, tree: &ast::Mechanism, t: f64) -> Option<Vec<f64>> {
         let times = [self.options.t, t];
         let lead = Some(Lead { times, inputs: Vec::new(), params: self.leads_params });
-        let led = Surroundings { lead, by: Vec::new(), reactions: false, ..self.surroundings.clone() };
+        let led = Surroundings {
+            lead,
+            by: Vec::new(),
+            reactions: false,
+            pictures_forces: false,
+            ..self.surroundings.clone()
+        };
         // of a mechanism whose own inputs have no value there is no way; all else has been said of it
         let (whole, inputs, span) = self.compiled(tree, &led)?;
         let from = if let Some(stand) = self.stand {
@@ -145,6 +151,7 @@ impl<'s> Starts<'s> {
                 settings,
                 by: Vec::new(),
                 reactions: false,
+                pictures_forces: false,
                 ..self.surroundings.clone()
             };
             Some(self.assembled(tree, own)?.q)
@@ -312,6 +319,7 @@ impl<'s> Starts<'s> {
             given: Given::default(),
             by: Vec::new(),
             reactions: false,
+            pictures_forces: false,
             bound: params,
             lead: None,
             has_signals: false,

@@ -6,6 +6,7 @@
 //!
 //! None stops the ones after it from speaking of what is whole. What is to be said of a stage is on it, or comes beside it.
 
+mod again;
 mod asked;
 mod checked;
 mod compiled;
@@ -23,7 +24,6 @@ mod outputs;
 mod parsed;
 mod run;
 mod seen;
-mod signals;
 mod used;
 mod used_at;
 mod varied;

@@ -87,6 +87,17 @@ pub fn misplaced_in_body(mut fault: Diagnostic, word: &str) -> Diagnostic {
     fault
 }
 
+/// A declaration of a body outside of all bodies, unless more is known of what was meant.
+pub fn feature_in_mechanism(mut fault: Box<Diagnostic>, word: &str) -> Box<Diagnostic> {
+    if fault.help.is_empty() && fault.fixes.is_empty() {
+        let article = if word == "axis" { "an" } else { "a" };
+        let of_ground = if word == "mass" { "" } else { " or of the ground" };
+        fault.help =
+            vec![format!("{article} `{word}` stands between the braces of a body{of_ground}: `body b {{ {word} … }}`")];
+    }
+    fault
+}
+
 /// A word of the language in the place of a name, with a name that is free.
 pub fn keyword_as_name(mut fault: Diagnostic, word: &str, instead: Option<&str>) -> Diagnostic {
     fault.fixes.clear();

@@ -341,7 +341,9 @@ impl Reading<'_> {
     fn plain_item(&mut self) -> Item {
         let first = self.at;
         let read = if !self.outline.begins_large_declaration(first) {
-            Err(self.fault_of(Rule::item_or_close))
+            let fault = self.fault_of(Rule::item_or_close);
+            let is_feature = self.outline.is_feature(first);
+            Err(if is_feature { errors::feature_in_mechanism(fault, self.outline.word(first)) } else { fault })
         } else if let Some(known) = self.known_item() {
             Ok(known)
         } else {

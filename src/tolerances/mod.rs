@@ -33,6 +33,14 @@ pub mod jumps {
     pub const REST: f64 = 1e-3;
 }
 
+/// Contacts, and what they press with.
+pub mod contacts {
+    /// A profile is closed where the square of the way between its ends is no more than this part of twice its area.
+    pub const CLOSED: f64 = 1e-12;
+    /// A contact pulls where it does so with more than this part of the largest force of the row: less is rounding.
+    pub const PULLS: f64 = 1e-9;
+}
+
 /// Equations that were left out, as they follow from the others.
 pub mod checks {
     /// One may be open by so many times its scale: lengths are written with so many digits.

@@ -238,6 +238,7 @@ mod tests {
             traces: Vec::new(),
             profiles: Vec::new(),
             contacts: Vec::new(),
+            forces: Vec::new(),
             outlines: Vec::new(),
             unit: 0.01,
             extent: [[0.0; 2], [1.0; 2]],

@@ -3,7 +3,8 @@
 #![allow(dead_code)] // each test file uses its part
 
 use crate::support::random::Random;
-use crate::support::{all_rows, compile_number, compile_without_redundant};
+use crate::support::{all_rows, compile_number, compile_with_forces, compile_without_redundant};
+use mechc::rooms::layout::RowLayout;
 use mechc::rooms::program::Stage;
 use mechc::{Compiled, LARGEST_STRAIGHT, RustOptions};
 use std::fs;
@@ -18,6 +19,8 @@ pub const POINTS: u64 = 3;
 pub struct Emitted {
     pub name: String,
     pub compiled: Compiled,
+    /// The same with what all joints exert and all drivers supply; none where nothing weighs and nothing is loaded.
+    with_forces: Option<Compiled>,
 }
 
 impl Emitted {
@@ -27,14 +30,15 @@ impl Emitted {
 
     pub fn of(name: String, text: &str, path: &Path, number: usize) -> Option<Emitted> {
         let (compiled, _) = compile_number(path, text, number);
-        compiled.map(|compiled| Emitted { name, compiled })
+        let with_forces = compile_with_forces(path, text, number);
+        compiled.map(|compiled| Emitted { name, compiled, with_forces })
     }
 
     /// The first mechanism of a text, whose redundant equations are left out.
     pub fn without_redundant(name: String, text: &str) -> Emitted {
         let (compiled, outcome) = compile_without_redundant(&name, text);
         let compiled = compiled.unwrap_or_else(|| panic!("{}\n{text}", outcome.text()));
-        Emitted { name, compiled }
+        Emitted { name, compiled, with_forces: None }
     }
 
     /// The module, with so many lanes if any are wanted.
@@ -56,7 +60,18 @@ impl Emitted {
 
     /// Beyond how many operations they are written as numbers: the stages are, as if they were large.
     pub fn largest_straight(&self) -> usize {
-        if self.name.ends_with("_input") { 0 } else { LARGEST_STRAIGHT }
+        if self.name.ends_with("_input") || self.name.ends_with("_as_numbers") { 0 } else { LARGEST_STRAIGHT }
+    }
+
+    /// What the interpreter says of the forces in each of its rows; nothing where there are none.
+    pub fn forces(&self) -> Vec<Vec<f64>> {
+        let Some((compiled, times)) = self.with_forces.as_ref().and_then(|all| Some((all, all.times()?))) else {
+            return Vec::new();
+        };
+        let ((determined, _), (rows, _)) = (compiled.inside(), all_rows(compiled, &times));
+        let system = determined.system();
+        let first = RowLayout::new(system).reactions as usize;
+        rows.into_iter().map(|row| row[first..first + system.reactions().len()].to_vec()).collect()
     }
 
     /// The rows of the interpreter, and whether it came to the end.

@@ -101,19 +101,31 @@ impl Outcome {
 
 /// Checks and proves the first mechanism of a text; the files that it names are beside its name.
 pub fn compile(name: &str, text: &str) -> (Option<Compiled>, Outcome) {
-    compile_at(&Parsed::of(name, text), 0, Redundant::Refused, &Disk::default())
+    compile_at(&Parsed::of(name, text), 0, Redundant::Refused, false, &Disk::default())
 }
 
 /// The same; equations that follow from others are left out.
 pub fn compile_without_redundant(name: &str, text: &str) -> (Option<Compiled>, Outcome) {
-    compile_at(&Parsed::of(name, text), 0, Redundant::LeftOut, &Disk::default())
+    compile_at(&Parsed::of(name, text), 0, Redundant::LeftOut, false, &Disk::default())
 }
 
 /// Checks and proves a mechanism of a text that is in a file, by its number.
 pub fn compile_number(path: &Path, text: &str, number: usize) -> (Option<Compiled>, Outcome) {
+    compile_at(&parsed_in(path, text), number, Redundant::Refused, false, &Disk::default())
+}
+
+/// The same with what all joints exert and all drivers supply, where a body of the text has a mass, or it has loads; what is written
+/// has that too.
+pub fn compile_with_forces(path: &Path, text: &str, number: usize) -> Option<Compiled> {
+    let has_forces = text.lines().map(str::trim).any(|line| line.starts_with("mass ") || line.starts_with("load "));
+    let with_forces = || compile_at(&parsed_in(path, text), number, Redundant::Refused, true, &Disk::default()).0;
+    if has_forces { with_forces() } else { None }
+}
+
+fn parsed_in(path: &Path, text: &str) -> Parsed {
     let mut sources = Sources::default();
     let file = sources.add(path.display().to_string(), text);
-    compile_at(&Parsed::of_source(sources, file, path), number, Redundant::Refused, &Disk::default())
+    Parsed::of_source(sources, file, path)
 }
 
 /// The compiled mechanism of a text that is right.
@@ -122,10 +134,16 @@ pub fn compiled(name: &str, text: &str) -> Compiled {
     compiled.unwrap_or_else(|| panic!("{name}:\n{}", outcome.text()))
 }
 
-fn compile_at(parsed: &Parsed, number: usize, redundant: Redundant, disk: &Disk) -> (Option<Compiled>, Outcome) {
+fn compile_at(
+    parsed: &Parsed,
+    number: usize,
+    redundant: Redundant,
+    reactions: bool,
+    disk: &Disk,
+) -> (Option<Compiled>, Outcome) {
     // of a text that cannot be read the faults are all there is to say
     let mechanism = parsed.mechanisms().nth(number).map(str::to_owned);
-    let checked = parsed.check(&Choice { mechanism, ..Choice::default() }, disk);
+    let checked = parsed.check(&Choice { mechanism, reactions, ..Choice::default() }, disk);
     let (compiled, said) = checked.compile(redundant, &Cancel::default());
     let mut outcome = Outcome::of(checked.sources());
     outcome.diagnostics.extend(checked.diagnostics().clone());
@@ -151,7 +169,7 @@ pub fn mechanisms(text: &str) -> Vec<String> {
 /// As [`run`], the tables' files being in a folder.
 pub fn run_in(folder: &Path, name: &str, text: &str, span: Span) -> Outcome {
     let disk = Disk(folder.to_owned());
-    analyse(compile_at(&Parsed::of(name, text), 0, Redundant::Refused, &disk), span)
+    analyse(compile_at(&Parsed::of(name, text), 0, Redundant::Refused, false, &disk), span)
 }
 
 /// Runs what was compiled over its analysis.

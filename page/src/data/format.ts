@@ -69,6 +69,21 @@ export interface Contact {
     face?: [at: [number, number], along: [number, number]];
 }
 
+/** A force that takes hold of a place, in the directions of the ground (N). */
+export interface ForceVector {
+    declaration: number;
+    kind: "reaction" | "load" | "weight";
+    at: Anchor;
+    /** Always the same; */
+    constant?: [number, number];
+    /** or two columns; */
+    columns?: [string, string];
+    /** or a column times a direction of a frame; */
+    along?: [column: string, frame: number, direction: [number, number]];
+    /** or a column times the direction from one place to another. */
+    apart?: [column: string, from: Anchor, to: Anchor];
+}
+
 export interface Scene {
     unit: number;
     extent: [[number, number], [number, number]];
@@ -80,6 +95,8 @@ export interface Scene {
     traces: Trace[];
     profiles: Profile[];
     contacts: Contact[];
+    /** Left out where there are none. */
+    forces?: ForceVector[];
 }
 
 export interface Column {
@@ -92,10 +109,10 @@ export interface Column {
 }
 
 /**
- * Time; a coordinate of a body or one that a joint brings along, or a derivative of these; what the text measures or traces, or a
- * derivative of that; a derivative with something else than time.
+ * Time; a coordinate of a body or one that a joint brings along, or a derivative of these; what joints exert, drivers supply and loads are;
+ * what the text measures or traces, or a derivative of that; a derivative with something else than time.
  */
-export type ColumnKind = "time" | "body" | "joint" | "measure" | "rate" | "variation";
+export type ColumnKind = "time" | "body" | "joint" | "reaction" | "measure" | "rate" | "variation";
 
 /** A number for the whole motion, in SI, printed as a column is; null where it has no value. */
 export interface Result extends Column {

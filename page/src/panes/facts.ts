@@ -81,7 +81,10 @@ function factsOfColumns({ table, motion }: Document, [name, kind]: Declaration, 
 const BEHIND: Record<string, { kinds: readonly (ColumnKind | undefined)[]; name: RegExp }> = {
     measure: { kinds: ["measure", "rate"], name: /^(\.d|\.dd)?$/ },
     trace: { kinds: ["measure", "rate"], name: /^\.[xy](\.d|\.dd)?$/ },
-    joint: { kinds: ["joint"], name: /^\.[a-z]+(\.d|\.dd)?$/ },
+    joint: { kinds: ["joint", "reaction"], name: /^\.[a-z]+(\.d|\.dd)?$/ },
+    driver: { kinds: ["reaction"], name: /^\.effort$/ },
+    constraint: { kinds: ["reaction"], name: /^\.effort$/ },
+    load: { kinds: ["reaction"], name: /^\.load$/ },
 };
 
 function belongs(column: Column, name: string, kind: string): boolean {

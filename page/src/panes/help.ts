@@ -11,6 +11,7 @@ const KEYS: readonly [string, string][] = [
     ["B", "to and fro, or round and round"],
     ["L", "labels"],
     ["V", "velocities and accelerations at all pins"],
+    ["N", "forces, where the text has masses or loads"],
     ["T", "traces"],
     ["S", "strobe"],
     ["F", "the picture alone, larger, for a lecture hall"],

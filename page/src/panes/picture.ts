@@ -6,6 +6,7 @@ import { Labels, Points } from "../layers/points.ts";
 import { Cams, Corners, Poles } from "../layers/constructions.ts";
 import type { Layer } from "../layers/layer.ts";
 import { Traces } from "../layers/traces.ts";
+import { Forces } from "../layers/forces.ts";
 import { Vectors } from "../layers/vectors.ts";
 import { anchor } from "../motion/meetings.ts";
 import { placeOf, type Moment, type Motion, type Pair } from "../motion/motion.ts";
@@ -54,7 +55,7 @@ export class Picture implements Pane {
     private wrong: ReadonlySet<number> = new Set();
 
     constructor() {
-        const others = [new Traces(), new Poles(), new Corners(), new Cams(), new Vectors()];
+        const others = [new Traces(), new Poles(), new Corners(), new Cams(), new Vectors(), new Forces()];
         this.bare = [...others, new Labels(others)];
         this.layers = [...this.bare.slice(0, 1), this.pointsLayer, ...this.bare.slice(1)];
         this.views.append(

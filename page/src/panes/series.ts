@@ -72,7 +72,8 @@ export function entries(document: Document, wishes: Wishes): [string, string][] 
         ["t", "t"],
         ...group("measures", names(isMeasured)),
         ...group("constructions", constructions),
-        ...group("coordinates", names((column) => column.kind !== "time" && !isMeasured(column))),
+        ...group("forces", names(({ kind }) => kind === "reaction")),
+        ...group("coordinates", names((column) => column.kind !== "time" && column.kind !== "reaction" && !isMeasured(column))),
     ];
 }
 

@@ -32,11 +32,12 @@ pub fn determine(
     if !(allow_redundant && holds && is_enough && refused.too_few.columns.is_empty()) {
         return Err(explain(refused, &anatomy));
     }
-    if let Some(why) = errors::force_in_a_loop(&refused.system, &anatomy.dependents) {
+    let mut system = refused.system;
+    system.retain_forces(|value, graph| !errors::is_shared(graph, &anatomy.dependents, value));
+    if let Some(why) = errors::force_in_a_loop(&system, &anatomy.dependents) {
         return Err(why.into());
     }
-    let said = errors::left_out(&refused.system, &anatomy.dependents);
-    let mut system = refused.system;
+    let said = errors::left_out(&system, &anatomy.dependents);
     leave_out(&mut system, &anatomy.dependents);
     match structure::prove(system) {
         Ok(determined) => Ok((determined, said)),

@@ -26,6 +26,9 @@ pub(super) struct Formula {
     coordinates: usize,
     has_jerk: bool,
     holds_rates: bool,
+    holds_forces: bool,
+    /// Of one that holds forces, what it can be in the cell that is looked at, as its values tell.
+    seen: [f64; 2],
 }
 
 /// What changes with the motion.
@@ -87,7 +90,7 @@ pub(super) struct Cell {
     pub a: Rc<Point>,
     pub b: Rc<Point>,
     /// By what moves of the formula: how far its second and third derivatives are from a straight line; of a multiplier, how far its
-    /// value is.
+    /// value is. The last is the formula itself, of which that is its value too.
     bends: Rc<[[f64; 2]]>,
 }
 
@@ -119,7 +122,7 @@ impl Cell {
 
     /// From one point to another, of which nothing between is known yet.
     pub fn unknown(formula: &Formula, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
-        let bends = formula.moving.iter().map(|_| [f64::INFINITY; 2]).collect();
+        let bends = vec![[f64::INFINITY; 2]; formula.moving.len() + 1].into();
         Cell { a: Rc::clone(a), b: Rc::clone(b), bends }
     }
 }
@@ -129,9 +132,9 @@ impl Formula {
     pub fn new(graph: &mut Graph, value: ExprId, system: &ConstraintSystem, variations: usize) -> Formula {
         let has_jerk = system.jerk().is_some();
         let dependence = graph.dependence(value);
-        let holds_rates = dependence.highest_order() > Some(0)
-            || dependence.highest_varied_order().is_some()
-            || dependence.on(Dependence::MULTIPLIERS);
+        let holds_forces = dependence.on(Dependence::MULTIPLIERS);
+        let holds_rates =
+            dependence.highest_order() > Some(0) || dependence.highest_varied_order().is_some() || holds_forces;
         let (mut graph, value, smooth) = Smooth::out_of(graph, value, system);
         let mut formulas = vec![value];
         while formulas.len() < 3 {
@@ -157,7 +160,20 @@ impl Formula {
         let params: Vec<f64> = system.params().iter().map(|param| param.value).collect();
         let registers = program.start(&params);
         let ranges = Ranges::new(&program, &registers, &roots, Stage::Measures, false);
-        Formula { program, registers, roots, ranges, moving, smooth, coordinates, has_jerk, holds_rates }
+        let seen = [f64::NEG_INFINITY, f64::INFINITY];
+        Formula {
+            program,
+            registers,
+            roots,
+            ranges,
+            moving,
+            smooth,
+            coordinates,
+            has_jerk,
+            holds_rates,
+            holds_forces,
+            seen,
+        }
     }
 
     /// How many time derivatives it has: 0 to 2.
@@ -180,7 +196,7 @@ impl Formula {
         if self.is_varied() {
             places.vary(&state);
         }
-        if self.moving.iter().any(|moving| matches!(moving, Moving::Multiplier(_))) {
+        if self.holds_forces {
             places.find_multipliers(&state);
         }
         self.smooth.look(&state, |_| 1.0);
@@ -247,6 +263,8 @@ impl Formula {
     pub fn look_at(&mut self, cell: &Cell) {
         let h = cell.length();
         self.ranges.set_times([cell.a.state.t, cell.b.state.t]);
+        let bend = cell.bends.last().map_or(f64::INFINITY, |[bend, _]| *bend);
+        self.seen = around(cell.a.sample.value, cell.b.sample.value, bend);
         let ends = cell.a.moving.iter().zip(&cell.b.moving);
         for ((of, (a, b)), bends) in self.moving.iter().zip(ends).zip(cell.bends.iter()) {
             if let Moving::Multiplier(row) = *of {
@@ -272,24 +290,29 @@ impl Formula {
         self.smooth.turns_far([&cell.a.state, &cell.b.state])
     }
 
-    /// The range of the value (0) or of a derivative in the cell that is looked at; in order.
+    /// The range of the value (0) or of a derivative in the cell that is looked at; in order. Of forces only values are known, and so a
+    /// formula that holds some narrows no faster than the cell; where it is resolved it goes on as its own values do.
     pub fn range(&mut self, order: usize) -> Range {
-        self.ranges.range(&self.program, &self.registers, order)
+        let range = self.ranges.range(&self.program, &self.registers, order);
+        if order > 0 || !self.holds_forces || !range.is_resolved {
+            return range;
+        }
+        let [low, high] = self.seen;
+        Range { low: range.low.max(low), high: range.high.min(high), ..range }
     }
 
     /// How far the last derivatives are from a straight line in the middle of three points.
     fn bends(&self, [a, middle, b]: [&Point; 3]) -> Rc<[[f64; 2]]> {
-        let of = |k: usize| {
-            let off = |order: usize| {
-                let [a, middle, b] = [a, middle, b].map(|point| point.moving[k][order]);
-                (middle - 0.5 * a - 0.5 * b).abs()
-            };
-            match self.moving[k] {
+        let off = |of: &dyn Fn(&Point) -> f64| (of(middle) - 0.5 * of(a) - 0.5 * of(b)).abs();
+        let of = |(k, moving): (usize, &Moving)| {
+            let off = |order: usize| off(&|point: &Point| point.moving[k][order]);
+            match moving {
                 Moving::Multiplier(_) => [off(0), 0.0],
                 _ => [off(2), if self.has_jerk { off(3) } else { 0.0 }],
             }
         };
-        (0..self.moving.len()).map(of).collect()
+        let own = [off(&|point: &Point| point.sample.value), 0.0];
+        self.moving.iter().enumerate().map(of).chain([own]).collect()
     }
 }
 

@@ -21,12 +21,13 @@ const FORMS: [(&str, Form); 3] = [("html", Form::Page), ("svg", Form::Picture), 
 type Said = (&'static str, fn(&ViewArguments) -> bool, &'static [Form]);
 
 /// All of them; a page that follows a file has none.
-const OPTIONS: [Said; 9] = [
+const OPTIONS: [Said; 10] = [
     ("--vary", |asked| !asked.vary.is_empty(), &[Form::Page]),
     ("--plots", |asked| asked.plots, &[Form::Plots]),
     ("--at", |asked| !asked.at.is_empty(), &[Form::Page, Form::Picture, Form::Dxf]),
     ("--trace", |asked| !asked.trace.is_empty(), &[Form::Page, Form::Picture, Form::Dxf]),
     ("--vectors", |asked| asked.vectors, &[Form::Page, Form::Picture, Form::Dxf]),
+    ("--forces", |asked| asked.forces, &[Form::Page, Form::Picture, Form::Plots, Form::Dxf]),
     ("--labels", |asked| asked.labels, &[Form::Page, Form::Picture, Form::Dxf]),
     ("--size", |asked| asked.size.is_some(), &[Form::Page, Form::Picture, Form::Plots, Form::Dxf]),
     ("--scale", |asked| asked.scale.is_some(), &[Form::Picture, Form::Dxf]),

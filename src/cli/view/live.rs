@@ -12,7 +12,7 @@ use crate::cli::{input, interrupts};
 use crate::diag::Diagnostics;
 use crate::live::{Host, Server, Workshop};
 use crate::source::Sources;
-use crate::stages::{Compiled, Redundant};
+use crate::stages::{Choice, Compiled, Redundant};
 use crate::world::World;
 use std::io::Write;
 use std::process::{Command, Stdio};
@@ -39,7 +39,8 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     let desk = Desk { file: given.file.clone(), interval: arguments.interval.clone() };
     let redundant = if arguments.allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
     let options = (redundant, arguments.pass_bifurcations);
-    let workshop = Workshop::new(input::path(given), input::choice(given), options, Box::new(desk));
+    let choice = Choice { pictures_forces: true, ..input::choice(given) };
+    let workshop = Workshop::new(input::path(given), choice, options, Box::new(desk));
     let workshop = Arc::new(workshop);
     let serving = Server::bind(arguments.port.unwrap_or(0)).and_then(|server| {
         let port = server.port();

@@ -9,15 +9,16 @@ mod watch;
 
 use super::arguments::ViewArguments;
 use super::failure::{Failure, unusable};
-use super::files::{self, Output};
+use super::files::{self, Disk, Output};
 use super::input;
 use super::report::Reporter;
 use super::times::Bounds;
 use crate::analysis::Times;
 use crate::diag::{Diagnostic, Diagnostics};
+use crate::layout::ColumnKind;
 use crate::live::page;
 use crate::scene::Motion;
-use crate::stages::{Checked, Compiled, RunOptions, Seen};
+use crate::stages::{Checked, Choice, Compiled, RunOptions, Seen};
 use crate::view::dxf;
 use crate::view::svg::{self, Options, Plot};
 use form::Form;
@@ -27,6 +28,9 @@ use std::path::Path;
 
 /// Of more rows some are left out.
 const MOST_ROWS: usize = 2000;
+
+/// What is said where `--forces` has nothing to show.
+const NO_FORCES: &str = "there are no forces: the text has neither masses nor loads\n";
 
 /// What is said where `--vectors` has nothing to show.
 const NO_ARROWS: &str = "there are no arrows: no pin, traced point or point that has a name moves\n";
@@ -41,7 +45,8 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     let given = &arguments.input;
     let parsed = input::parsed(given, reporter)?;
     // see `run`: nothing is taken apart before the process ends
-    let checked = ManuallyDrop::new(input::checked(&parsed, given, reporter)?);
+    let choice = Choice { pictures_forces: form == Form::Page || arguments.forces, ..input::choice(given) };
+    let checked = ManuallyDrop::new(input::checked_in(&parsed, &choice, &Disk, reporter)?);
     let options = RunOptions { pass_bifurcations: arguments.pass_bifurcations, ..RunOptions::default() };
     let target = Target { arguments, form, output, frames };
     let compiled = match input::proven(&checked, arguments.allow_redundant) {
@@ -83,8 +88,11 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     let drawn = Drawn { seen: &seen, moments: moments.as_ref(), pictured: &pictured };
     target.write(file, &drawn, reporter)?;
     let is_without_arrows = arguments.vectors && !svg::has_vectors(&seen.scene, &pictured.traces, &seen.motion);
-    if is_without_arrows && form == Form::Picture && !reporter.is_for_programs() {
-        Reporter::say(NO_ARROWS);
+    let is_without_forces = arguments.forces && seen.scene.forces.is_empty();
+    for (is_without, words) in [(is_without_arrows, NO_ARROWS), (is_without_forces, NO_FORCES)] {
+        if is_without && form == Form::Picture && !reporter.is_for_programs() {
+            Reporter::say(words);
+        }
     }
     stopped.map_or(Ok(()), |why| Err(why.into()))
 }
@@ -177,16 +185,18 @@ impl Drawn<'_> {
         }
     }
 
-    /// Plots of all measures.
+    /// Plots of all measures; of efforts, reactions and loads behind them, where these are asked for.
     fn plots(&self) -> Result<String, Failure> {
-        let Seen { scene, motion, columns, units, .. } = self.seen;
+        let Seen { scene, motion, columns, units, kinds, .. } = self.seen;
         let measures = scene.declarations.iter().filter(|declaration| declaration.kind == "measure");
+        let forces = columns.iter().zip(kinds).filter(|(_, kind)| **kind == ColumnKind::Reaction);
         let plot = |name: &'_ str| {
             let (column, unit) = columns.iter().zip(units).find(|(column, _)| *column == name)?;
             let values = motion.column(column)?.map(|value| unit.printed(value)).collect();
             Some(Plot { name: column, unit: &unit.text, values })
         };
-        let plots: Vec<Plot> = measures.filter_map(|measure| plot(&measure.name)).collect();
+        let names = measures.map(|measure| &measure.name).chain(forces.map(|(column, _)| column));
+        let plots: Vec<Plot> = names.filter_map(|name| plot(name)).collect();
         if plots.is_empty() {
             let help = "say what is to be plotted, as in `measure lift = y(slider.P)`; the page, `-o OUT.html`, plots any column";
             return Err(unusable("there is no measure to plot".to_owned()).help(help).into());

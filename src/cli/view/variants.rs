@@ -22,7 +22,7 @@ const MOST_NUMBERS: usize = 10_000_000;
 
 pub(super) fn view(arguments: &ViewArguments, output: &str, reporter: &mut Reporter) -> Result<(), Failure> {
     let (parsed, world) = (input::parsed(&arguments.input, reporter)?, AskedOnce::default());
-    let choice = input::choice(&arguments.input);
+    let choice = Choice { pictures_forces: true, ..input::choice(&arguments.input) };
     let own = input::checked_in(&parsed, &choice, &world, reporter)?;
     let varied = own.varied(&arguments.vary, &choice, &world).map_err(|(sources, said)| {
         reporter.sources = sources;

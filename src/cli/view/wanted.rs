@@ -18,8 +18,8 @@ pub(super) fn pictured(arguments: &ViewArguments, seen: &Seen) -> Result<Options
     let traces = arguments.trace.iter().map(|path| trace(scene, path)).collect::<Result<Vec<_>, Failure>>()?;
     let errors = seen.messages().filter(|said| said.is_error());
     let said = errors.flat_map(in_lines).collect();
-    let ViewArguments { size, scale, vectors, labels, .. } = *arguments;
-    Ok(Options { size, scale, theme, traces, vectors, labels, captions: Vec::new(), said })
+    let ViewArguments { size, scale, vectors, forces, labels, .. } = *arguments;
+    Ok(Options { size, scale, theme, traces, vectors, forces, labels, captions: Vec::new(), said })
 }
 
 /// What stands below a picture of an error; with its notes where they tell which lengths to look at.

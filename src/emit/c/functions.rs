@@ -106,6 +106,10 @@ const SENSITIVITY: &str =
     "The derivatives of the coordinates by each parameter, next to a state: that of coordinate c by parameter p
 stands at p * COORDINATES + c. The length of the list is PARAMS * COORDINATES.";
 
+const FORCES: &str =
+    "What joints exert on their second bodies and what drivers supply at a state, in SI, by the numbers of FORCE; NAN
+close to a singular position. The length of the list is FORCES.";
+
 fn function(name: &'static str, docs: &'static str, arguments: &[(&'static str, Of)], does: &'static str) -> Function {
     Function { name, docs, arguments: arguments.to_vec(), gives: Gives::Code, does }
 }
@@ -159,6 +163,14 @@ impl Interface<'_> {
             let does = "write(list, length, sensitivity(given(params)?, state_of(state)?)?.as_flattened())";
             all.push(function("sensitivity", SENSITIVITY, &[state, params, list, length], does));
         }
+        if self.has_forces() {
+            all.push(function(
+                "forces",
+                FORCES,
+                &[state, list, length],
+                "write(list, length, &forces(state_of(state)?))",
+            ));
+        }
         all
     }
 
@@ -170,6 +182,9 @@ impl Interface<'_> {
         }
         if self.has_sensitivity() {
             used.push("sensitivity");
+        }
+        if self.has_forces() {
+            used.push("forces");
         }
         // as a formatter orders them: what is a type comes first
         used.sort_by_key(|name| (name.starts_with(|c: char| c.is_ascii_lowercase()), *name));

@@ -88,6 +88,19 @@ impl Interface<'_> {
             let own = own.map(|(of, name)| (name, format!("{} ({})", of.name, unit(&of.unit)))).collect::<Vec<_>>();
             self.places(page, "INPUT", "INPUTS", "The numbers of the inputs.", &own);
         }
+        if self.has_forces() {
+            let reactions = system.reactions();
+            let names = Case::Constant.names(reactions.iter().map(|of| of.name.as_str()));
+            let said = reactions.iter().map(|of| format!("{} ({})", of.name, unit(&of.unit)));
+            let named = names.into_iter().zip(said).collect::<Vec<_>>();
+            self.places(
+                page,
+                "FORCE",
+                "FORCES",
+                "Where each force, moment and effort stands in a list of them.",
+                &named,
+            );
+        }
         let Some(motion) = &self.unit.motion else {
             return;
         };

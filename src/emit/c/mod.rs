@@ -92,6 +92,10 @@ impl Interface<'_> {
         self.has_params() && self.unit.motion.as_ref().is_some_and(|motion| motion.sensitive.is_some())
     }
 
+    fn has_forces(&self) -> bool {
+        self.unit.motion.as_ref().is_some_and(|motion| motion.forced.is_some())
+    }
+
     /// What constants begin with: `FOUR_BAR`.
     fn constants(&self) -> String {
         self.prefix.to_uppercase()
@@ -100,11 +104,13 @@ impl Interface<'_> {
     /// The columns of a row: their names in C, and what they hold, in SI.
     fn columns(&self) -> Vec<(String, String)> {
         let system = self.unit.system;
-        let columns = columns(system);
-        let names = Case::Constant.names(columns.iter().map(|column| column.name.as_str()));
-        let said = columns.iter().zip(holds(system)).map(|(column, holds)| {
+        // forces have a list of their own
+        let columns = columns(system).into_iter().zip(holds(system));
+        let columns: Vec<_> = columns.filter(|(_, holds)| !matches!(holds, Holds::Reaction(_))).collect();
+        let names = Case::Constant.names(columns.iter().map(|(column, _)| column.name.as_str()));
+        let said = columns.iter().map(|(column, holds)| {
             let (name, ColumnUnit { text, .. }) = (one_line(&column.name), &column.unit);
-            match holds {
+            match *holds {
                 Holds::Measure { index, .. }
                     if system.measures()[index].units.si != system.measures()[index].units.printed[0] =>
                 {

@@ -8,7 +8,7 @@ mod formula;
 mod letters;
 
 use crate::expr::{ExprId, Node, Table};
-use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, IdVec};
+use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, IdVec, Mechanics};
 use formula::{Formulas, coordinate, param};
 use letters::{Set, Style, numeral, symbol, words};
 
@@ -48,14 +48,17 @@ const PREAMBLE: &str = r"\documentclass[a4paper,10pt,fleqn]{article}
 
 /// One document; `file` is the name of the source for its head.
 #[must_use]
-pub fn latex(system: &ConstraintSystem, file: &str) -> String {
-    let mut writer = Writer { system, formulas: Formulas::new(system, &roots(system)), text: String::new() };
+pub fn latex(system: &ConstraintSystem, mechanics: Option<&Mechanics>, file: &str) -> String {
+    let mut writer = Writer { system, formulas: Formulas::new(system, &roots(system, mechanics)), text: String::new() };
     writer.head(file);
     writer.coordinates();
     writer.params();
     writer.inputs();
     writer.tables();
     writer.equations();
+    if let Some(mechanics) = mechanics {
+        writer.forces(mechanics);
+    }
     writer.measures();
     writer.text + "\n\\end{document}\n"
 }
@@ -71,12 +74,16 @@ fn where_it_has_a_value(system: &ConstraintSystem, measure: ExprId) -> ExprId {
 }
 
 /// Every formula that is written.
-fn roots(system: &ConstraintSystem) -> Vec<ExprId> {
+fn roots(system: &ConstraintSystem, mechanics: Option<&Mechanics>) -> Vec<ExprId> {
     let mut roots: Vec<ExprId> = system.rows().iter().map(|row| row.phi).collect();
     roots.extend(system.phi_q().entries().iter().map(|&(_, id)| id));
     roots.extend(system.nu().iter().chain(system.gamma()));
     roots.extend(system.inputs().iter().map(|input| input.formulas[0]));
     roots.extend(system.measures().iter().map(|measure| where_it_has_a_value(system, measure.value)));
+    if let Some(Mechanics { mass_matrix, applied }) = mechanics {
+        roots.extend(mass_matrix.entries().iter().map(|&(_, id)| id).chain(applied.iter().copied()));
+        roots.extend(system.reactions().iter().map(|of| of.value));
+    }
     roots.extend(system.graph().tables().iter().flat_map(|table| table.knots.iter().chain(&table.values).copied()));
     roots
 }
@@ -294,6 +301,37 @@ impl Writer<'_> {
             self.text += &format!("{strut}\\row{{{}}}{cells} \\\\\n", row + 1);
         }
         self.text += "}\n";
+    }
+
+    /// What the multipliers hold, and what they exert.
+    fn forces(&mut self, Mechanics { mass_matrix, applied }: &Mechanics) {
+        self.section("Forces");
+        self.text += r"The multipliers $\lambda$, one for each equation, hold what inertia asks for and what weights and loads do not give:";
+        self.text += "\n\\[ \\Phi_q^{\\mathsf T}\\,\\lambda = M\\,\\ddot q - Q. \\]\n";
+        self.text += "In SI: kilograms, newtons. Entries that are not written vanish.\n\n";
+        for row in 0..mass_matrix.rows() {
+            for &(column, mass) in mass_matrix.row(row).iter().filter(|(column, _)| *column as usize >= row) {
+                let text = self.formulas.text(mass);
+                let twin =
+                    if column as usize == row { String::new() } else { format!(" = M_{{{},{}}}", column + 1, row + 1) };
+                self.entry(&format!("M_{{{},{}}}{twin}", row + 1, column + 1), &text);
+            }
+        }
+        for (k, &of) in applied.iter().enumerate() {
+            if self.system.graph().as_const(of) != Some(0.0) {
+                let text = self.formulas.text(of);
+                self.entry(&format!("Q_{{{}}}", k + 1), &text);
+            }
+        }
+        self.terms();
+        if !self.system.reactions().is_empty() {
+            self.text += "\nWhat joints exert on their second bodies, and what drivers supply:\n\n";
+        }
+        for reaction in self.system.reactions() {
+            let text = self.formulas.text(reaction.value);
+            self.entry(&format!(r"\text{{{}}}", words(&reaction.name)), &text);
+            self.terms();
+        }
     }
 
     fn measures(&mut self) {

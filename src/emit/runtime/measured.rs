@@ -7,7 +7,7 @@ pub trait Measured: Copy + Debug {
     /// Nothing is measured yet.
     const ZERO: Self;
 
-    /// Which of them, in the order of [`lists`](Measured::lists), are derivatives by inputs or parameters.
+    /// Which of them, in the order of [`lists`](Measured::lists), are derivatives by inputs or parameters, or forces.
     const IS_VARIED: &'static [bool] = &[];
 
     /// Values, rates and accelerations.
@@ -25,7 +25,7 @@ pub trait Measured: Copy + Debug {
         }
     }
 
-    /// Close to a singular position derivatives by inputs and parameters have no value.
+    /// Close to a singular position derivatives by inputs and parameters, and forces, have no value.
     fn leave_varied_out(&mut self) {
         let mut rest = Self::IS_VARIED.iter();
         for list in self.lists_mut() {

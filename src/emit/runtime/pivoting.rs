@@ -50,11 +50,29 @@ pub trait Pivoting: Solved {
         Self::Varied::ZERO
     }
 
+    /// The transposed matrix, where somebody asks for forces.
+    fn transposed() -> Option<&'static Transposed> {
+        None
+    }
+
+    /// What the multipliers have to hold, by coordinate.
+    fn needed(&self, _orders: [&Self::Q; 3], _t: f64, _sides: &Self::Sides) -> Self::Q {
+        Self::Q::ZERO
+    }
+
     /// The right sides for the derivatives by what the motion goes along.
     fn rights(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Rights;
 
-    /// What is measured, from the coordinates with their first three derivatives.
-    fn measured(&self, orders: [&Self::Q; 4], varied: &Self::Varied, t: f64) -> Self::Measures;
+    /// What is measured, from the coordinates with their first three derivatives, what these vary by, and the multipliers.
+    fn measured(&self, orders: [&Self::Q; 4], varied: &Self::Varied, multipliers: &Self::Q, t: f64) -> Self::Measures;
+}
+
+/// The transposed matrix, an equation for each coordinate.
+pub struct Transposed {
+    /// How its equations fall apart into blocks.
+    pub blocks: &'static Blocks<'static>,
+    /// The place of each of its entries among those of the matrix.
+    pub places: &'static [usize],
 }
 
 /// The solution from a position nearby. All coordinates lie on a grid while Newton goes on.
@@ -74,7 +92,8 @@ pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Side
         *slopes_by = without_signs_of_zero(elimination.solve(&slopes, right).0);
     }
     let varied = vary(m, &mut elimination, &slopes, orders, t, sides);
-    at.measures = m.measured([&at.q, &qd, &qdd, &qddd], &varied, t);
+    let multipliers = elimination.multipliers(m, &slopes, orders, t, sides);
+    at.measures = m.measured([&at.q, &qd, &qdd, &qddd], &varied, &multipliers, t);
     (at.qd, at.qdd) = (without_signs_of_zero(qd), without_signs_of_zero(qdd));
     at.holds = is_next_to_nothing::<M>(&m.phi(&at.q, t, sides), &slopes, &at.q);
     at.q = without_signs_of_zero(at.q);
@@ -154,6 +173,20 @@ impl<M: Pivoting> Elimination<M> {
         let (work, is_negative) = (self.work.as_mut(), self.is_negative.as_mut());
         let pivot = blocks::solve(M::blocks(), slopes.as_ref(), right.as_ref(), x.as_mut(), work, is_negative);
         (x, pivot)
+    }
+
+    /// The multipliers of a state; 0 where nobody asks for forces.
+    pub fn multipliers(&mut self, m: &M, slopes: &M::Entries, orders: [&M::Q; 3], t: f64, sides: &M::Sides) -> M::Q {
+        let mut multipliers = M::Q::ZERO;
+        let Some(Transposed { blocks, places }) = M::transposed() else { return multipliers };
+        let mut across = *slopes;
+        for (entry, place) in across.as_mut().iter_mut().zip(*places) {
+            *entry = slopes.as_ref().get(*place).copied().unwrap_or(f64::NAN);
+        }
+        let (work, is_negative) = (self.work.as_mut(), self.is_negative.as_mut());
+        let needed = m.needed(orders, t, sides);
+        blocks::solve(blocks, across.as_ref(), needed.as_ref(), multipliers.as_mut(), work, is_negative);
+        multipliers
     }
 }
 

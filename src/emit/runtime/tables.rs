@@ -8,8 +8,8 @@ use super::select::select;
 use super::sine_and_cosine::sin_cos;
 
 /// Arrays that operations read: by number, parameters, what follows from these, the branches of formulas, the time or signals, the
-/// coordinates with their derivatives, and derivatives by inputs and parameters.
-pub type Arrays<'a> = [&'a [f64]; 9];
+/// coordinates with their derivatives, derivatives by inputs and parameters, and multipliers.
+pub type Arrays<'a> = [&'a [f64]; 10];
 
 /// What operations name by numbers.
 pub trait Book {

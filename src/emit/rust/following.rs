@@ -85,16 +85,13 @@ fn by_text(following: &Following<'_>, names: &Names, tables: &Tables, page: &mut
     };
     equations.function(
         &Wanted {
-            name: "by_text",
-            docs: "Value, rate and acceleration of each signal by the text's formulas.",
-            is_public: false,
-            orders: 0,
-            has_time: true,
-            varied: false,
-            outputs: &outputs,
-            length: "3 * SIGNALS",
-            negated: false,
             given: Given::None,
+            ..Wanted::of(
+                "by_text",
+                "Value, rate and acceleration of each signal by the text's formulas.",
+                &outputs,
+                "3 * SIGNALS",
+            )
         },
         page,
     );
@@ -120,6 +117,7 @@ impl Writer<'_> {
         self.left_out_slopes("signal", &self.unit.program.outputs.check_slopes.signals, page);
         self.along_signals(solution, page);
         self.sensitivity(solution, page);
+        self.forces(solution, page);
         self.equations.print_book(page);
     }
 

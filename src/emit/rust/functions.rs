@@ -2,6 +2,7 @@
 
 use super::Writer;
 use crate::emit::equations::{Given, Wanted};
+use crate::emit::names::{MULTIPLIERS, VARIED};
 use crate::emit::print::{Head, Page};
 use crate::emit::text::one_line;
 use crate::program::Register;
@@ -13,7 +14,7 @@ const LARGEST_DENSE: usize = 64;
 const LEFT_OUT: &str = "The residual of the equations that were left out (m, m^2 or rad): nothing, as long as they follow from the others.";
 
 /// What is said of the right sides for derivatives by inputs and parameters.
-const VARIED: &str =
+const VARIED_RIGHT: &str =
     "Right sides of the equations `phi_q x = varied_right` for each list of `N` of [`VARIED`]. Those by one are found
 before those by two, those of `q` before those of `qd` and these before those of `qdd`: what is not found yet
 may be anything.";
@@ -59,16 +60,11 @@ impl Writer<'_> {
         for Kind { name, docs, orders, outputs, length } in self.kinds() {
             self.equations.function(
                 &Wanted {
-                    name,
-                    docs,
                     is_public: true,
                     orders,
-                    has_time: true,
-                    varied: false,
-                    outputs,
-                    length,
                     negated: name == "phi_t",
                     given: Given::None,
+                    ..Wanted::of(name, docs, outputs, length)
                 },
                 page,
             );
@@ -78,6 +74,7 @@ impl Writer<'_> {
         }
         self.varied_lists(page);
         self.varied(Given::None, page);
+        self.force_functions(page);
         self.measures("pub fn", page);
     }
 
@@ -99,23 +96,13 @@ impl Writer<'_> {
             } else {
                 format!("As [`{name}`], on branches of formulas that are given.")
             };
-            self.equations.function(
-                &Wanted {
-                    name: &self.on_sides(name),
-                    docs: &docs,
-                    is_public: false,
-                    orders,
-                    has_time: true,
-                    varied: false,
-                    outputs,
-                    length,
-                    negated: false,
-                    given: Given::All,
-                },
-                page,
-            );
+            self.equations
+                .function(&Wanted { orders, ..Wanted::of(&self.on_sides(name), &docs, outputs, length) }, page);
         }
         if has_pivoting {
+            if self.equations.has_forces() {
+                self.needed(Given::All, page);
+            }
             self.varied(Given::All, page);
         }
     }
@@ -163,16 +150,16 @@ impl Writer<'_> {
         let is_public = given == Given::None;
         self.equations.function(
             &Wanted {
-                name: &if is_public { "varied_right".to_owned() } else { self.on_sides("varied_right") },
-                docs: VARIED,
                 is_public,
                 orders: 3,
-                has_time: true,
                 varied: true,
-                outputs: &outputs,
-                length: "VARIED",
-                negated: false,
                 given,
+                ..Wanted::of(
+                    &if is_public { "varied_right".to_owned() } else { self.on_sides("varied_right") },
+                    VARIED_RIGHT,
+                    &outputs,
+                    "VARIED",
+                )
             },
             page,
         );
@@ -185,16 +172,18 @@ impl Writer<'_> {
             return;
         }
         let (has_jerk, has_varied) = (system.jerk().is_some(), self.equations.has_varied());
+        let has_forces = self.measures_hold_forces();
         let p = if self.equations.is_led { "&Way" } else { "&Params" };
         let given = [("q", "&Q", true), ("qd", "&Qd", true), ("qdd", "&Qdd", true), ("qddd", "&[f64; N]", has_jerk)];
-        let given =
-            given.into_iter().chain([("varied", "&[f64; VARIED]", has_varied), ("t", "f64", true), ("p", p, true)]);
+        let more = [(VARIED, "&[f64; VARIED]", has_varied), (MULTIPLIERS, "&[f64; N]", has_forces)];
+        let given = given.into_iter().chain(more).chain([("t", "f64", true), ("p", p, true)]);
         let arguments: Vec<(&str, &str)> =
             given.filter(|(.., is_given)| *is_given).map(|(name, of, _)| (name, of)).collect();
         let jerk = if has_jerk { ", and their third derivatives" } else { "" };
         let varied = if has_varied { ",\nand the derivatives of [`VARIED`]" } else { "" };
+        let forces = if has_forces { ",\nand the multipliers of [`needed`]" } else { "" };
         page.docs(&format!(
-            "The measures with their time derivatives, from the coordinates, their velocities and\naccelerations{jerk}{varied}."
+            "The measures with their time derivatives, from the coordinates, their velocities and\naccelerations{jerk}{varied}{forces}."
         ));
         page.function(&Head { kind, name: "measures", arguments: &arguments, result: "Measures" }, |page| {
             let names: Vec<&str> = arguments.iter().map(|(name, _)| *name).collect();
@@ -210,16 +199,16 @@ impl Writer<'_> {
             [&outputs.measures, &outputs.measures_d, &outputs.measures_dd].into_iter().flatten().copied().collect();
         self.equations.function(
             &Wanted {
-                name: "all_measures",
-                docs: "The measures, their rates and their accelerations, one behind the other.",
-                is_public: false,
                 orders: if has_jerk { 4 } else { 3 },
-                has_time: true,
                 varied: true,
-                outputs: &all,
-                length: &all.len().to_string(),
-                negated: false,
+                multipliers: has_forces,
                 given: Given::None,
+                ..Wanted::of(
+                    "all_measures",
+                    "The measures, their rates and their accelerations, one behind the other.",
+                    &all,
+                    &all.len().to_string(),
+                )
             },
             page,
         );

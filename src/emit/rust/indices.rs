@@ -43,6 +43,7 @@ impl Writer<'_> {
         self.pattern("pub ", "Row and column of each value that [`phi_q`] gives.", page);
         self.bodies(page);
         self.measure_indices(page);
+        self.force_indices(page);
     }
 
     /// Where the entries of the Jacobian stand.

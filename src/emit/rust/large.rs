@@ -21,13 +21,30 @@ impl Writer<'_> {
         let Some(solver): Option<&Solver> = solution.motion.sensitive.as_ref() else {
             return;
         };
-        self.uses("listed_slopes", "WithSlopes");
+        self.uses("listed_more", "WithMore");
         page.docs("As [`solve`], with the derivatives of the coordinates by parameters.");
         self.listed(solution, "solve_by_params", &[("by", "&mut [Q; PARAMS]")], page, |page| {
-            page.line(&format!("let mut all = WithSlopes {{ at, by, first: {} }};", solution.first_by_params()));
+            let first = solution.first_of_more();
+            page.line(&format!("let mut all = WithMore {{ at, more: by.as_flattened_mut(), first: {first} }};"));
             page.line("listed::solve::<Numbers, REGISTERS_BY_PARAMS>(&LISTING_BY_PARAMS, guess, &inputs, &mut all);");
         });
         solution.listing(solver, "_BY_PARAMS", book, page);
+    }
+
+    /// The same with what joints exert and drivers supply.
+    pub fn forced_solver_as_numbers(&self, solution: &Solution<'_>, book: &mut Book, page: &mut Page) {
+        let Some(solver): Option<&Solver> = solution.motion.forced.as_ref() else {
+            return;
+        };
+        self.uses("listed_more", "WithMore");
+        page.docs("As [`solve`], with what joints exert and drivers supply.");
+        self.listed(solution, "solve_with_forces", &[("forces", "&mut Forces")], page, |page| {
+            page.line(&format!("let mut all = WithMore {{ at, more: forces, first: {} }};", solution.first_of_more()));
+            page.line(
+                "listed::solve::<Numbers, REGISTERS_WITH_FORCES>(&LISTING_WITH_FORCES, guess, &inputs, &mut all);",
+            );
+        });
+        solution.listing(solver, "_WITH_FORCES", book, page);
     }
 
     /// A function that runs a listing.
@@ -63,7 +80,7 @@ impl Writer<'_> {
                 self.equations.uses.borrow_mut().file("way_list");
             }
             page.line(&format!(
-                "let inputs: Arrays<'_> = [{params}, {known}, {sides}, {time}, &[], &[], &[], &[], &[]];"
+                "let inputs: Arrays<'_> = [{params}, {known}, {sides}, {time}, &[], &[], &[], &[], &[], &[]];"
             ));
             run(page);
         });

@@ -2,6 +2,7 @@
 
 mod doors;
 mod following;
+mod forces;
 mod functions;
 mod indices;
 mod lanes;
@@ -133,6 +134,9 @@ impl Writer<'_> {
         }
         if self.unit.motion.is_some() {
             said.push("the motion: [`assemble`], then [`step`] from time to time".to_owned());
+        }
+        if self.unit.motion.as_ref().is_some_and(|motion| motion.forced.is_some()) {
+            said.push("the forces: [`forces`] of a state".to_owned());
         }
         if self.unit.following.is_some() {
             said.push("the motion by its inputs: [`follow`] from [`Inputs`] to others".to_owned());

@@ -4,13 +4,12 @@ use super::Writer;
 use crate::emit::equations::{Given, Wanted};
 use crate::emit::print::{Head, Page};
 use crate::emit::solution::Solution;
-use crate::expr::ExprId;
-use crate::layout::RowLayout;
+use crate::expr::{Dependence, ExprId};
 
 impl Writer<'_> {
     /// What follows the motion.
     pub fn motion(&self, solution: &Solution<'_>, page: &mut Page) {
-        let columns = RowLayout::new(self.unit.system).printed;
+        let columns = solution.columns();
         page.constant("Number of results at a time.", "pub const COLUMNS: usize", &columns.to_string());
         Self::times(solution, page);
         self.scales(solution, page);
@@ -20,6 +19,7 @@ impl Writer<'_> {
         self.rimmed(page);
         self.timed(solution, page);
         self.sensitivity(solution, page);
+        self.forces(solution, page);
     }
 
     /// What is solved, along time or signals.
@@ -151,7 +151,7 @@ impl Writer<'_> {
                 }
             });
             page.end_statement();
-            if self.equations.has_varied() {
+            if self.equations.has_varied() || self.measures_hold_forces() {
                 page.line("#[rustfmt::skip]");
                 page.list("const IS_VARIED: &'static [bool] = &[", &self.is_varied(), "];");
                 page.blank();
@@ -164,10 +164,13 @@ impl Writer<'_> {
         });
     }
 
-    /// Which of the measures, their rates and their accelerations hold derivatives by inputs and parameters.
+    /// Which of the measures, their rates and their accelerations hold derivatives by inputs and parameters, or forces.
     fn is_varied(&self) -> Vec<String> {
         let (graph, measures) = (self.unit.system.graph(), self.unit.system.measures());
-        let is_varied = |id: ExprId| graph.dependence(id).highest_varied_order().is_some().to_string();
+        let is_varied = |id: ExprId| {
+            let dependence = graph.dependence(id);
+            (dependence.highest_varied_order().is_some() || dependence.on(Dependence::FORCES)).to_string()
+        };
         let values = measures.iter().map(|measure| is_varied(measure.value));
         let rates = measures.iter().filter_map(|measure| measure.first.map(is_varied));
         let accelerations = measures.iter().filter_map(|measure| measure.second.map(is_varied));
@@ -182,16 +185,9 @@ impl Writer<'_> {
             page.constant(docs, "const KNOWN: usize", &registers.len().to_string());
             self.equations.function(
                 &Wanted {
-                    name: "known",
-                    docs: "What follows from the parameters alone.",
-                    is_public: false,
-                    orders: 0,
                     has_time: false,
-                    varied: false,
-                    outputs: &registers,
-                    length: "KNOWN",
-                    negated: false,
                     given: Given::None,
+                    ..Wanted::of("known", "What follows from the parameters alone.", &registers, "KNOWN")
                 },
                 page,
             );

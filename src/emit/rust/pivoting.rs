@@ -21,6 +21,7 @@ impl Writer<'_> {
             self.measures("fn", page);
             self.rights("signal", self.unit.program.outputs.by_signals(), "SIGNALS", page);
         }
+        self.transposed(tables, page);
         let has_varied = self.equations.has_varied();
         page.item("impl Pivoting for Model", |page| {
             page.line("type Work = [f64; WORK];");
@@ -48,6 +49,7 @@ impl Writer<'_> {
                 page.function(&head, |page| page.line(&format!("&{value}")));
             }
             self.right_sides(page);
+            self.pivoted_multipliers(page);
             self.measured_by(page);
         });
     }
@@ -76,7 +78,7 @@ impl Writer<'_> {
         }
     }
 
-    fn right_side(&self, page: &mut Page, name: &str, own: &[(&str, &str)], names: &[&str], result: &str) {
+    pub fn right_side(&self, page: &mut Page, name: &str, own: &[(&str, &str)], names: &[&str], result: &str) {
         let sides = if self.has_sides() { "sides" } else { "_sides" };
         let mut arguments = vec![("&self", "")];
         arguments.extend(own);
@@ -89,11 +91,13 @@ impl Writer<'_> {
     /// What is measured of the result.
     fn measured_by(&self, page: &mut Page) {
         let (has_measures, has_varied) = (!self.unit.system.measures().is_empty(), self.equations.has_varied());
+        let has_forces = self.measures_hold_forces();
         let has_jerk = self.unit.system.jerk().is_some();
         let varied = if has_varied { "&[f64; VARIED]" } else { "&[f64; 0]" };
         let head = |arguments, result| Head { kind: "fn", name: "measured", arguments, result };
         if !has_measures {
-            let arguments = [("&self", ""), ("_orders", "[&Q; 4]"), ("_varied", varied), ("_t", "f64")];
+            let arguments =
+                [("&self", ""), ("_orders", "[&Q; 4]"), ("_varied", varied), ("_multipliers", "&Q"), ("_t", "f64")];
             page.line(&format!(
                 "fn measured(&self, {}) {{}}\n",
                 arguments[1..].iter().map(|(name, of)| format!("{name}: {of}")).collect::<Vec<_>>().join(", ")
@@ -102,10 +106,12 @@ impl Writer<'_> {
         }
         let orders = if has_jerk { "[q, qd, qdd, qddd]" } else { "[q, qd, qdd, _]" };
         let name = if has_varied { "varied" } else { "_varied" };
-        let arguments = [("&self", ""), (orders, "[&Q; 4]"), (name, varied), ("t", "f64")];
+        let multipliers = if has_forces { "multipliers" } else { "_multipliers" };
+        let arguments = [("&self", ""), (orders, "[&Q; 4]"), (name, varied), (multipliers, "&Q"), ("t", "f64")];
         let mut own = vec!["q", "qd", "qdd"];
         own.extend(has_jerk.then_some("qddd"));
         own.extend(has_varied.then_some("varied"));
+        own.extend(has_forces.then_some("multipliers"));
         page.function(&head(&arguments, "Measures"), |page| page.line(&self.call("measures", &own, Given::None)));
     }
 
@@ -130,6 +136,11 @@ impl Writer<'_> {
         page.text(&constant("The blocks whose determinants change.", "TURNING", "usize", "TURNS", &turning));
         let docs = "Numbers that the elimination of the largest block works on.";
         page.constant(docs, "const WORK: usize", &format!("work_of({})", tables.largest()));
+        Self::table_of_blocks("EQUATIONS", "How the equations fall apart into blocks.", tables, page);
+    }
+
+    /// Blocks of equations, as a static of a name.
+    pub fn table_of_blocks(name: &str, docs: &str, tables: &BlockTables, page: &mut Page) {
         let whole = |values: &[usize]| values.iter().map(usize::to_string).collect::<Vec<String>>();
         let lists = [
             ("sizes", whole(&tables.sizes)),
@@ -140,9 +151,9 @@ impl Writer<'_> {
             ("places", whole(&tables.places)),
             ("units", tables.units.iter().copied().map(literal).collect()),
         ];
-        page.docs("How the equations fall apart into blocks.");
+        page.docs(docs);
         page.line("#[rustfmt::skip]");
-        page.block("static EQUATIONS: Blocks<'static> = Blocks", |page| {
+        page.block(&format!("static {name}: Blocks<'static> = Blocks"), |page| {
             for (name, values) in &lists {
                 page.list(&format!("{name}: &["), values, "],");
             }
@@ -168,16 +179,13 @@ impl Writer<'_> {
         });
         self.equations.function(
             &Wanted {
-                name: &name,
-                docs: &format!("The partial derivatives of the equations by each {by}, negated, one behind the other."),
-                is_public: false,
                 orders: 1,
-                has_time: true,
-                varied: false,
-                outputs: &all,
-                length: &format!("N * {count}"),
-                negated: false,
-                given: Given::All,
+                ..Wanted::of(
+                    &name,
+                    &format!("The partial derivatives of the equations by each {by}, negated, one behind the other."),
+                    &all,
+                    &format!("N * {count}"),
+                )
             },
             page,
         );

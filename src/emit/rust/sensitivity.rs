@@ -2,7 +2,7 @@
 
 use super::Writer;
 use super::indices::numbered;
-use crate::emit::equations::{Given, Wanted};
+use crate::emit::equations::Wanted;
 use crate::emit::names::Case;
 use crate::emit::print::{Head, Page};
 use crate::emit::solution::Solution;
@@ -96,18 +96,15 @@ impl Writer<'_> {
         let all: Vec<Register> = slopes.coordinates.iter().chain(lists.iter().flatten()).copied().collect();
         self.equations.function(
             &Wanted {
-                name: &format!("left_out_slopes_by_{by}"),
-                docs: &format!(
-                    "How the equations that were left out change with the coordinates, and then with each {by}."
-                ),
-                is_public: false,
                 orders: 1,
-                has_time: true,
-                varied: false,
-                outputs: &all,
-                length: &all.len().to_string(),
-                negated: false,
-                given: Given::All,
+                ..Wanted::of(
+                    &format!("left_out_slopes_by_{by}"),
+                    &format!(
+                        "How the equations that were left out change with the coordinates, and then with each {by}."
+                    ),
+                    &all,
+                    &all.len().to_string(),
+                )
             },
             page,
         );

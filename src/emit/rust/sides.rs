@@ -73,21 +73,7 @@ impl Writer<'_> {
     pub fn checks(&self, page: &mut Page) {
         let (outputs, watches) = (self.open_conditions(), &self.unit.program.outputs.watches);
         let mut function = |name: &str, docs: &str, outputs: &[Register], length: &str| {
-            self.equations.function(
-                &Wanted {
-                    name,
-                    docs,
-                    is_public: false,
-                    orders: 1,
-                    has_time: true,
-                    varied: false,
-                    outputs,
-                    length,
-                    negated: false,
-                    given: Given::All,
-                },
-                page,
-            );
+            self.equations.function(&Wanted { orders: 1, ..Wanted::of(name, docs, outputs, length) }, page);
         };
         if !outputs.is_empty() {
             let docs = "Distances, and places within intervals and tables: all must be positive.";
@@ -171,16 +157,13 @@ impl Writer<'_> {
         page.constant(docs, "const RIMS: usize", &self.rims().count().to_string());
         self.equations.function(
             &Wanted {
-                name: "rims_of_time",
-                docs: "Quantities that are zero where a formula of time may end, and then their slopes.",
-                is_public: false,
-                orders: 0,
-                has_time: true,
-                varied: false,
-                outputs: &outputs,
-                length: "2 * RIMS",
-                negated: false,
                 given: Given::None,
+                ..Wanted::of(
+                    "rims_of_time",
+                    "Quantities that are zero where a formula of time may end, and then their slopes.",
+                    &outputs,
+                    "2 * RIMS",
+                )
             },
             page,
         );
@@ -200,6 +183,5 @@ fn wanted_of_sides<'f>(
     outputs: &'f [Register],
     given: Given,
 ) -> Wanted<'f> {
-    let (is_public, has_time, varied, negated) = (false, true, false, false);
-    Wanted { name, docs, is_public, orders, has_time, varied, outputs, length: "SIDES", negated, given }
+    Wanted { orders, given, ..Wanted::of(name, docs, outputs, "SIDES") }
 }

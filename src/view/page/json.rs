@@ -3,7 +3,7 @@
 use super::places::Texts;
 use super::{Column, FORMAT, Page, Variant, columns};
 use crate::diag::Diagnostic;
-use crate::scene::{Anchor, Contact, Held, Node, Pen, Place, Scene, Touch, Trace};
+use crate::scene::{Anchor, Contact, ForceValue, ForceVector, Held, Node, Pen, Place, Scene, Touch, Trace};
 use crate::source::Source;
 use crate::view::path::data;
 use serde_json::{Map, Value, json};
@@ -195,7 +195,7 @@ pub(super) fn scene(scene: &Scene, texts: &Texts) -> Value {
     });
     // where nothing is finite the page makes an extent of its own
     let extent = if scene.extent.iter().flatten().all(|part| part.is_finite()) { scene.extent } else { [[0.0; 2]; 2] };
-    json!({
+    let mut all = json!({
         "unit": scene.unit,
         "extent": extent,
         "declarations": declarations.collect::<Vec<_>>(),
@@ -207,7 +207,11 @@ pub(super) fn scene(scene: &Scene, texts: &Texts) -> Value {
             json!({ "declaration": profile.declaration, "frame": profile.frame })
         }).collect::<Vec<_>>(),
         "contacts": scene.contacts.iter().map(contact).collect::<Vec<_>>(),
-    })
+    });
+    if let Some(object) = all.as_object_mut().filter(|_| !scene.forces.is_empty()) {
+        object.insert("forces".to_owned(), scene.forces.iter().map(force).collect());
+    }
+    all
 }
 
 /// Decimals of metres that give what is as large as a symbol so many digits.
@@ -221,18 +225,35 @@ fn decimals(unit: f64) -> usize {
     decimals
 }
 
+fn placed(anchor: &Anchor) -> Value {
+    json!([anchor.frame, anchor.at[0], anchor.at[1]])
+}
+
+fn force(force: &ForceVector) -> Value {
+    let mut all = json!({ "declaration": force.declaration, "kind": force.kind.word(), "at": placed(&force.at) });
+    let (name, value) = match &force.value {
+        ForceValue::Constant(force) => ("constant", json!(force)),
+        ForceValue::Components(columns) => ("columns", json!(columns)),
+        ForceValue::Along { column, frame, direction } => ("along", json!([column, frame, direction])),
+        ForceValue::Apart { column, from, to } => ("apart", json!([column, placed(from), placed(to)])),
+    };
+    if let Some(object) = all.as_object_mut() {
+        object.insert(name.to_owned(), value);
+    }
+    all
+}
+
 fn written_node(node: &Node, decimals: usize) -> Value {
-    let anchor = |anchor: &Anchor| json!([anchor.frame, anchor.at[0], anchor.at[1]]);
     let (name, place) = match &node.place {
         Place::Fixed(frame) => ("fixed", json!(frame)),
-        Place::Upright(at) => ("upright", anchor(at)),
+        Place::Upright(at) => ("upright", placed(at)),
         Place::Between { from, to, held } => {
             let held = match held {
                 Held::From => "from",
                 Held::To => "to",
                 Held::Stretched => "stretched",
             };
-            ("between", json!([anchor(from), anchor(to), held]))
+            ("between", json!([placed(from), placed(to), held]))
         }
     };
     let shapes =

@@ -145,6 +145,9 @@ impl Picture<'_> {
         if self.options.vectors {
             self.add_moving_vectors(motion);
         }
+        if self.options.forces {
+            self.add_moving_forces(motion);
+        }
         if self.options.labels {
             let some: Vec<&[Pose]> = motion.sampled(LABELLED_AT).map(|row| motion.poses(row)).collect();
             for label in self.labels(&some) {

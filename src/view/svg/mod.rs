@@ -4,6 +4,7 @@
 //! everything looks, in light and in dark. Coordinates are pixels.
 
 mod curves;
+mod forces;
 mod keyframes;
 mod labels;
 mod letters;
@@ -34,6 +35,7 @@ pub enum Theme {
 
 /// What a picture shows beside the mechanism.
 #[derive(Clone, Debug, Default)]
+#[allow(clippy::struct_excessive_bools)] // each is asked for by itself
 pub struct Options {
     /// Width and height in pixels; by the mechanism's extent if not given.
     pub size: Option<[f64; 2]>,
@@ -45,6 +47,8 @@ pub struct Options {
     pub traces: Vec<(String, Anchor)>,
     /// Velocities and accelerations at pins and traced points; of a body that has none of these at its points that have a name.
     pub vectors: bool,
+    /// What joints exert, loads and weights, where the motion's table tells of them.
+    pub forces: bool,
     /// The names of bodies and pins.
     pub labels: bool,
     /// Words below places (m).
@@ -64,6 +68,9 @@ pub fn still(scene: &Scene, motion: &Motion, moments: &Motion, options: &Options
     picture.add_traces(motion);
     if options.vectors && count > 0 {
         picture.add_vectors(moments, motion);
+    }
+    if options.forces && count > 0 {
+        picture.add_forces(moments, motion);
     }
     if count > 0 {
         picture.add_labels(moments.poses(count - 1));

@@ -10,6 +10,8 @@ use std::fmt::Write;
 /// Pixels around what is drawn, and around it with the labels beside it.
 const MARGIN: f64 = 14.0;
 const LABELLED_MARGIN: f64 = 34.0;
+/// The same where forces are drawn, whose arrows go beyond what they take hold of.
+const MARGIN_OF_FORCES: f64 = 90.0;
 /// How wide and how high a picture is at least and at most, unless its size is said.
 const WIDTHS: [f64; 2] = [320.0, 800.0];
 const HEIGHTS: [f64; 2] = [220.0, 760.0];
@@ -69,7 +71,11 @@ impl<'s> Picture<'s> {
         let [low, high] = with_traces(scene, motion, options);
         let extent = [high[0] - low[0], high[1] - low[1]].map(|side| side.max(4.0 * scene.unit));
         let is_labelled = options.labels || options.vectors || !scene.remarks.is_empty();
-        let margin = if is_labelled { LABELLED_MARGIN } else { MARGIN };
+        let margin = match is_labelled {
+            _ if options.forces && !scene.forces.is_empty() => MARGIN_OF_FORCES,
+            true => LABELLED_MARGIN,
+            false => MARGIN,
+        };
         let inner = |side: f64| (side - 2.0 * margin).max(0.2 * side);
         let largest = LARGEST_UNIT / scene.unit;
         let size = options.size.filter(|_| options.scale.is_none()).unwrap_or_else(|| {

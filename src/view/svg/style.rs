@@ -49,6 +49,9 @@ struct Palette {
     wrong: &'static str,
     velocity: &'static str,
     acceleration: &'static str,
+    reaction: &'static str,
+    load: &'static str,
+    weight: &'static str,
 }
 
 const LIGHT: Palette = Palette {
@@ -63,6 +66,9 @@ const LIGHT: Palette = Palette {
     wrong: "#c01c28",
     velocity: "#0a7d34",
     acceleration: "#c62828",
+    reaction: "#8e24aa",
+    load: "#c75000",
+    weight: "#5d6b78",
 };
 
 const DARK: Palette = Palette {
@@ -77,6 +83,9 @@ const DARK: Palette = Palette {
     wrong: "#ff7b7b",
     velocity: "#5bd98a",
     acceleration: "#ff7b72",
+    reaction: "#da8cff",
+    load: "#ffa24d",
+    weight: "#a9b6c2",
 };
 
 /// The rules for all that is used; `unit` is the size of symbols in pixels.
@@ -213,7 +222,13 @@ fn colors(used: &Used, palette: &Palette) -> String {
     for trace in &used.traces {
         rules += &format!(".t{trace}{{stroke:{}}}\n", palette.traces[trace % TRACE_COLORS]);
     }
-    for (word, color) in [("velocity", palette.velocity), ("acceleration", palette.acceleration)] {
+    for (word, color) in [
+        ("velocity", palette.velocity),
+        ("acceleration", palette.acceleration),
+        ("reaction", palette.reaction),
+        ("load", palette.load),
+        ("weight", palette.weight),
+    ] {
         if used.vectors.contains(word) {
             rules += &format!(".{word}{{stroke:{color};fill:{color}}}\n");
         }

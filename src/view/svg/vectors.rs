@@ -19,7 +19,7 @@ const LEGEND: f64 = 12.0;
 const LEGEND_ARROW: f64 = 26.0;
 
 /// Rows that are looked at for the longest arrow.
-const LOOKED_AT: usize = 200;
+pub(super) const LOOKED_AT: usize = 200;
 /// What is slower than this part of the fastest point is at rest.
 const AT_REST: f64 = 1e-9;
 
@@ -55,31 +55,30 @@ impl Picture<'_> {
                         [self.placed(motion.poses(row)[pin.frame].placed(pin.at)), [x, -y]]
                     })
                     .collect();
-                if ways.iter().all(|[_, way]| length(*way) < LEAST) {
-                    continue;
-                }
-                self.used.vectors.insert(word);
-                let turn = |way: Vector| direction(way).to_degrees();
-                let line =
-                    |[from, way]: &[Vector; 2]| Key { at: *from, turn: turn(*way), stretch: [length(*way), 1.0] };
-                let size = |way: Vector| (length(way) / FULL_HEAD_AT).min(1.0);
-                let head = |[from, way]: &[Vector; 2]| Key {
-                    at: plus(*from, *way),
-                    turn: turn(*way),
-                    stretch: [size(*way); 2],
-                };
-                let [long, wide] = HEAD;
-                let name = escaped(&pin.name).into_owned();
-                let lines = Track::of(ways.iter().map(line).collect(), &[[1.0, 0.0]], &motion.times, false);
-                let heads = Track::of(ways.iter().map(head).collect(), &[[-long, wide]], &motion.times, false);
-                for (track, d) in
-                    [(lines, "M0 0L1 0".to_owned()), (heads, format!("M0 0L{0} {wide}L{0} -{wide}Z", -long))]
-                {
-                    let attributes = self.add_track(&track);
-                    self.body +=
-                        &format!("<g{attributes}><path class=\"vector {word}\" data-name=\"{name}\" d=\"{d}\"/></g>\n");
-                }
+                self.add_moving_vector(word, &pin.name, &ways, &motion.times);
             }
+        }
+    }
+
+    /// An arrow at some times (s), by where it begins and its way: its line and its head are on tracks of their own.
+    pub(super) fn add_moving_vector(&mut self, word: &'static str, name: &str, ways: &[[Vector; 2]], times: &[f64]) {
+        if ways.iter().all(|[_, way]| length(*way) < LEAST) {
+            return;
+        }
+        self.used.vectors.insert(word);
+        let turn = |way: Vector| direction(way).to_degrees();
+        let line = |[from, way]: &[Vector; 2]| Key { at: *from, turn: turn(*way), stretch: [length(*way), 1.0] };
+        let size = |way: Vector| (length(way) / FULL_HEAD_AT).min(1.0);
+        let head =
+            |[from, way]: &[Vector; 2]| Key { at: plus(*from, *way), turn: turn(*way), stretch: [size(*way); 2] };
+        let [long, wide] = HEAD;
+        let name = escaped(name).into_owned();
+        let lines = Track::of(ways.iter().map(line).collect(), &[[1.0, 0.0]], times, false);
+        let heads = Track::of(ways.iter().map(head).collect(), &[[-long, wide]], times, false);
+        for (track, d) in [(lines, "M0 0L1 0".to_owned()), (heads, format!("M0 0L{0} {wide}L{0} -{wide}Z", -long))] {
+            let attributes = self.add_track(&track);
+            self.body +=
+                &format!("<g{attributes}><path class=\"vector {word}\" data-name=\"{name}\" d=\"{d}\"/></g>\n");
         }
     }
 
@@ -90,6 +89,17 @@ impl Picture<'_> {
             return None;
         }
         let (unit, line) = if word == "velocity" { ("m/s", 1.0) } else { ("m/s²", 0.0) };
+        self.add_legend(word, longest, unit, line);
+        Some(self.longest_arrow() / longest)
+    }
+
+    /// How long the longest arrow is (px).
+    pub(super) fn longest_arrow(&self) -> f64 {
+        LONGEST * self.room()[0].min(self.room()[1])
+    }
+
+    /// Tells how much the longest arrow of a kind is, so many lines above the last.
+    pub(super) fn add_legend(&mut self, word: &'static str, longest: f64, unit: &str, line: f64) {
         let size = self.letters();
         let [x, y] = [LEGEND, self.room()[1] - 0.6 * size - line * 1.3 * size];
         self.add_vector(word, word, [x, y - 0.35 * size], [LEGEND_ARROW, 0.0]);
@@ -100,7 +110,6 @@ impl Picture<'_> {
             number(y, PIXELS),
             three_digits(longest)
         );
-        Some(LONGEST * self.room()[0].min(self.room()[1]) / longest)
     }
 
     /// The points that have arrows.
@@ -123,7 +132,7 @@ impl Picture<'_> {
         points.into_iter().filter(|point| is_free(point)).collect()
     }
 
-    fn add_vector(&mut self, word: &'static str, name: &str, from: Vector, way: Vector) {
+    pub(super) fn add_vector(&mut self, word: &'static str, name: &str, from: Vector, way: Vector) {
         let far = length(way);
         if far < LEAST {
             return;

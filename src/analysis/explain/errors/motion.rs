@@ -4,7 +4,7 @@ use super::{at, ceases_to_hold, in_units, named_all, no_contact, short, with_pla
 use crate::analysis::state::{Fault, Unknown};
 use crate::diag::{Code, Diagnostic};
 use crate::expr::TableId;
-use crate::ir::{ConditionKind, ConstraintSystem, DeclarationId, DeclarationKind, JointKind};
+use crate::ir::{ConditionKind, ConstraintSystem, DeclarationId, DeclarationKind, JointKind, LoadForce};
 
 /// Columns that one message names at most.
 const MOST_COLUMNS: usize = 12;
@@ -27,6 +27,23 @@ pub fn formula_not_finite(system: &ConstraintSystem, declarations: &[Declaration
     let named = named_all(system, declarations);
     let message = format!("the formula of {named} or a derivative of it is not finite at {}", at(t));
     with_places(Diagnostic::new(Code::E0605, message), system, declarations, ["infinite or not a number"; 2])
+        .datum("t", t)
+}
+
+/// A load that has no value.
+pub fn load_not_finite(load: &LoadForce, t: f64) -> Diagnostic {
+    Diagnostic::new(Code::E0605, format!("load `{}` is not finite at {}", load.name, at(t)))
+        .at(load.span, "infinite or not a number")
+        .datum("t", t)
+}
+
+/// A warning that a contact would have to pull with a force (N, below zero), at `t` (s) for the first time.
+pub fn contact_pulls(system: &ConstraintSystem, contact: DeclarationId, force: f64, t: f64) -> Diagnostic {
+    let declaration = &system.declarations()[contact];
+    Diagnostic::new(Code::W0604, format!("contact `{}` would have to pull at {}", declaration.name, at(t)))
+        .at(declaration.span, format!("its bodies would part, unless they are held together by {} N", short(-force)))
+        .help("press them together: a spring is a load on a distance or displacement, as in `load spring: -k * K on K`")
+        .help("where a groove or a lid holds the follower on both sides nothing is wrong")
         .datum("t", t)
 }
 

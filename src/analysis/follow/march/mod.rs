@@ -14,7 +14,7 @@ use super::bookmark::Bookmark;
 use super::crossing::{Crossing, is_clear};
 use super::edges::{Edge, Edges};
 use super::remarks::Remarks;
-use super::rows::{Leap, Place, Rows};
+use super::rows::{ForceWatch, Leap, Place, Rows};
 use super::step::{Accepted, Step, keep_away};
 use crate::analysis::assemble::Started;
 use crate::analysis::explain::singular;
@@ -32,6 +32,8 @@ pub struct Follower {
     edges: Edges,
     crossing: Crossing,
     rows: Rows,
+    /// None where there are no contacts and loads, or nobody asks for forces.
+    forces: Option<ForceWatch>,
     remarks: Remarks,
     /// Whether derivatives at the start are known.
     begun: bool,
@@ -59,12 +61,13 @@ impl Follower {
         let span = if times.span() > 0.0 { times.span() } else { 1.0 };
         let edges = Edges::new(&mut kinematics, &state, span, last);
         let crossing = Crossing::new(&state, span, last);
+        let forces = ForceWatch::of(&kinematics, &state);
         let step = Step::new(&kinematics, state, times.span());
         let origin = || Bookmark::new(&step, &edges, &crossing);
         let leap = solver.map(|solver| Leap::new(&kinematics, solver, origin(), span));
         let rows = Rows::new(&kinematics, leap, times);
         let remarks = Remarks::new(kinematics.system());
-        Follower { kinematics, step, edges, crossing, rows, remarks, begun: false, edge: None, span, last }
+        Follower { kinematics, step, edges, crossing, rows, forces, remarks, begun: false, edge: None, span, last }
     }
 
     /// Goes on beyond bifurcations, along the branch that continues smoothly, with a remark each time.
@@ -104,6 +107,11 @@ impl Follower {
                 return if self.kinematics.is_cancelled() { None } else { Some(Err(why)) };
             }
         };
+        let Follower { forces, rows, remarks, .. } = self;
+        if let Some(Err(why)) = forces.as_mut().map(|forces| forces.look(rows.row(place), remarks)) {
+            rows.stop();
+            return Some(Err(why));
+        }
         self.rows.count_row();
         if self.rows.row(place).iter().any(|value| !value.is_finite()) {
             self.rows.leave_out_measures(&self.kinematics, place, t);

@@ -1,5 +1,6 @@
 //! A row for each output time: which one comes next, what it holds, and what it is worth.
 
+mod forces;
 mod leap;
 mod missing;
 
@@ -8,6 +9,7 @@ use super::edges::Edge;
 use super::remarks::Remarks;
 use crate::analysis::state::{Kinematics, State, Times, Trust, shortly_after};
 use crate::tolerances::steps::march::MOST_STEPS;
+pub use forces::ForceWatch;
 pub use leap::{Leap, state_of_row};
 use missing::Missing;
 

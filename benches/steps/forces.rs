@@ -1,0 +1,69 @@
+//! What forces cost beside position, velocity and acceleration: the same mechanisms with masses and gravity, with and without
+//! `--reactions`, in turns.
+
+use crate::mechanisms;
+use crate::timing::{median, per_step};
+use mechc::{Cancel, Choice, Compiled, Memory, Parsed, Redundant, RunOptions, Times};
+use std::hint::black_box;
+
+/// Output times of a turn, both ends counted.
+const STEPS: u32 = 201;
+
+/// Every body of a text with a mass off its origin, and gravity.
+fn heavy(text: &str) -> String {
+    let mut heavy = String::new();
+    for line in text.lines() {
+        match line.strip_suffix('}').filter(|_| line.trim_start().starts_with("body ")) {
+            Some(open) => heavy += &format!("{open} mass 2 at (0.3, 0.1) inertia 0.2 }}\n"),
+            None => heavy += &format!("{line}\n"),
+        }
+    }
+    heavy.replacen("{\n", "{\n    gravity (0, -9.81)\n", 1)
+}
+
+fn compile(text: &str, reactions: bool) -> Compiled {
+    let checked = Parsed::of("bench.mech", text).check(&Choice { reactions, ..Choice::default() }, &Memory::default());
+    let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
+    assert!(compiled.is_some(), "{:?} {diagnostics:?}", checked.diagnostics());
+    compiled.expect("it is determined")
+}
+
+/// ns a row.
+fn rows(compiled: &Compiled, rounds: usize) -> f64 {
+    let [from, to, _] = compiled.analysis().expect("an analysis");
+    let times = Times::grid(from, to, (to - from) / f64::from(STEPS - 1)).expect("a grid");
+    median(rounds, || {
+        let mut motion = compiled.run(&times, &RunOptions::default()).0.expect("it assembles");
+        per_step(STEPS, || {
+            while let Some(row) = motion.next_row() {
+                black_box(row.expect("it moves"));
+            }
+        })
+    })
+}
+
+/// Prints the table.
+pub fn forces() {
+    println!("forces: all reactions and efforts, beside position, velocity and acceleration");
+    println!("  {:<28} {:>12} {:>12} {:>8}", "", "motion", "forces", "ratio");
+    let mut per_row = Vec::new();
+    for (name, text) in [
+        ("four-bar", mechanisms::four_bars(1)),
+        ("1,000 bodies: scissor lift", mechanisms::scissor_lift(500)),
+        ("10,000 bodies: scissor lift", mechanisms::scissor_lift(5_000)),
+        ("999 bodies: four-bars", mechanisms::four_bars(333)),
+        ("9,999 bodies: four-bars", mechanisms::four_bars(3_333)),
+    ] {
+        let rounds = if text.len() > 200_000 { 3 } else { 9 };
+        let text = heavy(&text);
+        let motion = rows(&compile(&text, false), rounds);
+        let forces = rows(&compile(&text, true), rounds) - motion;
+        per_row.push(forces);
+        println!("  {name:<28} {motion:>9.0} ns {forces:>9.0} ns {:>6.2} x", forces / motion);
+    }
+    println!(
+        "  ten times the lift takes {:.1} times as long, ten times the four-bars {:.1}\n",
+        per_row[2] / per_row[1],
+        per_row[4] / per_row[3]
+    );
+}

@@ -1,0 +1,65 @@
+//! Forces as arrows, all to one scale.
+
+use super::picture::Picture;
+use super::vectors::LOOKED_AT;
+use crate::scene::{ForceKind, ForceVector, Motion, Vector, length, times};
+
+/// How long the longest arrow is, as a part of that of a velocity: forces may point away from all that is drawn.
+const LONGEST: f64 = 0.8;
+/// From this force on it is told in kilonewtons (N).
+const KILO: f64 = 1e4;
+
+impl Picture<'_> {
+    /// At the last of some moments.
+    pub fn add_forces(&mut self, moments: &Motion, motion: &Motion) {
+        let Some(scale) = self.scaled_forces([moments, motion]) else { return };
+        let (scene, row) = (self.scene, moments.len() - 1);
+        for force in &scene.forces {
+            let [from, way] = self.arrow(force, moments, row, scale);
+            self.add_vector(force.kind.word(), &scene.declarations[force.declaration].name, from, way);
+        }
+    }
+
+    /// At all times.
+    pub fn add_moving_forces(&mut self, motion: &Motion) {
+        let Some(scale) = self.scaled_forces([motion, motion]) else { return };
+        let scene = self.scene;
+        for force in &scene.forces {
+            let ways: Vec<[Vector; 2]> = (0..motion.len()).map(|row| self.arrow(force, motion, row, scale)).collect();
+            let name = &scene.declarations[force.declaration].name;
+            self.add_moving_vector(force.kind.word(), name, &ways, &motion.times);
+        }
+    }
+
+    /// Where an arrow begins, and its way (px); none where the table does not tell the force.
+    fn arrow(&self, force: &ForceVector, motion: &Motion, row: usize, scale: f64) -> [Vector; 2] {
+        let [x, y] = times(scale, force.value(motion, row));
+        let way = if x.is_finite() && y.is_finite() { [x, -y] } else { [0.0; 2] };
+        [self.placed(force.at.placed(motion.poses(row))), way]
+    }
+
+    /// Pixels of a newton, by the largest force of two motions; the legend tells how large those of each kind are. Nothing where there are
+    /// none.
+    fn scaled_forces(&mut self, motions: [&Motion; 2]) -> Option<f64> {
+        let scene = self.scene;
+        let largest = |kind: ForceKind| {
+            let rows =
+                || motions.into_iter().flat_map(|motion| motion.sampled(LOOKED_AT).map(move |row| (motion, row)));
+            let forces = scene.forces.iter().filter(|force| force.kind == kind);
+            let sizes = forces.flat_map(|force| rows().map(|(motion, row)| length(force.value(motion, row))));
+            sizes.filter(|size| size.is_finite()).fold(0.0, f64::max)
+        };
+        let all = ForceKind::ALL.map(|kind| (kind, largest(kind)));
+        let longest = all.iter().map(|(_, largest)| *largest).fold(0.0, f64::max);
+        if longest <= 0.0 {
+            return None;
+        }
+        let mut line = if self.options.vectors { 2.0 } else { 0.0 };
+        for (kind, largest) in all.into_iter().rev().filter(|(_, largest)| *largest > 0.0) {
+            let (value, unit) = if longest >= KILO { (largest / 1e3, "kN") } else { (largest, "N") };
+            self.add_legend(kind.word(), value, unit, line);
+            line += 1.0;
+        }
+        Some(LONGEST * self.longest_arrow() / longest)
+    }
+}
