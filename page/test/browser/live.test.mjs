@@ -366,6 +366,11 @@ test("nothing is in the way of who reads with ears, in the dark or on a narrow s
         await page.evaluate(() => mechc.seek(0).then(() => mechc.set("turn", 3)));
         await page.waitForSelector(".stopped:not([hidden])");
         await holds();
+        // what is said does not lie over what is turned, or can be scrolled from it; a slider has a way to go
+        await page.locator('[data-param="C.y"]').evaluate((slider) => slider.scrollIntoView({ block: "center" }));
+        const [said, slider] = [await page.locator(".said").boundingBox(), await page.locator('[data-param="C.y"]').boundingBox()];
+        assert.ok(slider.width > 150, `${slider.width} px`);
+        assert.ok(slider.x + slider.width <= said.x || slider.y + slider.height <= said.y, JSON.stringify([said, slider]));
         server.save(ROCKING.replace(linkage, "joint right: revolute(coupler.B, rocker.Z)"));
         await page.waitForSelector(".broken:not([hidden])");
         await holds();
