@@ -12,6 +12,7 @@ mod answer;
 mod asked;
 mod edit;
 mod guard;
+mod host;
 mod http;
 pub mod page;
 mod server;
@@ -20,5 +21,6 @@ mod solved;
 mod workshop;
 
 pub use asked::{Question, Write};
+pub use host::Host;
 pub use server::{Server, Serving};
-pub use workshop::{Host, Workshop};
+pub use workshop::Workshop;

@@ -1,7 +1,7 @@
 //! A mechanism as a page asks for it: checked, proven, assembled, followed.
 
+use super::host::Host;
 use super::shelf::Shelf;
-use super::workshop::Host;
 use crate::analysis::Times;
 use crate::cancel::Cancel;
 use crate::diag::{Code, Color, Diagnostic, Diagnostics, Format, render};

@@ -3,14 +3,14 @@
 use super::answer::framed;
 use super::asked::{Jogged, Question, Write};
 use super::edit::{Edited, edited};
+use super::host::Host;
 use super::page;
 use super::shelf::Shelf;
 use super::solved::{Solved, Solver};
-use crate::analysis::Times;
 use crate::cancel::Cancel;
 use crate::diag::Diagnostics;
 use crate::source::Sources;
-use crate::stages::{Choice, Compiled, Knob, Parsed, Redundant};
+use crate::stages::{Choice, Knob, Parsed, Redundant};
 use crate::world::World;
 use rustc_hash::FxHashMap;
 use serde_json::{Value, json};
@@ -20,29 +20,6 @@ use std::time::Duration;
 
 /// Pages whose questions are remembered; one that is forgotten is only not interrupted.
 const MOST_PAGES: usize = 64;
-
-/// Whoever has a workshop: a command, an editor.
-pub trait Host: Send + Sync {
-    /// The files.
-    fn world(&self) -> Arc<dyn World>;
-
-    /// The times of a mechanism.
-    ///
-    /// # Errors
-    /// They cannot be told.
-    fn times(&self, compiled: &Compiled, sources: &mut Sources) -> Result<Times, Diagnostics>;
-
-    /// Puts a text in the place of the one that the file has.
-    ///
-    /// # Errors
-    /// Why it cannot be written, in words.
-    fn write(&self, text: &str) -> Result<(), String>;
-
-    /// Shows a place of the file (UTF-16), where there is something to show it in.
-    fn show(&self, at: u32) {
-        let _ = at;
-    }
-}
 
 /// What is made of a file.
 pub struct Workshop {

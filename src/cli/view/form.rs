@@ -27,7 +27,7 @@ const OPTIONS: [Said; 10] = [
     ("--at", |asked| !asked.at.is_empty(), &[Form::Page, Form::Picture, Form::Dxf]),
     ("--trace", |asked| !asked.trace.is_empty(), &[Form::Page, Form::Picture, Form::Dxf]),
     ("--vectors", |asked| asked.vectors, &[Form::Page, Form::Picture, Form::Dxf]),
-    ("--forces", |asked| asked.forces, &[Form::Page, Form::Picture, Form::Dxf]),
+    ("--forces", |asked| asked.forces, &[Form::Page, Form::Picture, Form::Plots, Form::Dxf]),
     ("--labels", |asked| asked.labels, &[Form::Page, Form::Picture, Form::Dxf]),
     ("--size", |asked| asked.size.is_some(), &[Form::Page, Form::Picture, Form::Plots, Form::Dxf]),
     ("--scale", |asked| asked.scale.is_some(), &[Form::Picture, Form::Dxf]),
