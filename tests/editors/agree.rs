@@ -127,6 +127,7 @@ fn every_snippet_follows_the_grammar() {
         let text = match name.as_str() {
             "mechanism" | "fourbar" => body,
             "if" => format!("mechanism a {{ param b = {body} }}"),
+            "mass" => format!("mechanism a {{ body b {{ {body} }} }}"),
             _ => format!("mechanism a {{ {body} }}"),
         };
         let parsed = Parsed::of(name, &text);
