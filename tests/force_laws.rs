@@ -2,6 +2,8 @@
 //! body, the balance of power, what statics says of potential energy; and that forces do not depend on how a mechanism is written down.
 
 #![allow(clippy::expect_used, clippy::panic)] // a test fails by panicking
+#![allow(clippy::format_collect)] // texts are short
+#![allow(clippy::disallowed_methods)] // what is compared to a tolerance needs no bits of its own
 
 mod support;
 

@@ -61,8 +61,13 @@ impl Forces {
                 masses.push(Mass { frame, amount: random.between(0.1, 4.0), at, inertia });
             }
         }
-        let loads = of.quantities.iter().filter_map(|&on| (random.below(2) == 0).then(|| Load::random(on, random)));
-        Forces { loads: loads.collect(), masses, gravity: [random.between(-3.0, 3.0), random.between(-10.0, 10.0)] }
+        let mut loads = Vec::new();
+        for &on in of.quantities {
+            if random.below(2) == 0 {
+                loads.push(Load::random(on, random));
+            }
+        }
+        Forces { loads, masses, gravity: [random.between(-3.0, 3.0), random.between(-10.0, 10.0)] }
     }
 
     /// Those that potential energy is known of.

@@ -144,7 +144,7 @@ impl<'r> Reader<'r> {
         } else if self.takes(r"\le ") {
             f64::from(value <= self.sum())
         } else if self.takes("=") {
-            f64::from(value == self.sum())
+            f64::from(value.total_cmp(&self.sum()).is_eq())
         } else {
             value
         }

@@ -142,8 +142,12 @@ impl Writer<'_> {
 /// A module of numbers by names: what each is of, and its name.
 pub(super) fn numbered<'n>(page: &mut Page, docs: &str, module: &str, all: impl Iterator<Item = (String, &'n String)>) {
     page.docs(docs);
+    let mut all = all.enumerate().peekable();
+    if all.peek().is_none() {
+        return page.line(&format!("pub mod {module} {{}}\n"));
+    }
     page.item(&format!("pub mod {module}"), |page| {
-        for (k, (docs, name)) in all.enumerate() {
+        for (k, (docs, name)) in all {
             page.docs(&docs);
             page.line(&format!("pub const {name}: usize = {k};"));
         }
