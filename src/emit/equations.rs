@@ -67,6 +67,9 @@ pub(super) enum Given {
     All,
 }
 
+/// A formatter sets wider ones in a column.
+const WIDEST_ARRAY: usize = 56;
+
 /// The arrays of the coordinates and their derivatives.
 pub(super) const ARRAYS: [&str; 4] = ["q", "qd", "qdd", "qddd"];
 const OF_ARRAYS: [Arguments; 4] = [&["q"], &["qd"], &["qdd"], &["qddd"]];
@@ -171,8 +174,12 @@ impl Equations<'_> {
         let kind = if wanted.is_public { "pub fn" } else { "fn" };
         let result = format!("[f64; {}]", wanted.length);
         page.docs(&format!("{}\n\n{count} operations, in [`{name}_CODE`].", wanted.docs));
+        let lists = lists.join(", ");
+        if lists.len() > WIDEST_ARRAY {
+            page.line("#[rustfmt::skip]");
+        }
         page.function(&Head { kind, name: wanted.name, arguments: &types, result: &result }, |page| {
-            page.line(&format!("let inputs: Arrays<'_> = [{}];", lists.join(", ")));
+            page.line(&format!("let inputs: Arrays<'_> = [{lists}];"));
             page.line(&format!("let mut out = [0.0; {}];", wanted.length));
             page.line(&format!("let mut v = [0.0; {}];", shared.registers));
             page.line(&format!("run::<Numbers>(&{name}_CODE, &[], &inputs, &mut v, &mut out);"));
