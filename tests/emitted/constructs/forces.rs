@@ -127,15 +127,13 @@ pub mod measure {
 pub const MEASURES: usize = 1;
 
 /// Where the first time derivative of each measure that has one stands among the rates.
-pub mod measure_rate {
-}
+pub mod measure_rate {}
 
 /// How many they are.
 pub const RATES: usize = 0;
 
 /// Where the second time derivative of each measure that has one stands among the accelerations.
-pub mod measure_acceleration {
-}
+pub mod measure_acceleration {}
 
 /// How many they are.
 pub const ACCELERATIONS: usize = 0;
