@@ -39,8 +39,10 @@ pub struct LoadForce {
 pub struct Press {
     /// The contact.
     pub declaration: DeclarationId,
-    /// The normal force (N); below zero where it pulls.
+    /// The normal force (N); below zero where it pulls. Where it is not known which side the bodies are on, to the left of the tangent.
     pub force: ExprId,
+    /// Whether that is known.
+    pub is_sided: bool,
 }
 
 /// A column of what a joint exerts, or of what a constraint or driver supplies; in pictures of what a load is, too.
