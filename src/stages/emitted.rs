@@ -94,8 +94,9 @@ impl Compiled {
     /// # Errors
     /// A measure holds a derivative by an input or parameter, which only `run` and Rust code compute.
     pub(crate) fn has_no_variations(&self) -> Result<(), Box<Diagnostic>> {
+        self.has_no_varied_forces()?;
         let system = self.system();
-        let is_varied = |id| system.graph().dependence(id).highest_varied_order().is_some();
+        let is_varied = |id| system.graph().dependence(id).is_varied();
         match system.measures().iter().find(|measure| is_varied(measure.value)) {
             None => Ok(()),
             Some(measure) => {
