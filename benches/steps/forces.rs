@@ -3,7 +3,7 @@
 
 use crate::mechanisms;
 use crate::timing::{median, per_step};
-use mechc::{Cancel, Choice, Compiled, Memory, Parsed, Redundant, RunOptions, Times};
+use mechc::{Choice, Compiled, RunOptions, Times};
 use std::hint::black_box;
 
 /// Output times of a turn, both ends counted.
@@ -22,10 +22,7 @@ fn heavy(text: &str) -> String {
 }
 
 fn compile(text: &str, reactions: bool) -> Compiled {
-    let checked = Parsed::of("bench.mech", text).check(&Choice { reactions, ..Choice::default() }, &Memory::default());
-    let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
-    assert!(compiled.is_some(), "{:?} {diagnostics:?}", checked.diagnostics());
-    compiled.expect("it is determined")
+    mechanisms::compile_as(text, &Choice { reactions, ..Choice::default() })
 }
 
 /// ns a row.

@@ -4,7 +4,12 @@ pub use crate::copies::four_bars;
 use mechc::{Cancel, Choice, Compiled, Memory, Parsed, Redundant};
 
 pub fn compile(text: &str) -> Compiled {
-    let checked = Parsed::of("bench.mech", text).check(&Choice::default(), &Memory::default());
+    compile_as(text, &Choice::default())
+}
+
+/// The same with what is chosen.
+pub fn compile_as(text: &str, choice: &Choice) -> Compiled {
+    let checked = Parsed::of("bench.mech", text).check(choice, &Memory::default());
     let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
     assert!(compiled.is_some(), "{:?} {diagnostics:?}", checked.diagnostics());
     compiled.expect("it is determined")

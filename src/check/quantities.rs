@@ -161,21 +161,17 @@ impl Checker<'_> {
     /// A joint of the kind that has the quantity.
     fn joint_with(&mut self, quantity: &str, e: &Expr) -> Option<JointId> {
         let (joint, name) = self.joint_named(quantity, e)?;
-        let kind = self.model[joint].kind;
-        let (fits, wanted) = match quantity {
-            "rotation" => (matches!(kind, JointKind::Revolute(..)), "revolute"),
-            "pressure_angle" | "slip" => {
-                let has_contact =
-                    matches!(kind, JointKind::PointFollower(..) | JointKind::Cam(..) | JointKind::FlatFollower(..));
-                (has_contact, "`point_follower`, `cam` and `flat_follower`")
-            }
-            _ => (matches!(kind, JointKind::Translational(..)), "translational"),
-        };
-        if fits {
+        let kind = self.model[joint].kind.plain();
+        if kind.has_quantity(quantity) {
             return Some(joint);
         }
+        let wanted = match quantity {
+            "rotation" => "revolute",
+            "displacement" => "translational",
+            _ => "`point_follower`, `cam` and `flat_follower`",
+        };
         let declared = self.model[joint].declared.clone();
-        self.report(errors::joint_without(quantity, wanted, &declared.name, kind.word(), name.span, declared.span));
+        self.report(errors::joint_without(quantity, wanted, &declared.name, kind, name.span, declared.span));
         None
     }
 

@@ -1,4 +1,4 @@
-//! `mechc emit`: the mechanism as Rust, a module or a whole crate, its constraint system as LaTeX or JSON.
+//! `mechc emit`: the mechanism as Rust, a module or a whole crate, with a header for C on request; its constraint system as LaTeX or JSON.
 
 use super::arguments::{Content, EmitArguments, EmitFormat};
 use super::endings;

@@ -58,6 +58,18 @@ pub struct Unit<'u> {
     pub following: Option<Following<'u>>,
 }
 
+impl Unit<'_> {
+    /// Whether it gives what joints exert and drivers supply.
+    fn has_forces(&self) -> bool {
+        self.motion.as_ref().is_some_and(|motion| motion.forced.is_some())
+    }
+
+    /// Whether it gives the derivatives of the coordinates by parameters.
+    fn has_sensitivity(&self) -> bool {
+        self.motion.as_ref().is_some_and(|motion| motion.sensitive.is_some())
+    }
+}
+
 /// A mechanism once more, with its inputs as signals.
 pub struct Following<'u> {
     /// Its system, in which they are signals; the program holds no operation that says what they are by the text.

@@ -7,7 +7,7 @@ use super::errors::ERRORS;
 use super::names::{Case, Namer, is_keyword};
 use super::params::Params;
 use super::rust;
-use super::text::{lines, literal, one_line};
+use super::text::{lines, literal, one_line, unit};
 use super::{Unit, c};
 use crate::ir::Measure;
 use std::fmt::Display;
@@ -170,11 +170,7 @@ impl Writer<'_> {
     fn test(&self) -> String {
         let Reference { columns, rows, .. } = self.reference;
         let names: Vec<String> = columns.iter().map(|name| format!("{name:?}")).collect();
-        let row = |row: &Vec<f64>| {
-            let values: Vec<String> = row.iter().copied().map(literal).collect();
-            format!("    [\n{}    ],\n", lines(&values, "    "))
-        };
-        let (has_inputs, has_forces) = (self.unit.following.is_some(), self.has_forces());
+        let (has_inputs, has_forces) = (self.unit.following.is_some(), self.unit.has_forces());
         let uses = [if has_forces { "FORCES, " } else { "" }, if has_inputs { "Inputs, " } else { "" }].concat();
         let more = [if has_inputs { ", follow" } else { "" }, if has_forces { ", forces" } else { "" }].concat();
         format!(
@@ -187,7 +183,7 @@ impl Writer<'_> {
             follow = self.follows() + &self.exerts(),
             names = lines(&names, ""),
             count = rows.len(),
-            rows = rows.iter().map(row).collect::<String>(),
+            rows = rows.iter().map(|row| array(row)).collect::<String>(),
         )
     }
 
@@ -201,18 +197,14 @@ impl Writer<'_> {
 
     /// What holds `forces` against what `run` says; nothing where there are none.
     fn exerts(&self) -> String {
-        if !self.has_forces() {
+        if !self.unit.has_forces() {
             return String::new();
         }
-        let row = |row: &Vec<f64>| {
-            let values: Vec<String> = row.iter().copied().map(literal).collect();
-            format!("    [\n{}    ],\n", lines(&values, "    "))
-        };
         format!(
             include_str!("package/exerts.rs.txt"),
             params = self.params(),
             count = self.reference.forces.len(),
-            rows = self.reference.forces.iter().map(row).collect::<String>(),
+            rows = self.reference.forces.iter().map(|row| array(row)).collect::<String>(),
         )
     }
 
@@ -318,10 +310,10 @@ impl Writer<'_> {
             text += "| `Inputs::at(t, &params)`, `state.inputs()` | what the text's formulas say at a time; where a state is |\n";
             text += "| `influence(&state)` | the derivatives of the coordinates by each input, by the numbers in `input` |\n";
         }
-        if self.unit.motion.as_ref().is_some_and(|motion| motion.sensitive.is_some()) {
+        if self.unit.has_sensitivity() {
             text += "| `sensitivity(&params, &state)` | those by each parameter, by the numbers in `param` |\n";
         }
-        if self.has_forces() {
+        if self.unit.has_forces() {
             text += "| `forces(&state)` | what joints exert and drivers supply, by the numbers in `force`; `NAN` close to a singular position |\n";
             text +=
                 "| `needed`, `exerted` | what the multipliers of the equations have to hold, and what they exert |\n";
@@ -341,7 +333,7 @@ impl Writer<'_> {
         };
         let names = Params::new(self.unit.system).paths;
         let rows = params.iter().zip(&names).map(|(param, name)| {
-            [format!("`{name}`"), format!("`{}`", param.name), unit(&param.unit()), literal(param.value)]
+            [format!("`{name}`"), format!("`{}`", param.name), unit(&param.unit()).to_owned(), literal(param.value)]
         });
         let rows: String = rows.map(|cells| line(&cells)).collect();
         let (field, value) = (&names[0], literal(first.value));
@@ -366,7 +358,9 @@ impl Writer<'_> {
         let rows: String = inputs
             .iter()
             .zip(names)
-            .map(|(input, name)| line(&[format!("`{name}`"), format!("`{}`", input.name), unit(&input.unit)]))
+            .map(|(input, name)| {
+                line(&[format!("`{name}`"), format!("`{}`", input.name), unit(&input.unit).to_owned()])
+            })
             .collect();
         format!("\n## Inputs\n\n{INPUTS}\n| field of `Inputs` | input | unit |\n| --- | --- | --- |\n{rows}")
     }
@@ -390,24 +384,20 @@ impl Writer<'_> {
         let names = Case::Constant.names(coordinates.iter().map(|coordinate| coordinate.name.as_str()));
         let rows = coordinates.iter().zip(names).map(|(coordinate, name)| {
             let index = format!("`coordinate::{name}`");
-            [index, format!("`{}`", coordinate.name), unit(coordinate.kind.unit())]
+            [index, format!("`{}`", coordinate.name), unit(coordinate.kind.unit()).to_owned()]
         });
         rows.map(|cells| line(&cells)).collect()
     }
 
-    fn has_forces(&self) -> bool {
-        self.unit.motion.as_ref().is_some_and(|motion| motion.forced.is_some())
-    }
-
     fn forces(&self) -> String {
-        if !self.has_forces() {
+        if !self.unit.has_forces() {
             return String::new();
         }
         let reactions = self.unit.system.reactions();
         let names = Case::Constant.names(reactions.iter().map(|of| of.name.as_str()));
         let rows = reactions.iter().zip(names);
         let rows: String = rows
-            .map(|(of, name)| line(&[format!("`force::{name}`"), format!("`{}`", of.name), unit(&of.unit)]))
+            .map(|(of, name)| line(&[format!("`force::{name}`"), format!("`{}`", of.name), unit(&of.unit).to_owned()]))
             .collect();
         format!(
             "## Forces\n\nWhat `forces(&state)` gives, by these indices: what joints exert on their second bodies, and what drivers and \
@@ -433,7 +423,8 @@ impl Writer<'_> {
         let mut rows = String::new();
         for (k, measure) in measures.iter().enumerate() {
             let [value, rate, acceleration] = [&values, &rates, &accelerations].map(|list| list[k].clone());
-            rows += &line(&[format!("`{}`", measure.name), unit(&measure.units.si), value, rate, acceleration]);
+            rows +=
+                &line(&[format!("`{}`", measure.name), unit(&measure.units.si).to_owned(), value, rate, acceleration]);
         }
         format!(
             "## Measures\n\n`values`, `rates` and `accelerations` of `state.measures()`, by these indices. They are in SI, whatever \
@@ -448,9 +439,10 @@ fn in_prose(message: &str) -> String {
     message.split('`').map(one_line).collect::<Vec<String>>().join("`")
 }
 
-/// A unit as a reader wants it.
-fn unit(unit: &str) -> String {
-    if matches!(unit, "" | "1") { "a pure number".to_owned() } else { unit.to_owned() }
+/// A row as an array in a list of such.
+fn array(row: &[f64]) -> String {
+    let values: Vec<String> = row.iter().copied().map(literal).collect();
+    format!("    [\n{}    ],\n", lines(&values, "    "))
 }
 
 /// A line of a table.

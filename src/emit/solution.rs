@@ -8,6 +8,7 @@ use super::print::Page;
 use super::tape::{self, Book, Notes, Shared, Tape};
 use super::text::literal;
 use super::{Motion, Unit};
+use crate::ir::With;
 use crate::layout::{Holds, row_holds};
 use crate::program::{Column, Register};
 use crate::solver::{Instruction, Segment, Solver};
@@ -267,12 +268,9 @@ impl<'s> Solution<'s> {
         let inputs = &self.unit.program.inputs;
         let place = |column: u32| match (self.joined(column), self.holds(column)) {
             (Some(place), _) => self.results() + place as u32,
-            (None, Holds::Slope { of, by }) => {
-                let (of, by) = (of as u32, by as u32);
-                match by.checked_sub(inputs.count) {
-                    None => self.columns() + by * inputs.n + of,
-                    Some(param) => self.first_of_more() + param * inputs.n + of,
-                }
+            (None, Holds::Slope { of, by: With::Input(input) }) => self.columns() + input as u32 * inputs.n + of as u32,
+            (None, Holds::Slope { of, by: With::Param(param) }) => {
+                self.first_of_more() + param as u32 * inputs.n + of as u32
             }
             (None, Holds::Reaction(k)) => self.first_of_more() + k as u32,
             (None, _) if column < self.motion.solver.layout().reactions => column,
@@ -383,12 +381,13 @@ impl Scene for SolverScene<'_> {
                 let place = column - self.solver.layout().measures[order];
                 at(format!("at.{of}{}[{place}]{}", ["values", "rates", "accelerations"][order], self.lane()))
             }
-            Holds::Slope { of, by } => match by.checked_sub(self.solution.unit.program.inputs.count as usize) {
-                None => at(format!("at.along.by_signal[{by}][{of}]")),
-                Some(param) => Operand::of(format!("by[{param}][{of}]"), &["by"]),
-            },
+            Holds::Slope { of, by: With::Input(input) } => at(format!("at.along.by_signal[{input}][{of}]")),
+            Holds::Slope { of, by: With::Param(param) } => Operand::of(format!("by[{param}][{of}]"), &["by"]),
             Holds::Reaction(k) => Operand::of(format!("{FORCES}[{k}]"), &[FORCES]),
-            Holds::Time | Holds::Appended(_) | Holds::Varied | Holds::Multiplier => {
+            Holds::Time
+            | Holds::Slope { by: With::Time(_), .. }
+            | Holds::Appended(_)
+            | Holds::Varied | Holds::Multiplier => {
                 debug_assert!(false, "no code has a place for {held:?}");
                 Operand::Number(f64::NAN)
             }

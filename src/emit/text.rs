@@ -26,6 +26,11 @@ pub(super) fn one_line(text: &str) -> String {
     text.replace(is_unfit, " ")
 }
 
+/// An SI unit as a reader wants it.
+pub(super) fn unit(unit: &str) -> &str {
+    if matches!(unit, "" | "1") { "a pure number" } else { unit }
+}
+
 /// Lines of documentation.
 pub(super) fn documented(docs: &str, indent: &str) -> String {
     docs.lines().map(|line| format!("{indent}/// {line}").trim_end().to_owned() + "\n").collect()

@@ -56,6 +56,16 @@ impl Graph {
         roots.iter().map(|root| known.get(root).copied().unwrap_or(zero)).collect()
     }
 
+    /// The partial derivatives of one root by the coordinates, or by their time derivatives of an order, that do not vanish: each with
+    /// the number of its coordinate.
+    pub fn slopes(&mut self, root: ExprId, order: u8) -> impl Iterator<Item = (u32, ExprId)> + use<> {
+        let gradient = self.gradient(root, Dependence::coordinates(order));
+        gradient.into_iter().filter_map(move |(symbol, slope)| match symbol {
+            Symbol::Coordinate { index, order: own } if own == order => Some((index, slope)),
+            _ => None,
+        })
+    }
+
     /// Backward: the partial derivatives of one root by every symbol that `wanted` holds, in the symbols' order;
     /// those that vanish identically are left out.
     pub fn gradient(&mut self, root: ExprId, wanted: Dependence) -> Vec<(Symbol, ExprId)> {

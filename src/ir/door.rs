@@ -198,7 +198,7 @@ impl ConstraintSystem {
     pub fn add_inputs(&mut self, inputs: Vec<Input>) {
         self.inputs = inputs;
         if self.has_signals {
-            self.derive_by_signals();
+            self.derive_by_inputs();
         }
     }
 

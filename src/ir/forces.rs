@@ -5,7 +5,7 @@
 //! on the coordinates.
 
 use super::{ConstraintSystem, DeclarationId, SparseRows};
-use crate::expr::{Dependence, ExprId, Graph, Symbol};
+use crate::expr::{ExprId, Graph, Symbol};
 use crate::source::Span;
 use rustc_hash::FxHashMap;
 
@@ -74,11 +74,7 @@ impl ConstraintSystem {
         let needed = self.forces.as_ref()?.needed.clone();
         let mut mass_matrix = SparseRows::new();
         for &of in &needed {
-            let gradient = self.graph.gradient(of, Dependence::coordinates(2));
-            mass_matrix.push(gradient.into_iter().filter_map(|(symbol, mass)| match symbol {
-                Symbol::Coordinate { index, order: 2 } => Some((index, mass)),
-                _ => None,
-            }));
+            mass_matrix.push(self.graph.slopes(of, 2));
         }
         let nothing = self.graph.constant(0.0);
         let at_rest = self

@@ -59,7 +59,7 @@ pub use variations::{Appended, Variable, Variation, Variations};
 pub use watched::{Check, Condition, ConditionKind, Fit, OpenContact, PartStart, Watch, WatchKind};
 pub use written::Written;
 
-use crate::expr::{Dependence, ExprId, Graph, Symbol, TIME_SIGNAL};
+use crate::expr::{ExprId, Graph, Symbol, TIME_SIGNAL};
 use crate::source::Span;
 
 /// A mechanism as equations.
@@ -149,11 +149,7 @@ impl ConstraintSystem {
     fn derive(&mut self, with_jerk: bool) {
         self.phi_q = SparseRows::new();
         for row in self.phi() {
-            let gradient = self.graph.gradient(row, Dependence::coordinates(0));
-            self.phi_q.push(gradient.into_iter().filter_map(|(symbol, slope)| match symbol {
-                Symbol::Coordinate { index, order: 0 } => Some((index, slope)),
-                _ => None,
-            }));
+            self.phi_q.push(self.graph.slopes(row, 0));
         }
         self.derive_by_time(with_jerk);
     }

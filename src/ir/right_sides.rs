@@ -62,6 +62,13 @@ impl ConstraintSystem {
         self.all_with(|with| matches!(with, With::Param(_)))
     }
 
+    /// What `q` is differentiated by other than time: the inputs, and behind them the parameters.
+    #[must_use]
+    pub fn slopes(&self) -> Vec<With> {
+        let all = self.right_sides.iter().map(|side| side.with);
+        all.filter(|with| !matches!(with, With::Time(_))).collect()
+    }
+
     /// All right sides that there are.
     #[must_use]
     pub fn right_sides(&self) -> &[RightSide] {
@@ -77,10 +84,11 @@ impl ConstraintSystem {
         found.collect::<Vec<&[ExprId]>>().into_iter()
     }
 
-    /// Puts right sides in the place of what there is of their kind.
+    /// Puts right sides in the place of what there is of their kind; all stand in the order of [`With`].
     fn set_right_sides(&mut self, is_replaced: impl Fn(With) -> bool, sides: impl IntoIterator<Item = RightSide>) {
         self.right_sides.retain(|side| !is_replaced(side.with));
         self.right_sides.extend(sides);
+        self.right_sides.sort_by_key(|side| side.with);
     }
 
     /// `ν`, `γ`, and the jerk's right side if wanted.
@@ -101,8 +109,8 @@ impl ConstraintSystem {
         self.set_right_sides(|with| matches!(with, With::Time(_)), sides);
     }
 
-    /// The right sides of the equations for the derivatives of `q` by each signal.
-    pub(super) fn derive_by_signals(&mut self) {
+    /// The right sides of the equations for the derivatives of `q` by each input, which they hold as a signal.
+    pub(super) fn derive_by_inputs(&mut self) {
         let signals: Vec<Symbol> = self.inputs.iter().map(Input::symbol).collect();
         let sides = signals.into_iter().enumerate().map(|(k, symbol)| self.by(With::Input(k), symbol));
         let sides: Vec<RightSide> = sides.collect();

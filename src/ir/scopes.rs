@@ -6,7 +6,7 @@
 //! coordinates alone, `F_q q_p = −D_p F`.
 
 use super::{DeclarationId, SparseRows};
-use crate::expr::{Dependence, ExprId, Graph, Symbol};
+use crate::expr::{ExprId, Graph, Symbol};
 use crate::source::Span;
 
 /// The signals from this number on are leaves.
@@ -60,13 +60,7 @@ impl Scope {
     pub(super) fn derive(&mut self, graph: &mut Graph, leaves: &[Leaf]) {
         self.phi_q = SparseRows::new();
         for &row in &self.phi {
-            let gradient = graph.gradient(row, Dependence::coordinates(0));
-            let own = gradient.into_iter().filter_map(|(symbol, slope)| match symbol {
-                Symbol::Coordinate { index, order: 0 } if self.columns.binary_search(&index).is_ok() => {
-                    Some((index, slope))
-                }
-                _ => None,
-            });
+            let own = graph.slopes(row, 0).filter(|&(column, _)| self.varies(column));
             let (columns, slopes): (Vec<u32>, Vec<ExprId>) = own.unzip();
             let slopes = without_leaves(graph, leaves, &slopes);
             self.phi_q.push(columns.into_iter().zip(slopes));

@@ -2,7 +2,7 @@
 
 use super::right_sides::slopes_by;
 use super::{ConstraintSystem, Measure, With};
-use crate::expr::{Dependence, ExprId, Graph, Symbol};
+use crate::expr::{ExprId, Graph, Symbol};
 
 /// Nobody gives more of a signal than its value, rate and acceleration.
 const HIGHEST: u8 = 2;
@@ -34,19 +34,16 @@ impl CheckSlopes {
 impl ConstraintSystem {
     /// The slopes of equations that were left out, where coordinates are differentiated by signals or parameters.
     pub(super) fn derive_checks(&mut self) {
-        let with = self.right_sides.iter().map(|side| side.with);
-        let with: Vec<With> = with.filter(|with| !matches!(with, With::Time(_))).collect();
+        let with = self.slopes();
         if self.checks.is_empty() || with.is_empty() {
             return;
         }
         let phi: Vec<ExprId> = self.checks.iter().map(|check| check.phi).collect();
         let mut slopes = CheckSlopes::default();
         for (check, &phi) in phi.iter().enumerate() {
-            for (symbol, slope) in self.graph.gradient(phi, Dependence::coordinates(0)) {
-                if let Symbol::Coordinate { index, order: 0 } = symbol {
-                    slopes.pattern.push((check as u32, index));
-                    slopes.by_q.push(slope);
-                }
+            for (column, slope) in self.graph.slopes(phi, 0) {
+                slopes.pattern.push((check as u32, column));
+                slopes.by_q.push(slope);
             }
         }
         for with in with {

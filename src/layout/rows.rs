@@ -1,6 +1,6 @@
 //! Where a row holds what.
 
-use crate::ir::{BodyId, ConstraintSystem};
+use crate::ir::{BodyId, ConstraintSystem, With};
 
 /// Columns that stand together in a row.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -15,8 +15,8 @@ enum Stretch {
     Measures(usize),
     /// Derivatives that were asked for as columns of their own.
     Appended,
-    /// The derivatives of `q` by each signal, and then by each parameter.
-    BySignal,
+    /// The derivatives of `q` by each input, and then by each parameter.
+    Slopes,
     /// The variations: for each `q`, `q̇` and `q̈`, one behind the other.
     Varied,
     /// The multipliers, where forces are asked for; behind them how these vary, variation by variation.
@@ -37,7 +37,7 @@ const PRINTED: [Stretch; 9] = [
 ];
 
 /// What only measures need, behind the table.
-const UNPRINTED: [Stretch; 4] = [Stretch::Coordinates(3), Stretch::BySignal, Stretch::Varied, Stretch::Multipliers];
+const UNPRINTED: [Stretch; 4] = [Stretch::Coordinates(3), Stretch::Slopes, Stretch::Varied, Stretch::Multipliers];
 
 /// What a column holds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -62,12 +62,12 @@ pub enum Holds {
     },
     /// A derivative that was asked for as a column of its own, by its number.
     Appended(usize),
-    /// The derivative of a coordinate by a signal, or by a parameter: these are counted behind the signals.
+    /// The derivative of a coordinate by an input or a parameter.
     Slope {
         /// The number of the coordinate.
         of: usize,
-        /// The number of the signal or parameter.
-        by: usize,
+        /// What it is by.
+        by: With,
     },
     /// A part of a variation.
     Varied,
@@ -103,7 +103,7 @@ impl Stretch {
             Stretch::Reactions => system.reactions().len(),
             Stretch::Measures(order) => measures_with(system, order).count(),
             Stretch::Appended => system.appended().len(),
-            Stretch::BySignal => n * (system.by_inputs().len() + system.by_params().len()),
+            Stretch::Slopes => n * system.slopes().len(),
             Stretch::Varied => 3 * n * system.variations().len(),
             Stretch::Multipliers => system.needed_forces().len() * (1 + system.variations().len()),
         }
@@ -121,9 +121,9 @@ impl Stretch {
                 measures_with(system, order).map(|index| Holds::Measure { index, order }).collect()
             }
             Stretch::Appended => (0..system.appended().len()).map(Holds::Appended).collect(),
-            Stretch::BySignal => {
-                let n = system.coordinates().len();
-                (0..self.length(system)).map(|place| Holds::Slope { of: place % n, by: place / n }).collect()
+            Stretch::Slopes => {
+                let of_each = |by| (0..system.coordinates().len()).map(move |of| Holds::Slope { of, by });
+                system.slopes().into_iter().flat_map(of_each).collect()
             }
             Stretch::Varied => vec![Holds::Varied; self.length(system)],
             Stretch::Multipliers => vec![Holds::Multiplier; self.length(system)],
@@ -148,8 +148,8 @@ pub struct RowLayout {
     pub multipliers: u32,
     /// Whether there are columns for `q⃛`.
     pub has_jerk: bool,
-    /// First column of the derivatives of `q` by each signal and parameter.
-    pub by_signal: u32,
+    /// First column of the derivatives of `q` by each input and parameter.
+    pub slopes: u32,
     /// Columns that the table has.
     pub printed: usize,
     /// All columns.
@@ -168,7 +168,7 @@ impl RowLayout {
             varied: 0,
             multipliers: 0,
             has_jerk: system.jerk().is_some(),
-            by_signal: 0,
+            slopes: 0,
             printed: PRINTED.iter().map(|stretch| stretch.length(system)).sum(),
             stride: 0,
         };
@@ -180,7 +180,7 @@ impl RowLayout {
                 Stretch::Reactions => layout.reactions = first,
                 Stretch::Measures(order) => layout.measures[order] = first,
                 Stretch::Appended => layout.appended = first,
-                Stretch::BySignal => layout.by_signal = first,
+                Stretch::Slopes => layout.slopes = first,
                 Stretch::Varied => layout.varied = first,
                 Stretch::Multipliers => layout.multipliers = first,
             }

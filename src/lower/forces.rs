@@ -3,7 +3,7 @@
 
 use super::Lowering;
 use super::frames::Vector;
-use crate::expr::{Dependence, ExprId, Graph, Symbol};
+use crate::expr::{ExprId, Symbol};
 use crate::ir::{self, ConstraintSystem, DeclarationId, Forces};
 use crate::model::{Declared, EquationForm, EquationId, Force, Frame, JointId, Load, Mass, Mechanism, Named, PartId};
 
@@ -132,7 +132,8 @@ impl Lowering<'_> {
 
     /// A force on what changes with the coordinates works on each of them.
     fn add_work(&mut self, on: ExprId, force: ExprId, needed: &mut [ExprId]) {
-        for (column, slope) in slopes(&mut self.graph, on) {
+        for (column, slope) in self.graph.slopes(on, 0) {
+            let column = column as usize;
             let work = self.graph.mul(force, slope);
             needed[column] = self.graph.add(needed[column], work);
         }
@@ -211,8 +212,8 @@ impl Lowering<'_> {
         let first = self.first_row(declaration);
         for row in first..first + self.declarations[declaration].rows {
             let multiplier = self.graph.symbol(Symbol::Multiplier(row as u32));
-            for (column, slope) in slopes(&mut self.graph, self.rows[row].phi) {
-                if let Some(part) = pose.iter().position(|&own| own as usize == column) {
+            for (column, slope) in self.graph.slopes(self.rows[row].phi, 0) {
+                if let Some(part) = pose.iter().position(|&own| own == column) {
                     let product = self.graph.mul(multiplier, slope);
                     sums[part] = self.graph.add(sums[part], product);
                 }
@@ -225,14 +226,4 @@ impl Lowering<'_> {
     fn first_row(&self, declaration: DeclarationId) -> usize {
         self.rows.partition_point(|row| row.declaration.index() < declaration.index())
     }
-}
-
-/// How an expression changes with the coordinates.
-fn slopes(graph: &mut Graph, of: ExprId) -> Vec<(usize, ExprId)> {
-    let gradient = graph.gradient(of, Dependence::coordinates(0));
-    let coordinate = |(symbol, slope)| match symbol {
-        Symbol::Coordinate { index, order: 0 } => Some((index as usize, slope)),
-        _ => None,
-    };
-    gradient.into_iter().filter_map(coordinate).collect()
 }

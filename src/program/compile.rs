@@ -50,7 +50,7 @@ impl Program {
         let slopes = system.check_slopes();
         outputs.check_slopes = PlacedCheckSlopes {
             coordinates: varied(&slopes.by_q),
-            signals: slopes.by_inputs().map(&mut varied).collect(),
+            inputs: slopes.by_inputs().map(&mut varied).collect(),
             params: slopes.by_params().map(&mut varied).collect(),
         };
         for scope in system.scopes() {
@@ -111,20 +111,20 @@ impl<'s> Layout<'s> {
             system.params().len(),
             system.coordinates().len(),
             signals,
-            system.by_params().len(),
+            system.slopes().len(),
             system.variations().len(),
             if system.forces().is_some() { system.rows().len() } else { 0 },
         ];
         Layout::of(system.graph(), counts.map(|count| count as u32))
     }
 
-    /// For formulas of a graph over so many parameters, coordinates, signals, parameters by which the coordinates are differentiated, and
-    /// variations of the coordinates; and so many multipliers.
-    pub fn of(graph: &'s Graph, [params, n, signals, by_param, variations, multipliers]: [u32; 6]) -> Layout<'s> {
+    /// For formulas of a graph over so many parameters, coordinates, signals, inputs and parameters by which the coordinates are
+    /// differentiated, and variations of the coordinates; and so many multipliers.
+    pub fn of(graph: &'s Graph, [params, n, signals, slopes, variations, multipliers]: [u32; 6]) -> Layout<'s> {
         let coordinates = [0, 1, 2, 3].map(|order| params + 1 + order * n);
         let signals_at = params + 1 + 4 * n;
-        let by_signal = signals_at + 3 * signals;
-        let varied = by_signal + n * (signals + by_param);
+        let slopes_at = signals_at + 3 * signals;
+        let varied = slopes_at + n * slopes;
         let multipliers_at = varied + 3 * n * variations;
         Layout {
             graph,
@@ -143,7 +143,7 @@ impl<'s> Layout<'s> {
                 coordinates,
                 n,
                 signals: signals_at,
-                by_signal,
+                slopes: slopes_at,
                 count: signals,
                 varied,
                 multipliers: multipliers_at,

@@ -146,8 +146,8 @@ pub struct Inputs {
     pub n: u32,
     /// First signal: value, rate and acceleration of each, one behind the other.
     pub signals: Register,
-    /// First of the derivatives of `q` by each signal, and then by each parameter where these are asked for; `n` for each.
-    pub by_signal: Register,
+    /// First of the derivatives of `q` by each input that is a signal, and then by each parameter where these are asked for; `n` for each.
+    pub slopes: Register,
     /// Number of signals.
     pub count: u32,
     /// First of the variations: for each `q`, `q̇` and `q̈`, one behind the other.
@@ -161,8 +161,8 @@ pub struct Inputs {
 pub struct PlacedCheckSlopes {
     /// With the coordinates: by the pattern of [`crate::ir::CheckSlopes`].
     pub coordinates: Vec<Register>,
-    /// With each signal, one entry per check.
-    pub signals: Vec<Vec<Register>>,
+    /// With each input, one entry per check.
+    pub inputs: Vec<Vec<Register>>,
     /// With each parameter, likewise.
     pub params: Vec<Vec<Register>>,
 }
@@ -269,8 +269,8 @@ impl Outputs {
         self.right_side(With::Time(3))
     }
 
-    /// By signal: the right side of the equation for the derivatives of `q` by it, `n`.
-    pub fn by_signals(&self) -> impl Iterator<Item = &[Register]> {
+    /// By input: the right side of the equation for the derivatives of `q` by it, `n`.
+    pub fn by_inputs(&self) -> impl Iterator<Item = &[Register]> {
         self.all_with(|with| matches!(with, With::Input(_)))
     }
 
@@ -292,7 +292,7 @@ impl Outputs {
         let lists = [&self.estimates, &self.phi, &self.phi_q, &self.forces];
         let more = [&self.measures, &self.measures_d, &self.measures_dd, &self.conditions, &self.checks, &self.watches];
         let more = more.into_iter().chain([&self.appended, &self.reactions, &self.check_slopes.coordinates]);
-        let slopes = self.check_slopes.signals.iter().chain(&self.check_slopes.params);
+        let slopes = self.check_slopes.inputs.iter().chain(&self.check_slopes.params);
         let varied = self.variations.iter().flatten().chain(&self.varied_forces);
         let sides = self.right_sides.iter().map(|side| &side.entries);
         let more_lists = sides.chain(&self.terms).chain(varied).chain(slopes);

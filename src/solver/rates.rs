@@ -25,7 +25,7 @@ impl<V: Values> Builder<'_, V> {
             } else {
                 let first = others * inputs.n;
                 others += 1;
-                (inputs.by_signal + first, self.layout.by_signal + first)
+                (inputs.slopes + first, self.layout.slopes + first)
             };
             self.solve(block, factors, entries, unknown, column, kept);
         }

@@ -95,16 +95,12 @@ impl Compiled {
     /// A measure holds a derivative by an input or parameter, which only `run` and Rust code compute.
     pub(crate) fn has_no_variations(&self) -> Result<(), Box<Diagnostic>> {
         self.has_no_varied_forces()?;
-        let system = self.system();
-        let is_varied = |id| system.graph().dependence(id).is_varied();
-        match system.measures().iter().find(|measure| is_varied(measure.value)) {
-            None => Ok(()),
-            Some(measure) => {
-                let message = format!("measure `{}` holds a derivative by an input or parameter", measure.name);
-                let diagnostic = Diagnostic::new(Code::E0706, message).at(measure.span, "is for `run` and Rust code");
-                Err(Box::new(diagnostic.help("`mechc run` and emitted Rust compute it; leave the measure out here")))
-            }
-        }
+        self.no_measure_holds(
+            Dependence::is_varied,
+            "a derivative by an input or parameter",
+            "is for `run` and Rust code",
+            "`mechc run` and emitted Rust compute it; leave the measure out here",
+        )
     }
 
     /// Whether it can be written as code.
@@ -112,18 +108,29 @@ impl Compiled {
     /// # Errors
     /// A measure holds how a force changes with an input or parameter, which only `run` computes.
     fn has_no_varied_forces(&self) -> Result<(), Box<Diagnostic>> {
-        self.has_none(Dependence::VARIED_MULTIPLIERS, "the derivative of a force", "is for `run` alone")
+        self.no_measure_holds(
+            |on| on.on(Dependence::VARIED_MULTIPLIERS),
+            "the derivative of a force",
+            "is for `run` alone",
+            "leave the measure out here; `mechc run` computes it",
+        )
     }
 
-    /// Whether no measure holds what depends on something.
-    fn has_none(&self, of: Dependence, what: &str, label: &str) -> Result<(), Box<Diagnostic>> {
+    /// Whether no measure depends on something; else what that is, who has it, and what to do.
+    fn no_measure_holds(
+        &self,
+        is_it: impl Fn(Dependence) -> bool,
+        what: &str,
+        label: &str,
+        help: &str,
+    ) -> Result<(), Box<Diagnostic>> {
         let system = self.system();
-        let Some(measure) = system.measures().iter().find(|of_it| system.graph().dependence(of_it.value).on(of)) else {
+        let Some(measure) = system.measures().iter().find(|of| is_it(system.graph().dependence(of.value))) else {
             return Ok(());
         };
         let message = format!("measure `{}` holds {what}", measure.name);
         let diagnostic = Diagnostic::new(Code::E0706, message).at(measure.span, label);
-        Err(Box::new(diagnostic.help("leave the measure out here; `mechc run` computes it")))
+        Err(Box::new(diagnostic.help(help)))
     }
 
     /// The mechanism with its inputs as signals, where it has any and is to be solved.

@@ -38,6 +38,34 @@ impl JointKind {
         }
     }
 
+    /// Whether a quantity of joints speaks of it: `rotation`, `displacement`, and so on. What a joint exerts, each has, but for `torque`.
+    #[must_use]
+    pub fn has_quantity(self, quantity: &str) -> bool {
+        match quantity {
+            "rotation" => self == JointKind::Revolute,
+            "displacement" => self == JointKind::Translational,
+            "slip" | "pressure_angle" => self.has_contact(),
+            "torque" => self.has_torque(),
+            _ => true,
+        }
+    }
+
+    /// Whether two outlines touch in it, or a point and an outline.
+    #[must_use]
+    pub const fn has_contact(self) -> bool {
+        match self {
+            JointKind::PointFollower | JointKind::Cam | JointKind::FlatFollower => true,
+            JointKind::Revolute
+            | JointKind::Translational
+            | JointKind::Weld
+            | JointKind::RevoluteRevolute
+            | JointKind::RevoluteTranslational
+            | JointKind::Gear
+            | JointKind::InternalGear
+            | JointKind::RackPinion => false,
+        }
+    }
+
     /// Whether it can exert a moment about the point that its force is reduced to; that of the others is zero.
     #[must_use]
     pub const fn has_torque(self) -> bool {
@@ -60,6 +88,8 @@ impl JointKind {
 /// What is told of a kind of joint.
 #[derive(Debug)]
 pub struct JointWord {
+    /// Which it is.
+    pub kind: JointKind,
     /// What is told of it.
     pub word: Word,
     /// What it is called with, in words.
@@ -86,6 +116,7 @@ pub const NOTATION: &str = "Here i is the body of the first argument and j that 
 /// All of them.
 pub static JOINTS: &[JointWord] = &[
     JointWord {
+        kind: JointKind::Revolute,
         word: Word {
             name: JointKind::Revolute.word(),
             category: Category::Joint,
@@ -100,6 +131,7 @@ pub static JOINTS: &[JointWord] = &[
         coordinates: &[],
     },
     JointWord {
+        kind: JointKind::Translational,
         word: Word {
             name: JointKind::Translational.word(),
             category: Category::Joint,
@@ -124,6 +156,7 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
         coordinates: &[],
     },
     JointWord {
+        kind: JointKind::Weld,
         word: Word {
             name: JointKind::Weld.word(),
             category: Category::Joint,
@@ -153,6 +186,7 @@ driver motor: rotation(main) = 60 rpm * t",
         coordinates: &[],
     },
     JointWord {
+        kind: JointKind::RevoluteRevolute,
         word: Word {
             name: JointKind::RevoluteRevolute.word(),
             category: Category::Joint,
@@ -185,6 +219,7 @@ driver motor: rotation(main) = 90 deg + 60 rpm * t",
         coordinates: &[],
     },
     JointWord {
+        kind: JointKind::RevoluteTranslational,
         word: Word {
             name: JointKind::RevoluteTranslational.word(),
             category: Category::Joint,
@@ -217,6 +252,7 @@ driver motor: rotation(main) = 60 rpm * t",
         coordinates: &[],
     },
     JointWord {
+        kind: JointKind::Gear,
         word: Word {
             name: JointKind::Gear.word(),
             category: Category::Joint,
@@ -251,6 +287,7 @@ driver motor: rotation(axle) = 60 rpm * t",
         coordinates: &[("theta", "the direction of the line of centres")],
     },
     JointWord {
+        kind: JointKind::InternalGear,
         word: Word {
             name: JointKind::InternalGear.word(),
             category: Category::Joint,
@@ -285,6 +322,7 @@ driver motor: rotation(axle) = 60 rpm * t",
         coordinates: &[("theta", "the direction of the line of centres")],
     },
     JointWord {
+        kind: JointKind::RackPinion,
         word: Word {
             name: JointKind::RackPinion.word(),
             category: Category::Joint,
@@ -318,6 +356,7 @@ driver motor: rotation(axle) = 30 deg/s * t",
         coordinates: &[],
     },
     JointWord {
+        kind: JointKind::PointFollower,
         word: Word {
             name: JointKind::PointFollower.word(),
             category: Category::Joint,
@@ -350,6 +389,7 @@ driver motor: rotation(axle) = 60 rpm * t",
         coordinates: &[("u", "the argument of the curve at the point")],
     },
     JointWord {
+        kind: JointKind::Cam,
         word: Word {
             name: JointKind::Cam.word(),
             category: Category::Joint,
@@ -386,6 +426,7 @@ driver motor: rotation(axle) = 60 rpm * t",
         ],
     },
     JointWord {
+        kind: JointKind::FlatFollower,
         word: Word {
             name: JointKind::FlatFollower.word(),
             category: Category::Joint,

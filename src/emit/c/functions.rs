@@ -1,9 +1,10 @@
 //! The functions that C calls: what they are given, what they do, and the file that holds them.
 
 use super::names::field;
-use super::{Interface, codes, unit};
+use super::{Interface, codes};
 use crate::emit::names::Case;
 use crate::emit::print::{Head, Page};
+use crate::emit::text::unit;
 
 /// What a function is given.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -163,7 +164,7 @@ impl Interface<'_> {
             let does = "write(list, length, sensitivity(given(params)?, state_of(state)?)?.as_flattened())";
             all.push(function("sensitivity", SENSITIVITY, &[state, params, list, length], does));
         }
-        if self.has_forces() {
+        if self.unit.has_forces() {
             all.push(function(
                 "forces",
                 FORCES,
@@ -183,7 +184,7 @@ impl Interface<'_> {
         if self.has_sensitivity() {
             used.push("sensitivity");
         }
-        if self.has_forces() {
+        if self.unit.has_forces() {
             used.push("forces");
         }
         // as a formatter orders them: what is a type comes first

@@ -2,11 +2,11 @@
 
 use super::functions::{Function, Gives};
 use super::names::{comment, field};
-use super::{Interface, apart, codes, unit};
+use super::{Interface, apart, codes};
 use crate::emit::names::Case;
 use crate::emit::params::{Of, Params};
 use crate::emit::print::Page;
-use crate::emit::text::literal;
+use crate::emit::text::{literal, unit};
 use crate::tolerances::steps::march::FEWEST_STEPS;
 
 /// What is said of all functions.
@@ -88,7 +88,7 @@ impl Interface<'_> {
             let own = own.map(|(of, name)| (name, format!("{} ({})", of.name, unit(&of.unit)))).collect::<Vec<_>>();
             self.places(page, "INPUT", "INPUTS", "The numbers of the inputs.", &own);
         }
-        if self.has_forces() {
+        if self.unit.has_forces() {
             let reactions = system.reactions();
             let names = Case::Constant.names(reactions.iter().map(|of| of.name.as_str()));
             let said = reactions.iter().map(|of| format!("{} ({})", of.name, unit(&of.unit)));

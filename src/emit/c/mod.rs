@@ -11,7 +11,7 @@ mod names;
 use super::errors::ERRORS;
 use super::names::Case;
 use super::rust::Module;
-use super::text::one_line;
+use super::text::{one_line, unit};
 use super::{File, Unit};
 use crate::layout::{ColumnUnit, Holds, columns, holds};
 
@@ -74,11 +74,6 @@ fn apart(name: &str) -> String {
     text
 }
 
-/// A unit as a reader wants it.
-fn unit(unit: &str) -> &str {
-    if matches!(unit, "" | "1") { "a pure number" } else { unit }
-}
-
 impl Interface<'_> {
     fn has_params(&self) -> bool {
         !self.unit.system.params().is_empty()
@@ -89,11 +84,7 @@ impl Interface<'_> {
     }
 
     fn has_sensitivity(&self) -> bool {
-        self.has_params() && self.unit.motion.as_ref().is_some_and(|motion| motion.sensitive.is_some())
-    }
-
-    fn has_forces(&self) -> bool {
-        self.unit.motion.as_ref().is_some_and(|motion| motion.forced.is_some())
+        self.has_params() && self.unit.has_sensitivity()
     }
 
     /// What constants begin with: `FOUR_BAR`.

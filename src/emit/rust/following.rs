@@ -13,7 +13,7 @@ use crate::emit::params::Params;
 use crate::emit::print::{Head, Page};
 use crate::emit::solution::Solution;
 use crate::emit::tables::Tables;
-use crate::emit::text::one_line;
+use crate::emit::text::{one_line, unit};
 use crate::ir::Input;
 use crate::program::Register;
 use rustc_hash::FxHashMap;
@@ -114,7 +114,7 @@ impl Writer<'_> {
         }
         self.model("way", "Way", "way", solution, page);
         self.solved(solution, page);
-        self.left_out_slopes("signal", &self.unit.program.outputs.check_slopes.signals, page);
+        self.left_out_slopes("signal", &self.unit.program.outputs.check_slopes.inputs, page);
         self.along_signals(solution, page);
         self.sensitivity(solution, page);
         self.forces(solution, page);
@@ -194,7 +194,7 @@ impl Inputs<'_> {
         let docs = "Number of signals: time is one where formulas hold it beside inputs.";
         page.constant(docs, "const SIGNALS: usize", &self.all.len().to_string());
         let constants = Case::Constant.names_of_inputs(self.all);
-        let said = |(input, _): (&Input, &String)| format!("`{}` ({})", one_line(&input.name), unit(input));
+        let said = |(input, _): (&Input, &String)| format!("`{}` ({})", one_line(&input.name), unit(&input.unit));
         numbered(
             page,
             "Where each input stands in what [`influence`] gives.",
@@ -206,7 +206,7 @@ impl Inputs<'_> {
         self.as_in_c(page);
         page.item("pub struct Inputs", |page| {
             for (input, name) in self.own() {
-                page.docs(&format!("`{}` ({})", one_line(&input.name), unit(input)));
+                page.docs(&format!("`{}` ({})", one_line(&input.name), unit(&input.unit)));
                 page.line(&format!("pub {name}: Signal,"));
             }
             if self.has_time() {
@@ -289,9 +289,4 @@ impl Inputs<'_> {
             }
         });
     }
-}
-
-/// The unit of an input.
-fn unit(input: &Input) -> &str {
-    if input.unit == "1" { "a pure number" } else { &input.unit }
 }

@@ -6,7 +6,7 @@ use crate::emit::equations::{Given, Wanted};
 use crate::emit::names::Case;
 use crate::emit::print::{Head, Page};
 use crate::emit::solution::Solution;
-use crate::emit::text::{constant, one_line};
+use crate::emit::text::{constant, one_line, unit};
 use crate::expr::Dependence;
 use crate::solver::BlockTables;
 
@@ -29,7 +29,6 @@ impl Writer<'_> {
             return;
         }
         let names = Case::Constant.names(reactions.iter().map(|of| of.name.as_str()));
-        let unit = |unit: &str| if unit == "1" { "a pure number".to_owned() } else { unit.to_owned() };
         let said =
             reactions.iter().map(|of| format!("`{}` ({}){}", one_line(&of.name), unit(&of.unit), self.line(of.span)));
         numbered(

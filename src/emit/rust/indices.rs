@@ -3,6 +3,7 @@
 use super::Writer;
 use crate::emit::names::Case;
 use crate::emit::print::{Head, Page};
+use crate::emit::text::unit;
 use crate::ir::{Measure, Units};
 
 impl Writer<'_> {
@@ -17,22 +18,15 @@ impl Writer<'_> {
         page.constant("Accelerations (m/s^2, rad/s^2).", "pub type Qdd", "[f64; N]");
         let names = Case::Constant.names(system.coordinates().iter().map(|coordinate| coordinate.name.as_str()));
         let coordinates = system.coordinates().iter().enumerate().map(|(k, coordinate)| {
-            let unit = match coordinate.kind.unit() {
-                "" => "a pure number",
-                unit => unit,
-            };
-            format!("`{}` ({unit}){}", coordinate.name, self.line(system.owner_span(k)))
+            format!("`{}` ({}){}", coordinate.name, unit(coordinate.kind.unit()), self.line(system.owner_span(k)))
         });
         numbered(page, "Where each coordinate stands in `q`.", "coordinate", coordinates.zip(&names));
         let rows: Vec<String> = (0..system.rows().len()).map(|k| system.row_name(k)).collect();
         let names = Case::Constant.names(rows.iter().map(String::as_str));
         let equations = rows.iter().enumerate().map(|(k, row)| {
             let declaration = system.declaration_of(k);
-            let unit = match system.rows()[k].unit.to_string() {
-                unit if unit == "1" => "a pure number".to_owned(),
-                unit => unit,
-            };
-            format!("{} `{row}` ({unit}){}", declaration.kind.noun(), self.line(declaration.span))
+            let of = system.rows()[k].unit.to_string();
+            format!("{} `{row}` ({}){}", declaration.kind.noun(), unit(&of), self.line(declaration.span))
         });
         numbered(
             page,

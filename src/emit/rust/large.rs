@@ -6,6 +6,19 @@ use crate::emit::solution::Solution;
 use crate::emit::tape::Book;
 use crate::solver::Solver;
 
+/// What a solver gives beside the motion.
+struct More {
+    /// The function's.
+    name: &'static str,
+    what: &'static str,
+    /// What it is written to.
+    argument: (&'static str, &'static str),
+    /// That as a list.
+    list: &'static str,
+    /// What its constants end with.
+    ending: &'static str,
+}
+
 impl Writer<'_> {
     /// The function that solves.
     pub fn solver_as_numbers(&self, solution: &Solution<'_>, book: &mut Book, page: &mut Page) {
@@ -18,33 +31,49 @@ impl Writer<'_> {
 
     /// The same with the derivatives by parameters.
     pub fn sensitive_solver_as_numbers(&self, solution: &Solution<'_>, book: &mut Book, page: &mut Page) {
-        let Some(solver): Option<&Solver> = solution.motion.sensitive.as_ref() else {
-            return;
+        let more = More {
+            name: "solve_by_params",
+            what: "the derivatives of the coordinates by parameters",
+            argument: ("by", "&mut [Q; PARAMS]"),
+            list: "by.as_flattened_mut()",
+            ending: "_BY_PARAMS",
         };
-        self.uses("listed_more", "WithMore");
-        page.docs("As [`solve`], with the derivatives of the coordinates by parameters.");
-        self.listed(solution, "solve_by_params", &[("by", "&mut [Q; PARAMS]")], page, |page| {
-            let first = solution.first_of_more();
-            page.line(&format!("let mut all = WithMore {{ at, more: by.as_flattened_mut(), first: {first} }};"));
-            page.line("listed::solve::<Numbers, REGISTERS_BY_PARAMS>(&LISTING_BY_PARAMS, guess, &inputs, &mut all);");
-        });
-        solution.listing(solver, "_BY_PARAMS", book, page);
+        self.solver_with_more_as_numbers(solution, solution.motion.sensitive.as_ref(), &more, book, page);
     }
 
     /// The same with what joints exert and drivers supply.
     pub fn forced_solver_as_numbers(&self, solution: &Solution<'_>, book: &mut Book, page: &mut Page) {
-        let Some(solver): Option<&Solver> = solution.motion.forced.as_ref() else {
+        let more = More {
+            name: "solve_with_forces",
+            what: "what joints exert and drivers supply",
+            argument: ("forces", "&mut Forces"),
+            list: "forces",
+            ending: "_WITH_FORCES",
+        };
+        self.solver_with_more_as_numbers(solution, solution.motion.forced.as_ref(), &more, book, page);
+    }
+
+    fn solver_with_more_as_numbers(
+        &self,
+        solution: &Solution<'_>,
+        solver: Option<&Solver>,
+        More { name, what, argument, list, ending }: &More,
+        book: &mut Book,
+        page: &mut Page,
+    ) {
+        let Some(solver) = solver else {
             return;
         };
         self.uses("listed_more", "WithMore");
-        page.docs("As [`solve`], with what joints exert and drivers supply.");
-        self.listed(solution, "solve_with_forces", &[("forces", "&mut Forces")], page, |page| {
-            page.line(&format!("let mut all = WithMore {{ at, more: forces, first: {} }};", solution.first_of_more()));
-            page.line(
-                "listed::solve::<Numbers, REGISTERS_WITH_FORCES>(&LISTING_WITH_FORCES, guess, &inputs, &mut all);",
-            );
+        page.docs(&format!("As [`solve`], with {what}."));
+        self.listed(solution, name, &[*argument], page, |page| {
+            let first = solution.first_of_more();
+            page.line(&format!("let mut all = WithMore {{ at, more: {list}, first: {first} }};"));
+            page.line(&format!(
+                "listed::solve::<Numbers, REGISTERS{ending}>(&LISTING{ending}, guess, &inputs, &mut all);"
+            ));
         });
-        solution.listing(solver, "_WITH_FORCES", book, page);
+        solution.listing(solver, ending, book, page);
     }
 
     /// A function that runs a listing.

@@ -135,7 +135,7 @@ impl Writer<'_> {
         if self.unit.motion.is_some() {
             said.push("the motion: [`assemble`], then [`step`] from time to time".to_owned());
         }
-        if self.unit.motion.as_ref().is_some_and(|motion| motion.forced.is_some()) {
+        if self.unit.has_forces() {
             said.push("the forces: [`forces`] of a state".to_owned());
         }
         if self.unit.following.is_some() {

@@ -19,7 +19,7 @@ impl Writer<'_> {
         let is_led = self.equations.is_led;
         if is_led {
             self.measures("fn", page);
-            self.rights("signal", self.unit.program.outputs.by_signals(), "SIGNALS", page);
+            self.rights("signal", self.unit.program.outputs.by_inputs(), "SIGNALS", page);
         }
         self.transposed(tables, page);
         let has_varied = self.equations.has_varied();

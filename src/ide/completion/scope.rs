@@ -3,14 +3,14 @@
 use super::MOST;
 use super::cursor::{Block, Cursor};
 use super::item::{Item, ItemKind, Template};
-use super::wanted::{Wanted, has_quantity};
+use super::wanted::Wanted;
 use crate::check::{KnownMechanism, NameKind};
 use crate::ide::names::{declared_name, item_named, kind_of, known};
 use crate::ide::written::holds_letters;
 use crate::source::Span;
 use crate::stages::Checked;
-use crate::syntax::ast::{ExprKind, Feature, Item as Declaration, ItemKind as Declared, Mechanism, MechanismName};
-use crate::vocabulary::CONSTANTS;
+use crate::syntax::ast::{ExprKind, Feature, Item as Declaration, ItemKind as Declared, Mechanism, MechanismName, Name};
+use crate::vocabulary::{CONSTANTS, JointWord};
 use std::cell::Cell;
 
 /// A mechanism with its names.
@@ -186,7 +186,7 @@ impl Scope<'_> {
 
     fn joint(&self, item: &Declaration, quantity: &str) -> Option<Item> {
         match &item.kind {
-            Declared::Joint { kind, .. } if has_quantity(&kind.text, quantity) => self.named(item, 1),
+            Declared::Joint { kind, .. } if has_quantity(kind, quantity) => self.named(item, 1),
             Declared::Part(_) => self.features_of(item, Wanted::Point).pop(),
             _ => None,
         }
@@ -255,7 +255,7 @@ impl Scope<'_> {
             _ => false,
         };
         let fits = |wanted: &Wanted| match (wanted, &item.kind) {
-            (Wanted::Joint(quantity), Declared::Joint { kind, .. }) => has_quantity(&kind.text, quantity),
+            (Wanted::Joint(quantity), Declared::Joint { kind, .. }) => has_quantity(kind, quantity),
             (Wanted::Body, Declared::Body { .. } | Declared::Ground { .. })
             | (Wanted::Equation, Declared::Equation { .. })
             | (Wanted::Number(_), Declared::Measure { .. } | Declared::Result { .. })
@@ -373,6 +373,11 @@ fn all_mechanisms(checked: &Checked) -> impl Iterator<Item = (Option<&str>, Know
         used.filter_map(|(used, number)| Some((used.prefix.as_ref().map(|prefix| prefix.text.as_str()), (*number)?)));
     let own = of(0).map(|known| (None, known));
     own.chain(used.flat_map(move |(prefix, file)| of(file).map(move |known| (prefix, known))))
+}
+
+/// Whether a joint, by the word that it is declared with, has a quantity.
+fn has_quantity(joint: &Name, quantity: &str) -> bool {
+    JointWord::named(&joint.text).is_some_and(|joint| joint.kind.has_quantity(quantity))
 }
 
 /// Mechanisms that can be parts; behind a prefix those of its file.

@@ -43,17 +43,6 @@ impl Wanted {
     }
 }
 
-/// Whether a kind of joint has a quantity.
-pub(super) fn has_quantity(joint: &str, quantity: &str) -> bool {
-    match quantity {
-        "rotation" => joint == "revolute",
-        "displacement" => joint == "translational",
-        "slip" | "pressure_angle" => matches!(joint, "point_follower" | "cam" | "flat_follower"),
-        "torque" => !matches!(joint, "revolute" | "revolute_revolute" | "point_follower" | "cam" | "flat_follower"),
-        _ => true,
-    }
-}
-
 /// What may stand at the cursor, as far as the innermost call and the declaration tell.
 pub(super) fn wanted(cursor: &Cursor<'_>) -> Vec<Wanted> {
     match cursor.call().filter(|call| call.name != "[") {
