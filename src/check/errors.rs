@@ -19,7 +19,9 @@ use crate::model::Dimension;
 use crate::source::Span;
 use crate::syntax::ast::{ColumnName, ColumnWord, Name, PathSegment};
 use crate::syntax::format::expression;
-use crate::vocabulary::{Constant, FUNCTIONS, JOINTS, JointKind, JointWord, Place, QUANTITIES, QuantityWord, Synonym, Unit, Word};
+use crate::vocabulary::{
+    Constant, FUNCTIONS, JOINTS, JointKind, JointWord, Place, QUANTITIES, QuantityWord, Synonym, Unit, Word,
+};
 
 fn meant(wanted: &Name, names: &[&str]) -> Option<Fix> {
     nearest(&wanted.text, names.iter().copied()).map(|name| Fix::meant(wanted.span, name))
@@ -367,7 +369,14 @@ pub fn joint_with_itself(joint: &Name, frame: &str, spans: [Span; 2]) -> Diagnos
         .help("a joint needs features of two different bodies, or of a body and the ground")
 }
 
-pub fn joint_without(quantity: &str, wanted: &str, joint: &str, kind: JointKind, span: Span, declared: Span) -> Diagnostic {
+pub fn joint_without(
+    quantity: &str,
+    wanted: &str,
+    joint: &str,
+    kind: JointKind,
+    span: Span,
+    declared: Span,
+) -> Diagnostic {
     let motions = ["rotation", "displacement"];
     let other = motions.into_iter().filter(|_| motions.contains(&quantity)).find(|other| kind.has_quantity(other));
     Diagnostic::new(Code::E0304, format!("only {wanted} joints have a `{quantity}`"))

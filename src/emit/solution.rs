@@ -387,7 +387,8 @@ impl Scene for SolverScene<'_> {
             Holds::Time
             | Holds::Slope { by: With::Time(_), .. }
             | Holds::Appended(_)
-            | Holds::Varied | Holds::Multiplier => {
+            | Holds::Varied
+            | Holds::Multiplier => {
                 debug_assert!(false, "no code has a place for {held:?}");
                 Operand::Number(f64::NAN)
             }

@@ -9,7 +9,9 @@ use crate::ide::names::{declared_name, item_named, kind_of, known};
 use crate::ide::written::holds_letters;
 use crate::source::Span;
 use crate::stages::Checked;
-use crate::syntax::ast::{ExprKind, Feature, Item as Declaration, ItemKind as Declared, Mechanism, MechanismName, Name};
+use crate::syntax::ast::{
+    ExprKind, Feature, Item as Declaration, ItemKind as Declared, Mechanism, MechanismName, Name,
+};
 use crate::vocabulary::{CONSTANTS, JointWord};
 use std::cell::Cell;
 
