@@ -330,7 +330,7 @@ fn arrows_are_at_what_moves() {
 const HELD: &str = "mechanism held {
     ground { point O = (0, 0)  point S = (-50 mm, 50 mm)  axis way = O along (1, 0) }
     body crank at (0, 0, 60 deg) {
-        point O = (0, 0)  point pin = (30 mm, 0)
+        point O = (0, 0)  point pin = (30 mm, 0)  axis side = O along (1, 0)
         mass 0.4 kg at (15 mm, 0) inertia 1e-4 kg * m^2
     }
     body rod at (15 mm, 26 mm, -15 deg) {
@@ -403,7 +403,7 @@ fn a_torque_is_the_same_however_it_is_written() {
         ("rotation(main) = 60 deg + 300 rpm * t", "60 deg + 300 rpm * t = rotation(main)"),
         ("rotation(main) = 60", "angle(crank) = 60"),
         ("-0.3 N*m on angle(crank)", "-0.3 N*m on rotation(main)"),
-        ("-0.3 N*m on angle(crank)", "0.3 N*m on angle(crank, ground)"),
+        ("-0.3 N*m on angle(crank)", "0.3 N*m on angle(crank.side, ground.way)"),
     ] {
         let found = torques(&seen_with_forces(&HELD.replace(old, new)), 9);
         for ((name, wanted), (_, found)) in wanted.iter().zip(&found) {

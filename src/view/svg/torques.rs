@@ -8,7 +8,7 @@ use crate::view::text::{escaped, number};
 use std::f64::consts::PI;
 
 /// The largest radius, as a part of the longest arrow of a velocity.
-const LARGEST: f64 = 0.4;
+const LARGEST: f64 = 0.6;
 /// What has a smaller radius (px) is not drawn.
 const LEAST: f64 = 1.5;
 /// Where an arc begins and where its head does (rad), counter-clockwise.
