@@ -38,7 +38,9 @@ impl Lowering<'_> {
                     self.append_of_coordinate(k, order, variable);
                 }
                 if order == 0 {
-                    reactions.iter().for_each(|of| self.append_of_reaction(of, variable));
+                    for of in reactions {
+                        self.append_of_reaction(of, variable);
+                    }
                 }
                 for (k, measure) in measures.iter().enumerate() {
                     let value = [Some(measure.value), measure.first, measure.second][order];
