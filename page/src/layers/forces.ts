@@ -15,7 +15,7 @@ import { arrow } from "./vectors.ts";
 /** The longest arrow, in parts of the picture's smaller side. */
 const LONGEST = 0.22;
 /** The largest radius of a torque's arc, as a part of that. */
-const LARGEST = 0.4;
+const LARGEST = 0.55;
 /** Rows that are looked at for the greatest. */
 const LOOKS = 200;
 /** From this force on (N) it is told in kilonewtons, from this torque on (N·m) in kilonewton metres. */
@@ -108,7 +108,7 @@ export class Forces implements Layer {
     /** The same with an arc. */
     private tellTorque({ kind, path, text }: Line, y: number, round: number, grain: number): number {
         const [unit, size] = this.greatestTorque >= KILO ? ["kN*m", 1e3] : ["N*m", 1];
-        const value = evenStep((4.4 * grain) / (round * size));
+        const value = evenStep((3.6 * grain) / (round * size));
         const radius = value * size * round;
         path.setAttribute("d", arc([14 * grain + radius, y], radius));
         text.textContent = `${kind} torque ${short(value)} ${set(unit)}`;
