@@ -386,3 +386,123 @@ fn columns_that_would_need_more_are_left_out() {
         assert!(!there(name), "{name} is there");
     }
 }
+
+/// An arm of length and mass that are varied, whose driver, pin and load are known by hand: with its mass at `2 reach`, an inertia, and a
+/// force on its tip.
+const HEAVY: &str = "mechanism m {
+    param reach = 0.4 m
+    param heavy = 3 kg
+    param about = 0.05 kg * m^2
+    param pushed = 7 N
+    input turn = 0.3 + 2 rad/s * t + 1.5 rad/s^2 * t^2
+    ground { point O = (0, 0) }
+    body arm { point O = (0, 0)  point tip = (reach, 0)  mass heavy at (2 * reach, 0) inertia about }
+    gravity (0, -9.81 m/s^2)
+    joint main: revolute(ground.O, arm.O)
+    driver motor: rotation(main) = turn
+    load push: -pushed * sin(rotation(main)) on y(arm.tip)
+    measure torque = effort(motor)
+    measure by_mass = der(effort(motor), heavy)
+    measure twice = der(der(force_x(main), heavy), reach)
+    measure squared = der(der(effort(motor), reach), reach)
+    result most = max(by_mass)
+    result mean_squared = mean(der(der(effort(motor), reach), reach))
+    analysis from 0 s to 1 s every 0.5 s
+}";
+
+#[test]
+fn forces_have_their_derivatives_too() {
+    let names = ["reach", "heavy", "about", "pushed", "turn"];
+    let choice = Choice { reactions: true, ..by(&names) };
+    let (compiled, mut outcome) = compile(HEAVY, &choice, Redundant::Refused);
+    follow(&compiled, &Times::listed(0.0, vec![0.8]), &RunOptions::default(), &mut outcome);
+    let outcome = outcome.expect_success();
+    let (l, m, i, f, g) = (0.4, 3.0, 0.05, 7.0, 9.81);
+    let (angle, rate, growth): (f64, f64, f64) = (0.3 + 1.6 + 0.96, 2.0 + 2.4, 3.0);
+    let (sin, cos) = (math::sin(angle), math::cos(angle));
+    // what the tip is pushed with, and what the mass asks for along x and y
+    let (along, up) = (-cos * rate * rate - sin * growth, -sin * rate * rate + cos * growth);
+    is(&outcome, "motor.effort", (4.0 * m * l * l + i) * growth + 2.0 * m * g * l * cos + f * sin * l * cos);
+    is(&outcome, "motor.effort.by.reach", 8.0 * m * l * growth + 2.0 * m * g * cos + f * sin * cos);
+    is(&outcome, "motor.effort.by.heavy", 4.0 * l * l * growth + 2.0 * g * l * cos);
+    is(&outcome, "motor.effort.by.about", growth);
+    is(&outcome, "motor.effort.by.pushed", sin * l * cos);
+    is(&outcome, "motor.effort.by.turn", -2.0 * m * g * l * sin + f * l * (cos * cos - sin * sin));
+    is(&outcome, "main.fx.by.heavy", 2.0 * l * along);
+    is(&outcome, "main.fx.by.pushed", 0.0);
+    is(&outcome, "main.fy.by.reach", 2.0 * m * up);
+    is(&outcome, "main.fy.by.pushed", sin);
+    // measures of forces, also those that are differentiated already
+    is(&outcome, "torque.by.heavy", value(&outcome, "motor.effort.by.heavy"));
+    is(&outcome, "by_mass", value(&outcome, "motor.effort.by.heavy"));
+    is(&outcome, "by_mass.by.reach", 8.0 * l * growth + 2.0 * g * cos);
+    is(&outcome, "by_mass.by.heavy", 0.0);
+    is(&outcome, "twice", 2.0 * along);
+    is(&outcome, "squared", 8.0 * m * growth);
+    // every column but time has one for each name, those of what is differentiated twice but for
+    let named = |column: &&String| column.contains(".by.");
+    let (derivatives, plain): (Vec<&String>, Vec<&String>) = outcome.columns.iter().partition(named);
+    let open = ["t", "twice", "squared"];
+    let wanted = plain.iter().filter(|column| !open.contains(&column.as_str())).count();
+    assert_eq!(derivatives.len(), wanted * names.len());
+    let of_forces: Vec<&str> =
+        derivatives.iter().map(|column| column.as_str()).filter(|column| column.contains("main.f")).collect();
+    assert_eq!(of_forces[..2], ["main.fx.by.reach", "main.fy.by.reach"]);
+}
+
+#[test]
+fn results_hold_derivatives_of_forces() {
+    let (compiled, outcome) = compile(HEAVY, &Choice::default(), Redundant::Refused);
+    assert!(!outcome.diagnostics.has_errors());
+    let times = compiled.times().expect("an analysis");
+    let (run, said) = compiled.run(&times, &RunOptions::default());
+    let mut run = run.unwrap_or_else(|| panic!("{said:?}"));
+    while run.next_row().is_some() {}
+    let found = run.results().expect("results").values;
+    // by hand: 4 l² growth + 2 g l cos(angle), most where the angle is least
+    let most = 4.0 * 0.16 * 3.0 + 2.0 * 9.81 * 0.4 * math::cos(0.3);
+    assert!((found[0].expect("a number") - most).abs() < 1e-9 * most, "{found:?}");
+    assert!((found[1].expect("a number") - 72.0).abs() < 1e-7, "{found:?}");
+}
+
+#[test]
+fn forces_beside_equations_that_were_left_out_keep_their_own() {
+    let text = |reach: &str| {
+        format!(
+            "mechanism m {{
+    param reach = {reach}
+    param heavy = 5 kg
+    ground {{ point A = (0, 0)  point B = (0.15 m, 0)  point C = (0.3 m, 0) }}
+    body one at (0, 0, 60 deg) {{ point O = (0, 0)  point P = (reach, 0)  mass 1 kg at (0.05 m, 0) }}
+    body two at (0.15 m, 0, 60 deg) {{ point O = (0, 0)  point P = (reach, 0)  mass 1 kg }}
+    body three at (0.3 m, 0, 60 deg) {{ point O = (0, 0)  point P = (reach, 0) }}
+    body bar at (0.05 m, 0.0866 m, 0) {{
+        point P = (0, 0)  point M = (0.15 m, 0)  point Q = (0.3 m, 0)
+        mass 2 kg at (0.1 m, 0) inertia 0.1 kg * m^2
+    }}
+    body arm {{ point O = (0, 0)  point P = (2 * reach, 0)  mass heavy }}
+    gravity (0, -9.81 m/s^2)
+    joint a1: revolute(ground.A, one.O)
+    joint a2: revolute(one.P, bar.P)
+    joint b1: revolute(ground.B, two.O)
+    joint b2: revolute(two.P, bar.M)
+    joint c1: revolute(ground.C, three.O)
+    joint c2: revolute(three.P, bar.Q)
+    joint d: revolute(ground.A, arm.O)
+    constraint follows: angle(arm) = 2 * angle(one)
+    driver motor: rotation(a1) = 60 deg + 1 rad/s * t + 2 rad/s^2 * t^2
+    load push: -3 N/m * reach on y(arm.P)
+    measure torque = effort(motor)
+    measure by_reach = der(effort(motor), reach)
+    measure by_mass = der(force_y(d), heavy)
+    analysis from 0 s to 0.5 s every 0.25 s
+}}"
+        )
+    };
+    let rows = |reach: &str| rows_at(&text(reach), &["reach"], &[0.25], &RunOptions::default());
+    let (here, below, above) = (rows("0.1 m"), rows("0.0999 m"), rows("0.1001 m"));
+    let slope = (value(&above, "torque") - value(&below, "torque")) / 2e-4;
+    assert!((value(&here, "by_reach") - slope).abs() < 1e-6, "{} and {slope}", value(&here, "by_reach"));
+    is(&here, "torque.by.reach", value(&here, "by_reach"));
+    is(&here, "by_mass", 9.81);
+}

@@ -140,7 +140,7 @@ fn a_formula_from_outside_names_no_part() {
     assert_eq!(of("own=2 * t / 1 s"), "");
     assert_eq!(of("own=a[0]"), "expected a number, found a part");
     assert_eq!(of("own=a[1].turn"), "expected a number, found something in a part");
-    assert_eq!(of("own=nobody[0]"), "nothing is repeated in this mechanism");
+    assert_eq!(of("own=nobody[0]"), "nothing of this name is repeated");
     // what is told of a part's input is told by its path
     assert_eq!(of("a[1].turn=3 mm"), "the input `a[1].turn` must be a pure number, found a length");
 }

@@ -8,8 +8,8 @@ mod support;
 
 use mechc::rooms::analysis::{FreeMotion, Horizon, free_motions};
 use mechc::rooms::scene::{
-    Anchor, Look, Motion, Path as Drawn, Place, Pose, Scene, Segment, Vector, catalogue, distance, dot, minus, plus,
-    polar, times,
+    Anchor, Look, Motion, Path as Drawn, Place, Pose, Scene, Segment, Torque, Vector, catalogue, distance, dot, minus,
+    plus, polar, times,
 };
 use mechc::rooms::view::svg::{Options, Plot, Theme, animated, has_vectors, plots, still};
 use mechc::rooms::view::{dxf, first_sentence};
@@ -324,6 +324,116 @@ fn arrows_are_at_what_moves() {
     let options = Options { traces: vec![rim], ..options };
     let file = still(&seen.scene, &seen.motion, &one_row(&seen, 20), &options);
     assert_eq!(with_arrows(&file), ["disc.edge"]);
+}
+
+/// A slider crank that a spring, a damper, a spiral spring and a brake work on.
+const HELD: &str = "mechanism held {
+    ground { point O = (0, 0)  point S = (-50 mm, 50 mm)  axis way = O along (1, 0) }
+    body crank at (0, 0, 60 deg) {
+        point O = (0, 0)  point pin = (30 mm, 0)  axis side = O along (1, 0)
+        mass 0.4 kg at (15 mm, 0) inertia 1e-4 kg * m^2
+    }
+    body rod at (15 mm, 26 mm, -15 deg) {
+        point big = (0, 0)  point small = (100 mm, 0)
+        mass 0.3 kg at (50 mm, 0) inertia 2e-4 kg * m^2
+    }
+    body slide at (112 mm, 0, 0) { point wrist = (0, 0)  axis way = wrist along (1, 0)  mass 0.5 kg at (0, 10 mm) }
+    gravity (0, -9.81 m/s^2)
+    joint main:  revolute(ground.O, crank.O)
+    joint big:   revolute(crank.pin, rod.big)
+    joint small: revolute(rod.small, slide.wrist)
+    joint guide: translational(ground.way, slide.way)
+    driver motor: rotation(main) = 60 deg + 300 rpm * t
+    load spring: -200 N/m * (distance(ground.S, crank.pin) - 40 mm) on distance(ground.S, crank.pin)
+    load damper: -20 N*s/m * der(displacement(guide)) on displacement(guide)
+    load spiral: -0.2 N*m * (rotation(big) + 75 deg) on rotation(big)
+    load brake:  -0.3 N*m on angle(crank)
+    analysis from 0 s to 0.2 s every 5 ms
+}";
+
+fn seen_with_forces(text: &str) -> Seen {
+    let choice = Choice { pictures_forces: true, ..Choice::default() };
+    let checked = Parsed::of("test.mech", text).check(&choice, &Disk::default());
+    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+    let compiled = compiled.unwrap_or_else(|| panic!("{said:?} {:?}", checked.diagnostics()));
+    let times = compiled.times().expect("an analysis");
+    let (seen, said) = checked.seen(&compiled, &times, &RunOptions::default(), 2000);
+    seen.unwrap_or_else(|| panic!("{said:?}"))
+}
+
+/// The torques of a mechanism in a row, with their names.
+fn torques(seen: &Seen, row: usize) -> Vec<(String, f64)> {
+    let named = |torque: &Torque| seen.scene.declarations[torque.declaration].name.clone();
+    seen.scene.torques.iter().map(|torque| (named(torque), torque.value(&seen.motion, row))).collect()
+}
+
+#[test]
+fn arcs_are_as_large_as_torques_and_go_their_way_round() {
+    let seen = seen_with_forces(HELD);
+    let options = Options { forces: true, ..Options::default() };
+    let mut scales: Vec<f64> = Vec::new();
+    for row in [0, 7, 23] {
+        let file = still(&seen.scene, &seen.motion, &one_row(&seen, row), &options);
+        let told = torques(&seen, row);
+        let names: Vec<&str> = told.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["guide", "motor", "spiral", "brake"]);
+        for (name, torque) in &told {
+            let paths = file.split('<').filter(|tag| tag.starts_with("path class=\"vector"));
+            let own = |tag: &&str| attribute(tag, "data-name") == Some(name) && tag.contains(" 0 1 ");
+            let Some(path) = paths.clone().find(own) else { continue };
+            let (_, arc) = attribute(path, "d").expect("a path").split_once('A').expect("an arc");
+            let arc = numbers(arc);
+            assert_eq!(arc[4] > 0.5, *torque < 0.0, "{name} of {torque} N m: {arc:?}");
+            scales.push(arc[0] / torque.abs());
+        }
+        assert!(file.contains("reaction torque, at most") && file.contains("load torque, at most"));
+    }
+    let (least, most) = scales.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), s| (a.min(*s), b.max(*s)));
+    assert!(scales.len() > 8 && most < 1.02 * least, "{scales:?}");
+    let moving = animated(&seen.scene, &seen.motion, &options);
+    for name in ["guide", "motor", "spiral", "brake"] {
+        assert!(moving.contains(&format!("data-name=\"{name}\" d=\"M-0.7071 0.7071A1 1 0 1 0")), "{name}");
+    }
+}
+
+#[test]
+fn a_torque_is_the_same_however_it_is_written() {
+    let wanted = torques(&seen_with_forces(HELD), 9);
+    for (old, new) in [
+        ("rotation(main) = 60 deg + 300 rpm * t", "60 deg + 300 rpm * t = rotation(main)"),
+        ("rotation(main) = 60", "angle(crank) = 60"),
+        ("-0.3 N*m on angle(crank)", "-0.3 N*m on rotation(main)"),
+        ("-0.3 N*m on angle(crank)", "0.3 N*m on angle(crank.side, ground.way)"),
+    ] {
+        let found = torques(&seen_with_forces(&HELD.replace(old, new)), 9);
+        for ((name, wanted), (_, found)) in wanted.iter().zip(&found) {
+            assert!((wanted - found).abs() < 1e-9, "{new}: {name} is {found}, not {wanted}");
+        }
+    }
+    // turned over with all that is in it, torques are the other way round
+    let part = HELD.replace("gravity (0, -9.81 m/s^2)", "");
+    let whole = |how: &str| {
+        format!(
+            "mechanism whole {{ part one: held() at (0, 0, 0){how}\n analysis from 0 s to 0.2 s every 5 ms }}\n{part}"
+        )
+    };
+    let [plain, turned] = ["", " mirrored"].map(|how| torques(&seen_with_forces(&whole(how)), 9));
+    assert_eq!(plain.len(), 4);
+    for ((name, plain), (_, turned)) in plain.iter().zip(&turned) {
+        assert!(plain.abs() > 1e-3 && (plain + turned).abs() < 1e-9, "{name}: {plain} and {turned}");
+    }
+}
+
+#[test]
+fn what_drives_a_length_has_an_arrow() {
+    let text = HELD
+        .replace("rotation(main) = 60 deg + 300 rpm * t", "displacement(guide) = 110 mm + 5 mm * sin(10 rad/s * t)");
+    let seen = seen_with_forces(&text);
+    let is_of = |name: &str, number: usize| seen.scene.declarations[number].name == name;
+    let motor = seen.scene.forces.iter().find(|force| is_of("motor", force.declaration)).expect("an arrow");
+    let effort = seen.motion.value("motor.effort", 3);
+    let [x, y] = motor.value(&seen.motion, 3);
+    assert!((x - effort).abs() < 1e-9 && y.abs() < 1e-9 && effort.abs() > 1e-3, "{x}, {y} of {effort}");
 }
 
 #[test]
@@ -1061,7 +1171,10 @@ fn goldens() -> Vec<(String, String)> {
     let at_the_end = Options { said: why.into_iter().collect(), ..Options::default() };
     let last = stopped.motion.moment(stopped.motion.len() - 1);
     let labelled = Options { labels: true, traces: vec![pen], ..Options::default() };
+    let held = seen_with_forces(HELD);
+    let with_forces = Options { forces: true, labels: true, ..Options::default() };
     let others = [
+        ("tests/pictures/forces.svg", still(&held.scene, &held.motion, &one_row(&held, 0), &with_forces)),
         ("docs/symbols.svg", still(&symbols, &rest, &rest, &of_symbols)),
         ("tests/pictures/hoeken.svg", still(&hoeken.scene, &hoeken.motion, &one_row(&hoeken, 0), &labelled)),
         (

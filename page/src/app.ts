@@ -150,7 +150,7 @@ export class App implements Deeds {
         this.hasMoved ||= rows > 1;
         this.element.classList.toggle("still", document.table.rows < 2);
         const forces = this.switches.get("forces");
-        if (forces) forces.hidden = !document.scene.forces;
+        if (forces) forces.hidden = !document.scene.forces && !document.scene.torques;
         for (const pane of this.near) pane.show(document, this.wishes);
         this.isBehind = true;
         this.draw();

@@ -916,8 +916,8 @@ pub fn not_repeated(name: &Name) -> Diagnostic {
         .help("what is repeated is declared with a range: `body link[k in 0..3] …`")
 }
 
-/// `arm.tip.x`, or a number behind what is not repeated.
-pub fn path_of_nothing(span: Span, segments: &[PathSegment]) -> Diagnostic {
+/// `arm.tip.x`, or a number behind what is not repeated, the first name being known or not.
+pub fn path_of_nothing(span: Span, segments: &[PathSegment], is_known: bool) -> Diagnostic {
     match segments {
         [owner, point, coordinate] if ["x", "y"].contains(&coordinate.name.text.as_str()) => {
             let indices: Vec<String> = owner.indices.iter().map(expression).collect();
@@ -931,7 +931,13 @@ pub fn path_of_nothing(span: Span, segments: &[PathSegment]) -> Diagnostic {
         [_, _, _, ..] => Diagnostic::new(Code::E0208, "a path is a body, and a feature of it")
             .at(span, "goes on")
             .help("the number stands behind what is repeated: `link[2].pin`"),
-        _ => Diagnostic::new(Code::E0208, "nothing is repeated in this mechanism")
+        [_, feature] if !feature.indices.is_empty() => {
+            Diagnostic::new(Code::E0208, format!("`{}` is not repeated, there is only one", feature.name.text))
+                .at(feature.name.span, "takes no number in brackets")
+                .help("a body is repeated with all its features, and the number stands behind it: `link[2].pin`")
+        }
+        [owner, ..] if is_known => not_repeated(&owner.name),
+        _ => Diagnostic::new(Code::E0208, "nothing of this name is repeated")
             .at(span, "this takes one of several")
             .help("what is repeated is declared with a range: `body link[k in 0..3] …`"),
     }

@@ -394,7 +394,10 @@ impl Checker<'_> {
         self.report(match (self.space.get(&owner), unknown) {
             (Some(entity), _) => errors::path_from_outside(span, &owner, entity.noun(), owner == text),
             (None, Some(first)) => errors::unknown_owner(&first.name, self.tree),
-            (None, None) => errors::path_of_nothing(span, segments),
+            (None, None) => {
+                let is_known = segments.first().is_some_and(|first| self.entity(&first.name).is_some());
+                errors::path_of_nothing(span, segments, is_known)
+            }
         });
     }
 

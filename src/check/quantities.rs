@@ -224,6 +224,8 @@ impl Checker<'_> {
             ExprKind::Tuple(_) => "a literal point",
             ExprKind::Member { .. } => "a feature of a body",
             ExprKind::Name(_) => "a name",
+            ExprKind::Path(segments) if segments.iter().any(|one| !one.indices.is_empty()) => "a path with brackets",
+            ExprKind::Path(_) => "a path that goes on",
             ExprKind::Not(_) | ExprKind::Compare(..) | ExprKind::And(_) | ExprKind::Or(_) => "a condition",
             _ => "a formula",
         }

@@ -448,7 +448,7 @@ impl<'t, 'c> Writer<'t, 'c> {
             [feature] if feature.indices.is_empty() => Ok(ExprKind::Member { owner, feature: feature.name.clone() }),
             _ => {
                 let diagnostic = if self.names.contains(first.name.text.as_str()) || first.name.text == "ground" {
-                    errors::path_of_nothing(span, segments)
+                    errors::path_of_nothing(span, segments, true)
                 } else {
                     errors::unknown_owner(&first.name, self.tree)
                 };

@@ -9,7 +9,7 @@ use super::mentions::formulas;
 use super::told::is_told_by;
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};
-use crate::model::{Declared, Named, Variable};
+use crate::model::{AskedInPart, Declared, Named, Variable};
 use crate::syntax::ast::{Expr, ExprKind, Mechanism, Name};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -142,7 +142,8 @@ impl Checker<'_> {
         }
         let dim = Dim::Of(inner.dim.settled().over(self.model.variables[variable as usize].dimension));
         let within = self.part.filter(|_| self.is_coupled());
-        self.model.asked_in_parts.extend(self.part.map(|part| (part, e.span)));
+        let is_of_force = self.holds_force(inner.id);
+        self.model.asked_in_parts.extend(self.part.map(|part| AskedInPart { part, span: e.span, is_of_force }));
         let id = self.name_symbol(Named::By(inner.id, variable, within), rates);
         self.variables.orders.insert(id, (times + 1, rates));
         Some(Value { id, dim })

@@ -267,6 +267,12 @@ impl Dependence {
         (0..3).rev().find(|&order| self.on(Self::varied(order)))
     }
 
+    /// Whether anything among these is differentiated by something else than time.
+    #[must_use]
+    pub fn is_varied(self) -> bool {
+        self.highest_varied_order().is_some() || self.on(Self::VARIED_MULTIPLIERS)
+    }
+
     fn of(symbol: Symbol) -> Dependence {
         match symbol {
             Symbol::Param(_) | Symbol::Shift(_) => Self::PARAMS,

@@ -7,6 +7,7 @@
 use super::{ConstraintSystem, DeclarationId, SparseRows};
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::source::Span;
+use rustc_hash::FxHashMap;
 
 /// The equations for the multipliers.
 #[derive(Clone, Debug)]
@@ -39,8 +40,10 @@ pub struct LoadForce {
 pub struct Press {
     /// The contact.
     pub declaration: DeclarationId,
-    /// The normal force (N); below zero where it pulls.
+    /// The normal force (N); below zero where it pulls. Where it is not known which side the bodies are on, to the left of the tangent.
     pub force: ExprId,
+    /// Whether that is known.
+    pub is_sided: bool,
 }
 
 /// A column of what a joint exerts, or of what a constraint or driver supplies; in pictures of what a load is, too.
@@ -118,13 +121,22 @@ impl ConstraintSystem {
         if self.forces.is_none() {
             return;
         }
-        let mut number = vec![None; self.rows.len()];
-        for (new, &old) in (0..).zip(kept) {
-            number[old] = Some(self.graph.symbol(Symbol::Multiplier(new)));
-        }
+        let varied = [&self.variations, &self.results.variations].into_iter().flatten();
+        let variations = varied.map(|variations| variations.count()).max().unwrap_or(0) as u32;
         let nothing = self.graph.constant(0.0);
+        let mut renumbered = FxHashMap::default();
+        for (new, &old) in (0..).zip(kept) {
+            let old = old as u32;
+            renumbered.insert(Symbol::Multiplier(old), self.graph.symbol(Symbol::Multiplier(new)));
+            for variation in 0..variations {
+                let [old, new] = [old, new].map(|row| Symbol::VariedMultiplier { row, variation });
+                renumbered.insert(old, self.graph.symbol(new));
+            }
+        }
         let of = |symbol: Symbol| match symbol {
-            Symbol::Multiplier(row) => Some(number[row as usize].unwrap_or(nothing)),
+            Symbol::Multiplier(_) | Symbol::VariedMultiplier { .. } => {
+                Some(renumbered.get(&symbol).copied().unwrap_or(nothing))
+            }
             _ => None,
         };
         let formulas = self.measures.iter_mut().map(|measure| &mut measure.value);
@@ -133,7 +145,9 @@ impl ConstraintSystem {
             let reactions = reactions.iter_mut().map(|reaction| &mut reaction.value);
             reactions.chain(presses.iter_mut().map(|press| &mut press.force))
         });
-        let places: Vec<&mut ExprId> = formulas.chain(own).chain(reduced).collect();
+        let varied = [&mut self.variations, &mut self.results.variations].into_iter().flatten();
+        let places: Vec<&mut ExprId> =
+            formulas.chain(own).chain(reduced).chain(varied.flat_map(|varied| varied.formulas_with_forces())).collect();
         let roots: Vec<ExprId> = places.iter().map(|place| **place).collect();
         for (place, id) in places.into_iter().zip(self.graph.substituted(&roots, of)) {
             *place = id;

@@ -90,6 +90,8 @@ pub struct AskingPart {
     pub used_at: Vec<(String, Span)>,
     /// Where derivatives are asked for, in its text.
     pub places: Vec<Span>,
+    /// The first place where that is the derivative of a force.
+    pub of_force: Option<Span>,
     /// Its coordinates, ascending.
     pub columns: Vec<u32>,
     /// What its inputs are bound to.

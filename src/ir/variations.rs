@@ -59,8 +59,10 @@ pub struct Variation {
     /// variables].
     pub rights: [Vec<ExprId>; 3],
     /// The right sides of the equations for the multipliers, one entry per coordinate, where somebody asks for these [unit of the
-    /// coordinate's force per unit of the variable]. Only those by one variable have them.
+    /// coordinate's force per unit of the variables].
     pub forces: Vec<ExprId>,
+    /// Whether a formula holds how multipliers change by it.
+    is_of_forces: bool,
 }
 
 /// A derivative that is a column of its own.
@@ -147,7 +149,12 @@ impl Variations {
                 Some(graph.symbol(Symbol::Varied { index, order, variation }))
             }
             Symbol::Multiplier(row) => {
-                let variation = self.number(variable, None);
+                let variation = self.number_of_forces(variable, None);
+                Some(graph.symbol(Symbol::VariedMultiplier { row, variation }))
+            }
+            Symbol::VariedMultiplier { row, variation } => {
+                let (first, _) = self.list[variation as usize].by;
+                let variation = self.number_of_forces(first, Some(variable));
                 Some(graph.symbol(Symbol::VariedMultiplier { row, variation }))
             }
             _ => None,
@@ -169,26 +176,41 @@ impl Variations {
             self.number(b, None);
         }
         let number = self.list.len() as u32;
-        self.list.push(Variation { by, scope: self.scope_of(by.0), rights: Default::default(), forces: Vec::new() });
+        self.list.push(Variation {
+            by,
+            scope: self.scope_of(by.0),
+            rights: Default::default(),
+            forces: Vec::new(),
+            is_of_forces: false,
+        });
         self.numbers.insert(by, number);
+        number
+    }
+
+    /// The number of a variation of which it is asked how it changes multipliers.
+    fn number_of_forces(&mut self, first: u32, second: Option<u32>) -> u32 {
+        let number = self.number(first, second);
+        self.list[number as usize].is_of_forces = true;
         number
     }
 
     /// How many times a formula is differentiated by variables already.
     #[must_use]
     pub fn times(&self, graph: &Graph, formula: ExprId) -> usize {
-        if graph.dependence(formula).highest_varied_order().is_none() {
+        if !graph.dependence(formula).is_varied() {
             return 0;
         }
         let times = |symbol| match symbol {
-            Symbol::Varied { variation, .. } => 1 + usize::from(self.list[variation as usize].by.1.is_some()),
+            Symbol::Varied { variation, .. } | Symbol::VariedMultiplier { variation, .. } => {
+                1 + usize::from(self.list[variation as usize].by.1.is_some())
+            }
             _ => 0,
         };
         graph.symbols(formula).into_iter().map(times).max().unwrap_or(0)
     }
 
     /// The right sides of all variations that have none yet, for rows of `Φ`.
-    fn write_rights(&mut self, graph: &mut Graph, phi: &[ExprId], open_forces: &[ExprId]) {
+    fn write_rights(&mut self, graph: &mut Graph, phi: &[ExprId]) {
         for scope in &mut self.scopes {
             scope.derive(graph, &self.leaves);
         }
@@ -223,11 +245,43 @@ impl Variations {
                 let slopes = without_leaves(graph, &self.leaves, &slopes);
                 self.list[number].rights[order] = slopes.into_iter().map(|slope| graph.neg(slope)).collect();
             }
-            if second.is_none() && self.list[number].scope.is_none() {
-                let is_solved_for = |symbol| matches!(symbol, Symbol::Multiplier(_));
-                self.list[number].forces = self.along(graph, open_forces, first, &is_solved_for);
+        }
+    }
+
+    /// The right sides of the equations for how multipliers change, as far as somebody asks for that and they are not there yet.
+    fn write_rights_of_forces(&mut self, graph: &mut Graph, open_forces: &[ExprId]) {
+        for number in 0..self.list.len() {
+            if self.list[number].scope.is_none() && self.list[number].forces.is_empty() {
+                self.list[number].forces = self.rights_of_forces(graph, open_forces, number);
             }
         }
+    }
+
+    /// The right sides of the equations for how multipliers change: `D_a (p − Φ_qᵀ λ)` without `λ_a`, and by two `D_b` of all that,
+    /// without `λ_ab`.
+    fn rights_of_forces(&mut self, graph: &mut Graph, open_forces: &[ExprId], number: usize) -> Vec<ExprId> {
+        match self.list[number].by {
+            (first, None) => self.along(graph, open_forces, first, &|symbol| matches!(symbol, Symbol::Multiplier(_))),
+            (first, Some(second)) if self.list[number].is_of_forces => {
+                let inner = self.number_of_forces(first, None);
+                let once = self.derivatives(graph, open_forces, first);
+                let is_solved_for =
+                    |symbol| matches!(symbol, Symbol::VariedMultiplier { variation, .. } if variation == inner);
+                self.along(graph, &once, second, &is_solved_for)
+            }
+            (_, Some(_)) => Vec::new(),
+        }
+    }
+
+    /// Formulas that may hold multipliers: of columns, and of the equations for how multipliers change.
+    pub(super) fn formulas_with_forces(&mut self) -> impl Iterator<Item = &mut ExprId> {
+        let columns = self.appended.iter_mut().map(|column| &mut column.value);
+        columns.chain(self.list.iter_mut().flat_map(|variation| &mut variation.forces))
+    }
+
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.list.len()
     }
 }
 
@@ -291,7 +345,8 @@ impl ConstraintSystem {
         let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
         let open_forces = self.open_forces();
         if let Some(variations) = &mut self.variations {
-            variations.write_rights(&mut self.graph, &phi, &open_forces);
+            variations.write_rights(&mut self.graph, &phi);
+            variations.write_rights_of_forces(&mut self.graph, &open_forces);
         }
     }
 
@@ -300,7 +355,8 @@ impl ConstraintSystem {
         let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
         let open_forces = self.open_forces();
         if let Some(variations) = &mut self.results.variations {
-            variations.write_rights(&mut self.graph, &phi, &open_forces);
+            variations.write_rights(&mut self.graph, &phi);
+            variations.write_rights_of_forces(&mut self.graph, &open_forces);
         }
     }
 
@@ -404,14 +460,14 @@ impl ConstraintSystem {
 
 /// A formula where all holds that its variations need, elsewhere nothing finite.
 fn only_where(graph: &mut Graph, hold: &[Option<ExprId>], id: ExprId) -> ExprId {
-    if graph.dependence(id).highest_varied_order().is_none() {
+    if !graph.dependence(id).is_varied() {
         return id;
     }
     let mut needed: Vec<u32> = graph
         .symbols(id)
         .into_iter()
         .filter_map(|symbol| match symbol {
-            Symbol::Varied { variation, .. } => Some(variation),
+            Symbol::Varied { variation, .. } | Symbol::VariedMultiplier { variation, .. } => Some(variation),
             _ => None,
         })
         .collect();

@@ -217,7 +217,7 @@ impl Lowering<'_> {
         self.conditions();
         let (points, forces, measures) = (self.points(), self.forces(), self.measures());
         let (parts, asking_parts) = (self.part_starts(), self.asking_parts());
-        self.append_derivatives(&measures);
+        self.append_derivatives(forces.as_ref().map_or(&[], |forces| &forces.reactions), &measures);
         Written {
             name: model.declared.name.clone(),
             span: model.declared.span,

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 const PLACES: u32 = 90;
 
 impl Lowering<'_> {
-    /// What each contact presses with, as far as it can be told which side its bodies are on.
+    /// What each contact presses with.
     pub(super) fn presses(&mut self) -> Vec<Press> {
         let mut presses = Vec::new();
         for id in self.model.joint_ids() {
@@ -23,29 +23,32 @@ impl Lowering<'_> {
             if is_contact {
                 let on_second = self.reaction_on_second(id);
                 let force = self.seen_from(None, |l| l.press(id, on_second));
-                presses.extend(force.map(|force| Press { declaration: super::of_joint(id), force }));
+                let press = |(force, is_sided)| Press { declaration: super::of_joint(id), force, is_sided };
+                presses.extend(force.map(press));
             }
         }
         presses
     }
 
-    /// The normal force (N), from what the contact exerts on its second body; below zero where it pulls.
-    fn press(&mut self, joint: JointId, on_second: Vector) -> Option<ExprId> {
+    /// The normal force (N), from what the contact exerts on its second body, below zero where it pulls; and whether it is known which side
+    /// the bodies are on, which a curve that is open does not tell.
+    fn press(&mut self, joint: JointId, on_second: Vector) -> Option<(ExprId, bool)> {
         let arguments = self.numbering.own(joint);
         let start = arguments.start;
         let argument = |l: &mut Self, k: u32| l.graph.symbol(Symbol::Coordinate { index: start + k, order: 0 });
         match self.model[joint].kind {
             // the curve's body is inside of it
             JointKind::PointFollower(_, profile) => {
-                let round = self.round(profile)?;
+                let round = self.round(profile);
                 let u = argument(self, 0);
+                let is_closed = round.is_some();
                 let (tangent, _) = self.tangent_and_bend(profile, u);
                 let frame = profile.frame(self.model);
                 let [x, y] = [[1.0, 0.0], [0.0, 1.0]].map(|axis| axis.map(|part| self.graph.constant(part)));
                 let (x, y) = (self.turned(frame, x), self.turned(frame, y));
-                let (parity, round) = (self.left_of(x, y), self.graph.constant(round));
+                let (parity, round) = (self.left_of(x, y), self.graph.constant(round.unwrap_or(1.0)));
                 let side = self.graph.mul(parity, round);
-                Some(self.pressing(side, tangent, on_second))
+                Some((self.pressing(side, tangent, on_second), is_closed))
             }
             // a curve bends away from what it touches: from a face,
             JointKind::FlatFollower(profile, face) => {
@@ -54,7 +57,7 @@ impl Lowering<'_> {
                 let face = self.direction(face);
                 let curvature = self.left_of(face, bend);
                 let on_first = on_second.map(|part| self.graph.neg(part));
-                Some(self.pressing(curvature, face, on_first))
+                Some((self.pressing(curvature, face, on_first), true))
             }
             // and more than the other curve does, to whichever side
             JointKind::Cam(first, second) => {
@@ -65,7 +68,7 @@ impl Lowering<'_> {
                 let (of_k, of_m) = (self.graph.mul(of_k, square), self.graph.mul(of_m, together));
                 let curvature = self.graph.sub(of_k, of_m);
                 let on_first = on_second.map(|part| self.graph.neg(part));
-                Some(self.pressing(curvature, t, on_first))
+                Some((self.pressing(curvature, t, on_first), true))
             }
             _ => None,
         }

@@ -18,9 +18,7 @@ impl Lowering<'_> {
             units: units(&outcome.units),
         });
         let outcomes = outcomes.collect();
-        let is_varied =
-            |reduction: &ir::Reduction| self.graph.dependence(reduction.of).highest_varied_order().is_some();
-        let holds_variations = reductions.iter().any(is_varied);
+        let holds_variations = reductions.iter().any(|reduction| self.graph.dependence(reduction.of).is_varied());
         let variations = self.variations.take().filter(|_| holds_variations).map(Box::new);
         Results { reductions, outcomes, variations, varied_where: Vec::new() }
     }

@@ -174,7 +174,7 @@ impl Lowering<'_> {
     /// The parts that ask for derivatives in their own texts.
     pub(super) fn asking_parts(&mut self) -> Vec<AskingPart> {
         let model = self.model;
-        let mut asking: Vec<PartId> = model.asked_in_parts.iter().map(|(part, _)| *part).collect();
+        let mut asking: Vec<PartId> = model.asked_in_parts.iter().map(|asked| asked.part).collect();
         asking.sort_unstable();
         asking.dedup();
         asking.into_iter().map(|part| self.asking_part(part)).collect()
@@ -182,15 +182,16 @@ impl Lowering<'_> {
 
     fn asking_part(&mut self, part: PartId) -> AskingPart {
         let model = self.model;
-        let asked = model.asked_in_parts.iter().filter(|(asking, _)| *asking == part);
-        let mut places: Vec<_> = asked.map(|(_, span)| *span).collect();
+        let asked = || model.asked_in_parts.iter().filter(|asked| asked.part == part);
+        let mut places: Vec<_> = asked().map(|asked| asked.span).collect();
         places.dedup();
+        let of_force = asked().find(|asked| asked.is_of_force).map(|asked| asked.span);
         let around = model.parts_around(Some(part));
         let used_at = around.map(|part| (model[part].declared.name.clone(), model[part].declared.span)).collect();
         let (name, columns) =
             (model[part].declared.name.clone(), self.numbering.of_part(model, |to| belongs(model, to, part)));
         let inputs = model[part].inputs.iter().map(|(_, id)| self.formula(*id)).collect();
-        AskingPart { name, used_at, places, columns, inputs, declarations: self.declarations_of(part) }
+        AskingPart { name, used_at, places, of_force, columns, inputs, declarations: self.declarations_of(part) }
     }
 
     /// The joints, constraints and drivers of a part, and of those within it.

@@ -2,7 +2,7 @@
 
 use super::Lowering;
 use crate::expr::ExprId;
-use crate::ir::{Appended, Coordinate, Measure, Variable, Variations};
+use crate::ir::{Appended, Coordinate, Measure, Reaction, Variable, Variations};
 use crate::model::{Mechanism, Units, quotient};
 
 /// What a mechanism is differentiated by; none where that is nothing.
@@ -31,11 +31,16 @@ impl Lowering<'_> {
     }
 
     /// A column for each variable that was asked for and each column that can be differentiated by it.
-    pub(super) fn append_derivatives(&mut self, measures: &[Measure]) {
+    pub(super) fn append_derivatives(&mut self, reactions: &[Reaction], measures: &[Measure]) {
         for &variable in &self.model.by {
             for order in 0..ENDINGS.len() {
                 for k in 0..self.coordinates.len() {
                     self.append_of_coordinate(k, order, variable);
+                }
+                if order == 0 {
+                    for of in reactions {
+                        self.append_of_reaction(of, variable);
+                    }
                 }
                 for (k, measure) in measures.iter().enumerate() {
                     let value = [Some(measure.value), measure.first, measure.second][order];
@@ -53,6 +58,12 @@ impl Lowering<'_> {
         let Coordinate { name, kind, .. } = &self.coordinates[k];
         let unit = per_second(kind.unit(), order);
         self.append(&(name.clone() + ENDINGS[order]), value, variable, (unit, [1.0; 3]));
+    }
+
+    /// Forces have no time derivatives.
+    fn append_of_reaction(&mut self, of: &Reaction, variable: u32) {
+        let value = self.derivative_by(of.value, variable);
+        self.append(&of.name, value, variable, (of.unit.clone(), [1.0; 3]));
     }
 
     /// One that needs too many derivatives is left out.

@@ -104,7 +104,7 @@ pub struct Mechanism {
     /// What derivatives are taken by, by their number.
     pub variables: Vec<Variable>,
     /// Where parts ask for such derivatives in their own texts.
-    pub asked_in_parts: Vec<(PartId, Span)>,
+    pub asked_in_parts: Vec<AskedInPart>,
     /// The numbers of those that all columns are differentiated by, in the order of the columns.
     pub by: Vec<u32>,
     /// Whether what all joints exert and all drivers supply is tabulated.
@@ -336,6 +336,17 @@ pub struct Part {
     pub is_turned_over: bool,
     /// Whether its text is mirrored in the end.
     pub is_mirrored: bool,
+}
+
+/// A derivative by an input or parameter that the text of a part asks for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct AskedInPart {
+    /// The part.
+    pub part: PartId,
+    /// Where it does.
+    pub span: Span,
+    /// Whether it is that of a force.
+    pub is_of_force: bool,
 }
 
 /// An input or parameter that derivatives are taken by.

@@ -70,6 +70,7 @@ pub fn catalogue(span: Span) -> (Scene, Motion, Vec<(Vector, String)>) {
         profiles: Vec::new(),
         contacts: Vec::new(),
         forces: Vec::new(),
+        torques: Vec::new(),
         outlines: Vec::new(),
         unit: 1.0,
         extent,

@@ -95,7 +95,8 @@ pub(super) fn pivot_of(drawing: &Drawing, from: Option<Direction>, to: Direction
     pivot(drawing, [from.map_or(0, |from| frame_of(drawing, from)), frame_of(drawing, to)])
 }
 
-fn frame_of(drawing: &Drawing, direction: Direction) -> usize {
+/// The frame of a body, or of what an axis is fixed to.
+pub(super) fn frame_of(drawing: &Drawing, direction: Direction) -> usize {
     match direction {
         Direction::Frame(frame) => drawing.features.frame(frame),
         Direction::Axis(axis) => drawing.features.axis(axis).frame,

@@ -1,9 +1,11 @@
 //! Forces as arrows: what joints exert, what loads are, weights. What they are at a time stands in columns of the table.
 
+use super::drawing::Drawing;
 use super::features::Features;
 use super::plane::{Vector, length, minus, polar, times};
 use super::{Anchor, Motion};
-use crate::model::{EquationForm, JointKind, Load, Profile, Quantity};
+use crate::expr::{ExprId, Node, Symbol};
+use crate::model::{EquationForm, JointKind, Mechanism, Named, PartId, Profile, Quantity};
 use std::f64::consts::PI;
 
 /// What a force is of.
@@ -99,44 +101,60 @@ impl ForceVector {
     }
 }
 
-/// All forces that the motion's table tells of, and the weights beside them; none where it tells of none. The declarations of the first joint,
-/// equation and load are told.
-pub(super) fn vectors(
-    features: &Features,
-    motion: &Motion,
-    [joints, equations, loads]: [usize; 3],
-) -> Vec<ForceVector> {
+/// All forces that the motion's table tells of, and the weights beside them; none where it tells of none, and of no torques either.
+pub(super) fn vectors(drawing: &Drawing, has_torques: bool) -> Vec<ForceVector> {
+    let (features, first) = (&drawing.features, drawing.first);
     let model = features.model;
     let mut found: Vec<ForceVector> = Vec::new();
     for (number, joint) in model.joints.iter().enumerate() {
         let name = &joint.declared.name;
         let columns = [format!("{name}.fx"), format!("{name}.fy")];
         found.extend(place(features, &joint.kind).map(|at| ForceVector {
-            declaration: joints + number,
+            declaration: first.joints + number,
             kind: ForceKind::Reaction,
             at,
             value: ForceValue::Components(columns),
         }));
     }
     for (number, equation) in model.equations.iter().enumerate() {
-        if let EquationForm::Distance(p, q, _) = equation.form {
-            let ends = [p, q].map(|point| features.point(point));
-            let column = format!("{}.effort", equation.declared.name);
-            found.extend(apart(equations + number, ForceKind::Reaction, &column, ends));
+        let of = (first.equations + number, ForceKind::Reaction, format!("{}.effort", equation.declared.name));
+        match equation.form {
+            EquationForm::Distance(p, q, _) => {
+                found.extend(apart(&of, [p, q].map(|point| features.point(point)), 1.0));
+            }
+            // what it supplies works on the left side less the right side
+            EquationForm::Equality(left, right) => {
+                for (side, sign) in [(left, 1.0), (right, -1.0)] {
+                    let quantity = bare_quantity(model, side);
+                    found.extend(quantity.into_iter().flat_map(|on| of_quantity(features, &of, on, sign)));
+                }
+            }
         }
     }
     for (number, load) in model.loads.iter().enumerate() {
-        found.extend(of_load(features, loads + number, load));
+        let of = (first.loads + number, ForceKind::Load, format!("{}.load", load.declared.name));
+        found.extend(of_quantity(features, &of, (load.part, load.on), 1.0));
     }
-    found.retain(|force| force.columns().iter().all(|column| motion.column(column).is_some()));
-    if !found.is_empty() {
+    found.retain(|force| force.columns().iter().all(|column| drawing.motion.column(column).is_some()));
+    if !found.is_empty() || has_torques {
         found.extend(weights(features));
     }
     found
 }
 
+/// The quantity that a side of an equation is, and from the ground of which part it is seen; none of a formula that holds more.
+pub(super) fn bare_quantity(model: &Mechanism, side: ExprId) -> Option<(Option<PartId>, Quantity)> {
+    match model.graph.node(side) {
+        Node::Symbol(Symbol::Named(k)) => match model.named[k as usize] {
+            Named::Quantity(view, quantity) => Some((view, quantity)),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
 /// Where a joint's reaction takes hold, as the language has it. What presses a circle passes its centre.
-fn place(features: &Features, kind: &JointKind) -> Option<Anchor> {
+pub(super) fn place(features: &Features, kind: &JointKind) -> Option<Anchor> {
     let model = features.model;
     Some(match *kind {
         JointKind::Revolute(_, q) | JointKind::Weld(_, q, _) | JointKind::RevoluteRevolute(_, q, _) => {
@@ -154,29 +172,37 @@ fn place(features: &Features, kind: &JointKind) -> Option<Anchor> {
     })
 }
 
-/// A force that takes two places apart, on each of them.
-fn apart(declaration: usize, kind: ForceKind, column: &str, [from, to]: [Anchor; 2]) -> [ForceVector; 2] {
-    [[to, from], [from, to]].map(|[from, to]| ForceVector {
-        declaration,
-        kind,
-        at: to,
-        value: ForceValue::Apart { column: column.to_owned(), from, to },
+/// Whose a force is, what it is of, and the column that tells it.
+type Of = (usize, ForceKind, String);
+
+/// A force that takes two places apart, or draws them together, on each of them.
+fn apart((declaration, kind, column): &Of, ends: [Anchor; 2], sign: f64) -> [ForceVector; 2] {
+    let [p, q] = ends;
+    [[p, q], [q, p]].map(|[at, other]| ForceVector {
+        declaration: *declaration,
+        kind: *kind,
+        at,
+        value: if sign > 0.0 {
+            ForceValue::Apart { column: column.clone(), from: other, to: at }
+        } else {
+            ForceValue::Apart { column: column.clone(), from: at, to: other }
+        },
     })
 }
 
-/// The arrows of a load on a length; a torque has none.
-fn of_load(features: &Features, declaration: usize, load: &Load) -> Vec<ForceVector> {
-    let (kind, column) = (ForceKind::Load, format!("{}.load", load.declared.name));
+/// The arrows of what works on a length, as its column or against it; a torque has none.
+fn of_quantity(features: &Features, of: &Of, (view, on): (Option<PartId>, Quantity), sign: f64) -> Vec<ForceVector> {
+    let (declaration, kind, column) = of;
     let along = |at: Anchor, frame: usize, direction: Vector| ForceVector {
-        declaration,
-        kind,
+        declaration: *declaration,
+        kind: *kind,
         at,
-        value: ForceValue::Along { column: column.clone(), frame, direction },
+        value: ForceValue::Along { column: column.clone(), frame, direction: times(sign, direction) },
     };
-    match load.on {
+    match on {
         Quantity::X(from, to) | Quantity::Y(from, to) => {
-            let (frame, pose, is_mirrored) = features.text_of(load.part);
-            let direction = match load.on {
+            let (frame, pose, is_mirrored) = features.text_of(view);
+            let direction = match on {
                 Quantity::X(..) => polar(1.0, pose.phi),
                 _ if is_mirrored => polar(1.0, pose.phi - 0.5 * PI),
                 _ => polar(1.0, pose.phi + 0.5 * PI),
@@ -184,7 +210,7 @@ fn of_load(features: &Features, declaration: usize, load: &Load) -> Vec<ForceVec
             let from = from.map(|point| along(features.point(point), frame, times(-1.0, direction)));
             from.into_iter().chain([along(features.point(to), frame, direction)]).collect()
         }
-        Quantity::Distance(p, q) => apart(declaration, kind, &column, [p, q].map(|point| features.point(point))).into(),
+        Quantity::Distance(p, q) => apart(of, [p, q].map(|point| features.point(point)), sign).into(),
         Quantity::Displacement(_, a, b) => {
             let (guide, slider) = (features.axis(a), features.axis(b));
             vec![along(Anchor { frame: slider.frame, at: slider.at }, guide.frame, guide.along)]

@@ -28,6 +28,7 @@ mod sizes;
 mod springs;
 mod symbols;
 mod teeth;
+mod torques;
 mod whole;
 
 pub use catalogue::catalogue;
@@ -40,6 +41,7 @@ pub use plane::{
     Contour, Path, Pose, Segment, Vector, bounds, cross, direction, distance, dot, hull, is_finite, left, length,
     minus, plus, polar, times, unit,
 };
+pub use torques::Torque;
 
 use crate::model::Mechanism;
 use crate::source::Span;
@@ -69,6 +71,8 @@ pub struct Scene {
     pub contacts: Vec<Contact>,
     /// Forces, where the motion's table tells them.
     pub forces: Vec<ForceVector>,
+    /// Torques, likewise.
+    pub torques: Vec<Torque>,
     /// Of what has teeth, finer than they are drawn.
     pub outlines: Vec<Outline>,
     /// The size of symbols (m): a pin is a little smaller, a block a little larger.
@@ -118,7 +122,7 @@ impl Scene {
         let extent = bounds(places).map_or(self.extent, |[low, high]| [minus(low, margin), plus(high, margin)]);
         let profiles = self.profiles.iter().filter(|profile| profile.frame == frame).cloned().collect();
         let outlines = self.outlines.iter().filter(|outline| outline.frame == frame).cloned().collect();
-        let (traces, contacts, forces) = (Vec::new(), Vec::new(), Vec::new());
+        let (traces, contacts, forces, torques) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let (named, remarks) = (Vec::new(), Vec::new());
         let scene = Scene {
             points,
@@ -127,6 +131,7 @@ impl Scene {
             profiles,
             contacts,
             forces,
+            torques,
             outlines,
             extent,
             named,

@@ -5,6 +5,7 @@ use super::features::Features;
 use super::plane::{Vector, bounds, distance, minus, plus};
 use super::{
     Anchor, Declaration, Motion, Node, Point, Scene, bodies, contacts, drivers, forces, gears, joints, sizes, springs,
+    torques,
 };
 use crate::model::{self, Frame, Mechanism, Named, PointId, Quantity};
 
@@ -34,7 +35,8 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Sc
     springs::draw(&mut drawing);
     bodies::draw(&mut drawing);
     let traces = drawing.traces();
-    let forces = forces::vectors(&drawing.features, motion, [first.joints, first.equations, first.loads]);
+    let torques = torques::torques(&drawing);
+    let forces = forces::vectors(&drawing, !torques.is_empty());
     drawing.mark_pens(&traces);
     let Drawing { mut nodes, profiles, fine: outlines, .. } = drawing;
     nodes.sort_by_key(|(layer, _): &(Layer, Node)| *layer);
@@ -54,6 +56,7 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Sc
         profiles,
         contacts,
         forces,
+        torques,
         outlines,
         unit,
         extent,

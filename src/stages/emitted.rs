@@ -94,8 +94,9 @@ impl Compiled {
     /// # Errors
     /// A measure holds a derivative by an input or parameter, which only `run` and Rust code compute.
     pub(crate) fn has_no_variations(&self) -> Result<(), Box<Diagnostic>> {
+        self.has_no_varied_forces()?;
         self.no_measure_holds(
-            |on| on.highest_varied_order().is_some(),
+            Dependence::is_varied,
             "a derivative by an input or parameter",
             "is for `run` and Rust code",
             "`mechc run` and emitted Rust compute it; leave the measure out here",

@@ -26,6 +26,7 @@ impl Determined {
                 None if is_coupled && !self.system.checks().is_empty() => {
                     said.push(errors::coupled_without_equations(part));
                 }
+                None if is_coupled && part.of_force.is_some() => said.push(errors::force_of_coupled(part)),
                 None if is_coupled => coupled.push(part.name.clone()),
                 None => {}
             }

@@ -199,12 +199,31 @@ pub fn coupled_without_equations(part: &AskingPart) -> Diagnostic {
         .help(format!("take the derivative where the part is used: `der({}.…, NAME)`", part.name))
 }
 
+/// The same where it is the derivative of a force: what is around the part shares in it, and of that its own equations know nothing.
+pub fn force_of_coupled(part: &AskingPart) -> Diagnostic {
+    let message = format!(
+        "no force has a derivative by the own equations of part `{}`, which moves together with what is around it",
+        part.name
+    );
+    let mut diagnostic = Diagnostic::new(Code::E0508, message);
+    if let Some(place) = part.of_force {
+        diagnostic = diagnostic.at(place, "of a force, by the equations of this mechanism alone");
+    }
+    let help =
+        format!("take the derivative where the part is used, by all equations: `der(effort({}.…), NAME)`", part.name);
+    used_at(diagnostic, part).note("forces follow from what is around the part too").help(help)
+}
+
 /// A message at the places where a part asks for derivatives, and where it is used.
 fn at_places(mut diagnostic: Diagnostic, part: &AskingPart) -> Diagnostic {
     for (k, place) in part.places.iter().take(LISTED).enumerate() {
         let text = "by the equations of this mechanism alone";
         diagnostic = if k == 0 { diagnostic.at(*place, text) } else { diagnostic.also(*place, "and here") };
     }
+    used_at(diagnostic, part)
+}
+
+fn used_at(mut diagnostic: Diagnostic, part: &AskingPart) -> Diagnostic {
     for (name, span) in &part.used_at {
         diagnostic = diagnostic.in_part(name, *span);
     }

@@ -239,6 +239,7 @@ mod tests {
             profiles: Vec::new(),
             contacts: Vec::new(),
             forces: Vec::new(),
+            torques: Vec::new(),
             outlines: Vec::new(),
             unit: 0.01,
             extent: [[0.0; 2], [1.0; 2]],

@@ -84,6 +84,15 @@ export interface ForceVector {
     apart?: [column: string, from: Anchor, to: Anchor];
 }
 
+/** A torque about a place (N·m), counter-clockwise: a column times a sign. */
+export interface Torque {
+    declaration: number;
+    kind: "reaction" | "load";
+    at: Anchor;
+    column: string;
+    sign: 1 | -1;
+}
+
 export interface Scene {
     unit: number;
     extent: [[number, number], [number, number]];
@@ -97,6 +106,7 @@ export interface Scene {
     contacts: Contact[];
     /** Left out where there are none. */
     forces?: ForceVector[];
+    torques?: Torque[];
 }
 
 export interface Column {

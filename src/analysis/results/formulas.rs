@@ -45,6 +45,13 @@ pub(super) enum Moving {
     },
     /// The multiplier of a row, of which only the value is known.
     Multiplier(usize),
+    /// How that changes, likewise.
+    VariedMultiplier {
+        /// The variation's number.
+        variation: u32,
+        /// The row's.
+        row: usize,
+    },
 }
 
 impl Moving {
@@ -53,8 +60,16 @@ impl Moving {
             Symbol::Coordinate { index, .. } => Some(Moving::Coordinate(index as usize)),
             Symbol::Varied { index, variation, .. } => Some(Moving::Varied { variation, index: index as usize }),
             Symbol::Multiplier(row) => Some(Moving::Multiplier(row as usize)),
+            Symbol::VariedMultiplier { row, variation } => {
+                Some(Moving::VariedMultiplier { variation, row: row as usize })
+            }
             _ => None,
         }
+    }
+
+    /// Whether it is a force, or how one changes: of these only the value is known.
+    fn is_of_forces(self) -> bool {
+        matches!(self, Moving::Multiplier(_) | Moving::VariedMultiplier { .. })
     }
 
     /// Where it and its time derivatives go, as many as there are.
@@ -62,6 +77,9 @@ impl Moving {
         match self {
             Moving::Coordinate(index) => inputs.coordinates.map(|first| Some(first + index as Register)),
             Moving::Multiplier(row) => [Some(inputs.multipliers + row as Register), None, None, None],
+            Moving::VariedMultiplier { variation, row } => {
+                [Some(inputs.varied_multipliers(variation) + row as Register), None, None, None]
+            }
             Moving::Varied { variation, index } => [0, 1, 2, 3]
                 .map(|order| (order < VARIED_ORDERS).then(|| inputs.varied(variation, order) + index as Register)),
         }
@@ -132,7 +150,7 @@ impl Formula {
     pub fn new(graph: &mut Graph, value: ExprId, system: &ConstraintSystem, variations: usize) -> Formula {
         let has_jerk = system.jerk().is_some();
         let dependence = graph.dependence(value);
-        let holds_forces = dependence.on(Dependence::MULTIPLIERS);
+        let holds_forces = dependence.on(Dependence::FORCES);
         let holds_rates =
             dependence.highest_order() > Some(0) || dependence.highest_varied_order().is_some() || holds_forces;
         let (mut graph, value, smooth) = Smooth::out_of(graph, value, system);
@@ -141,7 +159,7 @@ impl Formula {
             let last = formulas[formulas.len() - 1];
             let dependence = graph.dependence(last);
             let is_last = dependence.highest_order() == Some(3) || dependence.highest_varied_order() == Some(2);
-            if is_last || dependence.on(Dependence::MULTIPLIERS) {
+            if is_last || dependence.on(Dependence::FORCES) {
                 break;
             }
             let next = ConstraintSystem::time_derivatives(&mut graph, &[last], 3)[0];
@@ -154,8 +172,10 @@ impl Formula {
         moving.sort_unstable();
         moving.dedup();
         let coordinates = system.coordinates().len();
-        let multipliers = if system.forces().is_some() { system.rows().len() } else { 0 };
-        let counts = [system.params().len(), coordinates + smooth.count(), variations, multipliers];
+        let coordinates_and_more = coordinates + smooth.count();
+        // as many places for them as there are coordinates, which are no fewer than the rows
+        let multipliers = if system.forces().is_some() { coordinates_and_more } else { 0 };
+        let counts = [system.params().len(), coordinates_and_more, variations, multipliers];
         let (program, roots) = Program::of_formulas(&graph, counts, &formulas);
         let params: Vec<f64> = system.params().iter().map(|param| param.value).collect();
         let registers = program.start(&params);
@@ -208,6 +228,7 @@ impl Formula {
                 [place, first, second, 0.0]
             }
             Moving::Multiplier(row) => [places.multiplier(row), 0.0, 0.0, 0.0],
+            Moving::VariedMultiplier { variation, row } => [places.varied_multiplier(variation, row), 0.0, 0.0, 0.0],
         };
         let moving: Vec<[f64; 4]> = self.moving.iter().map(tower).collect();
         self.run(state.t, &moving);
@@ -243,9 +264,10 @@ impl Formula {
             self.smooth.look(&point.state, moved);
             let tower = |(moving, tower): (&Moving, &[f64; 4])| match *moving {
                 Moving::Coordinate(k) if k >= self.coordinates => self.smooth.tower(k - self.coordinates),
-                Moving::Coordinate(k) | Moving::Varied { index: k, .. } | Moving::Multiplier(k) => {
-                    tower.map(|value| value * moved(k))
-                }
+                Moving::Coordinate(k)
+                | Moving::Varied { index: k, .. }
+                | Moving::Multiplier(k)
+                | Moving::VariedMultiplier { row: k, .. } => tower.map(|value| value * moved(k)),
             };
             let moving: Vec<[f64; 4]> = self.moving.iter().zip(&point.moving).map(tower).collect();
             self.run(point.state.t, &moving);
@@ -256,7 +278,7 @@ impl Formula {
     }
 
     fn is_varied(&self) -> bool {
-        self.moving.iter().any(|moving| matches!(moving, Moving::Varied { .. }))
+        self.moving.iter().any(|moving| matches!(moving, Moving::Varied { .. } | Moving::VariedMultiplier { .. }))
     }
 
     /// Begins to look at the ranges in a cell.
@@ -267,16 +289,15 @@ impl Formula {
         self.seen = around(cell.a.sample.value, cell.b.sample.value, bend);
         let ends = cell.a.moving.iter().zip(&cell.b.moving);
         for ((of, (a, b)), bends) in self.moving.iter().zip(ends).zip(cell.bends.iter()) {
-            if let Moving::Multiplier(row) = *of {
-                let register = self.program.inputs.multipliers + row as Register;
-                self.ranges.set(register, around(a[0], b[0], bends[0]));
+            let registers = of.registers(&self.program.inputs);
+            if of.is_of_forces() {
+                registers.into_iter().flatten().for_each(|at| self.ranges.set(at, around(a[0], b[0], bends[0])));
                 continue;
             }
             let third = around(a[3], b[3], bends[1]);
             let second = around(a[2], b[2], bends[0]);
             let first = between(a[1], b[1], second, h);
             let place = between(a[0], b[0], first, h);
-            let registers = of.registers(&self.program.inputs);
             for (register, range) in registers.into_iter().zip([place, first, second, third]) {
                 if let Some(register) = register {
                     self.ranges.set(register, range);
@@ -307,7 +328,7 @@ impl Formula {
         let of = |(k, moving): (usize, &Moving)| {
             let off = |order: usize| off(&|point: &Point| point.moving[k][order]);
             match moving {
-                Moving::Multiplier(_) => [off(0), 0.0],
+                _ if moving.is_of_forces() => [off(0), 0.0],
                 _ => [off(2), if self.has_jerk { off(3) } else { 0.0 }],
             }
         };

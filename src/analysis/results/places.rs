@@ -88,6 +88,11 @@ impl Places {
         self.kinematics.multiplier(row)
     }
 
+    /// How the multiplier of a row changes in a variation, which has been found.
+    pub fn varied_multiplier(&self, number: u32, row: usize) -> f64 {
+        self.varying.as_ref().map_or(f64::NAN, |varying| varying.varied_multiplier(number, row))
+    }
+
     /// How a coordinate, its velocity and its acceleration change in a variation, which has been found.
     pub fn variation(&self, number: u32, coordinate: usize) -> [f64; 3] {
         self.varying.as_ref().map_or([f64::NAN; 3], |varying| varying.variation(number, coordinate))

@@ -83,9 +83,18 @@ impl Varying {
 
     /// How a coordinate, its velocity and its acceleration change in a variation.
     pub fn variation(&self, number: u32, coordinate: usize) -> [f64; 3] {
-        if self.beside.as_ref().is_some_and(|beside| beside.broken.contains(&number)) {
+        if self.is_broken(number) {
             return [f64::NAN; 3];
         }
         self.kinematics.variation(number, coordinate)
+    }
+
+    /// How the multiplier of a row changes in a variation.
+    pub fn varied_multiplier(&self, number: u32, row: usize) -> f64 {
+        if self.is_broken(number) { f64::NAN } else { self.kinematics.varied_multiplier(number, row) }
+    }
+
+    fn is_broken(&self, number: u32) -> bool {
+        self.beside.as_ref().is_some_and(|beside| beside.broken.contains(&number))
     }
 }

@@ -89,7 +89,7 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     let drawn = Drawn { seen: &seen, moments: moments.as_ref(), pictured: &pictured };
     target.write(file, &drawn, reporter)?;
     let is_without_arrows = arguments.vectors && !svg::has_vectors(&seen.scene, &pictured.traces, &seen.motion);
-    let is_without_forces = arguments.forces && seen.scene.forces.is_empty();
+    let is_without_forces = arguments.forces && seen.scene.forces.is_empty() && seen.scene.torques.is_empty();
     for (is_without, words) in [(is_without_arrows, NO_ARROWS), (is_without_forces, NO_FORCES)] {
         if is_without && form == Form::Picture && !reporter.is_for_programs() {
             Reporter::say(words);

@@ -3,7 +3,7 @@
 use super::places::Texts;
 use super::{Column, FORMAT, Page, Variant, columns};
 use crate::diag::Diagnostic;
-use crate::scene::{Anchor, Contact, ForceValue, ForceVector, Held, Node, Pen, Place, Scene, Touch, Trace};
+use crate::scene::{Anchor, Contact, ForceValue, ForceVector, Held, Node, Pen, Place, Scene, Torque, Touch, Trace};
 use crate::source::Source;
 use crate::view::path::data;
 use serde_json::{Map, Value, json};
@@ -208,8 +208,14 @@ pub(super) fn scene(scene: &Scene, texts: &Texts) -> Value {
         }).collect::<Vec<_>>(),
         "contacts": scene.contacts.iter().map(contact).collect::<Vec<_>>(),
     });
-    if let Some(object) = all.as_object_mut().filter(|_| !scene.forces.is_empty()) {
-        object.insert("forces".to_owned(), scene.forces.iter().map(force).collect());
+    let lists = [
+        ("forces", scene.forces.iter().map(force).collect::<Vec<Value>>()),
+        ("torques", scene.torques.iter().map(torque).collect()),
+    ];
+    for (name, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
+        if let Some(object) = all.as_object_mut() {
+            object.insert(name.to_owned(), list.into());
+        }
     }
     all
 }
@@ -241,6 +247,10 @@ fn force(force: &ForceVector) -> Value {
         object.insert(name.to_owned(), value);
     }
     all
+}
+
+fn torque(Torque { declaration, kind, at, column, sign }: &Torque) -> Value {
+    json!({ "declaration": declaration, "kind": kind.word(), "at": placed(at), "column": column, "sign": sign })
 }
 
 fn written_node(node: &Node, decimals: usize) -> Value {

@@ -12,23 +12,35 @@ const KILO: f64 = 1e4;
 impl Picture<'_> {
     /// At the last of some moments.
     pub fn add_forces(&mut self, moments: &Motion, motion: &Motion) {
-        let Some(scale) = self.scaled_forces([moments, motion]) else { return };
-        let (scene, row) = (self.scene, moments.len() - 1);
-        for force in &scene.forces {
-            let [from, way] = self.arrow(force, moments, row, scale);
-            self.add_vector(force.kind.word(), &scene.declarations[force.declaration].name, from, way);
+        let mut line = self.lines_of_vectors();
+        if let Some(scale) = self.scaled_forces([moments, motion], &mut line) {
+            let (scene, row) = (self.scene, moments.len() - 1);
+            for force in &scene.forces {
+                let [from, way] = self.arrow(force, moments, row, scale);
+                self.add_vector(force.kind.word(), &scene.declarations[force.declaration].name, from, way);
+            }
         }
+        self.add_torques(moments, motion, line);
     }
 
     /// At all times.
     pub fn add_moving_forces(&mut self, motion: &Motion) {
-        let Some(scale) = self.scaled_forces([motion, motion]) else { return };
-        let scene = self.scene;
-        for force in &scene.forces {
-            let ways: Vec<[Vector; 2]> = (0..motion.len()).map(|row| self.arrow(force, motion, row, scale)).collect();
-            let name = &scene.declarations[force.declaration].name;
-            self.add_moving_vector(force.kind.word(), name, &ways, &motion.times);
+        let mut line = self.lines_of_vectors();
+        if let Some(scale) = self.scaled_forces([motion, motion], &mut line) {
+            let scene = self.scene;
+            for force in &scene.forces {
+                let ways: Vec<[Vector; 2]> =
+                    (0..motion.len()).map(|row| self.arrow(force, motion, row, scale)).collect();
+                let name = &scene.declarations[force.declaration].name;
+                self.add_moving_vector(force.kind.word(), name, &ways, &motion.times);
+            }
         }
+        self.add_moving_torques(motion, line);
+    }
+
+    /// What the legend of velocities and accelerations takes.
+    fn lines_of_vectors(&self) -> f64 {
+        if self.options.vectors { 2.0 } else { 0.0 }
     }
 
     /// Where an arrow begins, and its way (px); none where the table does not tell the force.
@@ -39,8 +51,8 @@ impl Picture<'_> {
     }
 
     /// Pixels of a newton, by the largest force of two motions; the legend tells how large those of each kind are. Nothing where there are
-    /// none.
-    fn scaled_forces(&mut self, motions: [&Motion; 2]) -> Option<f64> {
+    /// none. It goes on above a line, which is moved on.
+    fn scaled_forces(&mut self, motions: [&Motion; 2], line: &mut f64) -> Option<f64> {
         let scene = self.scene;
         let largest = |kind: ForceKind| {
             let rows =
@@ -54,11 +66,10 @@ impl Picture<'_> {
         if longest <= 0.0 {
             return None;
         }
-        let mut line = if self.options.vectors { 2.0 } else { 0.0 };
         for (kind, largest) in all.into_iter().rev().filter(|(_, largest)| *largest > 0.0) {
             let (value, unit) = if longest >= KILO { (largest / 1e3, "kN") } else { (largest, "N") };
-            self.add_legend(kind.word(), value, unit, line);
-            line += 1.0;
+            self.add_legend(kind.word(), value, unit, *line);
+            *line += 1.0;
         }
         Some(LONGEST * self.longest_arrow() / longest)
     }

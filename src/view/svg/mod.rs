@@ -13,6 +13,7 @@ mod picture;
 mod plots;
 mod said;
 mod style;
+mod torques;
 mod vectors;
 
 use crate::scene::{Anchor, Motion, Scene, Vector};

@@ -71,7 +71,7 @@ impl<'s> Picture<'s> {
         let [low, high] = with_traces(scene, motion, options);
         let extent = [high[0] - low[0], high[1] - low[1]].map(|side| side.max(4.0 * scene.unit));
         let is_labelled = options.labels || options.vectors || !scene.remarks.is_empty();
-        let margin = if options.forces && !scene.forces.is_empty() {
+        let margin = if options.forces && !(scene.forces.is_empty() && scene.torques.is_empty()) {
             MARGIN_OF_FORCES
         } else if is_labelled {
             LABELLED_MARGIN

@@ -15,7 +15,7 @@ const HEAD: [f64; 2] = [9.0, 3.4];
 /// From this length on (px) an arrow has a whole head.
 const FULL_HEAD_AT: f64 = 18.0;
 /// Where the legend begins, and how long its arrows are (px).
-const LEGEND: f64 = 12.0;
+pub(super) const LEGEND: f64 = 12.0;
 const LEGEND_ARROW: f64 = 26.0;
 
 /// Rows that are looked at for the longest arrow.
@@ -100,14 +100,23 @@ impl Picture<'_> {
 
     /// Tells how much the longest arrow of a kind is, so many lines above the last.
     pub(super) fn add_legend(&mut self, word: &'static str, longest: f64, unit: &str, line: f64) {
-        let size = self.letters();
-        let [x, y] = [LEGEND, self.room()[1] - 0.6 * size - line * 1.3 * size];
-        self.add_vector(word, word, [x, y - 0.35 * size], [LEGEND_ARROW, 0.0]);
-        self.used.labels = Some(size);
+        let y = self.legend_line(line) - 0.35 * self.letters();
+        self.add_vector(word, word, [LEGEND, y], [LEGEND_ARROW, 0.0]);
+        self.add_legend_text(word, longest, unit, line);
+    }
+
+    /// Where a line of the legend stands (px).
+    pub(super) fn legend_line(&self, line: f64) -> f64 {
+        self.room()[1] - (0.6 + 1.3 * line) * self.letters()
+    }
+
+    /// The words of a line of the legend.
+    pub(super) fn add_legend_text(&mut self, words: &str, longest: f64, unit: &str, line: f64) {
+        self.used.labels = Some(self.letters());
         self.body += &format!(
-            "<text class=\"legend\" x=\"{}\" y=\"{}\">{word}, at most {} {unit}</text>\n",
-            number(x + LEGEND_ARROW + 6.0, PIXELS),
-            number(y, PIXELS),
+            "<text class=\"legend\" x=\"{}\" y=\"{}\">{words}, at most {} {unit}</text>\n",
+            number(LEGEND + LEGEND_ARROW + 6.0, PIXELS),
+            number(self.legend_line(line), PIXELS),
             three_digits(longest)
         );
     }

@@ -4,7 +4,7 @@ use super::{at, ceases_to_hold, in_units, named_all, no_contact, short, with_pla
 use crate::analysis::state::{Fault, Unknown};
 use crate::diag::{Code, Diagnostic};
 use crate::expr::TableId;
-use crate::ir::{ConditionKind, ConstraintSystem, DeclarationId, DeclarationKind, JointKind, LoadForce};
+use crate::ir::{ConditionKind, ConstraintSystem, DeclarationId, DeclarationKind, JointKind, LoadForce, Press};
 
 /// Columns that one message names at most.
 const MOST_COLUMNS: usize = 12;
@@ -38,10 +38,15 @@ pub fn load_not_finite(load: &LoadForce, t: f64) -> Diagnostic {
 }
 
 /// A warning that a contact would have to pull with a force (N, below zero), at `t` (s) for the first time.
-pub fn contact_pulls(system: &ConstraintSystem, contact: DeclarationId, force: f64, t: f64) -> Diagnostic {
-    let declaration = &system.declarations()[contact];
-    Diagnostic::new(Code::W0604, format!("contact `{}` would have to pull at {}", declaration.name, at(t)))
-        .at(declaration.span, format!("its bodies would part, unless they are held together by {} N", short(-force)))
+pub fn contact_pulls(system: &ConstraintSystem, contact: &Press, force: f64, t: f64) -> Diagnostic {
+    let declaration = &system.declarations()[contact.declaration];
+    let message = format!("contact `{}` would have to pull at {}", declaration.name, at(t));
+    let label = format!("its bodies would part, unless they are held together by {} N", short(-force));
+    let mut diagnostic = Diagnostic::new(Code::W0604, message).at(declaration.span, label);
+    if !contact.is_sided {
+        diagnostic = diagnostic.note("before, the point pressed on the other side of the curve, which is open");
+    }
+    diagnostic
         .help("press them together: a spring is a load on a distance or displacement, as in `load spring: -k * K on K`")
         .help("where a groove or a lid holds the follower on both sides nothing is wrong")
         .datum("t", t)

@@ -18,6 +18,8 @@ pub struct ForceWatch {
     /// By contact.
     presses: Vec<Register>,
     has_pulled: Vec<bool>,
+    /// The side to which each presses: 1 where that is known, 0 where the first row will tell.
+    sides: Vec<f64>,
     loads: Vec<Register>,
     /// Where a row has the coordinates, by their order, and how many there are.
     coordinates: [usize; 4],
@@ -40,12 +42,13 @@ impl ForceWatch {
         let registers = program.start(&params);
         let coordinates = RowLayout::new(system).coordinates.map(|first| first as usize);
         let has_pulled = vec![false; presses.len()];
+        let sides = system.presses().iter().map(|press| f64::from(u8::from(press.is_sided))).collect();
         let (kinematics, state) = (kinematics.clone(), state.clone());
-        Some(ForceWatch { kinematics, program, registers, presses, has_pulled, loads, coordinates, state })
+        Some(ForceWatch { kinematics, program, registers, presses, has_pulled, sides, loads, coordinates, state })
     }
 
-    /// Looks at a row: warns once of each contact that pulls there, with a part of the row's largest force that is no rounding. A load that has
-    /// no value is why there is none.
+    /// Looks at a row: warns once of each contact that pulls there, with a part of the row's largest force that is no rounding; where no curve
+    /// tells its side, of one that presses to the other side than before. A load that has no value is why there is none.
     pub fn look(&mut self, row: &[f64], remarks: &mut Remarks) -> Result<(), Box<Diagnostic>> {
         let is_whole = row.iter().all(|value| value.is_finite());
         if is_whole && self.has_pulled.iter().all(|has_pulled| *has_pulled) {
@@ -57,12 +60,17 @@ impl ForceWatch {
         if let Some(number) = self.loads.iter().position(|load| !value(load).is_finite()) {
             return Err(Box::new(errors::load_not_finite(&system.loads()[number], row[0])));
         }
-        let largest = self.largest(system);
-        for ((press, told), of) in self.presses.iter().zip(&mut self.has_pulled).zip(system.presses()) {
+        let least = PULLS * self.largest(system);
+        let contacts = self.presses.iter().zip(&mut self.sides).zip(&mut self.has_pulled).zip(system.presses());
+        for (((press, side), told), of) in contacts {
             let force = self.registers.get(*press);
-            if !*told && force < -PULLS * largest {
+            if *side == 0.0 && force.abs() > least {
+                *side = force.signum();
+            }
+            let pressing = *side * force;
+            if !*told && pressing < -least {
                 *told = true;
-                remarks.push(errors::contact_pulls(system, of.declaration, force, row[0]));
+                remarks.push(errors::contact_pulls(system, of, pressing, row[0]));
             }
         }
         Ok(())

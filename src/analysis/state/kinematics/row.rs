@@ -103,6 +103,11 @@ impl Kinematics {
         self.registers.get(self.program.inputs.multipliers + row as Register)
     }
 
+    /// How the multiplier of a row changes in a variation, where forces have been computed.
+    pub fn varied_multiplier(&self, number: u32, row: usize) -> f64 {
+        self.registers.get(self.program.inputs.varied_multipliers(number) + row as Register)
+    }
+
     /// Computes the forces and variations of a state whose derivatives were just computed, where they can be trusted.
     fn vary(&mut self, state: &State) {
         if !self.has_more_to_solve() {
@@ -258,9 +263,16 @@ fn solve_for_more(
     vary(determined, program, registers, varied, |registers, right, x| {
         factored.solve(|row| registers.get(right[row]), x);
     });
-    if outputs.varied_forces.iter().any(|right| !right.is_empty()) {
+    let variations = determined.system().variations();
+    for by_two in [false, true] {
+        let asked = (0..).zip(&outputs.varied_forces).filter(|(_, right)| !right.is_empty());
+        let mut of_kind = asked.filter(|(k, _)| variations[*k as usize].by.1.is_some() == by_two).peekable();
+        if of_kind.peek().is_none() {
+            continue;
+        }
+        // those by two follow from those by one
         program.run(Stage::Variation, registers);
-        for (variation, right) in (0..).zip(&outputs.varied_forces).filter(|(_, right)| !right.is_empty()) {
+        for (variation, right) in of_kind {
             factored.solve_for_multipliers(|column| registers.get(right[column]), &mut varied.solution);
             registers.set_all(program.inputs.varied_multipliers(variation), &varied.solution);
         }
