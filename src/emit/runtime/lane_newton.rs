@@ -5,7 +5,6 @@
 
 use super::lane_solutions::{Laned, Solutions};
 use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
-use super::numbers::larger;
 use super::so_far::larger_so_far;
 
 /// An iteration of Newton in every lane, until all have settled or are lost.
@@ -50,13 +49,13 @@ impl<const L: usize> Settling<L> {
         pairs.all(|(open, far)| *open <= HALF_A_CELL || is_lost(*far))
     }
 
-    /// Leaves word of how it went.
+    /// Leaves word of how it went. What is not a number is in the coordinates, too.
     pub fn note<M: Laned<L>>(&self, at: &mut Solutions<M, L>) {
         for k in 0..L {
-            at.first[k] = larger(at.first[k], self.first[k]);
-            at.open[k] = larger(at.open[k], self.open[k]);
+            at.first[k] = larger_so_far(at.first[k], self.first[k]);
+            at.open[k] = larger_so_far(at.open[k], self.open[k]);
             let lost = self.far[k] * (1.0 / LARGEST_CORRECTION);
-            at.strain[k] = larger(at.strain[k], lost);
+            at.strain[k] = larger_so_far(at.strain[k], lost);
         }
     }
 }
