@@ -16,11 +16,7 @@ impl Lowering<'_> {
     pub(super) fn presses(&mut self) -> Vec<Press> {
         let mut presses = Vec::new();
         for id in self.model.joint_ids() {
-            let is_contact = matches!(
-                self.model[id].kind,
-                JointKind::PointFollower(..) | JointKind::Cam(..) | JointKind::FlatFollower(..)
-            );
-            if is_contact {
+            if self.model[id].kind.plain().has_contact() {
                 let on_second = self.reaction_on_second(id);
                 let force = self.seen_from(None, |l| l.press(id, on_second));
                 let press = |(force, is_sided)| Press { declaration: super::of_joint(id), force, is_sided };

@@ -9,7 +9,8 @@ use super::branches::{sides_ahead, sides_at, with_time};
 use super::error::Error;
 use super::lane_solutions::{Laned, Lists, Solutions};
 use super::limits::{FARTHEST_BEND, HALF_A_CELL, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP};
-use super::numbers::{Numbers, larger};
+use super::numbers::Numbers;
+use super::so_far::larger_so_far;
 use super::state::{Lead, State};
 use super::step::step_within;
 
@@ -273,7 +274,7 @@ fn guess<M: Laned<L>, const L: usize>(
             let bend = u * u * u * (cubic + u * (quartic + u * quintic));
             let way = h * (v + 0.5 * h * a) + bend;
             guess[k] = x + way;
-            motion[k] = larger(motion[k], way.abs() / scale);
+            motion[k] = larger_so_far(motion[k], way.abs() / scale);
         }
     }
     (guess, motion)
@@ -291,7 +292,7 @@ fn gap<M: Laned<L>, const L: usize>(from: &Solutions<M, L>, at: &Solutions<M, L>
             let rates = 0.5 * h[k] * (v[k] + w[k]);
             let bends = h[k] * h[k] * (1.0 / 12.0) * (a[k] - b[k]);
             let gap_here = y[k] - x[k] - rates - bends;
-            gap[k] = larger(gap[k], gap_here.abs() / scale);
+            gap[k] = larger_so_far(gap[k], gap_here.abs() / scale);
         }
     }
     gap
