@@ -131,7 +131,7 @@ fn follow(parsed: &Parsed, name: String, ran: &mut Ran) {
     let (emitted, _) = compiled.rust(&RustOptions { with_motion: false, ..RustOptions::of("text.mech") });
     let (determined, program) = compiled.inside();
     // measures that are differentiated by inputs and parameters are not emitted
-    let is_varied = determined.system().variations.is_some();
+    let is_varied = !determined.system().variations().is_empty();
     assert!(is_varied || emitted.is_some_and(|text| text.contains("pub fn phi")), "no code");
     if determined.system().coordinates().len() > MOST_COORDINATES {
         return;
@@ -161,7 +161,7 @@ fn rows(compiled: &Compiled, determined: &Determined, program: &Program, mut run
                 assert_eq!(row.len(), columns.len(), "a row is as long as its header");
                 assert_eq!(row[0].to_bits(), t.to_bits(), "a row is at its time");
                 let n = determined.system().coordinates().len();
-                let measures = &determined.system().measures;
+                let measures = determined.system().measures();
                 let firsts = measures.iter().filter(|measure| measure.first.is_some()).count();
                 let (q, rest) = row[1..].split_at(n);
                 let (qd, rest) = rest[measures.len()..].split_at(n);
