@@ -281,6 +281,19 @@ fn forces_of_loads_that_jump_and_their_powers_are_reduced() {
 }
 
 #[test]
+fn forces_of_loads_by_a_table_are_reduced_piece_by_piece() {
+    let text = arm(
+        "1 rad/s * t",
+        "table cam = periodic spline [(0, 1 N*m), (1, 2 N*m), (2, 4 N*m), (3, 2.5 N*m), (4, 1 N*m)]
+         load cam_torque: -cam(rotation(main)) on rotation(main)
+         result a = at(effort(motor), 1 s) result b = at(effort(motor), 3 s) result c = at(effort(motor), 6 s)
+         result d = mean(effort(motor)) result e = max(effort(motor)) - max(cam(rotation(main)))",
+    );
+    // with equal steps the mean of a periodic spline is that of its values
+    check(&text, 8.0, &[(2.0, 1e-12), (2.5, 1e-12), (4.0, 1e-12), (9.5 / 4.0, 1e-9), (0.0, 1e-9)]);
+}
+
+#[test]
 fn results_speak_of_each_other_and_are_repeated() {
     let text = arm(
         "1 rad/s * t",
