@@ -105,9 +105,10 @@ export class App implements Deeds {
                 html("div", { class: "frame" }, this.picture.element, this.toolbar()),
                 this.transport.element,
                 (knobs ?? this.variants).element,
-                results.element,
+                ...(following ? [] : [results.element]),
             ),
-            html("div", { class: "beside" }, this.plots.element, tabs.element),
+            // what comes and goes takes no room from a picture that is in somebody's hand
+            html("div", { class: "beside" }, this.plots.element, ...(following ? [results.element] : []), tabs.element),
             this.helping,
         );
         this.wishes.onChange((change) => this.wish(change));

@@ -9,7 +9,7 @@ use super::errors::{self, Plain};
 use super::mentions::formulas;
 use crate::expr::ExprId;
 use crate::math;
-use crate::syntax::ast::{Expr, ExprKind};
+use crate::syntax::ast::{Expr, ExprKind, Item};
 use crate::vocabulary::{Dimension, UNITS, Unit};
 use rustc_hash::FxHashMap;
 
@@ -98,7 +98,7 @@ impl<'a> Checker<'a> {
         if !dwarfs || plain.iter().any(|length| length.value < IN_METRES) {
             return;
         }
-        let unit = self.usual_unit_of_length();
+        let unit = usual_unit_of_length(self.items()).unwrap_or(&UNITS[0]);
         let is_off = |value: f64| math::ln((value / most).max(least / value).max(1.0));
         let is_off_with = |factor: f64| plain.iter().map(|length| is_off(factor * length.value)).sum::<f64>();
         if is_off_with(unit.to_si(1.0, 1)) >= is_off_with(1.0) {
@@ -109,22 +109,23 @@ impl<'a> Checker<'a> {
         plain.dedup_by_key(|length| length.span);
         self.report(errors::no_unit_of_length(&plain, most, unit.word.name));
     }
+}
 
-    /// The unit in which most lengths of the mechanism are written; the metre where there is none.
-    fn usual_unit_of_length(&self) -> &'static Unit {
-        let mut counts: FxHashMap<&'static str, (usize, &'static Unit)> = FxHashMap::default();
-        for e in self.items().iter().flat_map(formulas) {
-            let mut open = vec![e];
-            while let Some(e) = open.pop() {
-                if let ExprKind::Literal { unit: Some((name, 1)), .. } = &e.kind
-                    && let Some(unit) = Unit::named(&name.text).filter(|unit| unit.dimension.is(Dimension::LENGTH))
-                {
-                    counts.entry(unit.word.name).or_insert((0, unit)).0 += 1;
-                }
-                open.extend(e.children());
+/// The unit in which most lengths of a mechanism are written; nothing where there is none.
+#[must_use]
+pub fn usual_unit_of_length(items: &[Item]) -> Option<&'static Unit> {
+    let mut counts: FxHashMap<&'static str, (usize, &'static Unit)> = FxHashMap::default();
+    for e in items.iter().flat_map(formulas) {
+        let mut open = vec![e];
+        while let Some(e) = open.pop() {
+            if let ExprKind::Literal { unit: Some((name, 1)), .. } = &e.kind
+                && let Some(unit) = Unit::named(&name.text).filter(|unit| unit.dimension.is(Dimension::LENGTH))
+            {
+                counts.entry(unit.word.name).or_insert((0, unit)).0 += 1;
             }
+            open.extend(e.children());
         }
-        let most = counts.into_values().max_by_key(|&(count, unit)| (count, unit.word.name));
-        most.map_or(&UNITS[0], |(_, unit)| unit)
     }
+    let most = counts.into_values().max_by_key(|&(count, unit)| (count, unit.word.name));
+    most.map(|(_, unit)| unit)
 }

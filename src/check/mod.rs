@@ -54,6 +54,7 @@ mod variables;
 pub use inputs::Given;
 pub use known::{Amount, Count, Index, Known, Value as KnownValue, known, slopes};
 pub use lead::Lead;
+pub use lengths::usual_unit_of_length;
 pub use library::{KnownFile, KnownMechanism, Library, NotKnown};
 pub use mentions::name_of;
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};

@@ -80,6 +80,7 @@ mod tests {
     param speed  =  -60  rpm
     param count  = 2
     param A = (10 mm, 0)
+    param B = (0, 0)
     ground { point O = A }
     body bar[k in 0..count] at (0, 0, k * 1 deg) { point O = (half, 0) point P = (length, 0) }
 }";
@@ -100,6 +101,7 @@ mod tests {
         becomes(&[("speed", "-60  rpm", 30.0)], "-60  rpm", "30  rpm");
         becomes(&[("count", "2", 3.0)], "= 2", "= 3");
         becomes(&[("A.x", "10 mm", -0.0)], "10 mm", "0 mm");
+        becomes(&[("B.x", "0", 3.0)], "B = (0, 0)", "B = (3 mm, 0)");
         becomes(&[("A.y", "0", 3.0)], "10 mm, 0", "10 mm, 3 mm");
         let both = with(&[("A.x", "10 mm", 1e-7), ("length", "50mm", 1.0)], false);
         assert_eq!(both, Edited::Text(TEXT.replacen("10 mm", "0.0000001 mm", 1).replacen("50mm", "1mm", 1)));

@@ -293,10 +293,14 @@ impl Asked<'_> {
         let times: Vec<f64> = seen.motion.rows().iter().map(|row| row[0]).collect();
         let jogs = solved.jogs(&times);
         columns.extend(jogs.iter().map(|jog| jog.values.clone()));
+        let set = solved.knobs();
+        let now = |knob: &Knob| set.iter().find(|set| set.name == knob.name).map(|set| set.value);
         data["live"] = json!({
             "version": self.version,
             "knobs": knobs.iter().map(|knob| json!({
                 "name": knob.name, "unit": knob.unit, "value": knob.value, "formula": knob.formula,
+                "whole": !knob.leads,
+                "now": knob.formula.as_ref().and_then(|_| now(knob)),
                 "text": knob.place.map(|place| own.sources.text(place)),
             })).collect::<Vec<_>>(),
             "cranks": solved.cranks().iter().map(|crank| json!({

@@ -2,7 +2,7 @@
 
 use super::varied::{is_of_angles, number_and_unit, rounded, si_unit};
 use super::{Checked, Compiled};
-use crate::check::Amount;
+use crate::check::{Amount, usual_unit_of_length};
 use crate::expr::{ExprId, Symbol};
 use crate::ir::{BodyId, ConstraintSystem, Declaration, Input};
 use crate::model::Dimension;
@@ -55,6 +55,7 @@ impl Checked {
     #[must_use]
     pub fn knobs(&self) -> Vec<Knob> {
         let (Some(tree), Some(model)) = (self.tree(), self.model()) else { return Vec::new() };
+        let usual = usual_unit_of_length(&tree.items).map(|unit| unit.word.name);
         let mut knobs = Vec::new();
         for value in &self.known().values {
             let declared = tree.items.iter().find_map(|item| match &item.kind {
@@ -75,7 +76,10 @@ impl Checked {
                         // a plain 0 is of the unit beside it
                         let beside = parts.and_then(|parts| number_and_unit(self.sources().text(parts[1 - k].span)));
                         let is_plain = knob.unit.is_empty();
-                        let unit = beside.filter(|_| is_plain).map_or(knob.unit, |(_, unit)| unit.to_owned());
+                        let beside = beside.filter(|_| is_plain).map_or(knob.unit, |(_, unit)| unit.to_owned());
+                        // and what is nothing else, of that of the others
+                        let is_origin = beside.is_empty() && at.iter().all(|at| *at == 0.0);
+                        let unit = usual.filter(|_| is_origin).map_or(beside, str::to_owned);
                         knobs.push(Knob { unit, place: knob.place.filter(|_| parts.is_some()), ..knob });
                     }
                 }
@@ -209,6 +213,7 @@ mod tests {
             param turning = 90 deg/s
             param count = 2
             param A = (10 mm, 0)
+            param B = (0, 0)
             ground { point O = A }
             body bar[k in 0..count] at (0, 0, k * 1 deg) { point O = (half, 0) point P = (length, 0) }
         }";
@@ -225,6 +230,8 @@ mod tests {
                 ("count", 2.0, "", false),
                 ("A.x", 10.0, "mm", true),
                 ("A.y", 0.0, "mm", true),
+                ("B.x", 0.0, "mm", true),
+                ("B.y", 0.0, "mm", true),
             ]
         );
         assert_eq!(knobs[1].formula.as_deref(), Some("length / 2"));

@@ -420,7 +420,7 @@ fn not_led(
     let mut diagnostic = Diagnostic::new(Code::E0612, message);
     for (k, input) in moving.iter().take(TOLD).enumerate() {
         let [from, to, here] = [0.0, 1.0, part].map(|part| value_at(input, part));
-        let text = format!("led from {from} to {to}, and got to {here}");
+        let text = format!("{}led from {from} to {to}, and got to {here}", named(input, &moving));
         let span = input.declared.span;
         diagnostic = if k == 0 { diagnostic.at(span, text) } else { diagnostic.also(span, text) };
     }
@@ -446,6 +446,12 @@ fn not_led(
     diagnostic.note(tried).help(mend).datum("part", part).datum("t", times[0] + (times[1] - times[0]) * part)
 }
 
+/// Which one is spoken of, where several stand in one place: the coordinates of a point.
+fn named(input: &Led, moving: &[&Led]) -> String {
+    let beside = moving.iter().filter(|other| other.declared.span == input.declared.span).count();
+    if beside > 1 { format!("`{}` ", input.declared.name) } else { String::new() }
+}
+
 /// A bifurcation that was passed at a part of a way, from 0 to 1; of a mechanism or of a part of it.
 fn passed(of: Option<&PartStart>, inputs: &[Led], times: [f64; 2], part: f64, what: &Diagnostic) -> Diagnostic {
     let moving: Vec<&Led> = inputs.iter().filter(|input| input.line[0].total_cmp(&input.line[1]).is_ne()).collect();
@@ -461,7 +467,7 @@ fn passed(of: Option<&PartStart>, inputs: &[Led], times: [f64; 2], part: f64, wh
     let mut diagnostic = Diagnostic::new(Code::W0602, message);
     for (k, input) in moving.iter().take(TOLD).enumerate() {
         let [from, to, here] = [0.0, 1.0, part].map(|part| value_at(input, part));
-        let text = format!("led from {from} to {to}, by way of {here}");
+        let text = format!("{}led from {from} to {to}, by way of {here}", named(input, &moving));
         let span = input.declared.span;
         diagnostic = if k == 0 { diagnostic.at(span, text) } else { diagnostic.also(span, text) };
     }

@@ -13,6 +13,9 @@ let client;
 
 const panels = new Panels(() => client);
 
+/** What starts and stops the server, one after the other: a client that is starting cannot be stopped. @type {Promise<void>} */
+let turns = Promise.resolve();
+
 /** @returns {string} */
 function path() {
   return vscode.workspace.getConfiguration('mechc').get('path') || 'mechc';
@@ -24,7 +27,8 @@ async function start() {
     return;
   }
   const log = vscode.workspace.getConfiguration('mechc').get('log', '');
-  client = new QuietClient('mechc', 'mechc', serverOf(path(), log), {
+  const tried = path();
+  client = new QuietClient('mechc', 'mechc', serverOf(tried, log), {
     documentSelector: [{ language: 'mech', scheme: 'file' }, { language: 'mech', scheme: 'untitled' }],
     // what the lenses above a mechanism may ask for
     initializationOptions: { commands: ['mechc.view', 'mechc.run', 'mechc.check'] },
@@ -35,8 +39,11 @@ async function start() {
     panels.began(client);
   } catch (fault) {
     client = undefined;
-    // not waited for: the rest of the extension works while the message stands
-    void complain(fault);
+    // where it is was said meanwhile, as happens where settings come late: another one is started
+    if (tried === path()) {
+      // not waited for: the rest of the extension works while the message stands
+      void complain(fault);
+    }
   }
 }
 
@@ -52,12 +59,13 @@ async function complain(fault) {
 async function stop() {
   const running = client;
   client = undefined;
-  await running?.stop();
+  // one that broke has nothing to end
+  await running?.stop().catch(() => undefined);
 }
 
-async function restart() {
-  await stop();
-  await start();
+function restart() {
+  turns = turns.then(stop).then(start);
+  return turns;
 }
 
 /**
@@ -123,14 +131,14 @@ async function activate(context) {
       provideTasks: () => [],
       resolveTask: (one) => resolved(/** @type {any} */ (one.definition)),
     }),
-    vscode.workspace.onDidGrantWorkspaceTrust(start),
+    vscode.workspace.onDidGrantWorkspaceTrust(restart),
     vscode.workspace.onDidChangeConfiguration(async (change) => {
       if (change.affectsConfiguration('mechc.path') || change.affectsConfiguration('mechc.log')) {
         await restart();
       }
     }),
   );
-  await start();
+  await restart();
 }
 
 module.exports = { activate, deactivate: stop };

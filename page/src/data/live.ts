@@ -14,6 +14,10 @@ export interface Knob {
     value: number;
     /** What the text says, where that is more than a number. */
     formula: string | null;
+    /** What that formula is with what is set. */
+    now: number | null;
+    /** Whether it says how often something is there, which only whole numbers do. */
+    whole: boolean;
     /** What stands in its place in the file; null where another file or mechanism says it. */
     text: string | null;
 }
@@ -82,8 +86,9 @@ export function documentOf({ columns }: Answer, page: Page): Document {
 
 /** What is shown of a moment: the same, of one row; where params are others, with a scene of its own. */
 export function momentOf({ columns, scene = undefined }: Answer, of: Document): Document | undefined {
-    if (columns.length < of.table.columns.length) return undefined;
-    const table = new Table(of.table.columns, columns.slice(0, of.table.columns.length));
     const drawn = scene ?? of.scene;
+    // a mechanism of other bodies has other columns, which are told with its motion
+    if (columns.length !== of.table.columns.length || drawn.frames.length !== of.scene.frames.length) return undefined;
+    const table = new Table(of.table.columns, columns);
     return { ...of, scene: drawn, table, motion: new Motion(drawn, table, []) };
 }

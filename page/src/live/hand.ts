@@ -41,7 +41,7 @@ export class Hand implements Grasp {
     offer(told: Told, document: Document, set: ReadonlyMap<string, number>): void {
         this.told = told;
         this.document = document;
-        this.drawn = drawnPoints(told, document, set);
+        this.drawn = drawnPoints(told, document, set, this.drawn);
     }
 
     points(): readonly { name: string; at: Pair }[] {
@@ -99,15 +99,15 @@ export class Hand implements Grasp {
     }
 }
 
-/** The params that are points, where something is drawn there at first. */
+/** The params that are points, where something is drawn there at first; where nothing moves, those of before, so that none leaves a hand. */
 function drawnPoints(
     { knobs = [] }: Told,
     { motion, scene, table }: Document,
     set: ReadonlyMap<string, number>,
+    before: readonly { name: string }[],
 ): { name: string; at: Pair; units: [string, string] }[] {
-    if (table.rows === 0) return [];
-    const first = motion.at(motion.from, motion.moment());
-    const places = scene.points.map(({ frame, at }) => placeOf(first, [frame, ...at]));
+    const first = table.rows > 0 ? motion.at(motion.from, motion.moment()) : undefined;
+    const places = first && scene.points.map(({ frame, at }) => placeOf(first, [frame, ...at]));
     const size = Math.hypot(scene.extent[1][0] - scene.extent[0][0], scene.extent[1][1] - scene.extent[0][1]);
     return knobs.flatMap((knob, k) => {
         const other = knobs[k + 1];
@@ -115,8 +115,10 @@ function drawnPoints(
         const units: [string, string] = [knob.unit || other.unit || "m", other.unit || knob.unit || "m"];
         const now = ({ name, value }: Knob) => set.get(name) ?? value;
         const at = [now(knob) * unitOfLength(units[0]), now(other) * unitOfLength(units[1])] as Pair;
-        const isThere = places.some(([x, y]) => Math.hypot(x - at[0], y - at[1]) < NEAR * size);
-        return isThere ? [{ name: knob.name.slice(0, -2), at, units }] : [];
+        const name = knob.name.slice(0, -2);
+        const isNear = ([x, y]: Pair) => Math.hypot(x - at[0], y - at[1]) < NEAR * size;
+        const isThere = places?.some(isNear) ?? before.some((point) => point.name === name);
+        return isThere ? [{ name, at, units }] : [];
     });
 }
 

@@ -3,12 +3,11 @@
 import { App } from "../app.ts";
 import { answerOf, documentOf, momentOf, type Answer, type Told } from "../data/live.ts";
 import type { Document } from "../data/document.ts";
-import type { Page } from "../data/format.ts";
-import { html } from "../elements.ts";
 import { embedding } from "../embedding.ts";
 import { Knobs, type Refusal } from "../panes/knobs.ts";
 import { Said } from "../panes/said.ts";
 import { Hand } from "./hand.ts";
+import { head } from "./head.ts";
 import type { News, State, Transport } from "./transport.ts";
 
 /** A question whose answer takes longer is given up for the next one, if there is one (ms). */
@@ -18,6 +17,8 @@ const GLIMPSE = 80;
 const SELDOM = 10;
 /** The whole motion is asked for when a hand has rested so long (ms): the next picture does not wait for it. */
 const REST = 50;
+/** One that takes no more than so many times a picture of now is asked for at once, and plots follow the hand too. */
+const AS_SOON = 1.3;
 /** After a question that nobody answered (ms). */
 const PAUSE = 250;
 
@@ -41,6 +42,8 @@ export class Live {
     private hasChanged = false;
     /** From when on pictures of now are asked for. */
     private glimpsesFrom = 0;
+    /** How long a picture of now took at least, 0 before there was one, and the last motion, from the question until they were drawn (ms). */
+    private readonly took = { glimpse: 0, motion: Infinity };
     private interrupt: () => void = () => {};
     private working: Promise<void> | undefined;
 
@@ -86,7 +89,8 @@ export class Live {
         const isParam = this.told?.knobs?.some((knob) => knob.name === name) ?? false;
         if (isParam) {
             const own = this.told!.knobs!.find((knob) => knob.name === name)!;
-            if (value === own.value) this.set.delete(name);
+            // a formula may be something else by now
+            if (value === own.value && own.formula === null) this.set.delete(name);
             else this.set.set(name, value);
         } else if (this.told?.jogs?.some((jog) => jog.name === name)) {
             this.app?.pause();
@@ -138,8 +142,9 @@ export class Live {
             const text = this.told?.knobs?.find((knob) => knob.name === name)?.text;
             return typeof text === "string" ? [{ name, old: text, value }] : [];
         });
-        if (changes.length < this.set.size) {
-            return { says: "Some of these are not set in this file, and nothing was written." };
+        const others = [...this.set.keys()].filter((name) => !changes.some((change) => change.name === name));
+        if (others.length > 0) {
+            return { says: `Nothing was written: this file does not say what ${others.join(", ")} ${others.length > 1 ? "are" : "is"}.` };
         }
         const written = await this.transport.write({ version: this.shown, changes, sure });
         if ("asks" in written) return { says: written.asks, isQuestion: true };
@@ -157,16 +162,20 @@ export class Live {
         return this.working;
     }
 
-    /** First the picture of now, which comes sooner; then the motion, once the hand rests. */
+    /** First the picture of now, which comes sooner; then the motion, once the hand rests. A motion that is as soon comes alone. */
     private async work(): Promise<void> {
         while (this.hasChanged) {
             this.hasChanged = false;
-            const isGlimpsed = await this.glimpse();
+            const isGlimpsed = !this.isMotionAsSoon && (await this.glimpse());
             if (isGlimpsed) await this.rest();
             if (isGlimpsed && this.hasChanged) continue;
             this.hasChanged = false;
             await this.once(isGlimpsed ? 0 : PATIENCE);
         }
+    }
+
+    private get isMotionAsSoon(): boolean {
+        return this.took.motion <= AS_SOON * this.took.glimpse;
     }
 
     /** Settles when the hand has rested, or moves on. */
@@ -195,8 +204,11 @@ export class Live {
         const took = performance.now() - began;
         if (took > GLIMPSE) this.glimpsesFrom = began + SELDOM * took;
         const there = answer?.live.glimpse && answer.live.version === this.shown ? momentOf(answer, document) : undefined;
-        if (there) app.glimpse(there);
-        return there !== undefined;
+        if (!there) return false;
+        app.glimpse(there);
+        // the least, for what else a machine does passes
+        this.took.glimpse = Math.min(this.took.glimpse || Infinity, performance.now() - began);
+        return true;
     }
 
     /** Asks for the motion, or where inputs are in it. */
@@ -206,8 +218,11 @@ export class Live {
         const isOfMotion = this.still === undefined || this.told?.version !== this.newest || key !== this.key;
         const jog = isOfMotion ? null : { time: this.still, inputs: [...this.moved] };
         try {
+            const [began, isFirst] = [performance.now(), this.document === undefined];
             const answer = await this.ask({ set, jog }, patience);
             if (answer) this.take(answer, key);
+            // the first one comes with the page, which takes its own time
+            if (answer?.page && !isFirst) this.took.motion = performance.now() - began;
         } catch (error) {
             // nobody is there, which is said elsewhere, or what came cannot be shown
             if (!(error instanceof TypeError)) console.error(error);
@@ -245,11 +260,12 @@ export class Live {
         this.newest = Math.max(this.newest, live.version);
         this.shown = live.version;
         if (live.wrong !== undefined) {
-            this.said.wrong(live.wrong, this.app !== undefined);
+            // a text that was shown is right
+            this.said.wrong(live.wrong, live.version === this.told?.version ? "what is set" : "the text", this.app !== undefined);
             this.app?.goBack();
             return;
         }
-        this.said.wrong(undefined, true);
+        this.said.right();
         if (live.jog) {
             this.takeJog(answer);
             return;
@@ -297,16 +313,6 @@ export class Live {
     private unit(name: string): string {
         return this.told?.knobs?.find((knob) => knob.name === name)?.unit ?? "";
     }
-}
-
-/** The name and the first words of a mechanism, above all else. */
-function head({ name, docs }: Page): void {
-    document.title = name;
-    const [heading, said] = [document.querySelector(".head h1 bdi")!, document.querySelector(".head .docs")];
-    heading.textContent = name;
-    const words = html("div", { class: "docs" }, html("p", {}, docs));
-    if (said) said.replaceWith(words);
-    else document.querySelector(".head")!.append(words);
 }
 
 /** A value as `--set` takes it. */

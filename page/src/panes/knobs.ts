@@ -37,8 +37,8 @@ interface Row {
     slider: HTMLInputElement;
     field: HTMLInputElement;
     label: HTMLElement;
-    /** By the text. */
-    own: number;
+    /** What it is as long as nobody sets it; nothing of an input, which time moves. */
+    own: number | undefined;
 }
 
 export class Knobs implements Pane {
@@ -74,18 +74,20 @@ export class Knobs implements Pane {
 
     /** What there is to turn; sliders that a hand may hold stay. */
     offer(knobs: readonly Knob[], jogs: readonly Jog[], set: ReadonlyMap<string, number>): void {
-        const offered = JSON.stringify([knobs, jogs]);
+        const offered = JSON.stringify([knobs.map((knob) => ({ ...knob, now: null })), jogs]);
         [this.knobs, this.jogs] = [knobs, jogs];
         if (offered !== this.offered) {
             const wasEmpty = this.offered === "";
             this.offered = offered;
             this.rows.clear();
-            this.setting.replaceChildren(...knobs.map((knob) => this.row(knob.name, knob.unit, knob.value, rangeOf(knob), knob.formula)));
-            const sliders = jogs.map((jog) => this.row(jog.name, jog.unit, 0, TURN[jog.unit] ? [-2 * TURN[jog.unit]!, 2 * TURN[jog.unit]!] : [-1, 1], jog.formula));
+            this.setting.replaceChildren(...knobs.map((knob) => this.row(knob.name, knob.unit, knob.value, rangeOf(knob), knob.whole ? 1 : undefined, knob.formula)));
+            const sliders = jogs.map((jog) => this.row(jog.name, jog.unit, 0, TURN[jog.unit] ? [-2 * TURN[jog.unit]!, 2 * TURN[jog.unit]!] : [-1, 1], "any", jog.formula));
             this.turning.replaceChildren(...(jogs.length > 0 ? [...sliders, this.time] : []));
             if (wasEmpty) this.folded.open = knobs.length < MANY;
             this.folded.hidden = knobs.length === 0;
         }
+        // a formula follows what is set
+        for (const { name, value, now } of knobs) this.rows.get(name)!.own = now ?? value;
         this.element.hidden = this.rows.size === 0;
         this.at(set, new Map());
     }
@@ -94,7 +96,7 @@ export class Knobs implements Pane {
     at(set: ReadonlyMap<string, number>, moved: ReadonlyMap<string, number>): void {
         this.set = set;
         for (const [name, row] of this.rows) {
-            const value = set.get(name) ?? moved.get(name) ?? (this.isParam(name) ? row.own : undefined);
+            const value = set.get(name) ?? moved.get(name) ?? row.own;
             if (value !== undefined) show(row, value);
             row.label.classList.toggle("changed", set.has(name) || moved.has(name));
         }
@@ -113,12 +115,8 @@ export class Knobs implements Pane {
         }
     }
 
-    private isParam(name: string): boolean {
-        return this.knobs.some((knob) => knob.name === name);
-    }
-
-    private row(name: string, unit: string, value: number, [from, to]: [number, number], formula: string | null): HTMLElement {
-        const slider = html("input", { type: "range", min: from, max: to, step: this.isParam(name) ? step(from, to) : "any", value, "data-param": name, "aria-label": name });
+    private row(name: string, unit: string, value: number, [from, to]: [number, number], by: number | "any" | undefined, formula: string | null): HTMLElement {
+        const slider = html("input", { type: "range", min: from, max: to, step: by ?? step(from, to), value, "data-param": name, "aria-label": name });
         const field = html("input", { type: "text", inputmode: "decimal", size: 8, "aria-label": `${name}, a number`, spellcheck: "false" });
         const label = html(
             "div",
@@ -128,13 +126,13 @@ export class Knobs implements Pane {
             field,
             html("span", { class: "unit" }, setUnit(unit)),
         );
-        const row = { slider, field, label, own: value };
+        const row: Row = { slider, field, label, own: undefined };
         this.rows.set(name, row);
         slider.addEventListener("input", () => this.does.set(name, Number(slider.value)));
         field.addEventListener("change", () => {
-            const typed = Number(field.value.replace(/\u2212/g, "-").replace(",", "."));
-            if (field.value.trim() === "" || !Number.isFinite(typed)) show(row, Number(slider.value));
-            else this.does.set(name, typed);
+            const typed = numberIn(field.value, unit);
+            field.value = short(typed ?? Number(slider.value));
+            if (typed !== undefined) this.does.set(name, typed);
         });
         show(row, value);
         return label;
@@ -165,6 +163,14 @@ export class Knobs implements Pane {
     }
 }
 
+/** What was typed, with the unit behind it or without. */
+function numberIn(typed: string, unit: string): number | undefined {
+    const text = typed.trim();
+    const bare = unit !== "" && text.endsWith(unit) ? text.slice(0, -unit.length).trim() : text;
+    const number = Number(bare.replace(/\u2212/g, "-").replace(",", "."));
+    return bare === "" || !Number.isFinite(number) ? undefined : number;
+}
+
 /** A number that its slider may not reach moves the slider's end. */
 function show({ slider, field }: Row, value: number): void {
     if (!Number.isFinite(value)) return;
@@ -172,15 +178,14 @@ function show({ slider, field }: Row, value: number): void {
     if (value > Number(slider.max)) slider.max = String(value);
     slider.value = String(value);
     if (document.activeElement !== field) field.value = short(value);
-    slider.setAttribute("aria-valuetext", field.value);
+    slider.setAttribute("aria-valuetext", short(value));
 }
 
 /** From where to where a param goes. */
-function rangeOf({ value, unit, text }: Knob): [number, number] {
+function rangeOf({ value, unit, whole }: Knob): [number, number] {
     const turn = TURN[unit];
     if (turn !== undefined) return [value - turn, value + turn];
-    // what is counted goes by whole numbers
-    if (unit === "" && Number.isInteger(value) && value > 0 && text !== null && /^\d+$/.test(text)) return [1, 2 * value + 2];
+    if (whole) return [Math.min(value, 1), 2 * Math.abs(value) + 2];
     const around = value === 0 ? (unit === "mm" ? 50 : 1) : AROUND * Math.abs(value);
     return [round(value - around), round(value + around)];
 }
@@ -188,7 +193,6 @@ function rangeOf({ value, unit, text }: Knob): [number, number] {
 /** A step that a reader would choose. */
 function step(from: number, to: number): number {
     const least = (to - from) / STEPS;
-    if (Number.isInteger(from) && Number.isInteger(to) && to - from < 40) return 1 / (to - from > 20 ? 1 : 10);
     const power = 10 ** Math.floor(Math.log10(least));
     return Number((power * (least / power < 2 ? 1 : least / power < 5 ? 2 : 5)).toPrecision(1));
 }

@@ -119,6 +119,8 @@ export class Picture implements Pane {
     private unfold(document: Document): void {
         const before = this.camera;
         const sameScene = this.document?.scene === document.scene;
+        // where other bodies are is not known yet
+        if (this.document?.scene.frames.length !== document.scene.frames.length) this.moment = undefined;
         this.document = document;
         this.wrong = new Set(document.named);
         if (sameScene && this.drawing) return;
@@ -198,7 +200,10 @@ export class Picture implements Pane {
             from = this.pixelOf(event);
             moved = 0;
             hold = this.grasped(from, event);
-            if (hold) over.setPointerCapture(event.pointerId);
+            if (!hold) return;
+            over.setPointerCapture(event.pointerId);
+            // what is told of a place is of where it was
+            this.note.hidden = true;
         });
         over.addEventListener("pointermove", (event) => {
             const at = this.pixelOf(event);

@@ -25,12 +25,15 @@ export class Said {
         if (this.away.textContent !== STATES[state]) this.away.textContent = STATES[state];
     }
 
-    /** What is wrong with the text, as it is printed; a picture of before may be there. */
-    wrong(text: string | undefined, hasPicture: boolean): void {
-        this.broken.hidden = text === undefined;
-        if (text === undefined) return;
-        const head = hasPicture ? "The text is wrong; the picture is that of before." : "The text is wrong.";
-        this.broken.replaceChildren(html("strong", {}, head), printed(text));
+    /** What is wrong with the text, or with what is set, as it is printed; a picture of before may be there. */
+    wrong(text: string, what: "the text" | "what is set", hasPicture: boolean): void {
+        this.broken.hidden = false;
+        const head = what === "the text" ? "The text is wrong" : "It cannot be with what is set";
+        this.broken.replaceChildren(html("strong", {}, hasPicture ? `${head}; the picture is that of before.` : `${head}.`), printed(text));
+    }
+
+    right(): void {
+        this.broken.hidden = true;
     }
 
     /** Why inputs do not go on. */
@@ -40,7 +43,12 @@ export class Said {
     }
 }
 
-/** What is wider than the page is reached by keys too. */
+/** Lines that quote the text, or stand below it: their columns mean something. */
+const QUOTING = /^\s*\d*\s*[┌│·]/;
+
+/** Words are broken where the room ends, quoted lines are not; what is wider than the page is reached by keys too. */
 function printed(text: string): HTMLElement {
-    return html("pre", { tabindex: 0, role: "region", "aria-label": "as mechc run prints it" }, text.trimEnd());
+    const lines = text.trimEnd().split(/(?<=\n)/);
+    const shown = lines.map((line) => html("span", { class: QUOTING.test(line) ? "quoting" : undefined }, line));
+    return html("pre", { tabindex: 0, role: "region", "aria-label": "as mechc run prints it" }, ...shown);
 }

@@ -78,6 +78,92 @@ test("the picture of now comes before the motion, and is the same", async () => 
     });
 });
 
+/** Params of all kinds: a formula, a number of copies, a point that is the origin. */
+const KINDS = CRANK.replace("param C", "param flags = 2\n    param O = (0, 0)\n    param C")
+    .replace("point O = (0, 0)", "point O = O")
+    .replace("    joint main", "    body flag[k in 0..flags] at (0, 0, 0) { point O = (0, 0)  point P = (0, 5 mm + k * 5 mm) }\n    joint up[k in 0..flags]: weld(ground.O, flag[k].O)\n    joint main");
+
+test("a formula shows what it is by now, what is counted is whole, the origin has the unit of the others", async () => {
+    await following(KINDS, async ({ server, page }) => {
+        const knob = (name) =>
+            page.evaluate((name) => {
+                const slider = document.querySelector(`[data-param="${name}"]`);
+                const [field, unit] = [slider.closest(".knob").querySelector("[type=text]").value, slider.closest(".knob").querySelector(".unit").textContent];
+                return [field, unit, Number(slider.step)];
+            }, name);
+        assert.equal((await knob("half"))[0], "0.045");
+        await page.evaluate(() => mechc.set("rod", 110));
+        assert.equal((await knob("half"))[0], "0.055");
+        // it is no more what the text says than the rod is
+        await page.evaluate(() => mechc.set("half", 0.045));
+        assert.equal((await knob("half"))[0], "0.045");
+        await page.evaluate(() => [...document.querySelectorAll(".deeds button")].find((b) => b.textContent === "As in the file").click());
+
+        assert.deepEqual(await knob("flags"), ["2", "", 1]);
+        for (const flags of [4, 1, 3]) {
+            await page.evaluate((flags) => mechc.set("flags", flags), flags);
+            assert.equal(await page.locator('[data-body^="flag"]').count(), flags);
+        }
+        const bodies = await page.locator("[data-body]").count();
+        await page.evaluate(() => mechc.set("flags", 2.5));
+        assert.equal(await page.textContent(".broken strong"), "It cannot be with what is set; the picture is that of before.");
+        assert.equal(await page.locator("[data-body]").count(), bodies);
+        await page.evaluate(() => mechc.set("flags", 2));
+        assert.ok(await page.isHidden(".broken"));
+
+        assert.deepEqual((await knob("O.x")).slice(0, 2), ["0", "mm"]);
+        await page.evaluate(() => mechc.set("O.x", 3));
+        await page.click("text=Write into the file");
+        await until(page, shows, "param O = (3 mm, 0)");
+        assert.match(readFileSync(server.path, "utf8"), /param O = \(3 mm, 0\)/);
+    });
+});
+
+test("what there is to say moves nothing that is in the hand", async () => {
+    await following(CRANK, async ({ page }) => {
+        const places = () => page.evaluate(() => [".picture", '[data-param="rod"]'].map((what) => JSON.stringify(document.querySelector(what).getBoundingClientRect())));
+        const before = await places();
+        const handle = await page.locator('[data-handle="C"]').boundingBox();
+        const [x, y] = [handle.x + handle.width / 2, handle.y + handle.height / 2];
+        await page.mouse.move(x, y);
+        await page.mouse.down();
+        // farther than the crank can turn around, and than the bars reach
+        for (let step = 1; step <= 20; step++) {
+            await page.mouse.move(x + 15 * step, y);
+            await page.waitForTimeout(20);
+        }
+        await page.waitForSelector(".message.error");
+        assert.deepEqual(await places(), before);
+        const held = await page.locator('[data-handle="C"]').boundingBox();
+        assert.ok(Math.abs(held.x + held.width / 2 - (x + 300)) < 2 && Math.abs(held.y + held.height / 2 - y) < 2, JSON.stringify([handle, held]));
+        await page.mouse.up();
+    });
+});
+
+test("a motion that is as soon as a picture is asked for at once, so that plots follow the hand", async () => {
+    await following(CRANK, async ({ page }) => {
+        const asked = await page.evaluate(async () => {
+            const asked = [];
+            const { send } = XMLHttpRequest.prototype;
+            XMLHttpRequest.prototype.send = function (body) {
+                asked.push(JSON.parse(body).at === undefined ? "motion" : "glimpse");
+                send.call(this, body);
+            };
+            // by a clock that stands still everything is soon
+            const now = performance.now.bind(performance);
+            await mechc.set("rod", 91);
+            performance.now = () => 0;
+            await mechc.set("rod", 92);
+            asked.push("soon");
+            await mechc.set("rod", 93);
+            performance.now = now;
+            return asked;
+        });
+        assert.deepEqual(asked.slice(asked.indexOf("soon")), ["soon", "motion"]);
+        assert.equal(asked[0], "glimpse");
+    });
+});
+
 test("an input is moved by hand while time stands still, as run --input has it", async () => {
     await following(CRANK, async ({ server, page }) => {
         await page.evaluate(() => mechc.seek(0.25));
@@ -132,6 +218,9 @@ test("a save is seen at once, a wrong one keeps the picture, a mended one goes o
         await until(page, () => document.querySelector(".broken:not([hidden]) pre")?.textContent.includes("E0201"));
         assert.equal(await length(), shown);
         assert.match((await said(page))[0], /linkage\.mech:1[0-9]:/);
+        // what points at a column of a line stays below it
+        const quoted = await page.locator(".broken .quoting").evaluateAll((lines) => lines.map(({ offsetHeight }) => offsetHeight));
+        assert.ok(quoted.length >= 4 && new Set(quoted).size === 1, `${quoted}`);
         server.save(CRANK);
         await until(page, () => document.querySelector(".broken").hidden);
         assert.equal(await length(), before);
@@ -238,6 +327,7 @@ test("a crank is taken by the hand, and a point of the drawing", async () => {
             const turned = (-angle * Math.PI) / 180;
             await page.mouse.move(pivot.x + radius * Math.cos(turned), pivot.y + radius * Math.sin(turned));
         }
+        assert.ok(await page.isHidden(".note"));
         await page.mouse.up();
         await page.waitForFunction(() => Math.abs(mechc.row()[mechc.columns.indexOf("crank.phi")] - (2 * Math.PI) / 3) < 0.02);
         assert.ok(await page.isVisible(".time-again"));
@@ -405,7 +495,7 @@ test("keys alone turn, set, write and let go", async () => {
         await page.keyboard.press("ArrowRight");
         await changed("rod");
         await reach("input[type=text]");
-        await page.keyboard.type("95.5");
+        await page.keyboard.type("95.5 mm");
         await page.keyboard.press("Enter");
         await page.waitForFunction(() => document.querySelector('[data-param="rod"]').getAttribute("aria-valuetext") === "95.5");
         await reach("[title^='what is set takes']");
