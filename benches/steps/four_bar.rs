@@ -2844,7 +2844,6 @@ pub mod lane_newton {
 
 use super::lane_solutions::{Laned, Solutions};
 use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
-use super::numbers::larger;
 use super::so_far::larger_so_far;
 
 /// An iteration of Newton in every lane, until all have settled or are lost.
@@ -2889,13 +2888,13 @@ impl<const L: usize> Settling<L> {
         pairs.all(|(open, far)| *open <= HALF_A_CELL || is_lost(*far))
     }
 
-    /// Leaves word of how it went.
+    /// Leaves word of how it went. What is not a number is in the coordinates, too.
     pub fn note<M: Laned<L>>(&self, at: &mut Solutions<M, L>) {
         for k in 0..L {
-            at.first[k] = larger(at.first[k], self.first[k]);
-            at.open[k] = larger(at.open[k], self.open[k]);
+            at.first[k] = larger_so_far(at.first[k], self.first[k]);
+            at.open[k] = larger_so_far(at.open[k], self.open[k]);
             let lost = self.far[k] * (1.0 / LARGEST_CORRECTION);
-            at.strain[k] = larger(at.strain[k], lost);
+            at.strain[k] = larger_so_far(at.strain[k], lost);
         }
     }
 }
@@ -2913,7 +2912,8 @@ use super::branches::{sides_ahead, sides_at, with_time};
 use super::error::Error;
 use super::lane_solutions::{Laned, Lists, Solutions};
 use super::limits::{FARTHEST_BEND, HALF_A_CELL, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP};
-use super::numbers::{Numbers, larger};
+use super::numbers::Numbers;
+use super::so_far::larger_so_far;
 use super::state::{Lead, State};
 use super::step::step_within;
 
@@ -3177,7 +3177,7 @@ fn guess<M: Laned<L>, const L: usize>(
             let bend = u * u * u * (cubic + u * (quartic + u * quintic));
             let way = h * (v + 0.5 * h * a) + bend;
             guess[k] = x + way;
-            motion[k] = larger(motion[k], way.abs() / scale);
+            motion[k] = larger_so_far(motion[k], way.abs() / scale);
         }
     }
     (guess, motion)
@@ -3195,7 +3195,7 @@ fn gap<M: Laned<L>, const L: usize>(from: &Solutions<M, L>, at: &Solutions<M, L>
             let rates = 0.5 * h[k] * (v[k] + w[k]);
             let bends = h[k] * h[k] * (1.0 / 12.0) * (a[k] - b[k]);
             let gap_here = y[k] - x[k] - rates - bends;
-            gap[k] = larger(gap[k], gap_here.abs() / scale);
+            gap[k] = larger_so_far(gap[k], gap_here.abs() / scale);
         }
     }
     gap

@@ -68,8 +68,8 @@ files! {
     "lane_solutions" at "runtime/lane_solutions.rs": ["measured", "solution", "state"], [];
     "lane_strain" at "runtime/lane_strain.rs": ["so_far", "lane_solutions"], [];
     "lane_pivots" at "runtime/lane_pivots.rs": ["so_far", "lane_solutions"], [];
-    "lane_newton" at "runtime/lane_newton.rs": ["numbers", "so_far", "lane_solutions"], [HALF_A_CELL, LARGEST_CORRECTION];
-    "lanes" at "runtime/lanes.rs": ["numbers", "error", "branches", "state", "assemble", "step", "lane_solutions"],
+    "lane_newton" at "runtime/lane_newton.rs": ["so_far", "lane_solutions"], [HALF_A_CELL, LARGEST_CORRECTION];
+    "lanes" at "runtime/lanes.rs": ["numbers", "so_far", "error", "branches", "state", "assemble", "step", "lane_solutions"],
         [FARTHEST_BEND, HALF_A_CELL, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP];
     "lane_follow" at "runtime/lane_follow.rs": ["error", "way", "follow", "lane_solutions", "lanes"], [MOST_STEPS];
     "sine_and_cosine" at "../math/sin_cos.rs": [], [];
