@@ -73,6 +73,7 @@ pub use check::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use diag::{Applies, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, Severity, fixed, render};
 pub use emit::{File, LARGEST_STRAIGHT, MARK};
 pub use layout::ColumnUnit;
+pub use math::Vectors;
 pub use output::{TableFormat, TableWriter};
 pub use source::{Encoding, FileId, Source, Sources, Span};
 pub use stages::{

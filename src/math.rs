@@ -15,6 +15,7 @@ mod search;
 mod search_tests;
 mod sin_cos;
 mod sin_cos_of_each;
+mod vectors;
 mod without_branches {
     use super::sin_cos::{cos_near_zero, reduce_small, sin_near_zero};
     include!("math/without_branches.rs");
@@ -24,6 +25,7 @@ pub use curve::{about, along, farthest, parabola, predicted, quintic, value_and_
 pub use search::{GOLDEN, GoldenSection, Halving, bisect, boundary};
 pub use sin_cos::sin_cos;
 pub use sin_cos_of_each::sin_cos_of_each;
+pub use vectors::Vectors;
 
 /// Sine.
 #[must_use]

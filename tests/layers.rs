@@ -254,6 +254,19 @@ fn rooms_know_no_files_threads_clock_or_environment() {
     assert!(allowed > 0, "nothing was found where something is");
 }
 
+/// What chooses code by the processor is behind one door.
+#[test]
+fn one_file_knows_the_library_of_vector_instructions() {
+    let known: Vec<String> = files("src", "rs")
+        .into_iter()
+        .filter(|path| fs::read_to_string(path).expect("a text").contains("pulp::"))
+        .map(|path| {
+            path.strip_prefix(concat!(env!("CARGO_MANIFEST_DIR"), "/src")).expect("below src").display().to_string()
+        })
+        .collect();
+    assert_eq!(known, ["math/vectors.rs"]);
+}
+
 /// Each stage of the façade shows how it is used.
 #[test]
 fn every_stage_has_an_example_that_is_run() {

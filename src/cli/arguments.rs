@@ -1,5 +1,6 @@
 //! What can be typed.
 
+use crate::Vectors;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -463,6 +464,11 @@ pub(super) struct RunArguments {
     #[arg(long)]
     pub pass_bifurcations: bool,
 
+    /// The vector instructions that rows are solved for with; the widest that the processor has if not given. For tests: the numbers are
+    /// the same
+    #[arg(long, hide = true, value_name = "NAME", value_parser = vectors)]
+    pub vectors: Option<Vectors>,
+
     /// Print to standard error where the time went
     #[arg(long)]
     pub timings: bool,
@@ -735,4 +741,9 @@ fn positive(text: &str) -> Result<f64, String> {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
         _ => Err("a positive number is wanted".to_owned()),
     }
+}
+
+fn vectors(name: &str) -> Result<Vectors, String> {
+    let names = Vectors::NAMES.join("`, `");
+    Vectors::named(name).ok_or_else(|| format!("one of `{names}` is wanted that this processor has"))
 }

@@ -44,8 +44,10 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     }
     compiled.prepare();
     timings.end(Phase::Program);
-    let RunArguments { tolerance, pass_bifurcations, .. } = *arguments;
-    let (run, said) = compiled.run(&times, &RunOptions { tolerance, pass_bifurcations, ..RunOptions::default() });
+    let RunArguments { tolerance, pass_bifurcations, vectors, .. } = *arguments;
+    let vectors = vectors.unwrap_or_default();
+    let options = RunOptions { tolerance, pass_bifurcations, vectors, ..RunOptions::default() };
+    let (run, said) = compiled.run(&times, &options);
     let run = reporter.settle(run, said)?;
     let names = compiled.results();
     let ended = Table { output, format, wanted, timings, results, names: &names }.write(run)?;

@@ -5,9 +5,12 @@ use super::without_branches::sin_cos_below_a_million;
 
 /// Sine and cosine of several angles (rad): the same bits as of each alone.
 #[must_use]
+#[inline(always)]
+#[allow(clippy::inline_always)] // it becomes part of loops that are compiled for several kinds of processors
 pub fn sin_cos_of_each<const W: usize>(angles: &[f64; W]) -> ([f64; W], [f64; W]) {
     let (mut sines, mut cosines) = ([0.0; W], [0.0; W]);
-    if angles.iter().all(|angle| angle.abs() < 1e6) {
+    // all of them are compared at once
+    if angles.iter().fold(true, |all, angle| all & (angle.abs() < 1e6)) {
         for k in 0..W {
             (sines[k], cosines[k]) = sin_cos_below_a_million(angles[k]);
         }

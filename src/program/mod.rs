@@ -16,6 +16,7 @@ mod compile;
 mod enclose;
 mod evaluate;
 mod formulas;
+mod lanes;
 mod op;
 mod ranges;
 mod signals;
@@ -23,6 +24,7 @@ mod tables;
 
 pub use enclose::Enclosure;
 pub use evaluate::{Frozen, Registers, truth};
+pub use lanes::{LaneMachine, Vector};
 pub use op::{Few, Machine, Op};
 pub use ranges::{Range, Ranges};
 pub use signals::Signal;

@@ -6,6 +6,7 @@ use crate::analysis::{self, Answers, Asked, Follower, Horizon, LeadOptions, Star
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::layout::{ColumnUnit, RowLayout};
+use crate::math::Vectors;
 use crate::program::Program;
 use crate::structure::Determined;
 use std::sync::Arc;
@@ -19,6 +20,8 @@ pub struct RunOptions {
     pub pass_bifurcations: bool,
     /// Where a mechanism that is told its inputs is led from; its own start if nothing is said.
     pub stand: Option<Stand>,
+    /// The vector instructions that rows are solved for with, which change no bit.
+    pub vectors: Vectors,
     /// Ends it.
     pub cancel: Cancel,
 }
@@ -34,7 +37,13 @@ pub struct Stand {
 
 impl Default for RunOptions {
     fn default() -> RunOptions {
-        RunOptions { tolerance: analysis::TOLERANCE, pass_bifurcations: false, stand: None, cancel: Cancel::default() }
+        RunOptions {
+            tolerance: analysis::TOLERANCE,
+            pass_bifurcations: false,
+            stand: None,
+            vectors: Vectors::default(),
+            cancel: Cancel::default(),
+        }
     }
 }
 
@@ -183,7 +192,7 @@ impl Compiled {
 
     /// Where the inputs that it is told lead it, and its parts; with what is to be said of the way.
     fn led(&self, horizon: Horizon, options: &RunOptions) -> (Option<Vec<f64>>, Diagnostics) {
-        let RunOptions { tolerance, pass_bifurcations, ref stand, ref cancel } = *options;
+        let RunOptions { tolerance, pass_bifurcations, ref stand, ref cancel, .. } = *options;
         match self.leading() {
             None => (None, Diagnostics::default()),
             Some((leading, leave_out)) => {
@@ -213,6 +222,7 @@ impl Run {
             }
         };
         said.extend(compiled.used_at().told(started.remarks()));
+        started.use_vectors(options.vectors);
         let assembly = assembly(compiled, &mut started, times.from());
         let results = compiled.system().results().outcomes.len();
         let interval = times.interval().filter(|_| results > 0);

@@ -6,6 +6,7 @@ use super::errors::{far_estimates, misfit};
 use crate::analysis::state::{Horizon, Kinematics, State};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
+use crate::math::Vectors;
 use crate::program::Program;
 use crate::solver::Solver;
 use crate::structure::Determined;
@@ -130,6 +131,11 @@ impl Started {
         let mut diagnostics = Diagnostics::default();
         diagnostics.extend(far_estimates(system, self.moved.perturbed, self.doubt, ends, t));
         diagnostics
+    }
+
+    /// From now on rows are solved for with these vector instructions, which changes no bit.
+    pub fn use_vectors(&mut self, vectors: Vectors) {
+        self.kinematics.use_vectors(vectors);
     }
 
     /// How far assembly moved the bodies from their estimates.

@@ -33,7 +33,7 @@ impl Places {
         let (program, values) = kinematics.program();
         let signals = Ranges::new(program, values, &registers, Stage::Time, true);
         let solver = solver.map(|solver| {
-            let lanes = Lanes::new(&solver);
+            let lanes = Lanes::new(&solver, kinematics.vectors());
             (solver, lanes)
         });
         let stride = solver.as_ref().map_or(0, |(solver, _)| solver.layout().stride);

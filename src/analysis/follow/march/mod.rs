@@ -113,7 +113,7 @@ impl Follower {
             return Some(Err(why));
         }
         self.rows.count_row();
-        if self.rows.row(place).iter().any(|value| !value.is_finite()) {
+        if !self.rows.is_whole(place) {
             self.rows.leave_out_measures(&self.kinematics, place, t);
         }
         Some(Ok(self.rows.row(place)))

@@ -75,10 +75,10 @@ impl Leap {
         let threads = threads(&solver);
         let n = kinematics.system().coordinates().len();
         Leap {
-            lanes: vec![Lanes::new(&solver); threads],
+            lanes: vec![Lanes::new(&solver, kinematics.vectors()); threads],
             values: vec![0.0; threads * LANES * solver.layout().stride],
             holds: vec![[false; LANES]; threads],
-            alone: Lanes::new(&solver),
+            alone: Lanes::new(&solver, kinematics.vectors()),
             alone_row: vec![0.0; solver.layout().stride],
             rest: vec![[0.0; 6]; n],
             pivoting: Pivoting::new(&kinematics.determined()),
@@ -232,7 +232,13 @@ impl Leap {
             self.solve_batch(kinematics, step, (times, next));
         }
         let lane = (next - self.first) as usize;
-        (self.holds[lane / LANES][lane % LANES] && self.is_finite(lane)).then_some(lane)
+        let is_solved = self.holds[lane / LANES][lane % LANES];
+        (is_solved && (self.is_whole(lane) || self.is_finite(lane))).then_some(lane)
+    }
+
+    /// Whether all numbers of a lane's row are finite, be they of measures.
+    pub fn is_whole(&self, lane: usize) -> bool {
+        self.lanes[lane / LANES].is_finite(lane % LANES)
     }
 
     /// Whether the coordinates of a lane's row and their derivatives are numbers.

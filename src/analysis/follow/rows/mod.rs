@@ -160,6 +160,15 @@ impl Rows {
         &mut self.row
     }
 
+    /// Whether all numbers of a row are finite.
+    pub fn is_whole(&self, place: Place) -> bool {
+        match (place, &self.leap) {
+            // what solved for it has seen all of it
+            (Place::Lane(lane), Some(leap)) if leap.is_whole(lane) => true,
+            _ => self.row(place).iter().all(|value| value.is_finite()),
+        }
+    }
+
     /// The row at a place.
     pub fn row(&self, place: Place) -> &[f64] {
         match (place, &self.leap) {

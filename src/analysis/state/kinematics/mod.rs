@@ -12,6 +12,7 @@ use super::yardstick::is_looked_at_beside;
 use crate::cancel::Cancel;
 use crate::ir::{ConstraintSystem, DeclarationKind};
 use crate::layout::{self, Holds};
+use crate::math::Vectors;
 use crate::program::{Program, Register, Registers, Stage};
 use crate::solver::{Equations, Solver, Values};
 use crate::structure::Determined;
@@ -73,6 +74,8 @@ pub struct Kinematics {
     variations: Varied,
     /// What the columns of a row hold.
     holds: Vec<Holds>,
+    /// What rows are solved for with.
+    vectors: Vectors,
 }
 
 impl Kinematics {
@@ -108,7 +111,18 @@ impl Kinematics {
             other_estimates,
             variations,
             holds,
+            vectors: Vectors::default(),
         }
+    }
+
+    /// What rows are solved for with: the widest vector instructions there are, if not told otherwise.
+    pub fn vectors(&self) -> Vectors {
+        self.vectors
+    }
+
+    /// From now on rows are solved for with these vector instructions, which changes no bit.
+    pub fn use_vectors(&mut self, vectors: Vectors) {
+        self.vectors = vectors;
     }
 
     pub fn system(&self) -> &ConstraintSystem {
