@@ -326,7 +326,8 @@ impl Checker<'_> {
             self.report(errors::ends_before_start([from.span, to.span], texts, start, end));
             return;
         }
-        self.model.analysis = Some(Analysis { from: start, to: end, every: step, formulas: [first, last, between], span });
+        self.model.analysis =
+            Some(Analysis { from: start, to: end, every: step, formulas: [first, last, between], span });
     }
 }
 

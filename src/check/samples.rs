@@ -109,8 +109,8 @@ pub fn variants(source: &Source, file: FileId) -> Result<Vec<Column>, Vec<Diagno
         let help = "the first line names the params, each with its unit: `rod [mm],speed [rpm]`";
         return Err(vec![fault(Code::E0416, "the variants are of no param", line.span, "numbers alone").help(help)]);
     }
-    let (columns, rows) = columns(source, file, &heads, VARIANTS)?;
-    if rows.is_empty() {
+    let Rows { columns, places } = Rows::read(source, file, &heads, VARIANTS)?;
+    if places.is_empty() {
         return Err(vec![fault(
             Code::E0413,
             "the variants have no row",
@@ -141,24 +141,28 @@ fn heads(source: &Source, file: FileId, words: Words) -> Result<(Line<'_>, Vec<H
     Ok((line, heads))
 }
 
-/// The numbers of the rows behind the first line (SI), by column, with the place of each row's first cell; blank lines are passed over.
-fn columns(
-    source: &Source,
-    file: FileId,
-    heads: &[Head<'_>],
-    words: Words,
-) -> Result<(Vec<Vec<f64>>, Vec<Vec<Span>>), Vec<Diagnostic>> {
-    let mut values: Vec<Vec<f64>> = vec![Vec::new(); heads.len()];
-    let mut rows = Vec::new();
-    for line in lines(source, file).skip(1) {
-        let cells = line.cells(words).map_err(|fault| vec![*fault])?;
-        let row = row_of(&line, &cells, heads, words)?;
-        for (column, (value, head)) in values.iter_mut().zip(row.into_iter().zip(heads)) {
-            column.push(head.unit.as_ref().map_or(value, |unit| unit.to_si(value)));
+/// The rows behind a first line.
+struct Rows {
+    /// By column: its numbers (SI).
+    columns: Vec<Vec<f64>>,
+    /// By row and column.
+    places: Vec<Vec<Span>>,
+}
+
+impl Rows {
+    /// Reads them; blank lines are passed over.
+    fn read(source: &Source, file: FileId, heads: &[Head<'_>], words: Words) -> Result<Rows, Vec<Diagnostic>> {
+        let mut rows = Rows { columns: vec![Vec::new(); heads.len()], places: Vec::new() };
+        for line in lines(source, file).skip(1) {
+            let cells = line.cells(words).map_err(|fault| vec![*fault])?;
+            let row = row_of(&line, &cells, heads, words)?;
+            for (column, (value, head)) in rows.columns.iter_mut().zip(row.into_iter().zip(heads)) {
+                column.push(head.unit.as_ref().map_or(value, |unit| unit.to_si(value)));
+            }
+            rows.places.push(cells.iter().map(|cell| cell.span).collect());
         }
-        rows.push(cells.iter().map(|cell| cell.span).collect());
+        Ok(rows)
     }
-    Ok((values, rows))
 }
 
 impl<'a> Headed<'a> {
@@ -172,9 +176,9 @@ impl<'a> Headed<'a> {
     /// # Errors
     /// What is wrong with them.
     pub fn rows(&self) -> Result<Samples, Vec<Diagnostic>> {
-        let (mut values, rows) = columns(self.source, self.file, &self.heads, SAMPLES)?;
+        let Rows { columns: mut values, places } = Rows::read(self.source, self.file, &self.heads, SAMPLES)?;
         let times = values.remove(self.at);
-        let rows: Vec<Span> = rows.iter().map(|cells| cells[self.at]).collect();
+        let rows: Vec<Span> = places.iter().map(|cells| cells[self.at]).collect();
         rising(&times, &rows, self.heads[self.at].span)?;
         let columns = self.columns().zip(values).map(|(head, values)| head.column(values)).collect();
         Ok(Samples { times, columns })

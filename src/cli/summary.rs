@@ -65,7 +65,9 @@ pub(super) fn command(arguments: &SweepArguments, settings: &[String]) -> String
         ("--to", &arguments.interval.to),
         ("--every", &arguments.interval.every),
     ];
-    times.into_iter().for_each(|(option, time)| time.iter().for_each(|time| add(option, time)));
+    for (option, time) in times.iter().filter_map(|(option, time)| Some((option, time.as_ref()?))) {
+        add(option, time);
+    }
     arguments.at.iter().for_each(|time| add("--at", time));
     arguments.result.iter().for_each(|result| add("--result", result));
     if arguments.tolerance.to_bits() != crate::stages::RunOptions::default().tolerance.to_bits() {

@@ -1,7 +1,7 @@
 //! Running a solver at several times at once. Allocates nothing but the registers, once.
 
 use super::curve::Bend;
-use super::{Instruction, LARGEST_MULTIPLIER, Segment, Solver, Tear, from_bits};
+use super::{Instruction, LARGEST_MULTIPLIER, Solver, Tear, from_bits};
 use crate::math::{self, Vectors};
 use crate::program::{LaneMachine, Machine, Op, Program, Registers, Vector};
 use crate::tolerances::solving::lanes::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION};
@@ -124,7 +124,7 @@ impl<const W: usize> Run<'_, W> {
         for segment in &self.solver.segments {
             let tears = segment.tears();
             for iteration in 0..ITERATIONS {
-                self.to_grid(tears);
+                self.put_on_grid(tears);
                 self.instructions(segment.range());
                 // what is run once is settled by that
                 if self.take_corrections(tears, iteration) {
@@ -136,7 +136,7 @@ impl<const W: usize> Run<'_, W> {
 
     /// Newton goes from grid point to grid point.
     #[inline(always)]
-    fn to_grid(&mut self, tears: &[Tear]) {
+    fn put_on_grid(&mut self, tears: &[Tear]) {
         for tear in tears {
             self.lanes.values[tear.x as usize].0.iter_mut().for_each(|x| *x = on_grid(*x, tear.cell));
         }

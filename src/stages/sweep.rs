@@ -159,7 +159,7 @@ impl Sweeping {
             Variant { status: Status::Ok, stopped: f64::NAN, results: vec![f64::NAN; self.results], rows: Vec::new() };
         if let Err(why) = self.run(params, &mut variant) {
             variant.status = Status::Stopped(why.code);
-            variant.stopped = why.data.get("t").and_then(|t| t.as_f64()).unwrap_or(f64::NAN);
+            variant.stopped = why.data.get("t").and_then(serde_json::Value::as_f64).unwrap_or(f64::NAN);
         }
         variant
     }

@@ -10,7 +10,7 @@ use crate::source::Sources;
 use crate::sweep::{Axis, MOST_OF_SOBOL, Method, Points, Sample, Values};
 use crate::syntax::{self, ast};
 use crate::world::{self, World};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What is to vary, as options say it.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -98,7 +98,7 @@ impl Checked {
         choice: &Choice,
         world: &dyn World,
     ) -> Result<Variants, (Sources, Diagnostics)> {
-        let own = |why: Diagnostic| (self.sources().clone(), Diagnostics::from(why));
+        let own = |why: Box<Diagnostic>| (self.sources().clone(), Diagnostics::from(*why));
         let asked = vary.params.iter().map(|text| Asked::of(text)).collect::<Result<Vec<_>, _>>().map_err(own)?;
         refuse_without_counterpart(vary, &asked).map_err(own)?;
         // whether it gets there is seen of each variant
@@ -119,12 +119,14 @@ impl Checked {
         }
         if let (Some((at, params, ends)), Some(count)) = (ranges, vary.sample) {
             let sample = Sample::of(ends, count, vary.method.unwrap_or_default(), vary.seed);
-            axes.insert(at, Axis { params, values: Values::Sampled(sample) });
+            axes.insert(at, Axis { params, values: Values::Sampled(Box::new(sample)) });
         }
         let names: Vec<String> = listing.params.iter().map(|param| param.name.clone()).collect();
-        refuse_twice(names.iter(), &choice).map_err(|why| own(*why))?;
-        let too_many =
-            || own(unusable("there are more variants than can be counted".to_owned()).help("ask for fewer values"));
+        refuse_twice(names.iter(), &choice).map_err(own)?;
+        let too_many = || {
+            let why = unusable("there are more variants than can be counted".to_owned());
+            own(Box::new(why.help("ask for fewer values")))
+        };
         let points = Points::new(names, axes).ok_or_else(too_many)?;
         listing.variants(points)
     }
@@ -143,13 +145,13 @@ enum Asked {
 }
 
 impl Asked {
-    fn of(text: &str) -> Result<Asked, Diagnostic> {
+    fn of(text: &str) -> Result<Asked, Box<Diagnostic>> {
         if let Some(file) = text.trim().strip_prefix('@') {
             return Ok(Asked::File(PathBuf::from(file.trim())));
         }
         let named = text.split_once('=').map(|(name, rest)| (spaceless(name), rest.trim()));
         let Some((name, rest)) = named.filter(|(name, rest)| !name.is_empty() && !rest.is_empty()) else {
-            return Err(unusable(format!("`{VARY} {text}` does not say what varies")).help(FORMS));
+            return refused(format!("`{VARY} {text}` does not say what varies"), FORMS);
         };
         let Some((first, last)) = rest.split_once("..") else {
             return Ok(Asked::List { name, values: between_commas(rest) });
@@ -160,16 +162,19 @@ impl Asked {
         };
         let ends = [first, last].map(|end| end.trim().to_owned());
         if ends.iter().any(String::is_empty) {
-            return Err(unusable(format!("`{VARY} {text}` does not say from where to where")).help(FORMS));
+            return refused(format!("`{VARY} {text}` does not say from where to where"), FORMS);
         }
         match count {
             None => Ok(Asked::Range { name, ends }),
             Some(count) => match count.parse() {
                 Ok(count) if count > 0 => Ok(Asked::Even { name, ends, count }),
-                _ => Err(unusable(format!("`{count}` is no number of values for `{name}`")).help(format!(
-                    "a whole number from 1 on is wanted, as in `{VARY} {name}={}..{}:50`",
-                    ends[0], ends[1]
-                ))),
+                _ => {
+                    let [first, last] = &ends;
+                    refused(
+                        format!("`{count}` is no number of values for `{name}`"),
+                        &format!("a whole number from 1 on is wanted, as in `{VARY} {name}={first}..{last}:50`"),
+                    )
+                }
             },
         }
     }
@@ -193,7 +198,7 @@ fn between_commas(text: &str) -> Vec<String> {
 }
 
 /// Ranges without a number of values and samples need each other.
-fn refuse_without_counterpart(vary: &Vary, asked: &[Asked]) -> Result<(), Diagnostic> {
+fn refuse_without_counterpart(vary: &Vary, asked: &[Asked]) -> Result<(), Box<Diagnostic>> {
     let range = asked.iter().find_map(|asked| match asked {
         Asked::Range { name, ends: [first, last] } => Some((name, first, last)),
         _ => None,
@@ -204,34 +209,36 @@ fn refuse_without_counterpart(vary: &Vary, asked: &[Asked]) -> Result<(), Diagno
     });
     let ranges = asked.iter().filter(|asked| matches!(asked, Asked::Range { .. })).count();
     match (range, even, vary.sample) {
-        (Some((name, ..)), Some(even), _) => Err(unusable(format!(
-            "`{even}` has a number of values, and `{name}` has none"
-        ))
-        .help(
+        (Some((name, ..)), Some(even), _) => refused(
+            format!("`{even}` has a number of values, and `{name}` has none"),
             "give all ranges a number of values, as in `A..B:50`, or none, with `--sample N` for all of them together",
-        )),
-        (Some((name, first, last)), None, None) => Err(unusable(format!(
-            "it is not said how many values `{name}` has"
-        ))
-        .help(format!(
-            "write `{VARY} {name}={first}..{last}:50` for 50, evenly, or add `--sample 1000` for a sample of all ranges"
-        ))),
-        (None, _, Some(_)) => Err(unusable("there is no range to take a sample of".to_owned())
-            .help("`--sample` is for ranges without a number of values: `--vary rod=100mm..200mm`")),
-        (Some(_), None, Some(0)) => {
-            Err(unusable("a sample has one variant at least".to_owned()).help("as in `--sample 1000`"))
-        }
-        (Some(_), None, Some(_)) if ranges > MOST_OF_SOBOL && vary.method != Some(Method::Random) => Err(unusable(
+        ),
+        (Some((name, first, last)), None, None) => refused(
+            format!("it is not said how many values `{name}` has"),
+            &format!(
+                "write `{VARY} {name}={first}..{last}:50` for 50, evenly, or add `--sample 1000` for a sample of all ranges"
+            ),
+        ),
+        (None, _, Some(_)) => refused(
+            "there is no range to take a sample of".to_owned(),
+            "`--sample` is for ranges without a number of values: `--vary rod=100mm..200mm`",
+        ),
+        (Some(_), None, Some(0)) => refused("a sample has one variant at least".to_owned(), "as in `--sample 1000`"),
+        (Some(_), None, Some(_)) if ranges > MOST_OF_SOBOL && vary.method != Some(Method::Random) => refused(
             format!("Sobol's sequence is known here for {MOST_OF_SOBOL} params, and {ranges} are to vary"),
-        )
-        .help("add `--method random`")),
+            "add `--method random`",
+        ),
         (None, _, None) if vary.method.is_some() || vary.seed.is_some() => {
             let option = if vary.method.is_some() { "--method" } else { "--seed" };
-            Err(unusable(format!("`{option}` says how a sample is taken, and there is none"))
-                .help("add `--sample N`, or leave it out"))
+            let said = format!("`{option}` says how a sample is taken, and there is none");
+            refused(said, "add `--sample N`, or leave it out")
         }
         _ => Ok(()),
     }
+}
+
+fn refused<T>(message: String, help: &str) -> Result<T, Box<Diagnostic>> {
+    Err(Box::new(unusable(message).help(help)))
 }
 
 /// A param that varies.
@@ -311,8 +318,8 @@ impl Listing<'_> {
     }
 
     /// The variants that a table lists: a column for each param.
-    fn file(&mut self, path: &PathBuf) -> Found<Axis> {
-        self.named.push(path.clone());
+    fn file(&mut self, path: &Path) -> Found<Axis> {
+        self.named.push(path.to_owned());
         let file = world::rows_given(self.reader.world, path, &mut self.sources);
         let file = file.map_err(|why| (self.sources.clone(), (*why).into()))?;
         let columns = check::variants(self.sources.get(file), file).map_err(|faults| {

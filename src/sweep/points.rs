@@ -39,7 +39,7 @@ pub enum Values {
     /// What a list or a table says: row after row, in each a value for each param.
     Listed(Vec<f64>),
     /// A sample of ranges.
-    Sampled(Sample),
+    Sampled(Box<Sample>),
 }
 
 /// So many points within ranges.
@@ -54,7 +54,7 @@ pub struct Sample {
 #[derive(Clone, PartialEq, Debug)]
 enum Spread {
     Sobol(Sobol),
-    Random(ChaCha8Rng),
+    Random(Box<ChaCha8Rng>),
 }
 
 impl Sample {
@@ -64,7 +64,7 @@ impl Sample {
     pub fn of(ends: Vec<[f64; 2]>, count: u64, method: Method, seed: Option<u64>) -> Sample {
         let mut random = ChaCha8Rng::seed_from_u64(seed.unwrap_or(0));
         let spread = match method {
-            Method::Random => Spread::Random(random),
+            Method::Random => Spread::Random(Box::new(random)),
             Method::Sobol => Spread::Sobol(Sobol::new(ends.iter().map(|_| seed.map_or(0, |_| random.next_u64())))),
         };
         Sample { ends, count, spread }
@@ -75,7 +75,7 @@ impl Sample {
         match &self.spread {
             Spread::Sobol(sobol) => (0..self.ends.len()).for_each(|k| place(k, sobol.coordinate(index, k))),
             Spread::Random(random) => {
-                let mut random = random.clone();
+                let mut random = ChaCha8Rng::clone(random);
                 // two words of the generator's for each number
                 random.set_word_pos(u128::from(index) * self.ends.len() as u128 * 2);
                 (0..self.ends.len()).for_each(|k| place(k, unit(random.next_u64())));
@@ -211,7 +211,7 @@ mod tests {
 
     fn sampled(method: Method, seed: Option<u64>) -> Vec<Vec<f64>> {
         let sample = Sample::of(vec![[1.0, 2.0], [-3.0, -5.0]], 512, method, seed);
-        all(&points(vec![Axis { params: vec![0, 1], values: Values::Sampled(sample) }]))
+        all(&points(vec![Axis { params: vec![0, 1], values: Values::Sampled(Box::new(sample)) }]))
     }
 
     #[test]

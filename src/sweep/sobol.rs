@@ -47,14 +47,13 @@ fn directions(k: usize) -> [u64; BITS as usize] {
     let degree = first.len();
     let mut found = [0; BITS as usize];
     for digit in 0..found.len() {
-        found[digit] = match first.get(digit) {
-            Some(&m) => place(m, digit),
-            None => {
-                let before = found[digit - degree];
-                // of the primitive polynomial the first and the last coefficient are 1
-                let inner = (1..degree).filter(|j| a >> (degree - 1 - j) & 1 == 1);
-                inner.fold(before ^ (before >> degree), |direction, j| direction ^ found[digit - j])
-            }
+        found[digit] = if let Some(&m) = first.get(digit) {
+            place(m, digit)
+        } else {
+            let before = found[digit - degree];
+            // of the primitive polynomial the first and the last coefficient are 1
+            let inner = (1..degree).filter(|j| a >> (degree - 1 - j) & 1 == 1);
+            inner.fold(before ^ (before >> degree), |direction, j| direction ^ found[digit - j])
         };
     }
     found
