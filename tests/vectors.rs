@@ -10,6 +10,7 @@ use mechc::rooms::math;
 use mechc::rooms::program::{LaneMachine, Op, Program, Vector, truth};
 use mechc::{Compiled, RunOptions, Times, Vectors};
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, TestRunner};
 use std::fs;
 use support::{compile_number, compiled, files, mechanisms, stem};

@@ -184,7 +184,7 @@ mod tests {
     fn even_values_have_both_ends() {
         let even =
             |ends, count| all(&points(vec![Axis { params: vec![0], values: Values::Even { ends, count } }])).concat();
-        assert_eq!(even([0.1, 0.2], 3), [0.1, 0.15000000000000002, 0.2]);
+        assert_eq!(even([0.1, 0.2], 3), [0.1, 0.150_000_000_000_000_02, 0.2]);
         assert_eq!(even([0.3, 0.1], 2), [0.3, 0.1], "descending");
         assert_eq!(even([0.1, 0.2], 1), [0.1], "one is the first");
         assert_eq!(even([0.1, 0.1], 3), [0.1; 3]);

@@ -148,8 +148,14 @@ mod tests {
             [0.125, 0.625, 0.375, 0.125],
         ];
         for (index, wanted) in wanted.into_iter().enumerate() {
-            assert_eq!(point(index as u64), wanted, "{index}");
+            assert_eq!(point(index as u64).map(f64::to_bits), wanted.map(f64::to_bits), "{index}");
         }
+    }
+
+    /// In which of so many equal intervals a coordinate lies.
+    #[allow(clippy::cast_sign_loss)] // none is negative
+    fn cell(coordinate: f64, count: usize) -> usize {
+        (coordinate * count as f64) as usize
     }
 
     /// Of 2^k points in a row that begin at a multiple of 2^k, each interval of length 2^-k holds one, in every coordinate, shifted or not.
@@ -162,7 +168,7 @@ mod tests {
                 for index in first..first + 1024 {
                     let coordinate = sobol.coordinate(index, k);
                     assert!((0.0..1.0).contains(&coordinate));
-                    let met = &mut is_met[(coordinate * 1024.0) as usize];
+                    let met = &mut is_met[cell(coordinate, 1024)];
                     assert!(!std::mem::replace(met, true), "coordinate {k} of {index}");
                 }
             }
@@ -176,7 +182,7 @@ mod tests {
         for pair in [[0, 1], [0, 2], [17, 18], [38, 39]] {
             let mut count = [0; 256];
             for index in 0..4096 {
-                let [x, y] = pair.map(|k| (sobol.coordinate(index, k) * 16.0) as usize);
+                let [x, y] = pair.map(|k| cell(sobol.coordinate(index, k), 16));
                 count[16 * x + y] += 1;
             }
             let [least, most] = [count.iter().min(), count.iter().max()];
