@@ -7,7 +7,7 @@ mod support;
 use mechc::rooms::analysis::{self, Horizon};
 use mechc::rooms::program::Stage;
 use mechc::rooms::solver::{Batch, Bend, Lanes};
-use mechc::{Cancel, Compiled, TOLERANCE, Times};
+use mechc::{Cancel, Compiled, TOLERANCE, Times, Vectors};
 use std::fs;
 use std::sync::Arc;
 use support::{all_rows, compile, compiled, files, stem};
@@ -91,7 +91,7 @@ fn every_case_is_solved_for_in_lanes() {
         let started = started.expect("it assembles");
         let solver = started.solver().expect("it is small");
         let layout = solver.layout();
-        let (mut lanes, mut found) = (Lanes::<1>::new(solver), vec![0.0; layout.stride]);
+        let (mut lanes, mut found) = (Lanes::<1>::new(solver, Vectors::BASE), vec![0.0; layout.stride]);
         let bounds = vec![1e8; determined.system().rows().len()];
         let mut others = 0;
         for want in wanted.iter().skip(1) {

@@ -83,13 +83,13 @@ impl Sheet {
     /// A table of columns in a form.
     #[must_use]
     pub fn new(format: TableFormat, columns: Vec<SheetColumn>) -> Sheet {
-        let before = |(k, column): (usize, &SheetColumn)| match format {
-            TableFormat::Json => {
+        let before = |(k, column): (usize, &SheetColumn)| {
+            if format == TableFormat::Json {
                 let key = serde_json::Value::from(column.name.as_str());
-                format!("{}{key}:", if k == 0 { "{" } else { "," })
+                format!("{}{key}:", if k > 0 { "," } else { "{" })
+            } else {
+                (if k > 0 { "," } else { "" }).to_owned()
             }
-            _ if k > 0 => ",".to_owned(),
-            _ => String::new(),
         };
         Sheet { before: columns.iter().enumerate().map(before).collect(), format, columns }
     }
@@ -102,6 +102,7 @@ impl Sheet {
 
     /// Makes a block of it: the cells of each of its columns.
     #[must_use]
+    #[cfg_attr(not(feature = "parquet"), allow(clippy::needless_pass_by_value))] // Parquet keeps them
     pub fn made(&self, cells: Vec<Cells>) -> Made {
         match self.format {
             TableFormat::Csv | TableFormat::Json => Made::Text(self.text(&cells)),
