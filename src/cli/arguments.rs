@@ -501,9 +501,9 @@ pub(super) struct SweepArguments {
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: String,
 
-    /// The form of the table; by the ending of OUT if not given, else csv; json is an object a line
+    /// The form of the table; by the ending of OUT if not given, else csv
     #[arg(long, value_enum, value_name = "FORMAT")]
-    pub format: Option<Format>,
+    pub format: Option<SheetFormat>,
 
     /// A result beside those of the file: `--result 'stroke = max(x(P)) - min(x(P))'`. Repeatable
     #[arg(long, value_name = "NAME=FORMULA")]
@@ -563,6 +563,17 @@ pub(super) struct SweepArguments {
     /// Go on beyond a bifurcation, along the branch that continues smoothly
     #[arg(long)]
     pub pass_bifurcations: bool,
+}
+
+/// The form of a table of variants.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum SheetFormat {
+    /// A header, then a line per row
+    Csv,
+    /// An object a line: {"variant": 0, …}
+    Json,
+    /// Apache Parquet
+    Parquet,
 }
 
 /// How a sample is spread.

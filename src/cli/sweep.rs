@@ -1,6 +1,6 @@
 //! `mechc sweep`: many variants of a mechanism, as a table.
 
-use super::arguments::{Format, MethodChoice, SweepArguments};
+use super::arguments::{MethodChoice, SheetFormat, SweepArguments};
 use super::columns;
 use super::endings;
 use super::failure::{ANALYSIS, Failure, unusable};
@@ -127,9 +127,9 @@ fn range(arguments: &SweepArguments, variants: &Variants) -> Result<[u64; 2], Fa
 /// The form of the table.
 fn format(arguments: &SweepArguments) -> Result<TableFormat, Failure> {
     let said = arguments.format.map(|format| match format {
-        Format::Csv => TableFormat::Csv,
-        Format::Json => TableFormat::Json,
-        Format::Parquet => TableFormat::Parquet,
+        SheetFormat::Csv => TableFormat::Csv,
+        SheetFormat::Json => TableFormat::Json,
+        SheetFormat::Parquet => TableFormat::Parquet,
     });
     endings::form(said, &arguments.output, &FORMS, TableFormat::Csv)
 }
