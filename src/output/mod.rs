@@ -1,12 +1,14 @@
 //! Result tables: as text, where numbers are the shortest decimals that read back to the same `f64`, and, with the feature `parquet`, as Parquet.
 
+mod cells;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod sheet;
 
+pub use cells::{Cells, Kind, SheetColumn};
 #[cfg(feature = "parquet")]
 use parquet::ParquetWriter;
-pub use sheet::{Cells, Kind, Made, Sheet, SheetColumn, SheetWriter};
+pub use sheet::{Made, Sheet, SheetWriter};
 use std::io::{self, Write};
 
 /// The forms of a result table.

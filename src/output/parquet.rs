@@ -1,7 +1,7 @@
 //! A table as Parquet: a column for each of its own, 64-bit floating-point numbers for what may be missing, 64-bit integers for whole
 //! numbers, texts for words; with their units as the key `units` of its metadata.
 
-use super::{Cells, Kind, SheetColumn};
+use super::cells::{Cells, Kind, SheetColumn};
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::column::writer::ColumnWriter;
 use parquet::data_type::ByteArray;

@@ -1,66 +1,12 @@
 //! Tables of variants: columns of whole numbers, numbers and words, written block by block. The text of a block is made wherever the block
 //! is; only the order of blocks is the writer's.
 
+use super::cells::{Cells, SheetColumn};
 use super::{TableFormat, quoted};
 use std::io::{self, Write};
 
 #[cfg(feature = "parquet")]
 use super::parquet::ParquetWriter;
-
-/// What the cells of a column are.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Kind {
-    /// Whole numbers, none missing.
-    Whole,
-    /// Numbers, of which some may be missing.
-    Number,
-    /// Words, none missing.
-    Word,
-}
-
-/// A column of a sheet.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct SheetColumn {
-    /// Its name.
-    pub name: String,
-    /// The unit of its numbers; `1` for pure numbers, and for what is no number.
-    pub unit: String,
-    /// What its cells are.
-    pub kind: Kind,
-}
-
-/// Some cells of a column.
-#[derive(Clone, PartialEq, Debug)]
-pub enum Cells {
-    /// Whole numbers.
-    Whole(Vec<u64>),
-    /// Numbers; what is not finite is missing.
-    Numbers(Vec<f64>),
-    /// Words.
-    Words(Vec<&'static str>),
-}
-
-impl Cells {
-    /// None yet.
-    #[must_use]
-    pub fn none(kind: Kind) -> Cells {
-        match kind {
-            Kind::Whole => Cells::Whole(Vec::new()),
-            Kind::Number => Cells::Numbers(Vec::new()),
-            Kind::Word => Cells::Words(Vec::new()),
-        }
-    }
-
-    /// How many there are.
-    #[must_use]
-    pub fn count(&self) -> usize {
-        match self {
-            Cells::Whole(cells) => cells.len(),
-            Cells::Numbers(cells) => cells.len(),
-            Cells::Words(cells) => cells.len(),
-        }
-    }
-}
 
 /// The columns of a table and its form: CSV, a JSON object a line, or Parquet.
 #[derive(Clone, Debug)]
@@ -200,8 +146,8 @@ impl<W: Write + Send> SheetWriter<W> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cells, Kind, Sheet, SheetColumn, SheetWriter};
-    use crate::output::TableFormat;
+    use super::{Cells, Sheet, SheetColumn, SheetWriter};
+    use crate::output::{Kind, TableFormat};
 
     fn sheet(format: TableFormat) -> Sheet {
         let column = |name: &str, unit: &str, kind| SheetColumn { name: name.to_owned(), unit: unit.to_owned(), kind };

@@ -31,6 +31,7 @@ mod used_at;
 mod varied;
 mod vary;
 
+pub use crate::math::Vectors;
 pub use checked::{Checked, Choice};
 pub use compiled::{Compiled, Redundant};
 pub use constant::seconds;
