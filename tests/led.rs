@@ -233,7 +233,7 @@ fn an_input_is_led_to_a_number_too() {
     let tree = syntax::parse(&sources, file).tree;
     // time goes from 1 s to 3 s, and nobody says anything of the other input: 21 deg are added at first, and 63 deg at last
     let inputs = vec![("turn".to_owned(), 250_f64.to_radians())];
-    let lead = Some(check::Lead { times: [1.0, 3.0], inputs, params: false });
+    let lead = Some(check::Lead { times: [1.0, 3.0], inputs });
     let surroundings = check::Surroundings { lead, ..check::Surroundings::default() };
     let (model, said) = check::check(&tree.mechanisms[0], &surroundings, &sources);
     let model = model.unwrap_or_else(|| panic!("{said:?}"));
@@ -373,6 +373,19 @@ fn params_that_are_set_are_gone_over_to_along_the_branch() {
         }
     }
     assert!(elsewhere > 4, "{elsewhere}: estimates alone would have done as well, and this shows nothing");
+}
+
+#[test]
+fn inputs_go_where_params_have_gone() {
+    for links in CRANK_ROCKER.iter().chain(&DRAG_LINK) {
+        let text = |declarations: &str, driver: &str| four_bar(links, declarations, driver);
+        let (set, inputs) = (vec!["start=-100 deg".to_owned()], vec!["turn=310 deg".to_owned()]);
+        let choice = Choice { set, inputs, lead: true, ..Choice::default() };
+        let both = text("param start = 0 deg\n input turn = 30 deg", "start + turn");
+        let checked = Parsed::of("four_bar.mech", both.as_str()).check(&choice, &Memory::default());
+        let compiled = checked.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
+        assert!(same_place(&first_row(&compiled, 0.0), &followed(text, 210.0)));
+    }
 }
 
 #[test]

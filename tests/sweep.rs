@@ -2,6 +2,8 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
+mod support;
+
 use mechc::{
     Block, Cancel, Checked, Choice, Code, Compiled, Memory, Method, Parsed, Redundant, RunOptions, Status,
     SweepOptions, Variants, Vary, World,
@@ -97,7 +99,7 @@ impl Subject {
             }
         }
         let results =
-            run.results().expect("results").values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect();
+            run.results().unwrap_or_default().values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect();
         (if is_reassembled { Status::Reassembled } else { Status::Ok }, results, rows)
     }
 
@@ -219,6 +221,48 @@ fn results_alone_are_those_beside_rows() {
     assert!(alone.columns.is_empty() && alone.lengths == [0; 5]);
     // the pen is farther out the larger its share is
     assert!(alone.results[2].windows(2).all(|pair| pair[0] < pair[1]), "{:?}", alone.results[2]);
+}
+
+/// Scales and the order of elimination are those of the file's own values; so with these a variant is the file.
+#[test]
+fn with_its_own_values_a_variant_is_the_file() {
+    let subject = subject(FOUR_BAR, Choice::default());
+    let block = subject.swept(&subject.variants(&vary(&["share=0.5", "speed=60rpm"])), &subject.all_columns());
+    let plain = subject.parsed.check(&Choice::default(), &Memory::default());
+    let compiled = plain.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
+    let (run, _) = compiled.run(&compiled.times().expect("an analysis"), &RunOptions::default());
+    let mut run = run.expect("it assembles");
+    let rows: Vec<Vec<f64>> = run.by_ref().map(|row| row.expect("it moves")).collect();
+    assert_eq!(block.lengths, [rows.len()]);
+    for (at, row) in rows.iter().enumerate() {
+        assert_eq!(bits(&block.columns.iter().map(|column| column[at]).collect::<Vec<_>>()), bits(row), "row {at}");
+    }
+}
+
+/// The first and the last param of each example, as the file has them and a little beside: parts, gears, cams, tables, points.
+#[test]
+fn variants_of_the_examples_are_what_they_are_alone() {
+    let mut found = 0;
+    for path in support::files("examples", "mech") {
+        let text = std::fs::read_to_string(&path).expect("an example");
+        let own = Parsed::of("text.mech", text.as_str()).check(&Choice::default(), &Memory::default());
+        // what uses other files is told so
+        let Some(compiled) = own.compile(Redundant::Refused, &Cancel::default()).0 else { continue };
+        let inside = compiled.inside().0;
+        let params = inside.system().params();
+        for param in params.first().into_iter().chain(params.last()) {
+            let unit = Some(param.unit()).filter(|unit| unit != "1").unwrap_or_default();
+            let (value, beside) = (param.value, 1.02 * param.value + 1e-4);
+            let subject = subject(&text, Choice::default());
+            let asked = vary(&[&format!("{}={value} {unit},{beside} {unit}", param.name)]);
+            if subject.compiled.times().is_none() {
+                continue;
+            }
+            let Ok(variants) = subject.variants_in(&asked, &Memory::default()) else { continue };
+            found += count(&compare(&subject, &variants), Status::Ok);
+        }
+    }
+    assert!(found > 30, "only {found} were completed: this shows little");
 }
 
 #[test]

@@ -25,9 +25,9 @@ mod results;
 mod state;
 
 pub use crate::tolerances::TOLERANCE;
-pub use assemble::{Moved, Request, Started, assemble_from, nearest, start, start_from, with_parts};
+pub use assemble::{Moved, Request, Started, assemble_from, nearest, start, start_from, start_led, with_parts};
 pub use explain::errors::length as length_in_words;
 pub use explain::{FreeMotion, determine, free_motions};
-pub use follow::{Follower, LeadOptions, Way, lead};
+pub use follow::{Follower, LeadOptions, Way, before_ways, lead, lead_again};
 pub use results::{Answers, Asked, refused_results};
 pub use state::{Horizon, Times};

@@ -21,6 +21,14 @@ pub struct Given {
     pub samples: Option<FileId>,
 }
 
+impl Given {
+    /// Whether they are told nothing.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.formulas.is_empty() && self.samples.is_none()
+    }
+}
+
 impl Checker<'_> {
     /// Says which of the values set from outside are of no parameter, or of one that a part's user has bound.
     pub(super) fn look_over_settings(&mut self) {

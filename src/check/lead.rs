@@ -1,9 +1,11 @@
-//! A mechanism on its way from its own inputs and parameters to others: each of them, and time, on a straight line.
+//! A mechanism on its way from its own inputs to others: each of them, and time, on a straight line. And what its parameters are by the
+//! text, where it is to be led from there to others (`lower`).
 //!
 //! The model that comes out has no time of its own: what stands in the place of time goes from 0, where inputs are what the text says, to
 //! 1, where they are what they are told to be. Its motion is no motion of the mechanism, but leads from one start to another.
 
 use super::formula::{Dim, Value};
+use super::told::is_told_by;
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Condition, Declared, Dimension, Led};
@@ -16,8 +18,6 @@ pub struct Lead {
     pub times: [f64; 2],
     /// The inputs that are led to a number (SI), by their names; the others are led to what they are at the last time.
     pub inputs: Vec<(String, f64)>,
-    /// Whether parameters that are set go from what the text says to what they are set to; else they are that all the way.
-    pub params: bool,
 }
 
 /// What an input may need to have a value: conditions of the text's own formula, and of what it is told to be.
@@ -61,28 +61,25 @@ impl Checker<'_> {
         Some(Value { id: self.along_a_line(line), ..told })
     }
 
-    /// The value with which a parameter begins (SI), which has one by the text and another one that it is set to; on the way from the one
-    /// to the other `lower` leads it.
-    pub(super) fn led_param(&mut self, declared: &Declared, own: ExprId, set: f64, dimension: Dimension) -> f64 {
-        let from = self.value_on_the_way(own, 0.0);
-        if !self.lead.is_some_and(|lead| lead.params) || from.to_bits() == set.to_bits() || !from.is_finite() {
-            return set;
+    /// Whether a parameter, or a coordinate of one that is a point, may be set elsewhere than it is: then it is none that follows.
+    pub(super) fn is_open(&self, declared: &Declared, name: &str) -> bool {
+        if self.open.is_empty() {
+            return false;
         }
+        let full = format!("{}{name}", self.path);
+        self.open.iter().any(|path| is_told_by(&full, path) || is_told_by(&declared.name, path))
+    }
+
+    /// Notes that the next parameter of the model may be set elsewhere than it is (SI).
+    pub(super) fn open_param(&mut self, declared: &Declared, own: f64, dimension: Dimension) {
         let param = Some(self.model.params.len() as u32);
-        self.model.led.push(Led { declared: declared.clone(), param, line: [from, set], dimension });
-        from
+        self.model.led.push(Led { declared: declared.clone(), param, line: [own; 2], dimension });
     }
 
     /// Leaves of a mechanism that is led what leads it: its analysis is of another time, and forces have no part in it.
     pub(super) fn leave_what_leads(&mut self) {
         if self.lead.is_some() {
-            self.model.measures.clear();
-            self.model.masses.clear();
-            self.model.loads.clear();
-            self.model.gravity = None;
-            self.model.outcomes.clear();
-            self.model.reductions.clear();
-            self.model.analysis = None;
+            self.model.leave_what_leads();
         }
     }
 

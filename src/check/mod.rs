@@ -105,6 +105,9 @@ pub struct Surroundings {
     pub bound: Vec<(String, f64)>,
     /// Where it is led, if that is all that is asked for.
     pub lead: Option<Lead>,
+    /// The paths of parameters that may be set elsewhere than the text has them: they are symbols, also where they follow from others there,
+    /// and the model says which they are.
+    pub open: Vec<String>,
     /// Names by which all columns are differentiated.
     pub by: Vec<String>,
     /// Whether what all joints exert and all drivers supply is tabulated.
@@ -288,6 +291,7 @@ struct Checker<'a> {
     files: &'a TableFiles,
     given: &'a Given,
     lead: Option<&'a Lead>,
+    open: &'a [String],
     by: &'a [String],
     coupled: &'a [String],
     sources: &'a Sources,
@@ -387,6 +391,7 @@ impl<'a> Checker<'a> {
             files: &surroundings.files,
             given: &surroundings.given,
             lead: surroundings.lead.as_ref(),
+            open: &surroundings.open,
             by: &surroundings.by,
             coupled: &surroundings.coupled,
             sources,
@@ -698,19 +703,13 @@ impl<'a> Checker<'a> {
                 }
             }
         };
-        self.settable(self.declared(name), &name.text, docs, in_file.id, value)
+        self.settable(self.declared(name), &name.text, docs, value)
     }
 
-    /// A number that is a parameter of the model, unless it follows from others; `own` is what it is by the text.
-    fn settable(
-        &mut self,
-        declared: Declared,
-        name: &str,
-        docs: &[String],
-        own: ExprId,
-        value: Value,
-    ) -> Option<Value> {
-        if self.follows(value.id) {
+    /// A number that is a parameter of the model, unless it follows from others.
+    fn settable(&mut self, declared: Declared, name: &str, docs: &[String], value: Value) -> Option<Value> {
+        let is_open = self.is_open(&declared, name);
+        if self.follows(value.id) && !is_open {
             return Some(self.with_shift(&declared, value));
         }
         let number = self.constant_value(value.id)?;
@@ -724,7 +723,9 @@ impl<'a> Checker<'a> {
             Dim::Of(dimension) => dimension,
             Dim::Any => Dimension::PURE,
         };
-        let number = self.led_param(&declared, own, number, dimension);
+        if is_open {
+            self.open_param(&declared, number, dimension);
+        }
         self.model.params.push(Param { declared, docs: docs.to_vec(), value: number, dimension });
         Some(Value { id: self.model.graph.symbol(Symbol::Param(index)), dim: value.dim })
     }
@@ -735,7 +736,6 @@ impl<'a> Checker<'a> {
         if self.bound_param(name).is_some() {
             Drawn { at, dimensional } = self.point_as_bound(name, Drawn { at, dimensional })?;
         }
-        let own = at;
         for (coordinate, setting) in self.settings_of(name) {
             let given = self.point_given(name, coordinate, setting, Drawn { at, dimensional })?;
             (at, dimensional) = (given.at, given.dimensional);
@@ -745,7 +745,7 @@ impl<'a> Checker<'a> {
             // a zero has no sign here: in a direction it would count
             let is_zero = self.constant_value(at[k]) == Some(0.0);
             let id = if is_zero && !self.follows(at[k]) { self.model.graph.constant(0.0) } else { at[k] };
-            self.settable(declared, &name.text, docs, own[k], Value { id, dim: Dim::LENGTH })
+            self.settable(declared, &name.text, docs, Value { id, dim: Dim::LENGTH })
         };
         let (x, y) = (coordinate(0, "x")?, coordinate(1, "y")?);
         Some(Drawn { at: [x.id, y.id], dimensional })

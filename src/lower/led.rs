@@ -1,32 +1,92 @@
-//! Parameters on their way from one value to another: in the equations of a mechanism that is led a straight line of time stands for each.
+//! Parameters, and time, on their way from one value to another: in the equations of a mechanism that is led a straight line stands for each.
+//! Its ends are parameters, so that one mechanism serves for every way from where its own values have it.
 
-use crate::expr::{ExprId, Symbol};
-use crate::ir::Written;
-use crate::model::Mechanism;
+use super::{Lowering, inputs, needs_jerk};
+use crate::expr::{ExprId, Graph, Symbol};
+use crate::ir::{ConstraintSystem, Param, Written};
+use crate::model::{Dimension, Mechanism};
 use rustc_hash::FxHashMap;
 
-/// Lets the parameters that are led go their way in all that holds on it. Estimates keep the values with which the way begins, and so do
-/// tables, whose cells are numbers.
-pub(super) fn lead_params(model: &Mechanism, written: &mut Written) {
-    let lines: FxHashMap<u32, [f64; 2]> = model.led.iter().filter_map(|led| Some((led.param?, led.line))).collect();
-    if lines.is_empty() {
-        return;
+/// Time while a mechanism is led.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Clock {
+    /// It stands still (s).
+    Still(f64),
+    /// It goes as well.
+    Goes,
+}
+
+/// The equations of a mechanism on its way: what stands in the place of time goes from 0, where its parameters are its own, to 1, where
+/// those that are led, as its model says, are others. Behind its own parameters it has one more for each of these, which is what it comes
+/// to; and where time goes two more, from when to when.
+#[must_use]
+pub fn lower_on_its_way(model: &Mechanism, clock: Clock) -> ConstraintSystem {
+    let mut model = model.clone();
+    model.leave_what_leads();
+    model.by.clear();
+    (model.reactions, model.pictures_forces) = (false, false);
+    let mut lowering = Lowering::of(&model);
+    let mut written = lowering.written();
+    Lines::add(&model, clock, &mut written.params).stand_for_all(&mut written);
+    let with_jerk = needs_jerk(&model, &written);
+    let mut system = ConstraintSystem::of(written, with_jerk);
+    inputs::add(&model, &mut system);
+    lowering.add_features(&mut system);
+    debug_assert_eq!(system.validate(), Ok(()));
+    system
+}
+
+/// The parameters that are the ends of lines.
+struct Lines {
+    clock: Clock,
+    /// Of each parameter that is led, the number of the one that it comes to.
+    ends: FxHashMap<u32, u32>,
+    /// Those that are the first time and the last.
+    times: [u32; 2],
+}
+
+impl Lines {
+    /// Adds them to the others.
+    fn add(model: &Mechanism, clock: Clock, params: &mut Vec<Param>) -> Lines {
+        let span = model.declared.span;
+        let mut add = |name: &str, value: f64, dimension: Dimension| {
+            params.push(Param { name: format!("{name} on the way"), part: 0, value, dimension, span });
+            params.len() as u32 - 1
+        };
+        let led = model.led.iter().filter_map(|led| Some((led.param?, led)));
+        let ends = led.map(|(param, led)| (param, add(&led.declared.name, led.line[1], led.dimension))).collect();
+        let times = match clock {
+            Clock::Still(_) => [0; 2],
+            Clock::Goes => ["the first time", "the last time"].map(|name| add(name, 0.0, Dimension::TIME)),
+        };
+        Lines { clock, ends, times }
     }
-    let (before, mut known) = (written.graph.clone(), FxHashMap::default());
-    let graph = &mut written.graph;
-    let mut led = |id: &mut ExprId| {
-        graph.import(&before, &[*id], &mut known, |graph, symbol| match symbol {
-            Symbol::Param(k) if lines.contains_key(&k) => {
-                let [from, to] = lines[&k];
-                let (from, way, time) = (graph.constant(from), graph.constant(to - from), graph.symbol(Symbol::Time));
-                let gone = graph.mul(way, time);
-                graph.add(from, gone)
-            }
-            other => graph.symbol(other),
-        });
-        *id = known[id];
-    };
-    written.rows.iter_mut().for_each(|row| led(&mut row.phi));
-    written.conditions.iter_mut().for_each(|condition| led(&mut condition.positive));
-    written.watches.iter_mut().for_each(|watch| led(&mut watch.value));
+
+    /// In all that holds on the way. Estimates keep the values with which it begins, and so do tables, whose cells are numbers.
+    fn stand_for_all(&self, written: &mut Written) {
+        let (before, mut known) = (written.graph.clone(), FxHashMap::default());
+        let graph = &mut written.graph;
+        let mut led = |id: &mut ExprId| {
+            graph.import(&before, &[*id], &mut known, |graph, symbol| match symbol {
+                Symbol::Param(from) if self.ends.contains_key(&from) => line(graph, [from, self.ends[&from]]),
+                Symbol::Time => match self.clock {
+                    Clock::Still(t) => graph.constant(t),
+                    Clock::Goes => line(graph, self.times),
+                },
+                other => graph.symbol(other),
+            });
+            *id = known[id];
+        };
+        written.rows.iter_mut().for_each(|row| led(&mut row.phi));
+        written.conditions.iter_mut().for_each(|condition| led(&mut condition.positive));
+        written.watches.iter_mut().for_each(|watch| led(&mut watch.value));
+    }
+}
+
+/// From the value of one parameter to that of another.
+fn line(graph: &mut Graph, ends: [u32; 2]) -> ExprId {
+    let ([from, to], time) = (ends.map(|end| graph.symbol(Symbol::Param(end))), graph.symbol(Symbol::Time));
+    let way = graph.sub(to, from);
+    let gone = graph.mul(way, time);
+    graph.add(from, gone)
 }

@@ -30,6 +30,7 @@ use crate::model::{
     self, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId, Quantity,
 };
 use crate::tolerances::scales::size::FAR_FRAME;
+pub use led::{Clock, lower_on_its_way};
 use numbering::Numbering;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -40,8 +41,7 @@ const HOLDS_JERK: u8 = 2;
 #[must_use]
 pub fn lower(model: &Mechanism) -> ConstraintSystem {
     let mut lowering = Lowering::of(model);
-    let mut written = lowering.written();
-    led::lead_params(model, &mut written);
+    let written = lowering.written();
     let with_jerk = needs_jerk(model, &written);
     let mut system = ConstraintSystem::of(written, with_jerk);
     // late, so that what is there already is as it would be without

@@ -189,6 +189,17 @@ impl Mechanism {
         }
     }
 
+    /// Leaves out what a mechanism has no use for while it is led: its analysis is of another time, and forces have no part in it.
+    pub fn leave_what_leads(&mut self) {
+        self.measures.clear();
+        self.masses.clear();
+        self.loads.clear();
+        self.gravity = None;
+        self.outcomes.clear();
+        self.reductions.clear();
+        self.analysis = None;
+    }
+
     /// The ids of the bodies, in order.
     pub fn body_ids(&self) -> impl Iterator<Item = BodyId> {
         (0..self.bodies.len() as u32).map(BodyId)

@@ -70,6 +70,8 @@ pub struct Checked {
     pub(super) model: Option<Arc<Mechanism>>,
     /// What leads it to the inputs that it is told, if it is told any.
     leading: Option<Arc<Leading>>,
+    /// Whether it is led to what is set, from the values of its text.
+    is_led: bool,
     /// What it was checked with.
     pub(super) surroundings: Arc<Surroundings>,
     diagnostics: Arc<Diagnostics>,
@@ -153,8 +155,7 @@ impl Checked {
         let settings = settings(choice, &mut sources);
         let given = given(choice, world, &mut sources);
         let files = table_files(&library, with_parts(&library, tree, &sources), world, &mut sources);
-        let leads_params = choice.lead && !choice.set.is_empty();
-        let is_told = !choice.inputs.is_empty() || choice.samples.is_some() || leads_params;
+        let is_led = choice.lead && !choice.set.is_empty();
         let spaceless = |name: &String| syntax::normalized(name).chars().filter(|c| !c.is_whitespace()).collect();
         let by = choice.by.iter().map(spaceless).collect();
         match (settings, given) {
@@ -177,34 +178,50 @@ impl Checked {
                     ..Surroundings::default()
                 };
                 let parsed = parsed.with_sources(sources);
-                let checked =
-                    Checked::in_surroundings(parsed, number, surroundings, [is_told, leads_params], diagnostics);
-                return if leads_params { checked.unless_counts_are_led() } else { checked };
+                let checked = Checked::in_surroundings(parsed, number, surroundings, is_led, diagnostics);
+                return if is_led { checked.unless_counts_are_led() } else { checked };
             }
         }
         Checked::with(parsed.with_sources(sources), Some(number), library, None, diagnostics)
     }
 
-    /// The mechanism of a number with all that it is checked with: whether it is told something that leads it, and whether parameters are led;
-    /// behind what is to be said already.
-    fn in_surroundings(
+    /// The mechanism of a number with all that it is checked with, and whether it is led to its settings; behind what is to be said already.
+    pub(super) fn in_surroundings(
         parsed: Parsed,
         number: usize,
         surroundings: Surroundings,
-        [is_told, leads_params]: [bool; 2],
+        is_led: bool,
         mut diagnostics: Diagnostics,
     ) -> Checked {
         let (found, said) = check::check(&parsed.tree().mechanisms[number], &surroundings, parsed.sources());
         diagnostics.extend(said);
         let model = found.filter(|_| !diagnostics.has_errors()).map(Arc::new);
         let has_parts = model.as_ref().is_some_and(|model| !model.parts.is_empty());
+        let is_told = !surroundings.given.is_empty();
         let leading = (is_told || has_parts).then(|| {
             let (read, sources, surroundings) = (parsed.shared(), parsed.sources().clone(), surroundings.clone());
-            Arc::new(Leading { read, number, surroundings, sources, is_told, leads_params })
+            Arc::new(Leading { read, number, surroundings, sources, is_told })
         });
         let library = surroundings.library.clone();
         let checked = Checked::with(parsed, Some(number), library, model, diagnostics);
-        Checked { leading, surroundings: Arc::new(surroundings), ..checked }
+        Checked { leading, is_led, surroundings: Arc::new(surroundings), ..checked }
+    }
+
+    /// Its model with more params set, and nothing else; with the texts that say what they are.
+    pub(super) fn model_led_to(
+        &self,
+        settings: impl IntoIterator<Item = Setting>,
+        sources: &Sources,
+    ) -> (Option<Mechanism>, Diagnostics) {
+        let Some(tree) = self.tree() else { return (None, self.parsed.faults().clone()) };
+        let mut surroundings = (*self.surroundings).clone();
+        surroundings.settings.extend(settings);
+        check::check(tree, &surroundings, sources)
+    }
+
+    /// Whether it is told inputs.
+    pub(super) fn is_told(&self) -> bool {
+        !self.surroundings.given.is_empty()
     }
 
     /// The same with more params set, over those that are set already, to which it is led; with the texts that say what they are.
@@ -213,7 +230,7 @@ impl Checked {
         let mut surroundings = (*self.surroundings).clone();
         surroundings.settings.extend(settings);
         let parsed = self.parsed.with_sources(sources.clone());
-        Checked::in_surroundings(parsed, number, surroundings, [true, true], Diagnostics::default())
+        Checked::in_surroundings(parsed, number, surroundings, true, Diagnostics::default())
     }
 
     /// Refuses to lead what decides how often something is there: no way leads from one number of bodies to another.
@@ -252,8 +269,8 @@ impl Checked {
     ) -> Checked {
         diagnostics.sort_by_place();
         let (diagnostics, surroundings, symbols) = (Arc::new(diagnostics), Arc::default(), Arc::default());
-        let asked = Arc::default();
-        Checked { parsed, number, library, model, leading: None, surroundings, diagnostics, symbols, asked }
+        let (leading, is_led, asked) = Default::default();
+        Checked { parsed, number, library, model, leading, is_led, surroundings, diagnostics, symbols, asked }
     }
 
     /// The texts that its diagnostics speak of.
@@ -368,7 +385,8 @@ impl Checked {
                         (None, said)
                     }
                 };
-                (compiled.map(|compiled| compiled.with_again(self.again())), said)
+                let over = self.is_led.then(|| self.begins_at_own(redundant));
+                (compiled.map(|compiled| compiled.with_again(self.again()).led_over(over)), said)
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use super::again::Again;
 use super::lead::Leading;
+use super::over::FromOwn;
 use super::used_at::UsedAt;
 use crate::analysis::{self, Horizon, Times};
 use crate::cancel::Cancel;
@@ -52,6 +53,8 @@ pub struct Compiled {
     redundant: Redundant,
     /// What it takes to have it once more, with more.
     again: Option<Again>,
+    /// From where it is led, if it is led over to values of its params.
+    over: Option<Arc<FromOwn>>,
 }
 
 impl Compiled {
@@ -72,8 +75,8 @@ impl Compiled {
             Err(why) => (None, used_at.told(why)),
             Ok((determined, said)) => {
                 let (determined, said) = (Arc::new(determined), used_at.told(said));
-                let (program, again) = (Arc::default(), None);
-                let compiled = Compiled { sources, determined, program, leading, used_at, redundant, again };
+                let (program, again, over) = Default::default();
+                let compiled = Compiled { sources, determined, program, leading, used_at, redundant, again, over };
                 (Some(compiled), said)
             }
         }
@@ -82,6 +85,11 @@ impl Compiled {
     /// The same, with what it takes to have it once more.
     pub(super) fn with_again(self, again: Option<Again>) -> Compiled {
         Compiled { again, ..self }
+    }
+
+    /// The same, to be led over from the values of its text, if it is.
+    pub(super) fn led_over(self, over: Option<Arc<FromOwn>>) -> Compiled {
+        Compiled { over, ..self }
     }
 
     /// The same mechanism with its inputs as signals, where it has any: its measures have the derivatives that they have here.
@@ -234,6 +242,11 @@ impl Compiled {
     /// What leads it to the inputs that it is told, if it is told any, and whether redundant equations are left out there too.
     pub(super) fn leading(&self) -> Option<(&Leading, bool)> {
         self.leading.as_deref().map(|leading| (leading, self.redundant == Redundant::LeftOut))
+    }
+
+    /// From where it is led, if it is led over to values of its params.
+    pub(super) fn over(&self) -> Option<&FromOwn> {
+        self.over.as_deref()
     }
 
     /// Where its parts are used.

@@ -3,6 +3,7 @@
 
 use super::lines::{Line, Target, lines};
 use super::lowered::lowered;
+use super::options::RunOptions;
 use crate::analysis::{self, Horizon, LeadOptions, Request};
 use crate::check::{self, Given, Lead, Setting, Surroundings};
 use crate::diag::{Code, Diagnostic, Diagnostics, readable};
@@ -28,37 +29,48 @@ pub(super) struct Leading {
     pub number: usize,
     pub surroundings: Surroundings,
     pub sources: Sources,
-    /// Whether it is told inputs, or parameters that are led.
+    /// Whether it is told inputs.
     pub is_told: bool,
-    /// Whether parameters that are set are led from what they are by the text.
-    pub leads_params: bool,
+}
+
+/// From where a mechanism is led to the inputs that it is told.
+pub(super) enum Outset {
+    /// From where its own inputs have it at a time (s).
+    Own(f64),
+    /// From where it stands at a time (s): its coordinates [m, rad].
+    At(f64, Vec<f64>),
+    /// From nowhere: the text's estimates are all that is known.
+    Estimates,
 }
 
 impl Leading {
-    /// Where it begins at a time (s), its own inputs being led from the one that the options tell, where it stands as is said, or else as it
-    /// assembles; nothing where its estimates say it, with
-    /// what is to be said.
+    /// Where it begins at a time (s), its inputs being led there; nothing where its estimates say it, with what is to be said.
     pub fn begin(
         &self,
         (determined, program): (&Arc<Determined>, &Arc<Program>),
         horizon: Horizon,
-        stand: Option<&[f64]>,
+        outset: &Outset,
         leave_out_redundant: bool,
-        options: &LeadOptions,
+        options: &RunOptions,
     ) -> (Option<Vec<f64>>, Diagnostics) {
+        let RunOptions { tolerance, pass_bifurcations, ref cancel, .. } = *options;
+        let (t, stands) = match outset {
+            Outset::Own(t) => (*t, None),
+            Outset::At(t, q) => (*t, Some(q.as_slice())),
+            Outset::Estimates => (horizon.from, None),
+        };
+        let options = &LeadOptions { tolerance, pass_bifurcations, t, cancel: cancel.clone() };
         let mut starts = Starts {
             surroundings: &self.surroundings,
             sources: &self.sources,
-            stand,
-            // who stands somewhere has got there with the params that are set
-            leads_params: self.leads_params && stand.is_none(),
+            stands,
             leave_out_redundant,
             options,
             alone: FxHashMap::default(),
             led: FxHashMap::default(),
             said: Diagnostics::default(),
         };
-        let led = if self.is_told {
+        let led = if self.is_told && !matches!(outset, Outset::Estimates) {
             starts.led_to_what_it_is_told(&self.read.tree.mechanisms[self.number], horizon.from)
         } else {
             None
@@ -117,8 +129,8 @@ type Key = (Span, Vec<u64>, String);
 struct Starts<'s> {
     surroundings: &'s Surroundings,
     sources: &'s Sources,
-    stand: Option<&'s [f64]>,
-    leads_params: bool,
+    /// Where it stands before it is led, if that is known [m, rad].
+    stands: Option<&'s [f64]>,
     leave_out_redundant: bool,
     options: &'s LeadOptions,
     alone: FxHashMap<Key, Option<Rc<Alone>>>,
@@ -130,7 +142,7 @@ struct Starts<'s> {
 impl<'s> Starts<'s> {
     fn led_to_what_it_is_told(&mut self, tree: &ast::Mechanism, t: f64) -> Option<Vec<f64>> {
         let times = [self.options.t, t];
-        let lead = Some(Lead { times, inputs: Vec::new(), params: self.leads_params });
+        let lead = Some(Lead { times, inputs: Vec::new() });
         let led = Surroundings {
             lead,
             by: Vec::new(),
@@ -140,15 +152,13 @@ impl<'s> Starts<'s> {
         };
         // of a mechanism whose own inputs have no value there is no way; all else has been said of it
         let (whole, inputs, span) = self.compiled(tree, &led)?;
-        let from = if let Some(stand) = self.stand {
-            Some(stand.to_vec())
+        let from = if let Some(stands) = self.stands {
+            Some(stands.to_vec())
         } else if whole.0.system().parts().is_empty() {
             None
         } else {
-            let settings = if self.leads_params { Vec::new() } else { self.surroundings.settings.clone() };
             let own = Surroundings {
                 given: Given::default(),
-                settings,
                 by: Vec::new(),
                 reactions: false,
                 pictures_forces: false,
@@ -270,8 +280,7 @@ impl<'s> Starts<'s> {
         let ToLead { start, ref alone, inputs, .. } = parts[line.farthest];
         let times = [alone.t, t];
         let targets = start.inputs.iter().zip(inputs).map(|((name, _), value)| (name.clone(), *value)).collect();
-        let led =
-            Surroundings { lead: Some(Lead { times, inputs: targets, params: false }), ..alone.surroundings.clone() };
+        let led = Surroundings { lead: Some(Lead { times, inputs: targets }), ..alone.surroundings.clone() };
         let Some((whole, inputs, span)) = self.text_of(start).and_then(|tree| self.compiled(tree, &led)) else {
             return;
         };
@@ -322,6 +331,7 @@ impl<'s> Starts<'s> {
             pictures_forces: false,
             bound: params,
             lead: None,
+            open: Vec::new(),
             has_signals: false,
             coupled: Vec::new(),
         };
@@ -401,7 +411,7 @@ fn within(settings: &[Setting], part: &str) -> Vec<Setting> {
 }
 
 /// A way that ends before it is gone, at a part of it from 0 to 1, with what happens there; of a mechanism or of a part of it.
-fn not_led(
+pub(super) fn not_led(
     of: Option<&PartStart>,
     inputs: &[Led],
     times: [f64; 2],
@@ -453,7 +463,13 @@ fn named(input: &Led, moving: &[&Led]) -> String {
 }
 
 /// A bifurcation that was passed at a part of a way, from 0 to 1; of a mechanism or of a part of it.
-fn passed(of: Option<&PartStart>, inputs: &[Led], times: [f64; 2], part: f64, what: &Diagnostic) -> Diagnostic {
+pub(super) fn passed(
+    of: Option<&PartStart>,
+    inputs: &[Led],
+    times: [f64; 2],
+    part: f64,
+    what: &Diagnostic,
+) -> Diagnostic {
     let moving: Vec<&Led> = inputs.iter().filter(|input| input.line[0].total_cmp(&input.line[1]).is_ne()).collect();
     let here = moving.first().map(|input| format!(" at `{}` = {}", input.declared.name, value_at(input, part)));
     let way = match of {

@@ -1,51 +1,16 @@
 //! The last stage: a motion in progress, row by row.
 
 use super::Compiled;
+use super::lead::Outset;
+use super::options::{RunOptions, Stand};
 use super::used_at::UsedAt;
-use crate::analysis::{self, Answers, Asked, Follower, Horizon, LeadOptions, Started, Times};
+use crate::analysis::{self, Answers, Asked, Follower, Horizon, Started, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::layout::{ColumnUnit, RowLayout};
-use crate::math::Vectors;
 use crate::program::Program;
 use crate::structure::Determined;
 use std::sync::Arc;
-
-/// How a motion is followed.
-#[derive(Clone, Debug)]
-pub struct RunOptions {
-    /// Bounds each row of Φ, scaled.
-    pub tolerance: f64,
-    /// Go on beyond bifurcations, along the branch that continues smoothly, with a remark each time.
-    pub pass_bifurcations: bool,
-    /// Where a mechanism that is told its inputs is led from; its own start if nothing is said.
-    pub stand: Option<Stand>,
-    /// The vector instructions that rows are solved for with, which change no bit.
-    pub vectors: Vectors,
-    /// Ends it.
-    pub cancel: Cancel,
-}
-
-/// Where a mechanism stands at a time.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Stand {
-    /// When (s).
-    pub t: f64,
-    /// Its coordinates [m, rad].
-    pub q: Vec<f64>,
-}
-
-impl Default for RunOptions {
-    fn default() -> RunOptions {
-        RunOptions {
-            tolerance: analysis::TOLERANCE,
-            pass_bifurcations: false,
-            stand: None,
-            vectors: Vectors::default(),
-            cancel: Cancel::default(),
-        }
-    }
-}
 
 /// The position in which a mechanism was assembled.
 #[derive(Clone, PartialEq, Debug)]
@@ -177,7 +142,11 @@ impl Compiled {
         options: &RunOptions,
         start: Start,
     ) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
-        let (from, said) = self.led(horizon, options);
+        let (begins, said) = self.begins(horizon, options);
+        let from = match begins {
+            Begins::At(started) => return (*started, said),
+            Begins::From(from) => from,
+        };
         let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
         (start(determined, program, horizon, from.as_deref(), options.tolerance, &options.cancel), said)
     }
@@ -185,25 +154,42 @@ impl Compiled {
     /// Where it comes nearest to being assembled at a time (s), if it cannot be assembled there: its coordinates [m, rad].
     pub(super) fn nearest(&self, t: f64, options: &RunOptions) -> Option<Vec<f64>> {
         let horizon = Horizon::of_analysis(self.analysis()).beginning(t);
-        let (from, _) = self.led(horizon, options);
+        let from = match self.begins(horizon, options).0 {
+            Begins::At(started) => started.ok().map(|started| started.q().to_vec()),
+            Begins::From(from) => from,
+        };
         let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
         analysis::nearest(determined, program, horizon, from.as_deref(), &options.cancel)
     }
 
-    /// Where the inputs that it is told lead it, and its parts; with what is to be said of the way.
-    fn led(&self, horizon: Horizon, options: &RunOptions) -> (Option<Vec<f64>>, Diagnostics) {
-        let RunOptions { tolerance, pass_bifurcations, ref stand, ref cancel, .. } = *options;
-        match self.leading() {
-            None => (None, Diagnostics::default()),
-            Some((leading, leave_out)) => {
-                let own = self.analysis().map_or(0.0, |[from, ..]| from);
-                let t = stand.as_ref().map_or(own, |stand| stand.t);
-                let options = LeadOptions { tolerance, pass_bifurcations, t, cancel: cancel.clone() };
-                let from = stand.as_ref().map(|stand| stand.q.as_slice());
-                leading.begin((self.determined(), self.program()), horizon, from, leave_out, &options)
-            }
-        }
+    /// Where the values of its params lead it, the inputs that it is told, and its parts; with what is to be said of the way.
+    fn begins(&self, horizon: Horizon, options: &RunOptions) -> (Begins, Diagnostics) {
+        let is_told = self.leading().is_some_and(|(leading, _)| leading.is_told);
+        let own = || Outset::Own(self.analysis().map_or(0.0, |[from, ..]| from));
+        let stand = options.stand.as_ref().filter(|_| is_told);
+        let (outset, mut said) = match (stand, self.over()) {
+            // who stands somewhere has got there with the params that are set
+            (Some(stand), _) => (Outset::At(stand.t, stand.q.clone()), Diagnostics::default()),
+            (None, None) => (own(), Diagnostics::default()),
+            (None, Some(over)) => match over.lead(self.system(), horizon, options) {
+                (Some(Ok(started)), said) if is_told => (Outset::At(horizon.from, started.q().to_vec()), said),
+                (Some(started), said) => return (Begins::At(Box::new(started)), said),
+                (None, said) => (Outset::Estimates, said),
+            },
+        };
+        let Some((leading, leave_out)) = self.leading() else { return (Begins::From(None), said) };
+        let (from, more) = leading.begin((self.determined(), self.program()), horizon, &outset, leave_out, options);
+        said.extend(more);
+        (Begins::From(from), said)
     }
+}
+
+/// How far it is known where a mechanism begins.
+enum Begins {
+    /// Assembled, or why it cannot be.
+    At(Box<Result<Started, Box<Diagnostic>>>),
+    /// From these coordinates [m, rad]; from the text's estimates where there are none.
+    From(Option<Vec<f64>>),
 }
 
 impl Run {

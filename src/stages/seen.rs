@@ -1,7 +1,8 @@
 //! What there is to see of a mechanism: its scene, its motion as a table, its texts. The one door to those who draw.
 
 use super::lowered::lowered;
-use super::run::{Run, RunOptions};
+use super::options::RunOptions;
+use super::run::Run;
 use super::{Checked, Compiled};
 use crate::analysis::{self, FreeMotion, Horizon, Times};
 use crate::check::{self, Library};

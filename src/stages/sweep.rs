@@ -1,7 +1,9 @@
 //! Many variants of one mechanism, each led over to its params along the branch.
 
 use super::checked::UNTIL;
+use super::over::{FromOwn, Reached};
 use super::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Variants};
+use crate::analysis::{Asked, Started, Times};
 use crate::cancel::Cancel;
 use crate::crew::{Crew, usual_jobs};
 use crate::diag::{Code, Diagnostic, Diagnostics};
@@ -88,10 +90,16 @@ impl Checked {
         let last = options.take.map_or(end, |take| first.saturating_add(take).min(end));
         let results: Vec<String> = compiled.results().into_iter().map(|(name, _)| name).collect();
         let until = results.iter().position(|name| name == UNTIL);
-        let (own, variants) = (self.clone(), variants.clone());
-        let sweeping = Arc::new(Sweeping { own, variants, options: options.clone(), results: results.len(), until });
-        let pieces = 0..(last - first).div_ceil(size);
         let jobs = options.jobs.unwrap_or_else(usual_jobs).max(1);
+        let (own, variants, options) = (self.clone(), variants.clone(), options.clone());
+        let mut values = vec![0.0; variants.points().params().len()];
+        variants.points().values(first, &mut values);
+        // which params are led is all that counts of it
+        let one = own.led_to(variants.read_settings(&values), variants.sources());
+        let from_own = one.begins_at_own(options.redundant);
+        let sweeping = Arc::new(Sweeping { own, from_own, variants, options, results: results.len(), until });
+        let pieces = 0..(last - first).div_ceil(size);
+
         let work = move |piece: u64| {
             let begin = first + piece * size;
             let (block, is_found) = sweeping.block(begin..(begin + size).min(last))?;
@@ -118,6 +126,7 @@ impl<T: Send + 'static> Iterator for Sweep<T> {
 /// What all variants have in common.
 struct Sweeping {
     own: Checked,
+    from_own: Arc<FromOwn>,
     variants: Variants,
     options: SweepOptions,
     /// How many results there are, that of the variant that is looked for among them.
@@ -165,30 +174,86 @@ impl Sweeping {
     }
 
     fn run(&self, params: &[f64], variant: &mut Variant) -> Result<(), Box<Diagnostic>> {
-        let SweepOptions { tolerance, pass_bifurcations, ref cancel, .. } = self.options;
+        let options = self.run_options();
+        if self.own.is_told() {
+            return self.run_by_all_stages(params, variant);
+        }
+        let (model, said) = self.own.model_led_to(self.variants.read_settings(params), self.variants.sources());
+        let model = model.ok_or_else(|| first_error(&said))?;
+        let times = self.options.times.over(model.analysis.map(|of| [of.from, of.to, of.every]))?.times()?;
+        let values: Vec<f64> = model.params.iter().map(|param| param.value).collect();
+        match self.from_own.lead_values(&values, &times, &options) {
+            Reached::There(started) => self.follow(*started?, &times, &options, variant),
+            Reached::Refused(said) => Err(first_error(&said)),
+            Reached::Nowhere => {
+                variant.status = Status::Reassembled;
+                self.run_by_all_stages(params, variant)
+            }
+        }
+    }
+
+    /// Follows a variant that is where it was led to.
+    fn follow(
+        &self,
+        mut started: Started,
+        times: &Times,
+        options: &RunOptions,
+        variant: &mut Variant,
+    ) -> Result<(), Box<Diagnostic>> {
+        // what a run tells of its start looks at the same factors
+        let _ = started.conditioning();
+        started.use_vectors(options.vectors);
+        let interval = times.interval().filter(|_| self.results > 0);
+        let asked = interval.map(|interval| started.asked(interval, options.pass_bifurcations, &options.cancel));
+        let mut motion = started.into_motion(times);
+        if options.pass_bifurcations {
+            motion.pass_bifurcations();
+        }
+        while let Some(row) = motion.next_row() {
+            self.push_row(row?, variant);
+        }
+        let answers = asked.and_then(Asked::answer).unwrap_or_default();
+        write_results(&answers.values, variant);
+        Ok(())
+    }
+
+    /// As [`Sweeping::run`], all of it made anew but what it is led from.
+    fn run_by_all_stages(&self, params: &[f64], variant: &mut Variant) -> Result<(), Box<Diagnostic>> {
+        let options = self.run_options();
         let checked = self.own.led_to(self.variants.read_settings(params), self.variants.sources());
         if !checked.is_sound() {
             return Err(first_error(checked.diagnostics()));
         }
-        let (compiled, said) = checked.compile(self.options.redundant, cancel);
-        let compiled = compiled.ok_or_else(|| first_error(&said))?;
+        let (compiled, said) = checked.compile(self.options.redundant, &options.cancel);
+        let compiled = compiled.ok_or_else(|| first_error(&said))?.led_over(Some(Arc::clone(&self.from_own)));
         let times = self.options.times.over(compiled.analysis())?.times()?;
-        let options = RunOptions { tolerance, pass_bifurcations, cancel: cancel.clone(), ..RunOptions::default() };
         let (run, said) = compiled.run(&times, &options);
         let mut run = run.ok_or_else(|| first_error(&said))?;
         if said.iter().any(|said| said.code == Code::E0612) {
             variant.status = Status::Reassembled;
         }
         while let Some(row) = run.next_row() {
-            let row = row?;
-            if let Some(columns) = &self.options.columns {
-                variant.rows.extend(columns.iter().map(|&column| row[column]));
-            }
+            self.push_row(row?, variant);
         }
-        for (into, value) in variant.results.iter_mut().zip(run.results().unwrap_or_default().values) {
-            *into = value.unwrap_or(f64::NAN);
-        }
+        write_results(&run.results().unwrap_or_default().values, variant);
         Ok(())
+    }
+
+    fn run_options(&self) -> RunOptions {
+        let SweepOptions { tolerance, pass_bifurcations, ref cancel, .. } = self.options;
+        RunOptions { tolerance, pass_bifurcations, cancel: cancel.clone(), ..RunOptions::default() }
+    }
+
+    fn push_row(&self, row: &[f64], variant: &mut Variant) {
+        if let Some(columns) = &self.options.columns {
+            variant.rows.extend(columns.iter().map(|&column| row[column]));
+        }
+    }
+}
+
+fn write_results(values: &[Option<f64>], variant: &mut Variant) {
+    for (into, value) in variant.results.iter_mut().zip(values) {
+        *into = value.unwrap_or(f64::NAN);
     }
 }
 

@@ -1,8 +1,11 @@
-//! Many variants of one mechanism: which there are, and what became of them.
+//! Many variants of one mechanism: which there are, what they share, and what became of them. They differ in the values of its parameters alone,
+//! so that it is lowered, proven and compiled once, with these as symbols at the values of its text.
 
+mod base;
 mod block;
 mod points;
 mod sobol;
 
+pub use base::{Arrived, Base, Lost, Whole};
 pub use block::{Block, Status, Variant};
 pub use points::{Axis, MOST_OF_SOBOL, Method, Points, Sample, Values};

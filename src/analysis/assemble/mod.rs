@@ -9,4 +9,4 @@ mod started;
 
 pub use assembly::Moved;
 pub use parts::{Request, with_parts};
-pub use started::{Started, assemble_from, nearest, start, start_from};
+pub use started::{Started, assemble_from, nearest, start, start_from, start_led};

@@ -6,6 +6,7 @@ use super::errors::{far_estimates, misfit};
 use crate::analysis::state::{Horizon, Kinematics, State};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
+use crate::ir::ConstraintSystem;
 use crate::math::Vectors;
 use crate::program::Program;
 use crate::solver::Solver;
@@ -66,6 +67,25 @@ pub fn assemble_from(
     cancel: &Cancel,
 ) -> Result<Started, Box<Diagnostic>> {
     started((determined, program), horizon, estimates, (tolerance, cancel), |_| None)
+}
+
+/// As [`start_from`], of a mechanism of which other values were assembled before, whose solver solves for these rows too; from where it has been
+/// led, so that nobody doubts that this is the position which is meant.
+///
+/// # Errors
+/// It cannot be assembled, starts in a singular position, or a formula has no value there.
+pub fn start_led(
+    determined: Arc<Determined>,
+    program: Arc<Program>,
+    horizon: Horizon,
+    (from, solver): (&[f64], Option<Arc<Solver>>),
+    tolerance: f64,
+    cancel: &Cancel,
+) -> Result<Started, Box<Diagnostic>> {
+    let mut kinematics = kinematics((determined, program), horizon, Some(from), (tolerance, cancel));
+    let (state, moved) = assembly::assemble(&mut kinematics, horizon.from)?;
+    kinematics.choose_orders();
+    Ok(Started { kinematics, state, moved, doubt: None, solver })
 }
 
 /// Where the bodies of a mechanism that cannot be assembled at the first time of a horizon come nearest to that, from the file's estimates or
@@ -133,6 +153,12 @@ impl Started {
         diagnostics
     }
 
+    /// The equations.
+    #[must_use]
+    pub fn system(&self) -> &ConstraintSystem {
+        self.kinematics.system()
+    }
+
     /// From now on rows are solved for with these vector instructions, which changes no bit.
     pub fn use_vectors(&mut self, vectors: Vectors) {
         self.kinematics.use_vectors(vectors);
@@ -161,6 +187,12 @@ impl Started {
     #[must_use]
     pub fn solver(&self) -> Option<&Solver> {
         self.solver.as_deref()
+    }
+
+    /// The same, for others to hold.
+    #[must_use]
+    pub fn shared_solver(&self) -> Option<Arc<Solver>> {
+        self.solver.clone()
     }
 
     /// The same operations, to be written as code; by a program that may leave inputs open, and has the same registers.

@@ -1,13 +1,14 @@
 //! The way from one start to another: a mechanism whose inputs go along straight lines is followed from where its own inputs have it to
 //! where others do, along the branch.
 
-use crate::analysis::assemble::{Started, start_from};
+use crate::analysis::assemble::{Started, start_from, start_led};
 use crate::analysis::explain::errors;
 use crate::analysis::state::{Horizon, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::ir::ConstraintSystem;
 use crate::program::Program;
+use crate::solver::Solver;
 use crate::structure::Determined;
 use crate::tolerances::assembly::lead::{BESIDE_A_KINK, KINK, MOST_KINKS};
 use std::sync::Arc;
@@ -52,49 +53,98 @@ pub fn lead(
     parts: &[f64],
     options: &LeadOptions,
 ) -> Result<Way, Box<Diagnostic>> {
-    let leader = Leader { determined, program, options };
-    let mut started = leader.start(WAY, from)?;
-    let remarks = started.far_estimates_at(options.t);
-    let mut way = Way { reached: Vec::new(), remarks, passed: Vec::new(), stopped: None };
-    let mut from = (0.0, started.q().to_vec());
-    for _ in 0..MOST_KINKS {
-        let known = way.reached.len();
-        let Way { reached, passed, .. } = &mut way;
-        way.stopped = follow(started, from.0, &parts[known..], options, reached, passed);
-        let Some((part, why)) = &way.stopped else { return Ok(way) };
-        if let Some(last) = way.reached[known..].last() {
-            from = (parts[way.reached.len() - 1], last.clone());
-        }
-        if why.code != Code::E0609 || options.cancel.is_cancelled() {
-            return Ok(way);
-        }
-        let Some((behind, beyond)) = leader.beyond_kink(*part, &from) else { return Ok(way) };
-        way.stopped = None;
-        while parts.get(way.reached.len()).is_some_and(|&part| part <= behind) {
-            way.reached.push(beyond.q().to_vec());
-        }
-        if way.reached.len() == parts.len() {
-            return Ok(way);
-        }
-        from = (behind, beyond.q().to_vec());
-        started = beyond;
-    }
-    way.stopped = Some((from.0, Box::new(errors::cannot_follow(determined.system(), from.0, None))));
-    Ok(way)
+    let leader = Leader { determined, program, solving: Solving::Own, options };
+    let started = leader.start(WAY, from)?;
+    Ok(leader.lead(started, parts))
+}
+
+/// What begins all ways of a mechanism whose parameters say where they lead: it stands at their beginning, whatever these are.
+///
+/// # Errors
+/// It does not stand there.
+pub fn before_ways(
+    determined: &Arc<Determined>,
+    program: &Arc<Program>,
+    from: &[f64],
+    options: &LeadOptions,
+) -> Result<Started, Box<Diagnostic>> {
+    Leader { determined, program, solving: Solving::Own, options }.start(WAY, Some(from))
+}
+
+/// As [`lead`], to the end of the way alone, from where one of the same mechanism was begun by [`before_ways`], and by the solver of that.
+///
+/// # Errors
+/// It cannot be assembled at 0.
+pub fn lead_again(
+    determined: &Arc<Determined>,
+    program: &Arc<Program>,
+    (from, solver): (&[f64], Option<Arc<Solver>>),
+    options: &LeadOptions,
+) -> Result<Way, Box<Diagnostic>> {
+    let leader = Leader { determined, program, solving: Solving::With(solver), options };
+    let started = leader.start(WAY, Some(from))?;
+    Ok(leader.lead(started, &[1.0]))
+}
+
+/// What solves for the rows of what is led.
+enum Solving {
+    /// What each start makes for itself.
+    Own,
+    /// This, where it is not too large.
+    With(Option<Arc<Solver>>),
 }
 
 /// What is led, and how.
 struct Leader<'l> {
     determined: &'l Arc<Determined>,
     program: &'l Arc<Program>,
+    solving: Solving,
     options: &'l LeadOptions,
 }
 
 impl Leader<'_> {
+    /// Follows it from a start at 0 to some parts of the way.
+    fn lead(&self, mut started: Started, parts: &[f64]) -> Way {
+        let options = self.options;
+        let remarks = started.far_estimates_at(options.t);
+        let mut way = Way { reached: Vec::new(), remarks, passed: Vec::new(), stopped: None };
+        let mut from = (0.0, started.q().to_vec());
+        for _ in 0..MOST_KINKS {
+            let known = way.reached.len();
+            let Way { reached, passed, .. } = &mut way;
+            way.stopped = follow(started, from.0, &parts[known..], options, reached, passed);
+            let Some((part, why)) = &way.stopped else { return way };
+            if let Some(last) = way.reached[known..].last() {
+                from = (parts[way.reached.len() - 1], last.clone());
+            }
+            if why.code != Code::E0609 || options.cancel.is_cancelled() {
+                return way;
+            }
+            let Some((behind, beyond)) = self.beyond_kink(*part, &from) else { return way };
+            way.stopped = None;
+            while parts.get(way.reached.len()).is_some_and(|&part| part <= behind) {
+                way.reached.push(beyond.q().to_vec());
+            }
+            if way.reached.len() == parts.len() {
+                return way;
+            }
+            from = (behind, beyond.q().to_vec());
+            started = beyond;
+        }
+        way.stopped = Some((from.0, Box::new(errors::cannot_follow(self.determined.system(), from.0, None))));
+        way
+    }
+
     /// Assembled where a horizon begins, from its estimates or from others.
     fn start(&self, horizon: Horizon, from: Option<&[f64]>) -> Result<Started, Box<Diagnostic>> {
         let LeadOptions { tolerance, cancel, .. } = self.options;
-        start_from(Arc::clone(self.determined), Arc::clone(self.program), horizon, from, *tolerance, cancel)
+        let (determined, program) = (Arc::clone(self.determined), Arc::clone(self.program));
+        match (&self.solving, from) {
+            (Solving::With(solver), Some(from)) => {
+                start_led(determined, program, horizon, (from, solver.clone()), *tolerance, cancel)
+            }
+            _ => start_from(determined, program, horizon, from, *tolerance, cancel),
+        }
     }
 
     /// The start just behind a place where a velocity jumps, with its part of the way; none where the position is another one there.

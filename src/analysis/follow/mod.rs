@@ -18,7 +18,7 @@ mod remarks;
 mod rows;
 mod step;
 
-pub use lead::{LeadOptions, Way, lead};
+pub use lead::{LeadOptions, Way, before_ways, lead, lead_again};
 pub use march::{Follower, Stretch};
 pub use rows::state_of_row;
 pub use step::quintic_between;

@@ -1,0 +1,179 @@
+//! A mechanism that is led over from the values that its text gives to its params to others: all that such variants share, and one of them.
+
+use super::lead::{not_led, passed};
+use super::lowered::lowered_on_its_way;
+use super::options::RunOptions;
+use crate::analysis::{self, Horizon, LeadOptions, Started, Times};
+use crate::cancel::Cancel;
+use crate::diag::{Diagnostic, Diagnostics};
+use crate::ir::ConstraintSystem;
+use crate::lower::Clock;
+use crate::model::{self, Mechanism};
+use crate::program::Program;
+use crate::sweep::{Arrived, Base, Lost, Whole};
+use std::sync::{Arc, OnceLock};
+
+/// Where a mechanism begins that was led there, or why it cannot; nothing where no way leads there. With what is to be said of the way.
+type Led = (Option<Result<Started, Box<Diagnostic>>>, Diagnostics);
+
+/// Where the values of params lead.
+pub(super) enum Reached {
+    /// To where they say; it begins there, or cannot.
+    There(Result<Box<Started>, Box<Diagnostic>>),
+    /// Results refuse the times before anything is led.
+    Refused(Diagnostics),
+    /// Nowhere.
+    Nowhere,
+}
+
+/// A mechanism with its own values: compiled, and where it stands at its own first time.
+pub(super) struct Own {
+    pub whole: Whole,
+    /// It knows the params that may be led.
+    pub model: Arc<Mechanism>,
+    pub started: Started,
+    /// When that is (s).
+    pub t: f64,
+    /// Whether redundant equations are left out.
+    pub leave_out_redundant: bool,
+}
+
+/// Makes a mechanism with its own values; nothing where it does not stand with these.
+type MakesOwn = dyn Fn(&RunOptions) -> Option<Own> + Send + Sync;
+
+/// From where a mechanism is led over to others: what it is with its own values is looked at when somebody asks for it.
+pub(super) struct FromOwn {
+    own: Box<MakesOwn>,
+    known: OnceLock<Option<Arc<Over>>>,
+}
+
+impl FromOwn {
+    /// Of what makes it; nothing where the mechanism does not stand with its own values.
+    pub fn new(own: impl Fn(&RunOptions) -> Option<Own> + Send + Sync + 'static) -> FromOwn {
+        FromOwn { own: Box::new(own), known: OnceLock::new() }
+    }
+
+    /// A system of the same text with its values where it begins, with what is to be said of its way; nothing where none leads there.
+    pub fn lead(&self, system: &ConstraintSystem, horizon: Horizon, options: &RunOptions) -> Led {
+        self.over(options).map_or_else(Default::default, |over| over.lead(system, horizon, &options.cancel))
+    }
+
+    /// The same of the values of all params, without a word of the way; with what results may ask of the times.
+    pub fn lead_values(&self, values: &[f64], times: &Times, options: &RunOptions) -> Reached {
+        let lead = |over: Arc<Over>| over.lead_values(values, times, &options.cancel);
+        self.over(options).map_or(Reached::Nowhere, lead)
+    }
+
+    fn over(&self, options: &RunOptions) -> Option<Arc<Over>> {
+        let new = || (self.own)(options).map(|own| Arc::new(Over::of(own, options)));
+        match self.known.get() {
+            Some(Some(known)) if !known.is_of(options) => new(),
+            Some(known) => known.clone(),
+            None => {
+                let over = new();
+                // what was given up says nothing
+                if options.cancel.is_cancelled() { None } else { self.known.get_or_init(|| over).clone() }
+            }
+        }
+    }
+}
+
+/// What leads a mechanism over from its own values to others.
+struct Over {
+    own: Own,
+    values: Vec<f64>,
+    options: LeadOptions,
+    /// For variants that begin at its own first time, and for others.
+    bases: [OnceLock<Option<Base>>; 2],
+}
+
+impl Over {
+    fn of(own: Own, options: &RunOptions) -> Over {
+        let RunOptions { tolerance, pass_bifurcations, ref cancel, .. } = *options;
+        let options = LeadOptions { tolerance, pass_bifurcations, t: own.t, cancel: cancel.clone() };
+        let (values, bases) = (own.whole.0.system().values_of_params(), [OnceLock::new(), OnceLock::new()]);
+        Over { own, values, options, bases }
+    }
+
+    /// Whether it was made with such options.
+    fn is_of(&self, options: &RunOptions) -> bool {
+        self.options.tolerance.to_bits() == options.tolerance.to_bits()
+            && self.options.pass_bifurcations == options.pass_bifurcations
+    }
+
+    /// A system of the same text with its values where it begins, with what is to be said of its way; nothing where none leads there.
+    fn lead(&self, system: &ConstraintSystem, horizon: Horizon, cancel: &Cancel) -> Led {
+        let mut said = Diagnostics::default();
+        let values = system.values_of_params();
+        let Some(base) = self.base(&values, horizon.from, cancel) else { return (None, said) };
+        let (times, lines) = ([self.options.t, horizon.from], || self.lines(system, &values));
+        match base.alone(base.variant(&values), horizon, cancel) {
+            Ok(Arrived { started, passed: by }) => {
+                said.extend(self.own.started.far_estimates_at(self.own.t));
+                said.extend(by.iter().map(|(part, what)| passed(None, &lines(), times, *part, what)));
+                (Some(Ok(started)), said)
+            }
+            Err(Lost::There(why)) => (Some(Err(why)), said),
+            Err(Lost::OnItsWay(..)) if cancel.is_cancelled() => (None, said),
+            Err(Lost::OnItsWay(part, why)) => {
+                said.push(not_led(None, &lines(), times, self.own.model.declared.span, part, &why));
+                (None, said)
+            }
+        }
+    }
+
+    /// The same of the values of all params, without a word of the way.
+    fn lead_values(&self, values: &[f64], times: &Times, cancel: &Cancel) -> Reached {
+        let Some(base) = self.base(values, times.from(), cancel) else { return Reached::Nowhere };
+        let variant = base.variant(values);
+        let refused = times.interval().map(|interval| analysis::refused_results(variant.system(), interval));
+        if let Some(refused) = refused.filter(Diagnostics::has_errors) {
+            return Reached::Refused(refused);
+        }
+        match base.alone(variant, Horizon::of(times), cancel) {
+            Ok(arrived) => Reached::There(Ok(Box::new(arrived.started))),
+            Err(Lost::There(why)) => Reached::There(Err(why)),
+            Err(Lost::OnItsWay(..)) => Reached::Nowhere,
+        }
+    }
+
+    /// What its params are led along.
+    fn lines(&self, system: &ConstraintSystem, values: &[f64]) -> Vec<model::Led> {
+        let line = |led: &model::Led| {
+            let k = led.param? as usize;
+            Some(model::Led {
+                line: [self.values[k], values[k]],
+                dimension: system.params()[k].dimension,
+                ..led.clone()
+            })
+        };
+        self.own.model.led.iter().filter_map(line).collect()
+    }
+
+    /// What variants of so many values that begin at a time (s) share.
+    fn base(&self, values: &[f64], from: f64, cancel: &Cancel) -> Option<&Base> {
+        let goes = from.to_bits() != self.options.t.to_bits();
+        let place = &self.bases[usize::from(goes)];
+        if place.get().is_none() {
+            let base = self.new_base(goes, cancel);
+            // what was given up says nothing
+            if cancel.is_cancelled() {
+                return None;
+            }
+            let _ = place.set(base);
+        }
+        place.get()?.as_ref().filter(|_| values.len() == self.values.len())
+    }
+
+    fn new_base(&self, goes: bool, cancel: &Cancel) -> Option<Base> {
+        let clock = if goes { Clock::Goes } else { Clock::Still(self.options.t) };
+        let system = lowered_on_its_way(&self.own.model, clock);
+        let leave_out = self.own.leave_out_redundant;
+        let (determined, _) = analysis::determine(system, leave_out, Horizon::of_analysis(None)).ok()?;
+        let program = Arc::new(Program::new(determined.system()));
+        let on_its_way: Whole = (Arc::new(determined), program);
+        let led = self.own.model.led.iter().filter_map(|led| led.param).collect();
+        let options = LeadOptions { cancel: cancel.clone(), ..self.options.clone() };
+        Base::new(self.own.whole.clone(), &self.own.started, on_its_way, (led, goes), options).ok()
+    }
+}

@@ -1,0 +1,34 @@
+//! A mechanism with the values of its own text, from which it is led over to others.
+
+use super::over::{FromOwn, Own};
+use super::{Checked, Redundant, RunOptions};
+use crate::analysis::Horizon;
+use crate::check::{Given, Surroundings};
+use crate::diag::Diagnostics;
+use std::sync::Arc;
+
+impl Checked {
+    /// From where it is led to what is set: of all mechanisms whose settings are of the same params, it is the same one.
+    pub(super) fn begins_at_own(&self, redundant: Redundant) -> Arc<FromOwn> {
+        let led = self.clone();
+        Arc::new(FromOwn::new(move |options| led.at_own_values()?.stands(redundant, options)))
+    }
+
+    /// The same with its own values, of which those that are set may be others.
+    fn at_own_values(&self) -> Option<Checked> {
+        let open = self.surroundings.settings.iter().map(|setting| setting.path.clone()).collect();
+        let (settings, given) = (Vec::new(), Given::default());
+        let surroundings = Surroundings { settings, given, open, ..(*self.surroundings).clone() };
+        Some(Checked::in_surroundings(self.parsed.clone(), self.number?, surroundings, false, Diagnostics::default()))
+    }
+
+    /// Where it stands at its own first time; nothing where it does not.
+    fn stands(&self, redundant: Redundant, options: &RunOptions) -> Option<Own> {
+        let (compiled, model) = (self.compile(redundant, &options.cancel).0?, Arc::clone(self.model.as_ref()?));
+        let t = compiled.analysis().map_or(0.0, |[from, ..]| from);
+        let horizon = Horizon::of_analysis(compiled.analysis()).beginning(t);
+        let started = compiled.start(horizon, &RunOptions { stand: None, ..options.clone() }).0.ok()?;
+        let whole = (Arc::clone(compiled.determined()), Arc::clone(compiled.program()));
+        Some(Own { whole, model, started, t, leave_out_redundant: redundant == Redundant::LeftOut })
+    }
+}
