@@ -71,12 +71,11 @@ pub use check::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use diag::{Applies, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, Severity, fixed, render};
 pub use emit::{File, LARGEST_STRAIGHT, MARK};
 pub use layout::ColumnUnit;
-pub use math::Vectors;
 pub use output::{TableFormat, TableWriter};
 pub use source::{Encoding, FileId, Source, Sources, Span};
 pub use stages::{
-    Assembly, Checked, Choice, Compiled, Formula, Parsed, Redundant, Run, RunOptions, RustOptions, Seen, imported,
-    seconds,
+    Assembly, Checked, Choice, Compiled, Formula, Parsed, Redundant, Run, RunOptions, RustOptions, Seen, Vectors,
+    imported, seconds,
 };
 pub use syntax::{Comment, Trivia};
 pub use vocabulary::{Category, Word, words};

@@ -29,6 +29,7 @@ const PLATFORMS: [&str; 5] = [
 struct Carried {
     name: String,
     licence: String,
+    repository: String,
     folder: PathBuf,
 }
 
@@ -45,7 +46,7 @@ fn carried() -> Vec<Carried> {
     for package in all["packages"].as_array().expect("packages") {
         let text = |name: &str| package[name].as_str().unwrap_or_default().to_owned();
         let folder = Path::new(&text("manifest_path")).parent().expect("a folder").to_owned();
-        folders.insert(format!("{} {}", text("name"), text("version")), (text("license"), folder));
+        folders.insert(format!("{} {}", text("name"), text("version")), (text("license"), text("repository"), folder));
     }
     let mut tree = vec!["tree", "-e", "normal,no-proc-macro", "--prefix", "none", "--format", "{p}"];
     tree.extend(PLATFORMS.iter().flat_map(|platform| ["--target", platform]));
@@ -54,8 +55,8 @@ fn carried() -> Vec<Carried> {
     names.sort();
     names.dedup();
     let carried = names.into_iter().filter(|name| !name.starts_with("mechc ")).map(|name| {
-        let (licence, folder) = folders.remove(&name).expect("a package");
-        Carried { name, licence, folder }
+        let (licence, repository, folder) = folders.remove(&name).expect("a package");
+        Carried { name, licence, repository, folder }
     });
     carried.collect()
 }
@@ -104,7 +105,11 @@ fn the_program_tells_the_licences_of_all_that_it_carries() {
             .to_owned();
     for one in &all {
         made += &format!("    {}: {}\n", one.name, one.licence);
-        let texts = texts(one);
+        // a part of a project that has no text of its own has the project's
+        let of_project =
+            || all.iter().filter(|other| other.repository == one.repository && other.licence == one.licence);
+        let texts =
+            Some(texts(one)).filter(|own| !own.is_empty()).unwrap_or_else(|| of_project().flat_map(texts).collect());
         assert!(!texts.is_empty(), "{} has no text of its licence", one.name);
         for text in texts {
             said.entry(text).or_default().push(one.name.clone());

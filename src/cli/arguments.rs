@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use crate::Vectors;
+use crate::stages::Vectors;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 

@@ -28,6 +28,7 @@ mod used;
 mod used_at;
 mod varied;
 
+pub use crate::math::Vectors;
 pub use checked::{Checked, Choice};
 pub use compiled::{Compiled, Redundant};
 pub use constant::seconds;
