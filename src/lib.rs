@@ -37,6 +37,7 @@ mod cancel;
 mod check;
 #[cfg(feature = "cli")]
 pub mod cli;
+mod crew;
 mod diag;
 mod emit;
 mod estimates;
@@ -59,6 +60,7 @@ mod solver;
 mod source;
 mod stages;
 mod structure;
+mod sweep;
 mod syntax;
 mod tolerances;
 mod view;
@@ -74,9 +76,10 @@ pub use layout::ColumnUnit;
 pub use output::{TableFormat, TableWriter};
 pub use source::{Encoding, FileId, Source, Sources, Span};
 pub use stages::{
-    Assembly, Checked, Choice, Compiled, Formula, Parsed, Redundant, Run, RunOptions, RustOptions, Seen, Vectors,
-    imported, seconds,
+    AskedTimes, Assembly, Checked, Choice, Compiled, Formula, Parsed, Redundant, Run, RunOptions, RustOptions, Seen,
+    Sweep, SweepOptions, Variants, Vary, Vectors, imported, seconds,
 };
+pub use sweep::{Axis, Block, Method, Points, Sample, Status, Values};
 pub use syntax::{Comment, Trivia};
 pub use vocabulary::{Category, Word, words};
 pub use world::{Contents, Memory, World};

@@ -47,6 +47,7 @@ const COMMAND_LINE: &[&str] = &[
     "scene",
     "source",
     "stages",
+    "sweep",
     "view",
     "vocabulary",
     "world",
@@ -222,6 +223,7 @@ fn no_two_rooms_show_types_of_one_name() {
 /// connections and their limits.
 const PLATFORM: &[(&str, &str)] = &[
     ("analysis/follow/rows/leap.rs", "std::thread"),
+    ("crew.rs", "std::thread"),
     ("live/http.rs", "std::time"),
     ("live/server.rs", "std::net"),
     ("live/server.rs", "std::thread"),

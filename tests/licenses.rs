@@ -29,7 +29,6 @@ const PLATFORMS: [&str; 5] = [
 struct Carried {
     name: String,
     licence: String,
-    repository: String,
     folder: PathBuf,
 }
 
@@ -46,7 +45,7 @@ fn carried() -> Vec<Carried> {
     for package in all["packages"].as_array().expect("packages") {
         let text = |name: &str| package[name].as_str().unwrap_or_default().to_owned();
         let folder = Path::new(&text("manifest_path")).parent().expect("a folder").to_owned();
-        folders.insert(format!("{} {}", text("name"), text("version")), (text("license"), text("repository"), folder));
+        folders.insert(format!("{} {}", text("name"), text("version")), (text("license"), folder));
     }
     let mut tree = vec!["tree", "-e", "normal,no-proc-macro", "--prefix", "none", "--format", "{p}"];
     tree.extend(PLATFORMS.iter().flat_map(|platform| ["--target", platform]));
@@ -55,8 +54,8 @@ fn carried() -> Vec<Carried> {
     names.sort();
     names.dedup();
     let carried = names.into_iter().filter(|name| !name.starts_with("mechc ")).map(|name| {
-        let (licence, repository, folder) = folders.remove(&name).expect("a package");
-        Carried { name, licence, repository, folder }
+        let (licence, folder) = folders.remove(&name).expect("a package");
+        Carried { name, licence, folder }
     });
     carried.collect()
 }
@@ -68,8 +67,13 @@ fn name_of(line: &str) -> Option<String> {
     Some(format!("{name} {}", version.strip_prefix('v')?))
 }
 
-/// The texts to be said of a crate.
-fn texts(carried: &Carried) -> Vec<String> {
+/// Crates without a text of their own, each of one repository with another one, whose licence it has.
+const AS: [(&str, &str); 1] = [("pulp-wasm-simd-flag", "pulp ")];
+
+/// The texts to be said of a crate, one of all.
+fn texts(carried: &Carried, all: &[Carried]) -> Vec<String> {
+    let other = AS.iter().find(|(name, _)| carried.name.starts_with(name)).map(|(_, other)| *other);
+    let carried = other.and_then(|other| all.iter().find(|one| one.name.starts_with(other))).unwrap_or(carried);
     let entries = fs::read_dir(&carried.folder).expect("the crate's folder");
     let mut names: Vec<String> =
         entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
@@ -105,11 +109,7 @@ fn the_program_tells_the_licences_of_all_that_it_carries() {
             .to_owned();
     for one in &all {
         made += &format!("    {}: {}\n", one.name, one.licence);
-        // a part of a project that has no text of its own has the project's
-        let of_project =
-            || all.iter().filter(|other| other.repository == one.repository && other.licence == one.licence);
-        let texts =
-            Some(texts(one)).filter(|own| !own.is_empty()).unwrap_or_else(|| of_project().flat_map(texts).collect());
+        let texts = texts(one, &all);
         assert!(!texts.is_empty(), "{} has no text of its licence", one.name);
         for text in texts {
             said.entry(text).or_default().push(one.name.clone());

@@ -318,7 +318,7 @@ impl Checker<'_> {
             self.report(errors::step_not_positive(every.span, value));
             return;
         }
-        let (Some((_, start)), Some((_, end)), Some((_, step))) = (start, end, step) else {
+        let (Some((first, start)), Some((last, end)), Some((between, step))) = (start, end, step) else {
             return;
         };
         if end < start {
@@ -326,7 +326,8 @@ impl Checker<'_> {
             self.report(errors::ends_before_start([from.span, to.span], texts, start, end));
             return;
         }
-        self.model.analysis = Some(Analysis { from: start, to: end, every: step, span });
+        self.model.analysis =
+            Some(Analysis { from: start, to: end, every: step, formulas: [first, last, between], span });
     }
 }
 

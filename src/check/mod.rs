@@ -57,6 +57,7 @@ pub use lead::Lead;
 pub use lengths::usual_unit_of_length;
 pub use library::{KnownFile, KnownMechanism, Library, NotKnown};
 pub use mentions::name_of;
+pub use samples::{Column, variants};
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
 

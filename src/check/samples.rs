@@ -1,9 +1,24 @@
-//! Samples of inputs: a CSV file with a column of times and one for each input, each fault with its place in the file.
+//! Tables with a line of names: samples of inputs, with a column of times; variants, with a column for each param that varies. Each fault
+//! has its place in the file.
 
 use super::table_file::{between_commas, number};
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Source, Span};
 use crate::vocabulary::{CompoundUnit, Dimension, Unit};
+
+/// What the rows of a table are, in messages.
+#[derive(Clone, Copy)]
+struct Words {
+    /// All of them.
+    many: &'static str,
+    /// One number of them.
+    one: &'static str,
+    /// How its units are written, by an example.
+    example: &'static str,
+}
+
+const SAMPLES: Words = Words { many: "samples", one: "sample", example: "`turn [deg]`, `feed [mm/s]`" };
+const VARIANTS: Words = Words { many: "variants", one: "value", example: "`rod [mm]`, `speed [rpm]`" };
 
 /// What a file of samples holds.
 pub(super) struct Samples {
@@ -13,14 +28,16 @@ pub(super) struct Samples {
     pub columns: Vec<Column>,
 }
 
-/// A column of samples.
-pub(super) struct Column {
-    /// The input that it is of.
+/// A column of numbers.
+pub struct Column {
+    /// The input or param that it is of.
     pub name: String,
     /// Of the cell of its header.
     pub span: Span,
     /// Of its unit, if it has one.
     pub dimension: Option<Dimension>,
+    /// Whether its unit speaks of an angle.
+    pub is_of_angles: bool,
     /// In SI.
     pub values: Vec<f64>,
 }
@@ -72,20 +89,80 @@ pub(super) struct Headed<'a> {
 /// # Errors
 /// What is wrong with it.
 pub(super) fn header(source: &Source, file: FileId) -> Result<Headed<'_>, Vec<Diagnostic>> {
-    let Some(line) = lines(source, file).next() else {
-        let nothing = Span { file, start: 0, end: 0 };
-        return Err(vec![fault(Code::E0413, "the samples are empty", nothing, "two rows are needed at least")]);
-    };
-    let one = |fault: Box<Diagnostic>| vec![*fault];
-    line.has_commas().map_err(one)?;
-    let cells = line.cells().map_err(one)?;
-    let heads = cells.iter().map(head).collect::<Result<Vec<_>, _>>().map_err(one)?;
+    let (line, heads) = heads(source, file, SAMPLES)?;
     let at = time_column(&heads, line.span)?;
     if heads.len() == 1 {
         let help = "each input that is told has a column of its own, behind a comma: `t,turn [deg]`";
         return Err(vec![fault(Code::E0416, "the samples are of no input", line.span, "times alone").help(help)]);
     }
     Ok(Headed { source, file, heads, at })
+}
+
+/// Reads a table of variants: a column for each param that varies.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn variants(source: &Source, file: FileId) -> Result<Vec<Column>, Vec<Diagnostic>> {
+    let (line, heads) = heads(source, file, VARIANTS)?;
+    let numbers = |head: &Head<'_>| number(head.name).is_some();
+    if heads.iter().all(numbers) {
+        let help = "the first line names the params, each with its unit: `rod [mm],speed [rpm]`";
+        return Err(vec![fault(Code::E0416, "the variants are of no param", line.span, "numbers alone").help(help)]);
+    }
+    let Rows { columns, places } = Rows::read(source, file, &heads, VARIANTS)?;
+    if places.is_empty() {
+        return Err(vec![fault(
+            Code::E0413,
+            "the variants have no row",
+            line.span,
+            "the first line, and none behind it",
+        )]);
+    }
+    Ok(heads.iter().zip(columns).map(|(head, values)| head.column(values)).collect())
+}
+
+/// The first line of a table, and what it names.
+fn heads(source: &Source, file: FileId, words: Words) -> Result<(Line<'_>, Vec<Head<'_>>), Vec<Diagnostic>> {
+    let Some(line) = lines(source, file).next() else {
+        let nothing = Span { file, start: 0, end: 0 };
+        let message = format!("the {} are empty", words.many);
+        return Err(vec![fault(Code::E0413, &message, nothing, "two rows are needed at least")]);
+    };
+    let one = |fault: Box<Diagnostic>| vec![*fault];
+    line.has_commas(words).map_err(one)?;
+    let cells = line.cells(words).map_err(one)?;
+    let heads = cells.iter().map(|cell| head(cell, words)).collect::<Result<Vec<_>, _>>().map_err(one)?;
+    for (k, head) in heads.iter().enumerate() {
+        if let Some(first) = heads[..k].iter().find(|other| other.name == head.name) {
+            let message = format!("column `{}` stands there twice", head.name);
+            return Err(vec![fault(Code::E0203, &message, head.span, "again").also(first.span, "first here")]);
+        }
+    }
+    Ok((line, heads))
+}
+
+/// The rows behind a first line.
+struct Rows {
+    /// By column: its numbers (SI).
+    columns: Vec<Vec<f64>>,
+    /// By row and column.
+    places: Vec<Vec<Span>>,
+}
+
+impl Rows {
+    /// Reads them; blank lines are passed over.
+    fn read(source: &Source, file: FileId, heads: &[Head<'_>], words: Words) -> Result<Rows, Vec<Diagnostic>> {
+        let mut rows = Rows { columns: vec![Vec::new(); heads.len()], places: Vec::new() };
+        for line in lines(source, file).skip(1) {
+            let cells = line.cells(words).map_err(|fault| vec![*fault])?;
+            let row = row_of(&line, &cells, heads, words)?;
+            for (column, (value, head)) in rows.columns.iter_mut().zip(row.into_iter().zip(heads)) {
+                column.push(head.unit.as_ref().map_or(value, |unit| unit.to_si(value)));
+            }
+            rows.places.push(cells.iter().map(|cell| cell.span).collect());
+        }
+        Ok(rows)
+    }
 }
 
 impl<'a> Headed<'a> {
@@ -99,25 +176,12 @@ impl<'a> Headed<'a> {
     /// # Errors
     /// What is wrong with them.
     pub fn rows(&self) -> Result<Samples, Vec<Diagnostic>> {
-        let mut values: Vec<Vec<f64>> = vec![Vec::new(); self.heads.len()];
-        let mut rows: Vec<Span> = Vec::new();
-        for line in lines(self.source, self.file).skip(1) {
-            let cells = line.cells().map_err(|fault| vec![*fault])?;
-            let row = row_of(&line, &cells, &self.heads)?;
-            for (column, (value, head)) in values.iter_mut().zip(row.into_iter().zip(&self.heads)) {
-                column.push(head.unit.as_ref().map_or(value, |unit| unit.to_si(value)));
-            }
-            rows.push(cells[self.at].span);
-        }
+        let Rows { columns: mut values, places } = Rows::read(self.source, self.file, &self.heads, SAMPLES)?;
         let times = values.remove(self.at);
+        let rows: Vec<Span> = places.iter().map(|cells| cells[self.at]).collect();
         rising(&times, &rows, self.heads[self.at].span)?;
-        let column = |(head, values): (&Head<'_>, Vec<f64>)| Column {
-            name: head.path(),
-            span: head.span,
-            dimension: head.unit.as_ref().map(CompoundUnit::dimension),
-            values,
-        };
-        Ok(Samples { times, columns: self.columns().zip(values).map(column).collect() })
+        let columns = self.columns().zip(values).map(|(head, values)| head.column(values)).collect();
+        Ok(Samples { times, columns })
     }
 }
 
@@ -125,6 +189,13 @@ impl Head<'_> {
     /// The input that it is of; the numbers of a copy may be written with spaces.
     pub fn path(&self) -> String {
         super::normalized(self.name).chars().filter(|c| !c.is_whitespace()).collect()
+    }
+
+    fn column(&self, values: Vec<f64>) -> Column {
+        let (name, span, dimension) = (self.path(), self.span, self.unit.as_ref().map(CompoundUnit::dimension));
+        let mut units = self.unit.iter().flat_map(CompoundUnit::factors);
+        let is_of_angles = units.any(|(unit, _)| unit.is_of_angle());
+        Column { name, span, dimension, is_of_angles, values }
     }
 
     /// What is to be written, where its brackets are not as a unit's.
@@ -164,16 +235,15 @@ impl<'a> Line<'a> {
     ///
     /// # Errors
     /// A quote is not closed.
-    fn cells(&self) -> Result<Vec<Cell<'a>>, Box<Diagnostic>> {
+    fn cells(&self, words: Words) -> Result<Vec<Cell<'a>>, Box<Diagnostic>> {
         let (mut from, mut cells) = (self.span.start as usize, Vec::new());
         for part in between_commas(self.text) {
             let (begin, text) = (from + (part.len() - part.trim_start().len()), part.trim());
             let span = Span { start: begin as u32, end: (begin + text.len()) as u32, ..self.span };
             if text.matches('"').count() % 2 == 1 {
                 let help = "a cell in quotes ends with a quote in its line";
-                return Err(Box::new(
-                    fault(Code::E0416, "a quote of the samples is not closed", span, "opened here").help(help),
-                ));
+                let message = format!("a quote of the {} is not closed", words.many);
+                return Err(Box::new(fault(Code::E0416, &message, span, "opened here").help(help)));
             }
             cells.push(Cell { text: text.trim_matches('"'), span });
             from += part.len() + 1;
@@ -196,15 +266,15 @@ impl<'a> Line<'a> {
     ///
     /// # Errors
     /// Something else than commas is between them.
-    fn has_commas(&self) -> Result<(), Box<Diagnostic>> {
+    fn has_commas(&self, words: Words) -> Result<(), Box<Diagnostic>> {
         match self.other_separator().filter(|_| !self.text.contains(',')) {
-            Some(found) => Err(Box::new(self.separated_by(found))),
+            Some(found) => Err(Box::new(self.separated_by(found, words))),
             None => Ok(()),
         }
     }
 
-    fn separated_by(&self, found: &str) -> Diagnostic {
-        let message = format!("the samples are separated by {found}");
+    fn separated_by(&self, found: &str, words: Words) -> Diagnostic {
+        let message = format!("the {} are separated by {found}", words.many);
         fault(Code::E0416, &message, self.span, &format!("{found}, and no commas")).help(SEPARATORS)
     }
 }
@@ -213,7 +283,7 @@ impl<'a> Line<'a> {
 const SEPARATORS: &str = "columns are separated by commas, and decimals written with a point";
 
 /// `NAME` or `NAME [UNIT]`
-fn head<'a>(cell: &Cell<'a>) -> Result<Head<'a>, Box<Diagnostic>> {
+fn head<'a>(cell: &Cell<'a>, words: Words) -> Result<Head<'a>, Box<Diagnostic>> {
     let Some((name, unit)) = cell.text.strip_suffix(']').and_then(|text| text.rsplit_once(" [")) else {
         return Ok(Head { name: cell.text, span: cell.span, unit: None });
     };
@@ -221,18 +291,12 @@ fn head<'a>(cell: &Cell<'a>) -> Result<Head<'a>, Box<Diagnostic>> {
         return Ok(Head { name: name.trim(), span: cell.span, unit: Some(unit) });
     }
     let message = format!("`{unit}` is not a unit");
-    let help = "units stand in brackets behind the name, joined by `*` and `/`: `turn [deg]`, `feed [mm/s]`";
+    let help = format!("units stand in brackets behind the name, joined by `*` and `/`: {}", words.example);
     Err(Box::new(fault(Code::E0202, &message, cell.span, "the unit of this column").help(help)))
 }
 
 /// The number of the column of times.
 fn time_column(heads: &[Head<'_>], line: Span) -> Result<usize, Vec<Diagnostic>> {
-    for (k, head) in heads.iter().enumerate() {
-        if let Some(first) = heads[..k].iter().find(|other| other.name == head.name) {
-            let message = format!("column `{}` stands there twice", head.name);
-            return Err(vec![fault(Code::E0203, &message, head.span, "again").also(first.span, "first here")]);
-        }
-    }
     let Some(at) = heads.iter().position(|head| head.name == "t") else {
         let help = "the first line names the columns: `t` or `t [ms]` for the times, and the inputs".to_owned();
         let is_time = |head: &&Head<'_>| head.name.split('[').next().is_some_and(|name| name.trim() == "t");
@@ -249,18 +313,18 @@ fn time_column(heads: &[Head<'_>], line: Span) -> Result<usize, Vec<Diagnostic>>
 }
 
 /// The numbers of a line.
-fn row_of(line: &Line<'_>, cells: &[Cell<'_>], heads: &[Head<'_>]) -> Result<Vec<f64>, Vec<Diagnostic>> {
+fn row_of(line: &Line<'_>, cells: &[Cell<'_>], heads: &[Head<'_>], words: Words) -> Result<Vec<f64>, Vec<Diagnostic>> {
     if cells.len() != heads.len() {
         if let Some(found) = line.other_separator().filter(|_| cells.len() == 1) {
-            return Err(vec![line.separated_by(found)]);
+            return Err(vec![line.separated_by(found, words)]);
         }
         let count = if cells.len() == 1 { "1 cell".to_owned() } else { format!("{} cells", cells.len()) };
-        let message = format!("a row of samples has {count}, and the first line {}", heads.len());
+        let message = format!("a row of {} has {count}, and the first line {}", words.many, heads.len());
         return Err(vec![fault(Code::E0416, &message, line.span, "this row").help(SEPARATORS)]);
     }
     let value = |(cell, head): (&Cell<'_>, &Head<'_>)| {
         number(cell.text).ok_or_else(|| {
-            let message = format!("a sample of `{}` is not a number", head.name);
+            let message = format!("a {} of `{}` is not a number", words.one, head.name);
             let label = if cell.text.is_empty() { "empty".to_owned() } else { format!("`{}`", cell.text) };
             vec![fault(Code::E0416, &message, cell.span, &label).also(head.span, "the column")]
         })

@@ -72,6 +72,30 @@ pub(super) enum Command {
         mechc run linkage.mech --at 0.25 --at '1/3' --format json\n  mechc run linkage.mech --set crank_length=60mm"
     )]
     Run(RunArguments),
+    /// Many variants of the mechanism: a row of results for each, or the motion of all
+    #[command(
+        long_about = "Many variants of the mechanism: a row of results for each, or the motion of all.\n\n\
+        --vary says which params vary. `NAME=A..B:N` are N values from A to B, both included (a range of repetition leaves its end out); \
+        N = 1 is A, and B may be less than A. `NAME=A,B,C` is a list, `@FILE.csv` a table of variants with a column for each param, units in \
+        brackets (`rod [mm],speed [rpm]`). Several of them are combined, each value with each other, the last fastest. `NAME=A..B` without \
+        a number of values, with --sample N, are N points within all such ranges, by Sobol's sequence or at random. A point of a drawing \
+        varies as `A.x`.\n\n\
+        Without more, the table has a row for each variant: its number, its params and results in SI, its `status`, and when it stopped. \
+        --result adds results to those of the file. With --rows it has the whole motion of each variant instead: its number, its params, and the columns \
+        of `mechc run`, of which --columns chooses.\n\n\
+        A variant is assembled with the file's own values, and led over to its params along the branch, as `mechc run --lead --set` does it: the \
+        numbers are the same, to the bit, whatever the number of threads. `status` is `ok`; `reassembled` where no way leads there, and the numbers \
+        are those of `mechc run --set`; or the code that stopped it, whose page `mechc explain` has. At the end each is counted, with the first of \
+        them as a command.\n\n\
+        Ctrl-C ends it with whole variants, and tells how to go on. Shares that `--skip K --take N` makes are, put together, the whole. The exit code \
+        is 0 if any variant ran to its end, else 3.",
+        after_help = "Examples:\n  mechc sweep linkage.mech --vary rod=100mm..200mm:50 --result 'stroke = max(x(tip)) - min(x(tip))'\n  \
+        mechc sweep linkage.mech --vary rod=100mm..200mm:11 --vary speed=60rpm,90rpm -o variants.csv\n  \
+        mechc sweep linkage.mech --vary rod=100mm..200mm --vary A.x=0..20mm --sample 100000 -o variants.parquet\n  \
+        mechc sweep linkage.mech --vary @variants.csv --rows --columns 'tip.*' -o motion.parquet\n  \
+        mechc sweep linkage.mech --vary rod=100mm..200mm:1000 --until 'stroke > 80 mm'"
+    )]
+    Sweep(SweepArguments),
     /// The mechanism as a live page, or as a picture, still or moving
     #[command(
         long_about = "The mechanism as a live page, or as a picture, still or moving.\n\n\
@@ -408,6 +432,14 @@ pub(super) struct RunArguments {
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub at: Vec<String>,
 
+    /// Only columns of this name, where `*` stands for anything and `?` for one character: `--columns 'rod.*'`; `t` stays. Repeatable
+    #[arg(long, value_name = "PATTERN")]
+    pub columns: Vec<String>,
+
+    /// A result beside those of the file: `--result 'stroke = max(x(P)) - min(x(P))'`. Repeatable
+    #[arg(long, value_name = "NAME=FORMULA")]
+    pub result: Vec<String>,
+
     /// Differentiate every column by an input or parameter too: `--by turn` adds `crank.phi.by.turn` and so on. Repeatable
     #[arg(long, value_name = "NAME")]
     pub by: Vec<String>,
@@ -440,6 +472,127 @@ pub(super) struct RunArguments {
     /// Print to standard error where the time went
     #[arg(long)]
     pub timings: bool,
+}
+
+#[derive(Args, Debug)]
+#[allow(clippy::struct_excessive_bools)] // each is an option of its own
+pub(super) struct SweepArguments {
+    #[command(flatten)]
+    pub input: Input,
+
+    /// What varies: `rod=100mm..200mm:50` (50 values, both ends included), `speed=60rpm,90rpm`, `@variants.csv`, or `rod=100mm..200mm` with
+    /// --sample. Repeatable; all are combined
+    #[arg(long, value_name = "NAME=A..B:N", required = true, allow_hyphen_values = true)]
+    pub vary: Vec<String>,
+
+    /// So many points within the ranges that have no number of values
+    #[arg(long, value_name = "N")]
+    pub sample: Option<u64>,
+
+    /// How the points of a sample are spread; sobol if not given
+    #[arg(long, value_enum, value_name = "METHOD")]
+    pub method: Option<MethodChoice>,
+
+    /// Which of the samples of its kind it is
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
+
+    /// Where the table goes; `-` is standard output
+    #[arg(short, long, value_name = "OUT", default_value = "-")]
+    pub output: String,
+
+    /// The form of the table; by the ending of OUT if not given, else csv
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub format: Option<SheetFormat>,
+
+    /// A result beside those of the file: `--result 'stroke = max(x(P)) - min(x(P))'`. Repeatable
+    #[arg(long, value_name = "NAME=FORMULA")]
+    pub result: Vec<String>,
+
+    /// The whole motion of every variant, rather than its results
+    #[arg(long)]
+    pub rows: bool,
+
+    /// With --rows: only columns of this name, where `*` stands for anything and `?` for one character; `t` stays. Repeatable
+    #[arg(long, value_name = "PATTERN", requires = "rows")]
+    pub columns: Vec<String>,
+
+    /// Stop at the first variant with this, a condition over results and params: `--until 'stroke > 80 mm'`
+    #[arg(long, value_name = "CONDITION")]
+    pub until: Option<String>,
+
+    #[command(flatten)]
+    pub interval: Interval,
+
+    /// With --rows: only this time, followed from the start of the analysis. Repeatable
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub at: Vec<String>,
+
+    /// With --rows: differentiate every column by an input or parameter too. Repeatable
+    #[arg(long, value_name = "NAME", requires = "rows")]
+    pub by: Vec<String>,
+
+    /// With --rows: tabulate what every joint exerts and every driver and constraint supplies
+    #[arg(long, requires = "rows")]
+    pub reactions: bool,
+
+    /// Pass over the first K variants
+    #[arg(long, value_name = "K", default_value = "0", hide_default_value = true)]
+    pub skip: u64,
+
+    /// N variants at the most
+    #[arg(long, value_name = "N")]
+    pub take: Option<u64>,
+
+    /// So many threads; as many as the machine does at once if not given
+    #[arg(long, value_name = "N", value_parser = jobs)]
+    pub jobs: Option<usize>,
+
+    /// More than 10⁹ variants are meant
+    #[arg(long)]
+    pub yes: bool,
+
+    /// Bounds the residual of every equation, relative to the mechanism's size
+    #[arg(long, value_name = "X", default_value = "1e-12", value_parser = positive)]
+    pub tolerance: f64,
+
+    /// Leave redundant equations out, and check them at every time
+    #[arg(long)]
+    pub allow_redundant: bool,
+
+    /// Go on beyond a bifurcation, along the branch that continues smoothly
+    #[arg(long)]
+    pub pass_bifurcations: bool,
+}
+
+/// The form of a table of variants.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum SheetFormat {
+    /// A header, then a line per row
+    Csv,
+    /// An object a line: {"variant": 0, …}
+    Json,
+    /// Apache Parquet
+    Parquet,
+}
+
+/// How a sample is spread.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum MethodChoice {
+    /// Evenly, by Sobol's sequence: any first part of it fills the ranges
+    Sobol,
+    /// Each point for itself
+    Random,
+}
+
+/// More threads than this are no help on any machine.
+const MOST_JOBS: usize = 1024;
+
+fn jobs(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(jobs) if (1..=MOST_JOBS).contains(&jobs) => Ok(jobs),
+        _ => Err(format!("a whole number from 1 to {MOST_JOBS} is wanted")),
+    }
 }
 
 #[derive(Args, Debug)]

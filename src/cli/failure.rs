@@ -8,7 +8,7 @@ pub(super) const INPUT: u8 = 1;
 /// Wrong usage.
 const USAGE: u8 = 2;
 /// The analysis could not be completed.
-const ANALYSIS: u8 = 3;
+pub(super) const ANALYSIS: u8 = 3;
 /// A file could not be read or written.
 const FILES: u8 = 4;
 

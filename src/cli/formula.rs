@@ -3,12 +3,11 @@
 use super::arguments::FormulaArguments;
 use super::failure::{Failure, unusable};
 use super::files;
-use super::input;
 use super::report::Reporter;
 use crate::analysis::Times;
 use crate::diag::Diagnostics;
 use crate::expr::number;
-use crate::stages::{Formula, NAMES};
+use crate::stages::{self, Formula, NAMES};
 
 pub(super) fn formula(arguments: &FormulaArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     if matches!(arguments.formula.trim(), "" | "-") {
@@ -18,8 +17,8 @@ pub(super) fn formula(arguments: &FormulaArguments, reporter: &mut Reporter) -> 
     }
     let formula = Formula::of(&arguments.formula, &mut reporter.sources)?;
     reporter.print(formula.remarks());
-    let at = |text: &String| input::time("--at", text, &mut reporter.sources);
-    let times = arguments.at.iter().map(at).collect::<Result<Vec<f64>, Failure>>()?;
+    let at = |text: &String| stages::seconds("--at", text, &mut reporter.sources);
+    let times = arguments.at.iter().map(at).collect::<Result<Vec<f64>, Diagnostics>>()?;
     let (mut rows, mut failed) = (Vec::new(), Diagnostics::default());
     for t in Times::listed(0.0, times).iter() {
         match formula.values(t) {

@@ -7,8 +7,7 @@ use super::report::Reporter;
 use super::timings::{Phase, Timings};
 use crate::cancel::Cancel;
 use crate::diag::Diagnostics;
-use crate::source::Sources;
-use crate::stages::{self, Checked, Choice, Compiled, Parsed, Redundant};
+use crate::stages::{Checked, Choice, Compiled, Parsed, Redundant};
 use crate::world::World;
 use std::mem::ManuallyDrop;
 use std::path::Path;
@@ -98,9 +97,4 @@ pub(super) fn checked_in(
     reporter.named.extend(checked.named_files());
     let said = checked.diagnostics().clone();
     reporter.settle(checked.is_sound().then_some(checked), said)
-}
-
-/// A time of the command line (s): a number of seconds, or a formula with units.
-pub(super) fn time(option: &str, text: &str, sources: &mut Sources) -> Result<f64, Failure> {
-    Ok(stages::seconds(option, text, sources)?)
 }

@@ -1,12 +1,38 @@
 //! What is half done when the user interrupts it is taken away: temporary files, and folders that are still empty.
 
+use crate::cancel::Cancel;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicI32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 #[cfg(unix)]
 use std::{fs, process};
 
 /// Files and folders that are not yet what they are meant to be, in the order in which they were made.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// What the first interruption ends, so that what is done is kept; the second one takes it away.
+static GRACEFUL: Mutex<Option<Cancel>> = Mutex::new(None);
+
+/// The signal that has ended it, or 0.
+static CAUGHT: AtomicI32 = AtomicI32::new(0);
+
+/// From here on the first interruption ends this work, and the command comes to its end with what is done.
+pub(super) fn end_gracefully(work: &Cancel) {
+    *GRACEFUL.lock().unwrap_or_else(PoisonError::into_inner) = Some(work.clone());
+}
+
+/// The exit code of a command that an interruption has brought to its end.
+pub(super) fn caught() -> Option<u8> {
+    let signal = CAUGHT.load(Ordering::Relaxed);
+    u8::try_from(signal).ok().filter(|signal| *signal > 0).map(|signal| 128 + signal)
+}
+
+/// Ends the work that may come to its end; whether there was any.
+fn end(signal: i32) -> bool {
+    let work = GRACEFUL.lock().unwrap_or_else(PoisonError::into_inner).take();
+    CAUGHT.store(signal, Ordering::Relaxed);
+    work.inspect(Cancel::cancel).is_some()
+}
 
 /// The list of them. While it is held nothing is interrupted, so that what is made or moved to its place is on the list or not,
 /// and never in between.
@@ -21,7 +47,7 @@ pub(super) fn watch() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     let wanted = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
     if let Ok(mut signals) = signal_hook::iterator::Signals::new(wanted) {
-        let wait = move || signals.forever().next().map_or((), abandon);
+        let wait = move || signals.forever().filter(|signal| !end(*signal)).for_each(abandon);
         // without the thread a signal would do nothing at all
         if std::thread::Builder::new().name("interrupts".to_owned()).spawn(wait).is_err() {
             process::abort();

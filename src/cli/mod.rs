@@ -4,6 +4,7 @@
 
 mod arguments;
 mod check;
+mod columns;
 mod dump;
 mod emit;
 mod endings;
@@ -25,6 +26,8 @@ mod report;
 mod results;
 mod run;
 mod spared;
+mod summary;
+mod sweep;
 mod times;
 mod timings;
 mod usage;
@@ -51,6 +54,7 @@ pub fn main() -> ExitCode {
         Command::Emit(emit) => reported(&emit.input.messages, |reporter| emit::emit(&emit, reporter)),
         Command::Dump(dump) => reported(&dump.input.messages, |reporter| dump::dump(&dump, reporter)),
         Command::Run(run) => reported(&run.input.messages, |reporter| run::run(&run, reporter)),
+        Command::Sweep(sweep) => reported(&sweep.input.messages, |reporter| sweep::sweep(&sweep, reporter)),
         Command::View(view) => reported(&view.input.messages, |reporter| view::view(&view, reporter)),
         Command::Formula(formula) => reported(&formula.messages, |reporter| formula::formula(&formula, reporter)),
         Command::Explain(explain) => reported(&explain.messages, |_| explain::explain(&explain)),

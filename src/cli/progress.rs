@@ -36,14 +36,27 @@ impl Progress {
     pub fn tick(&mut self) {
         self.done += 1;
         let often = self.total < 100 * ROWS;
-        if !self.wanted || !(often || self.done.is_multiple_of(ROWS)) {
+        if often || self.done.is_multiple_of(ROWS) {
+            self.draw();
+        }
+    }
+
+    /// So many are done at once.
+    pub fn advance(&mut self, count: u64) {
+        self.done += count;
+        self.draw();
+    }
+
+    fn draw(&mut self) {
+        if !self.wanted {
             return;
         }
         match &self.bar {
             Some(bar) => bar.set_position(self.done),
             None if self.began.elapsed() > PATIENCE => {
                 let bar = ProgressBar::new(self.total);
-                let template = format!("{{bar:40}} {{human_pos}} of {{human_len}} {}, {{eta}} left", self.what);
+                let template =
+                    format!("{{bar:40}} {{human_pos}} of {{human_len}} {}, {{per_sec}}, {{eta}} left", self.what);
                 if let Ok(style) = ProgressStyle::with_template(&template) {
                     bar.set_style(style);
                 }

@@ -1,6 +1,7 @@
 //! `mechc run`: the kinematic analysis, as a table.
 
 use super::arguments::{Format, RunArguments};
+use super::columns;
 use super::endings;
 use super::failure::{Failure, unusable};
 use super::files::Output;
@@ -28,11 +29,14 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
         by: arguments.by.clone(),
         lead: arguments.lead,
         reactions: arguments.reactions,
+        results: arguments.result.clone(),
         ..input::choice(&arguments.input)
     };
     let compiled = input::compiled_as(&parsed, &choice, arguments.allow_redundant, reporter, &mut timings)?;
     let compiled = ManuallyDrop::new(compiled);
-    let times = times::asked((&arguments.interval, &arguments.at), compiled.analysis(), &mut reporter.sources)?;
+    let asked = times::asked((&arguments.interval, &arguments.at), compiled.analysis(), &mut reporter.sources)?;
+    let times = asked.times()?;
+    let wanted = columns::chosen(&arguments.columns, &compiled.columns())?;
     let output = Output::open(&arguments.output, &reporter.spared())?;
     let results = results::open(arguments.results.as_deref(), &arguments.output, &reporter.spared())?;
     if format == TableFormat::Parquet && output.is_terminal() {
@@ -46,7 +50,7 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     let (run, said) = compiled.run(&times, &options);
     let run = reporter.settle(run, said)?;
     let names = compiled.results();
-    let ended = Table { output, format, timings, results, names: &names }.write(run)?;
+    let ended = Table { output, format, wanted, timings, results, names: &names }.write(run)?;
     reporter.print(&ended.remarks);
     if !reporter.is_for_programs() {
         Reporter::say(&results::told(&names, &ended.answers));
@@ -71,6 +75,8 @@ struct Ended {
 struct Table<'n> {
     output: Output,
     format: TableFormat,
+    /// The columns that are wanted.
+    wanted: Vec<usize>,
     timings: Timings,
     /// Where the results go, if they are wanted, and what they are called.
     results: Option<Output>,
@@ -80,7 +86,9 @@ struct Table<'n> {
 impl Table<'_> {
     /// Writes the rows as they come. Where the motion cannot go on, the rows before are kept.
     fn write(mut self, mut run: Run) -> Result<Ended, Failure> {
-        let (columns, units, count) = (run.columns().to_vec(), run.units().to_vec(), run.times().len());
+        let columns: Vec<String> = self.wanted.iter().map(|&k| run.columns()[k].clone()).collect();
+        let units: Vec<ColumnUnit> = self.wanted.iter().map(|&k| run.units()[k].clone()).collect();
+        let (wanted, count) = (&self.wanted, run.times().len());
         if std::io::stderr().is_terminal()
             && let Some(text) = beforehand(count, columns.len(), self.format)
         {
@@ -98,7 +106,7 @@ impl Table<'_> {
                 match row {
                     Ok(row) => {
                         printed.clear();
-                        printed.extend(units.iter().zip(row).map(|(unit, &value)| unit.printed(value)));
+                        printed.extend(units.iter().zip(wanted).map(|(unit, &k)| unit.printed(row[k])));
                         table.row(&printed)?;
                     }
                     Err(diagnostic) => {

@@ -177,6 +177,26 @@ impl ConstraintSystem {
         self.analysis
     }
 
+    /// The values of the parameters, in the order of their symbols.
+    #[must_use]
+    pub fn values_of_params(&self) -> Vec<f64> {
+        self.params.iter().map(|param| param.value).collect()
+    }
+
+    /// The same mechanism with other values of its parameters, in the order of their symbols. What was found by their values stays as it is:
+    /// the scales of coordinates, and the estimates of contacts that were searched for.
+    #[must_use]
+    pub fn with_values(&self, values: &[f64]) -> ConstraintSystem {
+        let mut system = self.clone();
+        for (param, value) in system.params.iter_mut().zip(values) {
+            param.value = *value;
+        }
+        if let Some(formulas) = system.analysis_formulas {
+            system.analysis = Some(formulas.map(|formula| system.value_at(formula, &[])));
+        }
+        system
+    }
+
     /// By what derivatives are asked for, at fixed time.
     #[must_use]
     pub fn variables(&self) -> &[Variable] {
@@ -214,6 +234,11 @@ impl ConstraintSystem {
         for (joint, place) in places {
             self.declarations[joint].at = Some(place);
         }
+    }
+
+    /// Gives it the formulas of the times of the analysis, for other values of the parameters.
+    pub fn add_analysis_formulas(&mut self, formulas: [ExprId; 3]) {
+        self.analysis_formulas = Some(formulas);
     }
 
     /// Asks it for results.

@@ -125,6 +125,8 @@ pub struct ConstraintSystem {
     length: f64,
     /// The file's analysis: first time, last time, step (s).
     analysis: Option<[f64; 3]>,
+    /// Their formulas, of parameters alone, where they are known.
+    analysis_formulas: Option<[ExprId; 3]>,
 }
 
 impl ConstraintSystem {

@@ -90,6 +90,7 @@ impl ConstraintSystem {
             asking_parts: written.asking_parts,
             length: written.length,
             analysis: written.analysis,
+            analysis_formulas: None,
         };
         system.derive(with_jerk);
         system.derive_variations();

@@ -50,6 +50,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         lowering.ask_of_the_whole(&mut system);
     }
     lowering.add_features(&mut system);
+    lowering.add_analysis_formulas(&mut system);
     debug_assert_eq!(system.validate(), Ok(()));
     system
 }
@@ -253,6 +254,16 @@ impl Lowering<'_> {
         let results = self.results();
         *system.graph_mut() = std::mem::take(&mut self.graph);
         system.add_results(results);
+    }
+
+    /// Gives a system the formulas of the times of its analysis. They change nothing of what is there.
+    fn add_analysis_formulas(&mut self, system: &mut ConstraintSystem) {
+        if let Some(analysis) = self.model.analysis {
+            self.graph = std::mem::take(system.graph_mut());
+            let formulas = analysis.formulas.map(|formula| self.formula(formula));
+            *system.graph_mut() = std::mem::take(&mut self.graph);
+            system.add_analysis_formulas(formulas);
+        }
     }
 
     /// A formula of the model in this graph.

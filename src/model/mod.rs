@@ -865,6 +865,8 @@ pub struct Analysis {
     pub to: f64,
     /// Step (s).
     pub every: f64,
+    /// The formulas of these three, of parameters alone.
+    pub formulas: [ExprId; 3],
     /// The declaration.
     pub span: Span,
 }

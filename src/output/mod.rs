@@ -1,10 +1,14 @@
 //! Result tables: as text, where numbers are the shortest decimals that read back to the same `f64`, and, with the feature `parquet`, as Parquet.
 
+mod cells;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod sheet;
 
+pub use cells::{Cells, Kind, SheetColumn};
 #[cfg(feature = "parquet")]
 use parquet::ParquetWriter;
+pub use sheet::{Made, Sheet, SheetWriter};
 use std::io::{self, Write};
 
 /// The forms of a result table.
@@ -41,7 +45,15 @@ impl<W: Write + Send> TableWriter<W> {
             TableFormat::Csv => Form::Text(TextWriter::csv(out, columns)?),
             TableFormat::Json => Form::Text(TextWriter::json(out, columns, units)?),
             #[cfg(feature = "parquet")]
-            TableFormat::Parquet => Form::Parquet(Box::new(ParquetWriter::new(out, columns, units)?)),
+            TableFormat::Parquet => {
+                let column = |(name, unit): (&String, &&str)| SheetColumn {
+                    name: name.clone(),
+                    unit: (*unit).to_owned(),
+                    kind: Kind::Number,
+                };
+                let columns: Vec<SheetColumn> = columns.iter().zip(units).map(column).collect();
+                Form::Parquet(Box::new(ParquetWriter::new(out, &columns)?))
+            }
         };
         Ok(TableWriter { form })
     }
@@ -71,6 +83,11 @@ impl<W: Write + Send> TableWriter<W> {
     }
 }
 
+/// The name of a column in CSV: no name holds a quote, and a comma one of two numbers (RFC 4180).
+fn quoted(name: &str) -> String {
+    if name.contains(',') { format!("\"{name}\"") } else { name.to_owned() }
+}
+
 /// A table as CSV or JSON.
 struct TextWriter<W> {
     out: W,
@@ -82,9 +99,7 @@ struct TextWriter<W> {
 
 impl<W: Write> TextWriter<W> {
     fn csv(mut out: W, columns: &[String]) -> io::Result<TextWriter<W>> {
-        // no name holds a quote, and a comma one of two numbers (RFC 4180)
-        let quoted = |name: &String| if name.contains(',') { format!("\"{name}\"") } else { name.clone() };
-        writeln!(out, "{}", columns.iter().map(quoted).collect::<Vec<_>>().join(","))?;
+        writeln!(out, "{}", columns.iter().map(|name| quoted(name)).collect::<Vec<_>>().join(","))?;
         Ok(TextWriter { out, is_json: false, number: zmij::Buffer::new(), line: Vec::new(), rows: 0 })
     }
 

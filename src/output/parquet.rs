@@ -1,55 +1,79 @@
-//! A result table as Parquet: a column of 64-bit floating-point numbers for each of its own, with their units as
-//! the key `units` of its metadata. All but the first, the time, may
-//! miss some.
+//! A table as Parquet: a column for each of its own, 64-bit floating-point numbers for what may be missing, 64-bit integers for whole
+//! numbers, texts for words; with their units as the key `units` of its metadata.
 
-use parquet::basic::{Repetition, Type as Physical};
-use parquet::data_type::DoubleType;
+use super::cells::{Cells, Kind, SheetColumn};
+use parquet::basic::{LogicalType, Repetition, Type as Physical};
+use parquet::column::writer::ColumnWriter;
+use parquet::data_type::ByteArray;
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
-use parquet::file::writer::SerializedFileWriter;
-use parquet::schema::types::Type;
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
+use parquet::schema::types::{ColumnPath, Type};
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// Numbers that are gathered before they are written: 128 MB.
-const GROUP: usize = 1 << 24;
+/// Cells that are gathered before they are written: 32 MB of numbers.
+const GROUP: usize = 1 << 22;
 
 /// Writes a table; rows are gathered, since the format stores column after column.
 pub(super) struct ParquetWriter<W: Write + Send> {
     file: SerializedFileWriter<W>,
-    columns: usize,
-    /// Row after row.
-    gathered: Vec<f64>,
-    column: Vec<f64>,
+    gathered: Vec<Cells>,
+    rows: usize,
+    /// Numbers of a column that are there.
+    there: Vec<f64>,
     /// By row: 1 where the column has a number.
     levels: Vec<i16>,
 }
 
 impl<W: Write + Send> ParquetWriter<W> {
-    pub fn new(out: W, columns: &[String], units: &[&str]) -> io::Result<ParquetWriter<W>> {
-        let field = |(k, name): (usize, &String)| {
-            let column = Type::primitive_type_builder(name, Physical::DOUBLE);
-            let repetition = if k == 0 { Repetition::REQUIRED } else { Repetition::OPTIONAL };
-            Ok(Arc::new(column.with_repetition(repetition).build()?))
-        };
-        let fields =
-            columns.iter().enumerate().map(field).collect::<Result<Vec<_>, ParquetError>>().map_err(into_io)?;
+    pub fn new(out: W, columns: &[SheetColumn]) -> io::Result<ParquetWriter<W>> {
+        let fields = columns.iter().enumerate().map(|(k, column)| Ok(Arc::new(field(k, column)?)));
+        let fields = fields.collect::<Result<Vec<_>, ParquetError>>().map_err(into_io)?;
         let schema = Type::group_type_builder("rows").with_fields(fields).build().map_err(into_io)?;
-        let properties = WriterProperties::builder()
+        let units: Vec<&str> = columns.iter().map(|column| column.unit.as_str()).collect();
+        let mut properties = WriterProperties::builder()
             .set_created_by(format!("mechc {}", env!("CARGO_PKG_VERSION")))
             .set_key_value_metadata(Some(vec![KeyValue::new("units".to_owned(), serde_json::json!(units).to_string())]))
             // hardly any number comes twice
             .set_dictionary_enabled(false)
-            .set_statistics_enabled(EnabledStatistics::Chunk)
-            .build();
-        let file = SerializedFileWriter::new(out, Arc::new(schema), Arc::new(properties)).map_err(into_io)?;
-        Ok(ParquetWriter { file, columns: columns.len(), gathered: Vec::new(), column: Vec::new(), levels: Vec::new() })
+            .set_statistics_enabled(EnabledStatistics::Chunk);
+        for column in columns.iter().filter(|column| column.kind == Kind::Word) {
+            properties = properties.set_column_dictionary_enabled(ColumnPath::new(vec![column.name.clone()]), true);
+        }
+        let file = SerializedFileWriter::new(out, Arc::new(schema), Arc::new(properties.build())).map_err(into_io)?;
+        let gathered = columns.iter().map(|column| Cells::none(column.kind)).collect();
+        Ok(ParquetWriter { file, gathered, rows: 0, there: Vec::new(), levels: Vec::new() })
     }
 
+    /// A row of numbers alone.
     pub fn row(&mut self, values: &[f64]) -> io::Result<()> {
-        self.gathered.extend_from_slice(values);
-        if self.gathered.len() + self.columns > GROUP { self.write_group() } else { Ok(()) }
+        for (column, &value) in self.gathered.iter_mut().zip(values) {
+            if let Cells::Numbers(numbers) = column {
+                numbers.push(value);
+            }
+        }
+        self.gathered(1)
+    }
+
+    /// Rows, column by column.
+    pub fn block(&mut self, cells: Vec<Cells>) -> io::Result<()> {
+        let rows = cells.first().map_or(0, Cells::count);
+        for pair in self.gathered.iter_mut().zip(cells) {
+            match pair {
+                (Cells::Whole(all), Cells::Whole(more)) => all.extend(more),
+                (Cells::Numbers(all), Cells::Numbers(more)) => all.extend(more),
+                (Cells::Words(all), Cells::Words(more)) => all.extend(more),
+                _ => return Err(io::Error::other("a column of another kind")),
+            }
+        }
+        self.gathered(rows)
+    }
+
+    fn gathered(&mut self, more: usize) -> io::Result<()> {
+        self.rows += more;
+        if (self.rows + 1) * self.gathered.len() > GROUP { self.write_group() } else { Ok(()) }
     }
 
     /// Ends the table and gives the writer back, flushed.
@@ -61,29 +85,78 @@ impl<W: Write + Send> ParquetWriter<W> {
     }
 
     fn write_group(&mut self) -> io::Result<()> {
-        if self.gathered.is_empty() {
+        if std::mem::take(&mut self.rows) == 0 {
             return Ok(());
         }
         let mut group = self.file.next_row_group().map_err(into_io)?;
-        let mut k = 0;
-        while let Some(mut column) = group.next_column().map_err(into_io)? {
-            self.column.clear();
-            let values = self.gathered.iter().copied().skip(k).step_by(self.columns);
-            self.levels.clear();
-            if k > 0 {
-                self.levels.extend(values.clone().map(|value| i16::from(value.is_finite())));
-                self.column.extend(values.filter(|value| value.is_finite()));
-            } else {
-                self.column.extend(values);
+        for (k, cells) in self.gathered.iter_mut().enumerate() {
+            let Some(mut column) = group.next_column().map_err(into_io)? else { break };
+            // the first column misses none
+            let has_levels = k > 0;
+            match cells {
+                Cells::Numbers(numbers) => {
+                    self.there.clear();
+                    self.there.extend(numbers.iter().filter(|value| !has_levels || value.is_finite()));
+                    self.levels.clear();
+                    self.levels.extend(numbers.iter().map(|value| i16::from(value.is_finite())));
+                    write(&mut column, &self.there, has_levels.then_some(self.levels.as_slice()))?;
+                    numbers.clear();
+                }
+                Cells::Whole(numbers) => {
+                    write_whole(&mut column, numbers)?;
+                    numbers.clear();
+                }
+                Cells::Words(words) => {
+                    write_words(&mut column, words)?;
+                    words.clear();
+                }
             }
-            let levels = (k > 0).then_some(self.levels.as_slice());
-            column.typed::<DoubleType>().write_batch(&self.column, levels, None).map_err(into_io)?;
             column.close().map_err(into_io)?;
-            k += 1;
         }
-        group.close().map_err(into_io)?;
-        self.gathered.clear();
-        Ok(())
+        group.close().map_err(into_io).map(|_| ())
+    }
+}
+
+/// A column in the schema; the first one misses no number.
+fn field(k: usize, column: &SheetColumn) -> Result<Type, ParquetError> {
+    let of = |physical| Type::primitive_type_builder(&column.name, physical);
+    match column.kind {
+        Kind::Whole => of(Physical::INT64).with_repetition(Repetition::REQUIRED),
+        Kind::Number if k == 0 => of(Physical::DOUBLE).with_repetition(Repetition::REQUIRED),
+        Kind::Number => of(Physical::DOUBLE).with_repetition(Repetition::OPTIONAL),
+        Kind::Word => {
+            of(Physical::BYTE_ARRAY).with_logical_type(Some(LogicalType::String)).with_repetition(Repetition::REQUIRED)
+        }
+    }
+    .build()
+}
+
+fn write(column: &mut SerializedColumnWriter<'_>, numbers: &[f64], levels: Option<&[i16]>) -> io::Result<()> {
+    match column.untyped() {
+        ColumnWriter::DoubleColumnWriter(column) => {
+            column.write_batch(numbers, levels, None).map_err(into_io).map(|_| ())
+        }
+        _ => Err(io::Error::other("a column of another kind")),
+    }
+}
+
+fn write_whole(column: &mut SerializedColumnWriter<'_>, numbers: &[u64]) -> io::Result<()> {
+    let numbers: Vec<i64> = numbers.iter().map(|&number| i64::try_from(number).unwrap_or(i64::MAX)).collect();
+    match column.untyped() {
+        ColumnWriter::Int64ColumnWriter(column) => {
+            column.write_batch(&numbers, None, None).map_err(into_io).map(|_| ())
+        }
+        _ => Err(io::Error::other("a column of another kind")),
+    }
+}
+
+fn write_words(column: &mut SerializedColumnWriter<'_>, words: &[&'static str]) -> io::Result<()> {
+    let words: Vec<ByteArray> = words.iter().map(|&word| ByteArray::from(word)).collect();
+    match column.untyped() {
+        ColumnWriter::ByteArrayColumnWriter(column) => {
+            column.write_batch(&words, None, None).map_err(into_io).map(|_| ())
+        }
+        _ => Err(io::Error::other("a column of another kind")),
     }
 }
 
@@ -100,7 +173,7 @@ fn into_io(error: ParquetError) -> io::Error {
 
 #[cfg(test)]
 mod tests {
-    use super::{GROUP, ParquetWriter};
+    use super::{GROUP, Kind, ParquetWriter, SheetColumn};
     use parquet::file::reader::{FileReader, SerializedFileReader};
     use parquet::record::RowAccessor;
 
@@ -108,10 +181,20 @@ mod tests {
         SerializedFileReader::new(bytes::Bytes::from(bytes)).unwrap()
     }
 
+    /// Columns of numbers.
+    fn columns(columns: &[(&str, &str)]) -> Vec<SheetColumn> {
+        let column = |(name, unit): &(&str, &str)| SheetColumn {
+            name: (*name).to_owned(),
+            unit: (*unit).to_owned(),
+            kind: Kind::Number,
+        };
+        columns.iter().map(column).collect()
+    }
+
     #[test]
     fn what_is_written_reads_back_to_the_same_bits() {
-        let columns = ["t".to_owned(), "rod.phi.dd".to_owned()];
-        let mut writer = ParquetWriter::new(Vec::new(), &columns, &[]).unwrap();
+        let columns = columns(&[("t", "s"), ("rod.phi.dd", "rad/s^2")]);
+        let mut writer = ParquetWriter::new(Vec::new(), &columns).unwrap();
         let rows = [[0.0, 0.1 + 0.2], [1.0, -5e-324], [2.0, f64::MAX]];
         for row in &rows {
             writer.row(row).unwrap();
@@ -119,7 +202,7 @@ mod tests {
         let reader = read(writer.finish().unwrap());
         let schema = reader.metadata().file_metadata().schema_descr();
         let names: Vec<String> = schema.columns().iter().map(|column| column.name().to_owned()).collect();
-        assert_eq!(names, columns);
+        assert_eq!(names, ["t", "rod.phi.dd"]);
         let found: Vec<[u64; 2]> = reader
             .get_row_iter(None)
             .unwrap()
@@ -131,8 +214,7 @@ mod tests {
 
     #[test]
     fn the_units_are_metadata() {
-        let columns = ["t".to_owned(), "lift".to_owned()];
-        let writer = ParquetWriter::new(Vec::new(), &columns, &["s", "mm"]).unwrap();
+        let writer = ParquetWriter::new(Vec::new(), &columns(&[("t", "s"), ("lift", "mm")])).unwrap();
         let reader = read(writer.finish().unwrap());
         let pairs = reader.metadata().file_metadata().key_value_metadata().unwrap();
         let units = pairs.iter().find(|pair| pair.key == "units").unwrap();
@@ -141,8 +223,7 @@ mod tests {
 
     #[test]
     fn what_is_missing_is_null() {
-        let columns = ["t".to_owned(), "gain".to_owned()];
-        let mut writer = ParquetWriter::new(Vec::new(), &columns, &[]).unwrap();
+        let mut writer = ParquetWriter::new(Vec::new(), &columns(&[("t", "s"), ("gain", "1")])).unwrap();
         for row in [[0.0, 1.5], [1.0, f64::NAN], [2.0, f64::INFINITY], [3.0, 2.5]] {
             writer.row(&row).unwrap();
         }
@@ -154,8 +235,9 @@ mod tests {
 
     #[test]
     fn a_long_table_is_written_in_groups() {
-        let columns: Vec<String> = (0..1000).map(|k| format!("c{k}")).collect();
-        let mut writer = ParquetWriter::new(Vec::new(), &columns, &[]).unwrap();
+        let names: Vec<String> = (0..1000).map(|k| format!("c{k}")).collect();
+        let columns = columns(&names.iter().map(|name| (name.as_str(), "1")).collect::<Vec<_>>());
+        let mut writer = ParquetWriter::new(Vec::new(), &columns).unwrap();
         let row: Vec<f64> = (0..1000).map(f64::from).collect();
         let rows = GROUP / 1000 + 10;
         (0..rows).for_each(|_| writer.row(&row).unwrap());
@@ -166,7 +248,7 @@ mod tests {
 
     #[test]
     fn a_table_without_rows_is_a_table() {
-        let reader = read(ParquetWriter::new(Vec::new(), &["t".to_owned()], &[]).unwrap().finish().unwrap());
+        let reader = read(ParquetWriter::new(Vec::new(), &columns(&[("t", "s")])).unwrap().finish().unwrap());
         assert_eq!(reader.metadata().file_metadata().num_rows(), 0);
     }
 }

@@ -20,6 +20,10 @@ use std::sync::{Arc, OnceLock};
 /// What messages call the settings of what varies.
 pub(super) const VARY: &str = "--vary";
 
+/// What messages call results that the command line adds, and the condition that ends a sweep.
+const RESULT: &str = "--result";
+pub(super) const UNTIL: &str = "--until";
+
 /// Which mechanism of a file is meant, and what is set in it from outside.
 #[derive(Clone, Debug, Default)]
 pub struct Choice {
@@ -35,6 +39,10 @@ pub struct Choice {
     pub inputs: Vec<String>,
     /// A CSV file with samples of inputs.
     pub samples: Option<PathBuf>,
+    /// Results beside those of the text: `NAME = FORMULA`, each as if the text held it.
+    pub results: Vec<String>,
+    /// What a variant is looked for by: a condition over results and params.
+    pub until: Option<String>,
     /// Inputs and parameters by which all columns are differentiated, each as columns of its own, behind all others.
     pub by: Vec<String>,
     /// Whether what all joints exert and all drivers supply is tabulated.
@@ -136,11 +144,15 @@ impl Checked {
         let mut diagnostics = parsed.faults().clone();
         diagnostics.extend(check::check_file(parsed.tree()));
         diagnostics.extend(used.said.clone());
+        let more = asked_results(choice, &mut sources).unwrap_or_else(|why| {
+            diagnostics.extend(why);
+            Vec::new()
+        });
+        let parsed = &parsed.with_items(number, more);
         let tree = &parsed.tree().mechanisms[number];
         let settings = settings(choice, &mut sources);
         let given = given(choice, world, &mut sources);
         let files = table_files(&library, with_parts(&library, tree, &sources), world, &mut sources);
-        let (mut model, mut leading, mut checked_with) = (None, None, Surroundings::default());
         let leads_params = choice.lead && !choice.set.is_empty();
         let is_told = !choice.inputs.is_empty() || choice.samples.is_some() || leads_params;
         let spaceless = |name: &String| syntax::normalized(name).chars().filter(|c| !c.is_whitespace()).collect();
@@ -164,20 +176,44 @@ impl Checked {
                     pictures_forces,
                     ..Surroundings::default()
                 };
-                checked_with = surroundings.clone();
-                let (found, said) = check::check(tree, &surroundings, &sources);
-                diagnostics.extend(said);
-                model = found.filter(|_| !diagnostics.has_errors()).map(Arc::new);
-                let sources = sources.clone();
-                let has_parts = model.as_ref().is_some_and(|model| !model.parts.is_empty());
-                let read = parsed.shared();
-                leading = (is_told || has_parts)
-                    .then(|| Arc::new(Leading { read, number, surroundings, sources, is_told, leads_params }));
+                let parsed = parsed.with_sources(sources);
+                let checked =
+                    Checked::in_surroundings(parsed, number, surroundings, [is_told, leads_params], diagnostics);
+                return if leads_params { checked.unless_counts_are_led() } else { checked };
             }
         }
-        let checked = Checked::with(parsed.with_sources(sources), Some(number), library, model, diagnostics);
-        let checked = Checked { leading, surroundings: Arc::new(checked_with), ..checked };
-        if leads_params { checked.unless_counts_are_led() } else { checked }
+        Checked::with(parsed.with_sources(sources), Some(number), library, None, diagnostics)
+    }
+
+    /// The mechanism of a number with all that it is checked with: whether it is told something that leads it, and whether parameters are led;
+    /// behind what is to be said already.
+    fn in_surroundings(
+        parsed: Parsed,
+        number: usize,
+        surroundings: Surroundings,
+        [is_told, leads_params]: [bool; 2],
+        mut diagnostics: Diagnostics,
+    ) -> Checked {
+        let (found, said) = check::check(&parsed.tree().mechanisms[number], &surroundings, parsed.sources());
+        diagnostics.extend(said);
+        let model = found.filter(|_| !diagnostics.has_errors()).map(Arc::new);
+        let has_parts = model.as_ref().is_some_and(|model| !model.parts.is_empty());
+        let leading = (is_told || has_parts).then(|| {
+            let (read, sources, surroundings) = (parsed.shared(), parsed.sources().clone(), surroundings.clone());
+            Arc::new(Leading { read, number, surroundings, sources, is_told, leads_params })
+        });
+        let library = surroundings.library.clone();
+        let checked = Checked::with(parsed, Some(number), library, model, diagnostics);
+        Checked { leading, surroundings: Arc::new(surroundings), ..checked }
+    }
+
+    /// The same with more params set, over those that are set already, to which it is led; with the texts that say what they are.
+    pub(super) fn led_to(&self, settings: impl IntoIterator<Item = Setting>, sources: &Sources) -> Checked {
+        let Some(number) = self.number else { return self.clone() };
+        let mut surroundings = (*self.surroundings).clone();
+        surroundings.settings.extend(settings);
+        let parsed = self.parsed.with_sources(sources.clone());
+        Checked::in_surroundings(parsed, number, surroundings, [true, true], Diagnostics::default())
     }
 
     /// Refuses to lead what decides how often something is there: no way leads from one number of bodies to another.
@@ -449,6 +485,33 @@ fn settings(choice: &Choice, sources: &mut Sources) -> Result<Vec<Setting>, Diag
     let mut formulas = option("--set").read(&choice.set, sources)?;
     formulas.extend(option(VARY).read(&choice.varied, sources)?);
     Ok(formulas.into_iter().map(|(path, value)| Setting { path, value }).collect())
+}
+
+/// The results that are asked for beside those of the text.
+fn asked_results(choice: &Choice, sources: &mut Sources) -> Result<Vec<ast::Item>, Diagnostics> {
+    let (mut said, mut items) = (Diagnostics::default(), Vec::new());
+    for text in &choice.results {
+        let file = sources.add_option(RESULT, format!("result {}", text.trim()));
+        match syntax::parse_declaration(sources, file) {
+            Ok(item) => items.push(item),
+            Err(why) => said.extend(why),
+        }
+    }
+    if let Some(condition) = &choice.until {
+        let file = sources.add_option(UNTIL, format!("if {} then 1 else 0", condition.trim()));
+        match syntax::parse_expression(sources, file) {
+            Ok(value) => items.push(until(value)),
+            Err(why) => said.extend(why),
+        }
+    }
+    if said.has_errors() { Err(said) } else { Ok(items) }
+}
+
+/// The result that is 1 for the variant that is looked for; no text can name it.
+fn until(value: ast::Expr) -> ast::Item {
+    let name = ast::Name { text: UNTIL.to_owned(), span: value.span };
+    let (span, kind) = (value.span, ast::ItemKind::Result { name, value, unit: None });
+    ast::Item { docs: Vec::new(), span, ranges: Vec::new(), kind }
 }
 
 /// What inputs are told to be.

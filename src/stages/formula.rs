@@ -63,6 +63,11 @@ impl Formula {
         &self.remarks
     }
 
+    /// Its dimension; nothing for a formula that holds no unit.
+    pub(super) fn known_dimension(&self) -> Option<Dimension> {
+        self.dimension
+    }
+
     /// The values at a time (s), unless one of them is no number or the formula has no meaning there.
     ///
     /// # Errors

@@ -89,7 +89,7 @@ impl Checked {
         for param in &model.params {
             let name = &param.declared.name;
             if name.contains('.') && !knobs[..own].iter().any(|knob| knob.name == *name) {
-                let (value, unit) = (param.value, si_unit(param.dimension, [""; 2]));
+                let (value, unit) = (param.value, si_unit(param.dimension, false));
                 knobs.push(Knob { name: name.clone(), unit, value, formula: None, place: None, leads: true });
             }
         }
@@ -112,7 +112,7 @@ impl Checked {
         }
         let (unit, value) = match unit {
             Some((unit, [over, times, by])) => (unit, rounded(si / over * times / by)),
-            None => (si_unit(dimension, [if is_angle { "rad" } else { "" }; 2]), si),
+            None => (si_unit(dimension, is_angle), si),
         };
         Knob { name: name.to_owned(), unit, value, formula: Some(text.to_owned()), place, leads: true }
     }

@@ -135,6 +135,16 @@ impl Parsed {
         &self.read.tree
     }
 
+    /// The same, with more declarations behind those of one of its mechanisms, by its number.
+    pub(super) fn with_items(&self, number: usize, items: Vec<ast::Item>) -> Parsed {
+        if items.is_empty() {
+            return self.clone();
+        }
+        let mut read = (*self.read).clone();
+        read.tree.mechanisms[number].items.extend(items);
+        Parsed { read: Arc::new(read), ..self.clone() }
+    }
+
     /// The same, with more texts beside it.
     pub(super) fn with_sources(&self, sources: Sources) -> Parsed {
         Parsed { sources, ..self.clone() }

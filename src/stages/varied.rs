@@ -60,7 +60,7 @@ impl Checked {
     ) -> Result<Vec<Varied>, (Sources, Diagnostics)> {
         let own = |why: Box<Diagnostic>| (self.sources().clone(), Diagnostics::from(*why));
         let asked = read(asked).map_err(own)?;
-        refuse_twice(&asked, choice).map_err(own)?;
+        refuse_twice(asked.iter().map(|asked| &asked.name), choice).map_err(own)?;
         let reader = Reader { parsed: &self.parsed, own: self, choice, world };
         asked.iter().map(|asked| reader.varied(asked)).collect()
     }
@@ -82,9 +82,13 @@ fn read(asked: &[String]) -> Result<Vec<Asked>, Box<Diagnostic>> {
 }
 
 /// Each param is told once.
-fn refuse_twice(asked: &[Asked], choice: &Choice) -> Result<(), Box<Diagnostic>> {
-    for (k, Asked { name, .. }) in asked.iter().enumerate() {
-        if asked[..k].iter().any(|other| other.name == *name) {
+pub(super) fn refuse_twice<'n>(
+    names: impl Iterator<Item = &'n String>,
+    choice: &Choice,
+) -> Result<(), Box<Diagnostic>> {
+    let names: Vec<&String> = names.collect();
+    for (k, &name) in names.iter().enumerate() {
+        if names[..k].contains(&name) {
             return Err(unusable(format!("`{name}` is to vary twice"))
                 .help("say it once, or name another param")
                 .into());
@@ -122,25 +126,26 @@ impl Asked {
 }
 
 /// Reads what is asked for, with the mechanism that it is asked of.
-struct Reader<'r> {
-    parsed: &'r Parsed,
-    own: &'r Checked,
-    choice: &'r Choice,
-    world: &'r dyn World,
+pub(super) struct Reader<'r> {
+    pub parsed: &'r Parsed,
+    pub own: &'r Checked,
+    pub choice: &'r Choice,
+    pub world: &'r dyn World,
 }
 
 impl Reader<'_> {
     fn varied(&self, asked: &Asked) -> Result<Varied, (Sources, Diagnostics)> {
         let Asked { name, ends: [first, last], count } = asked;
-        let checked = [self.with_end(name, first)?, self.with_end(name, last)?];
+        let checked = [self.with(name, first)?, self.with(name, last)?];
         let unusable = |why: Diagnostic| (self.own.sources().clone(), why.into());
         let of_param = |checked: &Checked| checked.param_in_part(name);
         if checked.iter().any(Checked::is_sound) && checked.iter().all(|checked| of_param(checked).is_none()) {
             return Err(unusable(decides(name)));
         }
-        let si = [self.value(first)?, self.value(last)?];
+        let si = [self.value(first)?.0, self.value(last)?.0];
         let dimension = checked.iter().find_map(of_param).map_or(Dimension::PURE, |(_, dimension)| dimension);
-        let (ends, unit) = same_unit(first, last).unwrap_or_else(|| (si, si_unit(dimension, [first, last])));
+        let (ends, unit) = same_unit(first, last)
+            .unwrap_or_else(|| (si, si_unit(dimension, is_of_angles(first) || is_of_angles(last))));
         let values = grid(ends, *count);
         if values.windows(2).any(|pair| pair[0] >= pair[1]) {
             return Err(unusable(too_near(name, first, last)));
@@ -154,9 +159,9 @@ impl Reader<'_> {
         Ok(Varied { name: name.clone(), unit, values, settings, nearest, own })
     }
 
-    /// The mechanism with one end of what varies. What is wrong with the formula itself is an error; what is wrong with the mechanism
+    /// The mechanism with a value of what varies. What is wrong with the formula itself is an error; what is wrong with the mechanism
     /// because of the value is that of a variant.
-    fn with_end(&self, name: &str, formula: &str) -> Result<Checked, (Sources, Diagnostics)> {
+    pub fn with(&self, name: &str, formula: &str) -> Result<Checked, (Sources, Diagnostics)> {
         let varied = vec![format!("{name}={formula}")];
         let checked = self.parsed.check(&Choice { varied, ..self.choice.clone() }, self.world);
         let sources = checked.sources();
@@ -170,12 +175,14 @@ impl Reader<'_> {
         if wrong.is_empty() { Ok(checked) } else { Err((sources.clone(), wrong)) }
     }
 
-    /// The value of an end in SI.
-    fn value(&self, formula: &str) -> Result<f64, (Sources, Diagnostics)> {
+    /// The value of a formula in SI, and its dimension, if it has one.
+    pub fn value(&self, formula: &str) -> Result<(f64, Option<Dimension>), (Sources, Diagnostics)> {
         let mut sources = self.own.sources().clone();
-        let value =
-            Formula::of(formula, &mut sources).and_then(|formula| Ok(formula.values(0.0).map_err(|why| *why)?));
-        value.map(|[value, ..]| value).map_err(|said| (sources, said))
+        let value = Formula::of(formula, &mut sources).and_then(|formula| {
+            let [value, ..] = formula.values(0.0).map_err(|why| *why)?;
+            Ok((value, formula.known_dimension()))
+        });
+        value.map_err(|said| (sources, said))
     }
 
     /// The file's own value in SI, as far as it is known.
@@ -220,8 +227,8 @@ pub(super) fn number_and_unit(text: &str) -> Option<(f64, &str)> {
 }
 
 /// The SI unit of a dimension, empty for a pure number.
-pub(super) fn si_unit(dimension: Dimension, ends: [&str; 2]) -> String {
-    match Units::si(dimension, ends.into_iter().any(is_of_angles)).si {
+pub(super) fn si_unit(dimension: Dimension, is_angle: bool) -> String {
+    match Units::si(dimension, is_angle).si {
         unit if unit == "1" => String::new(),
         unit => unit.strip_prefix('1').map_or(unit.clone(), str::to_owned),
     }
@@ -233,7 +240,7 @@ pub(super) fn is_of_angles(formula: &str) -> bool {
 }
 
 /// A value as a formula.
-fn written(value: f64, unit: &str) -> String {
+pub(super) fn written(value: f64, unit: &str) -> String {
     if unit.is_empty() || unit.starts_with('/') { format!("{value}{unit}") } else { format!("{value} {unit}") }
 }
 
@@ -262,7 +269,7 @@ fn nearest(values: &[f64], wanted: f64) -> usize {
     (0..values.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
 }
 
-fn spaceless(name: &str) -> String {
+pub(super) fn spaceless(name: &str) -> String {
     syntax::normalized(name).chars().filter(|c| !c.is_whitespace()).collect()
 }
 
@@ -275,7 +282,7 @@ fn too_near(name: &str, first: &str, last: &str) -> Diagnostic {
     unusable(format!("`{name}` does not vary from `{first}` to `{last}`")).help("two different values are wanted")
 }
 
-fn unusable(message: String) -> Diagnostic {
+pub(super) fn unusable(message: String) -> Diagnostic {
     Diagnostic::new(Code::E0706, message)
 }
 

@@ -48,6 +48,12 @@ impl Determined {
         Some(Determined { system, blocks: self.blocks.clone() })
     }
 
+    /// The same with other values of its parameters, of which neither count nor structure knows.
+    #[must_use]
+    pub fn with_values(&self, values: &[f64]) -> Determined {
+        Determined { system: self.system.with_values(values), blocks: self.blocks.clone() }
+    }
+
     /// The blocks, in an order of solution.
     #[must_use]
     pub fn blocks(&self) -> &[Block] {

@@ -98,6 +98,19 @@ pub fn parse_expression(sources: &Sources, file: FileId) -> Result<Expr, Diagnos
         .map_err(|refused| (*piece.fault(refused, true)).into())
 }
 
+/// A declaration without a block alone, as the command line adds it to a mechanism.
+///
+/// # Errors
+/// It does not follow the grammar.
+pub fn parse_declaration(sources: &Sources, file: FileId) -> Result<Item, Diagnostics> {
+    let source = sources.get(file);
+    let piece = Piece { source, file, range: 0..source.text.len() };
+    stacker::maybe_grow(STACK, STACK, || {
+        piece.read(Rule::only_item, |reader, pair| reader.plain_item(reader.only(pair)?))
+    })
+    .map_err(|refused| (*piece.fault(refused, true)).into())
+}
+
 /// A text on its way to a tree.
 struct Reading<'a> {
     source: &'a Source,

@@ -177,7 +177,7 @@ impl Formula {
         let multipliers = if system.forces().is_some() { coordinates_and_more } else { 0 };
         let counts = [system.params().len(), coordinates_and_more, variations, multipliers];
         let (program, roots) = Program::of_formulas(&graph, counts, &formulas);
-        let params: Vec<f64> = system.params().iter().map(|param| param.value).collect();
+        let params = system.values_of_params();
         let registers = program.start(&params);
         let ranges = Ranges::new(&program, &registers, &roots, Stage::Measures, false);
         let seen = [f64::NEG_INFINITY, f64::INFINITY];

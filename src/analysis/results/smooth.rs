@@ -63,7 +63,7 @@ impl Smooth {
             Program::of_formulas(graph, [system.params().len(), system.coordinates().len(), 0, 0], &formulas);
         let mut roots = roots.into_iter();
         let towers = towers.iter().map(|tower| tower.map(|formula| formula.and_then(|_| roots.next()))).collect();
-        let params: Vec<f64> = system.params().iter().map(|param| param.value).collect();
+        let params = system.values_of_params();
         let registers = program.start(&params);
         let symbols = graph.symbols_of_all(&formulas);
         let mut coordinates: Vec<usize> = symbols.iter().filter_map(|&symbol| coordinate_of(symbol)).collect();

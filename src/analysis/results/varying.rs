@@ -26,7 +26,7 @@ impl Beside {
         let (numbers, formulas): (Vec<u32>, Vec<_>) = system.results().varied_where.iter().copied().unzip();
         let counts = [system.params().len(), system.coordinates().len(), variations, 0];
         let (program, roots) = Program::of_formulas(system.graph(), counts, &formulas);
-        let params: Vec<f64> = system.params().iter().map(|param| param.value).collect();
+        let params = system.values_of_params();
         let registers = program.start(&params);
         let hold: Vec<(u32, Register)> = numbers.into_iter().zip(roots).collect();
         (!hold.is_empty()).then_some(Beside { program, registers, hold, broken: Vec::new() })

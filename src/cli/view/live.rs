@@ -7,7 +7,7 @@ use crate::cli::arguments::{Interval, ViewArguments};
 use crate::cli::failure::{Failure, unusable};
 use crate::cli::files::{self, Disk, Output};
 use crate::cli::report::Reporter;
-use crate::cli::times::Bounds;
+use crate::cli::times;
 use crate::cli::{input, interrupts};
 use crate::diag::Diagnostics;
 use crate::live::{Host, Server, Workshop};
@@ -35,7 +35,7 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     }
     // what is not there at the begin is a mistake; what goes later may come back
     files::read(&given.file, &mut reporter.sources)?;
-    Bounds::of(&arguments.interval, None, &mut reporter.sources)?;
+    times::asked((&arguments.interval, &[]), None, &mut reporter.sources)?;
     let desk = Desk { file: given.file.clone(), interval: arguments.interval.clone() };
     let redundant = if arguments.allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
     let options = (redundant, arguments.pass_bifurcations);
@@ -86,7 +86,8 @@ impl Host for Desk {
     }
 
     fn times(&self, compiled: &Compiled, sources: &mut Sources) -> Result<Times, Diagnostics> {
-        let times = Bounds::of(&self.interval, compiled.analysis(), sources).and_then(|bounds| bounds.grid());
+        let times =
+            times::asked((&self.interval, &[]), compiled.analysis(), sources).and_then(|asked| Ok(asked.grid()?));
         times.map_err(said)
     }
 

@@ -12,7 +12,7 @@ use super::failure::{Failure, unusable};
 use super::files::{self, Disk, Output};
 use super::input;
 use super::report::Reporter;
-use super::times::Bounds;
+use super::times;
 use crate::analysis::Times;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::layout::ColumnKind;
@@ -57,13 +57,9 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
         }
         (compiled, said) => reporter.settle(compiled, said)?,
     };
-    let bounds = Bounds::of(&arguments.interval, compiled.analysis(), &mut reporter.sources)?;
-    let listed = bounds.listed(&arguments.at, &mut reporter.sources)?;
+    let asked = times::asked((&arguments.interval, &arguments.at), compiled.analysis(), &mut reporter.sources)?;
     // symbols are as large as the whole motion asks for, where it is known
-    let whole = match &listed {
-        Some(listed) if !bounds.are_known() => listed.clone(),
-        _ => bounds.grid()?,
-    };
+    let (listed, whole) = (asked.listed()?, asked.whole()?);
     let file = target.opened(reporter)?;
     let most = if target.frames.is_some() { usize::MAX } else { MOST_ROWS };
     let mut seen = match checked.seen(&compiled, &whole, &options, most) {

@@ -8,7 +8,7 @@ use crate::cli::files::{AskedOnce, Output};
 use crate::cli::input;
 use crate::cli::progress::Progress;
 use crate::cli::report::Reporter;
-use crate::cli::times::Bounds;
+use crate::cli::times;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::live::page;
 use crate::scene::{Motion, Pose, bounds};
@@ -157,8 +157,8 @@ impl Solver<'_> {
     /// Its times, which may depend on what varies.
     fn times(&self, checked: &Checked, compiled: &Compiled) -> Result<Times, Diagnostics> {
         let (arguments, mut sources) = (self.arguments, checked.sources().clone());
-        let times = Bounds::of(&arguments.interval, compiled.analysis(), &mut sources)
-            .and_then(|bounds| bounds.whole(bounds.listed(&arguments.at, &mut sources)?.as_ref()));
+        let asked = times::asked((&arguments.interval, &arguments.at), compiled.analysis(), &mut sources);
+        let times = asked.and_then(|asked| Ok(asked.whole()?));
         times.map_err(|why| match why {
             Failure::Said(said) => said,
             Failure::ReaderGone => Diagnostics::default(),

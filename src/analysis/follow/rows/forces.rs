@@ -38,7 +38,7 @@ impl ForceWatch {
         let counts = [system.params().len(), system.coordinates().len(), 0, system.rows().len()];
         let (program, mut presses) = Program::of_formulas(system.graph(), counts, &formulas);
         let loads = presses.split_off(system.presses().len());
-        let params: Vec<f64> = system.params().iter().map(|param| param.value).collect();
+        let params = system.values_of_params();
         let registers = program.start(&params);
         let coordinates = RowLayout::new(system).coordinates.map(|first| first as usize);
         let has_pulled = vec![false; presses.len()];

@@ -88,7 +88,7 @@ impl Kinematics {
         cancel: Cancel,
     ) -> Kinematics {
         let system = determined.system();
-        let params: Vec<f64> = system.params().iter().map(|param| param.value).collect();
+        let params = system.values_of_params();
         let (registers, linear) = (program.start(&params), BlockLu::new(system, determined.blocks()));
         let bent = (0..system.rows().len()).filter(|&row| is_bent(system, row)).collect();
         let looked_at_beside = (0..system.rows().len()).filter(|&row| is_looked_at_beside(system, row)).collect();

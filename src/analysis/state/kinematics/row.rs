@@ -75,7 +75,7 @@ impl Kinematics {
     pub fn with_variations_of_results(&self) -> Option<Kinematics> {
         let determined = Arc::new(self.determined.for_variations_of_results()?);
         let program = Arc::new(Program::new(determined.system()));
-        let params: Vec<f64> = determined.system().params().iter().map(|param| param.value).collect();
+        let params = determined.system().values_of_params();
         let holds = layout::holds(determined.system());
         let (registers, variations) = (program.start(&params), Varied::new(determined.system(), &holds));
         Some(Kinematics { determined, program, registers, variations, holds, ..self.clone() })

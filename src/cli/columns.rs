@@ -1,0 +1,53 @@
+//! The columns that `--columns` chooses.
+
+use super::failure::{Failure, unusable};
+use crate::diag::nearest;
+use wildmatch::WildMatch;
+
+/// The numbers of the columns that any of some patterns fits, the first column, the time, always among them; all columns where there is no
+/// pattern.
+pub(super) fn chosen(patterns: &[String], columns: &[String]) -> Result<Vec<usize>, Failure> {
+    if patterns.is_empty() {
+        return Ok((0..columns.len()).collect());
+    }
+    let mut is_chosen = vec![false; columns.len()];
+    is_chosen[0] = true;
+    for pattern in patterns {
+        let fits = WildMatch::new(pattern.trim());
+        let mut found = false;
+        for (chosen, _) in is_chosen.iter_mut().zip(columns).filter(|(_, column)| fits.matches(column)) {
+            *chosen = true;
+            found = true;
+        }
+        if !found {
+            let said = unusable(format!("there is no column `{}`", pattern.trim()));
+            let meant = nearest(pattern.trim(), columns.iter().map(String::as_str));
+            let help = meant.map_or_else(
+                || "`*` stands for anything, `?` for one character, as in `--columns 'rod.*'`".to_owned(),
+                |name| format!("was `{name}` meant?"),
+            );
+            return Err(said.help(help).into());
+        }
+    }
+    Ok((0..columns.len()).filter(|&k| is_chosen[k]).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::chosen;
+
+    #[test]
+    fn patterns_choose_by_names() {
+        let columns = ["t", "rod.x", "rod.x.d", "leg[1].x", "leg[2].x"].map(str::to_owned);
+        let of = |patterns: &[&str]| {
+            chosen(&patterns.iter().map(|&pattern| pattern.to_owned()).collect::<Vec<_>>(), &columns).ok()
+        };
+        assert_eq!(of(&[]), Some(vec![0, 1, 2, 3, 4]));
+        assert_eq!(of(&["rod.x"]), Some(vec![0, 1]));
+        assert_eq!(of(&["rod.*", "t"]), Some(vec![0, 1, 2]));
+        assert_eq!(of(&["leg[?].x"]), Some(vec![0, 3, 4]));
+        assert_eq!(of(&["leg[2].x", "rod.x"]), Some(vec![0, 1, 4]), "in the order of the table");
+        assert_eq!(of(&["rod.y"]), None);
+        assert_eq!(of(&[""]), None);
+    }
+}

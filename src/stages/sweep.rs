@@ -1,0 +1,200 @@
+//! Many variants of one mechanism, each led over to its params along the branch.
+
+use super::checked::UNTIL;
+use super::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Variants};
+use crate::cancel::Cancel;
+use crate::crew::{Crew, usual_jobs};
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::sweep::{Block, Status, Variant};
+use std::sync::Arc;
+
+/// Numbers that a piece of work holds, more or less: 2 MB.
+const NUMBERS: u64 = 1 << 18;
+/// Variants of a piece at the most, so that the first come soon.
+const MOST: u64 = 256;
+/// And at least: so many are computed side by side.
+const LEAST: u64 = 16;
+
+/// How a sweep is made.
+#[derive(Clone, Debug)]
+pub struct SweepOptions {
+    /// What is asked of the times.
+    pub times: AskedTimes,
+    /// The columns whose rows are wanted, by their numbers; results alone where this is nothing.
+    pub columns: Option<Vec<usize>>,
+    /// What becomes of equations that follow from others.
+    pub redundant: Redundant,
+    /// As a run has it.
+    pub tolerance: f64,
+    /// As a run has it.
+    pub pass_bifurcations: bool,
+    /// So many threads; as many as the machine does at once where nothing is said.
+    pub jobs: Option<usize>,
+    /// So many variants are passed over.
+    pub skip: u64,
+    /// So many are computed at the most.
+    pub take: Option<u64>,
+    /// Ends it.
+    pub cancel: Cancel,
+}
+
+impl Default for SweepOptions {
+    fn default() -> SweepOptions {
+        let RunOptions { tolerance, pass_bifurcations, cancel, .. } = RunOptions::default();
+        let (times, redundant) = (AskedTimes::default(), Redundant::default());
+        let (columns, jobs, skip, take) = (None, None, 0, None);
+        SweepOptions { times, columns, redundant, tolerance, pass_bifurcations, jobs, skip, take, cancel }
+    }
+}
+
+/// A sweep in progress: what was made of its blocks, in the order of the variants.
+pub struct Sweep<T> {
+    crew: Crew<(T, bool)>,
+    has_ended: bool,
+}
+
+impl Compiled {
+    /// The names of the results that a sweep tabulates, with their units in SI.
+    #[must_use]
+    pub fn results_of_variants(&self) -> Vec<(String, String)> {
+        let outcomes = self.system().results().outcomes.iter().filter(|outcome| outcome.name != UNTIL);
+        outcomes.map(|outcome| (outcome.name.clone(), outcome.units.si.clone())).collect()
+    }
+}
+
+impl Checked {
+    /// Computes variants of it, and gives what is made of each block of them on the threads that compute. The sweep ends behind the variant
+    /// that is looked for, if one is.
+    ///
+    /// It is sound, as the text has it; `compiled` is made of it.
+    ///
+    /// # Errors
+    /// The times are not said, where all variants have the same.
+    pub fn sweep<T: Send + 'static>(
+        &self,
+        compiled: &Compiled,
+        variants: &Variants,
+        options: &SweepOptions,
+        make: impl Fn(Block) -> T + Send + Sync + 'static,
+    ) -> Result<Sweep<T>, Box<Diagnostic>> {
+        let times = options.times.over(compiled.analysis())?.times()?;
+        let numbers = match &options.columns {
+            Some(columns) => times.len() * columns.len() as u64,
+            None => compiled.results().len() as u64 + 1,
+        };
+        let size = (NUMBERS / numbers.max(1) / LEAST * LEAST).clamp(LEAST, MOST);
+        let end = variants.points().count();
+        let first = options.skip.min(end);
+        let last = options.take.map_or(end, |take| first.saturating_add(take).min(end));
+        let results: Vec<String> = compiled.results().into_iter().map(|(name, _)| name).collect();
+        let until = results.iter().position(|name| name == UNTIL);
+        let (own, variants) = (self.clone(), variants.clone());
+        let sweeping = Arc::new(Sweeping { own, variants, options: options.clone(), results: results.len(), until });
+        let pieces = 0..(last - first).div_ceil(size);
+        let jobs = options.jobs.unwrap_or_else(usual_jobs).max(1);
+        let work = move |piece: u64| {
+            let begin = first + piece * size;
+            let (block, is_found) = sweeping.block(begin..(begin + size).min(last))?;
+            Some((make(block), is_found))
+        };
+        Ok(Sweep { crew: Crew::new(jobs, pieces, work), has_ended: false })
+    }
+}
+
+impl<T: Send + 'static> Iterator for Sweep<T> {
+    type Item = T;
+
+    /// What was made of the next block; `None` behind the last one, behind the one with the variant that is looked for, and when it was cancelled.
+    fn next(&mut self) -> Option<T> {
+        if self.has_ended {
+            return None;
+        }
+        let (made, is_found) = self.crew.next()?;
+        self.has_ended = is_found;
+        Some(made)
+    }
+}
+
+/// What all variants have in common.
+struct Sweeping {
+    own: Checked,
+    variants: Variants,
+    options: SweepOptions,
+    /// How many results there are, that of the variant that is looked for among them.
+    results: usize,
+    /// The number of the result that is 1 for the variant that is looked for.
+    until: Option<usize>,
+}
+
+impl Sweeping {
+    /// Some variants, up to the one that is looked for, and whether it is among them; nothing when it was cancelled.
+    fn block(&self, variants: std::ops::Range<u64>) -> Option<(Block, bool)> {
+        let columns = self.options.columns.as_ref().map_or(0, Vec::len);
+        let points = self.variants.points();
+        let mut block = Block::new(
+            variants.start,
+            points.params().len(),
+            self.results - usize::from(self.until.is_some()),
+            columns,
+        );
+        let mut params = vec![0.0; points.params().len()];
+        for number in variants {
+            points.values(number, &mut params);
+            let mut variant = self.variant(&params);
+            if self.options.cancel.is_cancelled() {
+                return None;
+            }
+            let found = self.until.map(|until| variant.results.remove(until));
+            block.push(&params, &variant);
+            if found == Some(1.0) {
+                return Some((block, true));
+            }
+        }
+        Some((block, false))
+    }
+
+    /// A variant as `run --lead --set` has it.
+    fn variant(&self, params: &[f64]) -> Variant {
+        let mut variant =
+            Variant { status: Status::Ok, stopped: f64::NAN, results: vec![f64::NAN; self.results], rows: Vec::new() };
+        if let Err(why) = self.run(params, &mut variant) {
+            variant.status = Status::Stopped(why.code);
+            variant.stopped = why.data.get("t").and_then(serde_json::Value::as_f64).unwrap_or(f64::NAN);
+        }
+        variant
+    }
+
+    fn run(&self, params: &[f64], variant: &mut Variant) -> Result<(), Box<Diagnostic>> {
+        let SweepOptions { tolerance, pass_bifurcations, ref cancel, .. } = self.options;
+        let checked = self.own.led_to(self.variants.read_settings(params), self.variants.sources());
+        if !checked.is_sound() {
+            return Err(first_error(checked.diagnostics()));
+        }
+        let (compiled, said) = checked.compile(self.options.redundant, cancel);
+        let compiled = compiled.ok_or_else(|| first_error(&said))?;
+        let times = self.options.times.over(compiled.analysis())?.times()?;
+        let options = RunOptions { tolerance, pass_bifurcations, cancel: cancel.clone(), ..RunOptions::default() };
+        let (run, said) = compiled.run(&times, &options);
+        let mut run = run.ok_or_else(|| first_error(&said))?;
+        if said.iter().any(|said| said.code == Code::E0612) {
+            variant.status = Status::Reassembled;
+        }
+        while let Some(row) = run.next_row() {
+            let row = row?;
+            if let Some(columns) = &self.options.columns {
+                variant.rows.extend(columns.iter().map(|&column| row[column]));
+            }
+        }
+        for (into, value) in variant.results.iter_mut().zip(run.results().unwrap_or_default().values) {
+            *into = value.unwrap_or(f64::NAN);
+        }
+        Ok(())
+    }
+}
+
+/// The first error of what is said, but for that of a way that does not get there; there is one where something could not be made.
+fn first_error(said: &Diagnostics) -> Box<Diagnostic> {
+    let error = said.iter().find(|said| said.is_error() && said.code != Code::E0612).cloned();
+    // what was cancelled says nothing, and nobody looks at it
+    Box::new(error.unwrap_or_else(|| Diagnostic::new(Code::E0601, "it was not made")))
+}

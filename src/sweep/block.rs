@@ -1,0 +1,98 @@
+//! What comes out of a sweep: variants in a row, by columns.
+
+use crate::diag::Code;
+
+/// What became of a variant.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Status {
+    /// It was led over to its params along the branch, and ran.
+    Ok,
+    /// No way led there: it was assembled from the text with its params, and ran.
+    Reassembled,
+    /// It cannot be, or stopped.
+    Stopped(Code),
+}
+
+impl Status {
+    /// As tables have it: `ok`, `reassembled`, `E0602`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Status::Ok => "ok",
+            Status::Reassembled => "reassembled",
+            Status::Stopped(code) => code.as_str(),
+        }
+    }
+
+    /// Whether it ran to its end.
+    #[must_use]
+    pub fn is_complete(self) -> bool {
+        !matches!(self, Status::Stopped(_))
+    }
+}
+
+/// One variant.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Variant {
+    /// What became of it.
+    pub status: Status,
+    /// The time at which it stopped (s); no number where it did not, or where that has no time.
+    pub stopped: f64,
+    /// Its results (SI); no number where one has no value.
+    pub results: Vec<f64>,
+    /// Row after row, the columns that are wanted (SI); none where no rows are.
+    pub rows: Vec<f64>,
+}
+
+/// Variants in a row, column by column.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Block {
+    /// The number of the first.
+    pub first: u64,
+    /// By variant.
+    pub statuses: Vec<Status>,
+    /// By variant: the time at which it stopped (s), or no number.
+    pub stopped: Vec<f64>,
+    /// By param that varies, by variant (SI).
+    pub params: Vec<Vec<f64>>,
+    /// By result, by variant (SI); no number where it has no value.
+    pub results: Vec<Vec<f64>>,
+    /// By variant: how many rows it has.
+    pub lengths: Vec<usize>,
+    /// By wanted column, row after row (SI).
+    pub columns: Vec<Vec<f64>>,
+}
+
+impl Block {
+    /// One that is to begin with a variant, with so many params, results and columns.
+    #[must_use]
+    pub fn new(first: u64, params: usize, results: usize, columns: usize) -> Block {
+        let of = |count| vec![Vec::new(); count];
+        Block { first, params: of(params), results: of(results), columns: of(columns), ..Block::default() }
+    }
+
+    /// Adds the next variant.
+    pub fn push(&mut self, params: &[f64], variant: &Variant) {
+        self.statuses.push(variant.status);
+        self.stopped.push(variant.stopped);
+        self.params.iter_mut().zip(params).for_each(|(column, value)| column.push(*value));
+        self.results.iter_mut().zip(&variant.results).for_each(|(column, value)| column.push(*value));
+        let width = self.columns.len();
+        self.lengths.push(variant.rows.len().checked_div(width).unwrap_or(0));
+        for (k, column) in self.columns.iter_mut().enumerate() {
+            column.extend(variant.rows.iter().skip(k).step_by(width));
+        }
+    }
+
+    /// How many variants it holds.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.statuses.len()
+    }
+
+    /// Whether it holds none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.statuses.is_empty()
+    }
+}

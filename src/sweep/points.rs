@@ -1,0 +1,240 @@
+//! Which variants there are: the values of their params, each variant computed from its number alone.
+
+use super::sobol::{self, Sobol};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+/// How a sample is spread over what varies.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Method {
+    /// Evenly: Sobol's sequence, of which any beginning fills the ranges.
+    #[default]
+    Sobol,
+    /// Each point for itself: pseudo-random numbers.
+    Random,
+}
+
+/// So many params a sample by Sobol's sequence can have.
+pub const MOST_OF_SOBOL: usize = sobol::MOST;
+
+/// Values that some params take together, one after the other (SI).
+#[derive(Clone, PartialEq, Debug)]
+pub struct Axis {
+    /// The params, by their numbers.
+    pub params: Vec<usize>,
+    /// What they take.
+    pub values: Values,
+}
+
+/// What params of an axis take (SI).
+#[derive(Clone, PartialEq, Debug)]
+pub enum Values {
+    /// One of them: so many, evenly from the first to the last, both included.
+    Even {
+        /// First and last.
+        ends: [f64; 2],
+        /// At least one; one alone is the first.
+        count: u64,
+    },
+    /// What a list or a table says: row after row, in each a value for each param.
+    Listed(Vec<f64>),
+    /// A sample of ranges.
+    Sampled(Box<Sample>),
+}
+
+/// So many points within ranges.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Sample {
+    /// By param: first and last (SI).
+    ends: Vec<[f64; 2]>,
+    count: u64,
+    spread: Spread,
+}
+
+#[derive(Clone, PartialEq, Debug)]
+enum Spread {
+    Sobol(Sobol),
+    Random(Box<ChaCha8Rng>),
+}
+
+impl Sample {
+    /// A sample of ranges (SI). Sobol's sequence without a seed is the sequence itself; with one each coordinate is shifted, digit by
+    /// digit.
+    #[must_use]
+    pub fn of(ends: Vec<[f64; 2]>, count: u64, method: Method, seed: Option<u64>) -> Sample {
+        let mut random = ChaCha8Rng::seed_from_u64(seed.unwrap_or(0));
+        let spread = match method {
+            Method::Random => Spread::Random(Box::new(random)),
+            Method::Sobol => Spread::Sobol(Sobol::new(ends.iter().map(|_| seed.map_or(0, |_| random.next_u64())))),
+        };
+        Sample { ends, count, spread }
+    }
+
+    fn values(&self, index: u64, mut set: impl FnMut(usize, f64)) {
+        let mut place = |k: usize, part: f64| set(k, between(self.ends[k][0], self.ends[k][1], part));
+        match &self.spread {
+            Spread::Sobol(sobol) => (0..self.ends.len()).for_each(|k| place(k, sobol.coordinate(index, k))),
+            Spread::Random(random) => {
+                let mut random = ChaCha8Rng::clone(random);
+                // two words of the generator's for each number
+                random.set_word_pos(u128::from(index) * self.ends.len() as u128 * 2);
+                (0..self.ends.len()).for_each(|k| place(k, unit(random.next_u64())));
+            }
+        }
+    }
+}
+
+/// From 0 to below 1, by the leading digits of a number.
+fn unit(bits: u64) -> f64 {
+    (bits >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// What lies at a part of the way. Within the ends, whatever rounding does.
+fn between(from: f64, to: f64, part: f64) -> f64 {
+    let (least, most) = if from <= to { (from, to) } else { (to, from) };
+    (from + (to - from) * part).clamp(least, most)
+}
+
+impl Axis {
+    /// How many values there are.
+    #[must_use]
+    pub fn count(&self) -> u64 {
+        match &self.values {
+            Values::Even { count, .. } => *count,
+            Values::Listed(rows) => (rows.len() / self.params.len()) as u64,
+            Values::Sampled(sample) => sample.count,
+        }
+    }
+
+    fn values(&self, index: u64, into: &mut [f64]) {
+        match &self.values {
+            Values::Even { ends: [from, to], count } => {
+                into[self.params[0]] = match index {
+                    0 => *from,
+                    _ if index + 1 == *count => *to,
+                    _ => between(*from, *to, index as f64 / (count - 1) as f64),
+                };
+            }
+            Values::Listed(rows) => {
+                let row = &rows[index as usize * self.params.len()..];
+                self.params.iter().zip(row).for_each(|(&param, &value)| into[param] = value);
+            }
+            Values::Sampled(sample) => sample.values(index, |k, value| into[self.params[k]] = value),
+        }
+    }
+}
+
+/// All variants: each value of each axis with each of the others, the last axis fastest.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Points {
+    params: Vec<String>,
+    axes: Vec<Axis>,
+    count: u64,
+}
+
+impl Points {
+    /// The variants of some params; nothing where there are more than can be counted.
+    #[must_use]
+    pub fn new(params: Vec<String>, axes: Vec<Axis>) -> Option<Points> {
+        let count = axes.iter().try_fold(1_u64, |count, axis| count.checked_mul(axis.count()))?;
+        Some(Points { params, axes, count })
+    }
+
+    /// The names of the params that vary.
+    #[must_use]
+    pub fn params(&self) -> &[String] {
+        &self.params
+    }
+
+    /// How many variants there are.
+    #[must_use]
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// The values of a variant's params (SI), in the order of [`Points::params`].
+    pub fn values(&self, variant: u64, into: &mut [f64]) {
+        let mut rest = variant;
+        for axis in self.axes.iter().rev() {
+            axis.values(rest % axis.count(), into);
+            rest /= axis.count();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Axis, Method, Points, Sample, Values};
+
+    fn points(axes: Vec<Axis>) -> Points {
+        let params = axes.iter().flat_map(|axis| &axis.params).count();
+        Points::new((0..params).map(|k| format!("p{k}")).collect(), axes).expect("they can be counted")
+    }
+
+    fn all(points: &Points) -> Vec<Vec<f64>> {
+        let of = |variant| {
+            let mut values = vec![f64::NAN; points.params().len()];
+            points.values(variant, &mut values);
+            values
+        };
+        (0..points.count()).map(of).collect()
+    }
+
+    #[test]
+    fn even_values_have_both_ends() {
+        let even =
+            |ends, count| all(&points(vec![Axis { params: vec![0], values: Values::Even { ends, count } }])).concat();
+        assert_eq!(even([0.1, 0.2], 3), [0.1, 0.150_000_000_000_000_02, 0.2]);
+        assert_eq!(even([0.3, 0.1], 2), [0.3, 0.1], "descending");
+        assert_eq!(even([0.1, 0.2], 1), [0.1], "one is the first");
+        assert_eq!(even([0.1, 0.1], 3), [0.1; 3]);
+        let many = even([0.1, 0.7], 1001);
+        assert_eq!((many[0], many[1000]), (0.1, 0.7));
+        assert!(many.windows(2).all(|pair| pair[0] < pair[1]));
+    }
+
+    #[test]
+    fn all_values_meet_all_others() {
+        let list = Values::Listed(vec![1.0, 2.0, 3.0, 4.0]);
+        let found = all(&points(vec![
+            Axis { params: vec![1], values: Values::Even { ends: [0.0, 1.0], count: 2 } },
+            Axis { params: vec![0, 2], values: list },
+        ]));
+        assert_eq!(found, [[1.0, 0.0, 2.0], [3.0, 0.0, 4.0], [1.0, 1.0, 2.0], [3.0, 1.0, 4.0]]);
+    }
+
+    #[test]
+    fn too_many_to_count_are_none() {
+        let axis = |k| Axis { params: vec![k], values: Values::Even { ends: [0.0, 1.0], count: 1 << 40 } };
+        assert_eq!(Points::new(vec!["a".to_owned(), "b".to_owned()], vec![axis(0), axis(1)]), None);
+    }
+
+    fn sampled(method: Method, seed: Option<u64>) -> Vec<Vec<f64>> {
+        let sample = Sample::of(vec![[1.0, 2.0], [-3.0, -5.0]], 512, method, seed);
+        all(&points(vec![Axis { params: vec![0, 1], values: Values::Sampled(Box::new(sample)) }]))
+    }
+
+    #[test]
+    fn samples_lie_within_their_ranges_and_seeds_differ() {
+        for method in [Method::Sobol, Method::Random] {
+            let of = |seed| sampled(method, Some(seed));
+            assert_eq!(of(7), of(7));
+            assert_ne!(of(7), of(8));
+            for point in of(7) {
+                assert!((1.0..2.0).contains(&point[0]) && (-5.0..=-3.0).contains(&point[1]), "{point:?}");
+            }
+            // each half of each range has about half of the points
+            let below = of(7).iter().filter(|point| point[0] < 1.5).count();
+            assert!((200..=312).contains(&below), "{below} of 512");
+        }
+        assert_eq!(sampled(Method::Sobol, None)[..3], [[1.0, -3.0], [1.5, -4.0], [1.75, -3.5]]);
+    }
+
+    /// What was written once is found again, wherever it is computed.
+    #[test]
+    fn random_points_are_promised() {
+        let found = sampled(Method::Random, None);
+        assert_eq!(found[0], [1.709_075_415_426_562, -3.931_843_444_579_220_3]);
+        assert_eq!(found[511], [1.158_953_054_000_719_4, -4.944_080_692_901_279]);
+    }
+}

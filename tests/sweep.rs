@@ -1,0 +1,311 @@
+//! Each variant of a sweep is what `run --lead --set` makes of it, to the bit, however the sweep is divided.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
+
+use mechc::{
+    Block, Cancel, Checked, Choice, Code, Compiled, Memory, Method, Parsed, Redundant, RunOptions, Status,
+    SweepOptions, Variants, Vary, World,
+};
+
+/// A four-bar, whose crank turns fully where it is shortest and shortest and longest together are no longer than the other two.
+const FOUR_BAR: &str = "mechanism four_bar {
+    param ground_length  = 100 mm
+    param crank_length   = 30 mm
+    param coupler_length = 90 mm
+    param rocker_length  = 70 mm
+    param share = 1 / 2
+    param speed = 60 rpm
+    ground { point O = (0, 0)  point C = (ground_length, 0) }
+    body crank at (0, 0, 30 deg) { point O = (0, 0)  point A = (crank_length, 0) }
+    body coupler at (26 mm, 15 mm, 40 deg) {
+        point A = (0, 0)  point B = (coupler_length, 0)  point pen = (share * coupler_length, 20 mm)
+    }
+    body rocker at (100 mm, 0, 80 deg) { point C = (0, 0)  point B = (rocker_length, 0) }
+    joint main:  revolute(ground.O, crank.O)
+    joint left:  revolute(crank.A, coupler.A)
+    joint right: revolute(coupler.B, rocker.B)
+    joint back:  revolute(ground.C, rocker.C)
+    driver motor: rotation(main) = 30 deg + speed * t
+    measure height = y(coupler.pen) in mm
+    result swing = max(angle(rocker)) - min(angle(rocker)) in deg
+    result pause = ground_length / (rocker_length - 70 mm + 1 mm)
+    analysis from 0 s to 1 / (speed / 60 rpm) * 1 s every 50 ms
+}";
+
+struct Subject {
+    parsed: Parsed,
+    choice: Choice,
+    checked: Checked,
+    compiled: Compiled,
+}
+
+fn subject(text: &str, choice: Choice) -> Subject {
+    let parsed = Parsed::of("text.mech", text);
+    let choice = Choice { lead: true, ..choice };
+    let checked = parsed.check(&choice, &Memory::default());
+    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+    let compiled = compiled.unwrap_or_else(|| panic!("{:?} {said:?}", checked.diagnostics()));
+    Subject { parsed, choice, checked, compiled }
+}
+
+impl Subject {
+    fn variants(&self, vary: &Vary) -> Variants {
+        self.variants_in(vary, &Memory::default()).unwrap_or_else(|said| panic!("{said}"))
+    }
+
+    fn variants_in(&self, vary: &Vary, world: &dyn World) -> Result<Variants, String> {
+        let said = |(_, said): (_, mechc::Diagnostics)| {
+            said.iter().map(|said| said.message.clone()).collect::<Vec<_>>().join("; ")
+        };
+        self.checked.variants(vary, &self.choice, world).map_err(said)
+    }
+
+    /// All blocks of a sweep, as one.
+    fn swept(&self, variants: &Variants, options: &SweepOptions) -> Block {
+        let mut blocks = self.checked.sweep(&self.compiled, variants, options, |block| block).expect("times are said");
+        let mut all = blocks.next().expect("a block");
+        for block in blocks {
+            assert_eq!(block.first, all.first + all.len() as u64, "blocks follow each other");
+            join(&mut all, block);
+        }
+        all
+    }
+
+    /// What `run --lead --set` makes of a variant: its status, its results, and the rows up to where it stops.
+    fn alone(&self, settings: Vec<String>) -> (Status, Vec<f64>, Vec<Vec<f64>>) {
+        let count = self.compiled.results().len();
+        let nothing = vec![f64::NAN; count];
+        let set = self.choice.set.iter().cloned().chain(settings).collect();
+        let checked = self.parsed.check(&Choice { set, ..self.choice.clone() }, &Memory::default());
+        let stopped = |said: &mechc::Diagnostics| {
+            let error = said.iter().find(|said| said.is_error() && said.code != Code::E0612);
+            Status::Stopped(error.expect("an error").code)
+        };
+        let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+        let Some(compiled) = compiled else {
+            let said = if checked.is_sound() { said } else { checked.diagnostics().clone() };
+            return (stopped(&said), nothing, Vec::new());
+        };
+        let (run, said) = compiled.run(&compiled.times().expect("an analysis"), &RunOptions::default());
+        let Some(mut run) = run else { return (stopped(&said), nothing, Vec::new()) };
+        let is_reassembled = said.iter().any(|said| said.code == Code::E0612);
+        let mut rows = Vec::new();
+        while let Some(row) = run.next_row() {
+            match row {
+                Ok(row) => rows.push(row.to_vec()),
+                Err(why) => return (Status::Stopped(why.code), nothing, rows),
+            }
+        }
+        let results =
+            run.results().expect("results").values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect();
+        (if is_reassembled { Status::Reassembled } else { Status::Ok }, results, rows)
+    }
+
+    fn all_columns(&self) -> SweepOptions {
+        SweepOptions { columns: Some((0..self.compiled.columns().len()).collect()), ..SweepOptions::default() }
+    }
+}
+
+fn join(all: &mut Block, block: Block) {
+    all.statuses.extend(block.statuses);
+    all.stopped.extend(block.stopped);
+    all.lengths.extend(block.lengths);
+    for (all, more) in
+        [(&mut all.params, block.params), (&mut all.results, block.results), (&mut all.columns, block.columns)]
+    {
+        all.iter_mut().zip(more).for_each(|(all, more)| all.extend(more));
+    }
+}
+
+/// The bits of numbers; what is no number is one.
+fn bits(numbers: &[f64]) -> Vec<u64> {
+    numbers.iter().map(|number| if number.is_nan() { u64::MAX } else { number.to_bits() }).collect()
+}
+
+fn bits_of(block: &Block) -> (Vec<Status>, Vec<usize>, Vec<Vec<u64>>) {
+    let columns = block.params.iter().chain(&block.results).chain(&block.columns).chain([&block.stopped]);
+    (block.statuses.clone(), block.lengths.clone(), columns.map(|column| bits(column)).collect())
+}
+
+/// Compares each variant with what it is alone; gives how many of each status there are.
+fn compare(subject: &Subject, variants: &Variants) -> Vec<(Status, usize)> {
+    let block = subject.swept(variants, &subject.all_columns());
+    let (mut first_row, mut found) = (0, Vec::new());
+    for k in 0..block.len() {
+        let settings = variants.settings(k as u64);
+        let (status, results, rows) = subject.alone(settings.clone());
+        assert_eq!(block.statuses[k], status, "{settings:?}");
+        let swept: Vec<f64> = block.results.iter().map(|column| column[k]).collect();
+        assert_eq!(bits(&swept), bits(&results), "{settings:?}");
+        assert_eq!(block.lengths[k], rows.len(), "{settings:?}");
+        for (at, row) in rows.iter().enumerate() {
+            let swept: Vec<f64> = block.columns.iter().map(|column| column[first_row + at]).collect();
+            assert_eq!(bits(&swept), bits(row), "{settings:?}, row {at}");
+        }
+        first_row += rows.len();
+        match found.iter_mut().find(|(known, _)| *known == status) {
+            Some((_, count)) => *count += 1,
+            None => found.push((status, 1)),
+        }
+    }
+    assert!(block.columns.iter().all(|column| column.len() == first_row));
+    found
+}
+
+fn vary(params: &[&str]) -> Vary {
+    Vary { params: params.iter().map(|&param| param.to_owned()).collect(), ..Vary::default() }
+}
+
+fn count(found: &[(Status, usize)], wanted: Status) -> usize {
+    found.iter().find(|(status, _)| *status == wanted).map_or(0, |(_, count)| *count)
+}
+
+#[test]
+fn each_variant_is_what_it_is_alone() {
+    let subject = subject(FOUR_BAR, Choice::default());
+    let ranges = ["crank_length=10mm..60mm", "coupler_length=60mm..140mm", "speed=10rpm..100rpm", "share=-1..2"];
+    for (method, seed) in [(Method::Sobol, None), (Method::Random, Some(3))] {
+        let sample = Vary { sample: Some(40), method: Some(method), seed, ..vary(&ranges) };
+        let found = compare(&subject, &subject.variants(&sample));
+        assert!(count(&found, Status::Ok) > 10, "{found:?}");
+        assert!(found.iter().any(|(status, _)| !status.is_complete()), "all turn fully: {found:?}");
+    }
+}
+
+/// Variants that are of no use beside each other, and the others do not feel it.
+#[test]
+fn what_is_wrong_with_one_variant_is_its_own() {
+    let subject = subject(FOUR_BAR, Choice { set: vec!["speed=30rpm".to_owned()], ..Choice::default() });
+    // in order: nothing wrong, cannot close, locks, a pole of a result, a negative length, all collinear once a turn
+    let lengths = ["30mm", "400mm", "75mm", "-30mm", "40mm", "60mm"];
+    let rockers = ["70mm", "69mm", "80mm"];
+    let asked = [format!("crank_length={}", lengths.join(",")), format!("rocker_length={}", rockers.join(", "))];
+    let variants = subject.variants(&vary(&[&asked[0], &asked[1]]));
+    assert_eq!(variants.points().count(), 18);
+    let found = compare(&subject, &variants);
+    assert!(count(&found, Status::Ok) >= 3, "{found:?}");
+    assert!(found.iter().filter(|(status, _)| !status.is_complete()).count() >= 2, "{found:?}");
+}
+
+#[test]
+fn threads_and_shares_change_no_bit() {
+    let subject = subject(FOUR_BAR, Choice::default());
+    let variants = subject.variants(&vary(&["crank_length=20mm..50mm:7", "rocker_length=50mm..90mm:11"]));
+    let options = subject.all_columns();
+    let whole = bits_of(&subject.swept(&variants, &SweepOptions { jobs: Some(1), ..options.clone() }));
+    for jobs in [2, 16] {
+        assert_eq!(bits_of(&subject.swept(&variants, &SweepOptions { jobs: Some(jobs), ..options.clone() })), whole);
+    }
+    let mut shares = subject.swept(&variants, &SweepOptions { take: Some(5), ..options.clone() });
+    for (skip, take) in [(5, Some(33)), (38, Some(1)), (39, None)] {
+        let share = subject.swept(&variants, &SweepOptions { skip, take, ..options.clone() });
+        assert_eq!(share.first, skip);
+        join(&mut shares, share);
+    }
+    assert_eq!(bits_of(&shares), whole);
+}
+
+#[test]
+fn results_alone_are_those_beside_rows() {
+    let subject = subject(FOUR_BAR, Choice { results: vec!["top = max(height)".to_owned()], ..Choice::default() });
+    assert_eq!(
+        subject.compiled.results_of_variants().iter().map(|(name, unit)| format!("{name} {unit}")).collect::<Vec<_>>(),
+        ["swing rad", "pause 1", "top m"]
+    );
+    let variants = subject.variants(&vary(&["share=0..1:5"]));
+    let alone = subject.swept(&variants, &SweepOptions::default());
+    let beside = subject.swept(&variants, &subject.all_columns());
+    assert_eq!((alone.results.clone(), alone.statuses), (beside.results, beside.statuses));
+    assert!(alone.columns.is_empty() && alone.lengths == [0; 5]);
+    // the pen is farther out the larger its share is
+    assert!(alone.results[2].windows(2).all(|pair| pair[0] < pair[1]), "{:?}", alone.results[2]);
+}
+
+#[test]
+fn a_sweep_ends_at_the_variant_that_is_looked_for() {
+    let until = |condition: &str| {
+        let choice = Choice { until: Some(condition.to_owned()), ..Choice::default() };
+        let subject = subject(FOUR_BAR, choice);
+        let variants = subject.variants(&vary(&["crank_length=20mm..40mm:21"]));
+        [1, 3].map(|jobs| {
+            let block = subject.swept(&variants, &SweepOptions { jobs: Some(jobs), ..SweepOptions::default() });
+            assert_eq!(block.results.len(), 2, "what is looked for is no column");
+            block.len()
+        })
+    };
+    assert_eq!(until("crank_length > 30.5 mm"), [12; 2]);
+    let by_swing = until("swing > 50 deg");
+    assert!(by_swing[0] == by_swing[1] && (2..21).contains(&by_swing[0]), "{by_swing:?}");
+    assert_eq!(until("swing > 500 deg"), [21; 2]);
+}
+
+#[test]
+fn a_cancelled_sweep_gives_whole_variants_and_ends() {
+    let subject = subject(FOUR_BAR, Choice::default());
+    let variants = subject.variants(&vary(&["crank_length=20mm..40mm:100000"]));
+    let cancel = Cancel::default();
+    let options = SweepOptions { cancel: cancel.clone(), ..SweepOptions::default() };
+    let mut sweep = subject.checked.sweep(&subject.compiled, &variants, &options, |block| block).expect("times");
+    let first = sweep.next().expect("a block");
+    assert!(first.len() >= 16 && first.statuses.iter().all(|status| *status == Status::Ok));
+    cancel.cancel();
+    assert!(sweep.count() < 20);
+}
+
+#[test]
+fn tables_of_variants_are_read() {
+    let subject = subject(FOUR_BAR, Choice::default());
+    let world = Memory::default().with("v.csv", "speed [rpm], crank_length [mm]\n60,30\n90,20.5\n");
+    let variants = subject.variants_in(&vary(&["@v.csv", "share=0,1"]), &world).expect("a table");
+    assert_eq!(variants.points().params(), ["speed", "crank_length", "share"]);
+    assert_eq!(variants.units().collect::<Vec<_>>(), ["rad/s", "m", "1"]);
+    assert_eq!(variants.settings(3), ["speed=9.42477796076938 rad/s", "crank_length=0.0205 m", "share=1"]);
+    assert_eq!(variants.points().count(), 4);
+    for (text, wanted) in [
+        ("", "the variants are empty"),
+        ("speed [rpm]\n", "the variants have no row"),
+        ("60,30\n90,20\n", "the variants are of no param"),
+        ("speed [rpm]\nfast\n", "a value of `speed` is not a number"),
+        ("speed [rpm],crank_length\n60,30\n", "the parameter `crank_length` must be a length, found a pure number"),
+        ("pace [rpm]\n60\n", "mechanism `four_bar` has no parameter `pace`"),
+    ] {
+        let world = Memory::default().with("v.csv", text);
+        assert_eq!(subject.variants_in(&vary(&["@v.csv"]), &world).expect_err("refused"), wanted, "{text:?}");
+    }
+}
+
+#[test]
+fn what_cannot_vary_is_refused() {
+    let subject = subject(FOUR_BAR, Choice { set: vec!["share=1".to_owned()], ..Choice::default() });
+    let sampled = |params: &[&str], sample| Vary { sample: Some(sample), ..vary(params) };
+    for (asked, wanted) in [
+        (vary(&["crank_length"]), "`--vary crank_length` does not say what varies"),
+        (vary(&["crank_length="]), "`--vary crank_length=` does not say what varies"),
+        (vary(&["crank_length=..3mm:2"]), "`--vary crank_length=..3mm:2` does not say from where to where"),
+        (vary(&["crank_length=1mm..3mm:0"]), "`0` is no number of values for `crank_length`"),
+        (vary(&["crank_length=1mm..3mm:two"]), "`two` is no number of values for `crank_length`"),
+        (vary(&["crank_length=1mm..3mm"]), "it is not said how many values `crank_length` has"),
+        (
+            sampled(&["crank_length=1mm..3mm", "speed=1rpm..2rpm:3"], 5),
+            "`speed` has a number of values, and `crank_length` has none",
+        ),
+        (sampled(&["speed=1rpm..2rpm:3"], 5), "there is no range to take a sample of"),
+        (sampled(&["speed=1rpm..2rpm"], 0), "a sample has one variant at least"),
+        (
+            Vary { seed: Some(1), ..vary(&["speed=1rpm..2rpm:3"]) },
+            "`--seed` says how a sample is taken, and there is none",
+        ),
+        (vary(&["speed=1rpm,2mm"]), "the parameter `speed` must be a rate (1/s), found a length"),
+        (vary(&["speed=1rpm,2rpm", "speed=3rpm,4rpm"]), "`speed` is to vary twice"),
+        (vary(&["share=0..1:3"]), "`share` is set, and is to vary"),
+        (vary(&["pace=1..2:3"]), "mechanism `four_bar` has no parameter `pace`"),
+        (vary(&["@no.csv"]), "cannot read `no.csv`: there is no such file"),
+        (
+            vary(&["crank_length=1mm..2mm:9000000000", "speed=1rpm..2rpm:9000000000"]),
+            "there are more variants than can be counted",
+        ),
+    ] {
+        let said = subject.variants_in(&asked, &Memory::default()).expect_err("it is refused");
+        assert_eq!(said, wanted);
+    }
+}
