@@ -1662,7 +1662,7 @@ pub fn bound_at_first(border: f64) -> f64 {
 #[inline]
 pub fn going_on(largest: f64, bound: f64, border: f64) -> (f64, f64) {
     let is_free = bound < 0.5;
-    let is_at_border = is_free & (largest <= 0.5 + border);
+    let is_at_border = is_free && largest <= 0.5 + border;
     // at the even points only what is beyond the border goes on; behind that nothing does that is no stray
     let next = if is_free { bound } else { 1.0 };
     (if is_at_border { 0.5 } else { next }, if is_at_border { 2.0 } else { 1.0 })
