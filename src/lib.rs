@@ -73,12 +73,11 @@ pub use check::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use diag::{Applies, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, Severity, fixed, render};
 pub use emit::{File, LARGEST_STRAIGHT, MARK};
 pub use layout::ColumnUnit;
-pub use math::Vectors;
 pub use output::{TableFormat, TableWriter};
 pub use source::{Encoding, FileId, Source, Sources, Span};
 pub use stages::{
     AskedTimes, Assembly, Checked, Choice, Compiled, Formula, Parsed, Redundant, Run, RunOptions, RustOptions, Seen,
-    Sweep, SweepOptions, Variants, Vary, imported, seconds,
+    Sweep, SweepOptions, Variants, Vary, Vectors, imported, seconds,
 };
 pub use sweep::{Axis, Block, Method, Points, Sample, Status, Values};
 pub use syntax::{Comment, Trivia};

@@ -10,6 +10,10 @@ pub mod blocks;
 mod curve;
 #[cfg(test)]
 mod curve_tests;
+/// The grid of Newton's iterates.
+pub mod grid;
+#[cfg(test)]
+mod grid_tests;
 mod search;
 #[cfg(test)]
 mod search_tests;

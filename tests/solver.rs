@@ -6,7 +6,7 @@ mod support;
 
 use mechc::rooms::analysis::{self, Horizon};
 use mechc::rooms::program::Stage;
-use mechc::rooms::solver::{Batch, Bend, Lanes};
+use mechc::rooms::solver::{Batch, Bend, Lanes, Solver};
 use mechc::{Cancel, Compiled, TOLERANCE, Times, Vectors};
 use std::fs;
 use std::sync::Arc;
@@ -124,4 +124,78 @@ fn every_case_is_solved_for_in_lanes() {
         assert!(10 * others <= wanted.len(), "{name}: {others} of {} rows have no lane", wanted.len());
     }
     assert!(seen > 20, "only {seen} cases");
+}
+
+/// A solver with what it needs to be run at any time.
+struct Bench {
+    compiled: Compiled,
+    started: analysis::Started,
+    scalars: mechc::rooms::program::Registers,
+    bounds: Vec<f64>,
+}
+
+impl Bench {
+    fn new(name: &str, text: &str) -> Bench {
+        let compiled = compiled(name, text);
+        let (determined, program) = compiled.inside();
+        let params: Vec<f64> = determined.system().params().iter().map(|param| param.value).collect();
+        let bounds = vec![1e8; determined.system().rows().len()];
+        let horizon = Horizon::of(&Times::listed(0.0, vec![0.0]));
+        let scalars = program.start(&params);
+        let started = analysis::start(determined, program, horizon, TOLERANCE, &Cancel::default());
+        Bench { compiled, started: started.expect("it assembles"), scalars, bounds }
+    }
+
+    fn solver(&self) -> &Solver {
+        self.started.solver().expect("it is small")
+    }
+
+    /// The bits of the row of one of the lanes, Newton beginning so far from a position everywhere.
+    fn row<const W: usize>(&self, lanes: &mut Lanes<W>, times: [f64; W], lane: usize, q: &[f64], off: f64) -> Vec<u64> {
+        let (_, program) = self.compiled.inside();
+        let curve: Vec<[f64; 6]> = q.iter().map(|q| [q + off, 0.0, 0.0, 0.0, 0.0, 0.0]).collect();
+        let stride = self.solver().layout().stride;
+        let mut rows = vec![0.0; W * stride];
+        let batch = Batch { times, from: times[0], length: 1.0, curve: &curve, bends: &[], bounds: &self.bounds };
+        let holds = lanes.run(self.solver(), &program, &self.scalars, &batch, &mut rows);
+        assert!(holds[lane], "at {}", times[lane]);
+        rows[lane * stride..][..stride].iter().map(|value| value.to_bits()).collect()
+    }
+}
+
+#[test]
+fn a_tear_on_a_border_has_the_same_bits_wherever_newton_begins() {
+    let bench = Bench::new("four-bar", &four_bars(1));
+    let q = bench.started.q();
+    let tears = || bench.solver().segments().iter().flat_map(|segment| segment.tears());
+    assert_eq!(tears().count(), 2);
+    let (mut alone, mut together) =
+        (Lanes::<1>::new(bench.solver(), Vectors::BASE), Lanes::<16>::new(bench.solver(), Vectors::default()));
+    for (number, tear) in tears().enumerate() {
+        let column = (bench.solver().layout().coordinates[0] + bench.solver().tears()[number]) as usize;
+        let mut in_cells = |t: f64| f64::from_bits(bench.row(&mut alone, [t], 0, q, 0.0)[column]) / tear.cell;
+        for beyond in [3.5, 14.5, 40.5] {
+            // the last time before the tear comes to a border, to the last digit
+            let (mut before, mut behind) = (0.0, 1e-5);
+            let way = (in_cells(behind) - in_cells(before)).signum();
+            let border = in_cells(before).floor() + way * beyond;
+            for _ in 0..80 {
+                let middle = 0.5 * (before + behind);
+                *(if way * (in_cells(middle) - border) < 0.0 { &mut before } else { &mut behind }) = middle;
+            }
+            assert!((in_cells(before) - border).abs() < 1e-6, "the border is met");
+            for t in [before, behind, 0.5 * (before + behind)] {
+                let mut alone = Lanes::<1>::new(bench.solver(), Vectors::BASE);
+                let want = bench.row(&mut alone, [t], 0, q, 0.0);
+                for k in -100..=100 {
+                    let off = tear.cell * 0.37 * f64::from(k);
+                    assert_eq!(bench.row(&mut alone, [t], 0, q, off), want, "tear {number} at {t}, alone from {off:e}");
+                    // beside others, which have farther to go
+                    let times = std::array::from_fn(|lane| if lane == 7 { t } else { 1e-3 * lane as f64 });
+                    let got = bench.row(&mut together, times, 7, q, off);
+                    assert_eq!(got, want, "tear {number} at {t}, in lanes from {off:e}");
+                }
+            }
+        }
+    }
 }

@@ -798,10 +798,10 @@ fn solve(guess: &[f64; TEARS], t: f64, m: &Model, at: &mut Solution) {
     let mut c40 = 0.0;
     let mut v58 = 0.0;
     let mut v61 = 0.0;
+    x1 = on_grid(x1, 7.450580596923828e-9);
+    x2 = on_grid(x2, 7.450580596923828e-9);
     let mut newton = Newton::new();
     for _ in 0..ITERATIONS {
-        x1 = on_grid(x1, 7.450580596923828e-9);
-        x2 = on_grid(x2, 7.450580596923828e-9);
         (s36, c36) = sin_cos(x1);
         let v37 = -1.5 * c36;
         let v38 = 4.0 - v37;
@@ -828,13 +828,17 @@ fn solve(guess: &[f64; TEARS], t: f64, m: &Model, at: &mut Solution) {
         let v59 = v45 * v52;
         let v60 = v59 - v46 * v55;
         v61 = v60 * v49;
-        x1 = newton.corrected(x1, v58, 7.450580596923828e-9, 1.0);
-        x2 = newton.corrected(x2, v61, 7.450580596923828e-9, 1.0);
+        newton.see(v58, 7.450580596923828e-9, 1.0);
+        newton.see(v61, 7.450580596923828e-9, 1.0);
         if newton.is_done() {
             break;
         }
+        x1 = newton.next(x1, v58, 7.450580596923828e-9);
+        x2 = newton.next(x2, v61, 7.450580596923828e-9);
     }
     at.note(&newton);
+    x1 += v58;
+    x2 += v61;
     let v62 = 0.5 * v58;
     let v63 = c36 - v62 * s36;
     let v64 = v58 * v63 + s36;
@@ -1410,10 +1414,10 @@ mod following {
         let mut c24 = 0.0;
         let mut v42 = 0.0;
         let mut v45 = 0.0;
+        x1 = on_grid(x1, 7.450580596923828e-9);
+        x2 = on_grid(x2, 7.450580596923828e-9);
         let mut newton = Newton::new();
         for _ in 0..ITERATIONS {
-            x1 = on_grid(x1, 7.450580596923828e-9);
-            x2 = on_grid(x2, 7.450580596923828e-9);
             (s20, c20) = sin_cos(x1);
             let v21 = -1.5 * c20;
             let v22 = 4.0 - v21;
@@ -1440,13 +1444,17 @@ mod following {
             let v43 = v29 * v36;
             let v44 = v43 - v30 * v39;
             v45 = v44 * v33;
-            x1 = newton.corrected(x1, v42, 7.450580596923828e-9, 1.0);
-            x2 = newton.corrected(x2, v45, 7.450580596923828e-9, 1.0);
+            newton.see(v42, 7.450580596923828e-9, 1.0);
+            newton.see(v45, 7.450580596923828e-9, 1.0);
             if newton.is_done() {
                 break;
             }
+            x1 = newton.next(x1, v42, 7.450580596923828e-9);
+            x2 = newton.next(x2, v45, 7.450580596923828e-9);
         }
         at.note(&newton);
+        x1 += v42;
+        x2 += v45;
         let v46 = 0.5 * v42;
         let v47 = c20 - v46 * s20;
         let v48 = v42 * v47 + s20;
@@ -2421,57 +2429,105 @@ impl<M: Solved> Solution<M> {
 }
 
 pub mod grid {
-//! The grid on which Newton's iteration goes from point to point.
+// The grid on which Newton's iteration goes from point to point.
+//
+// It goes to the point next to the solution, as often as that takes, and ends where all corrections stay in their cells: so where it began
+// leaves no trace. Of a coordinate on the border of two cells, to rounding, either point may say that the other one is nearer, or that
+// it is so itself. Therefore such a border is judged from one side alone. All coordinates whose corrections end next to a border
+// go to the even one of the two points, the others stay; and from there each goes to where its correction leads, for good.
 
 /// The grid point next to a value.
+#[must_use]
+#[inline]
 pub fn on_grid(x: f64, cell: f64) -> f64 {
     // adding and taking away 1.5 * 2^52 cells rounds to a whole number of them
     let rounding = 6_755_399_441_055_744.0 * cell;
     (x + rounding) - rounding
+}
+
+/// The largest correction, in cells, with which an iteration ends that has met no border; one that is no farther from half a cell than
+/// `border` leads to one.
+#[must_use]
+#[inline]
+pub fn bound_at_first(border: f64) -> f64 {
+    0.5 - border
+}
+
+/// How an iteration goes on whose largest correction, in cells, is beyond its bound: the bound that it has then; and the cells, in cells,
+/// among whose points those coordinates go on that are next to a border.
+#[must_use]
+#[inline]
+pub fn going_on(largest: f64, bound: f64, border: f64) -> (f64, f64) {
+    let is_free = bound < 0.5;
+    let is_at_border = is_free && largest <= 0.5 + border;
+    // at the even points only what is beyond the border goes on; behind that nothing does that is no stray
+    let next = if is_free { bound } else { 1.0 };
+    (if is_at_border { 0.5 } else { next }, if is_at_border { 2.0 } else { 1.0 })
+}
+
+/// The grid point that a coordinate goes on to, from one and its correction there.
+#[must_use]
+#[inline]
+pub fn next_point(x: f64, delta: f64, cell: f64, cells: f64, border: f64) -> f64 {
+    // from an odd point the even one in the direction of the correction, from an even one none
+    let is_at_border = delta.abs() > (0.5 - border) * cell;
+    on_grid(x + delta, if is_at_border { cells * cell } else { cell })
 }
 }
 
 pub mod newton {
 //! Newton's iteration.
 
-use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
+use super::grid::{bound_at_first, going_on, next_point};
+use super::limits::{BORDER, LARGEST_CORRECTION};
 use super::numbers::larger;
 use super::so_far::larger_so_far;
 use super::solution::{Solution, Solved};
 
 /// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace in where it ends.
-#[allow(clippy::struct_excessive_bools)] // each is an answer of its own
 pub struct Newton {
     is_first: bool,
-    is_open: bool,
     is_lost: bool,
     has_settled: bool,
     first: f64,
+    /// The largest correction, and with which one it ends, both in cells of the grid.
+    largest: f64,
+    bound: f64,
+    /// The cells, in cells, among whose points coordinates next to a border go on.
+    cells: f64,
 }
 
 impl Newton {
     /// It has not begun.
     pub fn new() -> Self {
-        Self { is_first: true, is_open: false, is_lost: false, has_settled: false, first: 0.0 }
+        let bound = bound_at_first(BORDER);
+        Self { is_first: true, is_lost: false, has_settled: false, first: 0.0, largest: 0.0, bound, cells: 1.0 }
     }
 
-    /// A coordinate with its correction; its grid has cells so wide, and it is judged against `scale`.
-    pub fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
+    /// The correction of a coordinate; its grid has cells so wide, and it is judged against `scale`.
+    pub fn see(&mut self, delta: f64, cell: f64, scale: f64) {
         let size = delta.abs();
         if self.is_first {
             self.first = larger_so_far(self.first, size / scale);
         }
-        self.is_open |= size > HALF_A_CELL * cell;
+        self.largest = larger_so_far(self.largest, size / cell);
         self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
-        x + delta
     }
 
     /// Whether no further iteration is needed, or none helps.
     pub fn is_done(&mut self) -> bool {
-        self.has_settled = !self.is_open && !self.is_lost;
+        self.has_settled = !self.is_lost && self.largest <= self.bound;
         let is_done = self.has_settled || self.is_lost;
-        (self.is_first, self.is_open) = (false, false);
+        if !is_done {
+            (self.bound, self.cells) = going_on(self.largest, self.bound, BORDER);
+        }
+        (self.is_first, self.largest) = (false, 0.0);
         is_done
+    }
+
+    /// The grid point that a coordinate goes on to.
+    pub fn next(&self, x: f64, delta: f64, cell: f64) -> f64 {
+        next_point(x, delta, cell, self.cells, BORDER)
     }
 }
 
@@ -3306,8 +3362,8 @@ pub mod pivoting {
 
 use super::blocks::{self, Blocks};
 use super::error::Fault;
-use super::grid::on_grid;
-use super::limits::{HALF_A_CELL, ITERATIONS};
+use super::grid::{bound_at_first, going_on, next_point, on_grid};
+use super::limits::{BORDER, ITERATIONS};
 use super::numbers::{Flags, Numbers, largest};
 use super::solution::{Along, Solution, Solved};
 
@@ -3411,10 +3467,11 @@ pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Side
 
 /// Newton's iteration; whether it has arrived.
 fn settle<M: Pivoting>(m: &M, at: &mut Solution<M>, sides: &M::Sides, elimination: &mut Elimination<M>) -> bool {
+    let mut bound = bound_at_first(BORDER);
+    for (q, cell) in at.q.as_mut().iter_mut().zip(M::cells().as_ref()) {
+        *q = on_grid(*q, *cell);
+    }
     for iteration in 0..ITERATIONS {
-        for (q, cell) in at.q.as_mut().iter_mut().zip(M::cells().as_ref()) {
-            *q = on_grid(*q, *cell);
-        }
         let slopes = m.phi_q(&at.q, at.t, sides);
         let mut right = m.phi(&at.q, at.t, sides);
         right.as_mut().iter_mut().for_each(|value| *value = -*value);
@@ -3422,10 +3479,15 @@ fn settle<M: Pivoting>(m: &M, at: &mut Solution<M>, sides: &M::Sides, eliminatio
         if iteration == 0 {
             at.first = largest(&x, M::scales());
         }
-        at.q.as_mut().iter_mut().zip(x.as_ref()).for_each(|(q, x)| *q += x);
-        if largest(&x, M::cells()) <= HALF_A_CELL {
+        let corrected = at.q.as_mut().iter_mut().zip(x.as_ref());
+        let size = largest(&x, M::cells());
+        if size <= bound {
+            corrected.for_each(|(q, x)| *q += x);
             return true;
         }
+        let (next, cells) = going_on(size, bound, BORDER);
+        corrected.zip(M::cells().as_ref()).for_each(|((q, x), cell)| *q = next_point(*q, *x, *cell, cells, BORDER));
+        bound = next;
     }
     false
 }
@@ -4166,14 +4228,14 @@ pub mod limits {
 pub const ACCURACY: f64 = 1e-9;
 /// How far the motion is looked ahead to tell on which side of an edge it goes on, as a part of the span.
 pub const AHEAD: f64 = 1e-9;
+/// A correction that is no farther from half a cell of the grid than this, in cells, leads to the border of two.
+pub const BORDER: f64 = 0.000244140625;
 /// Nothing may move farther than this meanwhile, scaled.
 pub const FARTHEST_AHEAD: f64 = 1e-7;
 /// The step before tells of one that is so many times as long at most.
 pub const FARTHEST_BEND: f64 = 4.0;
-/// A correction of just half a cell of the grid, to rounding, stays in it.
-pub const HALF_A_CELL: f64 = 0.500001;
 /// Iterations of Newton at most.
-pub const ITERATIONS: usize = 6;
+pub const ITERATIONS: usize = 8;
 /// Newton's first correction at most, beside the size of a body or 1 rad.
 pub const LARGEST_CORRECTION: f64 = 0.05;
 /// How far velocities may lead elsewhere than positions, likewise: more is another branch.

@@ -493,10 +493,10 @@ fn solve(guess: &[f64; TEARS], t: f64, _m: &Model, at: &mut Solution) {
     let mut c16 = 0.0;
     let mut v34 = 0.0;
     let mut v37 = 0.0;
+    x1 = on_grid(x1, 7.450580596923828e-9);
+    x2 = on_grid(x2, 7.450580596923828e-9);
     let mut newton = Newton::new();
     for _ in 0..ITERATIONS {
-        x1 = on_grid(x1, 7.450580596923828e-9);
-        x2 = on_grid(x2, 7.450580596923828e-9);
         (s12, c12) = sin_cos(x1);
         let v13 = -1.5 * c12;
         let v14 = 4.0 - v13;
@@ -523,13 +523,17 @@ fn solve(guess: &[f64; TEARS], t: f64, _m: &Model, at: &mut Solution) {
         let v35 = v21 * v28;
         let v36 = v35 - v22 * v31;
         v37 = v36 * v25;
-        x1 = newton.corrected(x1, v34, 7.450580596923828e-9, 1.0);
-        x2 = newton.corrected(x2, v37, 7.450580596923828e-9, 1.0);
+        newton.see(v34, 7.450580596923828e-9, 1.0);
+        newton.see(v37, 7.450580596923828e-9, 1.0);
         if newton.is_done() {
             break;
         }
+        x1 = newton.next(x1, v34, 7.450580596923828e-9);
+        x2 = newton.next(x2, v37, 7.450580596923828e-9);
     }
     at.note(&newton);
+    x1 += v34;
+    x2 += v37;
     let v38 = 0.5 * v34;
     let v39 = c12 - v38 * s12;
     let v40 = v34 * v39 + s12;
@@ -930,23 +934,26 @@ pub mod lanes {
         at: &mut Solutions,
         w: &mut [Each; 20],
     ) {
+        for k in 0..LANES {
+            w[0][k] = on_grid(w[0][k], 7.450580596923828e-9);
+            w[3][k] = on_grid(w[3][k], 7.450580596923828e-9);
+        }
         let mut newton = Settling::new();
         for _ in 0..ITERATIONS {
-            newton.begin();
             for k in 0..LANES {
-                let mut x1 = on_grid(w[0][k], 7.450580596923828e-9);
-                let mut x2 = on_grid(w[3][k], 7.450580596923828e-9);
+                let x1 = w[0][k];
+                let x2 = w[3][k];
                 at.watch(k, x1, 1e-6);
-                (w[11][k], w[12][k]) = sin_cos_below_a_million(x1);
-                let v13 = -1.5 * w[12][k];
+                (w[12][k], w[13][k]) = sin_cos_below_a_million(x1);
+                let v13 = -1.5 * w[13][k];
                 let v14 = 4.0 - v13;
-                let v15 = -1.5 * w[11][k];
+                let v15 = -1.5 * w[12][k];
                 at.watch(k, x2, 1e-6);
                 (w[14][k], w[15][k]) = sin_cos_below_a_million(x2);
                 let v17 = -3.5 * w[14][k];
-                let v18 = 1.5 * w[11][k];
+                let v18 = 1.5 * w[12][k];
                 let v19 = 3.5 * w[15][k];
-                let v20 = 1.5 * w[12][k];
+                let v20 = 1.5 * w[13][k];
                 let v21 = v13 - v20;
                 let v22 = v18 - v15;
                 let v23 = v22 * v19;
@@ -960,20 +967,26 @@ pub mod lanes {
                 let v31 = v30 - v29;
                 let v32 = v17 * v31;
                 let v33 = v32 - v19 * v28;
-                w[10][k] = v33 * v25;
+                w[9][k] = v33 * v25;
                 let v35 = v21 * v28;
                 let v36 = v35 - v22 * v31;
-                w[13][k] = v36 * v25;
-                newton.correct(k, &mut x1, w[10][k], TEAR_CELLS[0], TEAR_SCALES[0]);
-                w[0][k] = x1;
-                newton.correct(k, &mut x2, w[13][k], TEAR_CELLS[1], TEAR_SCALES[1]);
-                w[3][k] = x2;
+                w[10][k] = v36 * v25;
+                newton.see(k, w[9][k], TEAR_CELLS[0], TEAR_SCALES[0]);
+                newton.see(k, w[10][k], TEAR_CELLS[1], TEAR_SCALES[1]);
             }
             if newton.is_done() {
                 break;
             }
+            for k in 0..LANES {
+                w[0][k] = newton.next(k, w[0][k], w[9][k], TEAR_CELLS[0]);
+                w[3][k] = newton.next(k, w[3][k], w[10][k], TEAR_CELLS[1]);
+            }
         }
         newton.note(at);
+        for k in 0..LANES {
+            w[0][k] += w[9][k];
+            w[3][k] += w[10][k];
+        }
     }
 
     /// Part 3 of [`solve`].
@@ -986,21 +999,21 @@ pub mod lanes {
         w: &mut [Each; 20],
     ) {
         for k in 0..LANES {
-            let v38 = 0.5 * w[10][k];
-            let v39 = w[12][k] - v38 * w[11][k];
-            let v40 = w[10][k] * v39 + w[11][k];
-            let v41 = v38 * w[12][k] + w[11][k];
-            let v42 = w[12][k] - w[10][k] * v41;
+            let v38 = 0.5 * w[9][k];
+            let v39 = w[13][k] - v38 * w[12][k];
+            let v40 = w[9][k] * v39 + w[12][k];
+            let v41 = v38 * w[13][k] + w[12][k];
+            let v42 = w[13][k] - w[9][k] * v41;
             let v43 = -1.5 * v42;
             let rocker_x = 4.0 - v43;
             let v45 = -1.5 * v40;
             let v46 = 1.5 * v42;
             let v47 = v46 + rocker_x;
-            let v48 = 0.5 * w[13][k];
+            let v48 = 0.5 * w[10][k];
             let v49 = w[15][k] - v48 * w[14][k];
-            let v50 = w[13][k] * v49 + w[14][k];
+            let v50 = w[10][k] * v49 + w[14][k];
             let v51 = v48 * w[15][k] + w[14][k];
-            let v52 = w[15][k] - w[13][k] * v51;
+            let v52 = w[15][k] - w[10][k] * v51;
             let v53 = 3.5 * v52;
             let v54 = w[7][k] + v53;
             let v55 = v54 - v47;
@@ -1512,57 +1525,105 @@ impl<M: Solved> Solution<M> {
 }
 
 pub mod grid {
-//! The grid on which Newton's iteration goes from point to point.
+// The grid on which Newton's iteration goes from point to point.
+//
+// It goes to the point next to the solution, as often as that takes, and ends where all corrections stay in their cells: so where it began
+// leaves no trace. Of a coordinate on the border of two cells, to rounding, either point may say that the other one is nearer, or that
+// it is so itself. Therefore such a border is judged from one side alone. All coordinates whose corrections end next to a border
+// go to the even one of the two points, the others stay; and from there each goes to where its correction leads, for good.
 
 /// The grid point next to a value.
+#[must_use]
+#[inline]
 pub fn on_grid(x: f64, cell: f64) -> f64 {
     // adding and taking away 1.5 * 2^52 cells rounds to a whole number of them
     let rounding = 6_755_399_441_055_744.0 * cell;
     (x + rounding) - rounding
+}
+
+/// The largest correction, in cells, with which an iteration ends that has met no border; one that is no farther from half a cell than
+/// `border` leads to one.
+#[must_use]
+#[inline]
+pub fn bound_at_first(border: f64) -> f64 {
+    0.5 - border
+}
+
+/// How an iteration goes on whose largest correction, in cells, is beyond its bound: the bound that it has then; and the cells, in cells,
+/// among whose points those coordinates go on that are next to a border.
+#[must_use]
+#[inline]
+pub fn going_on(largest: f64, bound: f64, border: f64) -> (f64, f64) {
+    let is_free = bound < 0.5;
+    let is_at_border = is_free && largest <= 0.5 + border;
+    // at the even points only what is beyond the border goes on; behind that nothing does that is no stray
+    let next = if is_free { bound } else { 1.0 };
+    (if is_at_border { 0.5 } else { next }, if is_at_border { 2.0 } else { 1.0 })
+}
+
+/// The grid point that a coordinate goes on to, from one and its correction there.
+#[must_use]
+#[inline]
+pub fn next_point(x: f64, delta: f64, cell: f64, cells: f64, border: f64) -> f64 {
+    // from an odd point the even one in the direction of the correction, from an even one none
+    let is_at_border = delta.abs() > (0.5 - border) * cell;
+    on_grid(x + delta, if is_at_border { cells * cell } else { cell })
 }
 }
 
 pub mod newton {
 //! Newton's iteration.
 
-use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
+use super::grid::{bound_at_first, going_on, next_point};
+use super::limits::{BORDER, LARGEST_CORRECTION};
 use super::numbers::larger;
 use super::so_far::larger_so_far;
 use super::solution::{Solution, Solved};
 
 /// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace in where it ends.
-#[allow(clippy::struct_excessive_bools)] // each is an answer of its own
 pub struct Newton {
     is_first: bool,
-    is_open: bool,
     is_lost: bool,
     has_settled: bool,
     first: f64,
+    /// The largest correction, and with which one it ends, both in cells of the grid.
+    largest: f64,
+    bound: f64,
+    /// The cells, in cells, among whose points coordinates next to a border go on.
+    cells: f64,
 }
 
 impl Newton {
     /// It has not begun.
     pub fn new() -> Self {
-        Self { is_first: true, is_open: false, is_lost: false, has_settled: false, first: 0.0 }
+        let bound = bound_at_first(BORDER);
+        Self { is_first: true, is_lost: false, has_settled: false, first: 0.0, largest: 0.0, bound, cells: 1.0 }
     }
 
-    /// A coordinate with its correction; its grid has cells so wide, and it is judged against `scale`.
-    pub fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
+    /// The correction of a coordinate; its grid has cells so wide, and it is judged against `scale`.
+    pub fn see(&mut self, delta: f64, cell: f64, scale: f64) {
         let size = delta.abs();
         if self.is_first {
             self.first = larger_so_far(self.first, size / scale);
         }
-        self.is_open |= size > HALF_A_CELL * cell;
+        self.largest = larger_so_far(self.largest, size / cell);
         self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
-        x + delta
     }
 
     /// Whether no further iteration is needed, or none helps.
     pub fn is_done(&mut self) -> bool {
-        self.has_settled = !self.is_open && !self.is_lost;
+        self.has_settled = !self.is_lost && self.largest <= self.bound;
         let is_done = self.has_settled || self.is_lost;
-        (self.is_first, self.is_open) = (false, false);
+        if !is_done {
+            (self.bound, self.cells) = going_on(self.largest, self.bound, BORDER);
+        }
+        (self.is_first, self.largest) = (false, 0.0);
         is_done
+    }
+
+    /// The grid point that a coordinate goes on to.
+    pub fn next(&self, x: f64, delta: f64, cell: f64) -> f64 {
+        next_point(x, delta, cell, self.cells, BORDER)
     }
 }
 
@@ -2397,8 +2458,8 @@ pub mod pivoting {
 
 use super::blocks::{self, Blocks};
 use super::error::Fault;
-use super::grid::on_grid;
-use super::limits::{HALF_A_CELL, ITERATIONS};
+use super::grid::{bound_at_first, going_on, next_point, on_grid};
+use super::limits::{BORDER, ITERATIONS};
 use super::numbers::{Flags, Numbers, largest};
 use super::solution::{Along, Solution, Solved};
 
@@ -2502,10 +2563,11 @@ pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Side
 
 /// Newton's iteration; whether it has arrived.
 fn settle<M: Pivoting>(m: &M, at: &mut Solution<M>, sides: &M::Sides, elimination: &mut Elimination<M>) -> bool {
+    let mut bound = bound_at_first(BORDER);
+    for (q, cell) in at.q.as_mut().iter_mut().zip(M::cells().as_ref()) {
+        *q = on_grid(*q, *cell);
+    }
     for iteration in 0..ITERATIONS {
-        for (q, cell) in at.q.as_mut().iter_mut().zip(M::cells().as_ref()) {
-            *q = on_grid(*q, *cell);
-        }
         let slopes = m.phi_q(&at.q, at.t, sides);
         let mut right = m.phi(&at.q, at.t, sides);
         right.as_mut().iter_mut().for_each(|value| *value = -*value);
@@ -2513,10 +2575,15 @@ fn settle<M: Pivoting>(m: &M, at: &mut Solution<M>, sides: &M::Sides, eliminatio
         if iteration == 0 {
             at.first = largest(&x, M::scales());
         }
-        at.q.as_mut().iter_mut().zip(x.as_ref()).for_each(|(q, x)| *q += x);
-        if largest(&x, M::cells()) <= HALF_A_CELL {
+        let corrected = at.q.as_mut().iter_mut().zip(x.as_ref());
+        let size = largest(&x, M::cells());
+        if size <= bound {
+            corrected.for_each(|(q, x)| *q += x);
             return true;
         }
+        let (next, cells) = going_on(size, bound, BORDER);
+        corrected.zip(M::cells().as_ref()).for_each(|((q, x), cell)| *q = next_point(*q, *x, *cell, cells, BORDER));
+        bound = next;
     }
     false
 }
@@ -2686,12 +2753,10 @@ pub struct Solutions<M: Laned<L>, const L: usize> {
     pub joined: M::OfJoined,
     /// By block: what has the sign of its determinant.
     pub signs: M::Signs,
-    /// Multipliers, residuals and angles beside what is bearable: 1 at most.
+    /// Multipliers, residuals, angles and corrections beside what is bearable: 1 at most.
     pub strain: [f64; L],
     /// Newton's largest first correction, scaled.
     pub first: [f64; L],
-    /// Its largest last correction, in cells of the grid.
-    pub open: [f64; L],
     /// One over the smallest pivot, scaled.
     pub steepest: [f64; L],
 }
@@ -2710,7 +2775,6 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
         signs: M::Signs::ZERO,
         strain: [0.0; L],
         first: [0.0; L],
-        open: [0.0; L],
         steepest: [0.0; L],
     };
 
@@ -2718,7 +2782,7 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
     pub fn begin(&mut self, t: &[f64; L]) {
         self.t = *t;
         let zero = [0.0; L];
-        (self.strain, self.first, self.open, self.steepest) = (zero, zero, zero, zero);
+        (self.strain, self.first, self.steepest) = (zero, zero, zero);
         for (signs, is_negative) in self.signs.as_mut().iter_mut().zip(M::turned().as_ref()) {
             *signs = [u64::from(*is_negative) << 63; L];
         }
@@ -2842,39 +2906,40 @@ pub mod lane_newton {
 // what is done in every lane reads best, and vectorises best, with the lane's number
 #![allow(clippy::needless_range_loop)]
 
+use super::grid::{bound_at_first, going_on, next_point};
 use super::lane_solutions::{Laned, Solutions};
-use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
+use super::limits::{BORDER, LARGEST_CORRECTION};
 use super::so_far::larger_so_far;
 
-/// An iteration of Newton in every lane, until all have settled or are lost.
+/// An iteration of Newton in every lane, until all have settled or are lost. A lane that has settled stays where it is.
 pub struct Settling<const L: usize> {
     is_first: bool,
     first: [f64; L],
+    /// The largest correction, scaled.
     far: [f64; L],
-    open: [f64; L],
+    /// The largest correction now, and with which one it ends, both in cells of the grid.
+    largest: [f64; L],
+    bound: [f64; L],
+    /// The cells, in cells, among whose points coordinates next to a border go on; 0 where all stay.
+    cells: [f64; L],
 }
 
 impl<const L: usize> Settling<L> {
     /// It has not begun.
     pub fn new() -> Self {
         let zero = [0.0; L];
-        Self { is_first: true, first: zero, far: zero, open: zero }
+        let bound = [bound_at_first(BORDER); L];
+        Self { is_first: true, first: zero, far: zero, largest: zero, bound, cells: zero }
     }
 
-    /// Another round begins.
-    pub fn begin(&mut self) {
-        self.open = [0.0; L];
-    }
-
-    /// Corrects a coordinate whose grid has cells so wide, and which is judged against `scale`.
+    /// The correction of a coordinate; its grid has cells so wide, and it is judged against `scale`.
     #[inline]
-    pub fn correct(&mut self, lane: usize, x: &mut f64, delta: f64, cell: f64, scale: f64) {
+    pub fn see(&mut self, lane: usize, delta: f64, cell: f64, scale: f64) {
         let size = delta.abs();
-        if let (Some(far), Some(open)) = (self.far.get_mut(lane), self.open.get_mut(lane)) {
+        if let (Some(far), Some(largest)) = (self.far.get_mut(lane), self.largest.get_mut(lane)) {
             *far = larger_so_far(*far, size / scale);
-            *open = larger_so_far(*open, size / cell);
+            *largest = larger_so_far(*largest, size / cell);
         }
-        *x += delta;
     }
 
     /// Whether no further iteration is needed, or none helps.
@@ -2883,18 +2948,35 @@ impl<const L: usize> Settling<L> {
             self.first = self.far;
             self.is_first = false;
         }
-        let mut pairs = self.open.iter().zip(&self.far);
-        let is_lost = |far: f64| far.is_nan() || far > LARGEST_CORRECTION;
-        pairs.all(|(open, far)| *open <= HALF_A_CELL || is_lost(*far))
+        let mut open = 0.0;
+        for k in 0..L {
+            let is_lost = self.far[k].is_nan() || self.far[k] > LARGEST_CORRECTION;
+            let stays = is_lost || self.largest[k] <= self.bound[k];
+            let (bound, cells) = going_on(self.largest[k], self.bound[k], BORDER);
+            // from now on it stays
+            self.bound[k] = if stays { f64::INFINITY } else { bound };
+            self.cells[k] = if stays { 0.0 } else { cells };
+            open += self.cells[k];
+            self.largest[k] = 0.0;
+        }
+        open == 0.0
+    }
+
+    /// The grid point that a coordinate goes on to.
+    #[inline]
+    pub fn next(&self, lane: usize, x: f64, delta: f64, cell: f64) -> f64 {
+        let cells = self.cells.get(lane).copied().unwrap_or(0.0);
+        let next = next_point(x, delta, cell, cells, BORDER);
+        if cells > 0.0 { next } else { x }
     }
 
     /// Leaves word of how it went. What is not a number is in the coordinates, too.
     pub fn note<M: Laned<L>>(&self, at: &mut Solutions<M, L>) {
         for k in 0..L {
             at.first[k] = larger_so_far(at.first[k], self.first[k]);
-            at.open[k] = larger_so_far(at.open[k], self.open[k]);
             let lost = self.far[k] * (1.0 / LARGEST_CORRECTION);
-            at.strain[k] = larger_so_far(at.strain[k], lost);
+            let strain = if self.cells[k] > 0.0 { f64::INFINITY } else { lost };
+            at.strain[k] = larger_so_far(at.strain[k], strain);
         }
     }
 }
@@ -2911,7 +2993,7 @@ use super::assemble::assemble;
 use super::branches::{sides_ahead, sides_at, with_time};
 use super::error::Error;
 use super::lane_solutions::{Laned, Lists, Solutions};
-use super::limits::{FARTHEST_BEND, HALF_A_CELL, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP};
+use super::limits::{FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP};
 use super::numbers::Numbers;
 use super::so_far::larger_so_far;
 use super::state::{Lead, State};
@@ -3044,7 +3126,7 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
         }
         for k in 0..L {
             let is_near = motion[k] <= LARGEST_MOTION && at.first[k] <= LARGEST_CORRECTION;
-            is_done[k] &= is_near && at.open[k] <= HALF_A_CELL && gap[k] <= LARGEST_GAP;
+            is_done[k] &= is_near && gap[k] <= LARGEST_GAP;
         }
         for (now, before) in at.signs.as_ref().iter().zip(from.signs.as_ref()) {
             for k in 0..L {
@@ -3390,14 +3472,14 @@ pub mod limits {
 pub const ACCURACY: f64 = 1e-9;
 /// How far the motion is looked ahead to tell on which side of an edge it goes on, as a part of the span.
 pub const AHEAD: f64 = 1e-9;
+/// A correction that is no farther from half a cell of the grid than this, in cells, leads to the border of two.
+pub const BORDER: f64 = 0.000244140625;
 /// Nothing may move farther than this meanwhile, scaled.
 pub const FARTHEST_AHEAD: f64 = 1e-7;
 /// The step before tells of one that is so many times as long at most.
 pub const FARTHEST_BEND: f64 = 4.0;
-/// A correction of just half a cell of the grid, to rounding, stays in it.
-pub const HALF_A_CELL: f64 = 0.500001;
 /// Iterations of Newton at most.
-pub const ITERATIONS: usize = 6;
+pub const ITERATIONS: usize = 8;
 /// Newton's first correction at most, beside the size of a body or 1 rad.
 pub const LARGEST_CORRECTION: f64 = 0.05;
 /// How far velocities may lead elsewhere than positions, likewise: more is another branch.

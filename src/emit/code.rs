@@ -253,6 +253,8 @@ enum Home {
 
 /// No loop.
 const STRAIGHT: u32 = 0;
+/// No function in particular.
+const OTHERS: u32 = u32::MAX;
 
 struct Printer<'p, S> {
     scene: &'p S,
@@ -312,8 +314,10 @@ impl<'p, S: Scene> Printer<'p, S> {
                         let of_loop = if piece.tears.is_some() { loops } else { STRAIGHT };
                         self.settle_in(piece.range.clone(), function, of_loop);
                         for tear in piece.tears.unwrap_or(&[]) {
+                            // in lanes loops beside its own have the corrections too
+                            let reader = if self.scene.has_lanes() { OTHERS } else { function };
                             self.read(tear.x, function, STRAIGHT);
-                            self.read(tear.delta, function, of_loop);
+                            self.read(tear.delta, reader, STRAIGHT);
                         }
                     }
                 }
@@ -544,12 +548,13 @@ impl<'p, S: Scene> Printer<'p, S> {
 
     /// Newton in all lanes.
     fn newton_of_lanes(&mut self, range: Range<usize>, tears: &[Tear], text: &mut String) {
-        let (mut before, mut after) = (String::new(), String::new());
         let mut places = Vec::new();
+        let (mut begin, mut before) = (String::new(), String::new());
         for (number, tear) in tears.iter().enumerate() {
-            let (place, cell) = (self.value(tear.x), literal(tear.cell));
-            let name = format!("x{}", number + 1);
-            before += &format!("            let mut {name} = on_grid({place}, {cell});\n");
+            let (place, name) = (self.value(tear.x), format!("x{}", number + 1));
+            begin += &format!("        {place} = on_grid({place}, {});\n", literal(tear.cell));
+            before += &format!("            let {name} = {place};\n");
+            self.used.extend(place.arguments());
             places.push(place);
             self.names[tear.x as usize] = Some(Operand::own(name));
         }
@@ -557,36 +562,40 @@ impl<'p, S: Scene> Printer<'p, S> {
         for at in range {
             self.instruction(self.instructions[at], "            ", &mut body);
         }
+        let (mut after, mut go_on, mut end) = (String::new(), String::new(), String::new());
         for (tear, place) in tears.iter().zip(places) {
-            let (x, delta) = (self.value(tear.x), self.value(tear.delta));
+            let delta = self.value(tear.delta);
             let number = self.guessed.get(&tear.x).copied().unwrap_or(0);
-            let sizes = format!("TEAR_CELLS[{number}], TEAR_SCALES[{number}]");
-            after += &format!("            newton.correct(k, &mut {x}, {delta}, {sizes});\n");
-            after += &format!("            {place} = {x};\n");
-            self.used.extend(place.arguments());
+            let (cell, scale) = (format!("TEAR_CELLS[{number}]"), format!("TEAR_SCALES[{number}]"));
+            after += &format!("            newton.see(k, {delta}, {cell}, {scale});\n");
+            go_on += &format!("            {place} = newton.next(k, {place}, {delta}, {cell});\n");
+            end += &format!("        {place} += {delta};\n");
             self.names[tear.x as usize] = Some(place);
         }
         self.used.insert(AT);
+        let lanes = "for k in 0..LANES {\n";
         *text += &format!(
-            "    let mut newton = Settling::new();\n    for _ in 0..ITERATIONS {{\n        newton.begin();\n        \
-             for k in 0..LANES {{\n{before}{body}{after}        }}\n        \
-             if newton.is_done() {{\n            break;\n        }}\n    }}\n    newton.note(at);\n"
+            "    {lanes}{begin}    }}\n    let mut newton = Settling::new();\n    for _ in 0..ITERATIONS {{\n        \
+             {lanes}{before}{body}{after}        }}\n        if newton.is_done() {{\n            break;\n        }}\n        \
+             {lanes}{go_on}        }}\n    }}\n    newton.note(at);\n    {lanes}{end}    }}\n"
         );
     }
 
     /// A loop around a body.
     fn around(&mut self, tears: &[Tear], body: &str) -> String {
-        let (mut before, mut after) = (String::new(), String::new());
+        let (mut begin, mut after, mut go_on, mut end) = (String::new(), String::new(), String::new(), String::new());
         for tear in tears {
             let (x, delta) = (self.value(tear.x), self.value(tear.delta));
             let (cell, scale) = (literal(tear.cell), literal(tear.scale));
-            before += &format!("        {x} = on_grid({x}, {cell});\n");
-            after += &format!("        {x} = newton.corrected({x}, {delta}, {cell}, {scale});\n");
+            begin += &format!("    {x} = on_grid({x}, {cell});\n");
+            after += &format!("        newton.see({delta}, {cell}, {scale});\n");
+            go_on += &format!("        {x} = newton.next({x}, {delta}, {cell});\n");
+            end += &format!("    {x} += {delta};\n");
         }
         self.used.insert(AT);
         format!(
-            "    let mut newton = Newton::new();\n    for _ in 0..ITERATIONS {{\n{before}{body}{after}        \
-             if newton.is_done() {{\n            break;\n        }}\n    }}\n    at.note(&newton);\n"
+            "{begin}    let mut newton = Newton::new();\n    for _ in 0..ITERATIONS {{\n{body}{after}        \
+             if newton.is_done() {{\n            break;\n        }}\n{go_on}    }}\n    at.note(&newton);\n{end}"
         )
     }
 

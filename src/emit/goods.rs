@@ -37,8 +37,8 @@ files! {
     "solution" at "runtime/solution.rs": ["numbers", "error", "equations", "measured"], [];
     "so_far" at "runtime/so_far.rs": [], [];
     "pivots" at "runtime/pivots.rs": ["so_far", "solution"], [];
-    "grid" at "runtime/grid.rs": [], [];
-    "newton" at "runtime/newton.rs": ["numbers", "so_far", "solution"], [HALF_A_CELL, LARGEST_CORRECTION];
+    "grid" at "../math/grid.rs": [], [];
+    "newton" at "runtime/newton.rs": ["numbers", "so_far", "solution", "grid"], [BORDER, LARGEST_CORRECTION];
     "branches" at "runtime/branches.rs": ["equations", "solution"], [MOST_HALVINGS, SLACK];
     "watched" at "runtime/watched.rs": ["numbers"], [];
     "left_out" at "runtime/left_out.rs": [], [LARGEST_OPENING];
@@ -54,7 +54,7 @@ files! {
     "rims" at "runtime/rims.rs": ["numbers", "error", "solution", "reach", "state"],
         [FEWEST_LOOKS, GROWTH, LEAD, MOMENT, MOST_HALVINGS, MOST_LOOKS, PASSED, ROUNDING, SLOW, SPEED_JUMP];
     "blocks" at "../math/blocks.rs": [], [];
-    "pivoting" at "runtime/pivoting.rs": ["numbers", "error", "solution", "grid", "blocks"], [HALF_A_CELL, ITERATIONS];
+    "pivoting" at "runtime/pivoting.rs": ["numbers", "error", "solution", "grid", "blocks"], [BORDER, ITERATIONS];
     "pivoted_slopes" at "runtime/pivoted_slopes.rs": ["error", "solution", "pivoting"], [];
     "way" at "runtime/way.rs": ["numbers", "equations", "solution", "state"], [FARTHEST_AHEAD];
     "way_list" at "runtime/way_list.rs": ["state", "way"], [];
@@ -68,9 +68,9 @@ files! {
     "lane_solutions" at "runtime/lane_solutions.rs": ["measured", "solution", "state"], [];
     "lane_strain" at "runtime/lane_strain.rs": ["so_far", "lane_solutions"], [];
     "lane_pivots" at "runtime/lane_pivots.rs": ["so_far", "lane_solutions"], [];
-    "lane_newton" at "runtime/lane_newton.rs": ["so_far", "lane_solutions"], [HALF_A_CELL, LARGEST_CORRECTION];
+    "lane_newton" at "runtime/lane_newton.rs": ["so_far", "lane_solutions", "grid"], [BORDER, LARGEST_CORRECTION];
     "lanes" at "runtime/lanes.rs": ["numbers", "so_far", "error", "branches", "state", "assemble", "step", "lane_solutions"],
-        [FARTHEST_BEND, HALF_A_CELL, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP];
+        [FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP];
     "lane_follow" at "runtime/lane_follow.rs": ["error", "way", "follow", "lane_solutions", "lanes"], [MOST_STEPS];
     "sine_and_cosine" at "../math/sin_cos.rs": [], [];
     "without_branches" at "../math/without_branches.rs": ["sine_and_cosine"], [];

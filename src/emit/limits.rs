@@ -40,12 +40,13 @@ limits! {
     Number AHEAD = edges::AHEAD,
         "How far the motion is looked ahead to tell on which side of an edge it goes on, as a part of the span.";
     Number LONGEST_AHEAD = edges::LONGEST_AHEAD, "And at most (s).";
+    Number BORDER = lanes::BORDER,
+        "A correction that is no farther from half a cell of the grid than this, in cells, leads to the border of two.";
     Number FARTHEST_AHEAD = edges::FARTHEST_AHEAD, "Nothing may move farther than this meanwhile, scaled.";
     Number FARTHEST_BEND = step::FARTHEST_BEND,
         "The step before tells of one that is so many times as long at most.";
     Count FEWEST_LOOKS = looks::FEWEST_LOOKS, "How often both sides of a rim are looked at at least.";
     Number GROWTH = sides::GROWTH, "What grows by so much with each look has no bound.";
-    Number HALF_A_CELL = lanes::HALF_A_CELL, "A correction of just half a cell of the grid, to rounding, stays in it.";
     Count ITERATIONS = lanes::ITERATIONS, "Iterations of Newton at most.";
     Number LARGEST_CORRECTION = lanes::LARGEST_CORRECTION,
         "Newton's first correction at most, beside the size of a body or 1 rad.";

@@ -8,12 +8,12 @@ use std::array::from_fn;
 /// The values of one register, a lane for each.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-pub struct Vector<const W: usize>(pub [f64; W]);
+pub struct LaneValues<const W: usize>(pub [f64; W]);
 
 /// Registers that hold a number for each lane.
 pub struct LaneMachine<'n, const W: usize> {
     /// What stands in them.
-    pub v: &'n mut [Vector<W>],
+    pub v: &'n mut [LaneValues<W>],
     /// Tables, and what they hold.
     pub program: &'n Program,
     /// The program's own registers.

@@ -24,7 +24,7 @@ mod tables;
 
 pub use enclose::Enclosure;
 pub use evaluate::{Frozen, Registers, truth};
-pub use lanes::{LaneMachine, Vector};
+pub use lanes::{LaneMachine, LaneValues};
 pub use op::{Few, Machine, Op};
 pub use ranges::{Range, Ranges};
 pub use signals::Signal;

@@ -2,31 +2,25 @@
 
 use super::curve::Bend;
 use super::{Instruction, LARGEST_MULTIPLIER, Solver, Tear, from_bits};
+use crate::math::grid::{bound_at_first, going_on, next_point, on_grid};
 use crate::math::{self, Vectors};
-use crate::program::{LaneMachine, Machine, Op, Program, Registers, Vector};
-use crate::tolerances::solving::lanes::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION};
+use crate::program::{LaneMachine, LaneValues, Machine, Op, Program, Registers};
+use crate::tolerances::solving::lanes::{BORDER, ITERATIONS, LARGEST_CORRECTION};
 use std::array::from_fn;
 use std::ops::Range;
-
-/// The grid point next to a value, cells being so wide.
-#[inline(always)]
-#[allow(clippy::inline_always)] // as all that `Lanes::run` does
-pub(super) fn on_grid(x: f64, cell: f64) -> f64 {
-    // adding and taking away 1.5 · 2⁵² cells rounds to a whole number of them
-    let rounding = 6_755_399_441_055_744.0 * cell;
-    (x + rounding) - rounding
-}
 
 /// Registers for `W` times.
 #[derive(Clone, Debug)]
 pub struct Lanes<const W: usize> {
     vectors: Vectors,
-    values: Vec<Vector<W>>,
+    values: Vec<LaneValues<W>>,
     /// The largest multiplier of each lane, and the largest part of its bound that a residual takes.
     multiplier: [f64; W],
     residual: [f64; W],
-    /// Lanes whose iteration has gone astray.
-    is_lost: [bool; W],
+    /// The largest correction of each lane, scaled.
+    farthest: [f64; W],
+    /// With which largest correction Newton ends in each lane, in cells.
+    bound: [f64; W],
     /// The largest first correction of each lane, scaled.
     first_correction: [f64; W],
     /// By lane: 0 if all that was stored is finite, else not a number.
@@ -54,14 +48,15 @@ impl<const W: usize> Lanes<W> {
     /// Registers for a solver, which is run with some vector instructions.
     #[must_use]
     pub fn new(solver: &Solver, vectors: Vectors) -> Lanes<W> {
-        let values = vec![Vector([0.0; W]); solver.registers];
+        let values = vec![LaneValues([0.0; W]); solver.registers];
         let zero = [0.0; W];
         Lanes {
             vectors,
             values,
             multiplier: zero,
             residual: zero,
-            is_lost: [false; W],
+            farthest: zero,
+            bound: zero,
             first_correction: zero,
             finite: zero,
         }
@@ -91,7 +86,7 @@ impl<const W: usize> Lanes<W> {
         batch: &Batch<'_, W>,
         rows: &mut [f64],
     ) -> [bool; W] {
-        (self.multiplier, self.residual, self.is_lost) = ([0.0; W], [0.0; W], [false; W]);
+        (self.multiplier, self.residual, self.farthest) = ([0.0; W], [0.0; W], [0.0; W]);
         (self.first_correction, self.finite) = ([0.0; W], [0.0; W]);
         for (row, t) in rows.chunks_exact_mut(solver.layout.stride).zip(batch.times) {
             row[0] = t;
@@ -103,7 +98,7 @@ impl<const W: usize> Lanes<W> {
             #[inline(always)]
             || run.segments(),
         );
-        from_fn(|k| !self.is_lost[k] && self.multiplier[k] <= LARGEST_MULTIPLIER && self.residual[k] <= 1.0)
+        from_fn(|k| !is_lost(self.farthest[k]) && self.multiplier[k] <= LARGEST_MULTIPLIER && self.residual[k] <= 1.0)
     }
 }
 
@@ -123,57 +118,78 @@ impl<const W: usize> Run<'_, W> {
     fn segments(&mut self) {
         for segment in &self.solver.segments {
             let tears = segment.tears();
+            self.begin(tears);
             for iteration in 0..ITERATIONS {
-                self.put_on_grid(tears);
                 self.instructions(segment.range());
-                // what is run once is settled by that
-                if self.take_corrections(tears, iteration) {
+                // what is run once is done then
+                if tears.is_empty() || self.go_on(tears, iteration) {
                     break;
                 }
             }
+            self.end(tears);
         }
     }
 
-    /// Newton goes from grid point to grid point.
+    /// Newton begins at the grid points next to its guesses.
     #[inline(always)]
-    fn put_on_grid(&mut self, tears: &[Tear]) {
+    fn begin(&mut self, tears: &[Tear]) {
+        self.lanes.bound = [bound_at_first(BORDER); W];
         for tear in tears {
             self.lanes.values[tear.x as usize].0.iter_mut().for_each(|x| *x = on_grid(*x, tear.cell));
         }
     }
 
-    /// Adds the corrections to the tears; says whether every lane's stay in the cell.
+    /// Goes on to the next grid points in the lanes that have not settled (`math/grid.rs`); says whether there are none. A lane that has
+    /// settled stays where it is, whatever the others do.
     #[inline(always)]
-    fn take_corrections(&mut self, tears: &[Tear], iteration: usize) -> bool {
-        let mut is_settled = true;
+    fn go_on(&mut self, tears: &[Tear], iteration: usize) -> bool {
+        let Lanes { values, bound, farthest, first_correction, .. } = &mut *self.lanes;
+        let (mut largest, mut far) = ([0.0; W], [0.0; W]);
         for tear in tears {
-            let delta = self.lanes.values[tear.delta as usize].0;
-            if iteration == 0 {
-                keep_largest(&mut self.lanes.first_correction, &delta, 1.0 / tear.scale);
-            }
-            let is_lost = &mut self.lanes.is_lost;
+            let delta = &values[tear.delta as usize].0;
+            keep_largest(&mut largest, delta, 1.0 / tear.cell);
+            keep_largest(&mut far, delta, 1.0 / tear.scale);
+        }
+        keep_largest(farthest, &far, 1.0);
+        if iteration == 0 {
+            keep_largest(first_correction, &far, 1.0);
+        }
+        // by lane: the cells, in cells, among whose points coordinates next to a border go on; 0 where all stay
+        let (mut cells, mut open) = ([0.0; W], 0.0);
+        for k in 0..W {
+            let stays = largest[k] <= bound[k] || is_lost(farthest[k]);
+            let (next, width) = going_on(largest[k], bound[k], BORDER);
+            bound[k] = if stays { f64::INFINITY } else { next };
+            cells[k] = if stays { 0.0 } else { width };
+            open += cells[k];
+        }
+        if open == 0.0 {
+            return true;
+        }
+        for tear in tears {
+            let delta = values[tear.delta as usize].0;
+            let x = &mut values[tear.x as usize].0;
             for k in 0..W {
-                is_lost[k] |= delta[k].is_nan() || delta[k].abs() > LARGEST_CORRECTION * tear.scale;
-                is_settled &= is_lost[k] || delta[k].abs() <= HALF_A_CELL * tear.cell;
-            }
-            let x = &mut self.lanes.values[tear.x as usize].0;
-            for k in 0..W {
-                x[k] += delta[k];
+                let next = next_point(x[k], delta[k], tear.cell, cells[k], BORDER);
+                x[k] = if cells[k] > 0.0 { next } else { x[k] };
             }
         }
-        if !is_settled && iteration + 1 == ITERATIONS {
-            self.give_up(tears);
+        if iteration + 1 == ITERATIONS {
+            // lanes that have not settled never will
+            for (farthest, cells) in farthest.iter_mut().zip(cells) {
+                *farthest = if cells > 0.0 { f64::INFINITY } else { *farthest };
+            }
         }
-        is_settled
+        false
     }
 
-    /// Lanes that have not settled never will.
+    /// From the last grid points the corrections lead to the solution.
     #[inline(always)]
-    fn give_up(&mut self, tears: &[Tear]) {
+    fn end(&mut self, tears: &[Tear]) {
         for tear in tears {
             let delta = self.lanes.values[tear.delta as usize].0;
-            for (lost, delta) in self.lanes.is_lost.iter_mut().zip(delta) {
-                *lost |= delta.abs() > HALF_A_CELL * tear.cell;
+            for (x, delta) in self.lanes.values[tear.x as usize].0.iter_mut().zip(delta) {
+                *x += delta;
             }
         }
     }
@@ -233,6 +249,13 @@ impl<const W: usize> Batch<'_, W> {
         let per_second = 1.0 / self.length;
         self.times.map(|t| bend.on_curve(curve, (t - self.from) * per_second))
     }
+}
+
+/// Whether an iteration has gone astray whose largest correction, scaled, is this.
+#[inline(always)]
+#[allow(clippy::inline_always)] // as all that `Lanes::run` does
+fn is_lost(farthest: f64) -> bool {
+    farthest.is_nan() || farthest > LARGEST_CORRECTION
 }
 
 /// Keeps the larger of what is known and `|value| factor`; what is not a number stays.

@@ -11,7 +11,7 @@
 //!
 //! A tear's iterates lie on a grid, coarse beside rounding and fine beside convergence: Newton steps from the grid point next to the
 //! solution, whichever way that was found. So the numbers do not depend on where the iteration
-//! began, unless a tear lies on the very border of two cells.
+//! began (`math/grid.rs`).
 //!
 //! The operations work on several times at once, as [`Lanes`]; each lane has the bits that it would have alone.
 

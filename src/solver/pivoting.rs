@@ -2,11 +2,12 @@
 //! pivoting.
 
 use super::build::cell;
-use super::lanes::on_grid;
 use crate::math::blocks::{Blocks, solve, work_of};
+use crate::math::grid::{bound_at_first, going_on, next_point, on_grid};
+use crate::math::max;
 use crate::structure::Determined;
 use crate::tolerances::solving::build::CELL;
-use crate::tolerances::solving::lanes::{HALF_A_CELL, ITERATIONS};
+use crate::tolerances::solving::lanes::{BORDER, ITERATIONS};
 use crate::tolerances::solving::pivoting::LARGEST_BLOCK;
 
 /// The blocks of a system, ready to be solved with partial pivoting. Iterates lie on a grid as those of the
@@ -172,25 +173,32 @@ impl Pivoting {
 
     /// Newton from grid point to grid point; the position (m, rad) is set when it has settled. Says whether it has.
     pub fn position(&mut self, equations: &mut impl Equations, q: &mut [f64]) -> bool {
+        let mut bound = bound_at_first(BORDER);
+        for (q, &cell) in q.iter_mut().zip(&self.tables.cells) {
+            *q = on_grid(*q, cell);
+        }
         for _ in 0..ITERATIONS {
-            for (q, &cell) in q.iter_mut().zip(&self.tables.cells) {
-                *q = on_grid(*q, cell);
-            }
             if !equations.set_position(q) {
                 return false;
             }
             self.load(equations);
             let mut delta = std::mem::take(&mut self.delta);
             self.solve(|row| -equations.phi(row), &mut delta);
-            let steps = || delta.iter().zip(&self.tables.cells);
-            let is_settled = steps().all(|(delta, cell)| delta.abs() <= HALF_A_CELL * cell);
-            q.iter_mut().zip(&delta).for_each(|(q, delta)| *q += delta);
-            self.delta = delta;
-            if is_settled {
+            let sizes = delta.iter().zip(&self.tables.cells).map(|(delta, cell)| delta.abs() / cell);
+            let size = sizes.fold(0.0, max);
+            let corrected = q.iter_mut().zip(&delta);
+            if size <= bound {
+                corrected.for_each(|(q, delta)| *q += delta);
+                self.delta = delta;
                 let is_set = equations.set_position(q);
                 self.load(equations);
                 return is_set;
             }
+            let (next, cells) = going_on(size, bound, BORDER);
+            let places = corrected.zip(&self.tables.cells);
+            places.for_each(|((q, delta), cell)| *q = next_point(*q, *delta, *cell, cells, BORDER));
+            bound = next;
+            self.delta = delta;
         }
         false
     }

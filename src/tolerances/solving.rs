@@ -34,12 +34,13 @@ pub mod solver {
 
 /// Newton in lanes (`solver/lanes.rs`).
 pub mod lanes {
-    /// Iterations of a block at most.
-    pub const ITERATIONS: usize = 6;
+    /// Iterations of a block at most, two of which may be at a border of two cells.
+    pub const ITERATIONS: usize = 8;
     /// Largest first correction, scaled: the curve of a step is nearer than this.
     pub const LARGEST_CORRECTION: f64 = 0.05;
-    /// A correction of just half a cell, to rounding, stays in it.
-    pub const HALF_A_CELL: f64 = 0.5 + 1e-6;
+    /// A correction that is no farther from half a cell than this, in cells, leads to the border of two. What rounding makes of corrections
+    /// is less.
+    pub const BORDER: f64 = 1.0 / 4_096.0;
 }
 
 /// Blocks that are pivoted (`solver/pivoting.rs`).

@@ -77,12 +77,10 @@ pub struct Solutions<M: Laned<L>, const L: usize> {
     pub joined: M::OfJoined,
     /// By block: what has the sign of its determinant.
     pub signs: M::Signs,
-    /// Multipliers, residuals and angles beside what is bearable: 1 at most.
+    /// Multipliers, residuals, angles and corrections beside what is bearable: 1 at most.
     pub strain: [f64; L],
     /// Newton's largest first correction, scaled.
     pub first: [f64; L],
-    /// Its largest last correction, in cells of the grid.
-    pub open: [f64; L],
     /// One over the smallest pivot, scaled.
     pub steepest: [f64; L],
 }
@@ -101,7 +99,6 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
         signs: M::Signs::ZERO,
         strain: [0.0; L],
         first: [0.0; L],
-        open: [0.0; L],
         steepest: [0.0; L],
     };
 
@@ -109,7 +106,7 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
     pub fn begin(&mut self, t: &[f64; L]) {
         self.t = *t;
         let zero = [0.0; L];
-        (self.strain, self.first, self.open, self.steepest) = (zero, zero, zero, zero);
+        (self.strain, self.first, self.steepest) = (zero, zero, zero);
         for (signs, is_negative) in self.signs.as_mut().iter_mut().zip(M::turned().as_ref()) {
             *signs = [u64::from(*is_negative) << 63; L];
         }

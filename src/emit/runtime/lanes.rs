@@ -8,7 +8,7 @@ use super::assemble::assemble;
 use super::branches::{sides_ahead, sides_at, with_time};
 use super::error::Error;
 use super::lane_solutions::{Laned, Lists, Solutions};
-use super::limits::{FARTHEST_BEND, HALF_A_CELL, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP};
+use super::limits::{FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP};
 use super::numbers::Numbers;
 use super::so_far::larger_so_far;
 use super::state::{Lead, State};
@@ -141,7 +141,7 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
         }
         for k in 0..L {
             let is_near = motion[k] <= LARGEST_MOTION && at.first[k] <= LARGEST_CORRECTION;
-            is_done[k] &= is_near && at.open[k] <= HALF_A_CELL && gap[k] <= LARGEST_GAP;
+            is_done[k] &= is_near && gap[k] <= LARGEST_GAP;
         }
         for (now, before) in at.signs.as_ref().iter().zip(from.signs.as_ref()) {
             for k in 0..L {

@@ -55,24 +55,29 @@ pub fn solve<B: Book, const REGISTERS: usize>(
             continue;
         }
         let mut newton = Newton::new();
+        correct(&mut v, tears, |x, _, cell| on_grid(x, cell));
         for _ in 0..ITERATIONS {
-            for Settling { registers, sizes } in tears {
-                if let Some(x) = v.get_mut(registers[0]) {
-                    *x = on_grid(*x, sizes[0]);
-                }
-            }
             run::<B>(code, guess, inputs, &mut v, out);
             for Settling { registers, sizes } in tears {
-                let delta = v.get(registers[1]).copied().unwrap_or(f64::NAN);
-                if let Some(x) = v.get_mut(registers[0]) {
-                    *x = newton.corrected(*x, delta, sizes[0], sizes[1]);
-                }
+                newton.see(v.get(registers[1]).copied().unwrap_or(f64::NAN), sizes[0], sizes[1]);
             }
             if newton.is_done() {
                 break;
             }
+            correct(&mut v, tears, |x, delta, cell| newton.next(x, delta, cell));
         }
+        correct(&mut v, tears, |x, delta, _| x + delta);
         out.settled(&newton);
+    }
+}
+
+/// Puts another value in the place of each coordinate, by what it is, its correction, and the width of its cells.
+fn correct(v: &mut [f64], tears: &[Settling], other: impl Fn(f64, f64, f64) -> f64) {
+    for Settling { registers, sizes } in tears {
+        let delta = v.get(registers[1]).copied().unwrap_or(f64::NAN);
+        if let Some(x) = v.get_mut(registers[0]) {
+            *x = other(*x, delta, sizes[0]);
+        }
     }
 }
 

@@ -14,7 +14,6 @@ pub mod explain;
 pub mod follow;
 pub mod forces;
 pub mod forces_led;
-pub mod grid;
 pub mod hold_apart;
 pub mod lane_follow;
 pub mod lane_newton;
@@ -63,7 +62,7 @@ pub mod sign;
 mod tests;
 
 use crate::emit::limits::values as limits;
-use crate::math::blocks;
+use crate::math::{blocks, grid};
 use crate::program::codes;
 
 /// The sine and cosine as they go along.

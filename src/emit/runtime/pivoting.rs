@@ -2,8 +2,8 @@
 
 use super::blocks::{self, Blocks};
 use super::error::Fault;
-use super::grid::on_grid;
-use super::limits::{HALF_A_CELL, ITERATIONS};
+use super::grid::{bound_at_first, going_on, next_point, on_grid};
+use super::limits::{BORDER, ITERATIONS};
 use super::numbers::{Flags, Numbers, largest};
 use super::solution::{Along, Solution, Solved};
 
@@ -107,10 +107,11 @@ pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Side
 
 /// Newton's iteration; whether it has arrived.
 fn settle<M: Pivoting>(m: &M, at: &mut Solution<M>, sides: &M::Sides, elimination: &mut Elimination<M>) -> bool {
+    let mut bound = bound_at_first(BORDER);
+    for (q, cell) in at.q.as_mut().iter_mut().zip(M::cells().as_ref()) {
+        *q = on_grid(*q, *cell);
+    }
     for iteration in 0..ITERATIONS {
-        for (q, cell) in at.q.as_mut().iter_mut().zip(M::cells().as_ref()) {
-            *q = on_grid(*q, *cell);
-        }
         let slopes = m.phi_q(&at.q, at.t, sides);
         let mut right = m.phi(&at.q, at.t, sides);
         right.as_mut().iter_mut().for_each(|value| *value = -*value);
@@ -118,10 +119,15 @@ fn settle<M: Pivoting>(m: &M, at: &mut Solution<M>, sides: &M::Sides, eliminatio
         if iteration == 0 {
             at.first = largest(&x, M::scales());
         }
-        at.q.as_mut().iter_mut().zip(x.as_ref()).for_each(|(q, x)| *q += x);
-        if largest(&x, M::cells()) <= HALF_A_CELL {
+        let corrected = at.q.as_mut().iter_mut().zip(x.as_ref());
+        let size = largest(&x, M::cells());
+        if size <= bound {
+            corrected.for_each(|(q, x)| *q += x);
             return true;
         }
+        let (next, cells) = going_on(size, bound, BORDER);
+        corrected.zip(M::cells().as_ref()).for_each(|((q, x), cell)| *q = next_point(*q, *x, *cell, cells, BORDER));
+        bound = next;
     }
     false
 }

@@ -100,15 +100,19 @@ impl Solved for Circle {
         at.begin(t);
         let (cell, mut x, w) = (CELL, guess[0], self.speed.0);
         let y = w * t;
+        let mut delta = 0.0;
+        x = on_grid(x, cell);
         let mut newton = Newton::new();
         for _ in 0..ITERATIONS {
-            x = on_grid(x, cell);
-            x = newton.corrected(x, (1.0 - x * x - y * y) / (2.0 * x), cell, 1.0);
+            delta = (1.0 - x * x - y * y) / (2.0 * x);
+            newton.see(delta, cell, 1.0);
             if newton.is_done() {
                 break;
             }
+            x = newton.next(x, delta, cell);
         }
         at.note(&newton);
+        x += delta;
         at.pivot(0, 0.5 / x, 1.0);
         let v = -y * w / x;
         (at.q, at.qd, at.qdd) = ([x, y], [v, w], [-(v * v + w * w) / x, 0.0]);

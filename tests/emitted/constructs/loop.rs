@@ -486,10 +486,10 @@ fn solve(guess: &[f64; TEARS], t: f64, _m: &Model, at: &mut Solution) {
     let mut c10 = 0.0;
     let mut v28 = 0.0;
     let mut v31 = 0.0;
+    x1 = on_grid(x1, 7.450580596923828e-9);
+    x2 = on_grid(x2, 7.450580596923828e-9);
     let mut newton = Newton::new();
     for _ in 0..ITERATIONS {
-        x1 = on_grid(x1, 7.450580596923828e-9);
-        x2 = on_grid(x2, 7.450580596923828e-9);
         (s6, c6) = sin_cos(x1);
         let v7 = -1.5 * c6;
         let v8 = 4.0 - v7;
@@ -516,13 +516,17 @@ fn solve(guess: &[f64; TEARS], t: f64, _m: &Model, at: &mut Solution) {
         let v29 = v15 * v22;
         let v30 = v29 - v16 * v25;
         v31 = v30 * v19;
-        x1 = newton.corrected(x1, v28, 7.450580596923828e-9, 1.0);
-        x2 = newton.corrected(x2, v31, 7.450580596923828e-9, 1.0);
+        newton.see(v28, 7.450580596923828e-9, 1.0);
+        newton.see(v31, 7.450580596923828e-9, 1.0);
         if newton.is_done() {
             break;
         }
+        x1 = newton.next(x1, v28, 7.450580596923828e-9);
+        x2 = newton.next(x2, v31, 7.450580596923828e-9);
     }
     at.note(&newton);
+    x1 += v28;
+    x2 += v31;
     let v32 = 0.5 * v28;
     let v33 = c6 - v32 * s6;
     let v34 = v28 * v33 + s6;
