@@ -77,9 +77,9 @@ pub use output::{TableFormat, TableWriter};
 pub use source::{Encoding, FileId, Source, Sources, Span};
 pub use stages::{
     AskedTimes, Assembly, Checked, Choice, Compiled, Formula, Parsed, Redundant, Run, RunOptions, RustOptions, Seen,
-    Sweep, SweepOptions, Variants, Vary, Vectors, imported, seconds,
+    Sweep, SweepOptions, Variants, VaryOptions, Vectors, imported, seconds,
 };
-pub use sweep::{Axis, Block, Method, Points, Sample, Status, Values};
+pub use sweep::{Levels, Method, Points, Sampling, Status, Swept, Varying};
 pub use syntax::{Comment, Trivia};
 pub use vocabulary::{Category, Word, words};
 pub use world::{Contents, Memory, World};

@@ -5,8 +5,8 @@
 mod support;
 
 use mechc::{
-    Block, Cancel, Checked, Choice, Code, Compiled, Memory, Method, Parsed, Redundant, RunOptions, Status,
-    SweepOptions, Variants, Vary, World,
+    Cancel, Checked, Choice, Code, Compiled, Memory, Method, Parsed, Redundant, RunOptions, Status, SweepOptions,
+    Swept, Variants, VaryOptions, World,
 };
 
 /// A four-bar, whose crank turns fully where it is shortest and shortest and longest together are no longer than the other two.
@@ -51,11 +51,11 @@ fn subject(text: &str, choice: Choice) -> Subject {
 }
 
 impl Subject {
-    fn variants(&self, vary: &Vary) -> Variants {
+    fn variants(&self, vary: &VaryOptions) -> Variants {
         self.variants_in(vary, &Memory::default()).unwrap_or_else(|said| panic!("{said}"))
     }
 
-    fn variants_in(&self, vary: &Vary, world: &dyn World) -> Result<Variants, String> {
+    fn variants_in(&self, vary: &VaryOptions, world: &dyn World) -> Result<Variants, String> {
         let said = |(_, said): (_, mechc::Diagnostics)| {
             said.iter().map(|said| said.message.clone()).collect::<Vec<_>>().join("; ")
         };
@@ -63,7 +63,7 @@ impl Subject {
     }
 
     /// All blocks of a sweep, as one.
-    fn swept(&self, variants: &Variants, options: &SweepOptions) -> Block {
+    fn swept(&self, variants: &Variants, options: &SweepOptions) -> Swept {
         let mut blocks = self.checked.sweep(&self.compiled, variants, options, |block| block).expect("times are said");
         let mut all = blocks.next().expect("a block");
         for block in blocks {
@@ -108,7 +108,7 @@ impl Subject {
     }
 }
 
-fn join(all: &mut Block, block: Block) {
+fn join(all: &mut Swept, block: Swept) {
     all.statuses.extend(block.statuses);
     all.stopped.extend(block.stopped);
     all.lengths.extend(block.lengths);
@@ -124,7 +124,7 @@ fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| if number.is_nan() { u64::MAX } else { number.to_bits() }).collect()
 }
 
-fn bits_of(block: &Block) -> (Vec<Status>, Vec<usize>, Vec<Vec<u64>>) {
+fn bits_of(block: &Swept) -> (Vec<Status>, Vec<usize>, Vec<Vec<u64>>) {
     let columns = block.params.iter().chain(&block.results).chain(&block.columns).chain([&block.stopped]);
     (block.statuses.clone(), block.lengths.clone(), columns.map(|column| bits(column)).collect())
 }
@@ -154,8 +154,8 @@ fn compare(subject: &Subject, variants: &Variants) -> Vec<(Status, usize)> {
     found
 }
 
-fn vary(params: &[&str]) -> Vary {
-    Vary { params: params.iter().map(|&param| param.to_owned()).collect(), ..Vary::default() }
+fn vary(params: &[&str]) -> VaryOptions {
+    VaryOptions { params: params.iter().map(|&param| param.to_owned()).collect(), ..VaryOptions::default() }
 }
 
 fn count(found: &[(Status, usize)], wanted: Status) -> usize {
@@ -167,7 +167,7 @@ fn each_variant_is_what_it_is_alone() {
     let subject = subject(FOUR_BAR, Choice::default());
     let ranges = ["crank_length=10mm..60mm", "coupler_length=60mm..140mm", "speed=10rpm..100rpm", "share=-1..2"];
     for (method, seed) in [(Method::Sobol, None), (Method::Random, Some(3))] {
-        let sample = Vary { sample: Some(40), method: Some(method), seed, ..vary(&ranges) };
+        let sample = VaryOptions { sample: Some(40), method: Some(method), seed, ..vary(&ranges) };
         let found = compare(&subject, &subject.variants(&sample));
         assert!(count(&found, Status::Ok) > 10, "{found:?}");
         assert!(found.iter().any(|(status, _)| !status.is_complete()), "all turn fully: {found:?}");
@@ -321,7 +321,7 @@ fn tables_of_variants_are_read() {
 #[test]
 fn what_cannot_vary_is_refused() {
     let subject = subject(FOUR_BAR, Choice { set: vec!["share=1".to_owned()], ..Choice::default() });
-    let sampled = |params: &[&str], sample| Vary { sample: Some(sample), ..vary(params) };
+    let sampled = |params: &[&str], sample| VaryOptions { sample: Some(sample), ..vary(params) };
     for (asked, wanted) in [
         (vary(&["crank_length"]), "`--vary crank_length` does not say what varies"),
         (vary(&["crank_length="]), "`--vary crank_length=` does not say what varies"),
@@ -336,14 +336,14 @@ fn what_cannot_vary_is_refused() {
         (sampled(&["speed=1rpm..2rpm:3"], 5), "there is no range to take a sample of"),
         (sampled(&["speed=1rpm..2rpm"], 0), "a sample has one variant at least"),
         (
-            Vary { seed: Some(1), ..vary(&["speed=1rpm..2rpm:3"]) },
+            VaryOptions { seed: Some(1), ..vary(&["speed=1rpm..2rpm:3"]) },
             "`--seed` says how a sample is taken, and there is none",
         ),
         (vary(&["speed=1rpm,2mm"]), "the parameter `speed` must be a rate (1/s), found a length"),
         (vary(&["speed=1rpm,2rpm", "speed=3rpm,4rpm"]), "`speed` is to vary twice"),
         (vary(&["share=0..1:3"]), "`share` is set, and is to vary"),
         (vary(&["pace=1..2:3"]), "mechanism `four_bar` has no parameter `pace`"),
-        (vary(&["@no.csv"]), "cannot read `no.csv`: there is no such file"),
+        (vary(&["@no.csv"]), "cannot read `no.csv`: entity not found"),
         (
             vary(&["crank_length=1mm..2mm:9000000000", "speed=1rpm..2rpm:9000000000"]),
             "there are more variants than can be counted",

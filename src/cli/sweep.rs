@@ -15,8 +15,8 @@ use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, readable};
 use crate::layout::ColumnUnit;
 use crate::output::{Cells, Kind, Made, Sheet, SheetColumn, SheetWriter, TableFormat};
-use crate::stages::{Checked, Choice, Compiled, Redundant, SweepOptions, Variants, Vary};
-use crate::sweep::{Block, Method, Status};
+use crate::stages::{Checked, Choice, Compiled, Redundant, SweepOptions, Variants, VaryOptions};
+use crate::sweep::{Method, Status, Swept};
 use std::path::Path;
 
 /// More variants than this are asked about.
@@ -98,12 +98,12 @@ fn choice(arguments: &SweepArguments) -> Choice {
     }
 }
 
-fn vary(arguments: &SweepArguments) -> Vary {
+fn vary(arguments: &SweepArguments) -> VaryOptions {
     let method = arguments.method.map(|method| match method {
         MethodChoice::Sobol => Method::Sobol,
         MethodChoice::Random => Method::Random,
     });
-    Vary { params: arguments.vary.clone(), sample: arguments.sample, method, seed: arguments.seed }
+    VaryOptions { params: arguments.vary.clone(), sample: arguments.sample, method, seed: arguments.seed }
 }
 
 /// The first variant that is asked for, and the one behind the last.
@@ -203,7 +203,7 @@ impl Table {
     }
 
     /// The cells of a block.
-    fn cells(&self, block: Block) -> Vec<Cells> {
+    fn cells(&self, block: Swept) -> Vec<Cells> {
         let numbers: Vec<u64> = (block.first..).take(block.len()).collect();
         if self.wanted.is_none() {
             let mut cells = vec![Cells::Whole(numbers)];
@@ -269,7 +269,7 @@ impl Sweeping<'_> {
         let cancel = self.options.cancel.clone();
         interrupts::end_gracefully(&cancel);
         let table = self.table.clone();
-        let make = move |block: Block| {
+        let make = move |block: Swept| {
             let (first, statuses, rows) = (block.first, block.statuses.clone(), block.lengths.iter().sum());
             Written { made: table.sheet.made(table.cells(block)), first, statuses, rows }
         };

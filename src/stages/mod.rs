@@ -53,4 +53,4 @@ pub use seen::Seen;
 pub use sweep::{Sweep, SweepOptions};
 pub use times::AskedTimes;
 pub use varied::Varied;
-pub use vary::{Variants, Vary};
+pub use vary::{Variants, VaryOptions};

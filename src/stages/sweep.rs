@@ -7,7 +7,7 @@ use crate::analysis::{Asked, Started, Times};
 use crate::cancel::Cancel;
 use crate::crew::{Crew, usual_jobs};
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::sweep::{Block, Status, Variant};
+use crate::sweep::{OneVariant, Status, Swept};
 use std::sync::Arc;
 
 /// Numbers that a piece of work holds, more or less: 2 MB.
@@ -77,7 +77,7 @@ impl Checked {
         compiled: &Compiled,
         variants: &Variants,
         options: &SweepOptions,
-        make: impl Fn(Block) -> T + Send + Sync + 'static,
+        make: impl Fn(Swept) -> T + Send + Sync + 'static,
     ) -> Result<Sweep<T>, Box<Diagnostic>> {
         let times = options.times.over(compiled.analysis())?.times()?;
         let numbers = match &options.columns {
@@ -137,10 +137,10 @@ struct Sweeping {
 
 impl Sweeping {
     /// Some variants, up to the one that is looked for, and whether it is among them; nothing when it was cancelled.
-    fn block(&self, variants: std::ops::Range<u64>) -> Option<(Block, bool)> {
+    fn block(&self, variants: std::ops::Range<u64>) -> Option<(Swept, bool)> {
         let columns = self.options.columns.as_ref().map_or(0, Vec::len);
         let points = self.variants.points();
-        let mut block = Block::new(
+        let mut block = Swept::new(
             variants.start,
             points.params().len(),
             self.results - usize::from(self.until.is_some()),
@@ -163,9 +163,13 @@ impl Sweeping {
     }
 
     /// A variant as `run --lead --set` has it.
-    fn variant(&self, params: &[f64]) -> Variant {
-        let mut variant =
-            Variant { status: Status::Ok, stopped: f64::NAN, results: vec![f64::NAN; self.results], rows: Vec::new() };
+    fn variant(&self, params: &[f64]) -> OneVariant {
+        let mut variant = OneVariant {
+            status: Status::Ok,
+            stopped: f64::NAN,
+            results: vec![f64::NAN; self.results],
+            rows: Vec::new(),
+        };
         if let Err(why) = self.run(params, &mut variant) {
             variant.status = Status::Stopped(why.code);
             variant.stopped = why.data.get("t").and_then(serde_json::Value::as_f64).unwrap_or(f64::NAN);
@@ -173,7 +177,7 @@ impl Sweeping {
         variant
     }
 
-    fn run(&self, params: &[f64], variant: &mut Variant) -> Result<(), Box<Diagnostic>> {
+    fn run(&self, params: &[f64], variant: &mut OneVariant) -> Result<(), Box<Diagnostic>> {
         let options = self.run_options();
         if self.own.is_told() {
             return self.run_by_all_stages(params, variant);
@@ -198,7 +202,7 @@ impl Sweeping {
         mut started: Started,
         times: &Times,
         options: &RunOptions,
-        variant: &mut Variant,
+        variant: &mut OneVariant,
     ) -> Result<(), Box<Diagnostic>> {
         // what a run tells of its start looks at the same factors
         let _ = started.conditioning();
@@ -218,7 +222,7 @@ impl Sweeping {
     }
 
     /// As [`Sweeping::run`], all of it made anew but what it is led from.
-    fn run_by_all_stages(&self, params: &[f64], variant: &mut Variant) -> Result<(), Box<Diagnostic>> {
+    fn run_by_all_stages(&self, params: &[f64], variant: &mut OneVariant) -> Result<(), Box<Diagnostic>> {
         let options = self.run_options();
         let checked = self.own.led_to(self.variants.read_settings(params), self.variants.sources());
         if !checked.is_sound() {
@@ -244,14 +248,14 @@ impl Sweeping {
         RunOptions { tolerance, pass_bifurcations, cancel: cancel.clone(), ..RunOptions::default() }
     }
 
-    fn push_row(&self, row: &[f64], variant: &mut Variant) {
+    fn push_row(&self, row: &[f64], variant: &mut OneVariant) {
         if let Some(columns) = &self.options.columns {
             variant.rows.extend(columns.iter().map(|&column| row[column]));
         }
     }
 }
 
-fn write_results(values: &[Option<f64>], variant: &mut Variant) {
+fn write_results(values: &[Option<f64>], variant: &mut OneVariant) {
     for (into, value) in variant.results.iter_mut().zip(values) {
         *into = value.unwrap_or(f64::NAN);
     }

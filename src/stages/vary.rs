@@ -7,14 +7,14 @@ use crate::check::{self, Column, Setting};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::model::Dimension;
 use crate::source::Sources;
-use crate::sweep::{Axis, MOST_OF_SOBOL, Method, Points, Sample, Values};
+use crate::sweep::{Levels, MOST_OF_SOBOL, Method, Points, Sampling, Varying};
 use crate::syntax::{self, ast};
 use crate::world::{self, World};
 use std::path::{Path, PathBuf};
 
 /// What is to vary, as options say it.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Vary {
+pub struct VaryOptions {
     /// `NAME=A..B:N`, `NAME=A,B,C`, `@FILE.csv`, and with a sample `NAME=A..B`.
     pub params: Vec<String>,
     /// So many points within the ranges without a number of values.
@@ -94,7 +94,7 @@ impl Checked {
     /// Something cannot vary so; with the texts that the diagnostics speak of.
     pub fn variants(
         &self,
-        vary: &Vary,
+        vary: &VaryOptions,
         choice: &Choice,
         world: &dyn World,
     ) -> Result<Variants, (Sources, Diagnostics)> {
@@ -109,7 +109,7 @@ impl Checked {
         let mut ranges: Option<(usize, Vec<usize>, Vec<[f64; 2]>)> = None;
         for asked in &asked {
             match listing.read(asked)? {
-                Read::Axis(axis) => axes.push(axis),
+                Read::Varying(axis) => axes.push(axis),
                 Read::Range(param, ends) => {
                     let (_, params, all) = ranges.get_or_insert_with(|| (axes.len(), Vec::new(), Vec::new()));
                     params.push(param);
@@ -118,8 +118,8 @@ impl Checked {
             }
         }
         if let (Some((at, params, ends)), Some(count)) = (ranges, vary.sample) {
-            let sample = Sample::of(ends, count, vary.method.unwrap_or_default(), vary.seed);
-            axes.insert(at, Axis { params, values: Values::Sampled(Box::new(sample)) });
+            let sample = Sampling::of(ends, count, vary.method.unwrap_or_default(), vary.seed);
+            axes.insert(at, Varying { params, values: Levels::Sampled(Box::new(sample)) });
         }
         let names: Vec<String> = listing.params.iter().map(|param| param.name.clone()).collect();
         refuse_twice(names.iter(), &choice).map_err(own)?;
@@ -198,7 +198,7 @@ fn between_commas(text: &str) -> Vec<String> {
 }
 
 /// Ranges without a number of values and samples need each other.
-fn refuse_without_counterpart(vary: &Vary, asked: &[Asked]) -> Result<(), Box<Diagnostic>> {
+fn refuse_without_counterpart(vary: &VaryOptions, asked: &[Asked]) -> Result<(), Box<Diagnostic>> {
     let range = asked.iter().find_map(|asked| match asked {
         Asked::Range { name, ends: [first, last] } => Some((name, first, last)),
         _ => None,
@@ -250,7 +250,7 @@ struct Param {
 
 /// What one `--vary` says.
 enum Read {
-    Axis(Axis),
+    Varying(Varying),
     /// A range that is to be sampled: of which param, first and last (SI).
     Range(usize, [f64; 2]),
 }
@@ -270,8 +270,8 @@ impl Listing<'_> {
         Ok(match asked {
             Asked::Even { name, ends, count } => {
                 let (param, values) = self.param(name, ends)?;
-                let values = Values::Even { ends: [values[0], values[1]], count: *count };
-                Read::Axis(Axis { params: vec![param], values })
+                let values = Levels::Even { ends: [values[0], values[1]], count: *count };
+                Read::Varying(Varying { params: vec![param], values })
             }
             Asked::Range { name, ends } => {
                 let (param, values) = self.param(name, ends)?;
@@ -279,9 +279,9 @@ impl Listing<'_> {
             }
             Asked::List { name, values } => {
                 let (param, values) = self.param(name, values)?;
-                Read::Axis(Axis { params: vec![param], values: Values::Listed(values) })
+                Read::Varying(Varying { params: vec![param], values: Levels::Listed(values) })
             }
-            Asked::File(path) => Read::Axis(self.file(path)?),
+            Asked::File(path) => Read::Varying(self.file(path)?),
         })
     }
 
@@ -318,7 +318,7 @@ impl Listing<'_> {
     }
 
     /// The variants that a table lists: a column for each param.
-    fn file(&mut self, path: &Path) -> Found<Axis> {
+    fn file(&mut self, path: &Path) -> Found<Varying> {
         self.named.push(path.to_owned());
         let file = world::rows_given(self.reader.world, path, &mut self.sources);
         let file = file.map_err(|why| (self.sources.clone(), (*why).into()))?;
@@ -335,7 +335,7 @@ impl Listing<'_> {
         }
         let rows = columns.first().map_or(0, |column| column.values.len());
         let values = (0..rows).flat_map(|row| columns.iter().map(move |column| column.values[row])).collect();
-        Ok(Axis { params, values: Values::Listed(values) })
+        Ok(Varying { params, values: Levels::Listed(values) })
     }
 
     fn variants(mut self, points: Points) -> Found<Variants> {

@@ -2,10 +2,10 @@
 //! so that it is lowered, proven and compiled once, with these as symbols at the values of its text.
 
 mod base;
-mod block;
 mod points;
 mod sobol;
+mod swept;
 
 pub use base::{Arrived, Base, Lost, Whole};
-pub use block::{Block, Status, Variant};
-pub use points::{Axis, MOST_OF_SOBOL, Method, Points, Sample, Values};
+pub use points::{Levels, MOST_OF_SOBOL, Method, Points, Sampling, Varying};
+pub use swept::{OneVariant, Status, Swept};

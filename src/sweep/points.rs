@@ -19,16 +19,16 @@ pub const MOST_OF_SOBOL: usize = sobol::MOST;
 
 /// Values that some params take together, one after the other (SI).
 #[derive(Clone, PartialEq, Debug)]
-pub struct Axis {
+pub struct Varying {
     /// The params, by their numbers.
     pub params: Vec<usize>,
     /// What they take.
-    pub values: Values,
+    pub values: Levels,
 }
 
 /// What params of an axis take (SI).
 #[derive(Clone, PartialEq, Debug)]
-pub enum Values {
+pub enum Levels {
     /// One of them: so many, evenly from the first to the last, both included.
     Even {
         /// First and last.
@@ -39,12 +39,12 @@ pub enum Values {
     /// What a list or a table says: row after row, in each a value for each param.
     Listed(Vec<f64>),
     /// A sample of ranges.
-    Sampled(Box<Sample>),
+    Sampled(Box<Sampling>),
 }
 
 /// So many points within ranges.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Sample {
+pub struct Sampling {
     /// By param: first and last (SI).
     ends: Vec<[f64; 2]>,
     count: u64,
@@ -57,17 +57,17 @@ enum Spread {
     Random(Box<ChaCha8Rng>),
 }
 
-impl Sample {
+impl Sampling {
     /// A sample of ranges (SI). Sobol's sequence without a seed is the sequence itself; with one each coordinate is shifted, digit by
     /// digit.
     #[must_use]
-    pub fn of(ends: Vec<[f64; 2]>, count: u64, method: Method, seed: Option<u64>) -> Sample {
+    pub fn of(ends: Vec<[f64; 2]>, count: u64, method: Method, seed: Option<u64>) -> Sampling {
         let mut random = ChaCha8Rng::seed_from_u64(seed.unwrap_or(0));
         let spread = match method {
             Method::Random => Spread::Random(Box::new(random)),
             Method::Sobol => Spread::Sobol(Sobol::new(ends.iter().map(|_| seed.map_or(0, |_| random.next_u64())))),
         };
-        Sample { ends, count, spread }
+        Sampling { ends, count, spread }
     }
 
     fn values(&self, index: u64, mut set: impl FnMut(usize, f64)) {
@@ -95,31 +95,31 @@ fn between(from: f64, to: f64, part: f64) -> f64 {
     (from + (to - from) * part).clamp(least, most)
 }
 
-impl Axis {
+impl Varying {
     /// How many values there are.
     #[must_use]
     pub fn count(&self) -> u64 {
         match &self.values {
-            Values::Even { count, .. } => *count,
-            Values::Listed(rows) => (rows.len() / self.params.len()) as u64,
-            Values::Sampled(sample) => sample.count,
+            Levels::Even { count, .. } => *count,
+            Levels::Listed(rows) => (rows.len() / self.params.len()) as u64,
+            Levels::Sampled(sample) => sample.count,
         }
     }
 
     fn values(&self, index: u64, into: &mut [f64]) {
         match &self.values {
-            Values::Even { ends: [from, to], count } => {
+            Levels::Even { ends: [from, to], count } => {
                 into[self.params[0]] = match index {
                     0 => *from,
                     _ if index + 1 == *count => *to,
                     _ => between(*from, *to, index as f64 / (count - 1) as f64),
                 };
             }
-            Values::Listed(rows) => {
+            Levels::Listed(rows) => {
                 let row = &rows[index as usize * self.params.len()..];
                 self.params.iter().zip(row).for_each(|(&param, &value)| into[param] = value);
             }
-            Values::Sampled(sample) => sample.values(index, |k, value| into[self.params[k]] = value),
+            Levels::Sampled(sample) => sample.values(index, |k, value| into[self.params[k]] = value),
         }
     }
 }
@@ -128,14 +128,14 @@ impl Axis {
 #[derive(Clone, PartialEq, Debug)]
 pub struct Points {
     params: Vec<String>,
-    axes: Vec<Axis>,
+    axes: Vec<Varying>,
     count: u64,
 }
 
 impl Points {
     /// The variants of some params; nothing where there are more than can be counted.
     #[must_use]
-    pub fn new(params: Vec<String>, axes: Vec<Axis>) -> Option<Points> {
+    pub fn new(params: Vec<String>, axes: Vec<Varying>) -> Option<Points> {
         let count = axes.iter().try_fold(1_u64, |count, axis| count.checked_mul(axis.count()))?;
         Some(Points { params, axes, count })
     }
@@ -164,9 +164,9 @@ impl Points {
 
 #[cfg(test)]
 mod tests {
-    use super::{Axis, Method, Points, Sample, Values};
+    use super::{Levels, Method, Points, Sampling, Varying};
 
-    fn points(axes: Vec<Axis>) -> Points {
+    fn points(axes: Vec<Varying>) -> Points {
         let params = axes.iter().flat_map(|axis| &axis.params).count();
         Points::new((0..params).map(|k| format!("p{k}")).collect(), axes).expect("they can be counted")
     }
@@ -182,8 +182,9 @@ mod tests {
 
     #[test]
     fn even_values_have_both_ends() {
-        let even =
-            |ends, count| all(&points(vec![Axis { params: vec![0], values: Values::Even { ends, count } }])).concat();
+        let even = |ends, count| {
+            all(&points(vec![Varying { params: vec![0], values: Levels::Even { ends, count } }])).concat()
+        };
         assert_eq!(even([0.1, 0.2], 3), [0.1, 0.150_000_000_000_000_02, 0.2]);
         assert_eq!(even([0.3, 0.1], 2), [0.3, 0.1], "descending");
         assert_eq!(even([0.1, 0.2], 1), [0.1], "one is the first");
@@ -195,23 +196,23 @@ mod tests {
 
     #[test]
     fn all_values_meet_all_others() {
-        let list = Values::Listed(vec![1.0, 2.0, 3.0, 4.0]);
+        let list = Levels::Listed(vec![1.0, 2.0, 3.0, 4.0]);
         let found = all(&points(vec![
-            Axis { params: vec![1], values: Values::Even { ends: [0.0, 1.0], count: 2 } },
-            Axis { params: vec![0, 2], values: list },
+            Varying { params: vec![1], values: Levels::Even { ends: [0.0, 1.0], count: 2 } },
+            Varying { params: vec![0, 2], values: list },
         ]));
         assert_eq!(found, [[1.0, 0.0, 2.0], [3.0, 0.0, 4.0], [1.0, 1.0, 2.0], [3.0, 1.0, 4.0]]);
     }
 
     #[test]
     fn too_many_to_count_are_none() {
-        let axis = |k| Axis { params: vec![k], values: Values::Even { ends: [0.0, 1.0], count: 1 << 40 } };
+        let axis = |k| Varying { params: vec![k], values: Levels::Even { ends: [0.0, 1.0], count: 1 << 40 } };
         assert_eq!(Points::new(vec!["a".to_owned(), "b".to_owned()], vec![axis(0), axis(1)]), None);
     }
 
     fn sampled(method: Method, seed: Option<u64>) -> Vec<Vec<f64>> {
-        let sample = Sample::of(vec![[1.0, 2.0], [-3.0, -5.0]], 512, method, seed);
-        all(&points(vec![Axis { params: vec![0, 1], values: Values::Sampled(Box::new(sample)) }]))
+        let sample = Sampling::of(vec![[1.0, 2.0], [-3.0, -5.0]], 512, method, seed);
+        all(&points(vec![Varying { params: vec![0, 1], values: Levels::Sampled(Box::new(sample)) }]))
     }
 
     #[test]

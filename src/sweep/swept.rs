@@ -33,7 +33,7 @@ impl Status {
 
 /// One variant.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Variant {
+pub struct OneVariant {
     /// What became of it.
     pub status: Status,
     /// The time at which it stopped (s); no number where it did not, or where that has no time.
@@ -46,7 +46,7 @@ pub struct Variant {
 
 /// Variants in a row, column by column.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Block {
+pub struct Swept {
     /// The number of the first.
     pub first: u64,
     /// By variant.
@@ -63,16 +63,16 @@ pub struct Block {
     pub columns: Vec<Vec<f64>>,
 }
 
-impl Block {
+impl Swept {
     /// One that is to begin with a variant, with so many params, results and columns.
     #[must_use]
-    pub fn new(first: u64, params: usize, results: usize, columns: usize) -> Block {
+    pub fn new(first: u64, params: usize, results: usize, columns: usize) -> Swept {
         let of = |count| vec![Vec::new(); count];
-        Block { first, params: of(params), results: of(results), columns: of(columns), ..Block::default() }
+        Swept { first, params: of(params), results: of(results), columns: of(columns), ..Swept::default() }
     }
 
     /// Adds the next variant.
-    pub fn push(&mut self, params: &[f64], variant: &Variant) {
+    pub fn push(&mut self, params: &[f64], variant: &OneVariant) {
         self.statuses.push(variant.status);
         self.stopped.push(variant.stopped);
         self.params.iter_mut().zip(params).for_each(|(column, value)| column.push(*value));
