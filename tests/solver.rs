@@ -6,7 +6,7 @@ mod support;
 
 use mechc::rooms::analysis::{self, Horizon};
 use mechc::rooms::program::Stage;
-use mechc::rooms::solver::{Batch, Bend, Lanes, Solver};
+use mechc::rooms::solver::{Batch, Bend, Lanes, Segment, Solver};
 use mechc::{Cancel, Compiled, TOLERANCE, Times, Vectors};
 use std::fs;
 use std::sync::Arc;
@@ -167,7 +167,7 @@ impl Bench {
 fn a_tear_on_a_border_has_the_same_bits_wherever_newton_begins() {
     let bench = Bench::new("four-bar", &four_bars(1));
     let q = bench.started.q();
-    let tears = || bench.solver().segments().iter().flat_map(|segment| segment.tears());
+    let tears = || bench.solver().segments().iter().flat_map(Segment::tears);
     assert_eq!(tears().count(), 2);
     let (mut alone, mut together) =
         (Lanes::<1>::new(bench.solver(), Vectors::BASE), Lanes::<16>::new(bench.solver(), Vectors::default()));

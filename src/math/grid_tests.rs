@@ -3,7 +3,7 @@ use super::grid::{bound_at_first, going_on, next_point, on_grid};
 /// Of a cell, as the solver has it.
 const BORDER: f64 = 1.0 / 4096.0;
 
-/// Numbers without a pattern (SplitMix64).
+/// Numbers without a pattern (`SplitMix64`).
 struct Random(u64);
 
 impl Random {
