@@ -1,12 +1,13 @@
 //! What of a mechanism can be turned by hand: its params, and its inputs.
 
-use super::varied::{is_of_angles, number_and_unit, rounded, si_unit};
+use super::varied::{is_of_angles, number_and_unit, si_unit};
 use super::{Checked, Compiled};
 use crate::check::{Amount, usual_unit_of_length};
 use crate::expr::{ExprId, Symbol};
 use crate::ir::{BodyId, ConstraintSystem, Declaration, Input};
 use crate::model::Dimension;
 use crate::source::Span;
+use crate::sweep::rounded;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind};
 
 /// A param, or a coordinate of one that is a point, as an option sets it.

@@ -6,6 +6,7 @@ use crate::check::Amount;
 use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
 use crate::model::{Dimension, Units};
 use crate::source::Sources;
+use crate::sweep::{evenly, rounded};
 use crate::syntax;
 use crate::world::World;
 
@@ -245,23 +246,13 @@ pub(super) fn written(value: f64, unit: &str) -> String {
 }
 
 /// So many values from end to end, evenly, rising.
-fn grid([first, last]: [f64; 2], count: usize) -> Vec<f64> {
-    let steps = (count - 1) as f64;
-    let value = |k: usize| match k {
-        0 => first,
-        _ if k + 1 == count => last,
-        _ => rounded((first * (steps - k as f64) + last * k as f64) / steps),
-    };
-    let mut values: Vec<f64> = (0..count).map(value).collect();
-    if first > last {
+fn grid(ends: [f64; 2], count: usize) -> Vec<f64> {
+    let count = count as u64;
+    let mut values: Vec<f64> = (0..count).map(|k| evenly(ends, k, count)).collect();
+    if ends[0] > ends[1] {
         values.reverse();
     }
     values
-}
-
-/// With so few digits as who types a number has: 0.3 rather than 0.30000000000000004.
-pub(super) fn rounded(value: f64) -> f64 {
-    format!("{value:.14e}").parse().unwrap_or(value)
 }
 
 fn nearest(values: &[f64], wanted: f64) -> usize {

@@ -7,5 +7,5 @@ mod sobol;
 mod swept;
 
 pub use base::{Arrived, Base, Lost, Whole};
-pub use points::{Levels, MOST_OF_SOBOL, Method, Points, Sampling, Varying};
+pub use points::{Levels, MOST_OF_SOBOL, Method, Points, Sampling, Varying, evenly, rounded};
 pub use swept::{OneVariant, Status, Swept};

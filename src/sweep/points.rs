@@ -84,6 +84,24 @@ impl Sampling {
     }
 }
 
+/// One of so many values from the first to the last, both included, by its number; with so few digits as who types a number has, 0.3
+/// rather than 0.30000000000000004.
+#[must_use]
+pub fn evenly([first, last]: [f64; 2], index: u64, count: u64) -> f64 {
+    let (steps, k) = ((count - 1) as f64, index as f64);
+    match index {
+        0 => first,
+        _ if index + 1 == count => last,
+        _ => rounded((first * (steps - k) + last * k) / steps),
+    }
+}
+
+/// A number in fifteen digits.
+#[must_use]
+pub fn rounded(value: f64) -> f64 {
+    format!("{value:.14e}").parse().unwrap_or(value)
+}
+
 /// From 0 to below 1, by the leading digits of a number.
 fn unit(bits: u64) -> f64 {
     (bits >> 11) as f64 / (1_u64 << 53) as f64
@@ -108,13 +126,7 @@ impl Varying {
 
     fn values(&self, index: u64, into: &mut [f64]) {
         match &self.values {
-            Levels::Even { ends: [from, to], count } => {
-                into[self.params[0]] = match index {
-                    0 => *from,
-                    _ if index + 1 == *count => *to,
-                    _ => between(*from, *to, index as f64 / (count - 1) as f64),
-                };
-            }
+            Levels::Even { ends, count } => into[self.params[0]] = evenly(*ends, index, *count),
             Levels::Listed(rows) => {
                 let row = &rows[index as usize * self.params.len()..];
                 self.params.iter().zip(row).for_each(|(&param, &value)| into[param] = value);
@@ -185,7 +197,7 @@ mod tests {
         let even = |ends, count| {
             all(&points(vec![Varying { params: vec![0], values: Levels::Even { ends, count } }])).concat()
         };
-        assert_eq!(even([0.1, 0.2], 3), [0.1, 0.150_000_000_000_000_02, 0.2]);
+        assert_eq!(even([0.1, 0.2], 3), [0.1, 0.15, 0.2]);
         assert_eq!(even([0.3, 0.1], 2), [0.3, 0.1], "descending");
         assert_eq!(even([0.1, 0.2], 1), [0.1], "one is the first");
         assert_eq!(even([0.1, 0.1], 3), [0.1; 3]);
