@@ -110,6 +110,9 @@ pub struct Surroundings {
     pub open: Vec<String>,
     /// Names by which all columns are differentiated.
     pub by: Vec<String>,
+    /// Whether results are differentiated by these too, as further results; and if so, whether the first and the last time of the analysis
+    /// are what the text says, which may go with parameters.
+    pub slopes: Option<[bool; 2]>,
     /// Whether what all joints exert and all drivers supply is tabulated.
     pub reactions: bool,
     /// Whether pictures are to show forces.
@@ -156,8 +159,12 @@ pub fn check(
     checker.variables = Variables::told(&surroundings.by);
     checker.ask_for_derivatives();
     checker.run();
-    let Checker { mut diagnostics, model, .. } = checker;
+    let Checker { mut diagnostics, mut model, .. } = checker;
     diagnostics.extend(told);
+    model.slopes = surroundings.slopes.map(|go| {
+        let of_text = |end: usize| model.analysis.map(|analysis| analysis.formulas[end]).filter(|_| go[end]);
+        [of_text(0), of_text(1)]
+    });
     if instance.is_written_out() {
         diagnostics.tell_once();
     }

@@ -96,6 +96,19 @@ pub(super) enum Command {
         mechc sweep linkage.mech --vary rod=100mm..200mm:1000 --until 'stroke > 80 mm'"
     )]
     Sweep(SweepArguments),
+    /// What small errors of params make of measures and results
+    #[command(
+        long_about = "What small errors of params make of measures and results.\n\n\
+        --tol says how far a param may be off. Of each measure, at the time at which all of them together bring it off the most, and of each \
+        result, a table shows what each param contributes, from exact derivatives; its share of the variance; the worst case, all errors at \
+        their worst; and the statistical one, the root of the sum of their squares, with the standard deviation σ.\n\n\
+        Params of their own formula are taken as dimensions of their own, as `--set` takes them. A result whose extremum is at a kink or a jump has no \
+        derivative, and says so. Derivatives are not all: --verify runs the corners.",
+        after_help = "Examples:\n  mechc tolerance linkage.mech --tol rod=0.05mm --tol A.x=0.02mm\n  \
+        mechc tolerance linkage.mech --tol rod=-0.1mm..0mm --tol crank=0.05mm --normal --verify\n  \
+        mechc tolerance linkage.mech --tol rod=0.05mm --result 'stroke = max(x(tip)) - min(x(tip))' -o contributions.csv"
+    )]
+    Tolerance(ToleranceArguments),
     /// The mechanism as a live page, or as a picture, still or moving
     #[command(
         long_about = "The mechanism as a live page, or as a picture, still or moving.\n\n\
@@ -552,6 +565,13 @@ pub(super) struct SweepArguments {
     #[arg(long)]
     pub yes: bool,
 
+    #[command(flatten)]
+    pub following: Following,
+}
+
+/// How variants are followed.
+#[derive(Args, Clone, Debug)]
+pub(super) struct Following {
     /// Bounds the residual of every equation, relative to the mechanism's size
     #[arg(long, value_name = "X", default_value = "1e-12", value_parser = positive)]
     pub tolerance: f64,
@@ -563,6 +583,58 @@ pub(super) struct SweepArguments {
     /// Go on beyond a bifurcation, along the branch that continues smoothly
     #[arg(long)]
     pub pass_bifurcations: bool,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct ToleranceArguments {
+    #[command(flatten)]
+    pub input: Input,
+
+    /// How far a param may be off: `rod=0.05mm` for ±0.05 mm, `rod=-0.1mm..0mm` for what it may be below and above; `A.x=0.02mm` for a
+    /// coordinate of a point. Repeatable
+    #[arg(long, value_name = "NAME=AMOUNT", required = true, allow_hyphen_values = true)]
+    pub tol: Vec<String>,
+
+    /// Params are spread normally, and what they may be off is 3 σ; if not given, they are anywhere within alike
+    #[arg(long)]
+    pub normal: bool,
+
+    /// Run the corners too, and say where derivatives are not enough: all corners of up to 12 params, of more the worst ones and 10,000 samples
+    #[arg(long)]
+    pub verify: bool,
+
+    /// A result beside those of the file: `--result 'stroke = max(x(P)) - min(x(P))'`. Repeatable
+    #[arg(long, value_name = "NAME=FORMULA")]
+    pub result: Vec<String>,
+
+    /// Where the table goes; `-` is standard output
+    #[arg(short, long, value_name = "OUT", default_value = "-")]
+    pub output: String,
+
+    /// The form of the table; by the ending of OUT if not given, else table
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub format: Option<ContributionFormat>,
+
+    #[command(flatten)]
+    pub interval: Interval,
+
+    /// With --verify: so many threads; as many as the machine does at once if not given
+    #[arg(long, value_name = "N", value_parser = jobs, requires = "verify")]
+    pub jobs: Option<usize>,
+
+    #[command(flatten)]
+    pub following: Following,
+}
+
+/// The form of a table of contributions.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum ContributionFormat {
+    /// To be read
+    Table,
+    /// A header, then a line for each contribution and each sum
+    Csv,
+    /// One object, all numbers in SI
+    Json,
 }
 
 /// The form of a table of variants.

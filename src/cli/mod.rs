@@ -5,6 +5,7 @@
 mod arguments;
 mod check;
 mod columns;
+mod contributions;
 mod dump;
 mod emit;
 mod endings;
@@ -30,6 +31,7 @@ mod summary;
 mod sweep;
 mod times;
 mod timings;
+mod tolerance;
 mod usage;
 mod view;
 
@@ -55,6 +57,7 @@ pub fn main() -> ExitCode {
         Command::Dump(dump) => reported(&dump.input.messages, |reporter| dump::dump(&dump, reporter)),
         Command::Run(run) => reported(&run.input.messages, |reporter| run::run(&run, reporter)),
         Command::Sweep(sweep) => reported(&sweep.input.messages, |reporter| sweep::sweep(&sweep, reporter)),
+        Command::Tolerance(of) => reported(&of.input.messages, |reporter| tolerance::tolerance(&of, reporter)),
         Command::View(view) => reported(&view.input.messages, |reporter| view::view(&view, reporter)),
         Command::Formula(formula) => reported(&formula.messages, |reporter| formula::formula(&formula, reporter)),
         Command::Explain(explain) => reported(&explain.messages, |_| explain::explain(&explain)),

@@ -1,6 +1,6 @@
 //! What became of the variants of a sweep, counted, with the first of each kind as a command that shows it in full.
 
-use super::arguments::SweepArguments;
+use super::arguments::{Following, Input, Interval};
 use crate::sweep::Status;
 use std::collections::BTreeMap;
 
@@ -51,32 +51,39 @@ impl Summary {
     }
 }
 
-/// The command that shows a variant in full.
-pub(super) fn command(arguments: &SweepArguments, settings: &[String]) -> String {
-    let input = &arguments.input;
-    let mut words = vec!["mechc".to_owned(), "run".to_owned(), input.file.clone(), "--lead".to_owned()];
-    let mut add = |option: &str, value: &str| words.extend([option.to_owned(), value.to_owned()]);
-    input.mechanism.iter().for_each(|name| add("--mechanism", name));
-    input.set.iter().chain(settings).for_each(|set| add("--set", set));
-    input.signals.iter().for_each(|signal| add("--input", signal));
-    input.samples.iter().for_each(|file| add("--samples", &file.to_string_lossy()));
-    let times = [
-        ("--from", &arguments.interval.from),
-        ("--to", &arguments.interval.to),
-        ("--every", &arguments.interval.every),
-    ];
-    for (option, time) in times.iter().filter_map(|(option, time)| Some((option, time.as_ref()?))) {
-        add(option, time);
+/// What variants are computed by, beside what sets them.
+pub(super) struct Again<'a> {
+    pub input: &'a Input,
+    pub interval: &'a Interval,
+    pub at: &'a [String],
+    pub result: &'a [String],
+    pub following: &'a Following,
+}
+
+impl Again<'_> {
+    /// The command that shows a variant in full.
+    pub fn command(&self, settings: &[String]) -> String {
+        let Again { input, interval, at, result, following } = self;
+        let mut words = vec!["mechc".to_owned(), "run".to_owned(), input.file.clone(), "--lead".to_owned()];
+        let mut add = |option: &str, value: &str| words.extend([option.to_owned(), value.to_owned()]);
+        input.mechanism.iter().for_each(|name| add("--mechanism", name));
+        input.set.iter().chain(settings).for_each(|set| add("--set", set));
+        input.signals.iter().for_each(|signal| add("--input", signal));
+        input.samples.iter().for_each(|file| add("--samples", &file.to_string_lossy()));
+        let times = [("--from", &interval.from), ("--to", &interval.to), ("--every", &interval.every)];
+        for (option, time) in times.iter().filter_map(|(option, time)| Some((option, time.as_ref()?))) {
+            add(option, time);
+        }
+        at.iter().for_each(|time| add("--at", time));
+        result.iter().for_each(|result| add("--result", result));
+        if following.tolerance.to_bits() != crate::stages::RunOptions::default().tolerance.to_bits() {
+            add("--tolerance", &following.tolerance.to_string());
+        }
+        let flags =
+            [("--allow-redundant", following.allow_redundant), ("--pass-bifurcations", following.pass_bifurcations)];
+        words.extend(flags.into_iter().filter(|(_, is_set)| *is_set).map(|(flag, _)| flag.to_owned()));
+        words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
     }
-    arguments.at.iter().for_each(|time| add("--at", time));
-    arguments.result.iter().for_each(|result| add("--result", result));
-    if arguments.tolerance.to_bits() != crate::stages::RunOptions::default().tolerance.to_bits() {
-        add("--tolerance", &arguments.tolerance.to_string());
-    }
-    let flags =
-        [("--allow-redundant", arguments.allow_redundant), ("--pass-bifurcations", arguments.pass_bifurcations)];
-    words.extend(flags.into_iter().filter(|(_, is_set)| *is_set).map(|(flag, _)| flag.to_owned()));
-    words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
 }
 
 /// A word as a shell takes it.

@@ -9,7 +9,7 @@ use super::input;
 use super::interrupts;
 use super::progress::Progress;
 use super::report::Reporter;
-use super::summary::Summary;
+use super::summary::{Again, Summary};
 use super::times;
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, readable};
@@ -29,7 +29,7 @@ pub(super) fn sweep(arguments: &SweepArguments, reporter: &mut Reporter) -> Resu
     let (parsed, world) = (input::parsed(&arguments.input, reporter)?, AskedOnce::default());
     let choice = choice(arguments);
     let checked = input::checked_in(&parsed, &choice, &world, reporter)?;
-    let (compiled, said) = input::proven(&checked, arguments.allow_redundant);
+    let (compiled, said) = input::proven(&checked, arguments.following.allow_redundant);
     let compiled = reporter.settle(compiled, said)?;
     let variants = checked.variants(&vary(arguments), &choice, &world).map_err(|(sources, said)| {
         reporter.sources = sources;
@@ -42,9 +42,9 @@ pub(super) fn sweep(arguments: &SweepArguments, reporter: &mut Reporter) -> Resu
     let options = SweepOptions {
         times: times::said((&arguments.interval, &arguments.at), &mut reporter.sources)?,
         columns: table.wanted.clone(),
-        redundant: if arguments.allow_redundant { Redundant::LeftOut } else { Redundant::Refused },
-        tolerance: arguments.tolerance,
-        pass_bifurcations: arguments.pass_bifurcations,
+        redundant: if arguments.following.allow_redundant { Redundant::LeftOut } else { Redundant::Refused },
+        tolerance: arguments.following.tolerance,
+        pass_bifurcations: arguments.following.pass_bifurcations,
         jobs: arguments.jobs,
         skip: range[0],
         take: Some(range[1] - range[0]),
@@ -96,6 +96,11 @@ fn choice(arguments: &SweepArguments) -> Choice {
         reactions: arguments.reactions,
         ..input::choice(&arguments.input)
     }
+}
+
+fn again(arguments: &SweepArguments) -> Again<'_> {
+    let SweepArguments { input, interval, at, result, following, .. } = arguments;
+    Again { input, interval, at, result, following }
 }
 
 fn vary(arguments: &SweepArguments) -> VaryOptions {
@@ -293,7 +298,7 @@ impl Sweeping<'_> {
         output.close()?;
         let done = summary.count();
         if !reporter.is_for_programs() {
-            let command = |variant| super::summary::command(self.arguments, &self.variants.settings(variant));
+            let command = |variant| again(self.arguments).command(&self.variants.settings(variant));
             Reporter::say(&summary.text(&command));
             if self.arguments.until.is_some() && !cancel.is_cancelled() {
                 Reporter::say(&self.told_until(first + done));

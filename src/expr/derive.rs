@@ -126,7 +126,8 @@ impl Graph {
         slopes.into_iter().filter(|&(_, slope)| !self.is_zero(slope)).collect()
     }
 
-    pub(super) fn is_zero(&self, id: ExprId) -> bool {
+    #[must_use]
+    pub fn is_zero(&self, id: ExprId) -> bool {
         self.as_const(id) == Some(0.0)
     }
 

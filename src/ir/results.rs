@@ -59,7 +59,7 @@ pub enum ReductionKind {
     First,
     /// The value at the last time.
     Last,
-    /// The value at a time (s), a formula of parameters.
+    /// The value at a time (s), a formula of parameters, or the time of an extremum.
     At(ExprId),
 }
 

@@ -17,6 +17,7 @@ mod quantities;
 mod results;
 mod scopes;
 mod size;
+mod slopes;
 mod uses;
 mod variations;
 mod velocities;
@@ -60,7 +61,9 @@ fn needs_jerk(model: &Mechanism, written: &Written) -> bool {
     let is_third = |id: ExprId| written.graph.dependence(id).highest_order() == Some(3);
     let mut measures = written.measures.iter();
     let is_measured = measures.any(|measure| (0..3).filter_map(|order| measure.derivative(order)).any(is_third));
-    let is_asked_for = model.reductions.iter().any(|reduction| reduction.order >= HOLDS_JERK);
+    // where an extremum goes is seen by two more
+    let holds = if model.slopes.is_some() { HOLDS_JERK - 1 } else { HOLDS_JERK };
+    let is_asked_for = model.reductions.iter().any(|reduction| reduction.order >= holds);
     (is_measured || is_asked_for) && !model.has_signals
 }
 
@@ -526,9 +529,14 @@ impl Lowering<'_> {
         let Some(holds) = holds else {
             return id;
         };
-        let (one, zero) = (self.graph.constant(1.0), self.graph.constant(0.0));
-        let none = self.graph.div(one, zero);
+        let none = self.no_value();
         self.graph.select(holds, id, none)
+    }
+
+    /// A formula that has no value.
+    fn no_value(&mut self) -> ExprId {
+        let (one, zero) = (self.graph.constant(1.0), self.graph.constant(0.0));
+        self.graph.div(one, zero)
     }
 
     /// The time derivative of an expression, unless that needs a fourth derivative of `q`, or a third one that is varied.

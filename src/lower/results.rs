@@ -1,31 +1,76 @@
 //! What results ask of the motion. It is lowered last, so that the equations are the same whatever is asked.
 
+use super::slopes::{Reduced, Slopes};
 use super::{Lowering, units};
 use crate::expr::{ExprId, Symbol, Unary};
 use crate::ir::{self, Outcome, Results};
 use crate::model::ReductionKind;
+use rustc_hash::FxHashMap;
 
 impl Lowering<'_> {
     pub(super) fn results(&mut self) -> Results {
         let model = self.model;
         self.named_up_to(model.named.len());
-        let reductions: Vec<ir::Reduction> =
-            model.reductions.iter().map(|reduction| self.reduction(reduction)).collect();
+        let formulas: Vec<Reduced> = model.reductions.iter().map(|reduction| self.reduced_formula(reduction)).collect();
+        let mut reductions: Vec<ir::Reduction> = Vec::with_capacity(formulas.len());
+        for (reduction, &formula) in model.reductions.iter().zip(&formulas) {
+            reductions.push(self.reduction(reduction, formula));
+        }
         let outcomes = model.outcomes.iter().map(|outcome| Outcome {
             name: outcome.declared.name.clone(),
             span: outcome.declared.span,
             value: self.formula(outcome.value),
             units: units(&outcome.units),
         });
-        let outcomes = outcomes.collect();
+        let mut outcomes: Vec<Outcome> = outcomes.collect();
+        if let Some(ends) = model.slopes {
+            let ends = ends.map(|end| end.map(|formula| self.formula(formula)));
+            let formulas = self.squared(&formulas);
+            let slopes = self.slopes(&outcomes, &mut reductions, &formulas, ends);
+            outcomes.extend(slopes);
+        }
         let holds_variations = reductions.iter().any(|reduction| self.graph.dependence(reduction.of).is_varied());
         let variations = self.variations.take().filter(|_| holds_variations).map(Box::new);
         Results { reductions, outcomes, variations, varied_where: Vec::new() }
     }
 
-    fn reduction(&mut self, reduction: &crate::model::Reduction) -> ir::Reduction {
+    /// The derivatives of results by what columns are differentiated by: of the first result by all, of the second, and so on.
+    fn slopes(
+        &mut self,
+        outcomes: &[Outcome],
+        reductions: &mut Vec<ir::Reduction>,
+        formulas: &[Reduced],
+        ends: [Option<ExprId>; 2],
+    ) -> Vec<Outcome> {
+        let mut known: Vec<_> = self.model.by.iter().map(|_| FxHashMap::default()).collect();
+        let mut found = Vec::with_capacity(outcomes.len() * known.len());
+        for outcome in outcomes {
+            for (&variable, known) in self.model.by.iter().zip(&mut known) {
+                let mut slopes = Slopes { lowering: self, reductions, formulas, ends, variable, known };
+                found.push(slopes.of_outcome(outcome));
+            }
+        }
+        found
+    }
+
+    /// Formulas of reductions, with the square of what a root of the mean of squares is of.
+    fn squared(&mut self, formulas: &[Reduced]) -> Vec<Reduced> {
+        let is_squared = self.model.reductions.iter().map(|reduction| reduction.kind == ReductionKind::Rms);
+        let square = |(&of, is_squared): (&Reduced, bool)| match is_squared {
+            true => Reduced { value: self.graph.mul(of.value, of.value), ..of },
+            false => of,
+        };
+        formulas.iter().zip(is_squared).map(square).collect()
+    }
+
+    /// The formula of a reduction.
+    fn reduced_formula(&mut self, reduction: &crate::model::Reduction) -> Reduced {
         let value = self.formula(reduction.of);
         let holds = self.all_hold(&reduction.conditions);
+        Reduced { value, holds }
+    }
+
+    fn reduction(&mut self, reduction: &crate::model::Reduction, Reduced { value, holds }: Reduced) -> ir::Reduction {
         let value = self.only_where(holds, value);
         let extreme = |largest, when| ir::ReductionKind::Extreme { largest, when };
         let kind = match reduction.kind {

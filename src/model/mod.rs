@@ -142,6 +142,8 @@ pub struct Mechanism {
     pub outcomes: Vec<Outcome>,
     /// What they ask of the whole analysis, by the number of its symbol.
     pub reductions: Vec<Reduction>,
+    /// Where results are differentiated by the variables of `by` too: the formulas of those ends of the analysis that go with these.
+    pub slopes: Option<[Option<ExprId>; 2]>,
     /// So many named symbols stand for what has nothing to do with results.
     pub named_before_results: usize,
     /// Formulas that must stay positive for others to have a meaning.
@@ -183,6 +185,7 @@ impl Mechanism {
             traces: Vec::new(),
             outcomes: Vec::new(),
             reductions: Vec::new(),
+            slopes: None,
             named_before_results: 0,
             conditions: Vec::new(),
             analysis: None,

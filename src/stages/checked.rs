@@ -19,6 +19,7 @@ use std::sync::{Arc, OnceLock};
 
 /// What messages call the settings of what varies.
 pub(super) const VARY: &str = "--vary";
+pub(super) const TOL: &str = "--tol";
 
 /// What messages call results that the command line adds, and the condition that ends a sweep.
 const RESULT: &str = "--result";
@@ -35,6 +36,8 @@ pub struct Choice {
     pub lead: bool,
     /// The same of what varies from one run to the next, over those of `set`: messages name it so.
     pub varied: Vec<String>,
+    /// The same of how far params may be off, as if they were so large.
+    pub off: Vec<String>,
     /// What inputs are: `NAME=FORMULA`, each name once.
     pub inputs: Vec<String>,
     /// A CSV file with samples of inputs.
@@ -45,6 +48,9 @@ pub struct Choice {
     pub until: Option<String>,
     /// Inputs and parameters by which all columns are differentiated, each as columns of its own, behind all others.
     pub by: Vec<String>,
+    /// Whether results are differentiated by these too, as further results behind their own; and if so, whether the first and the last time
+    /// of the analysis are what the text says, which may go with parameters.
+    pub slopes: Option<[bool; 2]>,
     /// Whether what all joints exert and all drivers supply is tabulated.
     pub reactions: bool,
     /// Whether pictures are to show forces, where there are any.
@@ -166,13 +172,14 @@ impl Checked {
             }
             (Ok(settings), Ok(given)) => {
                 let library = library.clone();
-                let (reactions, pictures_forces) = (choice.reactions, choice.pictures_forces);
+                let Choice { reactions, pictures_forces, slopes, .. } = *choice;
                 let surroundings = Surroundings {
                     settings,
                     library,
                     files,
                     given,
                     by,
+                    slopes,
                     reactions,
                     pictures_forces,
                     ..Surroundings::default()
@@ -502,6 +509,7 @@ fn settings(choice: &Choice, sources: &mut Sources) -> Result<Vec<Setting>, Diag
     let option = |option| NamedFormulas { option, example: "crank_length=60mm" };
     let mut formulas = option("--set").read(&choice.set, sources)?;
     formulas.extend(option(VARY).read(&choice.varied, sources)?);
+    formulas.extend(option(TOL).read(&choice.off, sources)?);
     Ok(formulas.into_iter().map(|(path, value)| Setting { path, value }).collect())
 }
 

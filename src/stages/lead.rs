@@ -146,6 +146,7 @@ impl<'s> Starts<'s> {
         let led = Surroundings {
             lead,
             by: Vec::new(),
+            slopes: None,
             reactions: false,
             pictures_forces: false,
             ..self.surroundings.clone()
@@ -327,6 +328,7 @@ impl<'s> Starts<'s> {
             files,
             given: Given::default(),
             by: Vec::new(),
+            slopes: None,
             reactions: false,
             pictures_forces: false,
             bound: params,

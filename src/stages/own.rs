@@ -22,6 +22,12 @@ impl Checked {
         Some(Checked::in_surroundings(self.parsed.clone(), self.number?, surroundings, false, Diagnostics::default()))
     }
 
+    /// The same with params of some names as symbols of the model, which says what they are.
+    pub(super) fn with_open(&self, open: Vec<String>) -> Option<Checked> {
+        let surroundings = Surroundings { open, ..(*self.surroundings).clone() };
+        Some(Checked::in_surroundings(self.parsed.clone(), self.number?, surroundings, false, Diagnostics::default()))
+    }
+
     /// Where it stands at its own first time; nothing where it does not.
     fn stands(&self, redundant: Redundant, options: &RunOptions) -> Option<Own> {
         let (compiled, model) = (self.compile(redundant, &options.cancel).0?, Arc::clone(self.model.as_ref()?));

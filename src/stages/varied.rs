@@ -1,6 +1,6 @@
 //! Params that take values one after the other: what `--vary NAME=A..B:N` says, read.
 
-use super::checked::VARY;
+use super::checked::{TOL, VARY};
 use super::{Checked, Choice, Formula, Parsed};
 use crate::check::Amount;
 use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
@@ -62,7 +62,7 @@ impl Checked {
         let own = |why: Box<Diagnostic>| (self.sources().clone(), Diagnostics::from(*why));
         let asked = read(asked).map_err(own)?;
         refuse_twice(asked.iter().map(|asked| &asked.name), choice).map_err(own)?;
-        let reader = Reader { parsed: &self.parsed, own: self, choice, world };
+        let reader = Reader { parsed: &self.parsed, own: self, choice, world, option: VARY };
         asked.iter().map(|asked| reader.varied(asked)).collect()
     }
 }
@@ -132,6 +132,8 @@ pub(super) struct Reader<'r> {
     pub own: &'r Checked,
     pub choice: &'r Choice,
     pub world: &'r dyn World,
+    /// The option that says what varies.
+    pub option: &'static str,
 }
 
 impl Reader<'_> {
@@ -163,13 +165,17 @@ impl Reader<'_> {
     /// The mechanism with a value of what varies. What is wrong with the formula itself is an error; what is wrong with the mechanism
     /// because of the value is that of a variant.
     pub fn with(&self, name: &str, formula: &str) -> Result<Checked, (Sources, Diagnostics)> {
-        let varied = vec![format!("{name}={formula}")];
-        let checked = self.parsed.check(&Choice { varied, ..self.choice.clone() }, self.world);
+        let set = vec![format!("{name}={formula}")];
+        let choice = match self.option {
+            TOL => Choice { off: set, ..self.choice.clone() },
+            _ => Choice { varied: set, ..self.choice.clone() },
+        };
+        let checked = self.parsed.check(&choice, self.world);
         let sources = checked.sources();
         let is_of_option = |said: &&Diagnostic| {
             let source = said.labels.first().map(|label| sources.get(label.span.file));
             said.severity() == Severity::Error
-                && source.is_some_and(|source| source.is_option && source.name.starts_with(VARY))
+                && source.is_some_and(|source| source.is_option && source.name.starts_with(self.option))
         };
         let mut wrong = Diagnostics::default();
         checked.diagnostics().iter().filter(is_of_option).for_each(|said| wrong.push(said.clone()));

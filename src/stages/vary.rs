@@ -39,6 +39,17 @@ pub struct Variants {
 }
 
 impl Variants {
+    /// Of points, and by param the SI unit of its values, empty for a pure number; with the texts of the mechanism, and the option that says
+    /// what varies.
+    pub(super) fn of(points: Points, units: Vec<String>, mut sources: Sources, option: &str) -> Found<Variants> {
+        let mut ones = Vec::with_capacity(units.len());
+        for (name, unit) in points.params().iter().zip(&units) {
+            let file = sources.add_option(format!("{option} {name}"), written(1.0, unit));
+            ones.push(syntax::parse_expression(&sources, file).map_err(|why| (sources.clone(), why))?);
+        }
+        Ok(Variants { points, units, ones, sources, named: Vec::new() })
+    }
+
     /// The values of their params.
     #[must_use]
     pub fn points(&self) -> &Points {
@@ -103,7 +114,7 @@ impl Checked {
         refuse_without_counterpart(vary, &asked).map_err(own)?;
         // whether it gets there is seen of each variant
         let choice = Choice { lead: false, ..choice.clone() };
-        let reader = Reader { parsed: &self.parsed, own: self, choice: &choice, world };
+        let reader = Reader { parsed: &self.parsed, own: self, choice: &choice, world, option: VARY };
         let mut listing = Listing { reader, sources: self.sources().clone(), params: Vec::new(), named: Vec::new() };
         let mut axes = Vec::new();
         let mut ranges: Option<(usize, Vec<usize>, Vec<[f64; 2]>)> = None;
@@ -263,7 +274,7 @@ struct Listing<'r> {
     named: Vec<PathBuf>,
 }
 
-type Found<T> = Result<T, (Sources, Diagnostics)>;
+pub(super) type Found<T> = Result<T, (Sources, Diagnostics)>;
 
 impl Listing<'_> {
     fn read(&mut self, asked: &Asked) -> Found<Read> {
@@ -338,15 +349,8 @@ impl Listing<'_> {
         Ok(Varying { params, values: Levels::Listed(values) })
     }
 
-    fn variants(mut self, points: Points) -> Found<Variants> {
-        let (mut units, mut ones) = (Vec::new(), Vec::new());
-        for Param { name, unit } in self.params {
-            let text = written(1.0, &unit);
-            let file = self.sources.add_option(format!("{VARY} {name}"), text);
-            let one = syntax::parse_expression(&self.sources, file).map_err(|why| (self.sources.clone(), why))?;
-            units.push(unit);
-            ones.push(one);
-        }
-        Ok(Variants { points, units, ones, sources: self.sources, named: self.named })
+    fn variants(self, points: Points) -> Found<Variants> {
+        let units = self.params.into_iter().map(|param| param.unit).collect();
+        Variants::of(points, units, self.sources, VARY).map(|variants| Variants { named: self.named, ..variants })
     }
 }

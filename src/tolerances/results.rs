@@ -98,3 +98,13 @@ pub mod formulas {
     pub const MOVED: f64 = 1.0 / 1_048_576.0;
     pub const WAYS: u32 = 3;
 }
+
+/// Derivatives of results (`lower/slopes.rs`).
+pub mod slopes {
+    /// A formula has the value of an extremum at its time, if it is away from it by no more than this part of its range; or by this part
+    /// of its size, where it rests.
+    pub const SAME: f64 = 1e-6;
+    pub const DIGITS: f64 = 1e-9;
+    /// An extremum is flat, if its rate would change it over the analysis by no more than this part of its range.
+    pub const FLAT: f64 = 1e-3;
+}

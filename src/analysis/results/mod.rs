@@ -41,7 +41,10 @@ use survey::Trouble;
 pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2]) -> Diagnostics {
     let mut diagnostics = Diagnostics::default();
     for reduction in &system.results().reductions {
-        if let ReductionKind::At(at) = reduction.kind {
+        // one at the time of another reduction is within
+        if let ReductionKind::At(at) = reduction.kind
+            && needed(system.graph(), at).is_empty()
+        {
             let t = system.value_at(at, &[]);
             if !(from <= t && t <= to) {
                 diagnostics.push(errors::at_outside(reduction, t, interval));
@@ -130,7 +133,11 @@ impl Analysis {
         let mut level = Vec::new();
         let open: Vec<usize> = (0..self.found.len()).filter(|&k| self.found[k].is_none()).collect();
         for k in open {
-            let needed = needed(system.graph(), system.results().reductions[k].of);
+            let Reduction { of, kind, .. } = system.results().reductions[k];
+            let mut needed = needed(system.graph(), of);
+            if let ReductionKind::At(at) = kind {
+                needed.extend(self::needed(system.graph(), at));
+            }
             if let Some(trouble) = needed.iter().find_map(|&other| self.found[other].and_then(Result::err)) {
                 self.found[k] = Some(Err(trouble));
             } else if needed.iter().all(|&other| self.found[other].is_some()) {
@@ -148,17 +155,18 @@ impl Analysis {
         let mut places = Places::new(self.asked.kinematics.clone(), self.asked.solver.clone());
         let (mut all, formula_of) = self.formulas(&asked, places.variations());
         let at = |reduction: &Reduction| match reduction.kind {
-            ReductionKind::At(at) => system.value_at(at, &[]),
+            ReductionKind::At(at) => self.value(at),
             _ => f64::NAN,
         };
+        let at: Vec<f64> = asked.iter().map(|(_, reduction)| at(reduction)).collect();
         let interval = self.asked.interval;
-        for ((_, reduction), &of) in asked.iter().zip(&formula_of) {
-            all[of].ask(reduction.kind, at(reduction), interval);
+        for (((_, reduction), &of), &at) in asked.iter().zip(&formula_of).zip(&at) {
+            all[of].ask(reduction.kind, at, interval);
         }
         let mut near = Near::new();
         self.run(&mut all, &mut places, &mut near)?;
-        for ((k, reduction), &of) in asked.iter().zip(&formula_of) {
-            self.found[*k] = Some(self.asked.certain(&all[of], (reduction.kind, at(reduction)), &near));
+        for (((k, reduction), &of), &at) in asked.iter().zip(&formula_of).zip(&at) {
+            self.found[*k] = Some(self.asked.certain(&all[of], (reduction.kind, at), &near));
         }
         Ok(())
     }
@@ -229,15 +237,22 @@ impl Analysis {
         Answers { values: vec![None; outcomes.len()], notes: notes.into_iter().collect() }
     }
 
+    /// The value of a formula of parameters and of reductions that are known; no number where one has none.
+    fn value(&self, formula: ExprId) -> f64 {
+        let system = self.system();
+        system.graph().value(formula, |symbol| match symbol {
+            Symbol::Param(k) => system.params()[k as usize].value,
+            Symbol::Shift(_) => 0.0,
+            Symbol::Named(k) => self.found[k as usize].and_then(Result::ok).unwrap_or(f64::NAN),
+            _ => f64::NAN,
+        })
+    }
+
     fn answers(&self) -> Answers {
         let system = self.system();
         let mut answers = Answers::default();
         for outcome in &system.results().outcomes {
-            let value = system.graph().value(outcome.value, |symbol| match symbol {
-                Symbol::Param(k) => system.params()[k as usize].value,
-                Symbol::Named(k) => self.found[k as usize].and_then(Result::ok).unwrap_or(f64::NAN),
-                _ => f64::NAN,
-            });
+            let value = self.value(outcome.value);
             if value.is_finite() {
                 // −0 would surprise a reader
                 answers.values.push(Some(value + 0.0));

@@ -1,0 +1,284 @@
+//! Derivatives of results by what a mechanism is differentiated by: further results, behind all others.
+//!
+//! With `e_p` the derivative of a formula by `p` at fixed time, `ė` that by time, and `T_p` how a time goes with `p`,
+//!
+//! - a value is differentiated to `e_p(T) + ė(T) T_p`;
+//! - an extremum at its time `T` likewise, and within the analysis `ė(T) = 0` (the envelope theorem); its time goes with `−ė_p/ë`;
+//! - an integral to `∫ e_p dt + e(to) to_p − e(from) from_p` (Leibniz);
+//! - a formula of such numbers by the chain rule.
+
+use super::Lowering;
+use crate::expr::{Comparison, ExprId, Symbol, Unary};
+use crate::ir::{Outcome, Reduction, ReductionKind, Units};
+use crate::model::quotient;
+use crate::tolerances::results::slopes::{DIGITS, FLAT, SAME};
+use rustc_hash::FxHashMap;
+
+/// The first and the last time of the analysis.
+const ENDS: [ReductionKind; 2] = [ReductionKind::First, ReductionKind::Last];
+
+/// A formula that is reduced.
+#[derive(Clone, Copy)]
+pub(super) struct Reduced {
+    /// Its value, be there one or not.
+    pub value: ExprId,
+    /// Where there is one; everywhere if this is nothing.
+    pub holds: Option<ExprId>,
+}
+
+/// Of one variable.
+pub(super) struct Slopes<'s, 'm> {
+    pub lowering: &'s mut Lowering<'m>,
+    /// All that is asked of the motion, to which more is added.
+    pub reductions: &'s mut Vec<Reduction>,
+    /// The formulas of those that the text asks for.
+    pub formulas: &'s [Reduced],
+    /// The formulas of those ends of the analysis that go with parameters.
+    pub ends: [Option<ExprId>; 2],
+    /// By what is differentiated.
+    pub variable: u32,
+    /// By reduction: its derivative, or nothing where none is known.
+    pub known: &'s mut FxHashMap<u32, Option<ExprId>>,
+}
+
+impl Slopes<'_, '_> {
+    /// The derivative of a result, which has no value where no derivative is known.
+    pub fn of_outcome(&mut self, outcome: &Outcome) -> Outcome {
+        let value = self.partial(outcome.value).unwrap_or_else(|| self.no_value());
+        let by = self.lowering.variations.as_ref().map(|known| known.variables[self.variable as usize].clone());
+        let (by, unit) = by.map(|by| (by.name, by.unit)).unwrap_or_default();
+        let Units { si, printed, scale } = &outcome.units;
+        let units =
+            Units { si: quotient(si, &unit), printed: printed.clone().map(|of| quotient(&of, &unit)), scale: *scale };
+        Outcome { name: format!("der({}, {by})", outcome.name), span: outcome.span, value, units }
+    }
+
+    /// How a formula changes with the variable at fixed time, through all reductions in it too.
+    fn partial(&mut self, formula: ExprId) -> Option<ExprId> {
+        let graph = &self.lowering.graph;
+        let times = self.lowering.variations.as_ref().map_or(0, |variations| variations.times(graph, formula));
+        if graph.dependence(formula).highest_order() == Some(3) || times > 1 {
+            return None;
+        }
+        let mut sum = self.lowering.derivative_by(formula, self.variable);
+        for symbol in self.lowering.graph.symbols(formula) {
+            let Symbol::Named(k) = symbol else { continue };
+            let slope = self.of_reduction(k)?;
+            let graph = &mut self.lowering.graph;
+            let by = graph.derivatives(&[formula], |graph, of| (of == symbol).then(|| graph.constant(1.0)))[0];
+            let part = graph.mul(by, slope);
+            sum = graph.add(sum, part);
+        }
+        Some(sum)
+    }
+
+    fn of_reduction(&mut self, k: u32) -> Option<ExprId> {
+        if let Some(known) = self.known.get(&k) {
+            return *known;
+        }
+        let found = match self.reductions[k as usize].kind {
+            ReductionKind::Extreme { largest, when } => self.of_extreme(k, largest, when),
+            ReductionKind::Mean => self.of_mean(k),
+            ReductionKind::Integral => self.of_integral(k),
+            ReductionKind::First => self.of_value(k, ReductionKind::First, self.ends[0]),
+            ReductionKind::Last => self.of_value(k, ReductionKind::Last, self.ends[1]),
+            ReductionKind::At(at) => self.of_value(k, ReductionKind::At(at), Some(at)),
+        };
+        self.known.insert(k, found);
+        found
+    }
+
+    /// Of a value at a time that has a formula, or stays.
+    fn of_value(&mut self, k: u32, kind: ReductionKind, time: Option<ExprId>) -> Option<ExprId> {
+        let Reduced { value, holds } = self.formulas[k as usize];
+        let by = self.partial(value)?;
+        let goes = self.of_time(time);
+        if self.is_zero(goes) {
+            return Some(self.reduce(kind, by, holds));
+        }
+        let rate = self.lowering.along_the_motion(value)?;
+        let [by, rate] = [by, rate].map(|formula| self.reduce(kind, formula, holds));
+        let moved = self.lowering.graph.mul(rate, goes);
+        Some(self.lowering.graph.add(by, moved))
+    }
+
+    fn of_integral(&mut self, k: u32) -> Option<ExprId> {
+        let Reduced { value, holds } = self.formulas[k as usize];
+        let by = self.partial(value)?;
+        let inside = self.reduce(ReductionKind::Integral, by, holds);
+        let [from, to] = self.of_ends().map(|(kind, goes)| {
+            let at = self.reduce(kind, value, holds);
+            self.lowering.graph.mul(at, goes)
+        });
+        let graph = &mut self.lowering.graph;
+        let more = graph.sub(to, from);
+        Some(graph.add(inside, more))
+    }
+
+    fn of_mean(&mut self, k: u32) -> Option<ExprId> {
+        let Reduced { value, holds } = self.formulas[k as usize];
+        let by = self.partial(value)?;
+        let inside = self.reduce(ReductionKind::Mean, by, holds);
+        let mean = self.lowering.graph.symbol(Symbol::Named(k));
+        let [from, to] = self.of_ends().map(|(kind, goes)| {
+            let at = self.reduce(kind, value, holds);
+            let graph = &mut self.lowering.graph;
+            let beyond = graph.sub(at, mean);
+            graph.mul(beyond, goes)
+        });
+        let span = self.span();
+        let graph = &mut self.lowering.graph;
+        let more = graph.sub(to, from);
+        if graph.is_zero(more) {
+            return Some(inside);
+        }
+        let more = graph.div(more, span);
+        Some(graph.add(inside, more))
+    }
+
+    /// Of the largest or least value, or of its time. It has none where the extremum is none of a smooth formula: at a kink or jump within the
+    /// analysis, whose time goes with the variable as nobody knows.
+    fn of_extreme(&mut self, k: u32, largest: bool, when: bool) -> Option<ExprId> {
+        let Reduced { value, holds } = self.formulas[k as usize];
+        let by = self.partial(value)?;
+        let rate = self.lowering.along_the_motion(value);
+        let ends = self.of_ends();
+        let stays = ends.iter().all(|(_, goes)| self.is_zero(*goes));
+        if self.is_zero(by) && stays {
+            return Some(by);
+        }
+        let of = self.reductions[k as usize].of;
+        let time = self.asked(ReductionKind::Extreme { largest, when: true }, of);
+        let at = ReductionKind::At(time);
+        let inside = if when { self.of_time_within(at, (value, holds), by)? } else { self.reduce(at, by, holds) };
+        let rate = rate.map(|rate| self.reduce(at, rate, holds));
+        let mut slope = self.where_flat((of, rate), inside);
+        for (kind, goes) in ends {
+            let at_end = if when {
+                goes
+            } else {
+                let still = self.reduce(at, by, holds);
+                self.moved(still, rate, goes)?
+            };
+            let end = self.time(kind);
+            let graph = &mut self.lowering.graph;
+            let between = if kind == ReductionKind::First { [time, end] } else { [end, time] };
+            let is_there = graph.compare(Comparison::LessEqual, between[0], between[1]);
+            slope = graph.select(is_there, at_end, slope);
+        }
+        let met = self.reduce(at, value, holds);
+        Some(self.where_it_is_met((of, largest), met, slope))
+    }
+
+    /// What changes at fixed time, and with a time that goes.
+    fn moved(&mut self, still: ExprId, rate: Option<ExprId>, goes: ExprId) -> Option<ExprId> {
+        if self.is_zero(goes) {
+            return Some(still);
+        }
+        let graph = &mut self.lowering.graph;
+        let more = graph.mul(rate?, goes);
+        Some(graph.add(still, more))
+    }
+
+    /// `−ė_p/ë`
+    fn of_time_within(
+        &mut self,
+        at: ReductionKind,
+        (value, holds): (ExprId, Option<ExprId>),
+        by: ExprId,
+    ) -> Option<ExprId> {
+        let rate = self.lowering.along_the_motion(value)?;
+        let second = self.lowering.along_the_motion(rate)?;
+        let rate_by = self.lowering.along_the_motion(by)?;
+        let [second, rate_by] = [second, rate_by].map(|formula| self.reduce(at, formula, holds));
+        let graph = &mut self.lowering.graph;
+        let quotient = graph.div(rate_by, second);
+        Some(graph.neg(quotient))
+    }
+
+    /// A slope where the formula does not change with time, as far as its rate is known.
+    fn where_flat(&mut self, (of, rate): (ExprId, Option<ExprId>), slope: ExprId) -> ExprId {
+        let Some(rate) = rate else { return slope };
+        let (range, span) = (self.range(of), self.span());
+        let graph = &mut self.lowering.graph;
+        let (steep, part) = (graph.unary(Unary::Abs, rate), graph.constant(FLAT));
+        let [steep, range] = [graph.mul(steep, span), graph.mul(part, range)];
+        let is_flat = graph.compare(Comparison::LessEqual, steep, range);
+        let nothing = self.no_value();
+        self.lowering.graph.select(is_flat, slope, nothing)
+    }
+
+    /// A slope where the formula has the extremum's value at its time, as rows have it: at a jump it may be that of the side that they are not of.
+    fn where_it_is_met(&mut self, (of, largest): (ExprId, bool), met: ExprId, slope: ExprId) -> ExprId {
+        let found = self.asked(ReductionKind::Extreme { largest, when: false }, of);
+        let range = self.range(of);
+        let graph = &mut self.lowering.graph;
+        let [part, digits] = [SAME, DIGITS].map(|part| graph.constant(part));
+        let size = graph.unary(Unary::Abs, found);
+        let [part, digits] = [graph.mul(part, range), graph.mul(digits, size)];
+        let limit = graph.add(part, digits);
+        let off = graph.sub(met, found);
+        let off = graph.unary(Unary::Abs, off);
+        let is_met = graph.compare(Comparison::LessEqual, off, limit);
+        let nothing = self.no_value();
+        self.lowering.graph.select(is_met, slope, nothing)
+    }
+
+    /// The largest value less the least.
+    fn range(&mut self, of: ExprId) -> ExprId {
+        let [low, high] = [false, true].map(|largest| self.asked(ReductionKind::Extreme { largest, when: false }, of));
+        self.lowering.graph.sub(high, low)
+    }
+
+    /// The time of the analysis.
+    fn span(&mut self) -> ExprId {
+        let [from, to] = ENDS.map(|end| self.time(end));
+        self.lowering.graph.sub(to, from)
+    }
+
+    fn time(&mut self, end: ReductionKind) -> ExprId {
+        let time = self.lowering.graph.symbol(Symbol::Time);
+        self.asked(end, time)
+    }
+
+    /// The ends of the analysis, and how they go with the variable.
+    fn of_ends(&mut self) -> [(ReductionKind, ExprId); 2] {
+        [0, 1].map(|end| (ENDS[end], self.of_time(self.ends[end])))
+    }
+
+    /// How a time that has a formula of parameters goes with the variable; others stay.
+    fn of_time(&mut self, time: Option<ExprId>) -> ExprId {
+        match time {
+            Some(time) => self.lowering.derivative_by(time, self.variable),
+            None => self.lowering.graph.constant(0.0),
+        }
+    }
+
+    /// What is asked of a formula where it holds.
+    fn reduce(&mut self, kind: ReductionKind, formula: ExprId, holds: Option<ExprId>) -> ExprId {
+        if self.is_zero(formula) {
+            return formula;
+        }
+        let of = self.lowering.only_where(holds, formula);
+        self.asked(kind, of)
+    }
+
+    /// The symbol of what is asked, once.
+    fn asked(&mut self, kind: ReductionKind, of: ExprId) -> ExprId {
+        let known = self.reductions.iter().position(|known| known.kind == kind && known.of == of);
+        let k = known.unwrap_or_else(|| {
+            let span = self.reductions[0].span;
+            self.reductions.push(Reduction { of, kind, span });
+            self.reductions.len() - 1
+        });
+        self.lowering.graph.symbol(Symbol::Named(k as u32))
+    }
+
+    fn is_zero(&self, formula: ExprId) -> bool {
+        self.lowering.graph.is_zero(formula)
+    }
+
+    fn no_value(&mut self) -> ExprId {
+        self.lowering.no_value()
+    }
+}
