@@ -1,8 +1,7 @@
 //! What tolerances make of measures and results, as a table to be read, as CSV and as JSON.
 
 use crate::diag::readable;
-use crate::layout::ColumnUnit;
-use crate::stages::{Affected, Deviation, Tolerance, Verified};
+use crate::stages::{Affected, Deviation, Shown, Tolerance, Verified};
 use serde_json::{Map, Value, json};
 
 /// Digits of what is to be read.
@@ -55,7 +54,7 @@ impl Contributions {
             text += if text.is_empty() { "" } else { "\n" };
             let at = of.at.map(|t| format!(" at {} s", short(t))).unwrap_or_default();
             let nominal = if of.nominal.is_finite() {
-                told(of.unit.printed(of.nominal), &of.unit.text)
+                in_unit(of.nominal, &of.to_be_read(&self.tolerances))
             } else {
                 "null".to_owned()
             };
@@ -72,11 +71,13 @@ impl Contributions {
     /// The lines of one measure or result.
     fn block(&self, k: usize) -> Vec<[String; 5]> {
         let (of, deviation) = (&self.affected[k], self.deviation(&self.affected[k]));
+        let shown = of.to_be_read(&self.tolerances);
+        let amount = |ends: [f64; 2]| between(ends.map(|end| end / shown.size), &shown.text);
         let mut lines = vec![["param", "tolerance", "derivative", "contributes", "share"].map(str::to_owned)];
         for (j, by) in self.tolerances.iter().enumerate() {
-            let slope = of.slopes[j].map(|slope| of.told_slope(slope, by));
+            let slope = of.slopes[j].map(|slope| shown.slope(slope, by));
             let derivative = slope.map_or("unknown".to_owned(), |(slope, unit)| told(slope, &unit));
-            let contributes = of.slopes[j].map_or(String::new(), |slope| amount(by.times(slope), &of.unit));
+            let contributes = of.slopes[j].map_or(String::new(), |slope| amount(by.times(slope)));
             let share = deviation.as_ref().map_or(String::new(), |all| format!("{:.0} %", 100.0 * all.shares[j]));
             let range = by.range.map(|off| off / by.unit.1);
             lines.push([by.name.clone(), between(range, &by.unit.0), derivative, contributes, share]);
@@ -84,13 +85,13 @@ impl Contributions {
         let sum =
             |name: &str, amount: String, more: String| [name.to_owned(), String::new(), String::new(), amount, more];
         if let Some(all) = &deviation {
-            lines.push(sum("worst case", amount(all.worst, &of.unit), String::new()));
-            let sigma = told(of.unit.printed(all.sigma), &of.unit.text);
-            lines.push(sum("statistical", amount(all.statistical, &of.unit), format!("σ = {sigma}")));
+            lines.push(sum("worst case", amount(all.worst), String::new()));
+            let sigma = in_unit(all.sigma, &shown);
+            lines.push(sum("statistical", amount(all.statistical), format!("σ = {sigma}")));
         }
         if let Some(verified) = &self.verified {
             let what = if verified.are_all_corners { "corners" } else { "samples" };
-            let found = verified.found[k].map_or("null".to_owned(), |found| amount(found, &of.unit));
+            let found = verified.found[k].map_or("null".to_owned(), &amount);
             let is_linear = self.is_linear(k, deviation.as_ref());
             let more = if is_linear == Some(false) { "linear is not enough" } else { "" };
             lines.push(sum(what, found, more.to_owned()));
@@ -113,7 +114,7 @@ impl Contributions {
             for (j, by) in self.tolerances.iter().enumerate() {
                 let [low, high] = by.range.map(|off| format!("{}{}", readable(off / by.unit.1), after(&by.unit.0)));
                 let slope = of.slopes[j].map_or(String::new(), |slope| {
-                    let (slope, unit) = of.told_slope(slope, by);
+                    let (slope, unit) = Shown::of(&of.unit).slope(slope, by);
                     format!("{}{}", readable(slope), after(&unit))
                 });
                 let ends = of.slopes[j].map_or([String::new(), String::new()], |slope| by.times(slope).map(printed));
@@ -224,11 +225,6 @@ impl Contributions {
     }
 }
 
-/// From the least to the largest, in the unit that is told.
-fn amount(ends: [f64; 2], unit: &ColumnUnit) -> String {
-    between(ends.map(|end| unit.printed(end)), &unit.text)
-}
-
 /// `±0.05 mm`, or `-0.1..0 mm`.
 fn between([low, high]: [f64; 2], unit: &str) -> String {
     let [low, high] = [low, high].map(short);
@@ -237,6 +233,10 @@ fn between([low, high]: [f64; 2], unit: &str) -> String {
         _ if low == high => format!("{low}{}", after(unit)),
         _ => format!("{low}..{high}{}", after(unit)),
     }
+}
+
+fn in_unit(value: f64, Shown { text, size }: &Shown) -> String {
+    told(value / size, text)
 }
 
 fn told(value: f64, unit: &str) -> String {

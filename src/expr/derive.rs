@@ -126,6 +126,7 @@ impl Graph {
         slopes.into_iter().filter(|&(_, slope)| !self.is_zero(slope)).collect()
     }
 
+    /// Whether an expression is the constant nothing.
     #[must_use]
     pub fn is_zero(&self, id: ExprId) -> bool {
         self.as_const(id) == Some(0.0)

@@ -56,9 +56,9 @@ impl Lowering<'_> {
     /// Formulas of reductions, with the square of what a root of the mean of squares is of.
     fn squared(&mut self, formulas: &[Reduced]) -> Vec<Reduced> {
         let is_squared = self.model.reductions.iter().map(|reduction| reduction.kind == ReductionKind::Rms);
-        let square = |(&of, is_squared): (&Reduced, bool)| match is_squared {
-            true => Reduced { value: self.graph.mul(of.value, of.value), ..of },
-            false => of,
+        let square = |(&of, is_squared): (&Reduced, bool)| {
+            let value = if is_squared { self.graph.mul(of.value, of.value) } else { of.value };
+            Reduced { value, ..of }
         };
         formulas.iter().zip(is_squared).map(square).collect()
     }

@@ -8,10 +8,10 @@
 //! - a formula of such numbers by the chain rule.
 
 use super::Lowering;
-use crate::expr::{Comparison, ExprId, Symbol, Unary};
+use crate::expr::{Binary, Comparison, ExprId, Symbol, Unary};
 use crate::ir::{Outcome, Reduction, ReductionKind, Units};
 use crate::model::quotient;
-use crate::tolerances::results::slopes::{DIGITS, FLAT, SAME};
+use crate::tolerances::results::slopes::{ALONE, DIGITS, FLAT, LAST_DIGITS, MOVED, SAME};
 use rustc_hash::FxHashMap;
 
 /// The first and the last time of the analysis.
@@ -167,7 +167,8 @@ impl Slopes<'_, '_> {
             slope = graph.select(is_there, at_end, slope);
         }
         let met = self.reduce(at, value, holds);
-        Some(self.where_it_is_met((of, largest), met, slope))
+        let slope = self.where_it_is_met((of, largest), met, slope);
+        Some(self.where_alone((of, largest), (value, holds), by, slope))
     }
 
     /// What changes at fixed time, and with a time that goes.
@@ -222,6 +223,46 @@ impl Slopes<'_, '_> {
         let is_met = graph.compare(Comparison::LessEqual, off, limit);
         let nothing = self.no_value();
         self.lowering.graph.select(is_met, slope, nothing)
+    }
+
+    /// A slope where no other extremum is alike: the value of that may go with the variable otherwise. Then it goes to one side as to the other,
+    /// `max(e + h e_p) + max(e − h e_p) = 2 max(e)` for a small `h`.
+    fn where_alone(
+        &mut self,
+        (of, largest): (ExprId, bool),
+        (value, holds): (ExprId, Option<ExprId>),
+        by: ExprId,
+        slope: ExprId,
+    ) -> ExprId {
+        if self.is_zero(by) {
+            return slope;
+        }
+        let kind = |largest| ReductionKind::Extreme { largest, when: false };
+        let by_of = self.lowering.only_where(holds, by);
+        let ends = [false, true].map(|largest| self.asked(kind(largest), by_of));
+        let range = self.range(of);
+        let found = self.asked(kind(largest), of);
+        let graph = &mut self.lowering.graph;
+        let [low, high] = ends.map(|end| graph.unary(Unary::Abs, end));
+        let most = graph.binary(Binary::Max, low, high);
+        let (part, zero) = (graph.constant(MOVED), graph.constant(0.0));
+        let moved = graph.mul(part, range);
+        let (step, does) = (graph.div(moved, most), graph.compare(Comparison::Less, zero, most));
+        let step = graph.select(does, step, zero);
+        let change = graph.mul(step, by);
+        let both = [graph.add(value, change), graph.sub(value, change)]
+            .map(|formula| self.reduce(kind(largest), formula, holds));
+        let graph = &mut self.lowering.graph;
+        let (sum, twice) = (graph.add(both[0], both[1]), graph.add(found, found));
+        let off = graph.sub(sum, twice);
+        let off = graph.unary(Unary::Abs, off);
+        let [part, digits] = [ALONE, LAST_DIGITS].map(|part| graph.constant(part));
+        let size = graph.unary(Unary::Abs, found);
+        let [part, digits] = [graph.mul(part, moved), graph.mul(digits, size)];
+        let limit = graph.add(part, digits);
+        let is_alone = graph.compare(Comparison::LessEqual, off, limit);
+        let nothing = self.no_value();
+        self.lowering.graph.select(is_alone, slope, nothing)
     }
 
     /// The largest value less the least.

@@ -54,7 +54,6 @@ pub use run::{Assembly, Run};
 pub use seen::Seen;
 pub use sweep::{Sweep, SweepOptions};
 pub use times::AskedTimes;
-pub use tolerance::{Affected, Deviation, Tolerance, Verified};
-pub use tolerancing::Tolerancing;
+pub use tolerance::{Affected, Deviation, Shown, Tolerance, Verified};
 pub use varied::Varied;
 pub use vary::{Variants, VaryOptions};

@@ -85,7 +85,8 @@ impl Affected {
         let slopes: Vec<f64> = self.slopes.iter().copied().collect::<Option<_>>()?;
         let of_each = || tolerances.iter().zip(&slopes);
         let contributions: Vec<[f64; 2]> = of_each().map(|(of, &slope)| of.times(slope)).collect();
-        let squares: Vec<f64> = of_each().map(|(of, slope)| (slope * of.half()).powi(2)).collect();
+        let square = |(of, slope): (&Tolerance, &f64)| (slope * of.half()) * (slope * of.half());
+        let squares: Vec<f64> = of_each().map(square).collect();
         let sum: f64 = squares.iter().sum();
         let worst = [0, 1].map(|end| contributions.iter().map(|of| of[end]).sum());
         let (middle, half) = (0.5 * (worst[0] + worst[1]), sum.sqrt());
@@ -99,11 +100,38 @@ impl Affected {
         })
     }
 
-    /// The unit of its derivative by a tolerance, and the derivative in that.
+    /// The unit in which it is told to a reader: its own, or, where that is SI, that of a tolerance of the same kind.
     #[must_use]
-    pub fn told_slope(&self, slope: f64, by: &Tolerance) -> (f64, String) {
+    pub fn to_be_read(&self, tolerances: &[Tolerance]) -> Shown {
+        let is_alike = |by: &&Tolerance| self.unit.text == self.si && by.si == self.si && self.si != "1";
+        match tolerances.iter().find(is_alike) {
+            Some(Tolerance { unit: (text, size), .. }) => Shown { text: text.clone(), size: *size },
+            None => Shown::of(&self.unit),
+        }
+    }
+}
+
+/// A unit that something is told in.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Shown {
+    /// `mm`; `1` for a pure number.
+    pub text: String,
+    /// How much of SI it is.
+    pub size: f64,
+}
+
+impl Shown {
+    /// The unit of a column.
+    #[must_use]
+    pub fn of(unit: &ColumnUnit) -> Shown {
+        Shown { text: unit.text.clone(), size: 1.0 / unit.printed(1.0) }
+    }
+
+    /// A derivative (SI) by a tolerance in that unit and the tolerance's, and what that makes.
+    #[must_use]
+    pub fn slope(&self, slope: f64, by: &Tolerance) -> (f64, String) {
         let (unit, size) = &by.unit;
-        (self.unit.printed(slope * size), quotient(&self.unit.text, unit))
+        (slope * size / self.size, quotient(&self.text, unit))
     }
 }
 

@@ -38,11 +38,11 @@ impl Checked {
         world: &'c dyn World,
     ) -> Found<Tolerancing<'c>> {
         let own = |why: Diagnostic| (self.sources().clone(), Diagnostics::from(why));
-        let plain = Choice { lead: false, ..choice.clone() };
+        let plain = Choice { lead: false, results: Vec::new(), ..choice.clone() };
         let reader = Reader { parsed: &self.parsed, own: self, choice: &plain, world, option: TOL };
         let mut tolerances: Vec<Tolerance> = Vec::new();
         for text in asked {
-            let asked = Asked::of(text).map_err(own)?;
+            let asked = Asked::of(text).map_err(|why| own(*why))?;
             for tolerance in asked.tolerances(&reader)? {
                 if tolerances.iter().any(|known| known.name == tolerance.name) {
                     let why = unusable(format!("`{}` has two tolerances", tolerance.name));
@@ -73,19 +73,17 @@ const FORMS: &str =
     "write `--tol rod=0.05mm` for ±0.05 mm, or `--tol rod=-0.1mm..0mm` for what it may be below and above";
 
 impl Asked {
-    fn of(text: &str) -> Result<Asked, Diagnostic> {
+    fn of(text: &str) -> Result<Asked, Box<Diagnostic>> {
         let named = text.split_once('=').map(|(name, rest)| (spaceless(name), rest.trim()));
-        let refused = |said: &str| unusable(format!("`{TOL} {text}` {said}")).help(FORMS);
+        let refused = |said: &str| Box::new(unusable(format!("`{TOL} {text}` {said}")).help(FORMS));
         let Some((name, rest)) = named.filter(|(name, _)| !name.is_empty()) else {
             return Err(refused("does not say what may be off, and how far"));
         };
-        let ends: Vec<String> = match rest.split_once("..") {
-            Some((low, high)) => vec![low.trim().to_owned(), high.trim().to_owned()],
-            None => {
-                let signs = ["±", "+/-", "+-"];
-                let bare = signs.iter().find_map(|sign| rest.strip_prefix(sign)).unwrap_or(rest);
-                vec![bare.trim().to_owned()]
-            }
+        let ends: Vec<String> = if let Some((low, high)) = rest.split_once("..") {
+            vec![low.trim().to_owned(), high.trim().to_owned()]
+        } else {
+            let bare = ["±", "+/-", "+-"].iter().find_map(|sign| rest.strip_prefix(sign)).unwrap_or(rest);
+            vec![bare.trim().to_owned()]
         };
         if ends.iter().any(String::is_empty) {
             return Err(refused("does not say how far it may be off"));
@@ -156,7 +154,8 @@ impl Tolerancing<'_> {
     pub fn affected(&self, compiled: &Compiled, options: &SweepOptions) -> Found<Vec<Affected>> {
         let slopes = Some([options.times.from.is_none(), options.times.to.is_none()]);
         let by = self.tolerances.iter().map(|of| of.name.clone()).collect();
-        let choice = Choice { by, slopes, lead: true, ..self.choice.clone() };
+        // results that are asked for beside the text stand in it already
+        let choice = Choice { by, slopes, lead: true, results: Vec::new(), ..self.choice.clone() };
         let checked = self.checked.parsed.check(&choice, self.world);
         let refused = |said: &Diagnostics| (checked.sources().clone(), said.clone());
         if !checked.is_sound() {
@@ -219,7 +218,7 @@ impl Tolerancing<'_> {
         let ends: Vec<[f64; 2]> = self.tolerances.iter().map(Tolerance::ends).collect();
         if self.tolerances.len() <= MOST_CORNERS {
             let axis = |(param, ends): (usize, &[f64; 2])| {
-                let values = if ends[0] == ends[1] { vec![ends[0]] } else { ends.to_vec() };
+                let values = if ends[0] < ends[1] { ends.to_vec() } else { vec![ends[0]] };
                 Varying { params: vec![param], values: Levels::Listed(values) }
             };
             return (vec![ends.iter().enumerate().map(axis).collect()], true);
@@ -312,6 +311,14 @@ struct AskedMeasure {
     si: String,
 }
 
+/// What a measure is at the times of the nominal variant.
+struct Rows<'s> {
+    times: &'s [f64],
+    values: &'s [f64],
+    /// By tolerance: its derivative, if it has one.
+    slopes: Vec<Option<&'s Vec<f64>>>,
+}
+
 impl AskedOf {
     /// The columns of time, and of each measure with its derivatives.
     fn columns(&self) -> Vec<usize> {
@@ -326,9 +333,8 @@ impl AskedOf {
         if let Some(times) = columns.next() {
             for measure in self.measures {
                 let Some(values) = columns.next() else { break };
-                let slopes: Vec<Option<&Vec<f64>>> =
-                    measure.by.iter().map(|by| by.and_then(|_| columns.next())).collect();
-                all.push(where_it_is_worst(measure, (times, values, &slopes), tolerances));
+                let slopes = measure.by.iter().map(|by| by.and_then(|_| columns.next())).collect();
+                all.push(where_it_is_worst(measure, &Rows { times, values, slopes }, tolerances));
             }
         }
         let (own, count) = (self.results.len(), tolerances.len());
@@ -347,11 +353,8 @@ impl AskedOf {
 }
 
 /// A measure at the time at which the worst case of all tolerances is the largest; at the first time where no derivative is known.
-fn where_it_is_worst(
-    measure: AskedMeasure,
-    (times, values, slopes): (&[f64], &[f64], &[Option<&Vec<f64>>]),
-    tolerances: &[Tolerance],
-) -> Affected {
+fn where_it_is_worst(measure: AskedMeasure, rows: &Rows<'_>, tolerances: &[Tolerance]) -> Affected {
+    let Rows { times, values, slopes } = rows;
     let rows: Vec<usize> = (0..times.len()).filter(|&row| values[row].is_finite()).collect();
     let (mut worst, mut unknown) = (None, 0);
     for &row in &rows {

@@ -112,8 +112,8 @@ impl Checked {
         let own = |why: Box<Diagnostic>| (self.sources().clone(), Diagnostics::from(*why));
         let asked = vary.params.iter().map(|text| Asked::of(text)).collect::<Result<Vec<_>, _>>().map_err(own)?;
         refuse_without_counterpart(vary, &asked).map_err(own)?;
-        // whether it gets there is seen of each variant
-        let choice = Choice { lead: false, ..choice.clone() };
+        // whether it gets there is seen of each variant, and what is asked for beside the text stands in it already
+        let choice = Choice { lead: false, results: Vec::new(), until: None, ..choice.clone() };
         let reader = Reader { parsed: &self.parsed, own: self, choice: &choice, world, option: VARY };
         let mut listing = Listing { reader, sources: self.sources().clone(), params: Vec::new(), named: Vec::new() };
         let mut axes = Vec::new();
