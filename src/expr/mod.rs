@@ -448,6 +448,24 @@ impl Graph {
         }
     }
 
+    /// A formula with something else in the place of some operations: what a rule makes of an operation as it stands, and as it is once its
+    /// operands have been rewritten.
+    pub fn rewritten(
+        &mut self,
+        root: ExprId,
+        mut rule: impl FnMut(&mut Graph, Node, ExprId) -> Option<ExprId>,
+    ) -> ExprId {
+        let mut known: FxHashMap<ExprId, ExprId> = FxHashMap::default();
+        // children come before their parents
+        for id in self.reachable(&[root]) {
+            let node = self.node(id);
+            let plain = self.rebuild(node, |child| known[&child]);
+            let found = rule(self, node, plain).unwrap_or(plain);
+            known.insert(id, found);
+        }
+        known[&root]
+    }
+
     /// Formulas with other formulas of this graph in the place of some symbols.
     pub fn substituted(&mut self, roots: &[ExprId], with: impl Fn(Symbol) -> Option<ExprId>) -> Vec<ExprId> {
         let mut known: FxHashMap<ExprId, ExprId> = FxHashMap::default();

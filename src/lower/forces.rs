@@ -36,6 +36,12 @@ pub(super) fn of_forces(model: &Mechanism) -> Vec<bool> {
 }
 
 impl Lowering<'_> {
+    /// Whether a formula of the model asks for forces.
+    pub(super) fn asks_for_forces(&self, formula: ExprId) -> bool {
+        let is_force = |symbol: Symbol| matches!(symbol, Symbol::Named(k) if self.of_forces[k as usize]);
+        self.model.graph.symbols(formula).into_iter().any(is_force)
+    }
+
     /// `p` of `Φ_qᵀ λ = p`; none where nobody asks for forces.
     pub(super) fn forces(&mut self) -> Option<Forces> {
         let model = self.model;
@@ -126,6 +132,7 @@ impl Lowering<'_> {
 
     fn value_of(&mut self, load: &Load) -> ExprId {
         let force = self.formula(load.force);
+        let force = self.later_side(force);
         let holds = self.all_hold(&load.conditions);
         self.only_where(holds, force)
     }

@@ -9,6 +9,7 @@ mod frames;
 mod gears;
 mod inputs;
 mod joints;
+mod later;
 mod led;
 mod numbering;
 mod parts;
@@ -501,7 +502,8 @@ impl Lowering<'_> {
             .iter()
             .map(|measure| {
                 let value = self.formula(measure.value);
-                let first = self.along_the_motion(value);
+                // a force has no rate, also where it is nothing
+                let first = if self.asks_for_forces(measure.value) { None } else { self.along_the_motion(value) };
                 let second = first.and_then(|first| self.along_the_motion(first));
                 let (name, span) = (measure.declared.name.clone(), measure.declared.span);
                 let holds = self.all_hold(&measure.conditions);

@@ -19,15 +19,27 @@ pub struct Range {
     pub may_switch: bool,
     /// Whether every function in it changes so little that a few terms of its series tell all.
     pub is_resolved: bool,
+    /// Whether a table in it may go on from one piece to the next.
+    pub crosses_knots: bool,
 }
+
+/// As in [`Range`].
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    may_switch: bool,
+    is_resolved: bool,
+    crosses_knots: bool,
+}
+
+const NOTHING: Found = Found { may_switch: false, is_resolved: true, crosses_knots: false };
 
 /// Room for the ranges of some formulas, each of which may use what those before it have.
 #[derive(Clone, Debug)]
 pub struct Ranges {
     /// By formula: the operations that those before it have not run.
     operations: Vec<Vec<Op>>,
-    /// What each formula has found out beside its values: as in [`Range`].
-    found: Vec<(bool, bool)>,
+    /// What each formula has found out beside its values.
+    found: Vec<Found>,
     roots: Vec<Register>,
     /// Whether switches stay as the registers have them.
     is_frozen: bool,
@@ -53,7 +65,7 @@ impl Ranges {
         let point = |value: f64| Interval { low: value, high: value };
         Ranges {
             operations,
-            found: vec![(false, true); roots.len()],
+            found: vec![NOTHING; roots.len()],
             roots: roots.to_vec(),
             is_frozen,
             values: (0..program.registers()).map(|k| point(registers.get(k as u32))).collect(),
@@ -73,8 +85,8 @@ impl Ranges {
 
     /// The range of a formula; those before it must have been asked for since time and coordinates were set.
     pub fn range(&mut self, program: &Program, registers: &Registers, k: usize) -> Range {
-        let before = if k == 0 { (false, true) } else { self.found[k - 1] };
-        let (mut may_switch, mut is_resolved) = before;
+        let before = if k == 0 { NOTHING } else { self.found[k - 1] };
+        let Found { mut may_switch, mut is_resolved, mut crosses_knots } = before;
         for at in 0..self.operations[k].len() {
             let op = self.operations[k][at];
             is_resolved &= is_resolved_in(op, &self.values);
@@ -86,17 +98,20 @@ impl Ranges {
                     *value = Interval { low: frozen, high: frozen };
                     continue;
                 }
+                let changes = value.low.total_cmp(&value.high).is_ne();
                 // a spline goes on over its knots
-                may_switch |= !matches!(op, Op::Piece { .. }) && value.low.total_cmp(&value.high).is_ne();
+                let is_piece = matches!(op, Op::Piece { .. });
+                may_switch |= changes && !is_piece;
+                crosses_knots |= changes && is_piece;
             }
             if let Some(to) = bounded(op) {
                 let value = self.values[to as usize];
                 is_resolved &= value.high - value.low <= WIDEST_VALUE;
             }
         }
-        self.found[k] = (may_switch, is_resolved);
+        self.found[k] = Found { may_switch, is_resolved, crosses_knots };
         let Interval { low, high } = self.values[self.roots[k] as usize];
-        Range { low, high, may_switch, is_resolved: is_resolved && !may_switch }
+        Range { low, high, may_switch, is_resolved: is_resolved && !may_switch, crosses_knots }
     }
 }
 

@@ -49,6 +49,9 @@ pub mod search {
     pub const GAP_OF_VALUES: f64 = 1e-9;
     /// A time is certain to this part of the span.
     pub const CERTAIN: f64 = 1e-13;
+    /// The top of a parabola is that of the formula, where it lies no farther from the middle of its three points than so many times what
+    /// these are apart.
+    pub const FARTHEST: f64 = 2.0;
     /// Corrections of a time at most.
     pub const ITERATIONS: usize = 100;
     /// An edge so little behind an extremum, as a part of the span, is the extremum, where the value is the same.
@@ -87,6 +90,18 @@ pub mod quadrature {
     pub const NOTHING: f64 = 1e-290;
     /// What rounding makes of a value.
     pub const ROUNDING: f64 = 4.0 * f64::EPSILON;
+}
+
+/// Loads between two states (`analysis/results/loads.rs`).
+pub mod loads {
+    /// A load that is smooth between two states may go beyond what is told of it by this part of the largest that was seen of it.
+    pub const SEEN: f64 = 0.25;
+    /// The same of one of which nothing is known but what it can be.
+    pub const LITTLE: f64 = 1e-12;
+    /// What rounding may make of a load, beside what it makes of it at states.
+    pub const ROUNDINGS: f64 = 4.0;
+    /// A formula may be no larger than this where a load does what is not told, which has an end.
+    pub const UNTOLD: f64 = 1e300;
 }
 
 /// Bends, and how large a value's rounding is (`analysis/results/formulas.rs`).

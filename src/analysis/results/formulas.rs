@@ -1,5 +1,6 @@
 //! Formulas that are reduced: their values, derivatives and ranges along the motion.
 
+use super::loads::{Hidden, Loads};
 use super::places::Places;
 use super::smooth::Smooth;
 use crate::analysis::state::State;
@@ -7,6 +8,7 @@ use crate::expr::{Dependence, ExprId, Graph, Symbol};
 use crate::ir::ConstraintSystem;
 use crate::program::{Inputs, Program, Range, Ranges, Register, Registers, Stage};
 use crate::tolerances::results::formulas::{MOVED, SAFETY, WAYS};
+use crate::tolerances::results::loads::UNTOLD;
 use std::rc::Rc;
 
 /// A variation is known with two time derivatives.
@@ -29,6 +31,9 @@ pub(super) struct Formula {
     holds_forces: bool,
     /// Of one that holds forces, what it can be in the cell that is looked at, as its values tell.
     seen: [f64; 2],
+    /// Of one that holds forces, the loads that these may come from, and what they may do in the cell that is looked at.
+    loads: Loads,
+    hidden: Hidden,
 }
 
 /// What changes with the motion.
@@ -99,6 +104,8 @@ pub(super) struct Point {
     pub state: State,
     /// What moves of it, each with three time derivatives; one that there is not is 0.
     moving: Vec<[f64; 4]>,
+    /// The loads, of a formula that holds forces.
+    loads: Vec<f64>,
     pub sample: Sample,
 }
 
@@ -108,7 +115,7 @@ pub(super) struct Cell {
     pub a: Rc<Point>,
     pub b: Rc<Point>,
     /// By what moves of the formula: how far its second and third derivatives are from a straight line; of a multiplier, how far its
-    /// value is. The last is the formula itself, of which that is its value too.
+    /// value is. Behind these are the formula itself and the loads, of which that is the value too.
     bends: Rc<[[f64; 2]]>,
 }
 
@@ -140,34 +147,30 @@ impl Cell {
 
     /// From one point to another, of which nothing between is known yet.
     pub fn unknown(formula: &Formula, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
-        let bends = vec![[f64::INFINITY; 2]; formula.moving.len() + 1].into();
+        let bends = vec![[f64::INFINITY; 2]; formula.moving.len() + 1 + formula.loads.count()].into();
         Cell { a: Rc::clone(a), b: Rc::clone(b), bends }
     }
 }
 
 impl Formula {
-    /// A formula of a graph over the parameters, coordinates and variations of a system.
-    pub fn new(graph: &mut Graph, value: ExprId, system: &ConstraintSystem, variations: usize) -> Formula {
+    /// A formula of a graph over the parameters, coordinates and variations of a system, whose loads stand in that graph too.
+    pub fn new(
+        graph: &mut Graph,
+        value: ExprId,
+        loads: &[ExprId],
+        system: &ConstraintSystem,
+        variations: usize,
+    ) -> Formula {
         let has_jerk = system.jerk().is_some();
         let dependence = graph.dependence(value);
         let holds_forces = dependence.on(Dependence::FORCES);
         let holds_rates =
             dependence.highest_order() > Some(0) || dependence.highest_varied_order().is_some() || holds_forces;
-        let (mut graph, value, smooth) = Smooth::out_of(graph, value, system);
-        let mut formulas = vec![value];
-        while formulas.len() < 3 {
-            let last = formulas[formulas.len() - 1];
-            let dependence = graph.dependence(last);
-            let is_last = dependence.highest_order() == Some(3) || dependence.highest_varied_order() == Some(2);
-            if is_last || dependence.on(Dependence::FORCES) {
-                break;
-            }
-            let next = ConstraintSystem::time_derivatives(&mut graph, &[last], 3)[0];
-            if graph.dependence(next).highest_order() == Some(3) && !has_jerk {
-                break;
-            }
-            formulas.push(next);
-        }
+        let loads = if holds_forces { loads } else { &[] };
+        let (mut graph, found, smooth) = Smooth::out_of(graph, (value, loads), system);
+        let mut formulas = with_derivatives(&mut graph, found[0], has_jerk);
+        let own = formulas.len();
+        formulas.extend_from_slice(&found[1..]);
         let mut moving: Vec<Moving> = graph.symbols_of_all(&formulas).into_iter().filter_map(Moving::of).collect();
         moving.sort_unstable();
         moving.dedup();
@@ -176,23 +179,24 @@ impl Formula {
         // as many places for them as there are coordinates, which are no fewer than the rows
         let multipliers = if system.forces().is_some() { coordinates_and_more } else { 0 };
         let counts = [system.params().len(), coordinates_and_more, variations, multipliers];
-        let (program, roots) = Program::of_formulas(&graph, counts, &formulas);
+        let (program, mut roots) = Program::of_formulas(&graph, counts, &formulas);
         let params = system.values_of_params();
         let registers = program.start(&params);
-        let ranges = Ranges::new(&program, &registers, &roots, Stage::Measures, false);
-        let seen = [f64::NEG_INFINITY, f64::INFINITY];
+        let loads = Loads::new(&program, &registers, &roots.split_off(own));
         Formula {
+            ranges: Ranges::new(&program, &registers, &roots, Stage::Measures, false),
             program,
             registers,
             roots,
-            ranges,
             moving,
             smooth,
             coordinates,
             has_jerk,
             holds_rates,
             holds_forces,
-            seen,
+            seen: [f64::NEG_INFINITY, f64::INFINITY],
+            loads,
+            hidden: Hidden::Nothing,
         }
     }
 
@@ -234,7 +238,24 @@ impl Formula {
         self.run(state.t, &moving);
         let value = |order: usize| self.roots.get(order).map_or(f64::NAN, |&root| self.registers.get(root));
         let sample = Sample { value: value(0), first: value(1), second: value(2) };
-        Rc::new(Point { state, moving, sample })
+        let loads = self.loads_at(state.t, &moving);
+        Rc::new(Point { state, moving, loads, sample })
+    }
+
+    /// The loads at a time (s), where the formula has just been computed.
+    fn loads_at(&mut self, t: f64, moving: &[[f64; 4]]) -> Vec<f64> {
+        if self.loads.count() == 0 {
+            return Vec::new();
+        }
+        self.loads.set_times([t; 2]);
+        for (of, values) in self.moving.iter().zip(moving) {
+            for (register, value) in of.registers(&self.program.inputs).into_iter().zip(values) {
+                if let Some(register) = register {
+                    self.loads.set(register, [*value; 2]);
+                }
+            }
+        }
+        self.loads.values(&self.program, &self.registers)
     }
 
     /// Computes the formula and its derivatives at a time (s).
@@ -284,9 +305,11 @@ impl Formula {
     /// Begins to look at the ranges in a cell.
     pub fn look_at(&mut self, cell: &Cell) {
         let h = cell.length();
-        self.ranges.set_times([cell.a.state.t, cell.b.state.t]);
-        let bend = cell.bends.last().map_or(f64::INFINITY, |[bend, _]| *bend);
-        self.seen = around(cell.a.sample.value, cell.b.sample.value, bend);
+        let times = [cell.a.state.t, cell.b.state.t];
+        self.ranges.set_times(times);
+        self.loads.set_times(times);
+        let (_, bends) = cell.bends.split_at(self.moving.len());
+        self.seen = around(cell.a.sample.value, cell.b.sample.value, bends[0][0]);
         let ends = cell.a.moving.iter().zip(&cell.b.moving);
         for ((of, (a, b)), bends) in self.moving.iter().zip(ends).zip(cell.bends.iter()) {
             let registers = of.registers(&self.program.inputs);
@@ -301,9 +324,12 @@ impl Formula {
             for (register, range) in registers.into_iter().zip([place, first, second, third]) {
                 if let Some(register) = register {
                     self.ranges.set(register, range);
+                    self.loads.set(register, range);
                 }
             }
         }
+        let told = |k: usize| around(cell.a.loads[k], cell.b.loads[k], bends[1 + k][0]);
+        self.hidden = self.loads.hidden(&self.program, &self.registers, told);
     }
 
     /// Whether a cell is too wide for anything to be known of what is smooth in it.
@@ -315,11 +341,19 @@ impl Formula {
     /// formula that holds some narrows no faster than the cell; where it is resolved it goes on as its own values do.
     pub fn range(&mut self, order: usize) -> Range {
         let range = self.ranges.range(&self.program, &self.registers, order);
-        if order > 0 || !self.holds_forces || !range.is_resolved {
+        if order > 0 || !self.holds_forces {
             return range;
         }
+        let up_to = |most: f64| Range { low: -most, high: most, may_switch: true, is_resolved: false, ..range };
         let [low, high] = self.seen;
-        Range { low: range.low.max(low), high: range.high.min(high), ..range }
+        match self.hidden {
+            Hidden::Anything => up_to(f64::INFINITY),
+            Hidden::Something => up_to(UNTOLD),
+            Hidden::Nothing if range.is_resolved => {
+                Range { low: range.low.max(low), high: range.high.min(high), ..range }
+            }
+            Hidden::Nothing => range,
+        }
     }
 
     /// How far the last derivatives are from a straight line in the middle of three points.
@@ -333,8 +367,28 @@ impl Formula {
             }
         };
         let own = [off(&|point: &Point| point.sample.value), 0.0];
-        self.moving.iter().enumerate().map(of).chain([own]).collect()
+        let loads = (0..self.loads.count()).map(|k| [off(&|point: &Point| point.loads[k]), 0.0]);
+        self.moving.iter().enumerate().map(of).chain([own]).chain(loads).collect()
     }
+}
+
+/// A formula and its time derivatives, as many as are known along the motion, two at most: none of one that holds forces.
+fn with_derivatives(graph: &mut Graph, value: ExprId, has_jerk: bool) -> Vec<ExprId> {
+    let mut formulas = vec![value];
+    while formulas.len() < 3 {
+        let last = formulas[formulas.len() - 1];
+        let dependence = graph.dependence(last);
+        let is_last = dependence.highest_order() == Some(3) || dependence.highest_varied_order() == Some(2);
+        if is_last || dependence.on(Dependence::FORCES) {
+            break;
+        }
+        let next = ConstraintSystem::time_derivatives(graph, &[last], 3)[0];
+        if graph.dependence(next).highest_order() == Some(3) && !has_jerk {
+            break;
+        }
+        formulas.push(next);
+    }
+    formulas
 }
 
 /// Both values and what lies between, and so much beyond.

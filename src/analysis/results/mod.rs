@@ -10,6 +10,7 @@
 mod certain;
 mod errors;
 mod formulas;
+mod loads;
 mod places;
 mod quadrature;
 mod reduced;
@@ -190,8 +191,11 @@ impl Analysis {
             });
             formula_of.push(at);
         }
-        let all = ids.into_iter().map(|id| Reduced::new(Formula::new(&mut graph, id, system, variations))).collect();
-        (all, formula_of)
+        let given: Vec<ExprId> = system.loads().iter().map(|load| load.force).collect();
+        graph.import(system.graph(), &given, &mut known, Graph::symbol);
+        let loads: Vec<ExprId> = given.iter().map(|load| known[load]).collect();
+        let formula = |id: ExprId| Formula::new(&mut graph, id, &loads, system, variations);
+        (ids.into_iter().map(formula).map(Reduced::new).collect(), formula_of)
     }
 
     /// Looks at formulas along the whole motion.

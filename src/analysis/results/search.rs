@@ -7,7 +7,7 @@
 use super::formulas::{Cell, Point, between};
 use super::survey::{Scale, Survey};
 use crate::program::Range;
-use crate::tolerances::results::search::{BESIDE, CERTAIN, GAP, GAP_OF_VALUES, ITERATIONS};
+use crate::tolerances::results::search::{BESIDE, CERTAIN, FARTHEST, GAP, GAP_OF_VALUES, ITERATIONS};
 use std::rc::Rc;
 
 /// The largest value of a formula, or the largest of its opposite.
@@ -27,7 +27,17 @@ pub(super) struct Extreme {
 struct Extremum {
     t: f64,
     value: f64,
-    is_edge: bool,
+    kind: Kind,
+}
+
+/// How much is known of an extremum.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Kind {
+    Edge,
+    /// Where the slope passes zero.
+    Turn,
+    /// The largest that was seen of a formula whose slope nobody knows.
+    Seen,
 }
 
 impl Extreme {
@@ -43,7 +53,7 @@ impl Extreme {
 
     /// Takes note of an edge or an end.
     pub fn note_edge(&mut self, t: f64, value: f64, scale: Scale) {
-        self.add(Extremum { t, value: self.sign * value, is_edge: true }, scale);
+        self.add(Extremum { t, value: self.sign * value, kind: Kind::Edge }, scale);
     }
 
     fn add(&mut self, found: Extremum, scale: Scale) {
@@ -54,7 +64,8 @@ impl Extreme {
         if found.value < self.best - scale.alike() {
             return;
         }
-        if found.value > self.largest {
+        // what was only seen is not as good as what may be found beside it
+        if found.kind != Kind::Seen && found.value > self.largest {
             self.largest = found.value;
             let least = found.value - scale.alike();
             self.extrema.retain(|known| known.value >= least);
@@ -86,12 +97,14 @@ impl Extreme {
     /// Its first time (s).
     pub fn time(&self, scale: Scale) -> f64 {
         let least = self.best - scale.alike();
-        let mut alike = self.extrema.iter().filter(|extremum| extremum.value >= least);
-        let Some(first) = alike.next() else { return f64::NAN };
+        let alike = || self.extrema.iter().filter(|extremum| extremum.value >= least);
+        let known = alike().find(|extremum| extremum.kind != Kind::Seen);
+        let Some(first) = known.or_else(|| alike().next()) else { return f64::NAN };
         let is_it = |next: &&Extremum| {
-            next.is_edge && !first.is_edge && next.t - first.t <= BESIDE * scale.span && next.value >= first.value
+            let is_behind = next.t > first.t && next.t - first.t <= BESIDE * scale.span;
+            next.kind == Kind::Edge && first.kind == Kind::Turn && is_behind && next.value >= first.value
         };
-        alike.find(is_it).unwrap_or(first).t
+        alike().find(is_it).unwrap_or(first).t
     }
 }
 
@@ -133,7 +146,7 @@ impl Survey<'_> {
         }
         match self.formula.derivatives() {
             _ if range.may_switch => false,
-            0 => is_done_by_values(cell, upper, extreme, scale),
+            0 => self.is_done_by_values(cell, upper, extreme, scale),
             _ => self.is_done_by_slopes(cell, upper, extreme, scale),
         }
     }
@@ -202,20 +215,43 @@ impl Survey<'_> {
         // its time is where the slope turns, whatever the last digits of the values say
         let is_inside = guess > low.state.t && guess < high.state.t;
         let turn = if is_inside { guess } else { high.state.t };
-        extreme.add(Extremum { t: turn, value: sign * top.sample.value, is_edge: false }, scale);
+        extreme.add(Extremum { t: turn, value: sign * top.sample.value, kind: Kind::Turn }, scale);
     }
-}
 
-/// Whether a cell whose values are no larger than `upper` holds hardly more than the larger of its ends, which is noted then: all that
-/// is known of a formula without derivatives.
-fn is_done_by_values(cell: &Cell, upper: f64, extreme: &mut Extreme, scale: Scale) -> bool {
-    let [a, b] = extreme.values(cell);
-    let is_small = upper <= f64::max(a, b) + scale.gap(GAP_OF_VALUES);
-    if is_small {
-        let (t, value) = if b > a { (cell.b.state.t, b) } else { (cell.a.state.t, a) };
-        extreme.add(Extremum { t, value, is_edge: false }, scale);
+    /// Whether a cell whose values are no larger than `upper` holds hardly more than the larger of its ends, which is noted then with the
+    /// top beside it: all that is known of a formula without derivatives.
+    fn is_done_by_values(&mut self, cell: &Cell, upper: f64, extreme: &mut Extreme, scale: Scale) -> bool {
+        let [a, b] = extreme.values(cell);
+        let is_small = upper <= f64::max(a, b) + scale.gap(GAP_OF_VALUES);
+        if is_small && f64::max(a, b) >= extreme.best - scale.alike() {
+            let (point, value) = if b > a { (&cell.b, b) } else { (&cell.a, a) };
+            extreme.add(Extremum { t: point.state.t, value, kind: Kind::Seen }, scale);
+            if let Some(top) = self.top_beside(cell, point, extreme.sign, scale) {
+                extreme.add(top, scale);
+            }
+        }
+        is_small
     }
-    is_small
+
+    /// The top of the parabola through three points around one of the ends of a cell, as far apart as these; none where it lies farther away,
+    /// where another cell has it.
+    fn top_beside(&mut self, cell: &Cell, near: &Rc<Point>, sign: f64, scale: Scale) -> Option<Extremum> {
+        let [from, to] = [&self.stretch.from, &self.stretch.to].map(|state| state.t);
+        let h = cell.length().min(0.5 * (to - from));
+        let t = near.state.t.clamp(from + h, (to - h).max(from + h));
+        let [before, middle, behind] = [t - h, t, t + h].map(|t| self.point_of_stretch(t.clamp(from, to)));
+        let [before, middle, behind] = [before?, middle?, behind?].map(|point| sign * point.sample.value);
+        let (rise, bend) = (0.5 * (behind - before), behind - 2.0 * middle + before);
+        let rounding = scale.gap(0.0);
+        if bend >= -rounding {
+            // it rests, or goes on as it comes
+            let rests = rise.abs() <= rounding;
+            return rests.then_some(Extremum { t: near.state.t, value: sign * near.sample.value, kind: Kind::Turn });
+        }
+        let off = -rise / bend;
+        let value = middle + 0.5 * rise * off;
+        (off.abs() <= FARTHEST).then_some(Extremum { t: (t + off * h).clamp(from, to), value, kind: Kind::Turn })
+    }
 }
 
 /// Where the straight line through two slopes is zero (s).

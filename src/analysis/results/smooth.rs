@@ -40,9 +40,13 @@ pub(super) struct Smooth {
 }
 
 impl Smooth {
-    /// A formula in a graph of its own, in which what is smooth of it stands as further coordinates, behind those that there are; and what
-    /// that is.
-    pub fn out_of(graph: &mut Graph, value: ExprId, system: &ConstraintSystem) -> (Graph, ExprId, Smooth) {
+    /// A formula in a graph of its own, in which what is smooth of it stands as further coordinates, behind those that there are; others
+    /// behind it in that graph; and what is smooth.
+    pub fn out_of(
+        graph: &mut Graph,
+        (value, others): (ExprId, &[ExprId]),
+        system: &ConstraintSystem,
+    ) -> (Graph, Vec<ExprId>, Smooth) {
         let kinds = kinds(graph, value, system);
         let found = largest(graph, value, &kinds);
         let (mut own, mut known) = (Graph::new(), FxHashMap::default());
@@ -53,8 +57,10 @@ impl Smooth {
             known.insert(id, own.symbol(Symbol::Coordinate { index: (first + k) as u32, order }));
             towers.push(tower(graph, id, order, system.jerk().is_some()));
         }
-        own.import(graph, &[value], &mut known, Graph::symbol);
-        (own, known[&value], Smooth::new(graph, &towers, system))
+        let wanted = [&[value], others].concat();
+        own.import(graph, &wanted, &mut known, Graph::symbol);
+        let found = wanted.iter().map(|id| known[id]).collect();
+        (own, found, Smooth::new(graph, &towers, system))
     }
 
     fn new(graph: &Graph, towers: &[[Option<ExprId>; 4]], system: &ConstraintSystem) -> Smooth {

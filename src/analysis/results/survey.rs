@@ -10,7 +10,8 @@ use crate::tolerances::results::survey::{ALIKE, MOST_CELLS, OPAQUE, ROUNDING, SH
 use std::rc::Rc;
 
 /// Where nothing is known.
-const ANYTHING: Range = Range { low: f64::NEG_INFINITY, high: f64::INFINITY, may_switch: true, is_resolved: false };
+const ANYTHING: Range =
+    Range { low: f64::NEG_INFINITY, high: f64::INFINITY, may_switch: true, is_resolved: false, crosses_knots: true };
 
 /// How large a formula is over the analysis so far.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -85,8 +86,20 @@ impl Survey<'_> {
 
     /// The formula at a time (s) between two points.
     pub fn point(&mut self, ends: &[&Rc<Point>; 2], t: f64) -> Option<Rc<Point>> {
+        self.between(ends.map(|point| &point.state), t)
+    }
+
+    /// The formula at a time (s) of the stretch.
+    pub fn point_of_stretch(&mut self, t: f64) -> Option<Rc<Point>> {
+        let ends @ [from, to] = [&self.stretch.from, &self.stretch.to];
+        match [from, to].into_iter().find(|end| end.t.total_cmp(&t).is_eq()) {
+            Some(end) => Some(self.formula.at(end.clone(), self.places)),
+            None => self.between(ends, t),
+        }
+    }
+
+    fn between(&mut self, [a, b]: [&State; 2], t: f64) -> Option<Rc<Point>> {
         *self.cells += if self.formula.moves() { SOLVED } else { 1 };
-        let [a, b] = ends.map(|point| &point.state);
         let state = if self.formula.moves() {
             let solved = self.places.solve(self.stretch, [a, b], t);
             if solved.is_none() && b.t - a.t > self.shortest * OPAQUE / SHORTEST {
