@@ -342,7 +342,7 @@ fn at_a_jump_of_a_load_the_later_side_counts() {
          load other: if 1 s < t then 10 N else 20 N on displacement(guide)
          load side: 100 N * sign(t - 1 s) on displacement(guide)
          load saw: 1 kN * mod(2 - t / 1 s, 1) on displacement(guide)",
-        "measure e = effort(feed)",
+        "measure e = effort(feed) result most = max(e)",
     );
     let (_, rows) = answers(&text, [2.0, 0.5]);
     let compiled = compiled("m", &text);
