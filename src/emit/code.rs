@@ -6,6 +6,7 @@
 use super::operand::{Arguments, Operand};
 use super::operations::Expression;
 use super::text::{LONGEST_LINE, documented, lines, literal, signature};
+use crate::math::A_MILLION;
 use crate::program::{Column, Op, Register};
 use crate::solver::{Instruction, Segment, Tear, from_bits};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -727,7 +728,9 @@ impl<'p, S: Scene> Printer<'p, S> {
         self.count += 1;
         if self.scene.has_lanes() {
             self.used.insert(AT);
-            *text += &format!("{indent}at.watch(k, {a}, 1e-6);\n");
+            // times this, rounded, it is above 1 from a million itself on
+            let per_million = (1.0 / A_MILLION).next_up();
+            *text += &format!("{indent}at.watch(k, {a}, {});\n", literal(per_million));
         }
         let sin_cos = if self.scene.has_lanes() { "sin_cos_below_a_million" } else { "sin_cos" };
         let target = |printer: &mut Self, register: Register, prefix: char| {

@@ -38,8 +38,10 @@ files! {
     "so_far" at "runtime/so_far.rs": [], [];
     "pivots" at "runtime/pivots.rs": ["so_far", "solution"], [];
     "grid" at "../math/grid.rs": [], [];
+    "hermite" at "../math/hermite.rs": [], [];
+    "neighbours" at "../math/neighbours.rs": [], [];
     "newton" at "runtime/newton.rs": ["numbers", "so_far", "solution", "grid"], [BORDER, LARGEST_CORRECTION];
-    "branches" at "runtime/branches.rs": ["equations", "solution"], [MOST_HALVINGS, SLACK];
+    "branches" at "runtime/branches.rs": ["equations", "solution", "neighbours"], [MOST_HALVINGS, SLACK];
     "watched" at "runtime/watched.rs": ["numbers"], [];
     "left_out" at "runtime/left_out.rs": [], [LARGEST_OPENING];
     "hold_apart" at "runtime/hold_apart.rs": ["numbers", "equations"], [MISSES];
@@ -49,17 +51,19 @@ files! {
     "assemble" at "runtime/assemble.rs": ["numbers", "error", "solution", "branches", "reach", "state"],
         [LARGEST_CORRECTION, MOST_PARTS, SMALLEST_PART];
     "explain" at "runtime/explain.rs": ["error", "solution", "branches", "state"], [NEAR_FOLD, SINGULAR];
-    "step" at "runtime/step.rs": ["numbers", "error", "solution", "branches", "reach", "state", "explain"],
-        [FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD, POSITION_JUMP, REST, VELOCITY_JUMP];
-    "rims" at "runtime/rims.rs": ["numbers", "error", "solution", "reach", "state"],
+    "step" at "runtime/step.rs": ["numbers", "error", "solution", "hermite", "branches", "reach", "state", "explain"],
+        [CALM_BETWEEN, CALM_CORRECTION, CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD,
+            POSITION_JUMP, REST, VELOCITY_JUMP];
+    "rims" at "runtime/rims.rs": ["numbers", "error", "solution", "neighbours", "reach", "state"],
         [FEWEST_LOOKS, GROWTH, LEAD, MOMENT, MOST_HALVINGS, MOST_LOOKS, PASSED, ROUNDING, SLOW, SPEED_JUMP];
     "blocks" at "../math/blocks.rs": [], [];
     "pivoting" at "runtime/pivoting.rs": ["numbers", "error", "solution", "grid", "blocks"], [BORDER, ITERATIONS];
     "pivoted_slopes" at "runtime/pivoted_slopes.rs": ["error", "solution", "pivoting"], [];
     "way" at "runtime/way.rs": ["numbers", "equations", "solution", "state"], [FARTHEST_AHEAD];
     "way_list" at "runtime/way_list.rs": ["state", "way"], [];
-    "follow" at "runtime/follow.rs": ["numbers", "error", "solution", "branches", "reach", "state", "explain", "way"],
-        [FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LARGEST_TURN, POSITION_JUMP, SHORTEST_STEP, SINGULAR];
+    "follow" at "runtime/follow.rs":
+        ["numbers", "error", "solution", "branches", "reach", "state", "explain", "step", "way"],
+        [CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_TURN, POSITION_JUMP, SHORTEST_STEP, SINGULAR];
     "sensitivity" at "runtime/sensitivity.rs": ["numbers", "error", "solution", "state"], [];
     "sensitivity_led" at "runtime/sensitivity_led.rs": ["error", "state", "way", "follow", "sensitivity"], [];
     "forces" at "runtime/forces.rs": ["numbers", "error", "solution", "state"], [STEEP];
@@ -69,8 +73,9 @@ files! {
     "lane_strain" at "runtime/lane_strain.rs": ["so_far", "lane_solutions"], [];
     "lane_pivots" at "runtime/lane_pivots.rs": ["so_far", "lane_solutions"], [];
     "lane_newton" at "runtime/lane_newton.rs": ["so_far", "lane_solutions", "grid"], [BORDER, LARGEST_CORRECTION];
-    "lanes" at "runtime/lanes.rs": ["numbers", "so_far", "error", "branches", "state", "assemble", "step", "lane_solutions"],
-        [FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP];
+    "lanes" at "runtime/lanes.rs":
+        ["numbers", "so_far", "error", "hermite", "branches", "state", "assemble", "step", "lane_solutions"],
+        [CALM_BETWEEN, CALM_CORRECTION, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP];
     "lane_follow" at "runtime/lane_follow.rs": ["error", "way", "follow", "lane_solutions", "lanes"], [MOST_STEPS];
     "sine_and_cosine" at "../math/sin_cos.rs": [], [];
     "without_branches" at "../math/without_branches.rs": ["sine_and_cosine"], [];
