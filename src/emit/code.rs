@@ -18,8 +18,6 @@ const LONGEST_FUNCTION: usize = 2000;
 /// Of a loop over lanes, which is to become vector instructions.
 const LONGEST_LOOP: usize = 400;
 
-/// A parameter that is no longer than this needs no name of its own.
-const LONGEST_OPERAND: usize = 20;
 /// What functions of a module within the file are indented by.
 pub(super) const MODULE: &str = "    ";
 
@@ -675,13 +673,13 @@ impl<'p, S: Scene> Printer<'p, S> {
     /// A value of the program, by a name of its own if it is long.
     fn load(&mut self, to: Register, from: Register, indent: &str, text: &mut String) {
         let value = self.scene.load(from);
-        if value.to_string().len() > LONGEST_OPERAND {
+        if value.is_short() {
+            self.names[to as usize] = Some(value);
+        } else {
             self.count += 1;
             self.used.extend(value.arguments());
             let target = self.target(to, 'v');
             *text += &format!("{indent}{target} = {value};\n");
-        } else {
-            self.names[to as usize] = Some(value);
         }
     }
 

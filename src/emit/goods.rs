@@ -18,13 +18,15 @@ pub(super) struct File {
     pub needs: &'static [&'static str],
     /// The limits that it names.
     pub limits: &'static [&'static str],
+    /// What it has from others where it goes along, since it stands in a module here that does.
+    pub uses: &'static str,
 }
 
 macro_rules! files {
-    ($($name:literal at $path:literal: [$($needs:literal),*], [$($limits:ident),*];)*) => {
+    ($($name:literal at $path:literal: [$($needs:literal),*], [$($limits:ident),*] $(, $uses:literal)?;)*) => {
         /// All files, each behind those that it needs.
         pub(super) const FILES: &[File] = &[
-            $(File { name: $name, text: include_str!($path), needs: &[$($needs),*], limits: &[$(stringify!($limits)),*] },)*
+            $(File { name: $name, text: include_str!($path), needs: &[$($needs),*], limits: &[$(stringify!($limits)),*], uses: concat!($($uses)?) },)*
         ];
     };
 }
@@ -78,7 +80,8 @@ files! {
         [CALM_BETWEEN, CALM_CORRECTION, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP];
     "lane_follow" at "runtime/lane_follow.rs": ["error", "way", "follow", "lane_solutions", "lanes"], [MOST_STEPS];
     "sine_and_cosine" at "../math/sin_cos.rs": [], [];
-    "without_branches" at "../math/without_branches.rs": ["sine_and_cosine"], [];
+    "without_branches" at "../math/without_branches.rs": ["sine_and_cosine"], [],
+        "use super::sine_and_cosine::{cos_near_zero, reduce_small, sin_near_zero};\n";
     "select" at "runtime/functions/select.rs": [], [];
     "either" at "runtime/functions/either.rs": [], [];
     "piece" at "runtime/functions/piece.rs": [], [];
@@ -214,8 +217,8 @@ impl Uses {
         page.line("mod runtime {");
         for file in FILES.iter().filter(|file| wanted.contains(file.name)) {
             page.line(&format!("pub mod {} {{", file.name));
-            if file.name == "without_branches" {
-                page.line("use super::sine_and_cosine::{cos_near_zero, reduce_small, sin_near_zero};\n");
+            if !file.uses.is_empty() {
+                page.line(file.uses);
             }
             page.text(file.text);
             page.line("}\n");
