@@ -233,10 +233,7 @@ impl Compiled {
             return Err(Box::new(remarks.into_iter().next_back().unwrap_or_else(too_large)));
         };
         let mut columns = run.columns().to_vec();
-        let reactions = {
-            let (layout, count) = (RowLayout::new(self.system()), self.system().reactions().len());
-            layout.reactions as usize..layout.reactions as usize + count
-        };
+        let reactions = RowLayout::new(self.system()).reactions();
         columns.drain(reactions.clone());
         let wanted = (MOST_NUMBERS / columns.len()).clamp(2, MOST_ROWS) as u64;
         // spread evenly, the first and the last among them
