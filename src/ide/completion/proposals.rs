@@ -2,7 +2,7 @@
 
 use super::cursor::Cursor;
 use super::item::{CompletionItem, CompletionItemKind, Template};
-use crate::ide::names::declared_name;
+use crate::check::name_of;
 use crate::ide::place::Place;
 use crate::ide::snapshot::Snapshot;
 use crate::stages::{Checked, Drawn};
@@ -132,7 +132,7 @@ fn formula(drawn: &Drawn, driven: &str) -> String {
 /// A name that is free in a mechanism.
 pub(in crate::ide) fn free_name(tree: &Mechanism, names: &[&str]) -> String {
     let is_free = |name: &str| {
-        let is_taken = tree.items.iter().filter_map(declared_name).any(|taken| taken.text == name);
+        let is_taken = tree.items.iter().filter_map(name_of).any(|taken| taken.text == name);
         !is_taken && !KEYWORDS.iter().any(|keyword| keyword.word.name == name)
     };
     let plain = names.iter().find(|name| is_free(name)).map(|name| (*name).to_owned());

@@ -4,8 +4,8 @@ use super::MOST;
 use super::cursor::{Block, Cursor};
 use super::item::{CompletionItem, CompletionItemKind, Template};
 use super::wanted::Wanted;
-use crate::check::{KnownMechanism, NameKind};
-use crate::ide::names::{declared_name, item_named, kind_of, known};
+use crate::check::{KnownMechanism, NameKind, name_of};
+use crate::ide::names::{item_named, kind_of, known};
 use crate::ide::written::holds_letters;
 use crate::source::Span;
 use crate::stages::Checked;
@@ -104,7 +104,7 @@ impl Scope<'_> {
 
     /// A declared name with its declaration.
     fn named(&self, item: &Declaration, rank: u8) -> Option<CompletionItem> {
-        let name = declared_name(item).filter(|name| self.sieve.lets_pass(&name.text))?;
+        let name = name_of(item).filter(|name| self.sieve.lets_pass(&name.text))?;
         let kind = match kind_of(item) {
             NameKind::Function | NameKind::Table => CompletionItemKind::Function,
             NameKind::Body | NameKind::Ground | NameKind::Part => CompletionItemKind::Body,
@@ -162,7 +162,7 @@ impl Scope<'_> {
                     .inserts(Template::marked(&marked)),
             ];
         }
-        let owner = declared_name(item).map_or("ground", |name| name.text.as_str());
+        let owner = name_of(item).map_or("ground", |name| name.text.as_str());
         let fitting = features(item).iter().filter(|feature| wanted.is(&feature.kind));
         let path = |feature: &Feature| {
             let label = format!("{owner}.{}", feature.name.text);
@@ -286,7 +286,7 @@ impl Scope<'_> {
         loop {
             match (&item.kind, rest) {
                 (Declared::Body { features, .. } | Declared::Ground { features }, []) => {
-                    let owner = declared_name(item).map_or("ground", |name| name.text.as_str());
+                    let owner = name_of(item).map_or("ground", |name| name.text.as_str());
                     return Some(Inside::Features(owner, features));
                 }
                 (Declared::Part(part), []) => return Some(Inside::Part(self.mechanism(&part.mechanism)?)),
