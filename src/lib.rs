@@ -71,7 +71,7 @@ pub use analysis::{Answers, TOLERANCE, Times};
 pub use cancel::Cancel;
 pub use check::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use diag::{Applies, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, Severity, fixed, render};
-pub use emit::{File, LARGEST_STRAIGHT, MARK};
+pub use emit::{CrateFile, LARGEST_STRAIGHT, MARK};
 pub use layout::ColumnUnit;
 pub use output::{TableFormat, TableWriter};
 pub use source::{Encoding, FileId, Source, Sources, Span};

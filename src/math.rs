@@ -14,6 +14,10 @@ mod curve_tests;
 pub mod grid;
 #[cfg(test)]
 mod grid_tests;
+/// The quintic between states.
+pub mod hermite;
+/// Where something begins or ends, to the last bits.
+pub mod neighbours;
 mod search;
 #[cfg(test)]
 mod search_tests;
@@ -26,8 +30,9 @@ mod without_branches {
 }
 
 pub use curve::{about, along, farthest, parabola, predicted, quintic, value_and_slopes};
-pub use search::{GOLDEN, GoldenSection, Halving, bisect, boundary};
-pub use sin_cos::sin_cos;
+pub use neighbours::bisect;
+pub use search::{GOLDEN, GoldenSection, Halving, boundary};
+pub use sin_cos::{A_MILLION, sin_cos};
 pub use sin_cos_of_each::sin_cos_of_each;
 pub use vectors::Vectors;
 

@@ -99,6 +99,71 @@ fn every_constant_of_a_table_is_in_its_file() {
     assert!(looked_at > 200, "only {looked_at} constants were looked at");
 }
 
+/// A limit of `tolerances`: its module, with the places that this is said to be for, and its name.
+struct Declared {
+    module: String,
+    places: Vec<String>,
+    name: String,
+}
+
+fn declared() -> Vec<Declared> {
+    let mut all = Vec::new();
+    for chapter in sources(&root().join("src/tolerances")) {
+        let file = chapter.file_stem().and_then(|stem| stem.to_str()).expect("a name").to_owned();
+        let outer = if file == "mod" { String::new() } else { format!("{file}::") };
+        let (mut module, mut places, mut docs) = (outer.clone(), Vec::new(), "");
+        let text = fs::read_to_string(&chapter).expect("text");
+        let mut before = "";
+        for line in text.lines() {
+            if line.starts_with("///") {
+                docs = line;
+            } else if let Some(name) = line.strip_prefix("pub mod ").and_then(|rest| rest.strip_suffix(" {")) {
+                module = format!("{outer}{name}::");
+                places = quoted(docs).map(str::to_owned).collect();
+            } else if line == "}" {
+                (module, places) = (outer.clone(), Vec::new());
+            } else if let Some((_, rest)) = line.split_once("pub const ") {
+                let name = rest.split(':').next().expect("a name").to_owned();
+                // in that of results a line may speak of two
+                let is_said = before.trim_start().starts_with(['/', '#']) || file == "results";
+                assert!(is_said, "{}: `{name}` has no line of its own", chapter.display());
+                all.push(Declared { module: module.clone(), places: places.clone(), name });
+            }
+            before = line;
+        }
+    }
+    all
+}
+
+/// The other way round: each limit of `tolerances` is in a row of "Numbers", beside a file that takes it from there, or with the place that
+/// its module is for.
+#[test]
+fn every_limit_is_in_a_row() {
+    let page = page();
+    let (_, numbers) = page.split_once("\n## Numbers").expect("the numbers");
+    let rows: Vec<&str> = numbers.lines().filter(|line| line.starts_with("| ")).collect();
+    let all = declared();
+    assert!(all.len() > 200, "only {} limits were looked at", all.len());
+    for Declared { module, places, name } in all {
+        let takes = |path: &str| {
+            let Some(text) = place(path).and_then(|path| fs::read_to_string(path).ok()) else { return false };
+            let head = format!("use crate::tolerances::{module}");
+            let mut trees = text.split(&head).skip(1).filter_map(|rest| rest.split(';').next().map(str::to_owned));
+            let is_declared = || text.contains(&format!("const {name}:"));
+            is_declared()
+                || trees
+                    .any(|tree| tree.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|word| word == name))
+        };
+        let is_told = |row: &&&str| {
+            let mut words = quoted(row);
+            let paths: Vec<&str> = quoted(row).filter(|word| word.contains('/') || word.contains(".rs")).collect();
+            let is_for_it = |path: &&str| places.iter().any(|place| path.starts_with(place.as_str())) || takes(path);
+            words.any(|word| word == name) && paths.iter().any(is_for_it)
+        };
+        assert!(rows.iter().find(is_told).is_some(), "`{module}{name}` is in no row");
+    }
+}
+
 /// Each module of `tolerances` says for which file or folder it is.
 #[test]
 fn every_module_of_limits_names_its_place() {
@@ -144,6 +209,44 @@ fn limits_of_the_mathematics_stand_in_their_room() {
         }
     }
     assert!(looked_at > 80, "only {looked_at} files were looked at");
+}
+
+/// Numbers with an exponent that limit nothing: units, and what a number is written in.
+const NO_LIMITS_INLINE: [(&str, &str); 4] = [
+    ("analysis/assemble/errors.rs", "1e3"),
+    ("analysis/explain/errors/mod.rs", "1e3"),
+    ("analysis/explain/errors/mod.rs", "1e-4"),
+    ("analysis/explain/errors/mod.rs", "1e6"),
+];
+
+/// A limit has a name: nothing like `1e-9` stands in the middle of a formula.
+#[test]
+fn no_limit_of_the_mathematics_stands_inline() {
+    let mut unused = NO_LIMITS_INLINE.to_vec();
+    for room in ["analysis", "ir", "lower", "program", "solver", "structure"] {
+        for file in sources(&root().join("src").join(room)) {
+            let text = fs::read_to_string(&file).expect("text");
+            let inside = file.strip_prefix(root().join("src")).expect("below src").display().to_string();
+            let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
+            for line in code.lines().map(|line| line.split("//").next().unwrap_or_default()) {
+                let words = line.split(|c: char| !c.is_ascii_alphanumeric() && !"_.-".contains(c));
+                let is_number = |word: &&str| {
+                    let (head, power) = word.split_once('e').unwrap_or_default();
+                    let is_of = |text: &str, others: &str| {
+                        !text.is_empty() && text.chars().all(|c| c.is_ascii_digit() || others.contains(c))
+                    };
+                    is_of(head, "._") && is_of(power, "-")
+                };
+                for number in words.filter(is_number) {
+                    let known = unused.iter().position(|(place, known)| *place == inside && *known == number);
+                    let is_known = NO_LIMITS_INLINE.contains(&(inside.as_str(), number));
+                    assert!(is_known, "{inside}: `{number}` in `{}` belongs to `tolerances`", line.trim());
+                    known.map(|at| unused.remove(at));
+                }
+            }
+        }
+    }
+    assert!(unused.is_empty(), "{unused:?} are there no more, and go from the list");
 }
 
 fn sources(folder: &Path) -> Vec<PathBuf> {

@@ -5,7 +5,7 @@
 mod support;
 
 use assert_cmd::Command;
-use mechc::{File, MARK, RustOptions};
+use mechc::{CrateFile, MARK, RustOptions};
 use std::collections::{BTreeMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ fn emitted(path: &Path, text: &str) -> Crate {
     let compiled = compile_number(path, text, 0).0.expect("determined");
     let (files, _) = compiled.package("a_crate", &RustOptions::of(name));
     let files: BTreeMap<_, _> =
-        files.expect("it assembles").into_iter().map(|File { path, text }| (path, text)).collect();
+        files.expect("it assembles").into_iter().map(|CrateFile { path, text }| (path, text)).collect();
     let rows = table(&files["tests/reference.rs"]).chunks(compiled.columns().len()).map(<[f64]>::to_vec).collect();
     Crate { files, rows }
 }

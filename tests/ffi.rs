@@ -5,7 +5,7 @@
 
 mod support;
 
-use mechc::{File, RustOptions};
+use mechc::{CrateFile, RustOptions};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -33,7 +33,7 @@ impl Crate {
         let options = RustOptions { with_sensitivities: true, for_c: true, ..RustOptions::of("machine.mech") };
         let folder = tempfile::tempdir().expect("a folder");
         let (files, said) = compiled.package(library, &options);
-        for File { path, text } in files.unwrap_or_else(|| panic!("{said:?}")) {
+        for CrateFile { path, text } in files.unwrap_or_else(|| panic!("{said:?}")) {
             let path = folder.path().join(path);
             fs::create_dir_all(path.parent().expect("a folder")).expect("made");
             fs::write(path, text).expect("written");

@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use mechc::rooms::ide::{self, Place, Snapshot, Stage};
+use mechc::rooms::ide::{self, Place, Snapshot, DiagnosticStage};
 use mechc::rooms::syntax;
 use mechc::{Cancel, Memory, Sources};
 use std::path::Path;
@@ -49,7 +49,7 @@ fuzz_target!(|bytes: &[u8]| {
         }
     }
     let fresh = opened(&path, &text);
-    for stage in [Stage::Words, Stage::Proof] {
+    for stage in [DiagnosticStage::Words, DiagnosticStage::Proof] {
         let of = |snapshot: &Snapshot| ide::diagnostics(snapshot, &path, stage, &Cancel::default);
         let [own, other] = [&snapshot, &fresh].map(of);
         assert!(own == other, "{stage:?} of\n{text}\n{own:?}\n{other:?}");

@@ -522,79 +522,21 @@ impl<'a> Checker<'a> {
     fn definitions(&mut self) {
         let (mut definitions, mut docs, mut entities) = (Vec::new(), Vec::new(), Vec::new());
         for item in self.items() {
-            match &item.kind {
-                ItemKind::Param { name, value } => {
-                    entities.push(Entity::Param(self.params.len()));
-                    definitions.push((name, vec![value]));
-                    self.params.push(None);
-                    self.drawn.push(None);
-                    self.param_angles.push(0);
-                    self.param_formulas.push((name, value));
-                }
-                ItemKind::Function { name, argument, value } => {
-                    entities.push(Entity::Function(self.functions.len()));
-                    definitions.push((name, vec![value]));
-                    self.functions.push(Function { argument, value, dimensional: false, time: None, sound: false });
-                }
-                ItemKind::Input { name, value } => {
-                    entities.push(Entity::Input(self.inputs.len()));
-                    let given = self.given.formulas.iter();
-                    let own = format!("{}{}", self.path, name.text);
-                    let told = given.filter(|(told, _)| is_told_by(&own, told)).map(|(_, told)| told);
-                    definitions.push((name, std::iter::once(value).chain(told).collect()));
-                    self.inputs.push(InputState { name, formula: value, value: None });
-                }
-                ItemKind::Measure { name, value, unit } => {
-                    entities.push(Entity::Measure(self.measures.len()));
-                    definitions.push((name, vec![value]));
-                    self.measures.push(MeasureState::of(name, value, unit.as_ref()));
-                }
-                ItemKind::Result { name, value, unit } => {
-                    entities.push(Entity::Result(self.results.len()));
-                    definitions.push((name, vec![value]));
-                    self.results.push(ResultState::of(value, unit.as_ref()));
-                }
-                ItemKind::Table { name, periodic, rows } => {
-                    entities.push(Entity::Table(self.tables.len()));
-                    definitions.push((
-                        name,
-                        match rows {
-                            TableRows::Listed(rows) => rows.iter().collect(),
-                            TableRows::File { .. } => Vec::new(),
-                        },
-                    ));
-                    let periodic = *periodic;
-                    self.tables.push(TableState { name, periodic, rows, dimensional: false, made: None });
-                }
-                ItemKind::Part(part) => {
-                    let k = entities.iter().filter(|entity| matches!(entity, Entity::Part(_))).count();
-                    entities.push(Entity::Part(k));
-                    let bindings = part.bindings.iter().filter(|binding| self.binds_definition(k, binding));
-                    definitions.push((&part.name, bindings.map(|binding| &binding.value).collect()));
-                }
-                _ => continue,
+            if let Some((entity, name, formulas)) = self.definition(item, &entities) {
+                entities.push(entity);
+                definitions.push((name, formulas));
+                docs.push(&item.docs);
             }
-            docs.push(&item.docs);
         }
         self.import_params();
         let uses = self.uses(&definitions, &entities);
-        let (mut measures, mut results) = (Vec::new(), Vec::new());
         let Ordered { order, on_circles } = self.ordered(&uses);
         self.define_parts_on_circles(on_circles.iter().map(|&at| entities[at]));
+        let (mut measures, mut results) = (Vec::new(), Vec::new());
         for at in order {
             let (name, formulas) = &definitions[at];
             match entities[at] {
-                Entity::Param(k) => {
-                    for value in formulas {
-                        self.remember_angle(name, value);
-                        if self.point_param(name) == Some(k) {
-                            self.drawn[k] = self.point_of_param(name, docs[at], value);
-                        } else {
-                            self.param_angles[k] = self.angle_power(value);
-                            self.params[k] = self.param(name, docs[at], value);
-                        }
-                    }
-                }
+                Entity::Param(k) => formulas.iter().for_each(|value| self.define_param(k, name, docs[at], value)),
                 Entity::Function(k) => self.function(k),
                 Entity::Table(k) => self.table(k),
                 Entity::Input(k) => self.input(k),
@@ -611,6 +553,64 @@ impl<'a> Checker<'a> {
             }
         }
         (self.measure_order, self.result_order) = (measures, results);
+    }
+
+    /// What a declaration defines, behind others, with its name and the formulas that it is made of; it gets its place, and no value yet.
+    fn definition(&mut self, item: &'a Item, before: &[Entity]) -> Option<(Entity, &'a Name, Vec<&'a Expr>)> {
+        Some(match &item.kind {
+            ItemKind::Param { name, value } => {
+                self.params.push(None);
+                self.drawn.push(None);
+                self.param_angles.push(0);
+                self.param_formulas.push((name, value));
+                (Entity::Param(self.params.len() - 1), name, vec![value])
+            }
+            ItemKind::Function { name, argument, value } => {
+                self.functions.push(Function { argument, value, dimensional: false, time: None, sound: false });
+                (Entity::Function(self.functions.len() - 1), name, vec![value])
+            }
+            ItemKind::Input { name, value } => {
+                let given = self.given.formulas.iter();
+                let own = format!("{}{}", self.path, name.text);
+                let told = given.filter(|(told, _)| is_told_by(&own, told)).map(|(_, told)| told);
+                let formulas = std::iter::once(value).chain(told).collect();
+                self.inputs.push(InputState { name, formula: value, value: None });
+                (Entity::Input(self.inputs.len() - 1), name, formulas)
+            }
+            ItemKind::Measure { name, value, unit } => {
+                self.measures.push(MeasureState::of(name, value, unit.as_ref()));
+                (Entity::Measure(self.measures.len() - 1), name, vec![value])
+            }
+            ItemKind::Result { name, value, unit } => {
+                self.results.push(ResultState::of(value, unit.as_ref()));
+                (Entity::Result(self.results.len() - 1), name, vec![value])
+            }
+            ItemKind::Table { name, periodic, rows } => {
+                let periodic = *periodic;
+                self.tables.push(TableState { name, periodic, rows, dimensional: false, made: None });
+                let formulas = match rows {
+                    TableRows::Listed(rows) => rows.iter().collect(),
+                    TableRows::File { .. } => Vec::new(),
+                };
+                (Entity::Table(self.tables.len() - 1), name, formulas)
+            }
+            ItemKind::Part(part) => {
+                let k = before.iter().filter(|entity| matches!(entity, Entity::Part(_))).count();
+                let bindings = part.bindings.iter().filter(|binding| self.binds_definition(k, binding));
+                (Entity::Part(k), &part.name, bindings.map(|binding| &binding.value).collect())
+            }
+            _ => return None,
+        })
+    }
+
+    fn define_param(&mut self, k: usize, name: &Name, docs: &[String], value: &Expr) {
+        self.remember_angle(name, value);
+        if self.point_param(name) == Some(k) {
+            self.drawn[k] = self.point_of_param(name, docs, value);
+        } else {
+            self.param_angles[k] = self.angle_power(value);
+            self.params[k] = self.param(name, docs, value);
+        }
     }
 
     /// Parts whose definitions go in a circle are what they are alone, so that all that they have is there.

@@ -6,6 +6,7 @@
 use super::operand::{Arguments, Operand};
 use super::operations::Expression;
 use super::text::{LONGEST_LINE, documented, lines, literal, signature};
+use crate::math::A_MILLION;
 use crate::program::{Column, Op, Register};
 use crate::solver::{Instruction, Segment, Tear, from_bits};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -17,8 +18,6 @@ const LONGEST_FUNCTION: usize = 2000;
 /// Of a loop over lanes, which is to become vector instructions.
 const LONGEST_LOOP: usize = 400;
 
-/// A parameter that is no longer than this needs no name of its own.
-const LONGEST_OPERAND: usize = 20;
 /// What functions of a module within the file are indented by.
 pub(super) const MODULE: &str = "    ";
 
@@ -674,13 +673,13 @@ impl<'p, S: Scene> Printer<'p, S> {
     /// A value of the program, by a name of its own if it is long.
     fn load(&mut self, to: Register, from: Register, indent: &str, text: &mut String) {
         let value = self.scene.load(from);
-        if value.to_string().len() > LONGEST_OPERAND {
+        if value.is_short() {
+            self.names[to as usize] = Some(value);
+        } else {
             self.count += 1;
             self.used.extend(value.arguments());
             let target = self.target(to, 'v');
             *text += &format!("{indent}{target} = {value};\n");
-        } else {
-            self.names[to as usize] = Some(value);
         }
     }
 
@@ -727,7 +726,9 @@ impl<'p, S: Scene> Printer<'p, S> {
         self.count += 1;
         if self.scene.has_lanes() {
             self.used.insert(AT);
-            *text += &format!("{indent}at.watch(k, {a}, 1e-6);\n");
+            // times this, rounded, it is above 1 from a million itself on
+            let per_million = (1.0 / A_MILLION).next_up();
+            *text += &format!("{indent}at.watch(k, {a}, {});\n", literal(per_million));
         }
         let sin_cos = if self.scene.has_lanes() { "sin_cos_below_a_million" } else { "sin_cos" };
         let target = |printer: &mut Self, register: Register, prefix: char| {

@@ -18,13 +18,15 @@ pub(super) struct File {
     pub needs: &'static [&'static str],
     /// The limits that it names.
     pub limits: &'static [&'static str],
+    /// What it has from others where it goes along, since it stands in a module here that does.
+    pub uses: &'static str,
 }
 
 macro_rules! files {
-    ($($name:literal at $path:literal: [$($needs:literal),*], [$($limits:ident),*];)*) => {
+    ($($name:literal at $path:literal: [$($needs:literal),*], [$($limits:ident),*] $(, $uses:literal)?;)*) => {
         /// All files, each behind those that it needs.
         pub(super) const FILES: &[File] = &[
-            $(File { name: $name, text: include_str!($path), needs: &[$($needs),*], limits: &[$(stringify!($limits)),*] },)*
+            $(File { name: $name, text: include_str!($path), needs: &[$($needs),*], limits: &[$(stringify!($limits)),*], uses: concat!($($uses)?) },)*
         ];
     };
 }
@@ -38,8 +40,10 @@ files! {
     "so_far" at "runtime/so_far.rs": [], [];
     "pivots" at "runtime/pivots.rs": ["so_far", "solution"], [];
     "grid" at "../math/grid.rs": [], [];
+    "hermite" at "../math/hermite.rs": [], [];
+    "neighbours" at "../math/neighbours.rs": [], [];
     "newton" at "runtime/newton.rs": ["numbers", "so_far", "solution", "grid"], [BORDER, LARGEST_CORRECTION];
-    "branches" at "runtime/branches.rs": ["equations", "solution"], [MOST_HALVINGS, SLACK];
+    "branches" at "runtime/branches.rs": ["equations", "solution", "neighbours"], [MOST_HALVINGS, SLACK];
     "watched" at "runtime/watched.rs": ["numbers"], [];
     "left_out" at "runtime/left_out.rs": [], [LARGEST_OPENING];
     "hold_apart" at "runtime/hold_apart.rs": ["numbers", "equations"], [MISSES];
@@ -49,17 +53,19 @@ files! {
     "assemble" at "runtime/assemble.rs": ["numbers", "error", "solution", "branches", "reach", "state"],
         [LARGEST_CORRECTION, MOST_PARTS, SMALLEST_PART];
     "explain" at "runtime/explain.rs": ["error", "solution", "branches", "state"], [NEAR_FOLD, SINGULAR];
-    "step" at "runtime/step.rs": ["numbers", "error", "solution", "branches", "reach", "state", "explain"],
-        [FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD, POSITION_JUMP, REST, VELOCITY_JUMP];
-    "rims" at "runtime/rims.rs": ["numbers", "error", "solution", "reach", "state"],
+    "step" at "runtime/step.rs": ["numbers", "error", "solution", "hermite", "branches", "reach", "state", "explain"],
+        [CALM_BETWEEN, CALM_CORRECTION, CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD,
+            POSITION_JUMP, REST, VELOCITY_JUMP];
+    "rims" at "runtime/rims.rs": ["numbers", "error", "solution", "neighbours", "reach", "state"],
         [FEWEST_LOOKS, GROWTH, LEAD, MOMENT, MOST_HALVINGS, MOST_LOOKS, PASSED, ROUNDING, SLOW, SPEED_JUMP];
     "blocks" at "../math/blocks.rs": [], [];
     "pivoting" at "runtime/pivoting.rs": ["numbers", "error", "solution", "grid", "blocks"], [BORDER, ITERATIONS];
     "pivoted_slopes" at "runtime/pivoted_slopes.rs": ["error", "solution", "pivoting"], [];
     "way" at "runtime/way.rs": ["numbers", "equations", "solution", "state"], [FARTHEST_AHEAD];
     "way_list" at "runtime/way_list.rs": ["state", "way"], [];
-    "follow" at "runtime/follow.rs": ["numbers", "error", "solution", "branches", "reach", "state", "explain", "way"],
-        [FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LARGEST_TURN, POSITION_JUMP, SHORTEST_STEP, SINGULAR];
+    "follow" at "runtime/follow.rs":
+        ["numbers", "error", "solution", "branches", "reach", "state", "explain", "step", "way"],
+        [CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_TURN, POSITION_JUMP, SHORTEST_STEP, SINGULAR];
     "sensitivity" at "runtime/sensitivity.rs": ["numbers", "error", "solution", "state"], [];
     "sensitivity_led" at "runtime/sensitivity_led.rs": ["error", "state", "way", "follow", "sensitivity"], [];
     "forces" at "runtime/forces.rs": ["numbers", "error", "solution", "state"], [STEEP];
@@ -69,11 +75,13 @@ files! {
     "lane_strain" at "runtime/lane_strain.rs": ["so_far", "lane_solutions"], [];
     "lane_pivots" at "runtime/lane_pivots.rs": ["so_far", "lane_solutions"], [];
     "lane_newton" at "runtime/lane_newton.rs": ["so_far", "lane_solutions", "grid"], [BORDER, LARGEST_CORRECTION];
-    "lanes" at "runtime/lanes.rs": ["numbers", "so_far", "error", "branches", "state", "assemble", "step", "lane_solutions"],
-        [FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP];
+    "lanes" at "runtime/lanes.rs":
+        ["numbers", "so_far", "error", "hermite", "branches", "state", "assemble", "step", "lane_solutions"],
+        [CALM_BETWEEN, CALM_CORRECTION, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP];
     "lane_follow" at "runtime/lane_follow.rs": ["error", "way", "follow", "lane_solutions", "lanes"], [MOST_STEPS];
     "sine_and_cosine" at "../math/sin_cos.rs": [], [];
-    "without_branches" at "../math/without_branches.rs": ["sine_and_cosine"], [];
+    "without_branches" at "../math/without_branches.rs": ["sine_and_cosine"], [],
+        "use super::sine_and_cosine::{cos_near_zero, reduce_small, sin_near_zero};\n";
     "select" at "runtime/functions/select.rs": [], [];
     "either" at "runtime/functions/either.rs": [], [];
     "piece" at "runtime/functions/piece.rs": [], [];
@@ -209,8 +217,8 @@ impl Uses {
         page.line("mod runtime {");
         for file in FILES.iter().filter(|file| wanted.contains(file.name)) {
             page.line(&format!("pub mod {} {{", file.name));
-            if file.name == "without_branches" {
-                page.line("use super::sine_and_cosine::{cos_near_zero, reduce_small, sin_near_zero};\n");
+            if !file.uses.is_empty() {
+                page.line(file.uses);
             }
             page.text(file.text);
             page.line("}\n");

@@ -2,6 +2,7 @@
 
 use super::text::{documented, literal};
 use crate::tolerances::emitted::{assemble, explain, follow, reach, rims as looks, step};
+use crate::tolerances::singular::reasons;
 use crate::tolerances::solving::{lanes, solver, trust};
 use crate::tolerances::steps::{edges, limits as sides, march, rims};
 use crate::tolerances::{checks, jumps};
@@ -42,6 +43,10 @@ limits! {
     Number LONGEST_AHEAD = edges::LONGEST_AHEAD, "And at most (s).";
     Number BORDER = lanes::BORDER,
         "A correction that is no farther from half a cell of the grid than this, in cells, leads to the border of two.";
+    Number CALM_BETWEEN = march::CALM_BETWEEN,
+        "A step is calm, so that a longer one would do as well, if its gap is so many times less than the largest.";
+    Number CALM_CORRECTION = march::CALM_CORRECTION, "And if its first correction is so many times less.";
+    Number CRUMB = march::CRUMB, "A step that makes this part of what is left makes all of it.";
     Number FARTHEST_AHEAD = edges::FARTHEST_AHEAD, "Nothing may move farther than this meanwhile, scaled.";
     Number FARTHEST_BEND = step::FARTHEST_BEND,
         "The step before tells of one that is so many times as long at most.";
@@ -69,7 +74,7 @@ limits! {
         "How often both sides of a rim are looked at, each time at a quarter of the distance.";
     Count MOST_PARTS = assemble::MOST_PARTS, "Trials on the way from the file's parameters to others at most.";
     Count MOST_STEPS = march::MOST_STEPS as usize, "Steps that one call takes at most that has no bound of its own.";
-    Number NEAR_FOLD = explain::NEAR_FOLD, "A dead point is no further off than this part of the span.";
+    Number NEAR_FOLD = reasons::NEAR_FOLD, "A dead point is no further off than this part of the span.";
     Number PASSED = looks::PASSED, "A rim within this part of the span is one that was looked at.";
     Number POSITION_JUMP = jumps::POSITION_JUMP, "A position that changes by more than this at an edge jumps, scaled.";
     Number REST = jumps::REST, "A speed below this part of one per span is rest, scaled.";

@@ -7,6 +7,7 @@ mod c;
 mod code;
 mod equations;
 mod errors;
+mod files;
 mod goods;
 mod json;
 mod latex;
@@ -25,9 +26,10 @@ mod tables;
 mod tape;
 mod text;
 
+pub use files::{CrateFile, MARK};
 pub use json::json;
 pub use latex::latex;
-pub use package::{File, MARK, Reference, package};
+pub use package::{Reference, package};
 pub use rust::{is_large, rust};
 pub use tape::LARGEST_STRAIGHT;
 
@@ -37,7 +39,7 @@ use crate::solver::{BlockTables, Solver};
 use crate::source::Sources;
 
 /// What there is to emit.
-pub struct Unit<'u> {
+pub struct TranslationUnit<'u> {
     /// The system, which is determined.
     pub system: &'u ConstraintSystem,
     /// Its program.
@@ -47,7 +49,7 @@ pub struct Unit<'u> {
     /// The name of the file among them.
     pub file: &'u str,
     /// What solves it, if that is wanted.
-    pub motion: Option<Motion>,
+    pub motion: Option<EmittedMotion>,
     /// How many lanes are solved at once, beside one at a time.
     pub lanes: Option<usize>,
     /// Beyond so many operations they are written as numbers instead of lines; mostly [`LARGEST_STRAIGHT`].
@@ -58,7 +60,7 @@ pub struct Unit<'u> {
     pub following: Option<Following<'u>>,
 }
 
-impl Unit<'_> {
+impl TranslationUnit<'_> {
     /// Whether it gives what joints exert and drivers supply.
     fn has_forces(&self) -> bool {
         self.motion.as_ref().is_some_and(|motion| motion.forced.is_some())
@@ -73,13 +75,13 @@ impl Unit<'_> {
 /// A mechanism once more, with its inputs as signals.
 pub struct Following<'u> {
     /// Its system, in which they are signals; the program holds no operation that says what they are by the text.
-    pub unit: Box<Unit<'u>>,
+    pub unit: Box<TranslationUnit<'u>>,
     /// The program with these operations; its registers are the same.
     pub by_text: &'u Program,
 }
 
 /// What it takes to follow the motion from the assembled start.
-pub struct Motion {
+pub struct EmittedMotion {
     /// The operations that solve the system, laid out for code.
     pub solver: Solver,
     /// The same with the derivatives of the coordinates by parameters, where these are wanted.

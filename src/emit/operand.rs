@@ -3,6 +3,9 @@
 use super::text::literal;
 use std::fmt::{self, Display, Formatter};
 
+/// An operand that takes more characters than this makes a line hard to read.
+const LONGEST: usize = 20;
+
 /// Arguments of a function, by their names.
 pub(super) type Arguments = &'static [&'static str];
 
@@ -34,6 +37,14 @@ impl Operand {
         match self {
             Operand::Number(_) => &[],
             Operand::Held { of, .. } => of,
+        }
+    }
+
+    /// Whether it can stand in a formula as it is, rather than by a name of its own.
+    pub fn is_short(&self) -> bool {
+        match self {
+            Operand::Number(value) => literal(*value).len() <= LONGEST,
+            Operand::Held { text, .. } => text.len() <= LONGEST,
         }
     }
 
@@ -75,5 +86,6 @@ mod tests {
         assert_eq!([number.absolute(), held.absolute()], ["(-2.5).abs()", "q[1].abs()"]);
         assert_eq!(Operand::Number(-0.0).negated().to_string(), "0.0");
         assert_eq!(held.negated().arguments(), ["q"]);
+        assert!(held.is_short() && !Operand::own("m.follows.of_a_long_name".to_owned()).is_short());
     }
 }

@@ -8,7 +8,7 @@ use super::names::{Case, Namer, is_keyword};
 use super::params::Params;
 use super::rust;
 use super::text::{lines, literal, one_line, unit};
-use super::{Unit, c};
+use super::{CrateFile, MARK, TranslationUnit, c};
 use crate::ir::Measure;
 use std::fmt::Display;
 
@@ -50,26 +50,14 @@ pub struct Reference {
     pub stopped: Option<String>,
 }
 
-/// A file of a crate.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct File {
-    /// Where it goes in the crate, with `/`.
-    pub path: String,
-    /// What is in it; one of the first lines has [`MARK`].
-    pub text: String,
-}
-
-/// What every file of a crate holds near its beginning, and by which it can be told from one that somebody wrote.
-pub const MARK: &str = "ritten by mechc ";
-
 /// The files of a crate, for a unit with its motion. It has the name of its folder, as cargo's own have; where that cannot be a
 /// crate's, the next to it that can.
 #[must_use]
-pub fn package(unit: &Unit<'_>, reference: &Reference, folder: &str) -> Vec<File> {
+pub fn package(unit: &TranslationUnit<'_>, reference: &Reference, folder: &str) -> Vec<CrateFile> {
     let module = rust::module(unit);
     let name = crate_name(folder);
     let writer = Writer { unit, reference, library: name.replace('-', "_"), name, needs_libm: module.needs_libm };
-    let file = |path: &str, text: String| File { path: path.to_owned(), text };
+    let file = |path: &str, text: String| CrateFile { path: path.to_owned(), text };
     let mut files = vec![
         file("Cargo.toml", writer.manifest()),
         file("README.md", writer.page()),
@@ -122,7 +110,7 @@ them, `follow` what it is given; after an error the state is as it was. Where fo
 ";
 
 struct Writer<'w> {
-    unit: &'w Unit<'w>,
+    unit: &'w TranslationUnit<'w>,
     reference: &'w Reference,
     /// The crate's.
     name: String,

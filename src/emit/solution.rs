@@ -7,7 +7,7 @@ use super::operand::{Arguments, Operand};
 use super::print::Page;
 use super::tape::{self, Book, Notes, Shared, Tape};
 use super::text::literal;
-use super::{Motion, Unit};
+use super::{EmittedMotion, TranslationUnit};
 use crate::ir::With;
 use crate::layout::{Holds, row_holds};
 use crate::program::{Column, Register};
@@ -17,8 +17,8 @@ use rustc_hash::FxHashMap;
 
 /// What the solver's function is written from.
 pub(super) struct Solution<'s> {
-    pub unit: &'s Unit<'s>,
-    pub motion: &'s Motion,
+    pub unit: &'s TranslationUnit<'s>,
+    pub motion: &'s EmittedMotion,
     pub equations: &'s Equations<'s>,
     /// Registers of the program that follow from parameters alone, by their places in `known`.
     pub known: FxHashMap<Register, usize>,
@@ -29,7 +29,7 @@ pub(super) struct Solution<'s> {
 }
 
 impl<'s> Solution<'s> {
-    pub fn new(unit: &'s Unit<'s>, motion: &'s Motion, equations: &'s Equations<'s>) -> Solution<'s> {
+    pub fn new(unit: &'s TranslationUnit<'s>, motion: &'s EmittedMotion, equations: &'s Equations<'s>) -> Solution<'s> {
         let joined = joined([Some(&motion.solver), motion.forced.as_ref()].into_iter().flatten());
         let mut solution =
             Solution { unit, motion, equations, known: FxHashMap::default(), joined, holds: row_holds(unit.system) };

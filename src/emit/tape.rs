@@ -278,3 +278,211 @@ pub(super) fn list(docs: &str, name: &str, words: &[u32], page: &mut Page) {
     page.line("];");
     page.blank();
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Book, Loaded, Notes};
+    use crate::emit::runtime::tables::{self, Results, run};
+    use crate::expr::{Binary, Comparison, Unary, binary_value, unary_value};
+    use crate::program::{Column, LaneMachine, LaneValues, Op, Program, codes};
+    use crate::solver::Instruction;
+    use crate::{Cancel, Choice, Memory, Parsed, Redundant};
+    use std::collections::BTreeSet;
+    use std::sync::{Arc, OnceLock};
+
+    const UNARY: [Unary; 16] = [
+        Unary::Sin,
+        Unary::Cos,
+        Unary::Tan,
+        Unary::Asin,
+        Unary::Acos,
+        Unary::Atan,
+        Unary::Sinh,
+        Unary::Cosh,
+        Unary::Tanh,
+        Unary::Exp,
+        Unary::Ln,
+        Unary::Log10,
+        Unary::Sqrt,
+        Unary::Abs,
+        Unary::Sign,
+        Unary::Floor,
+    ];
+    const BINARY: [Binary; 6] = [Binary::Atan2, Binary::Hypot, Binary::Min, Binary::Max, Binary::Pow, Binary::Mod];
+
+    /// The numbers that are named, in their order.
+    const NUMBERS: [f64; 3] = [2.5, 0.125, 7.0];
+
+    /// By number, the columns of the tables of [`program`].
+    static COLUMNS: OnceLock<Vec<Vec<f64>>> = OnceLock::new();
+
+    struct Named;
+
+    impl tables::Book for Named {
+        fn number(number: usize) -> f64 {
+            NUMBERS[number]
+        }
+
+        fn unary(number: usize, a: f64) -> f64 {
+            unary_value(UNARY[number], a)
+        }
+
+        fn binary(number: usize, a: f64, b: f64) -> f64 {
+            binary_value(BINARY[number], a, b)
+        }
+
+        fn column(number: usize) -> &'static [f64] {
+            &COLUMNS.get().expect("they are known")[number]
+        }
+    }
+
+    /// A program with tables, and its parameters.
+    fn program() -> (Arc<Program>, Vec<f64>) {
+        let text = include_str!("../../tests/cases/table_list.mech");
+        let checked = Parsed::of("table_list.mech", text).check(&Choice::default(), &Memory::default());
+        let (compiled, _) = checked.compile(Redundant::Refused, &Cancel::default());
+        let compiled = compiled.expect("it is determined");
+        let params = compiled.system().params().iter().map(|param| param.value);
+        (Arc::clone(compiled.program()), params.collect())
+    }
+
+    /// One of each operation, from registers 0, 1, 2 to 3, and 4.
+    fn operations() -> Vec<Op> {
+        let (to, a, b, c, condition) = (3, 0, 1, 2, 0);
+        let mut all = vec![
+            Op::Add { to, a, b },
+            Op::Sub { to, a, b },
+            Op::Mul { to, a, b },
+            Op::Div { to, a, b },
+            Op::MulAdd { to, a, b, c },
+            Op::MulLess { to, a, b, c },
+            Op::LessMul { to, a, b, c },
+            Op::Neg { to, a },
+            Op::Recip { to, a },
+            Op::SinCos { sin: to, cos: 4, a },
+            Op::And { to, a, b },
+            Op::Or { to, a, b },
+            Op::Not { to, a },
+            Op::Select { to, condition, a: b, b: c },
+            Op::Either { to, condition, a: b, b: c },
+            Op::Copy { to, a },
+            Op::Piece { to, table: 0, a },
+        ];
+        all.extend(UNARY.map(|function| Op::Unary { function, to, a }));
+        all.extend(BINARY.map(|function| Op::Binary { function, to, a, b }));
+        let comparisons = [Comparison::Less, Comparison::LessEqual, Comparison::Equal];
+        all.extend(comparisons.map(|comparison| Op::Compare { comparison, to, a, b }));
+        all.extend(Column::ALL.map(|column| Op::Pick { to, table: 0, column, piece: a }));
+        all
+    }
+
+    fn no_notes() -> Notes<'static> {
+        Notes { loaded: &|_| Loaded::Number(0.125), pivot: &|_| (5, 7.0), weight: &|_| 16.0 * 7.0, bound: &|_| 0.125 }
+    }
+
+    /// The number of each operation is that of what runs it, and so are the places of its operands.
+    #[test]
+    fn written_operations_do_what_they_say() {
+        let (program, params) = program();
+        let scalars = program.start(&params);
+        let columns = program.tables().iter().flat_map(|table| Column::ALL.map(|column| table.column(column)));
+        let values = columns.map(|registers| registers.map(|register| scalars.get(register)).collect());
+        COLUMNS.get_or_init(|| values.collect());
+        let numbers = [0.0, -0.0, 0.3, 1.5, -2.25, 3.0, 1e9, f64::INFINITY, f64::NAN];
+        for op in operations() {
+            let tape = Book::default().encode(&[Instruction::Compute(op)], &no_notes());
+            for n in 0..numbers.len().pow(3) {
+                let [mut a, b, c] =
+                    [n, n / numbers.len(), n / numbers.len().pow(2)].map(|k| numbers[k % numbers.len()]);
+                if matches!(op, Op::Pick { .. }) && !a.is_nan() {
+                    a = (n % 4) as f64; // a piece that there is
+                }
+                let mut lanes = [a, b, c, -7.0, -8.0].map(|value| LaneValues([value]));
+                op.run(&mut LaneMachine { v: &mut lanes, program: &program, scalars: &scalars });
+                let mut v = [a, b, c, -7.0, -8.0];
+                run::<Named>(&tape.words, &[], &[&[]; 10], &mut v, &mut [0.0; 0]);
+                for (written, LaneValues([own])) in v.into_iter().zip(lanes) {
+                    let is_same = written.to_bits() == own.to_bits() || written.is_nan() && own.is_nan();
+                    assert!(is_same, "{op:?} of {a}, {b}, {c}: {written} instead of {own}");
+                }
+            }
+        }
+    }
+
+    /// What was left behind.
+    #[derive(Default)]
+    struct Left {
+        stored: Vec<(usize, f64)>,
+        bounded: Vec<[f64; 2]>,
+        pivoted: Vec<(usize, [f64; 2])>,
+    }
+
+    impl Results for Left {
+        fn store(&mut self, column: usize, value: f64) {
+            self.stored.push((column, value));
+        }
+
+        fn stored(&self, column: usize) -> f64 {
+            100.0 + column as f64
+        }
+
+        fn bounded(&mut self, size: f64, bound: f64) {
+            self.bounded.push([size, bound]);
+        }
+
+        fn pivoted(&mut self, turn: usize, inverse: f64, weight: f64) {
+            self.pivoted.push((turn, [inverse, weight]));
+        }
+    }
+
+    /// The same of what joins operations to the world.
+    #[test]
+    fn written_instructions_do_what_they_say() {
+        let input = |_| Loaded::Input { array: 1, index: 2 };
+        let mut book = Book::default();
+        let mut tape = book.encode(
+            &[
+                Instruction::number(0, 2.5),
+                Instruction::Load { to: 1, from: 9 },
+                Instruction::Time { to: 2 },
+                Instruction::Column { to: 3, column: 6 },
+                Instruction::Curve { to: 4, tear: 1 },
+                Instruction::Store { column: 8, a: 2 },
+                Instruction::Multiplier { to: 5, a: 0, b: 1, weight: 0 },
+                Instruction::Residual { a: 0, row: 0 },
+                Instruction::Pivot { a: 0, pivot: 0 },
+            ],
+            &no_notes(),
+        );
+        let more = book.encode(&[Instruction::Load { to: 6, from: 9 }], &Notes { loaded: &input, ..no_notes() });
+        tape.words.extend(more.words);
+        assert_eq!(book.numbers.values, NUMBERS);
+        let (mut v, mut left) = ([f64::NAN; 7], Left::default());
+        let mut inputs: tables::Arrays<'_> = [&[]; 10];
+        (inputs[1], inputs[super::TIME as usize]) = (&[0.0, 0.0, 42.0], &[0.75]);
+        run::<Named>(&tape.words, &[10.0, 11.0], &inputs, &mut v, &mut left);
+        assert_eq!(v.to_vec(), [2.5, 0.125, 0.75, 106.0, 11.0, 0.3125, 42.0]);
+        assert_eq!(left.stored, [(8, 0.75)]);
+        assert_eq!(left.bounded, [[0.3125 * 7.0, 1.0], [2.5, 0.125]]);
+        assert_eq!(left.pivoted, [(5, [2.5, 7.0])]);
+    }
+
+    #[test]
+    fn every_number_is_that_of_an_operation() {
+        let own = operations().into_iter().map(|op| op.code().0);
+        let joining = [
+            codes::NUMBER,
+            codes::INPUT,
+            codes::STORED,
+            codes::GUESS,
+            codes::STORE,
+            codes::MULTIPLIER,
+            codes::RESIDUAL,
+            codes::PIVOT,
+        ];
+        let all: BTreeSet<u32> = own.chain(joining).collect();
+        assert_eq!(all, (0..=codes::PICK).collect(), "and nothing else is there");
+        let text = include_str!("../program/codes.rs");
+        assert_eq!(text.matches("pub const ").count(), all.len());
+    }
+}

@@ -1,7 +1,7 @@
 //! What can be done about a place: fixes of what is wrong there, and changes that keep what the text means.
 
 use super::completion::{free, free_name};
-use super::diagnostics::{ProposedFix, Said, Stage, diagnostics};
+use super::diagnostics::{DiagnosticStage, ProposedFix, Said, diagnostics};
 use super::edits::{applied, faults, first_new, text_of};
 use super::names::{each, formulas};
 use super::place::{Change, Place, Stretch};
@@ -45,8 +45,8 @@ pub enum ActionKind {
 /// What can be done about a stretch of a file: fixes of what its words and the proof say there, and refactorings.
 #[must_use]
 pub fn actions(snapshot: &Snapshot, path: &Arc<Path>, range: &Range<u32>) -> Option<Vec<Action>> {
-    let words = diagnostics(snapshot, path, Stage::Words, &Cancel::default)?;
-    let proof = diagnostics(snapshot, path, Stage::Proof, &Cancel::default)?;
+    let words = diagnostics(snapshot, path, DiagnosticStage::Words, &Cancel::default)?;
+    let proof = diagnostics(snapshot, path, DiagnosticStage::Proof, &Cancel::default)?;
     let mut all: Vec<&Said> = words.iter().collect();
     all.extend(proof.iter().filter(|said| !words.contains(said)));
     let touches = |said: &&Said| said.range.start <= range.end && range.start <= said.range.end;
@@ -274,7 +274,7 @@ mod tests {
     use crate::cancel::Cancel;
     use crate::ide::edits::{applied, text_of};
     use crate::ide::testing::{FOUR_BAR, at_cursor};
-    use crate::ide::{Snapshot, Stage, diagnostics};
+    use crate::ide::{DiagnosticStage, Snapshot, diagnostics};
     use std::path::Path;
 
     /// All that is offered at a cursor, each with the lines that it writes.
@@ -297,7 +297,7 @@ mod tests {
     /// How many faults the first two stages find.
     fn count(snapshot: &Snapshot, path: &Path) -> usize {
         let of = |stage| diagnostics(snapshot, path, stage, &Cancel::default).expect("a file").len();
-        of(Stage::Words) + of(Stage::Proof)
+        of(DiagnosticStage::Words) + of(DiagnosticStage::Proof)
     }
 
     fn with(from: &str, to: &str) -> String {

@@ -9,7 +9,7 @@ mod scope;
 mod units;
 mod wanted;
 
-pub use item::{Item, ItemKind, Template};
+pub use item::{CompletionItem, CompletionItemKind, Template};
 pub(super) use proposals::{free, free_name};
 
 use super::place::Place;
@@ -35,7 +35,7 @@ const MOST: usize = 200;
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Completions {
     /// The best first.
-    pub items: Vec<Item>,
+    pub items: Vec<CompletionItem>,
     /// There are more than anybody reads: of those that go with the letters typed the best are here.
     pub is_incomplete: bool,
 }
@@ -85,7 +85,7 @@ struct Here<'s> {
 }
 
 impl Here<'_> {
-    fn items(&self) -> Vec<Item> {
+    fn items(&self) -> Vec<CompletionItem> {
         let cursor = &self.cursor;
         if cursor.is_in_string {
             return self.files();
@@ -114,7 +114,7 @@ impl Here<'_> {
     }
 
     /// Whole declarations, those first that the mechanism lacks.
-    fn declarations(&self) -> Vec<Item> {
+    fn declarations(&self) -> Vec<CompletionItem> {
         let block = self.cursor.block;
         let fits = |keyword: &&Keyword| match (block, keyword.role) {
             (Block::File, Role::Declaration | Role::Opener) => matches!(keyword.word.name, "mechanism" | "use"),
@@ -122,7 +122,7 @@ impl Here<'_> {
             (Block::Features, Role::Feature | Role::FeatureOpener) => true,
             _ => false,
         };
-        let mut items: Vec<Item> = KEYWORDS.iter().filter(fits).map(declaration).collect();
+        let mut items: Vec<CompletionItem> = KEYWORDS.iter().filter(fits).map(declaration).collect();
         if block == Block::Mechanism
             && let Some((whole, tree)) = self.whole().zip(self.tree())
         {
@@ -132,7 +132,7 @@ impl Here<'_> {
     }
 
     /// What joins the parts of the declaration, where an operand has ended.
-    fn joining(&self) -> Vec<Item> {
+    fn joining(&self) -> Vec<CompletionItem> {
         let cursor = &self.cursor;
         let words: &[&str] = match cursor.head() {
             "use" => &["as"],
@@ -158,7 +158,7 @@ impl Here<'_> {
     }
 
     /// What an unfinished declaration asks for.
-    fn of_declaration(&self) -> Vec<Item> {
+    fn of_declaration(&self) -> Vec<CompletionItem> {
         let cursor = &self.cursor;
         let is_behind_colon = cursor.last() == Some(":");
         match (cursor.head(), cursor.last()) {
@@ -198,10 +198,10 @@ impl Here<'_> {
     }
 
     /// Kinds of joints, and joints between points that lie on each other.
-    fn joints(&self) -> Vec<Item> {
+    fn joints(&self) -> Vec<CompletionItem> {
         let mut items = self.whole().map(|whole| proposals::joints(&whole)).unwrap_or_default();
         items.extend(JOINTS.iter().map(|joint| {
-            let item = Item::word(&joint.word, 1);
+            let item = CompletionItem::word(&joint.word, 1);
             // what they join is asked for when they are there
             let plural = if joint.equations == 1 { "" } else { "s" };
             let detail = format!("{} · {} equation{plural}", joint.takes, joint.equations);
@@ -224,20 +224,21 @@ impl Here<'_> {
     }
 
     /// What can be bound of the part.
-    fn bindings(&self) -> Vec<Item> {
+    fn bindings(&self) -> Vec<CompletionItem> {
         let (Some(scope), Some((prefix, name))) = (self.scope(), self.part_call()) else { return Vec::new() };
         let taken = self.cursor.call().map(|call| self.cursor.arguments(call)).unwrap_or_default();
-        let is_free =
-            |item: &Item| !taken.iter().any(|bound| bound.split('=').next().map(str::trim) == Some(&item.label));
+        let is_free = |item: &CompletionItem| {
+            !taken.iter().any(|bound| bound.split('=').next().map(str::trim) == Some(&item.label))
+        };
         scope.bindable(prefix, name).into_iter().filter(is_free).collect()
     }
 
-    fn mechanisms(&self, prefix: Option<&str>) -> Vec<Item> {
+    fn mechanisms(&self, prefix: Option<&str>) -> Vec<CompletionItem> {
         self.checked.map(|checked| scope::mechanisms(checked, prefix)).unwrap_or_default()
     }
 
     /// What stands behind the dot of a path.
-    fn inside(&self, path: &[&str]) -> Vec<Item> {
+    fn inside(&self, path: &[&str]) -> Vec<CompletionItem> {
         let cursor = &self.cursor;
         if cursor.head() == "part" && cursor.call().is_none() && !cursor.has("on") {
             return self.mechanisms(path.first().copied());
@@ -253,7 +254,7 @@ impl Here<'_> {
     }
 
     /// What a formula can go on with.
-    fn formula(&self, wanted: &[Wanted]) -> Vec<Item> {
+    fn formula(&self, wanted: &[Wanted]) -> Vec<CompletionItem> {
         let Some(scope) = self.scope() else { return Vec::new() };
         let cursor = &self.cursor;
         let mut items = Vec::new();
@@ -262,7 +263,9 @@ impl Here<'_> {
             items.extend(scope.fitting(*wanted, cursor));
             if *wanted == Wanted::Side {
                 items.extend(
-                    ["left", "right"].iter().filter_map(|side| Some(Item::word(&Keyword::named(side)?.word, 1))),
+                    ["left", "right"]
+                        .iter()
+                        .filter_map(|side| Some(CompletionItem::word(&Keyword::named(side)?.word, 1))),
                 );
             }
         }
@@ -270,7 +273,7 @@ impl Here<'_> {
         if cursor.head() == "joint"
             && let Some((body, _)) = other.first().and_then(|first| first.rsplit_once('.'))
         {
-            let is_of_it = |item: &Item| item.label.rsplit_once('.').is_some_and(|(own, _)| own == body);
+            let is_of_it = |item: &CompletionItem| item.label.rsplit_once('.').is_some_and(|(own, _)| own == body);
             items.retain(|item| !is_of_it(item));
             self.prefer_touching(other.first().copied().unwrap_or_default(), &mut items);
         }
@@ -281,7 +284,7 @@ impl Here<'_> {
             _ => false,
         });
         if is_number && cursor.head() != "joint" {
-            items.extend(called(cursor.head()).map(|word| Item::word(word, 4)));
+            items.extend(called(cursor.head()).map(|word| CompletionItem::word(word, 4)));
             items.extend(Keyword::named("if").map(declaration));
         }
         let mut seen = std::collections::BTreeSet::new();
@@ -290,7 +293,7 @@ impl Here<'_> {
     }
 
     /// Puts the points first that lie on another one.
-    fn prefer_touching(&self, point: &str, items: &mut [Item]) {
+    fn prefer_touching(&self, point: &str, items: &mut [CompletionItem]) {
         let touching = self.whole().map(|whole| whole.touching()).unwrap_or_default();
         for item in items {
             let lies_there =
@@ -303,7 +306,7 @@ impl Here<'_> {
     }
 
     /// The files beside the text that can stand in a string.
-    fn files(&self) -> Vec<Item> {
+    fn files(&self) -> Vec<CompletionItem> {
         let cursor = &self.cursor;
         let fits = |name: &str| match cursor.head() {
             "use" => is_mech(name) && Path::new(name).file_name() != self.place.path.file_name(),
@@ -317,9 +320,11 @@ impl Here<'_> {
         let folder = beside(&self.place.path.to_string_lossy(), within);
         let world = self.snapshot.buffers();
         let files = world.names_in(&folder).into_iter().filter(|name| fits(name));
-        let mut items: Vec<Item> = files.map(|name| Item::new(format!("{within}{name}"), ItemKind::File, 1)).collect();
+        let mut items: Vec<CompletionItem> =
+            files.map(|name| CompletionItem::new(format!("{within}{name}"), CompletionItemKind::File, 1)).collect();
         let folders = world.folders_in(&folder).into_iter().filter(|name| !name.starts_with('.'));
-        items.extend(folders.map(|name| Item::new(format!("{within}{name}/"), ItemKind::Folder, 2)));
+        items
+            .extend(folders.map(|name| CompletionItem::new(format!("{within}{name}/"), CompletionItemKind::Folder, 2)));
         items
     }
 }
@@ -347,14 +352,14 @@ fn called(head: &str) -> impl Iterator<Item = &'static Word> {
 }
 
 /// A whole declaration by its keyword.
-fn declaration(keyword: &'static Keyword) -> Item {
+fn declaration(keyword: &'static Keyword) -> CompletionItem {
     let form = keyword.word.forms.first().copied().unwrap_or(keyword.word.name);
-    Item::word(&keyword.word, 2).inserts(Template::of_form(form))
+    CompletionItem::word(&keyword.word, 2).inserts(Template::of_form(form))
 }
 
 /// A word that joins two parts of a declaration.
-fn joining(keyword: &'static Keyword) -> Item {
-    Item::word(&keyword.word, 1).inserts(Template::plain(format!("{} ", keyword.word.name)))
+fn joining(keyword: &'static Keyword) -> CompletionItem {
+    CompletionItem::word(&keyword.word, 1).inserts(Template::plain(format!("{} ", keyword.word.name)))
 }
 
 #[cfg(test)]

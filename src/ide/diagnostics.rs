@@ -13,7 +13,7 @@ pub use crate::diag::Severity;
 
 /// The stages in which a file is looked at, from the quickest on.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub enum Stage {
+pub enum DiagnosticStage {
     /// Syntax, names, units and values.
     Words,
     /// Count, structure, rank and assembly.
@@ -63,7 +63,12 @@ pub struct ProposedFix {
 
 /// What one stage says of a file; nothing where the snapshot was cancelled. Each motion of the last stage is begun with a flag that ends it.
 #[must_use]
-pub fn diagnostics(snapshot: &Snapshot, path: &Path, stage: Stage, begin: &dyn Fn() -> Cancel) -> Option<Vec<Said>> {
+pub fn diagnostics(
+    snapshot: &Snapshot,
+    path: &Path,
+    stage: DiagnosticStage,
+    begin: &dyn Fn() -> Cancel,
+) -> Option<Vec<Said>> {
     let checked = snapshot.checked(path)?;
     let mut all: Vec<Said> = Vec::new();
     let mut add = |checked: &Checked, sources: &Sources, diagnostics: &Diagnostics| {
@@ -75,14 +80,14 @@ pub fn diagnostics(snapshot: &Snapshot, path: &Path, stage: Stage, begin: &dyn F
         }
     };
     match stage {
-        Stage::Words => checked.mechanisms.iter().for_each(|one| add(one, one.sources(), one.diagnostics())),
-        Stage::Proof => {
+        DiagnosticStage::Words => checked.mechanisms.iter().for_each(|one| add(one, one.sources(), one.diagnostics())),
+        DiagnosticStage::Proof => {
             let proven = snapshot.proven(path)?;
             for (checked, proven) in checked.mechanisms.iter().zip(proven.iter()) {
                 add(checked, &proven.sources, &proven.said);
             }
         }
-        Stage::Motion => {
+        DiagnosticStage::Motion => {
             let (proven, moved) = (snapshot.proven(path)?, snapshot.moved(path, begin)?);
             for ((checked, proven), moved) in checked.mechanisms.iter().zip(proven.iter()).zip(moved.iter()) {
                 add(checked, &proven.sources, &moved.said);

@@ -1,6 +1,6 @@
 //! Changes of texts, made on a copy of what is known, to see what comes of them.
 
-use super::diagnostics::{Said, Stage, diagnostics};
+use super::diagnostics::{DiagnosticStage, Said, diagnostics};
 use super::place::Change;
 use super::snapshot::Snapshot;
 use crate::cancel::Cancel;
@@ -43,7 +43,8 @@ pub(super) fn applied(snapshot: &Snapshot, changes: &[Change]) -> Option<Snapsho
 
 /// What is to be said of some files' words, in order.
 pub(super) fn faults(snapshot: &Snapshot, files: &[Arc<Path>]) -> Vec<Said> {
-    let of = |path: &Arc<Path>| diagnostics(snapshot, path, Stage::Words, &Cancel::default).unwrap_or_default();
+    let of =
+        |path: &Arc<Path>| diagnostics(snapshot, path, DiagnosticStage::Words, &Cancel::default).unwrap_or_default();
     files.iter().flat_map(of).collect()
 }
 

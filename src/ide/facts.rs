@@ -2,7 +2,7 @@
 //! already, or is quickly had.
 
 use super::numbers::{degrees, in_unit, short, si_unit, with_unit};
-use super::snapshot::{Moved, Proven, Snapshot};
+use super::snapshot::{Followed, Proven, Snapshot};
 use crate::check::{Amount, DeclaredName, NameKind};
 use crate::stages::{Assembly, Checked, Compiled};
 use crate::syntax::ast::{ExprKind, ItemKind};
@@ -202,7 +202,7 @@ fn bound_in_part(subject: &Subject<'_>) -> Option<String> {
 fn result(snapshot: &Snapshot, path: &Path, subject: &Subject<'_>) -> Option<String> {
     let (moved, is_of_before) = snapshot.moved_last(path);
     let moved = moved?;
-    let of = |moved: &Moved| moved.results.iter().position(|(name, ..)| name == subject.path);
+    let of = |moved: &Followed| moved.results.iter().position(|(name, ..)| name == subject.path);
     let (moved, number) = moved.iter().find_map(|moved| Some((moved, of(moved)?)))?;
     let (is_of_before, (_, value, unit)) = (is_of_before || moved.is_cut_short, &moved.results[number]);
     let value = value.map_or_else(|| "no value".to_owned(), |value| with_unit(value, unit));

@@ -1,7 +1,7 @@
 //! What stands above declarations: what can be done with a mechanism, and what its results came to.
 
 use super::numbers::with_unit;
-use super::snapshot::{Moved, Snapshot};
+use super::snapshot::{Followed, Snapshot};
 use crate::check::NameKind;
 use crate::stages::Checked;
 use std::ops::Range;
@@ -51,7 +51,7 @@ pub fn lenses(snapshot: &Snapshot, path: &Path) -> Option<Vec<Lens>> {
     Some(lenses)
 }
 
-fn of_results(checked: &Checked, moved: &Moved, is_of_before: bool) -> Vec<Lens> {
+fn of_results(checked: &Checked, moved: &Followed, is_of_before: bool) -> Vec<Lens> {
     let declared = checked.symbols().iter().filter(|(_, name)| name.kind == NameKind::Result);
     let lens = |name: &str, range: Range<u32>| {
         let copies =

@@ -5,7 +5,7 @@
 
 use super::place::{Place, Stretch};
 use super::snapshot::Snapshot;
-use crate::check::{KnownMechanism, Library, Meaning, NameKind};
+use crate::check::{KnownMechanism, Library, Meaning, NameKind, name_of};
 use crate::source::{FileId, Span};
 use crate::stages::Checked;
 use crate::syntax::ast::{
@@ -189,7 +189,7 @@ impl Walk<'_> {
         self.uses(&part.mechanism.name, inside.name.span);
         for binding in &part.bindings {
             let is_bound = |item: &&Item| matches!(item.kind, ItemKind::Param { .. } | ItemKind::Input { .. });
-            let declared = inside.items.iter().filter(is_bound).filter_map(declared_name);
+            let declared = inside.items.iter().filter(is_bound).filter_map(name_of);
             if let Some(name) = declared.into_iter().find(|name| name.text == binding.name.text) {
                 self.uses(&binding.name, name.span);
             }
@@ -237,34 +237,13 @@ pub(super) fn known(library: &Library, name: &MechanismName, checked: &Checked) 
 pub(super) fn item_named<'t>(tree: &'t Mechanism, name: &str) -> Option<&'t Item> {
     tree.items.iter().find(|item| match &item.kind {
         ItemKind::Ground { .. } => name == "ground",
-        _ => declared_name(item).is_some_and(|declared| declared.text == name),
+        _ => name_of(item).is_some_and(|declared| declared.text == name),
     })
 }
 
 fn name_span(item: &Item) -> Span {
     let ground = Span { end: item.span.start + "ground".len() as u32, ..item.span };
-    declared_name(item).map_or(ground, |name| name.span)
-}
-
-/// The name that a declaration has.
-pub(super) fn declared_name(item: &Item) -> Option<&Name> {
-    match &item.kind {
-        ItemKind::Param { name, .. }
-        | ItemKind::Function { name, .. }
-        | ItemKind::Table { name, .. }
-        | ItemKind::Input { name, .. }
-        | ItemKind::Body { name, .. }
-        | ItemKind::Joint { name, .. }
-        | ItemKind::Equation { name, .. }
-        | ItemKind::Load { name, .. }
-        | ItemKind::Measure { name, .. }
-        | ItemKind::Trace { name, .. }
-        | ItemKind::Result { name, .. } => Some(name),
-        ItemKind::Part(part) => Some(&part.name),
-        ItemKind::Ground { .. } | ItemKind::Gravity { .. } | ItemKind::Broken { .. } | ItemKind::Analysis { .. } => {
-            None
-        }
-    }
+    name_of(item).map_or(ground, |name| name.span)
 }
 
 /// What a declaration is.

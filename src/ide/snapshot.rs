@@ -32,9 +32,9 @@ struct Stages {
     proven: Kept<Vec<Proven>>,
     /// What is proven of those that are parts of others, each by itself.
     alone: Kept<Vec<Proven>>,
-    moved: Kept<Vec<Moved>>,
+    moved: Kept<Vec<Followed>>,
     /// What was known of the motion of a text before this one.
-    moved_before: Option<Arc<Vec<Moved>>>,
+    moved_before: Option<Arc<Vec<Followed>>>,
 }
 
 /// A file whose mechanisms were checked.
@@ -60,7 +60,7 @@ pub struct Proven {
 }
 
 /// What came of following a mechanism over the times of its analysis.
-pub struct Moved {
+pub struct Followed {
     /// Its name.
     pub mechanism: String,
     /// What is to be said of its motion.
@@ -213,14 +213,14 @@ impl Snapshot {
 
     /// The motion of each of a file's mechanisms over the times of its analysis. Each is begun with a flag that ends it, it alone.
     #[must_use]
-    pub fn moved(&self, path: &Path, begin: &dyn Fn() -> Cancel) -> Option<Arc<Vec<Moved>>> {
+    pub fn moved(&self, path: &Path, begin: &dyn Fn() -> Cancel) -> Option<Arc<Vec<Followed>>> {
         let stages = self.stages(path);
         let proven = self.proven_of(&stages, path)?;
         let before = |name: &str| stages.moved_before.as_ref()?.iter().find(|before| before.mechanism == name);
         stages.moved.get_or(|| {
             let followed = |proven: &Proven| {
                 self.unless_cancelled(())?;
-                Some(moved(proven, &begin()).unwrap_or_else(|| Moved::cut_short(proven, before)))
+                Some(moved(proven, &begin()).unwrap_or_else(|| Followed::cut_short(proven, before)))
             };
             let all = proven.iter().map(followed).collect::<Option<_>>()?;
             self.unless_cancelled(all)
@@ -235,7 +235,7 @@ impl Snapshot {
 
     /// What is known already of the motion, or what was known of that of a text before this one; and which of the two.
     #[must_use]
-    pub fn moved_last(&self, path: &Path) -> (Option<Arc<Vec<Moved>>>, bool) {
+    pub fn moved_last(&self, path: &Path) -> (Option<Arc<Vec<Followed>>>, bool) {
         let stages = self.stages(path);
         match stages.moved.get() {
             Some(moved) => (Some(moved), false),
@@ -344,22 +344,22 @@ fn proven_by_itself(checked: &Checked, cancel: &Cancel) -> Proven {
     proven
 }
 
-impl Moved {
-    fn nothing() -> Moved {
-        Moved { mechanism: String::new(), said: Diagnostics::default(), results: Vec::new(), is_cut_short: false }
+impl Followed {
+    fn nothing() -> Followed {
+        Followed { mechanism: String::new(), said: Diagnostics::default(), results: Vec::new(), is_cut_short: false }
     }
 
     /// Of a motion that was ended on its way only what was known of it before.
-    fn cut_short<'b>(proven: &Proven, before: impl Fn(&str) -> Option<&'b Moved>) -> Moved {
+    fn cut_short<'b>(proven: &Proven, before: impl Fn(&str) -> Option<&'b Followed>) -> Followed {
         let mechanism = proven.compiled.as_ref().map(|compiled| compiled.name().to_owned()).unwrap_or_default();
         let results = before(&mechanism).map(|before| before.results.clone()).unwrap_or_default();
-        Moved { mechanism, results, is_cut_short: true, ..Moved::nothing() }
+        Followed { mechanism, results, is_cut_short: true, ..Followed::nothing() }
     }
 }
 
 /// Follows a motion to its end; nothing where it is cancelled on the way.
-fn moved(proven: &Proven, cancel: &Cancel) -> Option<Moved> {
-    let mut moved = Moved::nothing();
+fn moved(proven: &Proven, cancel: &Cancel) -> Option<Followed> {
+    let mut moved = Followed::nothing();
     let compiled = proven.compiled.as_ref().filter(|_| !proven.said.has_errors());
     let Some((compiled, times)) = compiled.and_then(|compiled| Some((compiled, compiled.times()?))) else {
         return Some(moved);

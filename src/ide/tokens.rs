@@ -9,7 +9,7 @@ use std::path::Path;
 
 /// A name or word.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Token {
+pub struct SemanticToken {
     /// Where.
     pub range: Range<u32>,
     /// What it is.
@@ -51,9 +51,9 @@ pub enum TokenKind {
 
 /// The names and words of a stretch of a file, in order, none over another.
 #[must_use]
-pub fn tokens(snapshot: &Snapshot, path: &Path, range: &Range<u32>) -> Option<Vec<Token>> {
+pub fn tokens(snapshot: &Snapshot, path: &Path, range: &Range<u32>) -> Option<Vec<SemanticToken>> {
     let checked = snapshot.checked(path)?;
-    let mut tokens: Vec<Token> = checked.mechanisms.iter().flat_map(of_mechanism).collect();
+    let mut tokens: Vec<SemanticToken> = checked.mechanisms.iter().flat_map(of_mechanism).collect();
     tokens.retain(|token| range.start < token.range.end && token.range.start < range.end);
     // where a name declares and is a use of another one, the declaration counts
     tokens.sort_by_key(|token| (token.range.start, !token.declares));
@@ -66,7 +66,7 @@ pub fn tokens(snapshot: &Snapshot, path: &Path, range: &Range<u32>) -> Option<Ve
     Some(tokens)
 }
 
-fn of_mechanism(checked: &Checked) -> Vec<Token> {
+fn of_mechanism(checked: &Checked) -> Vec<SemanticToken> {
     let (symbols, own) = (checked.symbols(), checked.file());
     let token = |used: crate::check::Use| {
         let (kind, is_constant, is_of_language) = match used.meaning {
@@ -80,7 +80,7 @@ fn of_mechanism(checked: &Checked) -> Vec<Token> {
         // the ground is declared by its keyword
         let kind =
             if used.declares && checked.sources().text(used.span) == "ground" { TokenKind::Keyword } else { kind };
-        Some(Token { range, kind, declares: used.declares, is_constant, is_of_language })
+        Some(SemanticToken { range, kind, declares: used.declares, is_constant, is_of_language })
     };
     symbols.uses().filter(|used| used.span.file == own && used.span.start < used.span.end).filter_map(token).collect()
 }
@@ -113,13 +113,13 @@ fn of_word(word: &Word) -> (TokenKind, bool, bool) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Token, tokens};
+    use super::{SemanticToken, tokens};
     use crate::ide::testing::at_cursor;
 
     fn shown(text: &str) -> String {
         let (snapshot, place) = at_cursor(&format!("{text}$0"));
         let found = tokens(&snapshot, &place.path, &(0..u32::MAX)).expect("tokens");
-        let line = |token: &Token| {
+        let line = |token: &SemanticToken| {
             let word = &text[token.range.start as usize..token.range.end as usize];
             let marks = [
                 (token.declares, " declared"),

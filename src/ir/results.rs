@@ -69,6 +69,8 @@ impl ConstraintSystem {
     pub fn for_variations_of_results(&self) -> Option<ConstraintSystem> {
         let variations = self.results.variations.clone()?;
         let (measures, results) = (Vec::new(), Results::default());
-        Some(ConstraintSystem { variations: Some(variations), measures, results, ..self.clone() })
+        let system = ConstraintSystem { variations: Some(variations), measures, results, ..self.clone() };
+        debug_assert_eq!(system.validate(), Ok(()));
+        Some(system)
     }
 }

@@ -1,9 +1,15 @@
 //! What must hold of a constraint system, put to the test. What passes here, the rooms behind take without asking.
+//!
+//! Looked at: that all ids and symbols are of something; poses, rows and their units, `Φ_q`, right sides; variations, those of results
+//! too, with their right sides; multipliers, reductions; which symbols may stand in `Φ`, in what is fixed, in what is watched. Not looked
+//! at: units of measures and reactions, what formulas are worth, and that derivatives are those of their formulas.
 
+use super::scopes::as_leaf;
 use super::{
-    BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, Owner, Row, RowUnit, With,
+    BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, Owner, ReductionKind, Row,
+    RowUnit, Variations, With,
 };
-use crate::expr::{ExprId, Symbol};
+use crate::expr::{ExprId, Symbol, TIME_SIGNAL};
 
 impl ConstraintSystem {
     /// Looks at all that must hold, and says the first thing that does not, in the words of who works on the compiler. Takes about as long
@@ -14,6 +20,9 @@ impl ConstraintSystem {
         self.rows_are_counted()?;
         self.phi_q_is_sparse()?;
         self.right_sides_are_whole()?;
+        self.variations_are_whole(self.variations.as_deref())?;
+        self.variations_are_whole(self.results.variations.as_deref())?;
+        self.symbols_are_of_something()?;
         self.formulas_hold_what_they_may()?;
         self.rows_are_measured_in_their_units()
     }
@@ -24,6 +33,8 @@ impl ConstraintSystem {
             .chain(self.checks.iter().map(|check| ("check", check.declaration)))
             .chain(self.watches.iter().map(|watch| ("watch", watch.declaration)))
             .chain(self.fits.iter().map(|fit| ("fit", fit.declaration)))
+            .chain(self.presses().iter().map(|press| ("press", press.declaration)))
+            .chain(self.open_contacts.iter().map(|contact| ("contact", contact.declaration)))
             .chain(self.rims.iter().flat_map(|rim| &rim.declarations).map(|id| ("rim", *id)))
             .chain(self.asking_parts.iter().flat_map(|part| &part.declarations).map(|id| ("part", *id)));
         for (what, declaration) in declarations {
@@ -134,6 +145,79 @@ impl ConstraintSystem {
         holds(self.rows.is_empty() || is_determined_by_time, || "no `ν` or no `γ`".to_owned())
     }
 
+    /// Variations are by what there is, and have a right side for each row, or for each of the part that they are of.
+    fn variations_are_whole(&self, variations: Option<&Variations>) -> Result<(), String> {
+        let Some(variations) = variations else { return Ok(()) };
+        let is_scope = |scope: Option<u32>| scope.is_none_or(|scope| (scope as usize) < variations.scopes.len());
+        let is_variable = |variable: u32| (variable as usize) < variations.variables.len();
+        for variable in &variations.variables {
+            holds(is_scope(variable.scope), || format!("`{}` of no part", variable.name))?;
+        }
+        for (k, variation) in variations.listed().iter().enumerate() {
+            let (first, second) = variation.by;
+            let is_of_something = is_variable(first) && second.is_none_or(is_variable) && is_scope(variation.scope);
+            holds(is_of_something, || format!("variation {k} by nothing"))?;
+            let of_scope = variation.scope.map(|scope| &variations.scopes[scope as usize]);
+            let rows = of_scope.map_or(self.rows.len(), |scope| scope.phi.len());
+            let is_whole = variation.rights.iter().all(|right| right.len() == rows);
+            holds(is_whole, || format!("variation {k} with other right sides than rows"))?;
+            let is_whole = variation.forces.is_empty() || variation.forces.len() == self.coordinates.len();
+            holds(is_whole, || format!("variation {k} with other forces than coordinates"))?;
+        }
+        let columns = &mut variations.appended.iter();
+        holds(columns.all(|column| is_variable(column.variable)), || "a column by nothing".to_owned())
+    }
+
+    /// All symbols in formulas that are looked at beside the equations are of something.
+    fn symbols_are_of_something(&self) -> Result<(), String> {
+        let of_forces = self.forces.iter().flat_map(|forces| {
+            let columns = forces.reactions.iter().map(|of| of.value).chain(forces.loads.iter().map(|of| of.force));
+            columns.chain(forces.presses.iter().map(|of| of.force)).chain(forces.needed.iter().copied())
+        });
+        let of_rows = self.conditions.iter().map(|of| of.positive);
+        let of_rows = of_rows.chain(self.watches.iter().map(|of| of.value)).chain(of_forces);
+        let of_rows = of_rows.chain(self.rims.iter().flat_map(|rim| [rim.gauge, rim.slope]));
+        let of_rows: Vec<ExprId> = of_rows.chain(self.measures.iter().map(|measure| measure.value)).collect();
+        let variations = self.variations.as_deref();
+        for symbol in self.graph.symbols_of_all(&of_rows) {
+            holds(self.is_of_something(symbol, variations), || format!("{symbol:?} is of nothing"))?;
+        }
+        let of_results = self.results.reductions.iter().flat_map(|reduction| {
+            let time = if let ReductionKind::At(time) = reduction.kind { Some(time) } else { None };
+            time.into_iter().chain([reduction.of])
+        });
+        let of_results: Vec<ExprId> = of_results.chain(self.results.outcomes.iter().map(|of| of.value)).collect();
+        let variations = self.results.variations.as_deref();
+        for symbol in self.graph.symbols_of_all(&of_results) {
+            let is_reduction = matches!(symbol, Symbol::Named(k) if (k as usize) < self.results.reductions.len());
+            holds(is_reduction || self.is_of_something(symbol, variations), || {
+                format!("{symbol:?} in results is of nothing")
+            })?;
+        }
+        let needed = self.forces.as_ref().is_none_or(|forces| forces.needed.len() == self.coordinates.len());
+        holds(needed, || "other forces than coordinates".to_owned())
+    }
+
+    fn is_of_something(&self, symbol: Symbol, variations: Option<&Variations>) -> bool {
+        let is_variation = |k: u32| variations.is_some_and(|all| (k as usize) < all.listed().len());
+        match symbol {
+            Symbol::Param(k) => (k as usize) < self.params.len(),
+            Symbol::Shift(_) | Symbol::Time | Symbol::Signal { index: TIME_SIGNAL, .. } => true,
+            Symbol::Signal { index, .. } => {
+                as_leaf(symbol).is_some() || self.inputs.iter().any(|input| input.index == index)
+            }
+            Symbol::Coordinate { index, order } => (index as usize) < self.coordinates.len() && order <= 3,
+            Symbol::Varied { index, order, variation } => {
+                (index as usize) < self.coordinates.len() && order <= 2 && is_variation(variation)
+            }
+            Symbol::Multiplier(row) => self.forces.is_some() && (row as usize) < self.rows.len(),
+            Symbol::VariedMultiplier { row, variation } => {
+                self.forces.is_some() && (row as usize) < self.rows.len() && is_variation(variation)
+            }
+            Symbol::Named(_) => false,
+        }
+    }
+
     fn formulas_hold_what_they_may(&self) -> Result<(), String> {
         let fixed = self.coordinates.iter().map(|coordinate| coordinate.estimate);
         let fixed = fixed.chain(self.points.iter().flat_map(|point| point.at));
@@ -186,9 +270,9 @@ fn holds(it: bool, fault: impl Fn() -> String) -> Result<(), String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{ConstraintSystem, DeclarationId, Owner, With};
+    use super::{ConstraintSystem, DeclarationId, Owner, Variations, With};
     use crate::expr::Symbol;
-    use crate::ir::RowUnit;
+    use crate::ir::{Outcome, Rim, RowUnit, Variable, Watch, WatchKind};
     use crate::{Cancel, Choice, Memory, Parsed, Redundant};
 
     fn system() -> ConstraintSystem {
@@ -240,6 +324,47 @@ mod tests {
         assert!(said.ends_with("entries with Time(1)"), "{said}");
         assert_eq!(broken(|s| s.right_sides[1].with = With::Param(99)), "a right side with Param(99)");
         assert_eq!(broken(|s| s.right_sides.truncate(1)), "no `ν` or no `γ`");
+    }
+
+    #[test]
+    fn what_is_looked_at_beside_the_equations_is_of_something() {
+        let named = |s: &mut ConstraintSystem| s.graph.symbol(Symbol::Named(7));
+        let coordinate = |s: &mut ConstraintSystem| s.graph.symbol(Symbol::Coordinate { index: 999, order: 1 });
+        let said = broken(|s| {
+            let value = named(s);
+            s.measures[0].value = value;
+        });
+        assert_eq!(said, "Named(7) is of nothing");
+        let said = broken(|s| {
+            let (gauge, slope) = (coordinate(s), coordinate(s));
+            s.rims.push(Rim { gauge, slope, declarations: Vec::new() });
+        });
+        assert!(said.starts_with("Coordinate { index: 999"), "{said}");
+        let said = broken(|s| {
+            let value = named(s);
+            let units = s.measures[0].units.clone();
+            let outcome = Outcome { name: String::new(), span: s.span, value, units };
+            s.results.outcomes.push(outcome);
+        });
+        assert_eq!(said, "Named(7) in results is of nothing");
+        let said = broken(|s| {
+            let force = s.graph.symbol(Symbol::Multiplier(0));
+            s.watches.push(Watch { value: force, kind: WatchKind::Tangents, scale: 1.0, declaration: 0.into() });
+        });
+        assert_eq!(said, "Multiplier(0) is of nothing", "nobody asks for forces");
+    }
+
+    #[test]
+    fn variations_are_by_something() {
+        let variable = |scope| Variable {
+            name: "turn".to_owned(),
+            symbol: Symbol::Param(0),
+            unit: "rad".to_owned(),
+            span: system().span,
+            scope,
+        };
+        let with = |scope| broken(|s| s.variations = Some(Box::new(Variations::of(vec![variable(scope)]))));
+        assert_eq!(with(Some(3)), "`turn` of no part");
     }
 
     #[test]

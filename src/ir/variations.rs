@@ -110,6 +110,11 @@ impl Variations {
         }) as u32
     }
 
+    /// Those that have their right sides, by their numbers.
+    pub(super) fn listed(&self) -> &[Variation] {
+        &self.list[..self.written]
+    }
+
     fn scope_of(&self, variable: u32) -> Option<u32> {
         self.variables[variable as usize].scope
     }

@@ -1,6 +1,7 @@
 //! Where a row holds what.
 
 use crate::ir::{BodyId, ConstraintSystem, With};
+use std::ops::Range;
 
 /// Columns that stand together in a row.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -154,6 +155,10 @@ pub struct RowLayout {
     pub printed: usize,
     /// All columns.
     pub stride: usize,
+    /// How many coordinates there are.
+    n: u32,
+    /// How many columns of reactions.
+    reacting: u32,
 }
 
 impl RowLayout {
@@ -171,6 +176,8 @@ impl RowLayout {
             slopes: 0,
             printed: PRINTED.iter().map(|stretch| stretch.length(system)).sum(),
             stride: 0,
+            n: system.coordinates().len() as u32,
+            reacting: system.reactions().len() as u32,
         };
         for stretch in PRINTED.into_iter().chain(UNPRINTED) {
             let first = layout.stride as u32;
@@ -192,7 +199,45 @@ impl RowLayout {
     /// The coordinates in a row (m, rad).
     #[must_use]
     pub fn position<'r>(&self, row: &'r [f64]) -> &'r [f64] {
-        &row[self.coordinates[0] as usize..self.reactions as usize]
+        let first = self.coordinates[0] as usize;
+        &row[first..first + self.n as usize]
+    }
+
+    /// The columns of what joints exert and drivers supply.
+    #[must_use]
+    pub fn reactions(&self) -> Range<usize> {
+        self.reactions as usize..(self.reactions + self.reacting) as usize
+    }
+
+    /// The column of a coordinate, differentiated so many times by time.
+    #[must_use]
+    pub fn coordinate(&self, index: u32, order: usize) -> u32 {
+        self.coordinates[order] + index
+    }
+
+    /// The column of how a coordinate, differentiated so many times by time, changes in a variation.
+    #[must_use]
+    pub fn varied(&self, variation: u32, order: u32, index: u32) -> u32 {
+        self.varied + (3 * variation + order) * self.n + index
+    }
+
+    /// The column of the multiplier of a row of `Φ`.
+    #[must_use]
+    pub fn multiplier(&self, row: u32) -> u32 {
+        self.multipliers + row
+    }
+
+    /// The column of how that changes in a variation.
+    #[must_use]
+    pub fn varied_multiplier(&self, variation: u32, row: u32) -> u32 {
+        self.multiplier((1 + variation) * self.n + row)
+    }
+
+    /// How many times a column of the table is differentiated by time, as far as it stands with coordinates that are.
+    #[must_use]
+    pub fn order_of(&self, column: usize) -> usize {
+        let [_, first, second, _] = self.coordinates.map(|first| first as usize);
+        usize::from(column >= first) + usize::from(column >= second)
     }
 
     /// The columns of x, y and phi of a body; of their first, and of their second time derivatives.

@@ -5,11 +5,8 @@ use super::frames::Vector;
 use crate::expr::{ExprId, Symbol, Unary};
 use crate::ir::Press;
 use crate::model::{JointId, JointKind, Named, Profile};
-use crate::tolerances::contacts::CLOSED;
+use crate::tolerances::contacts::{CLOSED, PLACES};
 use std::f64::consts::PI;
-
-/// Places on a profile that tell which way round it goes.
-const PLACES: u32 = 90;
 
 impl Lowering<'_> {
     /// What each contact presses with.

@@ -6,7 +6,7 @@
 use super::uses::Uses;
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Body, Curve, Frame, JointKind, Mechanism, Named};
-use crate::tolerances::scales::size::{IN_PROPORTION, MANY_POINTS, PLACES_ON_CURVE};
+use crate::tolerances::scales::size::{IN_PROPORTION, MANY_POINTS, PLACES_ON_CURVE, SMALLEST};
 
 use rustc_hash::FxHashMap;
 
@@ -160,7 +160,7 @@ fn other_size(model: &Mechanism, value: impl Fn(ExprId) -> f64) -> f64 {
 }
 
 fn is_size(length: f64) -> bool {
-    length.is_finite() && length > 1e-12
+    length.is_finite() && length > SMALLEST
 }
 
 fn extent(points: &[[f64; 2]]) -> f64 {

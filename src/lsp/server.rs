@@ -10,7 +10,7 @@ use super::pool::{Kind, Pool, caught};
 use super::stages::{Found, Shown};
 use super::views::{Event, Meant, Views};
 use crate::cancel::Cancel;
-use crate::ide::{self, Snapshot, Stage};
+use crate::ide::{self, DiagnosticStage, Snapshot};
 use crate::world::World;
 use crossbeam_channel::{Receiver, Sender, select, unbounded};
 use lsp_server::{Connection, ErrorCode, Message, Notification, Request, RequestId, Response, ResponseError};
@@ -101,7 +101,7 @@ enum Task {
     Found {
         path: Arc<Path>,
         revision: u64,
-        stage: Stage,
+        stage: DiagnosticStage,
         found: Result<Option<Found>, String>,
         took: Duration,
     },
@@ -505,13 +505,13 @@ impl Server {
     /// Begins the next stage of a text.
     fn look(&mut self, path: &Arc<Path>) {
         match self.shown.get(path).and_then(Shown::next) {
-            Some(Stage::Motion) => self.due.push((Arc::clone(path), Instant::now() + MOTION_DELAY)),
+            Some(DiagnosticStage::Motion) => self.due.push((Arc::clone(path), Instant::now() + MOTION_DELAY)),
             Some(stage) => self.begin_stage(path, stage),
             None => {}
         }
     }
 
-    fn begin_stage(&mut self, path: &Arc<Path>, stage: Stage) {
+    fn begin_stage(&mut self, path: &Arc<Path>, stage: DiagnosticStage) {
         let (path, revision, snapshot) = (Arc::clone(path), self.revision, self.snapshot.clone());
         let done = self.done.clone();
         let work = move || {
@@ -525,9 +525,9 @@ impl Server {
             let _ = done.send(Task::Found { path, revision, stage, found, took: begin.elapsed() });
         };
         let kind = match stage {
-            Stage::Words => Kind::Words,
-            Stage::Proof => Kind::Proof,
-            Stage::Motion => Kind::Motion,
+            DiagnosticStage::Words => Kind::Words,
+            DiagnosticStage::Proof => Kind::Proof,
+            DiagnosticStage::Motion => Kind::Motion,
         };
         self.pool.begin(kind, work);
     }
@@ -543,7 +543,7 @@ impl Server {
         let now = Instant::now();
         let due: Vec<_> = self.due.extract_if(.., |(_, from)| *from <= now).collect();
         for (path, _) in due {
-            self.begin_stage(&path, Stage::Motion);
+            self.begin_stage(&path, DiagnosticStage::Motion);
         }
     }
 
@@ -602,7 +602,7 @@ impl Server {
     }
 
     /// Takes in what a stage found of a text, shows it, and begins the next one.
-    fn take(&mut self, path: &Arc<Path>, stage: Stage, found: Result<Option<Found>, String>) {
+    fn take(&mut self, path: &Arc<Path>, stage: DiagnosticStage, found: Result<Option<Found>, String>) {
         let found = found.unwrap_or_else(|why| {
             self.log.did(|| format!("{stage:?} of {} panicked: {why}", path.display()));
             None
@@ -612,18 +612,18 @@ impl Server {
         let Some(shown) = self.shown.get_mut(path) else { return };
         let is_new = shown.take(stage, found);
         self.refresh(path, stage);
-        if stage == Stage::Words {
+        if stage == DiagnosticStage::Words {
             self.answer_pulls(Some(path));
         }
         // for the words of the text that was edited it asks by itself
-        let is_asked_for = stage == Stage::Words && self.edited.as_ref() == Some(path);
+        let is_asked_for = stage == DiagnosticStage::Words && self.edited.as_ref() == Some(path);
         match self.client.pulls_diagnostics {
             true if is_new && !is_asked_for => self.ask("workspace/diagnostic/refresh"),
             false if is_new => self.push(path),
             _ => {}
         }
         self.look(path);
-        if stage == Stage::Words {
+        if stage == DiagnosticStage::Words {
             self.learn_names(path);
         }
     }
@@ -638,15 +638,15 @@ impl Server {
     }
 
     /// Has the client ask again for what a stage has changed, and it would not by itself.
-    fn refresh(&mut self, path: &Arc<Path>, stage: Stage) {
+    fn refresh(&mut self, path: &Arc<Path>, stage: DiagnosticStage) {
         let Refreshes { hints, lenses, tokens } = self.client.refreshes;
         // of the text that was edited it asks for hints and tokens by itself
-        let is_of_another = stage == Stage::Words && self.edited.as_ref() != Some(path);
+        let is_of_another = stage == DiagnosticStage::Words && self.edited.as_ref() != Some(path);
         let wanted = [
             (hints && is_of_another, "workspace/inlayHint/refresh"),
             (tokens && is_of_another, "workspace/semanticTokens/refresh"),
             // results are known with the motion
-            (lenses && stage == Stage::Motion, "workspace/codeLens/refresh"),
+            (lenses && stage == DiagnosticStage::Motion, "workspace/codeLens/refresh"),
         ];
         for (_, method) in wanted.into_iter().filter(|(is_wanted, _)| *is_wanted) {
             self.ask(method);
@@ -664,7 +664,7 @@ impl Server {
         let pull = Pull { id, path, known };
         match self.shown.get(&pull.path).map(Shown::next) {
             // until its words are known
-            Some(Some(Stage::Words)) => self.pulls.push(pull),
+            Some(Some(DiagnosticStage::Words)) => self.pulls.push(pull),
             _ => self.answer_pull(pull),
         }
     }
@@ -725,12 +725,12 @@ impl Server {
 }
 
 /// What a stage finds of a text; nothing where it was cancelled.
-fn found(snapshot: &Snapshot, path: &Path, stage: Stage, motion: &dyn Fn() -> Cancel) -> Option<Found> {
+fn found(snapshot: &Snapshot, path: &Path, stage: DiagnosticStage, motion: &dyn Fn() -> Cancel) -> Option<Found> {
     let said = ide::diagnostics(snapshot, path, stage, motion)?;
     let goes_on = match stage {
-        Stage::Words => snapshot.may_be_proven(path)?,
-        Stage::Proof => snapshot.proven(path)?.iter().any(|proven| proven.assembly.is_some()),
-        Stage::Motion => false,
+        DiagnosticStage::Words => snapshot.may_be_proven(path)?,
+        DiagnosticStage::Proof => snapshot.proven(path)?.iter().any(|proven| proven.assembly.is_some()),
+        DiagnosticStage::Motion => false,
     };
     Some(Found { said, goes_on })
 }

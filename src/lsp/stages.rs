@@ -4,7 +4,7 @@
 //! the edits. While an earlier stage finds that there is nothing to prove or to follow it is not shown, and comes back where that passes.
 
 use super::documents::Moved;
-use crate::ide::{Change, Said, Stage, Stretch};
+use crate::ide::{Change, DiagnosticStage, Said, Stretch};
 use std::ops::Range;
 use std::path::Path;
 
@@ -17,7 +17,7 @@ pub(super) struct Shown {
     /// There is something to prove, and something to follow, as far as was last known.
     goes_on: [bool; 2],
     /// The last stage that has spoken of the text as it is.
-    reached: Option<Stage>,
+    reached: Option<DiagnosticStage>,
     /// Another one whenever what is said has changed, or stands elsewhere.
     version: u64,
     /// Tells the text's opening from earlier ones.
@@ -77,15 +77,15 @@ impl Shown {
     }
 
     /// Takes in what a stage found; whether there is anything new to tell.
-    pub fn take(&mut self, stage: Stage, found: Found) -> bool {
+    pub fn take(&mut self, stage: DiagnosticStage, found: Found) -> bool {
         let before = self.all();
         let Found { said, goes_on } = found;
         match stage {
-            Stage::Words => (self.words, self.goes_on[0]) = (said, goes_on),
-            Stage::Proof => (self.proof, self.goes_on[1]) = (said, goes_on),
-            Stage::Motion => self.motion = said,
+            DiagnosticStage::Words => (self.words, self.goes_on[0]) = (said, goes_on),
+            DiagnosticStage::Proof => (self.proof, self.goes_on[1]) = (said, goes_on),
+            DiagnosticStage::Motion => self.motion = said,
         }
-        self.reached = Some(if goes_on { stage } else { Stage::Motion });
+        self.reached = Some(if goes_on { stage } else { DiagnosticStage::Motion });
         let has_moved = std::mem::take(&mut self.has_moved) && !before.is_empty();
         let is_new = has_moved || before != self.all();
         self.version += u64::from(is_new);
@@ -93,12 +93,12 @@ impl Shown {
     }
 
     /// The stage that is to be looked at next, if any.
-    pub fn next(&self) -> Option<Stage> {
+    pub fn next(&self) -> Option<DiagnosticStage> {
         match self.reached {
-            None => Some(Stage::Words),
-            Some(Stage::Words) => Some(Stage::Proof),
-            Some(Stage::Proof) => Some(Stage::Motion),
-            Some(Stage::Motion) => None,
+            None => Some(DiagnosticStage::Words),
+            Some(DiagnosticStage::Words) => Some(DiagnosticStage::Proof),
+            Some(DiagnosticStage::Proof) => Some(DiagnosticStage::Motion),
+            Some(DiagnosticStage::Motion) => None,
         }
     }
 
@@ -123,7 +123,7 @@ fn move_along(place: &mut Stretch, moved: &Moved) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Found, Moved, Said, Shown, Stage};
+    use super::{DiagnosticStage, Found, Moved, Said, Shown};
     use crate::ide::{Change, ProposedFix, Related, Severity, Stretch};
     use std::path::Path;
 
@@ -150,30 +150,30 @@ mod tests {
     #[test]
     fn what_a_later_stage_said_stays_until_it_speaks_again() {
         let mut shown = Shown::default();
-        assert_eq!(shown.next(), Some(Stage::Words));
-        assert!(!shown.take(Stage::Words, found(&[], true)), "nothing is nothing new");
-        assert!(shown.take(Stage::Proof, found(&[("free", 10)], false)));
+        assert_eq!(shown.next(), Some(DiagnosticStage::Words));
+        assert!(!shown.take(DiagnosticStage::Words, found(&[], true)), "nothing is nothing new");
+        assert!(shown.take(DiagnosticStage::Proof, found(&[("free", 10)], false)));
         assert_eq!(shown.next(), None);
         shown.edit(Path::new("a.mech"), &Moved { range: 2..2, length: 5 });
-        assert!(shown.take(Stage::Words, found(&[], true)), "it stands elsewhere");
+        assert!(shown.take(DiagnosticStage::Words, found(&[], true)), "it stands elsewhere");
         assert_eq!(all(&shown), [("free".to_owned(), 15)]);
-        assert!(shown.take(Stage::Proof, found(&[], true)));
-        assert_eq!((all(&shown), shown.next()), (vec![], Some(Stage::Motion)));
+        assert!(shown.take(DiagnosticStage::Proof, found(&[], true)));
+        assert_eq!((all(&shown), shown.next()), (vec![], Some(DiagnosticStage::Motion)));
     }
 
     #[test]
     fn what_cannot_be_proven_for_a_while_says_nothing_of_the_proof_and_then_the_same() {
         let mut shown = Shown::default();
-        shown.take(Stage::Words, found(&[], true));
-        shown.take(Stage::Proof, found(&[("warning", 10)], true));
-        shown.take(Stage::Motion, found(&[("lock-up", 20)], false));
+        shown.take(DiagnosticStage::Words, found(&[], true));
+        shown.take(DiagnosticStage::Proof, found(&[("warning", 10)], true));
+        shown.take(DiagnosticStage::Motion, found(&[("lock-up", 20)], false));
         shown.edit(Path::new("a.mech"), &Moved { range: 2..2, length: 5 });
-        assert!(shown.take(Stage::Words, found(&[("unknown", 1)], false)));
+        assert!(shown.take(DiagnosticStage::Words, found(&[("unknown", 1)], false)));
         assert_eq!((all(&shown), shown.next()), (vec![("unknown".to_owned(), 1)], None));
         shown.edit(Path::new("a.mech"), &Moved { range: 2..2, length: 1 });
-        assert!(shown.take(Stage::Words, found(&[], true)));
+        assert!(shown.take(DiagnosticStage::Words, found(&[], true)));
         assert_eq!(all(&shown), [("warning".to_owned(), 16), ("lock-up".to_owned(), 26)], "never an empty list");
-        assert!(shown.take(Stage::Proof, found(&[("free", 3)], false)));
+        assert!(shown.take(DiagnosticStage::Proof, found(&[("free", 3)], false)));
         assert_eq!(all(&shown), [("free".to_owned(), 3)]);
     }
 
@@ -190,8 +190,8 @@ mod tests {
         told.related = vec![related("a.mech"), related("b.mech")];
         told.fixes = vec![fix("a.mech", 2), fix("a.mech", 30), fix("b.mech", 2)];
         let mut shown = Shown::default();
-        shown.take(Stage::Words, found(&[], true));
-        shown.take(Stage::Proof, Found { said: vec![told], goes_on: false });
+        shown.take(DiagnosticStage::Words, found(&[], true));
+        shown.take(DiagnosticStage::Proof, Found { said: vec![told], goes_on: false });
         shown.edit(Path::new("a.mech"), &Moved { range: 4..5, length: 2 });
         let told = shown.all().remove(0);
         assert_eq!(told.related.iter().map(|related| related.place.start).collect::<Vec<_>>(), [21, 20]);
@@ -200,6 +200,6 @@ mod tests {
         shown.edit_elsewhere(Path::new("b.mech"), &Moved { range: 0..0, length: 7 });
         let told = shown.all().remove(0);
         assert_eq!((told.range.start, told.related[1].place.start, told.fixes[1].changes[0].place.start), (31, 27, 9));
-        assert!(shown.take(Stage::Words, found(&[], true)), "that is told, though it says the same");
+        assert!(shown.take(DiagnosticStage::Words, found(&[], true)), "that is told, though it says the same");
     }
 }

@@ -1,4 +1,6 @@
-// Curves between the ends of a step, by their coefficients in the part of the step. May be included in emitted code to the letter.
+//! Curves between the ends of a step, by their coefficients in the part of the step.
+
+use super::hermite::higher_terms;
 
 /// The quintic with value, slope and curvature of both ends of a step of length `h`, by its coefficients in the part of the step. An
 /// end is value, first and second derivative.
@@ -6,10 +8,8 @@
 pub fn quintic([q, qd, qdd]: [f64; 3], [q_end, qd_end, qdd_end]: [f64; 3], h: f64) -> [f64; 6] {
     let (way, slope, bend) = (q_end - q, h * qd, 0.5 * h * h * qdd);
     // what is left of value, slope and half the curvature at the end
-    let (value, first, second) = (way - slope - bend, h * qd_end - slope - 2.0 * bend, 0.5 * h * h * qdd_end - bend);
-    let cubic = 10.0 * value - 4.0 * first + second;
-    let quartic = -15.0 * value + 7.0 * first - 2.0 * second;
-    let quintic = 6.0 * value - 3.0 * first + second;
+    let left = [way - slope - bend, h * qd_end - slope - 2.0 * bend, 0.5 * h * h * qdd_end - bend];
+    let [cubic, quartic, quintic] = higher_terms(left);
     [q, slope, bend, cubic, quartic, quintic]
 }
 

@@ -1,25 +1,9 @@
-// Where something happens in an interval: bisection, golden section, halving. May be included in emitted code to the letter.
+//! Where something happens in an interval: golden section, halving.
+
+use super::neighbours::bisect;
 
 /// The golden ratio's fraction: it sections intervals for their minimum, and its multiples never come close to a period.
 pub const GOLDEN: f64 = 0.618_033_988_749_894_9;
-
-/// Where something ceases to hold that holds at the first of two places and not at the second: two neighbouring doubles, or what
-/// so many halvings leave of the interval.
-#[must_use]
-pub fn bisect([mut low, mut high]: [f64; 2], most: usize, mut holds: impl FnMut(f64) -> bool) -> [f64; 2] {
-    for _ in 0..most {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            break;
-        }
-        if holds(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    [low, high]
-}
 
 /// Where something begins that is not at the first of two places and is at the second, to the last bit.
 #[must_use]

@@ -1,6 +1,7 @@
-//! Bisection, golden section and halving: tests, which stand apart since the file itself may be emitted.
+//! Bisection, golden section and halving: tests. Those of what is emitted stand apart from it.
 
-use super::search::{GoldenSection, Halving, bisect, boundary};
+use super::neighbours::{bisect, shortly_after};
+use super::search::{GoldenSection, Halving, boundary};
 use std::convert::Infallible;
 
 #[test]
@@ -10,6 +11,24 @@ fn neighbours_are_found() {
     assert!(low * low < 2.0 && high * high >= 2.0);
     assert!((boundary(0.0, 2.0, |x| x * x >= 2.0) - high).abs() <= high - low);
     assert_eq!(bisect([0.0, 1.0], 2, |_| true).to_vec(), [0.75, 1.0]);
+    let [near, far] = bisect([2.0, 0.0], usize::MAX, |x| x * x > 2.0);
+    assert_eq!([near, far].to_vec(), [high, low], "from the other side");
+    assert_eq!(bisect([0.0, f64::MAX], 3, |_| false).to_vec(), [0.0, f64::MAX / 8.0]);
+    assert_eq!(
+        bisect([f64::MAX, 0.9 * f64::MAX], 3, |_| true)[0].to_bits(),
+        f64::MAX.to_bits(),
+        "a middle beyond all numbers"
+    );
+}
+
+#[test]
+fn shortly_after_is_later() {
+    for t in [-3.0, 0.0, 1e-300, 2.0, 1e9] {
+        assert!(
+            shortly_after(t, 4.0) > t && shortly_after(t, 4.0) - t <= 1e-15 * f64::abs(t) + f64::MIN_POSITIVE,
+            "{t}"
+        );
+    }
 }
 
 #[test]

@@ -5,13 +5,16 @@
 // Functions, 1980); above by as many bits of 2/pi as the angle asks for (M. Payne and R. Hanek, Radian Reduction for
 // Trigonometric Functions, 1983). The coefficients of the two polynomials are those of Sun's fdlibm.
 
+/// Below it an angle (rad) is small: it is reduced in pieces whose products are exact.
+pub const A_MILLION: f64 = 1e6;
+
 /// Sine and cosine of an angle in radians; not a number for an angle that is not finite.
 #[must_use]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     if !angle.is_finite() {
         return (f64::NAN, f64::NAN);
     }
-    let (quarter, r, tail) = if angle.abs() < 1e6 { reduce_small(angle) } else { reduce_large(angle) };
+    let (quarter, r, tail) = if angle.abs() < A_MILLION { reduce_small(angle) } else { reduce_large(angle) };
     let (sin, cos) = (sin_near_zero(r, tail), cos_near_zero(r, tail));
     match quarter & 3 {
         0 => (sin, cos),

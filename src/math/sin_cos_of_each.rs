@@ -1,6 +1,6 @@
 //! Sine and cosine of several angles at once.
 
-use super::sin_cos::sin_cos;
+use super::sin_cos::{A_MILLION, sin_cos};
 use super::without_branches::sin_cos_below_a_million;
 
 /// Sine and cosine of several angles (rad): the same bits as of each alone.
@@ -10,7 +10,7 @@ use super::without_branches::sin_cos_below_a_million;
 pub fn sin_cos_of_each<const W: usize>(angles: &[f64; W]) -> ([f64; W], [f64; W]) {
     let (mut sines, mut cosines) = ([0.0; W], [0.0; W]);
     // all of them are compared at once
-    if angles.iter().fold(true, |all, angle| all & (angle.abs() < 1e6)) {
+    if angles.iter().fold(true, |all, angle| all & (angle.abs() < A_MILLION)) {
         for k in 0..W {
             (sines[k], cosines[k]) = sin_cos_below_a_million(angles[k]);
         }

@@ -192,6 +192,89 @@ impl Text<'_> {
         }
         Ok(())
     }
+
+    /// The ground, bodies and parts, with what is on them.
+    fn write_frames(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        writeln!(f, "\nground")?;
+        self.write_features(f, Frame::Ground)?;
+        for (id, body) in self.model.body_ids().zip(&self.model.bodies) {
+            let [x, y, phi] = body.pose.map(|part| self.formula_text(part));
+            writeln!(f, "\nbody {} at ({x}, {y}, {phi})", body.declared.name)?;
+            self.write_features(f, Frame::Body(id))?;
+            self.write_masses(f, id)?;
+        }
+        for (part, frame) in self.model.parts.iter().zip(self.model.part_frames()) {
+            let [x, y, phi] = part.pose.map(|id| self.formula_text(id));
+            let mount = self.model.frame_name(part.mount);
+            let mirrored = if part.is_turned_over { " mirrored" } else { "" };
+            writeln!(f, "\n{} on {mount} at ({x}, {y}, {phi}){mirrored}", part.ground_name)?;
+            self.write_features(f, frame)?;
+        }
+        Ok(())
+    }
+
+    /// What determines the motion.
+    fn write_equations(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        writeln!(f, "\njoints")?;
+        for joint in &self.model.joints {
+            writeln!(f, "  {}: {}", joint.declared.name, self.joint_text(joint.kind))?;
+        }
+        writeln!(f, "\nconstraints and drivers")?;
+        for equation in &self.model.equations {
+            let kind = if equation.driver { "driver" } else { "constraint" };
+            let side = |id: ExprId| self.formula_text(id);
+            let (left, right) = match equation.form {
+                EquationForm::Equality(left, right) => (side(left), side(right)),
+                EquationForm::Distance(p, q, distance) => {
+                    (self.quantity_text(Quantity::Distance(p, q), &side), side(distance))
+                }
+            };
+            writeln!(f, "  {kind} {}: {left} = {right}", equation.declared.name)?;
+        }
+        Ok(())
+    }
+
+    /// Gravity and loads.
+    fn write_loads(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        if let Some(gravity) = self.model.gravity {
+            let [x, y] = gravity.map(|id| self.formula_text(id));
+            writeln!(f, "\ngravity ({x}, {y})")?;
+        }
+        if !self.model.loads.is_empty() {
+            writeln!(f, "\nloads")?;
+        }
+        for load in &self.model.loads {
+            let side = |id: ExprId| self.formula_text(id);
+            let (force, on) = (side(load.force), self.quantity_text(load.on, &side));
+            writeln!(f, "  {}: {force} on {on}", load.declared.name)?;
+        }
+        Ok(())
+    }
+
+    /// What is printed, and when.
+    fn write_outputs(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        if !self.model.measures.is_empty() {
+            writeln!(f, "\nmeasures")?;
+        }
+        for measure in &self.model.measures {
+            let [unit, ..] = &measure.units.printed;
+            let unit = if *unit == measure.units.si { String::new() } else { format!(" in {unit}") };
+            writeln!(f, "  {} = {}{unit}", measure.declared.name, self.formula_text(measure.value))?;
+        }
+        if !self.model.outcomes.is_empty() {
+            writeln!(f, "\nresults")?;
+        }
+        for outcome in &self.model.outcomes {
+            let [unit, ..] = &outcome.units.printed;
+            let unit = if *unit == outcome.units.si { String::new() } else { format!(" in {unit}") };
+            writeln!(f, "  {} = {}{unit}", outcome.declared.name, self.formula_text(outcome.value))?;
+        }
+        if let Some(analysis) = self.model.analysis {
+            let [from, to, every] = [analysis.from, analysis.to, analysis.every].map(number);
+            writeln!(f, "\nanalysis from {from} s to {to} s every {every} s")?;
+        }
+        Ok(())
+    }
 }
 
 impl Mechanism {
@@ -255,69 +338,9 @@ impl std::fmt::Display for Mechanism {
         for input in &self.inputs {
             writeln!(f, "  {} = {}", input.declared.name, text.print(input.value, false))?;
         }
-        writeln!(f, "\nground")?;
-        text.write_features(f, Frame::Ground)?;
-        for (id, body) in self.body_ids().zip(&self.bodies) {
-            let [x, y, phi] = body.pose.map(|part| text.formula_text(part));
-            writeln!(f, "\nbody {} at ({x}, {y}, {phi})", body.declared.name)?;
-            text.write_features(f, Frame::Body(id))?;
-            text.write_masses(f, id)?;
-        }
-        for (part, frame) in self.parts.iter().zip(self.part_frames()) {
-            let [x, y, phi] = part.pose.map(|id| text.formula_text(id));
-            let mount = self.frame_name(part.mount);
-            let mirrored = if part.is_turned_over { " mirrored" } else { "" };
-            writeln!(f, "\n{} on {mount} at ({x}, {y}, {phi}){mirrored}", part.ground_name)?;
-            text.write_features(f, frame)?;
-        }
-        writeln!(f, "\njoints")?;
-        for joint in &self.joints {
-            writeln!(f, "  {}: {}", joint.declared.name, text.joint_text(joint.kind))?;
-        }
-        writeln!(f, "\nconstraints and drivers")?;
-        for equation in &self.equations {
-            let kind = if equation.driver { "driver" } else { "constraint" };
-            let side = |id: ExprId| text.formula_text(id);
-            let (left, right) = match equation.form {
-                EquationForm::Equality(left, right) => (side(left), side(right)),
-                EquationForm::Distance(p, q, distance) => {
-                    (text.quantity_text(Quantity::Distance(p, q), &side), side(distance))
-                }
-            };
-            writeln!(f, "  {kind} {}: {left} = {right}", equation.declared.name)?;
-        }
-        if let Some(gravity) = self.gravity {
-            let [x, y] = gravity.map(|id| text.formula_text(id));
-            writeln!(f, "\ngravity ({x}, {y})")?;
-        }
-        if !self.loads.is_empty() {
-            writeln!(f, "\nloads")?;
-        }
-        for load in &self.loads {
-            let side = |id: ExprId| text.formula_text(id);
-            let (force, on) = (side(load.force), text.quantity_text(load.on, &side));
-            writeln!(f, "  {}: {force} on {on}", load.declared.name)?;
-        }
-        if !self.measures.is_empty() {
-            writeln!(f, "\nmeasures")?;
-        }
-        for measure in &self.measures {
-            let [unit, ..] = &measure.units.printed;
-            let unit = if *unit == measure.units.si { String::new() } else { format!(" in {unit}") };
-            writeln!(f, "  {} = {}{unit}", measure.declared.name, text.formula_text(measure.value))?;
-        }
-        if !self.outcomes.is_empty() {
-            writeln!(f, "\nresults")?;
-        }
-        for outcome in &self.outcomes {
-            let [unit, ..] = &outcome.units.printed;
-            let unit = if *unit == outcome.units.si { String::new() } else { format!(" in {unit}") };
-            writeln!(f, "  {} = {}{unit}", outcome.declared.name, text.formula_text(outcome.value))?;
-        }
-        if let Some(analysis) = self.analysis {
-            let [from, to, every] = [analysis.from, analysis.to, analysis.every].map(number);
-            writeln!(f, "\nanalysis from {from} s to {to} s every {every} s")?;
-        }
-        Ok(())
+        text.write_frames(f)?;
+        text.write_equations(f)?;
+        text.write_loads(f)?;
+        text.write_outputs(f)
     }
 }

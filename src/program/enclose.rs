@@ -6,6 +6,7 @@
 use super::{Column, Machine, Op, Program, Register, Registers, Stage};
 use crate::expr::{Binary, Comparison, Unary, binary_value, compare, piece, unary_value};
 use crate::tolerances::results::enclose::MOST_PIECES;
+use crate::tolerances::steps::enclosures::BESIDE_A_POLE;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// From a lowest to a highest value.
@@ -373,7 +374,7 @@ pub(super) fn of_one(function: Unary, a: Interval) -> Interval {
         Unary::Cosh => loose(low.min(high), low.max(high)),
         Unary::Tan => {
             // the poles are known as well as the argument is
-            let slack = 1e-9 + 4.0 * f64::EPSILON * a.low.abs().max(a.high.abs());
+            let slack = BESIDE_A_POLE + 4.0 * f64::EPSILON * a.low.abs().max(a.high.abs());
             let branch = |x: f64| crate::math::floor((x + FRAC_PI_2) / PI);
             let one_branch = branch(a.low - slack).to_bits() == branch(a.high + slack).to_bits();
             if one_branch && low <= high { loose(low, high) } else { WHOLE }

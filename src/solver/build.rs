@@ -78,14 +78,11 @@ impl Component {
 
 /// The columns of what is wanted across groups beside accelerations: third derivatives, variations, multipliers.
 fn joined(system: &ConstraintSystem, layout: &RowLayout, wanted: &Wanted) -> FxHashSet<u32> {
-    let n = system.coordinates().len() as u32;
     let column = |symbol| match symbol {
-        Symbol::Coordinate { index, order: 3 } => Some(layout.coordinates[3] + index),
-        Symbol::Varied { index, order, variation } => {
-            Some(layout.varied + (3 * variation + u32::from(order)) * n + index)
-        }
-        Symbol::Multiplier(row) => Some(layout.multipliers + row),
-        Symbol::VariedMultiplier { row, variation } => Some(layout.multipliers + (1 + variation) * n + row),
+        Symbol::Coordinate { index, order: 3 } => Some(layout.coordinate(index, 3)),
+        Symbol::Varied { index, order, variation } => Some(layout.varied(variation, u32::from(order), index)),
+        Symbol::Multiplier(row) => Some(layout.multiplier(row)),
+        Symbol::VariedMultiplier { row, variation } => Some(layout.varied_multiplier(variation, row)),
         _ => None,
     };
     system.graph().symbols_of_all(&wanted.formulas(system)).into_iter().filter_map(column).collect()

@@ -4,7 +4,7 @@ use super::{Compiled, RunOptions};
 use crate::analysis::{self, Horizon, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::emit::{self, File, Following, LARGEST_STRAIGHT, Motion, Reference, Unit};
+use crate::emit::{self, CrateFile, EmittedMotion, Following, LARGEST_STRAIGHT, Reference, TranslationUnit};
 use crate::expr::Dependence;
 use crate::layout::RowLayout;
 use crate::program::Program;
@@ -52,7 +52,7 @@ impl Compiled {
     /// The files of a crate of a name around that module, which holds itself against the rows of the file's analysis, or of the
     /// first second. Where the motion stops on its way, what is said tells why.
     #[must_use]
-    pub fn package(&self, name: &str, options: &RustOptions) -> (Option<Vec<File>>, Diagnostics) {
+    pub fn package(&self, name: &str, options: &RustOptions) -> (Option<Vec<CrateFile>>, Diagnostics) {
         self.emitted(options, |compiled, unit, said| {
             let reference = compiled.reference(said)?;
             Ok(emit::package(unit, &reference, name))
@@ -63,7 +63,7 @@ impl Compiled {
     fn emitted<T>(
         &self,
         options: &RustOptions,
-        make: impl FnOnce(&Compiled, &Unit<'_>, &mut Diagnostics) -> Result<T, Box<Diagnostic>>,
+        make: impl FnOnce(&Compiled, &TranslationUnit<'_>, &mut Diagnostics) -> Result<T, Box<Diagnostic>>,
     ) -> (Option<T>, Diagnostics) {
         if let Err(why) = self.has_no_varied_forces() {
             return (None, (*why).into());
@@ -147,7 +147,7 @@ impl Compiled {
         options: &'u RustOptions,
         signals: Option<&'u Signals>,
         said: &mut Diagnostics,
-    ) -> Result<Unit<'u>, Box<Diagnostic>> {
+    ) -> Result<TranslationUnit<'u>, Box<Diagnostic>> {
         let program = &**self.program();
         let motion = if options.with_motion { Some(self.motion(program, None, options, said)?) } else { None };
         let (system, sources) = (self.system(), self.sources());
@@ -160,12 +160,22 @@ impl Compiled {
                 let begin = motion.as_ref().map(|motion| motion.q.as_slice());
                 let motion = Some(compiled.motion(program, begin, options, &mut Diagnostics::default())?);
                 let system = compiled.system();
-                let unit =
-                    Unit { system, program, sources, file, motion, lanes, largest_straight, for_c, following: None };
+                let unit = TranslationUnit {
+                    system,
+                    program,
+                    sources,
+                    file,
+                    motion,
+                    lanes,
+                    largest_straight,
+                    for_c,
+                    following: None,
+                };
                 Some(Following { unit: Box::new(unit), by_text: compiled.program() })
             }
         };
-        let unit = Unit { system, program, sources, file, motion, lanes, largest_straight, for_c, following };
+        let unit =
+            TranslationUnit { system, program, sources, file, motion, lanes, largest_straight, for_c, following };
         if lanes.is_some() && emit::is_large(&unit) {
             let why = format!("lanes are for mechanisms of up to {largest_straight} operations");
             return Err(Box::new(Diagnostic::new(Code::E0706, why).help("leave `--lanes` out")));
@@ -181,7 +191,7 @@ impl Compiled {
         begin: Option<&[f64]>,
         options: &RustOptions,
         said: &mut Diagnostics,
-    ) -> Result<Motion, Box<Diagnostic>> {
+    ) -> Result<EmittedMotion, Box<Diagnostic>> {
         let horizon = Horizon::of_analysis(self.analysis());
         let mut started = if begin.is_some() {
             let (determined, own) = (Arc::clone(self.determined()), Arc::clone(self.program()));
@@ -199,7 +209,7 @@ impl Compiled {
         let sensitive = if options.with_sensitivities { Some(solver_of(&plain)?) } else { None };
         let with_reactions = !program.outputs.reactions.is_empty();
         let forced = if with_reactions { Some(solver_of(&program.without_params())?) } else { None };
-        Ok(Motion {
+        Ok(EmittedMotion {
             solver,
             sensitive,
             forced,
@@ -223,10 +233,7 @@ impl Compiled {
             return Err(Box::new(remarks.into_iter().next_back().unwrap_or_else(too_large)));
         };
         let mut columns = run.columns().to_vec();
-        let reactions = {
-            let (layout, count) = (RowLayout::new(self.system()), self.system().reactions().len());
-            layout.reactions as usize..layout.reactions as usize + count
-        };
+        let reactions = RowLayout::new(self.system()).reactions();
         columns.drain(reactions.clone());
         let wanted = (MOST_NUMBERS / columns.len()).clamp(2, MOST_ROWS) as u64;
         // spread evenly, the first and the last among them

@@ -10,6 +10,7 @@ use crate::model::Mechanism;
 pub fn lowered(model: &Mechanism) -> ConstraintSystem {
     let mut system = lower::lower(model);
     estimates::complete(&mut system);
+    debug_assert_eq!(system.validate(), Ok(()));
     system
 }
 
@@ -18,5 +19,6 @@ pub fn lowered(model: &Mechanism) -> ConstraintSystem {
 pub(super) fn lowered_on_its_way(model: &Mechanism, clock: Clock) -> ConstraintSystem {
     let mut system = lower::lower_on_its_way(model, clock);
     estimates::complete(&mut system);
+    debug_assert_eq!(system.validate(), Ok(()));
     system
 }

@@ -55,7 +55,7 @@ pub fn measure(text: &str, file: FileId, base: usize) -> Result<(), Box<Diagnost
         }
         if levels.len() - 1 + ifs > DEEPEST {
             let span = Span { file, start: at, end: at + token.len() as u32 };
-            return Err(Box::new(errors::too_deep(span)));
+            return Err(Box::new(errors::too_deep(span, DEEPEST)));
         }
     }
     Ok(())

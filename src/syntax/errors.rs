@@ -1,6 +1,5 @@
 //! What is said of a text that does not follow the grammar.
 
-use super::DEEPEST;
 use super::grammar::Rule;
 use super::intended::{Intended, Intent};
 use super::mends::{Fault, Mend};
@@ -11,8 +10,8 @@ use pest::error::{Error, ErrorVariant};
 use std::ops::Range;
 
 /// Nesting beyond the cap.
-pub fn too_deep(span: Span) -> Diagnostic {
-    Diagnostic::new(Code::E0103, format!("formulas are nested deeper than {DEEPEST}"))
+pub fn too_deep(span: Span, deepest: usize) -> Diagnostic {
+    Diagnostic::new(Code::E0103, format!("formulas are nested deeper than {deepest}"))
         .at(span, "one level too many")
         .help("give a part of the formula a name, with `param` or `fn`")
 }

@@ -76,7 +76,7 @@ fn path(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<ExprKi
 }
 
 fn within(depth: usize, span: Span) -> Built<()> {
-    if depth > DEEPEST { Err(Box::new(errors::too_deep(span))) } else { Ok(()) }
+    if depth > DEEPEST { Err(Box::new(errors::too_deep(span, DEEPEST))) } else { Ok(()) }
 }
 
 fn literal(reader: &Reader<'_>, pair: Pair<'_, Rule>) -> Built<ExprKind> {

@@ -58,6 +58,10 @@ pub mod least_squares {
     pub const DAMPING: f64 = 1e-3;
     /// Beyond this damping no step helps any more.
     pub const MOST_DAMPING: f64 = 1e12;
+    /// No step is damped less than this.
+    pub const LEAST_DAMPING: f64 = 1e-12;
+    /// Equations that are open by less than this, scaled, hold.
+    pub const CLOSED: f64 = 1e-15;
     /// A step that gains less than this part of what is left is the last one.
     pub const LEAST_GAIN: f64 = 1e-10;
 }
@@ -78,8 +82,9 @@ pub mod branches {
     pub const AS_NEAR: f64 = 2.0;
     /// Positions that differ by less than this, scaled, are the same.
     pub const SAME: f64 = 1e-3;
-    /// No others are looked for in loops of more coordinates, nor in larger systems than this: each search evaluates the whole.
+    /// No others are looked for in loops of more coordinates.
     pub const LARGEST_LOOP: usize = 60;
+    /// Nor in larger systems than this: each search evaluates the whole.
     pub const LARGEST_SYSTEM: usize = 300;
     /// Loops in which others are looked for.
     pub const MOST_LOOPS: usize = 8;

@@ -54,8 +54,18 @@ pub mod open_loop {
     pub const ALONG: f64 = 0.3;
     /// What is open by more than this, in sizes of the mechanism, is not shown.
     pub const FAR: f64 = 10.0;
+    /// A loop is open in length if that is more than this part of what it is open in angles, scaled.
+    pub const IN_LENGTH: f64 = 0.1;
+    /// A joint may be where a loop is told to be open if it is open by this part of the widest.
+    pub const WIDE: f64 = 0.3;
     /// What is open by less than this, scaled, is closed.
     pub const CLOSED: f64 = 1e-6;
+}
+
+/// Numbers in words (`analysis/explain/errors/mod.rs`).
+pub mod words {
+    /// A length (m) or angle (rad) below this is told as 0: it is less than an atom.
+    pub const NOTHING: f64 = 1e-12;
 }
 
 /// What does not move (`lower/velocities.rs`).
@@ -65,8 +75,12 @@ pub mod velocities {
     pub const NOTHING: f64 = 1e-9;
 }
 
-/// Gears that do not reach each other (`analysis/assemble/errors.rs`).
+/// Gears that do not reach each other, and poses that are proposed (`analysis/assemble/errors.rs`).
 pub mod fits {
+    /// A pose is proposed for a body that assembly has moved by more than this, scaled.
+    pub const MOVED: f64 = 1e-6;
+    /// What is less than this (m, rad) is written as 0.
+    pub const NOTHING: f64 = 1e-12;
     /// Gears may be off by this part of the larger radius.
     pub const LARGEST_MISFIT: f64 = 1e-6;
 }

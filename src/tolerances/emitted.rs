@@ -2,8 +2,9 @@
 
 /// Other parameters than those of the file (`emit/runtime/assemble.rs`).
 pub mod assemble {
-    /// Trials on the way to them at most, and the smallest part of it.
+    /// Trials on the way to them at most.
     pub const MOST_PARTS: usize = 10_000;
+    /// The smallest part of it.
     pub const SMALLEST_PART: f64 = 1e-6;
 }
 
@@ -17,9 +18,9 @@ pub mod step {
 
 /// Branches of the motion and of formulas (`emit/runtime/reach.rs`).
 pub mod reach {
-    /// One over a pivot, scaled: beyond the first the position is looked at more closely, beyond the second it is too near to a
-    /// singular one.
+    /// One over a pivot, scaled: beyond this the position is looked at more closely.
     pub const STEEP: f64 = 1e3;
+    /// Beyond this it is too near to a singular one.
     pub const STEEPEST: f64 = 1e6;
     /// How often the branches of formulas are chosen anew at one time.
     pub const MOST_BRANCHES: usize = 8;
@@ -29,17 +30,17 @@ pub mod reach {
 pub mod explain {
     /// Where steps become too small, this is steep enough for a singular position to be the reason.
     pub const SINGULAR: f64 = 1e2;
-    /// A dead point is no further off than this part of the span.
-    pub const NEAR_FOLD: f64 = 1e-5;
 }
 
 /// Ends of formulas of time (`emit/runtime/rims.rs`).
 pub mod rims {
-    /// How often both sides are looked at, each time at a quarter of the distance, and how often at least.
+    /// How often both sides are looked at, each time at a quarter of the distance.
     pub const MOST_LOOKS: usize = 6;
+    /// How often at least.
     pub const FEWEST_LOOKS: usize = 3;
-    /// Beside the fastest motion a velocity that changes by more than this jumps; a speed below that part of one per span is rest.
+    /// Beside the fastest motion a velocity that changes by more than this jumps.
     pub const SPEED_JUMP: f64 = 1e-6;
+    /// A speed below this part of one per span is rest.
     pub const SLOW: f64 = 1e-3;
     /// A rim within this part of the span is one that was looked at.
     pub const PASSED: f64 = 1e-9;

@@ -18,7 +18,7 @@ pub mod steps;
 /// Bounds each row of Φ unless told otherwise, scaled.
 pub const TOLERANCE: f64 = 1e-12;
 
-/// For how long a mechanism is looked at where nobody says it (s).
+/// For how long a mechanism is looked at where nobody says it (s); and what steps and speeds are measured by where all happens in no time.
 pub const UNTOLD_SPAN: f64 = 1.0;
 
 /// What jumps, where both sides of a time differ.
@@ -37,6 +37,8 @@ pub mod jumps {
 pub mod contacts {
     /// A profile is closed where the square of the way between its ends is no more than this part of twice its area.
     pub const CLOSED: f64 = 1e-12;
+    /// Places on a profile that tell which way round it goes.
+    pub const PLACES: u32 = 90;
     /// A contact pulls where it does so with more than this part of the largest force of the row: less is rounding.
     pub const PULLS: f64 = 1e-9;
 }

@@ -8,6 +8,8 @@ pub mod size {
     pub const IN_PROPORTION: f64 = 10.0;
     /// A frame is far from a body that is so many of the body's sizes away.
     pub const FAR_FRAME: f64 = 10.0;
+    /// What is no longer than this (m) has no size.
+    pub const SMALLEST: f64 = 1e-12;
     /// So many places stand for a whole curve.
     pub const PLACES_ON_CURVE: u32 = 16;
 }
@@ -17,6 +19,10 @@ pub mod linear {
     /// A block whose smallest pivot is so many times a limit has no singular value below it: pivots of rows of unit norm
     /// overestimate it by little.
     pub const PIVOT_MARGIN: f64 = 100.0;
+    /// A position whose pivots are all so many times a limit is farther from a singular one than that.
+    pub const CLEAR_PIVOT: f64 = 10.0;
+    /// A block with a pivot below this, scaled, is singular.
+    pub const SMALLEST_PIVOT: f64 = 1e-14;
     /// What the scales that are solved with say of nearness holds as far as it is to such a factor what the yardstick says.
     pub const ALIKE: f64 = 10.0;
     /// Coordinates of a block that is no chain yet.

@@ -53,13 +53,16 @@ pub mod pivoting {
 pub mod rows {
     /// Times that are solved at once.
     pub const LANES: usize = 16;
-    /// A solver with so many operations is worth a thread for every so many times, up to as many threads.
+    /// A solver of fewer operations is not worth a thread of its own.
     #[cfg(feature = "threads")]
     pub const WORTH_A_THREAD: usize = 20_000;
+    /// Threads at most.
     #[cfg(feature = "threads")]
     pub const MOST_THREADS: usize = 8;
     /// A step below this part of the span is short.
     pub const SHORT: f64 = 1e-4;
+    /// Two times are the same that differ by no more than this part of the step.
+    pub const SAME_TIME: f64 = 1e-9;
     /// So many rows within a step show what its curve is worth.
     pub const ENOUGH: u64 = 4;
     /// A row that is solved for once more may change by so much, beside its size or 1.
@@ -72,8 +75,9 @@ pub mod rows {
 pub mod trust {
     /// Where a row is printed, what rounding makes of it must stay below the accuracy promised.
     pub const ACCURACY: f64 = 1e-9;
-    /// A velocity is in doubt if it may be off by more than this, beside its size or 1; an acceleration likewise.
+    /// A velocity is in doubt if it may be off by more than this, beside its size or 1.
     pub const VELOCITY: f64 = 1e-8;
+    /// An acceleration likewise.
     pub const ACCELERATION: f64 = 4e-7;
     /// What is slow counts for no less than this part of the motion's fastest: rounding grows with that.
     pub const SLOW: f64 = 1.0 / 64.0;
@@ -85,8 +89,9 @@ pub mod trust {
 pub mod doubt {
     /// A row is right if it differs from one that is exact by no more, beside its size or 1: in place, velocity and acceleration.
     pub const RIGHT: [f64; 3] = [1e-9, 1e-8, 1e-6];
-    /// A row is solved for again from so many places, which are so far from each other, scaled.
+    /// A row is solved for again from so many places.
     pub const PLACES: usize = 16;
+    /// How far they are from each other, scaled.
     pub const CELL: f64 = super::build::CELL;
     /// A correction of a place on the way over a singular position is at most this part of the distance from that, scaled.
     pub const NEAREST_BRANCH: f64 = 0.05;

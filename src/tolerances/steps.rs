@@ -5,10 +5,19 @@ pub mod march {
     /// Largest first correction of a step, scaled. As all sizes that a step is judged by it is not that of a place which follows
     /// from other coordinates: the upper end of a tall lift goes far.
     pub const LARGEST_CORRECTION: f64 = 0.05;
+    /// The later ones are at most this part of it.
+    pub const LATER_CORRECTION: f64 = 0.25;
     /// Largest correction between the ends of a step, on the curve through both, scaled.
     pub const LARGEST_BETWEEN: f64 = 1e-3;
     /// Largest predicted motion of a step, scaled: a coordinate's way in sizes of its body, or its turn in radians.
     pub const LARGEST_MOTION: f64 = 0.5;
+    /// A step is calm, so that a longer one would do as well, if its first correction is so many times less than the largest: the
+    /// predictor's error grows with h³.
+    pub const CALM_CORRECTION: f64 = 12.0;
+    /// And if what is between its ends is so many times less: the curve's error grows with h⁶.
+    pub const CALM_BETWEEN: f64 = 100.0;
+    /// A step that makes this part of what is left makes all of it: no crumb is left behind it.
+    pub const CRUMB: f64 = 0.999;
     /// Corrections of a step at most.
     pub const ITERATIONS: usize = 4;
     /// A correction below this leaves nothing to the next one, convergence being quadratic.
@@ -27,12 +36,27 @@ pub mod march {
     pub const MOST_STEPS: u64 = 1_000_000;
 }
 
+/// Output times (`analysis/state/times.rs`).
+pub mod times {
+    /// An output time that is no farther from the last time than this part of a step is that.
+    pub const AT_THE_LAST: f64 = 1e-9;
+    /// More steps than this are not told apart by their numbers.
+    pub const MOST: f64 = 9e15;
+}
+
+/// What functions are between in an interval (`program/enclose.rs`).
+pub mod enclosures {
+    /// So near to a pole (rad) a tangent may be on either side of it.
+    pub const BESIDE_A_POLE: f64 = 1e-9;
+}
+
 /// Values that time alone decides (`analysis/follow/edges/signals.rs`).
 pub mod signals {
     /// A signal may leave the values at the ends of a part of a step by as much as moves the mechanism by this, scaled.
     pub const UNSEEN: f64 = 0.03;
-    /// A step is looked through in parts no smaller than this one of it, and in so many at most.
+    /// A step is looked through in parts no smaller than this one of it.
     pub const FINEST: f64 = 1e-6;
+    /// In so many at most.
     pub const MOST_PARTS: usize = 100;
     /// How much a signal is changed to learn what it does to the equations, in parts of itself.
     pub const NUDGE: f64 = 1e-6;
@@ -64,13 +88,15 @@ pub mod edges {
     pub const FINEST: f64 = 1e-8;
     /// Parts that are looked at in one step at most: where a formula stands on its edge all the time nothing is ever decided.
     pub const MOST_PARTS: usize = 2000;
-    /// A step is looked through in parts no smaller than this one of it, and in so many at most.
+    /// A step is looked through in parts no smaller than this one of it.
     pub const FINEST_BETWEEN: f64 = 2e-4;
+    /// In so many at most.
     pub const MOST_PARTS_BETWEEN: usize = 500;
-    /// How far, as a part of the span, the motion is looked ahead to tell on which side of an edge it goes on. Motions of a
-    /// second may come at the start of an analysis of years, and nothing may move farther than this meanwhile, scaled.
+    /// How far, as a part of the span, the motion is looked ahead to tell on which side of an edge it goes on.
     pub const AHEAD: f64 = 1e-9;
+    /// And at most (s): motions of a second may come at the start of an analysis of years.
     pub const LONGEST_AHEAD: f64 = 1e-9;
+    /// Nothing may move farther than this meanwhile, scaled.
     pub const FARTHEST_AHEAD: f64 = 1e-7;
     /// What is smaller than this part of the largest velocity or acceleration so far is rounding.
     pub const LAST_DIGITS: f64 = 1e-9;
@@ -80,8 +106,9 @@ pub mod edges {
     pub const TAKES_PART: f64 = 1e-2;
     /// A restless switch is left alone for this part of the span at most.
     pub const LONGEST_REST: f64 = 1e-2;
-    /// A motion is none if it is no more than this, scaled, or than so many units in the last place.
+    /// A motion is none if it is no more than this, scaled.
     pub const AT_REST: f64 = 1e-12;
+    /// Or if it is no more than so many units in the last place.
     pub const ROUNDING: f64 = 64.0;
     /// How far the coordinates are moved to learn what a switch is decided by, scaled.
     pub const NUDGE: f64 = 1e-6;
@@ -91,24 +118,28 @@ pub mod edges {
 
 /// Ends of what a function takes (`analysis/follow/edges/rims.rs`).
 pub mod rims {
-    /// The span is looked through in parts no smaller than this one of it, and in so many in one step at most.
+    /// The span is looked through in parts no smaller than this one of it.
     pub const FINEST: f64 = 1e-8;
+    /// In so many in one step at most.
     pub const MOST_PARTS: usize = 2000;
-    /// A step is looked through in parts no smaller than this one of it, and in so many at most.
+    /// A step is looked through in parts no smaller than this one of it.
     pub const FINEST_BETWEEN: f64 = 1e-4;
+    /// In so many at most.
     pub const MOST_PARTS_BETWEEN: usize = 500;
     /// Both sides are looked at from so far on, as a part of the span.
     pub const FARTHEST: f64 = 1e-3;
     /// Behind a rim its gauge is looked at from this part of the span on.
     pub const BEHIND: f64 = 1e-9;
-    /// A gauge is zero at a time if it is no more than so many units in the last place of its terms, or if the rounding of the
-    /// time, so many units in its last place, changes it by more than itself.
+    /// A gauge is zero at a time if it is no more than so many units in the last place of its terms.
     pub const ROUNDING: f64 = 64.0;
+    /// Or if the rounding of the time, so many units in its last place, changes it by more than itself.
     pub const MOMENT: f64 = 1024.0;
     /// The same for a gauge that the motion decides, as a part of the span: positions are known to their tolerance.
     pub const MOMENT_OF_MOTION: f64 = 1e-9;
     /// Before a rim at which the motion ends, the last step ends so many units in the last place of its time earlier.
     pub const LAST_MOMENT: f64 = 16.0;
+    /// A gauge is known where rounding makes less than this part of it.
+    pub const KNOWN: f64 = 1e-6;
     /// How often a part whose end cannot be told from a zero is made twice as wide.
     pub const MOST_WIDER: u32 = 12;
     /// Halvings until two times are neighbours.
@@ -129,4 +160,6 @@ pub mod limits {
     pub const GROWTH: f64 = 1.03;
     /// Rounding shows so many times in what is computed from it.
     pub const UNCERTAIN: f64 = 64.0;
+    /// A change of acceleration of which rounding is no more than this part is one.
+    pub const EXACT: f64 = 0.1;
 }

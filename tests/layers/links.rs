@@ -30,9 +30,8 @@ impl Crate {
         for path in paths {
             let place = path.as_ref().strip_prefix(root).expect("below the root").to_string_lossy().replace('\\', "/");
             let text = fs::read_to_string(path).expect("a text");
-            let is_code = |line: &&str| !line.trim_start().starts_with("//");
-            let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-            let code = code.lines().filter(is_code).collect::<Vec<&str>>().join("\n");
+            let code = without_tests(text.lines().filter(|line| !line.trim_start().starts_with("//")));
+            let code = as_of_the_file(&code);
             files.insert(module_of(&place), File { place, code, uses: Vec::new(), body: String::new() });
         }
         let modules: BTreeSet<Names> = files.keys().cloned().collect();
@@ -68,7 +67,7 @@ impl Crate {
     /// The files that a file names something of.
     pub fn links(&self, module: &Names) -> BTreeSet<Names> {
         let known = self.named(module).into_iter().map(|path| self.declaring(&path, 0));
-        known.filter(|other| other != module && !other.is_empty()).collect()
+        known.filter(|other| other != module).collect()
     }
 
     /// The types that a room shows at its door, each with the module of the file that declares it: declared there or in a module that is
@@ -142,6 +141,38 @@ fn module_of(place: &str) -> Names {
         names.pop();
     }
     names
+}
+
+/// Code, laid out as `cargo fmt` does it, without what only its own tests are made of: a line, or all up to the brace that closes it.
+pub fn without_tests<'l>(mut lines: impl Iterator<Item = &'l str>) -> String {
+    let mut code = Vec::new();
+    while let Some(line) = lines.next() {
+        let Some(indent) = line.strip_suffix("#[cfg(test)]").filter(|indent| indent.trim().is_empty()) else {
+            code.push(line);
+            continue;
+        };
+        let mut item = lines.by_ref().skip_while(|line| line.trim_start().starts_with("#["));
+        if item.next().is_some_and(|head| !head.ends_with([';', '}'])) {
+            lines.by_ref().find(|line| line.strip_prefix(indent).is_some_and(|rest| rest.starts_with('}')));
+        }
+    }
+    code.join("\n")
+}
+
+/// Code in which `super`, within a module that is written in the file itself, no longer leads to the file.
+fn as_of_the_file(code: &str) -> String {
+    let mut open: Vec<&str> = Vec::new();
+    let mut lines = Vec::new();
+    for line in code.lines() {
+        let trimmed = line.trim_start();
+        let indent = &line[..line.len() - trimmed.len()];
+        lines.push(open.iter().fold(line.to_owned(), |line, _| line.replacen("super::", "", 1)));
+        if trimmed.ends_with('{') && words(trimmed).take(3).any(|word| word == "mod") {
+            open.push(indent);
+        }
+        open.pop_if(|outer| trimmed == "}" && *outer == indent);
+    }
+    lines.join("\n")
 }
 
 /// The trees of all `use` lines, with whether they are `pub`; and what is left of the code.

@@ -6,7 +6,7 @@
 mod random;
 
 use crate::client::Client;
-use mechc::rooms::ide::{self, Snapshot, Stage};
+use mechc::rooms::ide::{self, DiagnosticStage, Snapshot};
 use mechc::rooms::lsp::methods;
 use mechc::{Cancel, Contents, World};
 use random::Random;
@@ -245,7 +245,11 @@ fn said(texts: &BTreeMap<String, String>, uri: &str, world: &Arc<Shelf>) -> Vec<
         let (line, column) = position(text, said.range.start as usize);
         format!("{}:{} {} {}", line + 1, column + 1, said.code, said.message)
     };
-    [Stage::Words, Stage::Proof, Stage::Motion].into_iter().flat_map(of).map(line).collect()
+    [DiagnosticStage::Words, DiagnosticStage::Proof, DiagnosticStage::Motion]
+        .into_iter()
+        .flat_map(of)
+        .map(line)
+        .collect()
 }
 
 /// The lines of a text with the byte at which each begins, their ends left out.

@@ -5,7 +5,7 @@ use super::branches::{Doubt, Off};
 use crate::analysis::explain::errors::{at, degrees, length};
 use crate::diag::{Applies, Code, Diagnostic, Fix, readable};
 use crate::ir::{ConstraintSystem, DeclarationKind, Fit, JointKind};
-use crate::tolerances::determinacy::fits::LARGEST_MISFIT;
+use crate::tolerances::determinacy::fits::{LARGEST_MISFIT, MOVED, NOTHING};
 
 /// A remark where the estimates leave in doubt that the position taken is the one meant.
 ///
@@ -46,13 +46,14 @@ fn assembled_poses(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Optio
     let mut edits = Vec::new();
     for (id, body) in system.bodies().pairs() {
         let pose @ [x, y, phi] = system.pose_of(id);
-        let has_moved = |&column: &usize| (to[column] - from[column]).abs() > 1e-6 * system.coordinates()[column].scale;
+        let has_moved =
+            |&column: &usize| (to[column] - from[column]).abs() > MOVED * system.coordinates()[column].scale;
         if !pose.iter().any(has_moved) {
             continue;
         }
         let nine = |value: f64| format!("{value:.8e}").parse().unwrap_or(value) + 0.0;
-        let [x, y] = [x, y].map(|column| if to[column].abs() < 1e-12 { 0.0 } else { nine(1e3 * to[column]) });
-        let phi = if to[phi].abs() < 1e-12 { 0.0 } else { nine(to[phi].to_degrees()) };
+        let [x, y] = [x, y].map(|column| if to[column].abs() < NOTHING { 0.0 } else { nine(1e3 * to[column]) });
+        let phi = if to[phi].abs() < NOTHING { 0.0 } else { nine(to[phi].to_degrees()) };
         let pose = format!("({x} mm, {y} mm, {phi} deg)");
         let written = match body.pose_span {
             Some(span) => Fix::replace(span, pose, "", Applies::Probably),
@@ -109,7 +110,7 @@ pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option
 
 /// A length (m) with as many digits as tell it from another.
 fn digits_that_differ(value: f64, other: f64) -> String {
-    if value.abs() < 1e-12 {
+    if value.abs() < NOTHING {
         return "0 mm".to_owned();
     }
     let digits = (3..=9).find(|&digits| format!("{value:.digits$e}") != format!("{other:.digits$e}")).unwrap_or(9);

@@ -10,7 +10,7 @@ use crate::analysis::state::Linear;
 use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, PointId};
 use crate::math;
 use crate::structure::{Determined, Subsystem};
-use crate::tolerances::determinacy::open_loop::{ALONG, CLOSED, FAR, LARGEST, LIGHT, TAKES_PART};
+use crate::tolerances::determinacy::open_loop::{ALONG, CLOSED, FAR, IN_LENGTH, LARGEST, LIGHT, TAKES_PART, WIDE};
 
 /// A loop that does not close.
 pub struct OpenLoop {
@@ -129,7 +129,7 @@ fn widest_gap(evaluator: &Evaluator<'_>, rows: impl Iterator<Item = usize>) -> O
     if length <= CLOSED * system.length() && angle <= CLOSED {
         return None;
     }
-    let is_length = length / system.length() > 0.1 * angle;
+    let is_length = length / system.length() > IN_LENGTH * angle;
     Some(if is_length { (CoordinateKind::Length, length) } else { (CoordinateKind::Angle, angle) })
 }
 
@@ -159,7 +159,7 @@ fn weakest(
     // of pins that are equally open the last one closes the loop
     let is_no_driver = |k: DeclarationId| system.declarations()[k].kind != DeclarationKind::Driver;
     let largest = declarations.iter().map(|&k| open(k)).fold(0.0, f64::max);
-    declarations.iter().copied().filter(|&k| open(k) > 0.3 * largest).max_by_key(|&k| (rank(k), is_no_driver(k), k))
+    declarations.iter().copied().filter(|&k| open(k) > WIDE * largest).max_by_key(|&k| (rank(k), is_no_driver(k), k))
 }
 
 /// The lengths along which the residuals pull or press.

@@ -7,7 +7,9 @@ use crate::analysis::state::{Fault, Horizon, Kinematics, Singular, State};
 use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, DeclarationId, DeclarationKind, WatchKind};
 use crate::program::PlacedRim;
-use crate::tolerances::singular::reasons::{AT_HAND, FLAT, NEAR, NEAR_FOLD, TAKES_PART};
+use crate::tolerances::singular::reasons::{
+    AT_HAND, FLAT, NEAR, NEAR_FOLD, PARABOLA, STEPS_AHEAD, TAKES_PART, TOLD, WEIGHTS,
+};
 
 /// The diagnosis at the last good state, where even a step as small as `h` (s) towards `target` (s) failed.
 pub fn explain(kinematics: &mut Kinematics, state: &State, fault: Fault, h: f64, target: f64) -> Diagnostic {
@@ -31,7 +33,7 @@ pub fn explain_fold(
         return errors::ceases_to_hold(system, index, state.t);
     }
     // a formula that ends just ahead, or at the end of the step, explains more than the equations do
-    let just_ahead = f64::min(state.t + 1000.0 * h, target);
+    let just_ahead = f64::min(state.t + STEPS_AHEAD * h, target);
     if let Some(fault) = without_value(kinematics, state, just_ahead) {
         return errors::no_value(system, fault, state.t);
     }
@@ -152,7 +154,7 @@ fn corner_ahead(kinematics: &mut Kinematics, rim: &PlacedRim, state: &State) -> 
     let left = -2.0 * gauge / slope;
     let [before, _] = gauge_at(kinematics, rim, state, -left);
     // twice as far from it a parabola that touches zero has four times its value; a line has three times that
-    (left > 0.0 && (before / gauge - 4.0).abs() < 0.25).then_some(left)
+    (left > 0.0 && (before / gauge - 4.0).abs() < PARABOLA).then_some(left)
 }
 
 /// A gauge and its slope where the motion goes on evenly from a state for a time (s).
@@ -232,9 +234,8 @@ fn joints_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId> {
 /// All declarations that the dependency is made of, those that weigh most first.
 fn declarations_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId> {
     let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
-    let mut rows: Vec<usize> = (0..left.len()).filter(|&row| left[row].abs() > 0.1 * largest).collect();
-    // rounding does not order what weighs the same
-    let weight = |row: usize| (left[row].abs() / largest * 1e6).round();
+    let mut rows: Vec<usize> = (0..left.len()).filter(|&row| left[row].abs() > TOLD * largest).collect();
+    let weight = |row: usize| (left[row].abs() / largest * WEIGHTS).round();
     rows.sort_by(|&a, &b| weight(b).total_cmp(&weight(a)));
     let mut joints: Vec<DeclarationId> = Vec::new();
     for row in rows {
@@ -249,7 +250,7 @@ fn declarations_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId
 /// The coordinates that the free motion moves.
 fn columns_in(right: &[f64]) -> Vec<usize> {
     let fastest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    (0..right.len()).filter(|&column| right[column].abs() > 0.1 * fastest).collect()
+    (0..right.len()).filter(|&column| right[column].abs() > TOLD * fastest).collect()
 }
 
 /// The row of the driver that asks for the fastest motion from the state on, be it up to a time `t` just ahead (s) by a jump.

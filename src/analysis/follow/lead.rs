@@ -7,6 +7,7 @@ use crate::analysis::state::{Horizon, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::ir::ConstraintSystem;
+use crate::layout::RowLayout;
 use crate::program::Program;
 use crate::solver::Solver;
 use crate::structure::Determined;
@@ -169,7 +170,7 @@ fn follow(
     reached: &mut Vec<Vec<f64>>,
     passed: &mut Vec<(f64, Diagnostic)>,
 ) -> Option<(f64, Box<Diagnostic>)> {
-    let n = started.q().len();
+    let layout = RowLayout::new(started.system());
     let mut motion = started.into_motion(&Times::listed(from, parts.to_vec()));
     if options.pass_bifurcations {
         motion.pass_bifurcations();
@@ -179,7 +180,7 @@ fn follow(
     for _ in parts {
         match motion.next_row() {
             Some(Ok(row)) => {
-                reached.push(row[1..=n].to_vec());
+                reached.push(layout.position(row).to_vec());
                 continue;
             }
             Some(Err(why)) => stopped = Some((part_of(&why), why)),

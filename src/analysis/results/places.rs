@@ -137,7 +137,7 @@ impl Places {
             let (program, registers) = self.kinematics.program();
             let [holds] = lanes.run(solver, program, registers, &batch, &mut self.row);
             let layout = solver.layout();
-            let is_finite = self.row[..].iter().take(layout.coordinates[0] as usize + a.q.len()).all(|x| x.is_finite());
+            let is_finite = layout.position(&self.row).iter().all(|x| x.is_finite());
             if holds && is_finite {
                 return Some(state_of_row(layout, &self.row, a, t));
             }

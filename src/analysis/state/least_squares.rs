@@ -3,7 +3,9 @@
 
 use crate::ir::ConstraintSystem;
 use crate::math;
-use crate::tolerances::assembly::least_squares::{DAMPING, LARGEST_STEP, LEAST_GAIN, MOST_DAMPING, STEPS};
+use crate::tolerances::assembly::least_squares::{
+    CLOSED, DAMPING, LARGEST_STEP, LEAST_DAMPING, LEAST_GAIN, MOST_DAMPING, STEPS,
+};
 
 /// Some equations by some coordinates at a position, both scaled.
 #[derive(Clone, Debug)]
@@ -74,7 +76,7 @@ pub fn minimize(
     let mut damping = DAMPING;
     for _ in 0..STEPS {
         let size = square(&now.residual);
-        if size.sqrt() < 1e-15 {
+        if size.sqrt() < CLOSED {
             break;
         }
         let step = damped_solution(&now.jacobian, &now.residual, damping, columns.len());
@@ -88,7 +90,7 @@ pub fn minimize(
             Some(next) if square(&next.residual) < size => {
                 let gain = 1.0 - square(&next.residual) / size;
                 now = next;
-                damping = f64::max(0.3 * damping, 1e-12);
+                damping = f64::max(0.3 * damping, LEAST_DAMPING);
                 if gain < LEAST_GAIN {
                     break;
                 }

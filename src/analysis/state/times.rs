@@ -1,7 +1,9 @@
 //! Which times are printed.
 
+use crate::math::neighbours;
 use crate::tolerances::UNTOLD_SPAN;
 use crate::tolerances::steps::edges::{AHEAD, LONGEST_AHEAD, SLACK};
+use crate::tolerances::steps::times::{AT_THE_LAST, MOST};
 
 /// Output times, ascending.
 #[derive(Clone, PartialEq, Debug)]
@@ -23,9 +25,9 @@ impl Times {
     pub fn grid(from: f64, to: f64, every: f64) -> Option<Times> {
         let steps = (to - from) / every;
         let nearest = steps.round();
-        let last = if (steps - nearest).abs() <= 1e-9 { nearest } else { crate::math::floor(steps) };
+        let last = if (steps - nearest).abs() <= AT_THE_LAST { nearest } else { crate::math::floor(steps) };
         // also false for what is not a number
-        if !(0.0..9e15).contains(&last) || (last > 0.0 && from + every <= from) {
+        if !(0.0..MOST).contains(&last) || (last > 0.0 && from + every <= from) {
             return None;
         }
         #[allow(clippy::cast_sign_loss)] // not below zero, as just seen
@@ -86,7 +88,7 @@ impl Times {
         match &self.kind {
             Kind::Grid { every, to, last } => {
                 let t = self.from + number as f64 * every;
-                if number == *last && number > 0 && (t - to).abs() <= 1e-9 * every { *to } else { t }
+                if number == *last && number > 0 && (t - to).abs() <= AT_THE_LAST * every { *to } else { t }
             }
             Kind::Listed(times) => times[number as usize],
         }
@@ -149,7 +151,7 @@ impl Horizon {
 
 /// A time on the later side of whatever is meant to happen at `t` (s).
 pub fn shortly_after(t: f64) -> f64 {
-    t + SLACK * f64::EPSILON * t.abs() + f64::MIN_POSITIVE
+    neighbours::shortly_after(t, SLACK)
 }
 
 /// A time just behind a start at `t`, for a motion over a span (s): what happens up to there happens at the start.

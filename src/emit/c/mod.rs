@@ -12,12 +12,12 @@ use super::errors::ERRORS;
 use super::names::Case;
 use super::rust::Module;
 use super::text::{one_line, unit};
-use super::{File, Unit};
+use super::{CrateFile, TranslationUnit};
 use crate::layout::{ColumnUnit, Holds, columns, holds};
 
 /// What both files are written from.
 struct Interface<'i> {
-    unit: &'i Unit<'i>,
+    unit: &'i TranslationUnit<'i>,
     /// What names begin with: `four_bar`.
     prefix: &'i str,
     /// One of the first lines.
@@ -27,11 +27,11 @@ struct Interface<'i> {
 }
 
 /// The header and the functions of a crate's library, whose name all names begin with.
-pub(super) fn files(unit: &Unit<'_>, module: &Module, library: &str, mark: &str) -> Vec<File> {
+pub(super) fn files(unit: &TranslationUnit<'_>, module: &Module, library: &str, mark: &str) -> Vec<CrateFile> {
     let interface = Interface { unit, prefix: library, mark, words: module.words + 1 };
     vec![
-        File { path: format!("include/{library}.h"), text: interface.header() },
-        File { path: "src/unsafe_c.rs".to_owned(), text: interface.functions() },
+        CrateFile { path: format!("include/{library}.h"), text: interface.header() },
+        CrateFile { path: "src/unsafe_c.rs".to_owned(), text: interface.functions() },
     ]
 }
 

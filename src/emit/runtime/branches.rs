@@ -2,19 +2,17 @@
 
 use super::equations::Branches;
 use super::limits::{MOST_HALVINGS, SLACK};
+use super::neighbours::{bisect, shortly_after};
 use super::solution::{Along, Solution, Solved};
-
-/// A time on the later side of whatever is meant to happen at `t` (s).
-fn shortly_after(t: f64) -> f64 {
-    t + SLACK * f64::EPSILON * t.abs() + f64::MIN_POSITIVE
-}
 
 /// The branches of formulas of time at a time: the later ones where they change just then, but at the end of the file's analysis
 /// the earlier ones.
 pub fn sides_at<M: Branches>(t: f64, m: &M) -> M::Sides {
     match M::END {
-        Some(end) if t <= end && shortly_after(t) >= end => m.sides_of_time(end - 2.0 * (shortly_after(end) - end)),
-        _ => m.sides_of_time(shortly_after(t)),
+        Some(end) if t <= end && shortly_after(t, SLACK) >= end => {
+            m.sides_of_time(end - 2.0 * (shortly_after(end, SLACK) - end))
+        }
+        _ => m.sides_of_time(shortly_after(t, SLACK)),
     }
 }
 
@@ -24,19 +22,8 @@ pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M) -> f64 {
     if sides_at(to, m) == here {
         return to;
     }
-    let (mut near, mut far) = (from, to);
-    for _ in 0..MOST_HALVINGS {
-        let middle = 0.5 * (near + far);
-        if middle == near || middle == far {
-            break;
-        }
-        if sides_at(middle, m) == here {
-            near = middle;
-        } else {
-            far = middle;
-        }
-    }
-    far
+    let [_, edge] = bisect([from, to], MOST_HALVINGS, |t| sides_at(t, m) == here);
+    edge
 }
 
 /// The branches at a position that is next to one that is looked for.

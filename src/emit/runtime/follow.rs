@@ -3,14 +3,12 @@
 use super::branches::{first_edge, sides_near};
 use super::error::{Error, Fault};
 use super::explain::{meeting, regular, until_turn};
-use super::limits::{
-    FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LARGEST_TURN, POSITION_JUMP, SHORTEST_STEP,
-    SINGULAR,
-};
+use super::limits::{CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_TURN, POSITION_JUMP, SHORTEST_STEP, SINGULAR};
 use super::numbers::{Numbers, difference, larger, largest};
 use super::reach::{find, reach, stays_on_branch};
 use super::solution::{Solution, Solved};
 use super::state::{Lead, State, Timed};
+use super::step::tried;
 use super::way::{Led, Signals, Way, sum};
 
 /// What leads a mechanism by its inputs.
@@ -171,8 +169,8 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         for _ in 0..most {
             let now = self.at().t;
             let step = f64::max(self.stride / length, smallest);
-            // no crumb at the end; a way without length is one step
-            let wanted = if step < 0.999 * (1.0 - now) { now + step } else { 1.0 };
+            // a way without length is one step
+            let wanted = if step < CRUMB * (1.0 - now) { now + step } else { 1.0 };
             let next = first_edge(now, wanted, &self.model);
             let (is_last, size) = (next >= 1.0, next - now);
             match self.advance(next, is_last, steepness) {
@@ -217,22 +215,10 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         let change = m.way().direction().map(|rate| h * rate);
         let v = tears_along(from, &change);
         let mut way = if self.is_smooth { bend(from, at, &v, &change) } else { E::Tears::ZERO };
-        let mut guess = E::tears(&from.q);
-        for ((way, guess), v) in way.as_mut().iter_mut().zip(guess.as_mut()).zip(v.as_ref()) {
+        for (way, v) in way.as_mut().iter_mut().zip(v.as_ref()) {
             *way += v;
-            *guess += *way;
         }
-        // what is not a number is not small either
-        let is_short = largest(&way, E::tear_scales()) <= LARGEST_MOTION;
-        if !is_short {
-            return Err(Fault::TooFar);
-        }
-        reach(&guess, from, t, m, at)?;
-        let gap = gap(from, at, &v, &change);
-        let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
-        if !is_near {
-            return Err(Fault::TooFar);
-        }
+        let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, &v, &change))?;
         if !stays_on_branch(from, at, m, is_wanted, steepness) {
             return Err(Fault::Singular);
         }
@@ -241,7 +227,7 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         }
         self.is_smooth = at.sides == from.sides;
         self.is_second = !self.is_second;
-        Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
+        Ok(is_calm)
     }
 
     /// Why even the shortest step towards a place of the way is refused.

@@ -7,8 +7,11 @@
 use super::assemble::assemble;
 use super::branches::{sides_ahead, sides_at, with_time};
 use super::error::Error;
+use super::hermite::bend_ahead;
 use super::lane_solutions::{Laned, Lists, Solutions};
-use super::limits::{FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP};
+use super::limits::{
+    CALM_BETWEEN, CALM_CORRECTION, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP,
+};
 use super::numbers::Numbers;
 use super::so_far::larger_so_far;
 use super::state::{Lead, State};
@@ -152,7 +155,7 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
             is_done[k] = is_done[k] && self.keeps_branch(k);
             if is_done[k] {
                 let first = self.other().first[k];
-                let is_calm = first < LARGEST_CORRECTION / 12.0 && gap[k] < LARGEST_GAP / 100.0;
+                let is_calm = first < LARGEST_CORRECTION / CALM_CORRECTION && gap[k] < LARGEST_GAP / CALM_BETWEEN;
                 let size = h[k].abs();
                 let longest = if is_calm { 2.0 * size } else { 0.0 };
                 let shortest = if is_calm { self.step[k] } else { size };
@@ -262,16 +265,8 @@ fn guess<M: Laned<L>, const L: usize>(
     let places = guess.as_mut().iter_mut().zip(M::tear_scales().as_ref());
     for ((guess, scale), (((x, v), a), ((y, w), b))) in places.zip(now.zip(then)) {
         for k in 0..L {
-            // as `bend` has it
-            let (h, back, u) = (h[k], back[k], u[k]);
-            let (x, v, a) = (x[k], v[k], a[k]);
-            let value = y[k] - x + back * (v - 0.5 * back * a);
-            let slope = back * (v - back * a - w[k]);
-            let curvature = 0.5 * back * back * (b[k] - a);
-            let cubic = 4.0 * slope - 10.0 * value - curvature;
-            let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
-            let quintic = 3.0 * slope - 6.0 * value - curvature;
-            let bend = u * u * u * (cubic + u * (quartic + u * quintic));
+            let (h, x, v, a) = (h[k], x[k], v[k], a[k]);
+            let bend = bend_ahead([x, v, a], [y[k], w[k], b[k]], back[k], u[k]);
             let way = h * (v + 0.5 * h * a) + bend;
             guess[k] = x + way;
             motion[k] = larger_so_far(motion[k], way.abs() / scale);

@@ -62,7 +62,7 @@ pub mod sign;
 mod tests;
 
 use crate::emit::limits::values as limits;
-use crate::math::{blocks, grid};
+use crate::math::{blocks, grid, hermite, neighbours};
 use crate::program::codes;
 
 /// The sine and cosine as they go along.

@@ -4,6 +4,7 @@ use super::error::Error;
 use super::limits::{
     FEWEST_LOOKS, GROWTH, LEAD, MOMENT, MOST_HALVINGS, MOST_LOOKS, PASSED, ROUNDING, SLOW, SPEED_JUMP,
 };
+use super::neighbours::bisect;
 use super::numbers::{Numbers, difference, larger, largest, predicted};
 use super::reach::reach;
 use super::solution::Solution;
@@ -38,7 +39,7 @@ pub fn first_rim<M: Rimmed>(m: &M, from: f64, to: f64, passed: &M::Passed) -> Op
             let (value, slope) = gauge(rim, t, m);
             if is_crossed { sign * value > 0.0 } else { way * slope < 0.0 }
         };
-        let at = last_halving(from, to, is_before);
+        let [_, at] = bisect([from, to], MOST_HALVINGS, is_before);
         let is_new = (at - passed).abs() > PASSED * M::SPAN;
         let is_first = found.is_none_or(|(_, known): (usize, f64)| (at - known) * (to - from) < 0.0);
         if is_new && is_first && is_zero(rim, at, m) {
@@ -46,23 +47,6 @@ pub fn first_rim<M: Rimmed>(m: &M, from: f64, to: f64, passed: &M::Passed) -> Op
         }
     }
     found
-}
-
-/// The first time of two neighbours, found by halving, that is no longer before something.
-fn last_halving(from: f64, to: f64, is_before: impl Fn(f64) -> bool) -> f64 {
-    let (mut near, mut far) = (from, to);
-    for _ in 0..MOST_HALVINGS {
-        let middle = 0.5 * (near + far);
-        if middle == near || middle == far {
-            break;
-        }
-        if is_before(middle) {
-            near = middle;
-        } else {
-            far = middle;
-        }
-    }
-    far
 }
 
 /// The gauge of a rim and its slope.

@@ -3,8 +3,10 @@
 use super::branches::first_edge;
 use super::error::{Error, Fault};
 use super::explain::explain;
+use super::hermite::bend_ahead;
 use super::limits::{
-    FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD, POSITION_JUMP, REST, VELOCITY_JUMP,
+    CALM_BETWEEN, CALM_CORRECTION, CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD,
+    POSITION_JUMP, REST, VELOCITY_JUMP,
 };
 use super::numbers::{Numbers, difference, largest};
 use super::reach::{find, reach, stays_on_branch};
@@ -26,8 +28,7 @@ pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize) -> Resul
         if left == 0.0 {
             return Ok(());
         }
-        // no crumb at the end
-        let wanted = if state.step >= 0.999 * left.abs() { t } else { now + state.step.copysign(left) };
+        let wanted = if state.step >= CRUMB * left.abs() { t } else { now + state.step.copysign(left) };
         // what is fast may be over before the step's end
         let edge = first_edge(now, wanted, &state.model);
         let next = match state.model.first_rim(now, edge, &state.passed) {
@@ -67,37 +68,52 @@ pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize) -> Resul
 fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool) -> Result<bool, Fault> {
     let [first, second] = &mut state.solutions;
     let (from, at) = if state.is_second { (second, first) } else { (first, second) };
-    let from = &*from;
+    let (from, m) = (&*from, &state.model);
     let h = t - from.t;
-    let (x, v, a) = (M::tears(&from.q), M::tears(&from.qd), M::tears(&from.qdd));
+    let (v, a) = (M::tears(&from.qd), M::tears(&from.qdd));
     let mut way = if state.is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
-    let mut guess = x;
-    let rates = v.as_ref().iter().zip(a.as_ref());
-    for ((way, guess), (v, a)) in way.as_mut().iter_mut().zip(guess.as_mut()).zip(rates) {
+    for (way, (v, a)) in way.as_mut().iter_mut().zip(v.as_ref().iter().zip(a.as_ref())) {
         // Taylor
         *way += h * (v + 0.5 * h * a);
-        *guess += *way;
     }
-    // what is not a number is not small either
-    let is_short = largest(&way, M::tear_scales()) <= LARGEST_MOTION;
-    if !is_short {
-        return Err(Fault::TooFar);
-    }
-    reach(&guess, from, t, &state.model, at)?;
-    let gap = gap(from, at, h);
-    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
-    if !is_near {
-        return Err(Fault::TooFar);
-    }
-    if !stays_on_branch(from, at, &state.model, is_wanted, state.steepness) {
+    let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, h))?;
+    if !stays_on_branch(from, at, m, is_wanted, state.steepness) {
         return Err(Fault::Singular);
     }
-    if M::OF_TIME && at.sides != from.sides && jumps(from, at, &state.model) {
+    if M::OF_TIME && at.sides != from.sides && jumps(from, at, m) {
         return Err(Fault::NotSmooth);
     }
     state.is_smooth = at.sides == from.sides;
     state.is_second = !state.is_second;
-    Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
+    Ok(is_calm)
+}
+
+/// Solves at a time, or a place of a way, to which the tears are expected to go so far, if that is near enough for a step; says whether
+/// a longer step would do as well. A gap is how far a solution is from what the slopes at both ends make of the way between, scaled.
+pub fn tried<M: Solved>(
+    way: &M::Tears,
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    at: &mut Solution<M>,
+    gap: impl FnOnce(&Solution<M>) -> f64,
+) -> Result<bool, Fault> {
+    // what is not a number is not small either
+    let is_short = largest(way, M::tear_scales()) <= LARGEST_MOTION;
+    if !is_short {
+        return Err(Fault::TooFar);
+    }
+    let mut guess = M::tears(&from.q);
+    for (guess, way) in guess.as_mut().iter_mut().zip(way.as_ref()) {
+        *guess += *way;
+    }
+    reach(&guess, from, t, m, at)?;
+    let gap = gap(at);
+    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
+    if !is_near {
+        return Err(Fault::TooFar);
+    }
+    Ok(at.first < LARGEST_CORRECTION / CALM_CORRECTION && gap < LARGEST_GAP / CALM_BETWEEN)
 }
 
 /// How far positions are from what both ends' velocities and accelerations make of the way between (Hermite), scaled.
@@ -114,8 +130,7 @@ fn gap<M: Solved>(from: &Solution<M>, at: &Solution<M>, h: f64) -> f64 {
     largest(&gaps, M::tear_scales())
 }
 
-/// What the motion since the solution before adds to Taylor's way over a time `h` (s): value, velocity and acceleration at two times
-/// make a polynomial of degree 5 (Hermite).
+/// What the motion since the solution before adds to Taylor's way over a time `h` (s).
 fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears {
     let back = now.t - before.t;
     let u = h / back;
@@ -129,13 +144,7 @@ fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears 
     let rates = v.as_ref().iter().zip(w.as_ref());
     let bends = a.as_ref().iter().zip(b.as_ref());
     for ((bend, (x, y)), ((v, w), (a, b))) in bend.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
-        let value = y - x + back * (v - 0.5 * back * a);
-        let slope = back * (v - back * a - w);
-        let curvature = 0.5 * back * back * (b - a);
-        let cubic = 4.0 * slope - 10.0 * value - curvature;
-        let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
-        let quintic = 3.0 * slope - 6.0 * value - curvature;
-        *bend = u * u * u * (cubic + u * (quartic + u * quintic));
+        *bend = bend_ahead([*x, *v, *a], [*y, *w, *b], back, u);
     }
     bend
 }

@@ -132,9 +132,11 @@ impl Writer<'_> {
             "Number of derivatives of the coordinates by inputs and parameters that measures hold. For each of the\n\
              following one behind the other: those of `q`, of `qd` and of `qdd`. By",
         );
-        for number in 0..variations.len() as u32 {
-            let name = one_line(&system.variation_name("", number));
-            page.docs(&format!("- {}", name.trim_start_matches(".by.").replace(".by.", " and ")));
+        for variation in system.variations() {
+            let (first, second) = variation.by;
+            let by = [Some(first), second].into_iter().flatten();
+            let names = by.map(|by| one_line(&system.variables()[by as usize].name));
+            page.docs(&format!("- {}", names.collect::<Vec<String>>().join(" and ")));
         }
         let count = variations.iter().flatten().flatten().count();
         page.line(&format!("pub const VARIED: usize = {count};\n"));

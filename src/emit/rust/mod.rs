@@ -15,7 +15,7 @@ mod sides;
 mod statics;
 mod words;
 
-use super::Unit;
+use super::TranslationUnit;
 use super::equations::Equations;
 use super::goods::Uses;
 use super::names::Names;
@@ -39,12 +39,12 @@ pub(super) struct Module {
 
 /// One Rust module, self-contained but for the `libm` crate where a formula asks for it.
 #[must_use]
-pub fn rust(unit: &Unit<'_>) -> String {
+pub fn rust(unit: &TranslationUnit<'_>) -> String {
     module(unit).text
 }
 
 /// The same, with what it asks for.
-pub(super) fn module(unit: &Unit<'_>) -> Module {
+pub(super) fn module(unit: &TranslationUnit<'_>) -> Module {
     let tables = Tables::new(unit.program);
     let names = Names::new(unit.system, Params::new(unit.system).paths, &tables.variables());
     let equations = equations(unit, &names, &tables, false);
@@ -78,7 +78,7 @@ pub(super) fn module(unit: &Unit<'_>) -> Module {
 }
 
 /// What the functions of a unit's equations are written from; led ones are given their inputs.
-fn equations<'u>(unit: &Unit<'u>, names: &'u Names, tables: &'u Tables, is_led: bool) -> Equations<'u> {
+fn equations<'u>(unit: &TranslationUnit<'u>, names: &'u Names, tables: &'u Tables, is_led: bool) -> Equations<'u> {
     let switches = unit.program.switches().iter().enumerate();
     Equations {
         program: unit.program,
@@ -94,9 +94,10 @@ fn equations<'u>(unit: &Unit<'u>, names: &'u Names, tables: &'u Tables, is_led: 
 
 /// Whether a mechanism is so large that its operations are written as numbers. Tables that depend on parameters are not.
 #[must_use]
-pub fn is_large(unit: &Unit<'_>) -> bool {
+pub fn is_large(unit: &TranslationUnit<'_>) -> bool {
     let of_program: usize = STAGES.iter().map(|stage| unit.program.stage(*stage).len()).sum();
-    let of_motion = |motion: &super::Motion| motion.sensitive.as_ref().unwrap_or(&motion.solver).instructions().len();
+    let of_motion =
+        |motion: &super::EmittedMotion| motion.sensitive.as_ref().unwrap_or(&motion.solver).instructions().len();
     let of_solver = unit.motion.as_ref().map_or(0, of_motion);
     let constants = unit.program.constants().iter().copied().collect();
     let is_constant =
@@ -106,7 +107,7 @@ pub fn is_large(unit: &Unit<'_>) -> bool {
 
 /// What the module of a mechanism is written from, or what follows its inputs.
 struct Writer<'w> {
-    unit: &'w Unit<'w>,
+    unit: &'w TranslationUnit<'w>,
     names: &'w Names,
     equations: &'w Equations<'w>,
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 /// What is proposed.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Item {
+pub struct CompletionItem {
     /// What is shown, and what the letters typed are looked for in.
     pub label: String,
     /// What is shown right behind that: arguments.
@@ -15,7 +15,7 @@ pub struct Item {
     /// More about it, in Markdown.
     pub docs: String,
     /// What it is.
-    pub kind: ItemKind,
+    pub kind: CompletionItemKind,
     /// What comes.
     pub insert: Template,
     /// What goes.
@@ -26,7 +26,7 @@ pub struct Item {
 
 /// What a proposal is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum ItemKind {
+pub enum CompletionItemKind {
     /// A word of a declaration or formula.
     Keyword,
     /// A whole declaration.
@@ -125,28 +125,30 @@ impl Template {
     }
 }
 
-impl Item {
-    pub(super) fn new(label: impl Into<String>, kind: ItemKind, rank: u8) -> Item {
+impl CompletionItem {
+    pub(super) fn new(label: impl Into<String>, kind: CompletionItemKind, rank: u8) -> CompletionItem {
         let label = label.into();
         let insert = Template::plain(&label);
         let (signature, detail, docs) = (String::new(), String::new(), String::new());
-        Item { label, signature, detail, docs, kind, insert, replaces: 0..0, rank }
+        CompletionItem { label, signature, detail, docs, kind, insert, replaces: 0..0, rank }
     }
 
     /// A word of the language, with what belongs to it.
-    pub(super) fn word(word: &'static Word, rank: u8) -> Item {
+    pub(super) fn word(word: &'static Word, rank: u8) -> CompletionItem {
         let kind = match word.category {
-            Category::Keyword => ItemKind::Keyword,
-            Category::Function | Category::Motion | Category::Quantity | Category::Reduction => ItemKind::Function,
-            Category::Joint => ItemKind::Joint,
-            Category::Unit => ItemKind::Unit,
-            Category::Constant => ItemKind::Constant,
+            Category::Keyword => CompletionItemKind::Keyword,
+            Category::Function | Category::Motion | Category::Quantity | Category::Reduction => {
+                CompletionItemKind::Function
+            }
+            Category::Joint => CompletionItemKind::Joint,
+            Category::Unit => CompletionItemKind::Unit,
+            Category::Constant => CompletionItemKind::Constant,
         };
-        let mut item = Item::new(word.name, kind, rank);
+        let mut item = CompletionItem::new(word.name, kind, rank);
         word.meaning.clone_into(&mut item.detail);
         item.docs =
             format!("```mech\n{}\n```\n\n{}", word.forms.join("\n"), [word.meaning, word.more].join("\n\n").trim());
-        if matches!(kind, ItemKind::Function | ItemKind::Joint)
+        if matches!(kind, CompletionItemKind::Function | CompletionItemKind::Joint)
             && let Some(form) = word.forms.first()
         {
             item.insert = Template::of_form(form);
@@ -155,17 +157,17 @@ impl Item {
         item
     }
 
-    pub(super) fn detail(mut self, detail: impl Into<String>) -> Item {
+    pub(super) fn detail(mut self, detail: impl Into<String>) -> CompletionItem {
         self.detail = detail.into();
         self
     }
 
-    pub(super) fn docs(mut self, docs: impl Into<String>) -> Item {
+    pub(super) fn docs(mut self, docs: impl Into<String>) -> CompletionItem {
         self.docs = docs.into();
         self
     }
 
-    pub(super) fn inserts(mut self, insert: Template) -> Item {
+    pub(super) fn inserts(mut self, insert: Template) -> CompletionItem {
         self.insert = insert;
         self
     }

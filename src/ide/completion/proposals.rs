@@ -1,8 +1,8 @@
 //! What is missing in a mechanism: joints between points that are drawn onto each other, drivers for what is left free.
 
 use super::cursor::Cursor;
-use super::item::{Item, ItemKind, Template};
-use crate::ide::names::declared_name;
+use super::item::{CompletionItem, CompletionItemKind, Template};
+use crate::check::name_of;
 use crate::ide::place::Place;
 use crate::ide::snapshot::Snapshot;
 use crate::stages::{Checked, Drawn};
@@ -132,7 +132,7 @@ fn formula(drawn: &Drawn, driven: &str) -> String {
 /// A name that is free in a mechanism.
 pub(in crate::ide) fn free_name(tree: &Mechanism, names: &[&str]) -> String {
     let is_free = |name: &str| {
-        let is_taken = tree.items.iter().filter_map(declared_name).any(|taken| taken.text == name);
+        let is_taken = tree.items.iter().filter_map(name_of).any(|taken| taken.text == name);
         !is_taken && !KEYWORDS.iter().any(|keyword| keyword.word.name == name)
     };
     let plain = names.iter().find(|name| is_free(name)).map(|name| (*name).to_owned());
@@ -144,37 +144,40 @@ pub(in crate::ide) fn free_name(tree: &Mechanism, names: &[&str]) -> String {
 }
 
 /// Whole declarations of what is missing.
-pub(super) fn declarations(whole: &Whole, tree: &Mechanism) -> Vec<Item> {
+pub(super) fn declarations(whole: &Whole, tree: &Mechanism) -> Vec<CompletionItem> {
     let joint = free_name(tree, &["pin", "hinge", "bearing"]);
     let driver = free_name(tree, &["motor", "drive", "feed"]);
     let joints = whole.touching().into_iter().map(|[a, b]| {
         let text = format!("joint {joint}: revolute({a}, {b})");
         let marked = format!("joint «{joint}»: revolute({a}, {b})");
-        Item::new(text, ItemKind::Declaration, 0)
+        CompletionItem::new(text, CompletionItemKind::Declaration, 0)
             .detail("these points lie on each other")
             .inserts(Template::marked(&marked))
     });
     let drivers = whole.free().into_iter().map(|(driven, formula)| {
         let text = format!("driver {driver}: {driven} = {formula}");
         let marked = format!("driver «{driver}»: {driven} = «{formula}»");
-        Item::new(text, ItemKind::Declaration, 0).detail("this is left free").inserts(Template::marked(&marked))
+        CompletionItem::new(text, CompletionItemKind::Declaration, 0)
+            .detail("this is left free")
+            .inserts(Template::marked(&marked))
     });
     drivers.chain(joints).collect()
 }
 
 /// Kinds of joints with what they join: points that lie on each other.
-pub(super) fn joints(whole: &Whole) -> Vec<Item> {
+pub(super) fn joints(whole: &Whole) -> Vec<CompletionItem> {
     let item = |[a, b]: [String; 2]| {
-        Item::new(format!("revolute({a}, {b})"), ItemKind::Declaration, 0).detail("these points lie on each other")
+        CompletionItem::new(format!("revolute({a}, {b})"), CompletionItemKind::Declaration, 0)
+            .detail("these points lie on each other")
     };
     whole.touching().into_iter().map(item).collect()
 }
 
 /// Equations that take what is left free.
-pub(super) fn drivers(whole: &Whole) -> Vec<Item> {
+pub(super) fn drivers(whole: &Whole) -> Vec<CompletionItem> {
     let item = |(driven, formula): (String, String)| {
         let marked = format!("{driven} = «{formula}»");
-        Item::new(format!("{driven} = {formula}"), ItemKind::Declaration, 0)
+        CompletionItem::new(format!("{driven} = {formula}"), CompletionItemKind::Declaration, 0)
             .detail("this is left free")
             .inserts(Template::marked(&marked))
     };

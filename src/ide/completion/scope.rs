@@ -2,10 +2,10 @@
 
 use super::MOST;
 use super::cursor::{Block, Cursor};
-use super::item::{Item, ItemKind, Template};
+use super::item::{CompletionItem, CompletionItemKind, Template};
 use super::wanted::Wanted;
-use crate::check::{KnownMechanism, NameKind};
-use crate::ide::names::{declared_name, item_named, kind_of, known};
+use crate::check::{KnownMechanism, NameKind, name_of};
+use crate::ide::names::{item_named, kind_of, known};
 use crate::ide::written::holds_letters;
 use crate::source::Span;
 use crate::stages::Checked;
@@ -62,7 +62,7 @@ enum Inside<'s> {
 
 impl Scope<'_> {
     /// What fits of a mechanism's names.
-    pub fn fitting(&self, wanted: Wanted, cursor: &Cursor<'_>) -> Vec<Item> {
+    pub fn fitting(&self, wanted: Wanted, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
         let items = self.tree.items.iter().filter(|item| item.span.start != self.declared_at);
         match wanted {
             _ if wanted.is_feature() => {
@@ -87,7 +87,7 @@ impl Scope<'_> {
     }
 
     /// The points of the body around the cursor, by their names alone.
-    fn own_features(&self, wanted: Wanted, cursor: &Cursor<'_>) -> Vec<Item> {
+    fn own_features(&self, wanted: Wanted, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
         if cursor.block != Block::Features {
             return Vec::new();
         }
@@ -103,19 +103,19 @@ impl Scope<'_> {
     }
 
     /// A declared name with its declaration.
-    fn named(&self, item: &Declaration, rank: u8) -> Option<Item> {
-        let name = declared_name(item).filter(|name| self.sieve.lets_pass(&name.text))?;
+    fn named(&self, item: &Declaration, rank: u8) -> Option<CompletionItem> {
+        let name = name_of(item).filter(|name| self.sieve.lets_pass(&name.text))?;
         let kind = match kind_of(item) {
-            NameKind::Function | NameKind::Table => ItemKind::Function,
-            NameKind::Body | NameKind::Ground | NameKind::Part => ItemKind::Body,
-            NameKind::Joint => ItemKind::DeclaredJoint,
-            _ => ItemKind::Value,
+            NameKind::Function | NameKind::Table => CompletionItemKind::Function,
+            NameKind::Body | NameKind::Ground | NameKind::Part => CompletionItemKind::Body,
+            NameKind::Joint => CompletionItemKind::DeclaredJoint,
+            _ => CompletionItemKind::Value,
         };
-        let mut found = Item::new(&name.text, kind, rank);
+        let mut found = CompletionItem::new(&name.text, kind, rank);
         if self.sieve.is_described() {
             found = found.detail(self.head(item)).docs(self.docs(item));
         }
-        if kind == ItemKind::Function {
+        if kind == CompletionItemKind::Function {
             let argument = match &item.kind {
                 Declared::Function { argument, .. } => argument.text.as_str(),
                 _ => "u",
@@ -142,8 +142,8 @@ impl Scope<'_> {
         [item.docs.join("\n"), format!("```mech\n{head}\n```")].join("\n\n").trim().to_owned()
     }
 
-    fn feature(&self, feature: &Feature, of: &str, rank: u8) -> Item {
-        let found = Item::new(&feature.name.text, ItemKind::Feature, rank);
+    fn feature(&self, feature: &Feature, of: &str, rank: u8) -> CompletionItem {
+        let found = CompletionItem::new(&feature.name.text, CompletionItemKind::Feature, rank);
         if !self.sieve.is_described() {
             return found;
         }
@@ -153,16 +153,16 @@ impl Scope<'_> {
     }
 
     /// Those of a body or the ground, by their paths; of a part its name.
-    fn features_of(&self, item: &Declaration, wanted: Wanted) -> Vec<Item> {
+    fn features_of(&self, item: &Declaration, wanted: Wanted) -> Vec<CompletionItem> {
         if let Declared::Part(part) = &item.kind {
             let marked = format!("{}.", with_indices(item, &part.name.text));
             return vec![
-                Item::new(format!("{}.", part.name.text), ItemKind::Body, 3)
+                CompletionItem::new(format!("{}.", part.name.text), CompletionItemKind::Body, 3)
                     .detail(self.head(item))
                     .inserts(Template::marked(&marked)),
             ];
         }
-        let owner = declared_name(item).map_or("ground", |name| name.text.as_str());
+        let owner = name_of(item).map_or("ground", |name| name.text.as_str());
         let fitting = features(item).iter().filter(|feature| wanted.is(&feature.kind));
         let path = |feature: &Feature| {
             let label = format!("{owner}.{}", feature.name.text);
@@ -170,23 +170,23 @@ impl Scope<'_> {
                 return None;
             }
             let marked = format!("{}.{}", with_indices(item, owner), feature.name.text);
-            Some(Item { label, insert: Template::marked(&marked), ..self.feature(feature, owner, 1) })
+            Some(CompletionItem { label, insert: Template::marked(&marked), ..self.feature(feature, owner, 1) })
         };
         fitting.filter_map(path).collect()
     }
 
-    fn body(&self, item: &Declaration) -> Option<Item> {
+    fn body(&self, item: &Declaration) -> Option<CompletionItem> {
         match &item.kind {
             Declared::Body { .. } => self.named(item, 1),
             Declared::Ground { .. } => {
-                Some(Item::new("ground", ItemKind::Body, 2).detail("the body that does not move"))
+                Some(CompletionItem::new("ground", CompletionItemKind::Body, 2).detail("the body that does not move"))
             }
             Declared::Part(_) => self.features_of(item, Wanted::Point).pop(),
             _ => None,
         }
     }
 
-    fn joint(&self, item: &Declaration, quantity: &str) -> Option<Item> {
+    fn joint(&self, item: &Declaration, quantity: &str) -> Option<CompletionItem> {
         match &item.kind {
             Declared::Joint { kind, .. } if has_quantity(kind, quantity) => self.named(item, 1),
             Declared::Part(_) => self.features_of(item, Wanted::Point).pop(),
@@ -194,7 +194,7 @@ impl Scope<'_> {
         }
     }
 
-    fn equation(&self, item: &Declaration) -> Option<Item> {
+    fn equation(&self, item: &Declaration) -> Option<CompletionItem> {
         match &item.kind {
             Declared::Equation { .. } => self.named(item, 1),
             Declared::Part(_) => self.features_of(item, Wanted::Point).pop(),
@@ -203,7 +203,7 @@ impl Scope<'_> {
     }
 
     /// What is a number where the declaration around the cursor stands.
-    fn numbers<'i>(&self, items: impl Iterator<Item = &'i Declaration>, cursor: &Cursor<'_>) -> Vec<Item> {
+    fn numbers<'i>(&self, items: impl Iterator<Item = &'i Declaration>, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
         let head = cursor.head();
         let has_time =
             matches!(head, "input" | "driver" | "load" | "measure" | "trace" | "result" | "constraint" | "part" | "fn");
@@ -216,24 +216,24 @@ impl Scope<'_> {
             NameKind::Function | NameKind::Table => Some(3),
             _ => None,
         };
-        let mut found: Vec<Item> = items.filter_map(|item| self.named(item, rank(item)?)).collect();
+        let mut found: Vec<CompletionItem> = items.filter_map(|item| self.named(item, rank(item)?)).collect();
         found.extend(arguments(cursor));
         for constant in CONSTANTS.iter().filter(|constant| constant.word.name != "ground") {
             if constant.word.name != "t" || has_time {
-                found.push(Item::word(&constant.word, 3));
+                found.push(CompletionItem::word(&constant.word, 3));
             }
         }
         found
     }
 
     /// What stands behind a path with a dot; all of it where nothing is wanted.
-    pub fn inside(&self, path: &[&str], wanted: &[Wanted]) -> Vec<Item> {
+    pub fn inside(&self, path: &[&str], wanted: &[Wanted]) -> Vec<CompletionItem> {
         match self.lead(path) {
             None => Vec::new(),
             Some(Inside::Coordinates) => ["x", "y"]
                 .iter()
                 .filter(|_| wanted.is_empty())
-                .map(|name| Item::new(*name, ItemKind::Value, 1).detail("coordinate of the point"))
+                .map(|name| CompletionItem::new(*name, CompletionItemKind::Value, 1).detail("coordinate of the point"))
                 .collect(),
             Some(Inside::Features(owner, features)) => {
                 let fits =
@@ -248,7 +248,7 @@ impl Scope<'_> {
     }
 
     /// A name of a part, as it is seen from outside.
-    fn of_part(&self, item: &Declaration, wanted: &[Wanted]) -> Option<Item> {
+    fn of_part(&self, item: &Declaration, wanted: &[Wanted]) -> Option<CompletionItem> {
         let leads_on = |wanted: &Wanted| match item.kind {
             Declared::Part(_) => {
                 wanted.is_feature() || matches!(wanted, Wanted::Joint(_) | Wanted::Equation | Wanted::Body)
@@ -269,7 +269,9 @@ impl Scope<'_> {
             return None;
         }
         match &item.kind {
-            Declared::Ground { .. } => Some(Item::new("ground", ItemKind::Body, 3).detail("what is fixed in the part")),
+            Declared::Ground { .. } => {
+                Some(CompletionItem::new("ground", CompletionItemKind::Body, 3).detail("what is fixed in the part"))
+            }
             Declared::Function { .. }
             | Declared::Table { .. }
             | Declared::Equation { .. }
@@ -284,7 +286,7 @@ impl Scope<'_> {
         loop {
             match (&item.kind, rest) {
                 (Declared::Body { features, .. } | Declared::Ground { features }, []) => {
-                    let owner = declared_name(item).map_or("ground", |name| name.text.as_str());
+                    let owner = name_of(item).map_or("ground", |name| name.text.as_str());
                     return Some(Inside::Features(owner, features));
                 }
                 (Declared::Part(part), []) => return Some(Inside::Part(self.mechanism(&part.mechanism)?)),
@@ -304,7 +306,7 @@ impl Scope<'_> {
     }
 
     /// What can be bound of a mechanism as a part.
-    pub fn bindable(&self, prefix: Option<&str>, name: &str) -> Vec<Item> {
+    pub fn bindable(&self, prefix: Option<&str>, name: &str) -> Vec<CompletionItem> {
         let library = self.checked.library();
         let found = all_mechanisms(self.checked)
             .find(|(before, known)| *before == prefix && library.tree(*known).name.text == name);
@@ -313,14 +315,14 @@ impl Scope<'_> {
         let item = |item: &Declaration| {
             let found = self.named(item, 1)?;
             let insert = Template::marked(&format!("{} = «»", found.label));
-            Some(Item { signature: String::new(), ..found }.inserts(insert))
+            Some(CompletionItem { signature: String::new(), ..found }.inserts(insert))
         };
         tree.items.iter().filter(is_bindable).filter_map(item).collect()
     }
 }
 
 /// The argument of the function or curve, and the numbers of the repetition around the cursor.
-fn arguments(cursor: &Cursor<'_>) -> Vec<Item> {
+fn arguments(cursor: &Cursor<'_>) -> Vec<CompletionItem> {
     let tokens = cursor.declaration();
     let is_called = matches!(cursor.head(), "fn" | "curve");
     let argument = tokens.get(3).filter(|_| is_called && tokens.get(2).is_some_and(|token| token.text == "("));
@@ -330,7 +332,9 @@ fn arguments(cursor: &Cursor<'_>) -> Vec<Item> {
     let behind = tokens.iter().position(|token| matches!(token.text, ":" | "=")).unwrap_or(tokens.len());
     let indices = indices.filter(|pair| tokens[..behind].iter().any(|token| token.start == pair[1].start));
     let names = argument.into_iter().copied().chain(indices.map(|pair| pair[1]));
-    names.map(|token| Item::new(token.text, ItemKind::Value, 0).detail("of this declaration")).collect()
+    names
+        .map(|token| CompletionItem::new(token.text, CompletionItemKind::Value, 0).detail("of this declaration"))
+        .collect()
 }
 
 /// The features of a body or of the ground.
@@ -383,7 +387,7 @@ fn has_quantity(joint: &Name, quantity: &str) -> bool {
 }
 
 /// Mechanisms that can be parts; behind a prefix those of its file.
-pub(super) fn mechanisms(checked: &Checked, prefix: Option<&str>) -> Vec<Item> {
+pub(super) fn mechanisms(checked: &Checked, prefix: Option<&str>) -> Vec<CompletionItem> {
     let own = checked.tree().map(|tree| tree.name.span);
     let library = checked.library();
     let others = all_mechanisms(checked).filter(|(_, known)| Some(library.tree(*known).name.span) != own);
@@ -395,7 +399,9 @@ pub(super) fn mechanisms(checked: &Checked, prefix: Option<&str>) -> Vec<Item> {
         };
         let is_here = prefix.is_none() || prefix == before;
         let insert = Template::marked(&format!("{label}(«»)"));
-        is_here.then(|| Item::new(label, ItemKind::Mechanism, 1).docs(tree.docs.join("\n")).inserts(insert))
+        is_here.then(|| {
+            CompletionItem::new(label, CompletionItemKind::Mechanism, 1).docs(tree.docs.join("\n")).inserts(insert)
+        })
     };
     others.filter_map(item).collect()
 }

@@ -9,7 +9,7 @@ use crate::ide::testing::{FOUR_BAR, TWO_FILES, at_cursor};
 fn proposed(text: &str, count: usize) -> String {
     let (snapshot, place) = at_cursor(text);
     let items = completions(&snapshot, &place).expect("a file").items;
-    let line = |item: &super::Item| {
+    let line = |item: &super::CompletionItem| {
         let mut written = item.insert.text.clone();
         for hole in item.insert.holes.iter().rev() {
             written.insert(hole.end, '»');

@@ -1,7 +1,7 @@
 //! The units behind a number: of the dimension that fits there first.
 
 use super::cursor::{Begun, Cursor};
-use super::item::{Item, ItemKind, Template};
+use super::item::{CompletionItem, CompletionItemKind, Template};
 use super::wanted::{Wanted, wanted};
 use crate::diag::Severity;
 use crate::ide::edits::faults;
@@ -31,24 +31,26 @@ const RATES: &[(&str, Dimension, &str)] = &[
 ];
 
 /// All units, in a good order for the number before the cursor.
-pub(super) fn behind_number(snapshot: &Snapshot, place: &Place, cursor: &Cursor<'_>) -> Vec<Item> {
+pub(super) fn behind_number(snapshot: &Snapshot, place: &Place, cursor: &Cursor<'_>) -> Vec<CompletionItem> {
     let like = in_sum(cursor);
     let known = like.map(|unit| unit.dimension).or_else(|| known(cursor));
     let fitting = known.map_or_else(|| tried(snapshot, place, cursor), |dimension| vec![dimension]);
     let is_right_behind = cursor.text[..cursor.word.start].ends_with(|c: char| c.is_ascii_digit());
     let space = if is_right_behind && cursor.word.is_empty() { " " } else { "" };
     let fits = |dimension: Dimension| fitting.iter().any(|fitting| fitting.is(dimension));
-    let mut items: Vec<Item> = Vec::new();
+    let mut items: Vec<CompletionItem> = Vec::new();
     for unit in UNITS {
         let is_like = like.is_some_and(|like| std::ptr::eq(like, unit));
         let is_usual = TRIED.iter().any(|(usual, _)| *usual == unit.word.name);
         let rank = if is_like { 0 } else { u8::from(!fits(unit.dimension)) * 4 + u8::from(!is_usual) + 1 };
-        items.push(Item::word(&unit.word, rank).inserts(Template::plain(format!("{space}{}", unit.word.name))));
+        items.push(
+            CompletionItem::word(&unit.word, rank).inserts(Template::plain(format!("{space}{}", unit.word.name))),
+        );
     }
     for (text, dimension, meaning) in RATES {
         let rank = u8::from(!fits(*dimension)) * 4 + 2;
         let insert = Template::plain(format!("{space}{text}"));
-        items.push(Item::new(*text, ItemKind::Unit, rank).detail(*meaning).inserts(insert));
+        items.push(CompletionItem::new(*text, CompletionItemKind::Unit, rank).detail(*meaning).inserts(insert));
     }
     items.sort_by_key(|item| item.rank);
     items
@@ -56,7 +58,7 @@ pub(super) fn behind_number(snapshot: &Snapshot, place: &Place, cursor: &Cursor<
 
 /// How a compound unit can go on, of which some is written: times first, since most are rates. What is a rate already, or of a dimension
 /// that the unit has, makes no sense there.
-pub(super) fn going_on(begun: &Begun) -> Vec<Item> {
+pub(super) fn going_on(begun: &Begun) -> Vec<CompletionItem> {
     let rank = |dimension: Dimension| match dimension {
         it if begun.dimensions.iter().any(|known| known.is(it)) => None,
         it if it.is(Dimension::TIME) => Some(1),
@@ -64,12 +66,12 @@ pub(super) fn going_on(begun: &Begun) -> Vec<Item> {
         it if it.is(Dimension::PURE) => Some(3),
         _ => None,
     };
-    let mut items: Vec<Item> = UNITS
+    let mut items: Vec<CompletionItem> = UNITS
         .iter()
         .filter_map(|unit| {
             let is_usual = TRIED.iter().any(|(usual, _)| *usual == unit.word.name);
             let insert = Template::plain(unit.word.name);
-            Some(Item::word(&unit.word, 2 * rank(unit.dimension)? - u8::from(is_usual)).inserts(insert))
+            Some(CompletionItem::word(&unit.word, 2 * rank(unit.dimension)? - u8::from(is_usual)).inserts(insert))
         })
         .collect();
     items.sort_by_key(|item| item.rank);
@@ -77,8 +79,8 @@ pub(super) fn going_on(begun: &Begun) -> Vec<Item> {
 }
 
 /// The units in which a measure, trace or result can be printed.
-pub(super) fn printed() -> Vec<Item> {
-    UNITS.iter().map(|unit| Item::word(&unit.word, 1)).collect()
+pub(super) fn printed() -> Vec<CompletionItem> {
+    UNITS.iter().map(|unit| CompletionItem::word(&unit.word, 1)).collect()
 }
 
 /// The unit of the term before, where the number is one of a sum or compared.

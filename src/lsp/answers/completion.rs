@@ -1,6 +1,6 @@
 //! What could be written at a place.
 
-use crate::ide::{self, ItemKind, Template};
+use crate::ide::{self, CompletionItemKind, Template};
 use crate::lsp::capabilities::Ability;
 use crate::lsp::convert::{Texts, markdown};
 use gen_lsp_types as lsp;
@@ -20,7 +20,7 @@ pub(super) fn completion(texts: &Texts, params: &lsp::CompletionParams) -> Optio
     })
 }
 
-fn item_of(texts: &Texts, number: usize, item: ide::Item, range: lsp::Range) -> lsp::CompletionItem {
+fn item_of(texts: &Texts, number: usize, item: ide::CompletionItem, range: lsp::Range) -> lsp::CompletionItem {
     let has_snippets = texts.client.can(Ability::Snippets);
     let is_snippet = has_snippets && !item.insert.holes.is_empty();
     let new_text = match has_snippets {
@@ -59,21 +59,21 @@ fn snippet(template: &Template) -> String {
     snippet + &plain(template.text.get(end..).unwrap_or_default())
 }
 
-fn kind(kind: ItemKind) -> lsp::CompletionItemKind {
+fn kind(kind: CompletionItemKind) -> lsp::CompletionItemKind {
     match kind {
-        ItemKind::Keyword => lsp::CompletionItemKind::Keyword,
-        ItemKind::Declaration => lsp::CompletionItemKind::Snippet,
-        ItemKind::Function => lsp::CompletionItemKind::Function,
-        ItemKind::Joint => lsp::CompletionItemKind::Constructor,
-        ItemKind::Unit => lsp::CompletionItemKind::Unit,
-        ItemKind::Constant => lsp::CompletionItemKind::Constant,
-        ItemKind::Value => lsp::CompletionItemKind::Variable,
-        ItemKind::Body => lsp::CompletionItemKind::Class,
-        ItemKind::Feature => lsp::CompletionItemKind::Field,
-        ItemKind::DeclaredJoint => lsp::CompletionItemKind::Interface,
-        ItemKind::Mechanism => lsp::CompletionItemKind::Module,
-        ItemKind::File => lsp::CompletionItemKind::File,
-        ItemKind::Folder => lsp::CompletionItemKind::Folder,
+        CompletionItemKind::Keyword => lsp::CompletionItemKind::Keyword,
+        CompletionItemKind::Declaration => lsp::CompletionItemKind::Snippet,
+        CompletionItemKind::Function => lsp::CompletionItemKind::Function,
+        CompletionItemKind::Joint => lsp::CompletionItemKind::Constructor,
+        CompletionItemKind::Unit => lsp::CompletionItemKind::Unit,
+        CompletionItemKind::Constant => lsp::CompletionItemKind::Constant,
+        CompletionItemKind::Value => lsp::CompletionItemKind::Variable,
+        CompletionItemKind::Body => lsp::CompletionItemKind::Class,
+        CompletionItemKind::Feature => lsp::CompletionItemKind::Field,
+        CompletionItemKind::DeclaredJoint => lsp::CompletionItemKind::Interface,
+        CompletionItemKind::Mechanism => lsp::CompletionItemKind::Module,
+        CompletionItemKind::File => lsp::CompletionItemKind::File,
+        CompletionItemKind::Folder => lsp::CompletionItemKind::Folder,
     }
 }
 

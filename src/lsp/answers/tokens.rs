@@ -1,6 +1,6 @@
 //! Semantic tokens.
 
-use crate::ide::{self, Token};
+use crate::ide::{self, SemanticToken};
 use crate::lsp::convert::Texts;
 use crate::lsp::legend::OF_KINDS;
 use gen_lsp_types as lsp;
@@ -18,7 +18,7 @@ pub(super) fn in_range(texts: &Texts, params: &lsp::SemanticTokensRangeParams) -
 fn encoded(texts: &Texts, uri: &lsp::Uri, range: &Range<u32>) -> Option<lsp::SemanticTokens> {
     let path = texts.path(uri);
     let mut before = lsp::Position { line: 0, character: 0 };
-    let mut token = |token: &Token| {
+    let mut token = |token: &SemanticToken| {
         let lsp::Range { start, end } = texts.range(&path, &token.range)?;
         let is_same_line = start.line == before.line;
         let delta_start = start.character - if is_same_line { before.character } else { 0 };

@@ -12,6 +12,7 @@ pub use singularity::*;
 
 use crate::diag::{Diagnostic, readable};
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationId};
+use crate::tolerances::determinacy::words::NOTHING;
 
 /// Labels of one message at most.
 const LISTED: usize = 8;
@@ -34,7 +35,7 @@ pub fn length(metres: f64) -> String {
     // 0.99999 m are 1 m
     let rounded: f64 = format!("{metres:.2e}").parse().unwrap_or(metres);
     let (value, unit) = match rounded.abs() {
-        m if m < 1e-12 => (0.0, "m"),
+        m if m < NOTHING => (0.0, "m"),
         m if m >= 1e3 => (rounded / 1e3, "km"),
         m if m >= 1.0 => (rounded, "m"),
         m if m >= 1e-4 => (rounded * 1e3, "mm"),
@@ -48,7 +49,7 @@ pub fn three_digits(value: f64) -> String {
 }
 
 pub fn degrees(radians: f64) -> String {
-    let rounded = if radians.abs() < 1e-12 { 0.0 } else { radians };
+    let rounded = if radians.abs() < NOTHING { 0.0 } else { radians };
     format!("{} deg", three_digits(rounded.to_degrees()))
 }
 

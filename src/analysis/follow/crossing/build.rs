@@ -8,7 +8,7 @@ use crate::analysis::explain::singular;
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::Kinematics;
 use crate::tolerances::singular::bridge::{
-    BEYOND, CLEAR, LARGEST_BETWEEN, LARGEST_CORRECTION, PLACES, STEP_BACK, STEPS_BACK,
+    BEYOND, CLEAR, LARGEST_BETWEEN, LARGEST_CORRECTION, NEARLY_CLEAR, PLACES, STEP_BACK, STEPS_BACK,
 };
 
 impl Crossing {
@@ -105,7 +105,7 @@ impl Crossing {
         step.try_position(t, ahead);
         let correction = step.correct(kinematics).ok()?;
         step.derive_trial(kinematics).ok()?;
-        let is_clear = kinematics.nearness(CLEAR) >= 0.3 * CLEAR;
+        let is_clear = kinematics.nearness(CLEAR) >= NEARLY_CLEAR * CLEAR;
         let mut bridge = Bridge::new(clear, step.trial());
         let is_small = correction <= LARGEST_CORRECTION * way && is_clear;
         if !is_small || !holds(kinematics, &bridge, LARGEST_BETWEEN * way) {

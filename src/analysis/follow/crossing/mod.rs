@@ -16,12 +16,13 @@ use super::step::Step;
 use crate::analysis::explain::singular;
 use crate::analysis::state::{Fault, Kinematics, State};
 use crate::diag::Diagnostic;
+use crate::tolerances::scales::linear::CLEAR_PIVOT;
 use crate::tolerances::singular::bridge::{CERTAIN, CLEAR};
 pub use bridge::Bridge;
 
 /// Whether the position that was factored is clear of every singular one.
 pub fn is_clear(kinematics: &mut Kinematics) -> bool {
-    kinematics.linear().smallest_pivot() > 10.0 * CLEAR || kinematics.nearness(CLEAR) >= CLEAR
+    kinematics.linear().smallest_pivot() > CLEAR_PIVOT * CLEAR || kinematics.nearness(CLEAR) >= CLEAR
 }
 
 /// What is known of the singular positions on the way.

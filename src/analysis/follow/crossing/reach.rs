@@ -10,7 +10,7 @@ use super::bridge::Bridge;
 use crate::analysis::state::Kinematics;
 use crate::math::boundary;
 use crate::tolerances::singular::reach::{
-    CONTRACTS, CORRECTIONS, MARGIN, NARROWER, PARABOLAS, PARABOLAS_IN_TIME, SAMPLES, SETTLED, TAKES_PART,
+    CONTRACTS, CORRECTIONS, MARGIN, NARROWER, PARABOLAS, PARABOLAS_IN_TIME, ROUNDING, SAMPLES, SETTLED, TAKES_PART,
 };
 
 /// A function's extremum near a place.
@@ -106,7 +106,7 @@ fn open_across(kinematics: &mut Kinematics, fold: &Fold<'_>, from: &[f64], t: f6
         }
         // rounding goes on for ever, but is small
         if size.is_nan() || size > CONTRACTS * last {
-            return (size <= 1e3 * SETTLED).then_some(open);
+            return (size <= ROUNDING * SETTLED).then_some(open);
         }
         last = size;
     }

@@ -7,7 +7,7 @@
 use crate::analysis::state::State;
 use crate::ir::{ConstraintSystem, CoordinateKind};
 use crate::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};
-use crate::tolerances::steps::limits::{FEWEST, GROWTH, MISPLACED, MOST, NEAREST, UNCERTAIN};
+use crate::tolerances::steps::limits::{EXACT, FEWEST, GROWTH, MISPLACED, MOST, NEAREST, UNCERTAIN};
 
 /// What two sides are like.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -172,7 +172,7 @@ impl Limits {
             velocity_column,
             rests: [position, velocity],
             acceleration: acceleration / allowed[2].max(noise),
-            is_exact: noise <= allowed[2] || noise <= 0.1 * acceleration,
+            is_exact: noise <= allowed[2] || noise <= EXACT * acceleration,
             fastest,
             hardest,
             noise,

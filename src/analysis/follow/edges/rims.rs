@@ -16,7 +16,7 @@ use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
 use crate::diag::Diagnostic;
 use crate::math::{Halving, bisect};
 use crate::tolerances::steps::rims::{
-    FARTHEST, FINEST, FINEST_BETWEEN, LAST_MOMENT, MOMENT, MOMENT_OF_MOTION, MOST_HALVINGS, MOST_PARTS,
+    FARTHEST, FINEST, FINEST_BETWEEN, KNOWN, LAST_MOMENT, MOMENT, MOMENT_OF_MOTION, MOST_HALVINGS, MOST_PARTS,
     MOST_PARTS_BETWEEN, ROUNDING,
 };
 
@@ -261,7 +261,7 @@ impl Rims {
         let layout = self.gauges.rim(rim);
         let [gauge, _] = kinematics.gauge(layout);
         let rounding = f64::EPSILON * kinematics.largest_term(layout) / gauge.abs();
-        (rounding < 1e-6).then_some(rounding)
+        (rounding < KNOWN).then_some(rounding)
     }
 
     /// The gauge and its slope at a time next to the state, solved for.

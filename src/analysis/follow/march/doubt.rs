@@ -144,8 +144,8 @@ impl Follower {
 
 /// Whether a row is right, beside one that is.
 fn agree(kinematics: &Kinematics, row: &[f64], other: &[f64]) -> bool {
-    let [_, first, second, _] = RowLayout::new(kinematics.system()).coordinates;
-    let right = |column: usize| RIGHT[usize::from(column >= first as usize) + usize::from(column >= second as usize)];
+    let layout = RowLayout::new(kinematics.system());
+    let right = |column: usize| RIGHT[layout.order_of(column)];
     // a measure may have no value
     let is_near = |(column, (a, b)): (usize, (&f64, &f64))| {
         !a.is_finite() || kinematics.may_be_missing(column) || (a - b).abs() <= right(column) * (1.0 + b.abs())

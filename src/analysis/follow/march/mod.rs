@@ -21,6 +21,7 @@ use crate::analysis::explain::singular;
 use crate::analysis::state::{Fault, Kinematics, State, Times, Trust, behind_start};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::solver::Solver;
+use crate::tolerances::UNTOLD_SPAN;
 use crate::tolerances::steps::march::MOST_STEPS;
 use std::sync::Arc;
 pub use stretches::Stretch;
@@ -57,8 +58,7 @@ impl Follower {
     #[must_use]
     pub fn new((mut kinematics, state, solver): (Kinematics, State, Option<Arc<Solver>>), times: Times) -> Follower {
         let last = state.t + times.span();
-        // what happens in no time at all is measured by the second
-        let span = if times.span() > 0.0 { times.span() } else { 1.0 };
+        let span = if times.span() > 0.0 { times.span() } else { UNTOLD_SPAN };
         let edges = Edges::new(&mut kinematics, &state, span, last);
         let crossing = Crossing::new(&state, span, last);
         let forces = ForceWatch::of(&kinematics, &state);

@@ -5,7 +5,7 @@ use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, State, Times};
 use crate::layout::RowLayout;
 use crate::solver::{Batch, Bend, Lanes, Pivoting, Solver};
-use crate::tolerances::solving::rows::{ENOUGH, LANES, REFINED, SHORT};
+use crate::tolerances::solving::rows::{ENOUGH, LANES, REFINED, SAME_TIME, SHORT};
 #[cfg(feature = "threads")]
 use crate::tolerances::solving::rows::{MOST_THREADS, WORTH_A_THREAD};
 use crate::tolerances::steps::march::LARGEST_CORRECTION;
@@ -168,7 +168,7 @@ impl Leap {
     /// there.
     pub fn middle(&mut self, kinematics: &Kinematics, step: &Step) -> Option<State> {
         let [from, length] = self.way();
-        let is_of_it = length > 0.0 && (from + length - step.t()).abs() <= 1e-9 * length;
+        let is_of_it = length > 0.0 && (from + length - step.t()).abs() <= SAME_TIME * length;
         let t = 0.5 * from + 0.5 * step.t();
         if !is_of_it || !self.solve_alone(kinematics, step.curve(), [from, length, t]) {
             return None;
@@ -209,7 +209,7 @@ impl Leap {
         (self.first, self.end) = (next, next);
         self.last = if at_end { behind - 1 } else { behind };
         std::mem::swap(&mut self.before, &mut self.origin.mark.state);
-        let was_next_to_it = (self.before.t + self.length - step.t()).abs() <= 1e-9 * h;
+        let was_next_to_it = (self.before.t + self.length - step.t()).abs() <= SAME_TIME * h;
         let is_bent = self.is_smooth && was_next_to_it && self.length > 0.0;
         let before = &self.before;
         for (bend, &tear) in self.bends.iter_mut().zip(self.solver.tears()) {

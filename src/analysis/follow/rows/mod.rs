@@ -8,7 +8,7 @@ use super::bookmark::Bookmark;
 use super::edges::Edge;
 use super::remarks::Remarks;
 use crate::analysis::state::{Kinematics, State, Times, Trust, shortly_after};
-use crate::tolerances::steps::march::MOST_STEPS;
+use crate::tolerances::steps::march::{CRUMB, MOST_STEPS};
 pub use forces::ForceWatch;
 pub use leap::{Leap, state_of_row};
 use missing::Missing;
@@ -120,8 +120,7 @@ impl Rows {
         let behind = self.times.first_after(farthest, self.next);
         // what does not change the time is no step
         let farthest = if farthest > from { farthest } else { upcoming };
-        // no crumb at the end
-        if h >= 0.999 * (upcoming - from) { self.times.at(behind.saturating_sub(1).max(self.next)) } else { farthest }
+        if h >= CRUMB * (upcoming - from) { self.times.at(behind.saturating_sub(1).max(self.next)) } else { farthest }
     }
 
     /// An edge, ahead of a time (s), that is meant to be at an output time is there.

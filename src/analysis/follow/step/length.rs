@@ -2,8 +2,10 @@
 
 use super::Accepted;
 use crate::analysis::state::Kinematics;
+use crate::tolerances::UNTOLD_SPAN;
 use crate::tolerances::steps::march::{
-    FEWEST_STEPS, FEWEST_STEPS_NEAR, LARGEST_BETWEEN, LARGEST_CORRECTION, SMALLEST_STEP,
+    CALM_BETWEEN, CALM_CORRECTION, CRUMB, FEWEST_STEPS, FEWEST_STEPS_NEAR, LARGEST_BETWEEN, LARGEST_CORRECTION,
+    SMALLEST_STEP,
 };
 
 /// The length of the next step, as far as the error is known.
@@ -17,8 +19,7 @@ pub struct Length {
 impl Length {
     /// For a motion over a span (s).
     pub fn new(span: f64) -> Length {
-        // what happens in no time at all is measured by the second
-        let measure = if span > 0.0 { span } else { 1.0 };
+        let measure = if span > 0.0 { span } else { UNTOLD_SPAN };
         Length { h: span / FEWEST_STEPS_NEAR, smallest: SMALLEST_STEP * span, span: measure }
     }
 
@@ -32,8 +33,7 @@ impl Length {
 
     /// When a step from a time towards another one ends (s).
     pub fn end_towards(&self, from: f64, t: f64) -> f64 {
-        // no crumb at the end
-        if self.h >= 0.999 * (t - from) { t } else { from + self.h }
+        if self.h >= CRUMB * (t - from) { t } else { from + self.h }
     }
 
     /// Behind a step of length `h` that was accepted.
@@ -42,8 +42,8 @@ impl Length {
         let longest = self.span / FEWEST_STEPS;
         let is_near = 2.0 * accepted.motion * longest >= kinematics.linear().smallest_pivot() * h;
         let longest = if is_near { self.span / FEWEST_STEPS_NEAR } else { longest };
-        // the predictor's error grows with h³, the curve's between with h⁶
-        let calm = accepted.first_correction < LARGEST_CORRECTION / 12.0 && accepted.between < LARGEST_BETWEEN / 100.0;
+        let calm = accepted.first_correction < LARGEST_CORRECTION / CALM_CORRECTION
+            && accepted.between < LARGEST_BETWEEN / CALM_BETWEEN;
         if calm {
             // a step cut short by an output time says little of a longer one
             self.h = self.h.max(2.0 * h).min(longest);

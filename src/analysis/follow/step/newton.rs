@@ -2,7 +2,8 @@
 
 use super::Step;
 use crate::analysis::state::{Fault, Kinematics};
-use crate::tolerances::steps::march::{ILL, ITERATIONS, LARGEST_CORRECTION, SETTLED};
+use crate::tolerances::scales::linear::CLEAR_PIVOT;
+use crate::tolerances::steps::march::{ILL, ITERATIONS, LARGEST_CORRECTION, LATER_CORRECTION, SETTLED};
 
 impl Step {
     /// Corrects the state that is tried, and finds its derivatives.
@@ -20,7 +21,7 @@ impl Step {
             kinematics.factor()?;
             kinematics.correction(&mut self.delta);
             let size = kinematics.linear().largest_judged(&self.delta);
-            let bound = if first.is_none() { LARGEST_CORRECTION } else { 0.25 * LARGEST_CORRECTION };
+            let bound = if first.is_none() { LARGEST_CORRECTION } else { LATER_CORRECTION * LARGEST_CORRECTION };
             if size.is_nan() || size > bound {
                 return Err(Fault::TooFar);
             }
@@ -94,7 +95,7 @@ impl Step {
 /// A correction below this leaves nothing to the next one: near a singular position what it leaves is larger by as much as
 /// that is near, and no correction is smaller than rounding.
 fn settled(kinematics: &mut Kinematics) -> f64 {
-    if kinematics.linear().smallest_pivot() > 10.0 * ILL {
+    if kinematics.linear().smallest_pivot() > CLEAR_PIVOT * ILL {
         return SETTLED;
     }
     let sigma = kinematics.nearness(ILL);

@@ -6,7 +6,7 @@ use crate::analysis::state::dense::factor_dense;
 use crate::analysis::state::sparse::Plan;
 use crate::math::GOLDEN;
 use crate::solver::BlockEntry;
-use crate::tolerances::scales::linear::{LARGEST_DENSE, PLANS};
+use crate::tolerances::scales::linear::{LARGEST_DENSE, PLANS, SMALLEST_PIVOT};
 use crate::tolerances::solving::solver::LARGEST_MULTIPLIER;
 
 impl BlockLu {
@@ -52,7 +52,7 @@ impl BlockLu {
             }
             self.factor_part(k);
             // also refuses a pivot that is not a number
-            regular &= self.parts[k].smallest_pivot > 1e-14;
+            regular &= self.parts[k].smallest_pivot > SMALLEST_PIVOT;
         }
         if regular { Factored::Regular } else { Factored::Singular }
     }

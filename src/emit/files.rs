@@ -1,0 +1,13 @@
+//! Files of a crate, and how they can be told from those that somebody wrote.
+
+/// A file of a crate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CrateFile {
+    /// Where it goes in the crate, with `/`.
+    pub path: String,
+    /// What is in it; one of the first lines has [`MARK`].
+    pub text: String,
+}
+
+/// What every file of a crate holds near its beginning, and by which it can be told from one that somebody wrote.
+pub const MARK: &str = "ritten by mechc ";
