@@ -1,0 +1,209 @@
+//! A mechanism: its text, checked, proven and compiled once.
+
+use crate::errors::Said;
+use crate::files::Files;
+use crate::run::Asked;
+use crate::sweep::{AskedOfSweep, Sweep};
+use crate::waiting::interruptible;
+use mechc::{Cancel, Checked, Choice, Compiled, Diagnostics, Parsed, Redundant, RunOptions, Settable, Sources, World};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What became of a text, with what is said of it, ready to be told.
+pub type Told<T> = Result<(T, Said), Said>;
+
+/// A mechanism with its settings.
+#[pyclass(frozen, subclass, module = "mechc._mechc")]
+pub struct Mechanism {
+    pub stages: Stages,
+    params: Vec<Settable>,
+    inputs: Vec<Settable>,
+}
+
+/// What it was made of, and what it is.
+#[derive(Clone)]
+pub struct Stages {
+    pub parsed: Parsed,
+    pub path: PathBuf,
+    pub files: Arc<Files>,
+    /// The mechanism and what is set in it.
+    pub choice: Choice,
+    pub redundant: Redundant,
+    pub checked: Checked,
+    pub compiled: Compiled,
+}
+
+impl Stages {
+    fn of(parsed: Parsed, path: PathBuf, files: Arc<Files>, settings: (Choice, Redundant), cancel: &Cancel) -> Told<Stages> {
+        let (choice, redundant) = settings;
+        let ((checked, compiled), said) = compiled(&parsed, &choice, &*files, redundant, cancel)?;
+        compiled.prepare();
+        Ok((Stages { parsed, path, files, choice, redundant, checked, compiled }, said))
+    }
+
+    /// What it is with more that is asked for beside its text.
+    pub fn with(&self, choice: &Choice, world: &dyn World, redundant: Redundant, cancel: &Cancel) -> Told<(Checked, Compiled)> {
+        compiled(&self.parsed, choice, world, redundant, cancel)
+    }
+}
+
+fn compiled(
+    parsed: &Parsed,
+    choice: &Choice,
+    world: &dyn World,
+    redundant: Redundant,
+    cancel: &Cancel,
+) -> Told<(Checked, Compiled)> {
+    let checked = parsed.check(choice, world);
+    let (sources, mut said) = (checked.sources().clone(), checked.diagnostics().clone());
+    if !checked.is_sound() {
+        return Err(Said::of(&said, &sources));
+    }
+    let (compiled, more) = checked.compile(redundant, cancel);
+    match compiled {
+        Some(compiled) => {
+            said.extend(more);
+            let said = Said::of(&said, &sources);
+            Ok(((checked, compiled), said))
+        }
+        None => Err(Said::of(&more, &sources)),
+    }
+}
+
+#[pymethods]
+impl Mechanism {
+    /// Reads, checks and proves a mechanism; of a file where no text is given.
+    #[new]
+    #[pyo3(signature = (text, path, files, from_disk, mechanism, set, allow_redundant))]
+    fn new(
+        py: Python<'_>,
+        text: Option<String>,
+        path: PathBuf,
+        files: BTreeMap<PathBuf, Vec<u8>>,
+        from_disk: bool,
+        mechanism: Option<String>,
+        set: Vec<String>,
+        allow_redundant: bool,
+    ) -> PyResult<Mechanism> {
+        let files = Arc::new(Files::new(files, from_disk));
+        let choice = Choice { mechanism, set, ..Choice::default() };
+        let redundant = if allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
+        let made = interruptible(py, |cancel| {
+            let parsed = read(text.as_deref(), &path, &files).map_err(|(sources, said)| Said::of(&said, &sources))?;
+            Stages::of(parsed, path, files, (choice, redundant), cancel)
+        })?;
+        let (stages, said) = made.map_err(|said| said.raised(py))?;
+        said.warned(py)?;
+        let (params, inputs) = (stages.checked.settable_params(), stages.checked.settable_inputs(&stages.compiled));
+        Ok(Mechanism { stages, params, inputs })
+    }
+
+    /// What it takes to have it again: text, path, files, mechanism, settings, whether redundant equations are left out.
+    fn _packed<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let Stages { parsed, path, files, choice, redundant, .. } = &self.stages;
+        let known = PyDict::new(py);
+        for (path, bytes) in files.known() {
+            known.set_item(path, PyBytes::new(py, &bytes))?;
+        }
+        let text = &parsed.sources().get(parsed.file()).text;
+        let leaves_out = *redundant == Redundant::LeftOut;
+        let packed = (text, path, known, choice.mechanism.as_ref(), &choice.set, leaves_out);
+        Ok(packed.into_pyobject(py)?.into_any())
+    }
+
+    #[getter]
+    fn _name(&self) -> &str {
+        self.stages.compiled.name()
+    }
+
+    /// Coordinates less equations: 0 of what is determined, less where redundant equations are left out.
+    #[getter]
+    fn ndof(&self) -> isize {
+        self.stages.compiled.ndof()
+    }
+
+    /// The text.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.stages.parsed.sources().get(self.stages.parsed.file()).text
+    }
+
+    /// Each param: its name, its value (SI), its unit.
+    #[getter]
+    fn _params(&self) -> Vec<(&str, f64, &str)> {
+        self.params.iter().map(|of| (of.name.as_str(), of.value, of.unit.as_str())).collect()
+    }
+
+    #[getter]
+    fn _inputs(&self) -> Vec<(&str, f64, &str)> {
+        self.inputs.iter().map(|of| (of.name.as_str(), of.value, of.unit.as_str())).collect()
+    }
+
+    fn _columns(&self) -> Vec<String> {
+        self.stages.compiled.columns()
+    }
+
+    #[getter]
+    fn _units(&self) -> Vec<String> {
+        self.stages.compiled.units().into_iter().map(|unit| unit.text).collect()
+    }
+
+    #[getter]
+    fn _results(&self) -> Vec<(String, String)> {
+        self.stages.compiled.results_of_variants()
+    }
+
+    /// First time, last time and step of the text's analysis (s), if it has one.
+    #[getter]
+    fn analysis(&self) -> Option<(f64, f64, f64)> {
+        self.stages.compiled.analysis().map(|[from, to, every]| (from, to, every))
+    }
+
+    /// Each driver with its equation as it is written.
+    #[getter]
+    fn drivers(&self) -> Vec<(String, String)> {
+        self.stages.compiled.drivers()
+    }
+
+    /// How many coordinates and equations there are, by body and declaration, as a table.
+    #[getter]
+    fn counts(&self) -> String {
+        self.stages.compiled.counts()
+    }
+
+    /// Where it stands at the first time: coordinates by name (SI), and the distance to a singular position.
+    fn _assembled(&self, py: Python<'_>) -> PyResult<(f64, Vec<(String, f64)>, f64)> {
+        let compiled = &self.stages.compiled;
+        let t = compiled.analysis().map_or(0.0, |[from, ..]| from);
+        let (assembly, said) = interruptible(py, |cancel| {
+            compiled.assembled(t, &RunOptions { cancel: cancel.clone(), ..RunOptions::default() })
+        })?;
+        let Some(assembly) = assembly else { return Err(Said::of(&said, compiled.sources()).raised(py)) };
+        let coordinates = assembly.coordinates.into_iter().map(|(name, value, _)| (name, value)).collect();
+        Ok((assembly.t, coordinates, assembly.conditioning))
+    }
+
+    /// Runs it; `asked` has the options by their names.
+    fn _run(&self, py: Python<'_>, asked: Asked) -> PyResult<Py<PyDict>> {
+        asked.run(py, &self.stages)
+    }
+
+    /// A sweep of it; `asked` and `more` have the options by their names.
+    fn _sweep(&self, py: Python<'_>, asked: Asked, more: AskedOfSweep) -> PyResult<Sweep> {
+        Sweep::of(py, &self.stages, &asked, &more)
+    }
+}
+
+fn read(text: Option<&str>, path: &Path, files: &Files) -> Result<Parsed, (Sources, Diagnostics)> {
+    match text {
+        None => Parsed::read(path, files),
+        Some(text) => {
+            let mut sources = Sources::default();
+            let file = sources.add(path.to_string_lossy(), text);
+            Ok(Parsed::of_source(sources, file, path))
+        }
+    }
+}
