@@ -174,3 +174,32 @@ def _head(unit: str) -> str:
         return unit
     parts = (part.partition("^") for part in unit[1:].split("/"))
     return "*".join(f"{name}^-{power or 1}" for name, _, power in parts)
+
+
+def elements(name: str, values: Any) -> float | np.ndarray[Any, Any]:
+    """Numbers for many elements, as an array; a number for what is one."""
+    if isinstance(values, (bool, np.bool_)):
+        return number(name, values)
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError):
+        raise usage(f"`{name}` is {_shown(values)}, which is no array of numbers") from None
+    if array.ndim == 0:
+        return number(name, values if array.dtype == object else array[()])
+    if array.dtype.kind not in "iuf":
+        raise usage(f"`{name}` is an array of {array.dtype}, and one of numbers is wanted", "numbers are taken in SI")
+    array = np.ascontiguousarray(array, dtype=np.float64)
+    if not np.isfinite(array).all():
+        raise usage(f"`{name}` has elements that are not finite", "only finite numbers can be computed with")
+    return array
+
+
+def alike(arrays: list[np.ndarray[Any, Any]]) -> list[np.ndarray[Any, Any]]:
+    """Arrays of one shape."""
+    if all(array.shape == arrays[0].shape for array in arrays):
+        return arrays
+    try:
+        return [np.ascontiguousarray(array) for array in np.broadcast_arrays(*arrays)]
+    except ValueError:
+        shapes = ", ".join(str(array.shape) for array in arrays)
+        raise usage(f"arrays of the shapes {shapes} do not go together", "numpy's rules of broadcasting hold") from None

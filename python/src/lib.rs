@@ -3,13 +3,17 @@
 //!
 //! What a user calls is in `mechc/*.py`, with its documentation.
 
+mod at;
 mod errors;
+mod evaluator;
+mod exported;
 mod files;
 mod mechanism;
 mod run;
 mod stream;
 mod sweep;
 mod table;
+mod tolerance;
 mod waiting;
 
 use pyo3::prelude::*;
@@ -17,6 +21,10 @@ use pyo3::prelude::*;
 /// The module.
 #[pymodule(gil_used = true)]
 mod _mechc {
+    #[pymodule_export]
+    use super::at::{_at_again, At};
+    #[pymodule_export]
+    use super::evaluator::Evaluator;
     #[pymodule_export]
     use super::mechanism::Mechanism;
     #[pymodule_export]

@@ -3,8 +3,8 @@
 
 use super::over::{FromOwn, Reached};
 use super::varied::unusable;
-use super::{Checked, Compiled, Redundant, RunOptions, Variants};
-use crate::analysis::{Answers, Asked, Times};
+use super::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Variants};
+use crate::analysis::{Answers, Asked};
 use crate::cancel::Cancel;
 use crate::check::{SetInputs, Surroundings};
 use crate::diag::{Code, Diagnostic, Diagnostics};
@@ -49,7 +49,7 @@ pub struct Signal {
 /// A mechanism whose inputs and params can be adjusted.
 ///
 /// ```
-/// use mechc::{Adjusting, Cancel, Choice, Memory, Parsed, Signal, Times};
+/// use mechc::{Adjusting, AskedTimes, Cancel, Choice, Memory, Parsed, Signal};
 ///
 /// let text = "mechanism disc {
 ///      input turn = 90 deg/s * t
@@ -62,8 +62,9 @@ pub struct Signal {
 /// let adjusting = Adjusting { inputs: vec!["turn".to_owned()], ..Adjusting::default() };
 /// let disc = checked.adjustable(&adjusting, &Cancel::default()).expect("it is determined");
 /// let turn = Signal { value: 0.3, rate: 2.0, acceleration: 0.0 };
-/// let mut row = Vec::new();
-/// disc.follow(&[turn], &[], &Times::listed(0.0, vec![0.0]), &Cancel::default(), |found| row.extend_from_slice(found)).expect("it gets there");
+/// let (once, mut row) = (AskedTimes { at: vec![0.0], ..AskedTimes::default() }, Vec::new());
+/// let found = disc.follow(&[turn], &[], &once, &Cancel::default(), |found| row.extend_from_slice(found));
+/// assert!(found.is_ok());
 /// assert_eq!((row[3], row[6]), (0.3, 2.0));
 /// ```
 #[derive(Clone)]
@@ -147,8 +148,9 @@ impl Adjustable {
         &self.0.compiled
     }
 
-    /// Follows it at some times, with its inputs set at the first of them, and its params [SI] over those of its text, to which it is led
-    /// along the branch. Each row goes to `row`, in SI and the order of its columns. Gives the results, as [`super::Run::results`] does.
+    /// Follows it at the times that are asked for, as options of a run ask, with its inputs set at the first of them, and its params [SI]
+    /// over those of its text, to which it is led along the branch. Each row goes to `row`, in SI and the order of its columns. Gives the
+    /// results, as [`super::Run::results`] does.
     ///
     /// Values are in the order in which they were asked for.
     ///
@@ -158,12 +160,16 @@ impl Adjustable {
         &self,
         inputs: &[Signal],
         params: &[f64],
-        times: &Times,
+        times: &AskedTimes,
         cancel: &Cancel,
         mut row: impl FnMut(&[f64]),
     ) -> Result<Answers, Box<Diagnostic>> {
         let options = self.0.options(cancel);
-        let values = self.0.values(inputs, params, times.from())?;
+        let (mut values, analysis) = self.0.values(params)?;
+        let times = &times.over(analysis)?.times()?;
+        for (&first, &Signal { value, rate, acceleration }) in self.0.inputs.iter().zip(inputs) {
+            values[first..first + 4].copy_from_slice(&[value, times.from(), rate, acceleration]);
+        }
         let mut started = match self.0.from_own.lead_values(&values, times, &options) {
             Reached::There(started) => *started?,
             Reached::Refused(said) => return Err(first_error(said)),
@@ -183,15 +189,6 @@ impl Adjustable {
         }
         Ok(asked.and_then(Asked::answer).unwrap_or_default())
     }
-
-    /// The times at which it is followed to a time (s) as its text has it: from the first time of its analysis on.
-    ///
-    /// # Errors
-    /// It is before the first time.
-    pub fn times_to(&self, t: f64) -> Result<Times, Box<Diagnostic>> {
-        let at = super::AskedTimes { at: vec![t], ..super::AskedTimes::default() };
-        at.over(self.0.compiled.analysis())?.times()
-    }
 }
 
 impl Shared {
@@ -200,21 +197,13 @@ impl Shared {
         RunOptions { tolerance, pass_bifurcations, cancel: cancel.clone(), ..RunOptions::default() }
     }
 
-    /// The values of all params of the model, where inputs are set at a time (s).
-    fn values(&self, inputs: &[Signal], params: &[f64], t: f64) -> Result<Vec<f64>, Box<Diagnostic>> {
-        let mut values = match &self.params {
-            None => self.own.clone(),
-            Some(variants) => {
-                let settings = variants.read_settings(params);
-                let (model, said) = self.checked.model_led_to(settings, variants.sources());
-                let model = model.ok_or_else(|| first_error(said))?;
-                model.params.iter().map(|param| param.value).collect()
-            }
-        };
-        for (&first, &Signal { value, rate, acceleration }) in self.inputs.iter().zip(inputs) {
-            values[first..first + 4].copy_from_slice(&[value, t, rate, acceleration]);
-        }
-        Ok(values)
+    /// The values of all params of the model, with its own inputs, and first time, last time and step of its analysis (s).
+    fn values(&self, params: &[f64]) -> Result<(Vec<f64>, Option<[f64; 3]>), Box<Diagnostic>> {
+        let Some(variants) = &self.params else { return Ok((self.own.clone(), self.compiled.analysis())) };
+        let (model, said) = self.checked.model_led_to(variants.read_settings(params), variants.sources());
+        let model = model.ok_or_else(|| first_error(said))?;
+        let analysis = model.analysis.map(|of| [of.from, of.to, of.every]);
+        Ok((model.params.iter().map(|param| param.value).collect(), analysis))
     }
 }
 
