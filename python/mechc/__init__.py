@@ -31,24 +31,33 @@ from mechc.errors import (  # noqa: E402
     UsageError,
 )
 from mechc.mechanism import Mechanism, load, parse  # noqa: E402
-from mechc.tables import Run, Swept  # noqa: E402
-from mechc.values import Between, between  # noqa: E402
+from mechc._mechc import At  # noqa: E402
+from mechc.derivatives import Jacobian, Objective, Residuals  # noqa: E402
 from mechc.sweep import Sweep  # noqa: E402
+from mechc.tables import Run, Swept  # noqa: E402
+from mechc.tolerances import Deviation, Tolerance  # noqa: E402
+from mechc.values import Between, between  # noqa: E402
 
 __all__ = [
     "AnalysisError",
+    "At",
     "Between",
     "Bifurcation",
+    "Deviation",
     "FileError",
     "InputError",
+    "Jacobian",
     "LockUp",
     "MechcError",
     "MechcWarning",
     "Mechanism",
     "NotAssembled",
+    "Objective",
+    "Residuals",
     "Run",
     "Sweep",
     "Swept",
+    "Tolerance",
     "UsageError",
     "__version__",
     "between",

@@ -251,3 +251,12 @@ def _columns_of(variants: Any) -> dict[str, Any]:
         if not isinstance(name, str):
             raise usage(f"{name!r} is no name of a param")
     return {name: getattr(column, "to_numpy", lambda column=column: column)() for name, column in columns.items()}
+
+
+def off(name: str, ends: Any, unit: str) -> str:
+    """How far a param may be off, as the command's ``--tol`` has it."""
+    if isinstance(ends, (tuple, list)):
+        if len(ends) != 2:
+            raise usage(f"the tolerance of `{name}` is {ends!r}", "one value is plus and minus, two are from and to")
+        return f"{name}={written(name, ends[0], unit)}..{written(name, ends[1], unit)}"
+    return f"{name}={written(name, ends, unit)}"

@@ -40,7 +40,7 @@ class MechcError(Exception):
     #: What is said, a dictionary for each message.
     diagnostics: list[dict[str, Any]]
 
-    def __init__(self, text: str, diagnostics: list[dict[str, Any]] | None = None) -> None:
+    def __init__(self, text: str = "", diagnostics: list[dict[str, Any]] | None = None) -> None:
         super().__init__(text)
         self.text = text
         self.diagnostics = [] if diagnostics is None else diagnostics
@@ -55,7 +55,8 @@ class MechcError(Exception):
         return next(codes, None)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again, (type(self), self.text, self.diagnostics, dict(self.__dict__))
+        # what holds it may be in its `partial`, and comes behind it
+        return type(self), (self.text, self.diagnostics), dict(self.__dict__)
 
 
 class InputError(MechcError):
@@ -104,12 +105,6 @@ class MechcWarning(UserWarning):
 
 _OF_BLAME = {"input": InputError, "usage": UsageError, "analysis": AnalysisError, "files": FileError}
 _OF_CODE = {"E0601": NotAssembled, "E0602": LockUp, "E0603": Bifurcation}
-
-
-def _again(kind: type[MechcError], text: str, diagnostics: list[dict[str, Any]], rest: dict[str, Any]) -> MechcError:
-    error = kind(text, diagnostics)
-    error.__dict__.update(rest)
-    return error
 
 
 def _raised(lines: list[str], text: str, blame: str, code: str) -> MechcError:

@@ -5,12 +5,16 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
-from mechc import _mechc, asking
+from mechc import _mechc, asking, exports, notebook
+from mechc.derivatives import Jacobian, Objective, Residuals, jacobian, objective, residuals
+from mechc.errors import MechcError
 from mechc.sweep import Sweep
 from mechc.tables import Run
-from mechc.values import Value, usage
+from mechc.tolerances import Tolerance, told
+from mechc.values import Value, many, number, texts, usage, whole
 
 #: What files hold: texts or bytes.
 Files = Mapping[Any, "str | bytes"]
@@ -268,6 +272,238 @@ class Mechanism(_mechc.Mechanism):
         )
         return Sweep(self, asked, more, progress)
 
+    def _asked(self, options: tuple[str, ...] | list[str], values: Mapping[str, Any], **given: Any) -> dict[str, Any]:
+        return asking.asked(self._param_units, self._input_units, options, values, **given)
+
+    def reactions(self, *, strict: bool = True, **options: Any) -> Run:
+        """What all joints exert and all drivers supply, as ``mechc run --reactions`` has it: ``main.fx``, ``main.fy``, ``motor.effort``.
+
+        It takes what :meth:`run` takes, and gives those columns alone, behind the time. Forces are in the outermost frame (N, N*m).
+        """
+        columns = texts("columns", options.pop("columns", None))
+        run = self.run(strict=False, reactions=True, columns=columns, **options)
+        if not columns:
+            plain = {*self.columns}
+            names = [name for name in run if name == "t" or (name not in plain and ".by." not in name)]
+            run = run._with_columns(names)
+        if run.error is not None and strict:
+            run.error.partial = run
+            raise run.error
+        return run
+
+    def jacobian(
+        self,
+        by: Any,
+        *,
+        set: Mapping[str, Value] | None = None,
+        inputs: Mapping[str, Value] | None = None,
+        from_: Value | None = None,
+        to: Value | None = None,
+        every: Value | None = None,
+        results: Any = None,
+        lead: bool = False,
+        tolerance: float | None = None,
+        pass_bifurcations: bool = False,
+        **values: Value,
+    ) -> Jacobian:
+        """The exact derivatives of all results and columns by params and inputs, ``by=["rod_length"]``.
+
+        ``j.results`` is of shape (results, params), in SI; ``j["travel"]`` of shape (rows, params), along the motion. The options are
+        those of :meth:`run`.
+        """
+        asked = self._asked(
+            _JACOBIAN,
+            values,
+            set=set,
+            inputs=inputs,
+            from_=from_,
+            to=to,
+            every=every,
+            results=results,
+            lead=lead,
+            tolerance=tolerance,
+            pass_bifurcations=pass_bifurcations,
+        )
+        return jacobian(self, by, asked)
+
+    def objective(
+        self,
+        result: str,
+        by: Any,
+        *,
+        failed: float | None = None,
+        set: Mapping[str, Value] | None = None,
+        from_: Value | None = None,
+        to: Value | None = None,
+        every: Value | None = None,
+        results: Any = None,
+        tolerance: float | None = None,
+        pass_bifurcations: bool = False,
+        **values: Value,
+    ) -> Objective:
+        """A result as a function of params, with its exact gradient, for optimisers.
+
+        ``f = m.objective("peak", by=["rod_length", "crank_length"])``, then ``scipy.optimize.minimize(f, f.x0, jac=True)``. ``x`` are the
+        params in that order (SI); the mechanism is led from its own params to them, along the branch, so that a value does not depend
+        on those that were asked for before. ``failed`` is the value where it does not get there; an error is raised where nothing is said.
+        """
+        asked = self._asked(
+            _OBJECTIVE,
+            values,
+            set=set,
+            from_=from_,
+            to=to,
+            every=every,
+            results=results,
+            tolerance=tolerance,
+            pass_bifurcations=pass_bifurcations,
+        )
+        if not isinstance(result, str):
+            raise usage(f"{result!r} is no name of a result")
+        return objective(self, result, by, None if failed is None else float(failed), asked)
+
+    def residuals(
+        self,
+        columns: Any,
+        wanted: Any,
+        by: Any,
+        *,
+        set: Mapping[str, Value] | None = None,
+        from_: Value | None = None,
+        to: Value | None = None,
+        every: Value | None = None,
+        at: Any = None,
+        tolerance: float | None = None,
+        pass_bifurcations: bool = False,
+        **values: Value,
+    ) -> Residuals:
+        """Columns at some times less what they ought to be, as a function of params, with exact derivatives.
+
+        ``f = m.residuals(["px", "py"], points, by=["r1", "r2"], at=times)``, ``points`` of shape (times, columns), in the columns' units;
+        then ``scipy.optimize.least_squares(f, f.x0, jac=f.jacobian)``. ``at`` must rise.
+        """
+        if at is not None and len(many("at", at)) > 1:
+            times = [number("at", time) for time in many("at", at)]
+            if any(a >= b for a, b in zip(times, times[1:])):
+                raise usage("the times of `at` do not rise", "each is to stand once, in order, as its target does")
+        asked = self._asked(
+            _RESIDUALS,
+            values,
+            set=set,
+            from_=from_,
+            to=to,
+            every=every,
+            at=at,
+            tolerance=tolerance,
+            pass_bifurcations=pass_bifurcations,
+        )
+        return residuals(self, columns, wanted, by, asked)
+
+    def tolerance(
+        self,
+        tol: Mapping[str, Any],
+        *,
+        normal: bool = False,
+        verify: bool = False,
+        set: Mapping[str, Value] | None = None,
+        inputs: Mapping[str, Value] | None = None,
+        from_: Value | None = None,
+        to: Value | None = None,
+        every: Value | None = None,
+        results: Any = None,
+        tolerance: float | None = None,
+        pass_bifurcations: bool = False,
+        **values: Value,
+    ) -> Tolerance:
+        """What small errors of params make of measures and results, as ``mechc tolerance`` says it.
+
+        ``tol`` says how far they may be off: ``{"rod_length": "0.05 mm", "A.x": ("-0.1 mm", 0)}``, plus and minus, or from and to; numbers are
+        SI. The contribution of each comes from exact derivatives; errors are uniform within their tolerance, or with ``normal=True`` it
+        is 3 σ. ``verify`` runs the corners, and says where derivatives are not enough.
+        """
+        if not isinstance(tol, Mapping) or not tol:
+            raise usage("`tol` says which params may be off", "as in `tol={'rod_length': '0.05 mm'}`")
+        asked = self._asked(
+            _TOLERANCE,
+            values,
+            set=set,
+            inputs=inputs,
+            from_=from_,
+            to=to,
+            every=every,
+            results=results,
+            tolerance=tolerance,
+            pass_bifurcations=pass_bifurcations,
+        )
+        listed = [asking.off(name, ends, asking.unit_of(name, self._param_units)) for name, ends in tol.items()]
+        return told(*self._tolerance(asked, listed, bool(normal), bool(verify)))
+
+    def to_rust(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        sensitivities: bool = False,
+        lanes: int | None = None,
+        ffi: bool = False,
+    ) -> str | Path:
+        """Rust code that assembles the mechanism and follows its motion, as ``mechc emit`` writes it.
+
+        The text where no path is given; a ``.rs`` file, or a whole crate in a folder. ``sensitivities`` adds derivatives by params,
+        ``lanes`` so many variants at once, ``ffi`` a header for C, to a crate.
+        """
+        asked = {
+            "sensitivities": bool(sensitivities),
+            "lanes": None if lanes is None else whole("lanes", lanes, 1),
+            "ffi": bool(ffi),
+        }
+        if path is None or exports.path_of(path).suffix == ".rs":
+            if ffi:
+                raise usage("functions for C are a part of a crate", "name a folder for it")
+            text = self._rust(asked)
+            return text if path is None else exports.write(exports.path_of(path), text)
+        folder = exports.path_of(path)
+        files, mark = self._crate(asked, folder.resolve().name or self.name)
+        return exports.write_all(folder, files, mark)
+
+    def to_latex(self, path: str | os.PathLike[str] | None = None) -> str | Path:
+        """The equations typeset for a report: the text, or a file."""
+        text = self._latex()
+        return text if path is None else exports.write(exports.path_of(path), text)
+
+    def to_json(self, path: str | os.PathLike[str] | None = None) -> str | Path:
+        """The constraint system as data for other programs: the text, or a file."""
+        text = self._json()
+        return text if path is None else exports.write(exports.path_of(path), text)
+
+    def view(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        set: Mapping[str, Value] | None = None,
+        inputs: Mapping[str, Value] | None = None,
+        from_: Value | None = None,
+        to: Value | None = None,
+        every: Value | None = None,
+        pass_bifurcations: bool = False,
+        **values: Value,
+    ) -> Path:
+        """Writes a page that moves (``.html``), or a picture that does (``.svg``), of a run with these options."""
+        file = exports.path_of(path)
+        if file.suffix not in (".html", ".svg"):
+            raise usage(f"`{file}` is neither a page nor a picture", "its ending is `.html` or `.svg`")
+        asked = self._asked(
+            _VIEW, values, set=set, inputs=inputs, from_=from_, to=to, every=every, pass_bifurcations=pass_bifurcations
+        )
+        page, picture = self._seen(asked)
+        return exports.write(file, page if file.suffix == ".html" else picture)
+
+    def _repr_html_(self) -> str | None:
+        """The moving page, for notebooks."""
+        try:
+            return notebook.shown(self, self._asked([], {}))
+        except MechcError:
+            return None
+
     def __repr__(self) -> str:
         moved = len([name for name in self._columns() if name.endswith(".x")])
         params = f", {len(self.params)} params" if self.params else ""
@@ -297,3 +533,8 @@ _SWEEP = (
     "vary variants samples method seed rows until set inputs from_ to every at columns results by reactions tolerance "
     "pass_bifurcations allow_redundant jobs skip take progress"
 ).split()
+_JACOBIAN = "by set inputs from_ to every results lead tolerance pass_bifurcations".split()
+_OBJECTIVE = "result by failed set from_ to every results tolerance pass_bifurcations".split()
+_RESIDUALS = "columns wanted by set from_ to every at tolerance pass_bifurcations".split()
+_TOLERANCE = "tol normal verify set inputs from_ to every results tolerance pass_bifurcations".split()
+_VIEW = "path set inputs from_ to every pass_bifurcations".split()

@@ -157,6 +157,14 @@ class Run(Rows):
         """The SI units of the results."""
         return {name: unit for name, _, unit in self._results}
 
+    def _with_columns(self, names: list[str]) -> Run:
+        """The same with some of its columns."""
+        places = [self._places[name] for name in names]
+        units = self.units
+        columns = [np.asarray(self._table.column(place)) for place in places]
+        table = _mechc.Table(names, [units[name] for name in names], columns)
+        return Run(table, self._name, self._results, self.status, self.stopped, self.error)
+
     def plot(self, *columns: str, ax: Any = None) -> Any:
         """Columns over time, with matplotlib; all measures where none are named. Gives the axes."""
         from mechc.plots import over_time
@@ -170,11 +178,13 @@ class Run(Rows):
         return f"<Run of {self._name}: {rows} rows × {columns} columns{ends}{state}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _run_again, (self._contents(), self._name, self._results, self.status, self.stopped, self.error)
+        # the error may have this run for its `partial`, and comes behind it
+        packed = self._contents(), self._name, self._results, self.status, self.stopped
+        return _run_again, packed, {"error": self.error}
 
 
 def _run_again(contents: tuple[Any, ...], *rest: Any) -> Run:
-    return Run(_rows(contents), *rest)
+    return Run(_rows(contents), *rest, None)
 
 
 class Swept(Rows):

@@ -130,11 +130,11 @@ def test_derivatives_are_exact(four_bar):
 
 def test_what_does_not_get_there(four_bar):
     m, _ = four_bar
-    x = m.at(0.5, crank_length=np.array([0.04, 0.035, 0.2]), strict=False)
+    x = m.at(0.5, arm=np.array([0.1, 0.09, 0.02]), strict=False)
     assert x.status[:2] == ["ok", "ok"] and x.status[2].startswith("E06")
     assert np.isnan(x.q[2]).all() and np.isfinite(x.q[:2]).all()
     with pytest.raises(mechc.AnalysisError) as caught:
-        m.at(0.5, crank_length=np.array([0.04, 0.2]))
+        m.at(0.5, arm=np.array([0.1, 0.02]))
     assert caught.value.partial.status[0] == "ok"
     with pytest.raises(mechc.UsageError, match="was `theta` meant"):
         m.at(thta=1.0)
