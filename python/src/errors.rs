@@ -25,9 +25,8 @@ pub struct Said {
 impl Said {
     /// Diagnostics of some texts.
     pub fn of(diagnostics: &Diagnostics, sources: &Sources) -> Said {
-        let each = |format| {
-            move |of: &Diagnostic| render(of, sources, format, Color::Never).trim_end_matches('\n').to_owned()
-        };
+        let each =
+            |format| move |of: &Diagnostic| render(of, sources, format, Color::Never).trim_end_matches('\n').to_owned();
         let json = diagnostics.iter().map(each(Format::Json)).collect();
         let texts: Vec<String> = diagnostics.iter().map(each(Format::Human)).collect();
         let first = diagnostics.iter().find(|of| of.severity() == Severity::Error);

@@ -9,7 +9,7 @@ use crate::run::Asked;
 use crate::sweep::{AskedOfSweep, Sweep};
 use crate::tolerance::{self, Told};
 use crate::waiting::interruptible;
-use mechc::{Cancel, Checked, Choice, Compiled, Diagnostics, Parsed, Redundant, RunOptions, Settable, Sources, World};
+use mechc::{Cancel, Checked, Choice, Compiled, Diagnostics, Parsed, Redundant, Settable, Sources, World};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::collections::BTreeMap;
@@ -39,11 +39,17 @@ impl Mechanism {
         if let Some(place) = found(&self.params) {
             return Ok((&self.params[place], false));
         }
-        let units = |list: &[Settable]| list.iter().map(|of| (of.name.clone(), of.unit.clone())).collect::<BTreeMap<_, _>>();
+        let units =
+            |list: &[Settable]| list.iter().map(|of| (of.name.clone(), of.unit.clone())).collect::<BTreeMap<_, _>>();
         let given = PyDict::new(py);
         given.set_item(name, value)?;
         let options = ["t", "set", "inputs", "rates", "accelerations", "by", "reactions", "strict"];
-        py.import("mechc.asking")?.getattr("split")?.call1((given, units(&self.params), units(&self.inputs), options))?;
+        py.import("mechc.asking")?.getattr("split")?.call1((
+            given,
+            units(&self.params),
+            units(&self.inputs),
+            options,
+        ))?;
         Err(pyo3::exceptions::PyKeyError::new_err(name.to_owned()))
     }
 
@@ -69,7 +75,13 @@ pub struct Stages {
 }
 
 impl Stages {
-    fn of(parsed: Parsed, path: PathBuf, files: Arc<Files>, settings: (Choice, Redundant), cancel: &Cancel) -> Made<Stages> {
+    fn of(
+        parsed: Parsed,
+        path: PathBuf,
+        files: Arc<Files>,
+        settings: (Choice, Redundant),
+        cancel: &Cancel,
+    ) -> Made<Stages> {
         let (choice, redundant) = settings;
         let ((checked, compiled), said) = compiled(&parsed, &choice, &*files, redundant, cancel)?;
         compiled.prepare();
@@ -77,7 +89,13 @@ impl Stages {
     }
 
     /// What it is with more that is asked for beside its text.
-    pub fn with(&self, choice: &Choice, world: &dyn World, redundant: Redundant, cancel: &Cancel) -> Made<(Checked, Compiled)> {
+    pub fn with(
+        &self,
+        choice: &Choice,
+        world: &dyn World,
+        redundant: Redundant,
+        cancel: &Cancel,
+    ) -> Made<(Checked, Compiled)> {
         compiled(&self.parsed, choice, world, redundant, cancel)
     }
 }
@@ -204,18 +222,6 @@ impl Mechanism {
     #[getter]
     fn counts(&self) -> String {
         self.stages.compiled.counts()
-    }
-
-    /// Where it stands at the first time: coordinates by name (SI), and the distance to a singular position.
-    fn _assembled(&self, py: Python<'_>) -> PyResult<(f64, Vec<(String, f64)>, f64)> {
-        let compiled = &self.stages.compiled;
-        let t = compiled.analysis().map_or(0.0, |[from, ..]| from);
-        let (assembly, said) = interruptible(py, |cancel| {
-            compiled.assembled(t, &RunOptions { cancel: cancel.clone(), ..RunOptions::default() })
-        })?;
-        let Some(assembly) = assembly else { return Err(Said::of(&said, compiled.sources()).raised(py)) };
-        let coordinates = assembly.coordinates.into_iter().map(|(name, value, _)| (name, value)).collect();
-        Ok((assembly.t, coordinates, assembly.conditioning))
     }
 
     /// Runs it; `asked` has the options by their names.

@@ -106,7 +106,9 @@ impl Asked {
     pub fn run(&self, py: Python<'_>, stages: &Stages) -> PyResult<Py<PyDict>> {
         let ran = interruptible(py, |cancel| self.ran(stages, cancel))?.map_err(|why| match why {
             Failed::Said(said) => said.raised(py),
-            Failed::Memory => PyMemoryError::new_err("the rows of this run do not fit into memory; ask for fewer columns or times"),
+            Failed::Memory => {
+                PyMemoryError::new_err("the rows of this run do not fit into memory; ask for fewer columns or times")
+            }
         })?;
         let told = PyDict::new(py);
         told.set_item("table", Bound::new(py, ran.table)?)?;
@@ -134,7 +136,7 @@ impl Asked {
         said.push(Said::of(&more, &sources));
         let mut rows = Rows::of(&run, wanted)?;
         let mut run = run;
-        let stopped = rows.take_all(&mut run)?.map(|why| Said::of(&why, &sources));
+        let stopped = rows.take_all(&mut run).map(|why| Said::of(&why, &sources));
         let answers = run.results().unwrap_or_default();
         let mut remarks = run.take_remarks();
         remarks.extend(answers.notes);
@@ -166,7 +168,7 @@ impl Rows {
     }
 
     /// All rows up to the end, or to where the motion cannot go on, and why.
-    fn take_all(&mut self, run: &mut Run) -> Result<Option<Diagnostics>, Failed> {
+    fn take_all(&mut self, run: &mut Run) -> Option<Diagnostics> {
         while let Some(row) = run.next_row() {
             match row {
                 Ok(row) => {
@@ -175,10 +177,10 @@ impl Rows {
                         column.push(unit.printed(row[k]));
                     }
                 }
-                Err(why) => return Ok(Some((*why).into())),
+                Err(why) => return Some((*why).into()),
             }
         }
-        Ok(None)
+        None
     }
 
     fn table(self) -> Table {

@@ -10,8 +10,8 @@ use crate::table::{Head, Kind, Table, schema};
 use crate::waiting::interruptible;
 use arrow_schema::SchemaRef;
 use mechc::{
-    AskedTimes, Cancel, Checked, Choice, ColumnUnit, Compiled, Diagnostic, Diagnostics, Method, Sources, SweepOptions, Variants,
-    VaryOptions,
+    AskedTimes, Cancel, Checked, Choice, ColumnUnit, Compiled, Diagnostic, Diagnostics, Method, Sources, SweepOptions,
+    Variants, VaryOptions,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;

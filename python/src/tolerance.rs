@@ -72,11 +72,8 @@ fn found(
         ..SweepOptions::default()
     };
     let affected = tolerancing.affected(&compiled, &options).map_err(told)?;
-    let verified = if verify {
-        Some(tolerancing.verified(&compiled, &affected, &options, |_| ()).map_err(told)?)
-    } else {
-        None
-    };
+    let verified =
+        if verify { Some(tolerancing.verified(&compiled, &affected, &options, |_| ()).map_err(told)?) } else { None };
     let tolerances = tolerancing.tolerances();
     let quantity = |(k, of): (usize, &Affected)| {
         let deviation = of.deviation(tolerances, normal);

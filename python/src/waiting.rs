@@ -29,7 +29,7 @@ pub fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(&Cancel) -> T + 
             let worker = worker.map_err(|why| format!("no thread could be started: {why}"))?;
             while told.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
                 if signal.is_none() {
-                    signal = Python::attach(|py| py.check_signals()).err();
+                    signal = raised();
                     if signal.is_some() {
                         cancel.cancel();
                     }
@@ -43,6 +43,11 @@ pub fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(&Cancel) -> T + 
         (None, Ok(made)) => Ok(made),
         (None, Err(why)) => Err(PyRuntimeError::new_err(why)),
     }
+}
+
+/// A signal that Python raises, if there is one.
+fn raised() -> Option<PyErr> {
+    Python::attach(|py| Python::check_signals(py).err())
 }
 
 /// What is said of a worker that broke down, which none should.

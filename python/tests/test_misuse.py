@@ -220,7 +220,7 @@ def test_no_lock_is_held_while_computing(crank):
     ticker = threading.Thread(target=tick)
     ticker.start()
     began = time.monotonic()
-    crank.run(to=1.0, every="0.1 ms")
+    crank.run(to=8.0, every="0.1 ms", columns="travel")
     took = time.monotonic() - began
     ended.set()
     ticker.join()
@@ -253,7 +253,12 @@ def test_ctrl_c(work):
         timer.start()
         began = time.monotonic()
         try:
-            {work}
+            try:
+                {work}
+            except Exception as why:
+                # who reads a stream tells its own error, and the interruption is raised behind it
+                assert "interrupted" in str(why)
+                time.sleep(1)
         except KeyboardInterrupt:
             print("interrupted", time.monotonic() - began)
         m.run()
@@ -274,7 +279,7 @@ def test_fork_in_the_middle_of_a_sweep():
         import mechc
         m = mechc.load("examples/slider_crank.mech")
         m.at(0.01)
-        sweep = m.sweep(vary={"rod_length": mechc.between(0.1, 0.2, 300)}, rows=True, columns=["travel"], jobs=2)
+        sweep = m.sweep(vary={"rod_length": mechc.between(0.1, 0.2, 100)}, rows=True, columns=["travel"], jobs=2)
         whole = sweep.read()["travel"]
         told = []
         def progress(done, count):
@@ -282,7 +287,7 @@ def test_fork_in_the_middle_of_a_sweep():
             if len(told) == 1:
                 global child
                 child = os.fork()
-        forked = m.sweep(vary={"rod_length": mechc.between(0.1, 0.2, 300)}, rows=True, columns=["travel"], jobs=2, progress=progress)
+        forked = m.sweep(vary={"rod_length": mechc.between(0.1, 0.2, 100)}, rows=True, columns=["travel"], jobs=2, progress=progress)
         found = forked.read()["travel"]
         assert found.tobytes() == whole.tobytes()
         assert m.at(0.01)["travel"] == m.run(at=[0.01])["travel"][0]

@@ -38,7 +38,9 @@ impl Block {
         columns.extend(params.into_iter().map(|values| Numbers::Real(repeated(values, &lengths))));
         columns.extend(rows.into_iter().zip(units).map(|(mut values, unit)| {
             if unit.scale() != [1.0; 3] {
-                values.iter_mut().for_each(|value| *value = unit.printed(*value));
+                for value in &mut values {
+                    *value = unit.printed(*value);
+                }
             }
             Numbers::Real(values)
         }));
