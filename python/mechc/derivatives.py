@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechc import asking
+from mechc.errors import AnalysisError
 from mechc.tables import Run
 from mechc.values import meant, texts, usage
 
@@ -99,8 +99,6 @@ class Objective:
         self.x0 = evaluate.x0
 
     def __call__(self, x: ArrayLike) -> tuple[float, Array]:
-        from mechc.errors import AnalysisError
-
         try:
             results, slopes, _, _ = self._evaluate(x)
         except AnalysisError:
@@ -122,11 +120,13 @@ class Residuals:
     """Columns at some times less what they ought to be, as a function of params, with its exact derivatives.
 
     For ``scipy.optimize.least_squares(f, x0, jac=f.jacobian)``: ``f(x)`` is of shape (times × columns,), ``f.jacobian(x)`` of shape
-    (times × columns, params); times are the outer order.
+    (times × columns, params); times are the outer order. Where the mechanism does not get there an error is raised, or with ``failed=10.0``
+    all residuals are that.
     """
 
-    def __init__(self, evaluate: Evaluation, columns: list[str], wanted: Array) -> None:
+    def __init__(self, evaluate: Evaluation, columns: list[str], wanted: Array, failed: float | None) -> None:
         self._evaluate = evaluate
+        self._failed = failed
         #: The columns, in the order of the inner index.
         self.columns = columns
         self._wanted = wanted
@@ -136,7 +136,12 @@ class Residuals:
         self.x0 = evaluate.x0
 
     def _both(self, x: ArrayLike) -> tuple[Array, Array]:
-        _, _, rows, slopes = self._evaluate(x)
+        try:
+            _, _, rows, slopes = self._evaluate(x)
+        except AnalysisError:
+            if self._failed is None:
+                raise
+            return np.full(self._wanted.size, self._failed), np.zeros((self._wanted.size, len(self.by)))
         if rows.shape != self._wanted.shape:
             raise usage(f"there are {rows.shape[0]} times, and targets for {self._wanted.shape[0]}")
         return (rows - self._wanted).ravel(), slopes.reshape(-1, len(self.by))
@@ -197,7 +202,9 @@ def objective(m: Mechanism, result: str, by: Any, failed: float | None, asked: d
     return Objective(evaluation, evaluation.results.index(result), failed)
 
 
-def residuals(m: Mechanism, columns: Any, wanted: ArrayLike, by: Any, asked: dict[str, Any]) -> Residuals:
+def residuals(
+    m: Mechanism, columns: Any, wanted: ArrayLike, by: Any, failed: float | None, asked: dict[str, Any]
+) -> Residuals:
     """Columns less what they ought to be, as a function of params."""
     names = texts("columns", columns)
     known = m.columns
@@ -208,4 +215,4 @@ def residuals(m: Mechanism, columns: Any, wanted: ArrayLike, by: Any, asked: dic
     targets = targets.reshape(-1, len(names)) if targets.ndim == 1 else targets
     if targets.ndim != 2 or targets.shape[1] != len(names):
         raise usage(f"targets of shape {targets.shape} are given for {len(names)} columns", "a row for each time is wanted")
-    return Residuals(Evaluation(m, by, names, asked), names, targets)
+    return Residuals(Evaluation(m, by, names, asked), names, targets, failed)

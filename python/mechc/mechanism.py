@@ -368,6 +368,7 @@ class Mechanism(_mechc.Mechanism):
         wanted: Any,
         by: Any,
         *,
+        failed: float | None = None,
         set: Mapping[str, Value] | None = None,
         from_: Value | None = None,
         to: Value | None = None,
@@ -380,7 +381,8 @@ class Mechanism(_mechc.Mechanism):
         """Columns at some times less what they ought to be, as a function of params, with exact derivatives.
 
         ``f = m.residuals(["px", "py"], points, by=["r1", "r2"], at=times)``, ``points`` of shape (times, columns), in the columns' units;
-        then ``scipy.optimize.least_squares(f, f.x0, jac=f.jacobian)``. ``at`` must rise.
+        then ``scipy.optimize.least_squares(f, f.x0, jac=f.jacobian)``. ``at`` must rise. ``failed`` is
+        what all residuals are where it does not get there; an error is raised where nothing is said.
         """
         if at is not None and len(many("at", at)) > 1:
             times = [number("at", time) for time in many("at", at)]
@@ -397,7 +399,7 @@ class Mechanism(_mechc.Mechanism):
             tolerance=tolerance,
             pass_bifurcations=pass_bifurcations,
         )
-        return residuals(self, columns, wanted, by, asked)
+        return residuals(self, columns, wanted, by, None if failed is None else float(failed), asked)
 
     def tolerance(
         self,
@@ -535,6 +537,6 @@ _SWEEP = (
 ).split()
 _JACOBIAN = "by set inputs from_ to every results lead tolerance pass_bifurcations".split()
 _OBJECTIVE = "result by failed set from_ to every results tolerance pass_bifurcations".split()
-_RESIDUALS = "columns wanted by set from_ to every at tolerance pass_bifurcations".split()
+_RESIDUALS = "columns wanted by failed set from_ to every at tolerance pass_bifurcations".split()
 _TOLERANCE = "tol normal verify set inputs from_ to every results tolerance pass_bifurcations".split()
 _VIEW = "path set inputs from_ to every pass_bifurcations".split()
