@@ -70,14 +70,17 @@ mod world;
 pub use analysis::{Answers, TOLERANCE, Times};
 pub use cancel::Cancel;
 pub use check::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
-pub use diag::{Applies, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, Severity, fixed, render};
+pub use diag::{Applies, Blame, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, Severity, fixed, render};
 pub use emit::{CrateFile, LARGEST_STRAIGHT, MARK};
 pub use layout::ColumnUnit;
+#[cfg(feature = "live")]
+pub use live::page::{picture, written as page};
 pub use output::{TableFormat, TableWriter};
 pub use source::{Encoding, FileId, Source, Sources, Span};
 pub use stages::{
-    AskedTimes, Assembly, Checked, Choice, Compiled, Formula, Parsed, Redundant, Run, RunOptions, RustOptions, Seen,
-    Sweep, SweepOptions, Variants, VaryOptions, Vectors, imported, seconds,
+    Adjustable, Adjusting, Affected, AskedTimes, Assembly, Checked, Choice, Compiled, Deviation, Formula, Parsed,
+    Redundant, Run, RunOptions, RustOptions, Seen, Settable, Signal, Sweep, SweepOptions, Tolerance, Variants,
+    VaryOptions, Vectors, Verified, imported, seconds,
 };
 pub use sweep::{Levels, Method, Points, Sampling, Status, Swept, Varying};
 pub use syntax::{Comment, Trivia};

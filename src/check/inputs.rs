@@ -158,6 +158,7 @@ impl Checker<'_> {
             _ => Some(in_file),
         };
         let value = self.led_input(name, in_file, value, &needs);
+        let value = value.and_then(|value| self.set_input(name, value, before));
         let declared = self.declared(name);
         let has_signals = self.model.has_signals;
         // what varies is the signal then, whatever its formula

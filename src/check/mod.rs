@@ -44,6 +44,7 @@ mod rates;
 mod repetition;
 mod results;
 mod samples;
+mod set_inputs;
 mod sites;
 mod symbols;
 mod table_file;
@@ -58,6 +59,7 @@ pub use lengths::usual_unit_of_length;
 pub use library::{KnownFile, KnownMechanism, Library, NotKnown};
 pub use mentions::name_of;
 pub use samples::{Column, variants};
+pub use set_inputs::SetInputs;
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
 
@@ -119,6 +121,8 @@ pub struct Surroundings {
     pub pictures_forces: bool,
     /// Whether inputs stay signals in the model, rather than being replaced by what they are.
     pub has_signals: bool,
+    /// Inputs that are numbers which may be set.
+    pub set_inputs: Option<SetInputs>,
     /// The paths of parts whose derivatives are by their own equations alone, though they move together with what is around them.
     pub coupled: Vec<String>,
 }
@@ -299,6 +303,7 @@ struct Checker<'a> {
     given: &'a Given,
     lead: Option<&'a Lead>,
     open: &'a [String],
+    set_inputs: Option<&'a SetInputs>,
     by: &'a [String],
     coupled: &'a [String],
     sources: &'a Sources,
@@ -399,6 +404,7 @@ impl<'a> Checker<'a> {
             given: &surroundings.given,
             lead: surroundings.lead.as_ref(),
             open: &surroundings.open,
+            set_inputs: surroundings.set_inputs.as_ref(),
             by: &surroundings.by,
             coupled: &surroundings.coupled,
             sources,

@@ -1,6 +1,6 @@
 //! What ends a command early, and the exit code that tells it.
 
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Blame, Code, Diagnostic, Diagnostics};
 use crate::source::Sources;
 
 /// The input has errors, or is not as it should be.
@@ -46,20 +46,11 @@ pub(super) fn unusable(message: impl Into<String>) -> Diagnostic {
 
 /// The exit code of a command that ended with these.
 pub(super) fn exit_code(diagnostics: &Diagnostics, sources: &Sources) -> u8 {
-    let Some(first) = diagnostics.iter().find(|d| d.is_error()) else {
-        return 0;
-    };
-    // what is wrong with an option is wrong usage, whatever it is, unless it is only wrong at some time
-    let on_the_way = (Code::E0601..=Code::E0612).contains(&first.code);
-    if !on_the_way && first.labels.first().is_some_and(|label| sources.get(label.span.file).is_option) {
-        return USAGE;
-    }
-    match first.code {
-        _ if on_the_way => ANALYSIS,
-        // a file that a text names is a part of the text
-        Code::E0701 if !first.labels.is_empty() => INPUT,
-        Code::E0701 | Code::E0702 => FILES,
-        Code::E0703 | Code::E0704 | Code::E0705 | Code::E0706 | Code::E0708 => USAGE,
-        _ => INPUT,
+    match Blame::of(diagnostics, sources) {
+        None => 0,
+        Some(Blame::Input) => INPUT,
+        Some(Blame::Usage) => USAGE,
+        Some(Blame::Analysis) => ANALYSIS,
+        Some(Blame::Files) => FILES,
     }
 }

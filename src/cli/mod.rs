@@ -4,7 +4,6 @@
 
 mod arguments;
 mod check;
-mod columns;
 mod contributions;
 mod dump;
 mod emit;

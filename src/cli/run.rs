@@ -1,7 +1,6 @@
 //! `mechc run`: the kinematic analysis, as a table.
 
 use super::arguments::{Format, RunArguments};
-use super::columns;
 use super::endings;
 use super::failure::{Failure, unusable};
 use super::files::Output;
@@ -36,7 +35,7 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     let compiled = ManuallyDrop::new(compiled);
     let asked = times::asked((&arguments.interval, &arguments.at), compiled.analysis(), &mut reporter.sources)?;
     let times = asked.times()?;
-    let wanted = columns::chosen(&arguments.columns, &compiled.columns())?;
+    let wanted = compiled.chosen_columns(&arguments.columns)?;
     let output = Output::open(&arguments.output, &reporter.spared())?;
     let results = results::open(arguments.results.as_deref(), &arguments.output, &reporter.spared())?;
     if format == TableFormat::Parquet && output.is_terminal() {

@@ -1,7 +1,6 @@
 //! `mechc sweep`: many variants of a mechanism, as a table.
 
 use super::arguments::{MethodChoice, SheetFormat, SweepArguments};
-use super::columns;
 use super::endings;
 use super::failure::{ANALYSIS, Failure, unusable};
 use super::files::{AskedOnce, Output};
@@ -176,7 +175,7 @@ impl Table {
         let (mut wanted, mut units) = (None, Vec::new());
         if arguments.rows {
             let (names, all) = (compiled.columns(), compiled.units());
-            let chosen = columns::chosen(&arguments.columns, &names)?;
+            let chosen = compiled.chosen_columns(&arguments.columns)?;
             units.extend(chosen.iter().map(|&k| all[k].clone()));
             columns.extend(chosen.iter().map(|&k| column(&names[k], &all[k].text, Kind::Number)));
             wanted = Some(chosen);

@@ -4,12 +4,14 @@
 //! written beside the phase that finds the fault; this room only holds them and renders them. It knows nothing of
 //! mechanisms.
 
+mod blame;
 mod codes;
 mod fix;
 mod nearest;
 mod number;
 mod render;
 
+pub use blame::Blame;
 pub use codes::Code;
 pub use fix::{Applies, Edit, Fix, fixed};
 pub use nearest::nearest;

@@ -4,6 +4,7 @@ use crate::layout::{ColumnKind, ColumnUnit};
 use crate::source::Sources;
 use crate::stages::Seen;
 use crate::view::page::{Column, Page, Variant, Vary};
+use crate::view::svg;
 
 pub use crate::view::page::{base64, shell};
 
@@ -11,6 +12,12 @@ pub use crate::view::page::{base64, shell};
 #[must_use]
 pub fn written(seen: &Seen, sources: &Sources) -> String {
     of_one(seen, sources).written()
+}
+
+/// A picture of one motion, which moves where nothing can be computed.
+#[must_use]
+pub fn picture(seen: &Seen) -> String {
+    svg::animated(&seen.scene, &seen.motion, &svg::Options::default())
 }
 
 /// The page of what varies; `first` is the variant that it begins with.

@@ -169,6 +169,12 @@ impl Compiled {
         layout::columns(self.system()).into_iter().map(|column| column.unit).collect()
     }
 
+    /// The names of its coordinates, in order; their columns stand behind that of the time.
+    #[must_use]
+    pub fn coordinates(&self) -> Vec<&str> {
+        self.system().coordinates().iter().map(|coordinate| coordinate.name.as_str()).collect()
+    }
+
     /// The names of the results, numbers for the whole analysis, with the units in which they are told.
     #[must_use]
     pub fn results(&self) -> Vec<(String, ColumnUnit)> {
@@ -186,6 +192,12 @@ impl Compiled {
     #[must_use]
     pub fn refused_results(&self, interval: [f64; 2]) -> Diagnostics {
         analysis::refused_results(self.system(), interval)
+    }
+
+    /// Coordinates less equations.
+    #[must_use]
+    pub fn ndof(&self) -> isize {
+        self.system().ndof()
     }
 
     /// How many coordinates and equations there are, by body and declaration, as a table.

@@ -93,7 +93,7 @@ impl Compiled {
     ///
     /// # Errors
     /// A measure holds a derivative by an input or parameter, which only `run` and Rust code compute.
-    pub(crate) fn has_no_variations(&self) -> Result<(), Box<Diagnostic>> {
+    pub fn has_no_variations(&self) -> Result<(), Box<Diagnostic>> {
         self.has_no_varied_forces()?;
         self.no_measure_holds(
             Dependence::is_varied,

@@ -334,6 +334,7 @@ impl<'s> Starts<'s> {
             bound: params,
             lead: None,
             open: Vec::new(),
+            set_inputs: None,
             has_signals: false,
             coupled: Vec::new(),
         };

@@ -6,9 +6,11 @@
 //!
 //! None stops the ones after it from speaking of what is whole. What is to be said of a stage is on it, or comes beside it.
 
+mod adjustable;
 mod again;
 mod asked;
 mod checked;
+mod chosen;
 mod compiled;
 mod constant;
 mod drawn;
@@ -27,6 +29,7 @@ mod own;
 mod parsed;
 mod run;
 mod seen;
+mod settable;
 mod sweep;
 mod times;
 mod tolerance;
@@ -37,6 +40,7 @@ mod varied;
 mod vary;
 
 pub use crate::math::Vectors;
+pub use adjustable::{Adjustable, Adjusting, Signal};
 pub use checked::{Checked, Choice};
 pub use compiled::{Compiled, Redundant};
 pub use constant::seconds;
@@ -52,6 +56,7 @@ pub use options::{RunOptions, Stand};
 pub use parsed::Parsed;
 pub use run::{Assembly, Run};
 pub use seen::Seen;
+pub use settable::Settable;
 pub use sweep::{Sweep, SweepOptions};
 pub use times::AskedTimes;
 pub use tolerance::{Affected, Deviation, Shown, Tolerance, Verified};

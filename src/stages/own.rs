@@ -29,7 +29,7 @@ impl Checked {
     }
 
     /// Where it stands at its own first time; nothing where it does not.
-    fn stands(&self, redundant: Redundant, options: &RunOptions) -> Option<Own> {
+    pub(super) fn stands(&self, redundant: Redundant, options: &RunOptions) -> Option<Own> {
         let (compiled, model) = (self.compile(redundant, &options.cancel).0?, Arc::clone(self.model.as_ref()?));
         let t = compiled.analysis().map_or(0.0, |[from, ..]| from);
         let horizon = Horizon::of_analysis(compiled.analysis()).beginning(t);

@@ -1,12 +1,21 @@
-//! The columns that `--columns` chooses.
+//! Columns of rows, by patterns of their names.
 
-use super::failure::{Failure, unusable};
-use crate::diag::nearest;
+use super::Compiled;
+use crate::diag::{Code, Diagnostic, nearest};
 use wildmatch::WildMatch;
 
-/// The numbers of the columns that any of some patterns fits, the first column, the time, always among them; all columns where there is no
-/// pattern.
-pub(super) fn chosen(patterns: &[String], columns: &[String]) -> Result<Vec<usize>, Failure> {
+impl Compiled {
+    /// The numbers of the columns that any of some patterns fits, in which `*` stands for anything and `?` for one character; the first
+    /// column, the time, is always among them. All columns where there is no pattern.
+    ///
+    /// # Errors
+    /// No column fits one of them.
+    pub fn chosen_columns(&self, patterns: &[String]) -> Result<Vec<usize>, Box<Diagnostic>> {
+        chosen(patterns, &self.columns())
+    }
+}
+
+fn chosen(patterns: &[String], columns: &[String]) -> Result<Vec<usize>, Box<Diagnostic>> {
     if patterns.is_empty() {
         return Ok((0..columns.len()).collect());
     }
@@ -20,13 +29,13 @@ pub(super) fn chosen(patterns: &[String], columns: &[String]) -> Result<Vec<usiz
             found = true;
         }
         if !found {
-            let said = unusable(format!("there is no column `{}`", pattern.trim()));
+            let said = Diagnostic::new(Code::E0706, format!("there is no column `{}`", pattern.trim()));
             let meant = nearest(pattern.trim(), columns.iter().map(String::as_str));
             let help = meant.map_or_else(
                 || "`*` stands for anything, `?` for one character, as in `--columns 'rod.*'`".to_owned(),
                 |name| format!("was `{name}` meant?"),
             );
-            return Err(said.help(help).into());
+            return Err(Box::new(said.help(help)));
         }
     }
     Ok((0..columns.len()).filter(|&k| is_chosen[k]).collect())

@@ -1,0 +1,218 @@
+"""Exact derivatives of results and measures by params: as matrices, and as what optimisers call."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mechc.errors import AnalysisError
+from mechc.tables import Run
+from mechc.values import meant, texts, usage
+
+if TYPE_CHECKING:
+    from mechc.mechanism import Mechanism
+
+Array = NDArray[np.float64]
+
+
+class Jacobian:
+    """The derivatives of results and columns by params, exact to rounding; made by :meth:`mechc.Mechanism.jacobian`.
+
+    ``j.results`` has a row for each result and a column for each param, of shape (results, params), in SI; ``j["travel"]`` the
+    derivatives of a column along the motion, of shape (rows, params), in the column's unit by SI. ``j.run`` is the motion itself.
+    """
+
+    def __init__(self, run: Run, names: list[str], by: list[str], results: Array) -> None:
+        #: The motion, with the columns ``NAME.by.PARAM``.
+        self.run = run
+        #: The params and inputs that it is by.
+        self.by = by
+        #: The names of the rows of ``results``.
+        self.result_names = names
+        #: Of shape (results, params), in SI.
+        self.results = results
+
+    def __getitem__(self, name: str) -> Array:
+        """The derivatives of a column, or of a result."""
+        if name in self.result_names:
+            return self.results[self.result_names.index(name)]
+        columns = [f"{name}.by.{by}" for by in self.by]
+        if name not in self.run or any(column not in self.run for column in columns):
+            hint = meant(name, [*self.result_names, *(known for known in self.run if ".by." not in known)])
+            raise KeyError(f"there are no derivatives of {name!r}" + (f"; {hint}" if hint else ""))
+        return np.column_stack([self.run[column] for column in columns])
+
+    @property
+    def t(self) -> Array:
+        """The times of the rows (s)."""
+        return self.run.t
+
+    def __repr__(self) -> str:
+        return f"<Jacobian: {len(self.result_names)} results and {self.run.rows} rows by {', '.join(self.by)}>"
+
+
+def jacobian(m: Mechanism, by: Any, asked: dict[str, Any]) -> Jacobian:
+    """The derivatives of what is asked for."""
+    asked = {**asked, "by": _names(by), "slopes": True}
+    run = m._ran(asked, True)
+    everything = run._results
+    by_all = _found(run)
+    own = len(everything) // (len(by_all) + 1)
+    values = [np.nan if value is None else value for _, value, _ in everything]
+    results = np.array(values[own:]).reshape(own, len(by_all)) if own else np.empty((0, len(by_all)))
+    names = [name for name, _, _ in everything[:own]]
+    run._results = everything[:own]
+    return Jacobian(run, names, by_all, results)
+
+
+def _names(by: Any) -> list[str]:
+    found = ["".join(name.split()) for name in texts("by", by)]
+    if not found:
+        raise usage("it is not said what it is by", "as in `by=['rod_length']`")
+    return found
+
+
+def _found(run: Run) -> list[str]:
+    """What derivatives are by, in the order of the columns: a name without a number is that of all copies."""
+    behind = [name.partition(".by.")[2] for name in run if ".by." in name]
+    return list(dict.fromkeys(behind))
+
+
+class Objective:
+    """A result, or what is made of columns, as a function of params, with its exact gradient.
+
+    ``f(x)`` gives value and gradient, for ``scipy.optimize.minimize(f, x0, jac=True)``; ``f.value(x)`` and ``f.gradient(x)`` one of
+    them. ``x`` are the params in the order of ``f.by`` (SI). Where the mechanism does not get there an error is raised, or with
+    ``failed=math.inf`` that is the value, and the gradient is zero.
+    """
+
+    def __init__(self, evaluate: Evaluation, place: int, failed: float | None) -> None:
+        self._evaluate = evaluate
+        self._place = place
+        self._failed = failed
+        #: The params, in the order of ``x``.
+        self.by = evaluate.by
+        #: Their values in the text (SI).
+        self.x0 = evaluate.x0
+
+    def __call__(self, x: ArrayLike) -> tuple[float, Array]:
+        try:
+            results, slopes, _, _ = self._evaluate(x)
+        except AnalysisError:
+            if self._failed is None:
+                raise
+            return self._failed, np.zeros(len(self.by))
+        return results[self._place], slopes[self._place]
+
+    def value(self, x: ArrayLike) -> float:
+        """The value alone."""
+        return self(x)[0]
+
+    def gradient(self, x: ArrayLike) -> Array:
+        """The gradient alone, of shape (params,)."""
+        return self(x)[1]
+
+
+class Residuals:
+    """Columns at some times less what they ought to be, as a function of params, with its exact derivatives.
+
+    For ``scipy.optimize.least_squares(f, x0, jac=f.jacobian)``: ``f(x)`` is of shape (times × columns,), ``f.jacobian(x)`` of shape
+    (times × columns, params); times are the outer order. Where the mechanism does not get there an error is raised, or with ``failed=10.0``
+    all residuals are that.
+    """
+
+    def __init__(self, evaluate: Evaluation, columns: list[str], wanted: Array, failed: float | None) -> None:
+        self._evaluate = evaluate
+        self._failed = failed
+        #: The columns, in the order of the inner index.
+        self.columns = columns
+        self._wanted = wanted
+        #: The params, in the order of ``x``.
+        self.by = evaluate.by
+        #: Their values in the text (SI).
+        self.x0 = evaluate.x0
+
+    def _both(self, x: ArrayLike) -> tuple[Array, Array]:
+        try:
+            _, _, rows, slopes = self._evaluate(x)
+        except AnalysisError:
+            if self._failed is None:
+                raise
+            return np.full(self._wanted.size, self._failed), np.zeros((self._wanted.size, len(self.by)))
+        if rows.shape != self._wanted.shape:
+            raise usage(f"there are {rows.shape[0]} times, and targets for {self._wanted.shape[0]}")
+        return (rows - self._wanted).ravel(), slopes.reshape(-1, len(self.by))
+
+    def __call__(self, x: ArrayLike) -> Array:
+        return self._both(x)[0]
+
+    def jacobian(self, x: ArrayLike) -> Array:
+        """The derivatives of all residuals by all params."""
+        return self._both(x)[1]
+
+
+class Evaluation:
+    """Results and columns with their derivatives at values of params; the last of them is kept, since optimisers ask for value and
+    derivatives one after the other."""
+
+    def __init__(self, m: Mechanism, by: Any, columns: Sequence[str], asked: dict[str, Any]) -> None:
+        self.by = _names(by)
+        for name in self.by:
+            if name not in m.params:
+                raise usage(f"there is no param `{name}`", meant(name, m.params) or f"the params are {', '.join(m.params)}")
+        self.x0 = np.array([m.params[name] for name in self.by])
+        patterns = [*columns, *(f"{column}.by.{name}" for column in columns for name in self.by)] or ["t"]
+        asked = {**asked, "by": self.by, "slopes": True, "columns": patterns}
+        self._evaluator = m._evaluator(asked, self.by)
+        places = {name: place for place, name in enumerate(self._evaluator.columns)}
+        self._columns = [places[column] for column in columns]
+        self._slopes = [[places[f"{column}.by.{name}"] for name in self.by] for column in columns]
+        self.results = [name for name, _ in self._evaluator.results]
+        self.results = self.results[: len(self.results) // (len(self.by) + 1)]
+        self._last: tuple[bytes, Any] | None = None
+
+    def __call__(self, x: ArrayLike) -> Any:
+        x = np.ascontiguousarray(x, dtype=np.float64).reshape(-1)
+        if not np.isfinite(x).all():
+            raise usage("params are not finite", f"the params are {', '.join(self.by)}")
+        if self._last is not None and self._last[0] == x.tobytes():
+            return self._last[1]
+        values, rows = self._evaluator.evaluate(x)
+        numbers = np.array([np.nan if value is None else value for value in values], dtype=float)
+        own = len(self.results)
+        found = (
+            numbers[:own],
+            numbers[own:].reshape(own, len(self.by)),
+            rows[:, self._columns],
+            rows[:, self._slopes] if self._columns else np.empty((len(rows), 0, len(self.by))),
+        )
+        self._last = x.tobytes(), found
+        return found
+
+
+def objective(m: Mechanism, result: str, by: Any, failed: float | None, asked: dict[str, Any]) -> Objective:
+    """A result as a function of params."""
+    evaluation = Evaluation(m, by, [], asked)
+    if result not in evaluation.results:
+        hint = meant(result, evaluation.results) or "add one: `results={'stroke': 'max(x(P)) - min(x(P))'}`"
+        raise usage(f"there is no result `{result}`", hint)
+    return Objective(evaluation, evaluation.results.index(result), failed)
+
+
+def residuals(
+    m: Mechanism, columns: Any, wanted: ArrayLike, by: Any, failed: float | None, asked: dict[str, Any]
+) -> Residuals:
+    """Columns less what they ought to be, as a function of params."""
+    names = texts("columns", columns)
+    known = m.columns
+    for name in names:
+        if name not in known:
+            raise usage(f"there is no column `{name}`", meant(name, known))
+    targets = np.asarray(wanted, dtype=float)
+    targets = targets.reshape(-1, len(names)) if targets.ndim == 1 else targets
+    if targets.ndim != 2 or targets.shape[1] != len(names):
+        raise usage(f"targets of shape {targets.shape} are given for {len(names)} columns", "a row for each time is wanted")
+    return Residuals(Evaluation(m, by, names, asked), names, targets, failed)

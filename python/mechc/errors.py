@@ -1,0 +1,120 @@
+"""What can go wrong, as exceptions: each says what the command would print, and has the same as data.
+
+``str(error)`` is the printed text, with the lines of the ``.mech`` file that it speaks of. ``error.diagnostics`` is a list of
+dictionaries, one for each message, as ``mechc --message-format json`` writes them: ``code``, ``severity``, ``message``, ``labels`` with
+places (lines and columns count from 1), ``notes``, ``help``, ``fixes``, ``data``.
+
+========================  =====================================================================
+:class:`InputError`       the text has errors
+:class:`UsageError`       something was asked for that cannot be (also a :class:`ValueError`)
+:class:`FileError`        a file could not be read or written (also an :class:`OSError`)
+:class:`AnalysisError`    the analysis could not be completed; ``partial`` has what there is
+:class:`LockUp`           of these: the mechanism locks up, at ``time``
+:class:`NotAssembled`     of these: it cannot be assembled
+:class:`Bifurcation`      of these: two branches of the motion meet
+========================  =====================================================================
+"""
+
+from __future__ import annotations
+
+import json
+import warnings
+from typing import Any
+
+__all__ = [
+    "AnalysisError",
+    "Bifurcation",
+    "FileError",
+    "InputError",
+    "LockUp",
+    "MechcError",
+    "MechcWarning",
+    "NotAssembled",
+    "UsageError",
+]
+
+
+class MechcError(Exception):
+    """Something went wrong; ``diagnostics`` say what, each as a dictionary, and ``str()`` as the command prints it."""
+
+    #: What is said, a dictionary for each message.
+    diagnostics: list[dict[str, Any]]
+
+    def __init__(self, text: str = "", diagnostics: list[dict[str, Any]] | None = None) -> None:
+        super().__init__(text)
+        self.text = text
+        self.diagnostics = [] if diagnostics is None else diagnostics
+
+    def __str__(self) -> str:
+        return self.text
+
+    @property
+    def code(self) -> str | None:
+        """The code of the first error, ``'E0602'``."""
+        codes = (of["code"] for of in self.diagnostics if of.get("severity") == "error")
+        return next(codes, None)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # what holds it may be in its `partial`, and comes behind it
+        return type(self), (self.text, self.diagnostics), dict(self.__dict__)
+
+
+class InputError(MechcError):
+    """The text of a mechanism has errors, or it is not determined."""
+
+
+class UsageError(MechcError, ValueError):
+    """Something was asked for that cannot be: an unknown param, a value that is none, options that do not go together."""
+
+
+class FileError(MechcError, OSError):
+    """A file could not be read or written."""
+
+
+class AnalysisError(MechcError):
+    """The analysis could not be completed; what there is up to there is ``partial``."""
+
+    #: What was computed before it stopped: a :class:`mechc.Run` or :class:`mechc.At`; nothing where it did not begin.
+    partial: Any = None
+
+    @property
+    def time(self) -> float | None:
+        """When it stopped (s), where that is known."""
+        times = (of.get("data", {}).get("t") for of in self.diagnostics if of.get("severity") == "error")
+        return next(times, None)
+
+
+class LockUp(AnalysisError):
+    """The mechanism locks up: a driver drives into a dead point (E0602)."""
+
+
+class NotAssembled(AnalysisError):
+    """The mechanism cannot be assembled at its first time (E0601)."""
+
+
+class Bifurcation(AnalysisError):
+    """Two branches of the motion meet (E0603); ``pass_bifurcations=True`` goes on along the smooth one."""
+
+
+class MechcWarning(UserWarning):
+    """Something is worth knowing, and nothing is wrong; ``diagnostics`` has it as data."""
+
+    #: What is said, a dictionary for each message.
+    diagnostics: list[dict[str, Any]]
+
+
+_OF_BLAME = {"input": InputError, "usage": UsageError, "analysis": AnalysisError, "files": FileError}
+_OF_CODE = {"E0601": NotAssembled, "E0602": LockUp, "E0603": Bifurcation}
+
+
+def _raised(lines: list[str], text: str, blame: str, code: str) -> MechcError:
+    """The exception for diagnostics of the library."""
+    kind = _OF_CODE.get(code, _OF_BLAME.get(blame, MechcError))
+    return kind(text, [json.loads(line) for line in lines])
+
+
+def _warned(lines: list[str], text: str) -> None:
+    """Warns of what is said."""
+    warning = MechcWarning(text)
+    warning.diagnostics = [json.loads(line) for line in lines]
+    warnings.warn(warning, stacklevel=5)

@@ -1,0 +1,68 @@
+"""Files that are written whole or not at all."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import tempfile
+from pathlib import Path
+
+from mechc.errors import FileError
+from mechc.values import usage
+
+#: Lines of a file that may hold the mark by which one that was written here is known.
+HEAD = 6
+
+
+def path_of(path: str | os.PathLike[str]) -> Path:
+    """A path that was handed over."""
+    try:
+        return Path(os.fsdecode(os.fspath(path)))
+    except TypeError:
+        raise usage(f"{path!r} is no path") from None
+
+
+def write(path: Path, text: str) -> Path:
+    """Replaces a file whole, or leaves it as it is."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, beside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        try:
+            with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+                file.write(text)
+            os.chmod(beside, 0o666 & ~_umask())
+            os.replace(beside, path)
+        except BaseException:
+            with contextlib.suppress(OSError):
+                os.unlink(beside)
+            raise
+    except OSError as error:
+        raise _cannot(path, error.strerror or str(error)) from error
+    return path
+
+
+def write_all(folder: Path, files: list[tuple[str, str]], mark: str) -> Path:
+    """Writes files into a folder; what is there already is replaced only if it has the mark."""
+    for name, _ in files:
+        path = folder / name
+        if path.is_symlink() or path.exists():
+            with contextlib.suppress(OSError):
+                if any(mark in line for line in path.read_text(encoding="utf-8", errors="replace").splitlines()[:HEAD]):
+                    continue
+            raise _cannot(path, "a file is there that mechc did not write", "name a new folder, or one that mechc wrote")
+    for name, text in files:
+        write(folder / name, text)
+    return folder
+
+
+def _cannot(path: Path, why: str, help: str | None = None) -> FileError:
+    message = f"cannot write `{path}`: {why}"
+    text = f"error[E0702]: {message}" + (f"\n = help: {help}" if help else "")
+    diagnostic = {"code": "E0702", "severity": "error", "message": message, "labels": [], "help": [help] if help else []}
+    return FileError(text, [diagnostic])
+
+
+def _umask() -> int:
+    found = os.umask(0)
+    os.umask(found)
+    return found

@@ -1,0 +1,33 @@
+"""A mechanism in a notebook: the page that moves, in a frame that can do nothing else; a picture where scripts are off."""
+
+from __future__ import annotations
+
+import html
+from typing import Any
+
+#: A notebook with a few of these stays small (bytes).
+LARGEST = 300_000
+
+#: Rows of the motion that are tried, until it is small enough.
+ROWS = (400, 200, 100, 50, 25)
+
+
+def shown(m: Any, asked: dict[str, Any]) -> str:
+    """The page in a sandboxed frame, with a picture for readers whose scripts are off."""
+    for rows in ROWS:
+        page, picture = m._seen(asked, rows)
+        text = framed(page, picture)
+        if len(text.encode()) <= LARGEST:
+            return text
+    text = f"<div>{picture}</div>"
+    return text if len(text.encode()) <= LARGEST else f"<pre>{html.escape(repr(m))}</pre>"
+
+
+def framed(page: str, picture: str) -> str:
+    """The frame takes the page's script and nothing of the notebook's: it has an origin of its own."""
+    # a picture alone would be hidden where scripts run: what is within `noscript` is shown where they do not
+    return (
+        f'<iframe sandbox="allow-scripts" srcdoc="{html.escape(page)}" title="the mechanism, moving" '
+        'style="width:100%;height:640px;border:0"></iframe>'
+        f"<noscript>{picture}</noscript>"
+    )

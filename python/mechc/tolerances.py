@@ -1,0 +1,118 @@
+"""What small errors of params make of measures and results."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import pandas
+    import polars
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """A measure, at the time of its largest deviation, or a result; all numbers are SI.
+
+    ``slopes`` are the exact derivatives by each param, ``contributions`` what the tolerance of each makes of it, from the least to the
+    largest, ``shares`` its part of the variance. ``worst`` is the sum of all at their worst, ``statistical`` the root of the sum of squares,
+    ``sigma`` the standard deviation. Where it was verified ``found`` is how far it was off, and ``is_linear`` whether derivatives are enough.
+    """
+
+    name: str
+    at: float | None
+    nominal: float
+    unit: str
+    slopes: dict[str, float | None]
+    contributions: dict[str, tuple[float, float]] | None
+    shares: dict[str, float] | None
+    worst: tuple[float, float] | None
+    statistical: tuple[float, float] | None
+    sigma: float | None
+    found: tuple[float, float] | None = None
+    is_linear: bool | None = None
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """What tolerances make of a mechanism, made by :meth:`mechc.Mechanism.tolerance`; ``tolerance["stroke"]`` is a :class:`Deviation`."""
+
+    #: Of each param: how far it may be below and above (SI).
+    ranges: dict[str, tuple[float, float]]
+    #: Of each measure and result, by its name.
+    deviations: dict[str, Deviation] = field(repr=False)
+    #: How many variants were run to verify it; nothing where it was not asked for.
+    variants: int | None = None
+    #: Whether these were all corners.
+    are_all_corners: bool | None = None
+    #: How many of them did not come to their end on the branch.
+    lost: int | None = None
+
+    def __getitem__(self, name: str) -> Deviation:
+        return self.deviations[name]
+
+    def __iter__(self) -> Any:
+        return iter(self.deviations)
+
+    def __len__(self) -> int:
+        return len(self.deviations)
+
+    def to_dict(self) -> dict[str, list[Any]]:
+        """A row for each measure and result, by columns."""
+        rows = list(self.deviations.values())
+        table: dict[str, list[Any]] = {
+            "name": [row.name for row in rows],
+            "unit": [row.unit for row in rows],
+            "t": [row.at for row in rows],
+            "nominal": [row.nominal for row in rows],
+        }
+        for param in self.ranges:
+            table[f"by {param}"] = [row.slopes[param] for row in rows]
+        for end, word in enumerate(("least", "most")):
+            table[f"worst {word}"] = [row.worst and row.worst[end] for row in rows]
+            table[f"statistical {word}"] = [row.statistical and row.statistical[end] for row in rows]
+        table["sigma"] = [row.sigma for row in rows]
+        return table
+
+    def to_polars(self) -> polars.DataFrame:
+        """The same as a polars frame."""
+        import polars
+
+        return polars.DataFrame(self.to_dict())
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The same as a pandas frame."""
+        import pandas
+
+        return pandas.DataFrame(self.to_dict())
+
+
+def told(params: list[Any], quantities: list[dict[str, Any]], tried: Any) -> Tolerance:
+    """What the library found."""
+    names = [name for name, *_ in params]
+
+    def by_param(values: Any) -> Any:
+        return None if values is None else dict(zip(names, (tuple(v) if isinstance(v, list) else v for v in values)))
+
+    def pair(values: Any) -> Any:
+        return None if values is None else tuple(values)
+
+    deviations = {
+        of["name"]: Deviation(
+            name=of["name"],
+            at=of["at"],
+            nominal=of["nominal"],
+            unit=of["unit"],
+            slopes=by_param(of["slopes"]),
+            contributions=by_param(of["contributions"]),
+            shares=by_param(of["shares"]),
+            worst=pair(of["worst"]),
+            statistical=pair(of["statistical"]),
+            sigma=of["sigma"],
+            found=pair(of["found"]),
+            is_linear=of["is_linear"],
+        )
+        for of in quantities
+    }
+    variants, are_all, lost = tried or (None, None, None)
+    return Tolerance({name: tuple(range_) for name, _, range_, _ in params}, deviations, variants, are_all, lost)

@@ -1,0 +1,244 @@
+//! A mechanism at given inputs, params and times, one or many: each from its own start, so that neither order nor company change a bit.
+
+use crate::errors::Said;
+use crate::mechanism::{Mechanism, Stages};
+use crate::waiting::interruptible;
+pub use found::{_at_again, At, Columns};
+use mechc::{Adjustable, Adjusting, AskedTimes, Cancel, Choice, ColumnUnit, Diagnostic, Signal};
+use pyo3::exceptions::PyMemoryError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyFloat, PyString};
+pub use reading::{Options, at};
+use std::borrow::Cow;
+use std::sync::{Arc, Mutex};
+
+mod found;
+mod reading;
+
+/// What was compiled for questions of a kind; so many kinds are remembered.
+const KINDS: usize = 16;
+
+/// More elements than this are computed on another thread, while Ctrl-C is looked for.
+const AT_ONCE: usize = 32;
+
+/// What is asked for, but for the values: it is compiled once for all of these.
+#[derive(Clone, PartialEq, Default)]
+pub struct Kind {
+    inputs: Vec<String>,
+    params: Vec<String>,
+    by: Vec<String>,
+    reactions: bool,
+    tolerance: Option<u64>,
+    pass_bifurcations: bool,
+}
+
+/// What was compiled for one.
+pub struct Compiled {
+    adjustable: Adjustable,
+    columns: Arc<Columns>,
+    /// The units that columns are printed in, where any is not SI.
+    units: Option<Vec<ColumnUnit>>,
+}
+
+/// What was compiled of a mechanism by now, the last first.
+#[derive(Default)]
+pub struct Known(Mutex<Vec<(Kind, Arc<Compiled>)>>);
+
+impl Known {
+    /// What is known of a kind. Who cannot look, because another process was forked while somebody did, does without.
+    fn find(&self, kind: &Kind) -> Option<Arc<Compiled>> {
+        let known = self.0.try_lock().ok()?;
+        known.iter().find(|(other, _)| other == kind).map(|(_, compiled)| Arc::clone(compiled))
+    }
+
+    /// What is known of numbers for inputs alone, and these in order: what is asked most often is answered without a detour.
+    fn find_plain(&self, values: &Bound<'_, PyDict>) -> Option<(Arc<Compiled>, Vec<[Operand; 3]>)> {
+        let known = self.0.try_lock().ok()?;
+        known.iter().find_map(|(kind, compiled)| {
+            if kind.inputs.len() != values.len() || !kind.is_plain() {
+                return None;
+            }
+            let mut inputs = Vec::with_capacity(values.len());
+            inputs.resize_with(values.len(), || [0.0; 3].map(Operand::One));
+            for (name, value) in values.iter() {
+                let name = name.cast::<PyString>().ok()?.to_str().ok()?;
+                let place = kind.inputs.iter().position(|input| input == name)?;
+                let value = value.cast_exact::<PyFloat>().ok()?.value();
+                inputs[place][0] = Operand::One(Some(value).filter(|value| value.is_finite())?);
+            }
+            Some((Arc::clone(compiled), inputs))
+        })
+    }
+
+    fn add(&self, kind: Kind, compiled: &Arc<Compiled>) {
+        if let Ok(mut known) = self.0.try_lock() {
+            known.insert(0, (kind, Arc::clone(compiled)));
+            known.truncate(KINDS);
+        }
+    }
+}
+
+impl Kind {
+    /// Whether nothing is asked for but where inputs lead.
+    fn is_plain(&self) -> bool {
+        let Kind { params, by, reactions, tolerance, pass_bifurcations, .. } = self;
+        params.is_empty() && by.is_empty() && !reactions && tolerance.is_none() && !pass_bifurcations
+    }
+}
+
+impl Compiled {
+    fn of(stages: &Stages, kind: &Kind, cancel: &Cancel) -> Result<Compiled, Said> {
+        let asked = Choice { by: kind.by.clone(), reactions: kind.reactions, ..stages.choice.clone() };
+        let is_plain = kind.by.is_empty() && !kind.reactions;
+        let checked = if is_plain {
+            stages.checked.clone()
+        } else {
+            stages.with(&asked, &*stages.files, stages.redundant, cancel)?.0.0
+        };
+        let usual = Adjusting::default();
+        let adjusting = Adjusting {
+            inputs: kind.inputs.clone(),
+            params: kind.params.clone(),
+            redundant: stages.redundant,
+            tolerance: kind.tolerance.map_or(usual.tolerance, f64::from_bits),
+            pass_bifurcations: kind.pass_bifurcations,
+        };
+        let adjustable = checked.adjustable(&adjusting, cancel).map_err(|(sources, said)| Said::of(&said, &sources))?;
+        let compiled = adjustable.compiled();
+        let (names, units) = (compiled.columns(), compiled.units());
+        let place = |name: String| names.iter().position(|column| *column == name);
+        let of_order =
+            |ending: &str| compiled.coordinates().iter().filter_map(|name| place(format!("{name}{ending}"))).collect();
+        let coordinates = ["", ".d", ".dd"].map(of_order);
+        let columns = Columns::new(names, units.iter().map(|unit| unit.text.clone()).collect(), coordinates);
+        let units = units.iter().any(|unit| unit.scale() != [1.0; 3]).then_some(units);
+        Ok(Compiled { adjustable, columns, units })
+    }
+}
+
+/// A question, as it was put.
+pub struct Question {
+    kind: Kind,
+    /// The time (s), if it is told, then inputs with their rates and accelerations, then params.
+    t: Option<Operand>,
+    inputs: Vec<[Operand; 3]>,
+    params: Vec<Operand>,
+    /// By how many elements.
+    shape: Option<Vec<usize>>,
+}
+
+/// A number, or one for each element.
+enum Operand {
+    One(f64),
+    Each(Vec<f64>),
+}
+
+impl Operand {
+    fn at(&self, element: usize) -> f64 {
+        match self {
+            Operand::One(value) => *value,
+            Operand::Each(values) => values[element],
+        }
+    }
+}
+
+/// What became of an element.
+enum Became {
+    Row,
+    Not(Box<Diagnostic>),
+}
+
+impl Question {
+    fn elements(&self) -> usize {
+        self.shape.as_ref().map_or(1, |shape| shape.iter().product())
+    }
+
+    /// What it is answered by.
+    fn compiled(&self, py: Python<'_>, mechanism: &Mechanism) -> PyResult<Arc<Compiled>> {
+        if let Some(compiled) = mechanism.known.find(&self.kind) {
+            return Ok(compiled);
+        }
+        let made = interruptible(py, |cancel| Compiled::of(&mechanism.stages, &self.kind, cancel))?;
+        let compiled = Arc::new(made.map_err(|said| said.raised(py))?);
+        mechanism.known.add(self.kind.clone(), &compiled);
+        Ok(compiled)
+    }
+
+    /// Its answer.
+    fn answer(&self, py: Python<'_>, compiled: &Compiled) -> PyResult<At> {
+        let (elements, width) = (self.elements(), compiled.columns.names.len());
+        let too_many = |_| PyMemoryError::new_err("so many elements do not fit into memory; ask for fewer at once");
+        let mut rows = Vec::new();
+        rows.try_reserve_exact(elements.saturating_mul(width)).map_err(too_many)?;
+        let became = if elements <= AT_ONCE {
+            py.detach(|| self.all(compiled, &mut rows, &Cancel::default()))
+        } else {
+            interruptible(py, |cancel| self.all(compiled, &mut rows, cancel))?
+        };
+        let mut statuses = Vec::with_capacity(elements);
+        let mut error = None;
+        for became in became {
+            statuses.push(match became {
+                Became::Row => Cow::Borrowed("ok"),
+                Became::Not(why) => {
+                    let code = Cow::Borrowed(why.code.as_str());
+                    error.get_or_insert_with(|| Said::of_one(*why, compiled.adjustable.compiled().sources()));
+                    code
+                }
+            });
+        }
+        Ok(At { columns: Arc::clone(&compiled.columns), rows, shape: self.shape.clone(), statuses, error })
+    }
+
+    fn all(&self, compiled: &Compiled, rows: &mut Vec<f64>, cancel: &Cancel) -> Vec<Became> {
+        let names = &compiled.columns.names;
+        let mut became = Vec::with_capacity(self.elements());
+        for element in 0..self.elements() {
+            let before = rows.len();
+            let found = self.one(element, &compiled.adjustable, cancel, |row| {
+                // of several rows the last one is that of the time
+                rows.truncate(before);
+                rows.extend_from_slice(&row[..names.len()]);
+            });
+            became.push(match found {
+                Ok(()) => {
+                    let units = compiled.units.iter().flatten();
+                    rows[before..].iter_mut().zip(units).for_each(|(value, unit)| *value = unit.printed(*value));
+                    Became::Row
+                }
+                Err(why) => {
+                    rows.truncate(before);
+                    rows.resize(before + names.len(), f64::NAN);
+                    Became::Not(why)
+                }
+            });
+            if cancel.is_cancelled() {
+                break;
+            }
+        }
+        became
+    }
+
+    fn one(
+        &self,
+        element: usize,
+        adjustable: &Adjustable,
+        cancel: &Cancel,
+        row: impl FnMut(&[f64]),
+    ) -> Result<(), Box<Diagnostic>> {
+        let signal = |[value, rate, acceleration]: &[Operand; 3]| Signal {
+            value: value.at(element),
+            rate: rate.at(element),
+            acceleration: acceleration.at(element),
+        };
+        let inputs: Vec<Signal> = self.inputs.iter().map(signal).collect();
+        let params: Vec<f64> = self.params.iter().map(|param| param.at(element)).collect();
+        let t = self.t.as_ref().map(|t| t.at(element));
+        let first = || adjustable.compiled().analysis().map_or(0.0, |[from, ..]| from);
+        let at = t.unwrap_or_else(first);
+        // inputs are what they are at that time, and not before
+        let from = (!inputs.is_empty()).then_some(at);
+        let times = AskedTimes { from, at: vec![at], ..AskedTimes::default() };
+        adjustable.follow(&inputs, &params, &times, cancel, row).map(|_| ())
+    }
+}

@@ -1,0 +1,85 @@
+//! Diagnostics as exceptions: the data, the text that the command prints, and the kind that says who is to mend it. The classes are
+//! in `mechc/errors.py`.
+
+use mechc::{Blame, Color, Diagnostic, Diagnostics, Format, Severity, Sources, render};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::PyList;
+use serde_json::Value;
+
+/// What is said of something, ready to be told.
+#[derive(Clone, Default)]
+pub struct Said {
+    /// Each as the JSON object of `--message-format json`.
+    json: Vec<String>,
+    /// All of it, as the command prints it.
+    text: String,
+    /// Who is to mend it: `input`, `usage`, `analysis`, `files`; empty where nothing is wrong.
+    blame: &'static str,
+    /// When the first error happens (s), and its code.
+    pub stopped: Option<f64>,
+    /// The code of the first error.
+    pub code: Option<&'static str>,
+}
+
+impl Said {
+    /// Diagnostics of some texts.
+    pub fn of(diagnostics: &Diagnostics, sources: &Sources) -> Said {
+        let each =
+            |format| move |of: &Diagnostic| render(of, sources, format, Color::Never).trim_end_matches('\n').to_owned();
+        let json = diagnostics.iter().map(each(Format::Json)).collect();
+        let texts: Vec<String> = diagnostics.iter().map(each(Format::Human)).collect();
+        let first = diagnostics.iter().find(|of| of.severity() == Severity::Error);
+        let blame = match Blame::of(diagnostics, sources) {
+            None => "",
+            Some(Blame::Input) => "input",
+            Some(Blame::Usage) => "usage",
+            Some(Blame::Analysis) => "analysis",
+            Some(Blame::Files) => "files",
+        };
+        Said {
+            json,
+            text: texts.join("\n"),
+            blame,
+            stopped: first.and_then(|of| of.data.get("t")).and_then(Value::as_f64),
+            code: first.map(|of| of.code.as_str()),
+        }
+    }
+
+    /// The same of one.
+    pub fn of_one(diagnostic: Diagnostic, sources: &Sources) -> Said {
+        Said::of(&diagnostic.into(), sources)
+    }
+
+    /// Whether nothing is said.
+    pub fn is_empty(&self) -> bool {
+        self.json.is_empty()
+    }
+
+    /// The exception that tells it.
+    pub fn raised(&self, py: Python<'_>) -> PyErr {
+        static RAISED: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+        let made = RAISED
+            .import(py, "mechc.errors", "_raised")
+            .and_then(|raised| raised.call1((self.list(py)?, &self.text, self.blame, self.code.unwrap_or_default())));
+        match made {
+            Ok(exception) => PyErr::from_value(exception),
+            Err(why) => why,
+        }
+    }
+
+    /// Tells what is not wrong, but worth knowing, as a warning.
+    pub fn warned(&self, py: Python<'_>) -> PyResult<()> {
+        if self.is_empty() {
+            return Ok(());
+        }
+        static WARNED: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+        WARNED.import(py, "mechc.errors", "_warned")?.call1((self.list(py)?, &self.text))?;
+        Ok(())
+    }
+
+    /// The diagnostics as lines of JSON.
+    pub fn list<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        PyList::new(py, &self.json)
+    }
+}

@@ -1,0 +1,83 @@
+//! Results and rows as functions of params, for optimisers: compiled once, and evaluated again and again.
+
+use crate::errors::Said;
+use crate::mechanism::{Mechanism, Stages};
+use crate::run::Asked;
+use crate::waiting::interruptible;
+use mechc::{Adjustable, Adjusting, AskedTimes, Cancel, ColumnUnit, RunOptions};
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// A mechanism of which some params are arguments.
+#[pyclass(frozen, module = "mechc._mechc")]
+pub struct Evaluator {
+    adjustable: Adjustable,
+    params: usize,
+    times: AskedTimes,
+    wanted: Vec<usize>,
+    units: Vec<ColumnUnit>,
+}
+
+/// Results (SI), and rows one behind the other.
+type Evaluated<'py> = (Vec<Option<f64>>, Bound<'py, PyAny>);
+
+impl Evaluator {
+    /// Of a mechanism whose params of some names are arguments.
+    pub fn of(py: Python<'_>, mechanism: &Mechanism, asked: &Asked, params: Vec<String>) -> PyResult<Evaluator> {
+        let made = interruptible(py, |cancel| Evaluator::made(&mechanism.stages, asked, params, cancel))?;
+        made.map_err(|said| said.raised(py))
+    }
+
+    fn made(stages: &Stages, asked: &Asked, params: Vec<String>, cancel: &Cancel) -> Result<Evaluator, Said> {
+        let ((checked, _), _) = asked.stages(stages, cancel)?;
+        let RunOptions { tolerance, pass_bifurcations, .. } = asked.options(cancel);
+        let (count, inputs, redundant) = (params.len(), Vec::new(), asked.redundant(stages));
+        let adjusting = Adjusting { inputs, params, redundant, tolerance, pass_bifurcations };
+        let adjustable = checked.adjustable(&adjusting, cancel).map_err(|(sources, said)| Said::of(&said, &sources))?;
+        let compiled = adjustable.compiled();
+        let mut sources = compiled.sources().clone();
+        let times = AskedTimes::of([&asked.from, &asked.to, &asked.every], &asked.at, &mut sources);
+        let times = times.map_err(|why| Said::of(&why, &sources))?;
+        let wanted = compiled.chosen_columns(&asked.columns).map_err(|why| Said::of_one(*why, &sources))?;
+        let all = compiled.units();
+        let units = wanted.iter().map(|&k| all[k].clone()).collect();
+        Ok(Evaluator { adjustable, params: count, times, wanted, units })
+    }
+}
+
+#[pymethods]
+impl Evaluator {
+    /// The names of the columns.
+    #[getter]
+    fn columns(&self) -> Vec<String> {
+        let all = self.adjustable.compiled().columns();
+        self.wanted.iter().map(|&k| all[k].clone()).collect()
+    }
+
+    /// The names of the results, and their units.
+    #[getter]
+    fn results(&self) -> Vec<(String, String)> {
+        self.adjustable.compiled().results_of_variants()
+    }
+
+    /// The results (SI), and rows of shape (times, columns), for values of the params (SI).
+    fn evaluate<'py>(&self, py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyResult<Evaluated<'py>> {
+        let x = x.as_array().to_vec();
+        if x.len() != self.params {
+            let said = format!("{} values are given for {} params", x.len(), self.params);
+            return Err(PyValueError::new_err(said));
+        }
+        let mut rows = Vec::new();
+        let answers = interruptible(py, |cancel| {
+            self.adjustable.follow(&[], &x, &self.times, cancel, |row| {
+                rows.extend(self.units.iter().zip(&self.wanted).map(|(unit, &k)| unit.printed(row[k])));
+            })
+        })?;
+        let sources = self.adjustable.compiled().sources();
+        let answers = answers.map_err(|why| Said::of_one(*why, sources).raised(py))?;
+        let width = self.wanted.len();
+        let shape = [rows.len() / width, width];
+        Ok((answers.values, PyArray1::from_vec(py, rows).reshape(shape)?.into_any()))
+    }
+}

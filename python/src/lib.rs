@@ -1,0 +1,41 @@
+//! `mechc._mechc`: the library's stages as Python sees them. Thin: what is computed is the library's; here stand the doors, what keeps
+//! Python responsive while something is computed, and how results become arrays and Arrow streams.
+//!
+//! What a user calls is in `mechc/*.py`, with its documentation.
+
+mod at;
+mod errors;
+mod evaluator;
+mod exported;
+mod files;
+mod mechanism;
+mod run;
+mod stream;
+mod sweep;
+mod table;
+mod tolerance;
+mod waiting;
+
+use pyo3::prelude::*;
+
+/// The module.
+#[pymodule(gil_used = true)]
+mod _mechc {
+    #[pymodule_export]
+    use super::at::{_at_again, At};
+    #[pymodule_export]
+    use super::evaluator::Evaluator;
+    #[pymodule_export]
+    use super::mechanism::Mechanism;
+    #[pymodule_export]
+    use super::sweep::Sweep;
+    #[pymodule_export]
+    use super::table::{Column, Table};
+
+    use super::{Bound, PyModule, PyModuleMethods, PyResult};
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

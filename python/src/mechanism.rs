@@ -1,0 +1,324 @@
+//! A mechanism: its text, checked, proven and compiled once.
+
+use crate::at::{self, At, Known, Options};
+use crate::errors::Said;
+use crate::evaluator::Evaluator;
+use crate::exported::{self, AskedOfRust};
+use crate::files::Files;
+use crate::run::Asked;
+use crate::sweep::{AskedOfSweep, Sweep};
+use crate::tolerance::{self, Told};
+use crate::waiting::interruptible;
+use mechc::{Cancel, Checked, Choice, Compiled, Diagnostics, Parsed, Redundant, Settable, Sources, World};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What became of a text, with what is said of it, ready to be told.
+pub type Made<T> = Result<(T, Said), Said>;
+
+/// A mechanism with its settings.
+#[pyclass(frozen, subclass, module = "mechc._mechc")]
+pub struct Mechanism {
+    pub stages: Stages,
+    params: Vec<Settable>,
+    inputs: Vec<Settable>,
+    /// What was compiled for questions of `at` by now.
+    pub known: Known,
+}
+
+impl Mechanism {
+    /// A param or input by its name, and whether it is an input.
+    pub fn settable(&self, py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<(&Settable, bool)> {
+        let found = |list: &'_ [Settable]| list.iter().position(|of| of.name == name);
+        if let Some(place) = found(&self.inputs) {
+            return Ok((&self.inputs[place], true));
+        }
+        if let Some(place) = found(&self.params) {
+            return Ok((&self.params[place], false));
+        }
+        let units =
+            |list: &[Settable]| list.iter().map(|of| (of.name.clone(), of.unit.clone())).collect::<BTreeMap<_, _>>();
+        let given = PyDict::new(py);
+        given.set_item(name, value)?;
+        let options = ["t", "set", "inputs", "rates", "accelerations", "by", "reactions", "strict"];
+        py.import("mechc.asking")?.getattr("split")?.call1((
+            given,
+            units(&self.params),
+            units(&self.inputs),
+            options,
+        ))?;
+        Err(pyo3::exceptions::PyKeyError::new_err(name.to_owned()))
+    }
+
+    /// The SI unit of an input's rate, or of its acceleration.
+    pub fn unit_of_rate(&self, name: &str, order: u32) -> String {
+        let unit = self.inputs.iter().find(|of| of.name == name).map_or("", |of| of.unit.as_str());
+        let per = if order == 1 { "s".to_owned() } else { format!("s^{order}") };
+        format!("{unit}/{per}")
+    }
+}
+
+/// What it was made of, and what it is.
+#[derive(Clone)]
+pub struct Stages {
+    pub parsed: Parsed,
+    pub path: PathBuf,
+    pub files: Arc<Files>,
+    /// The mechanism and what is set in it.
+    pub choice: Choice,
+    pub redundant: Redundant,
+    pub checked: Checked,
+    pub compiled: Compiled,
+}
+
+impl Stages {
+    fn of(
+        parsed: Parsed,
+        path: PathBuf,
+        files: Arc<Files>,
+        settings: (Choice, Redundant),
+        cancel: &Cancel,
+    ) -> Made<Stages> {
+        let (choice, redundant) = settings;
+        let ((checked, compiled), said) = compiled(&parsed, &choice, &*files, redundant, cancel)?;
+        compiled.prepare();
+        Ok((Stages { parsed, path, files, choice, redundant, checked, compiled }, said))
+    }
+
+    /// What it is with more that is asked for beside its text.
+    pub fn with(
+        &self,
+        choice: &Choice,
+        world: &dyn World,
+        redundant: Redundant,
+        cancel: &Cancel,
+    ) -> Made<(Checked, Compiled)> {
+        compiled(&self.parsed, choice, world, redundant, cancel)
+    }
+}
+
+fn compiled(
+    parsed: &Parsed,
+    choice: &Choice,
+    world: &dyn World,
+    redundant: Redundant,
+    cancel: &Cancel,
+) -> Made<(Checked, Compiled)> {
+    let checked = parsed.check(choice, world);
+    let (sources, mut said) = (checked.sources().clone(), checked.diagnostics().clone());
+    if !checked.is_sound() {
+        return Err(Said::of(&said, &sources));
+    }
+    let (compiled, more) = checked.compile(redundant, cancel);
+    match compiled {
+        Some(compiled) => {
+            said.extend(more);
+            let said = Said::of(&said, &sources);
+            Ok(((checked, compiled), said))
+        }
+        None => Err(Said::of(&more, &sources)),
+    }
+}
+
+#[pymethods]
+impl Mechanism {
+    /// Reads, checks and proves a mechanism; of a file where no text is given.
+    #[new]
+    #[pyo3(signature = (text, path, files, from_disk, mechanism, set, allow_redundant))]
+    fn new(
+        py: Python<'_>,
+        text: Option<String>,
+        path: PathBuf,
+        files: BTreeMap<PathBuf, Vec<u8>>,
+        from_disk: bool,
+        mechanism: Option<String>,
+        set: Vec<String>,
+        allow_redundant: bool,
+    ) -> PyResult<Mechanism> {
+        let files = Arc::new(Files::new(files, from_disk));
+        let choice = Choice { mechanism, set, ..Choice::default() };
+        let redundant = if allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
+        let made = interruptible(py, |cancel| {
+            let parsed = read(text.as_deref(), &path, &files).map_err(|(sources, said)| Said::of(&said, &sources))?;
+            Stages::of(parsed, path, files, (choice, redundant), cancel)
+        })?;
+        let (stages, said) = made.map_err(|said| said.raised(py))?;
+        said.warned(py)?;
+        let (params, inputs) = (stages.checked.settable_params(), stages.checked.settable_inputs(&stages.compiled));
+        Ok(Mechanism { stages, params, inputs, known: Known::default() })
+    }
+
+    /// What it takes to have it again: text, path, files, mechanism, settings, whether redundant equations are left out.
+    fn _packed<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let Stages { parsed, path, files, choice, redundant, .. } = &self.stages;
+        let known = PyDict::new(py);
+        for (path, bytes) in files.known() {
+            known.set_item(path, PyBytes::new(py, &bytes))?;
+        }
+        let text = &parsed.sources().get(parsed.file()).text;
+        let leaves_out = *redundant == Redundant::LeftOut;
+        let packed = (text, path, known, choice.mechanism.as_ref(), &choice.set, leaves_out);
+        Ok(packed.into_pyobject(py)?.into_any())
+    }
+
+    #[getter]
+    fn _name(&self) -> &str {
+        self.stages.compiled.name()
+    }
+
+    /// Coordinates less equations: 0 of what is determined, less where redundant equations are left out.
+    #[getter]
+    fn ndof(&self) -> isize {
+        self.stages.compiled.ndof()
+    }
+
+    /// The text.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.stages.parsed.sources().get(self.stages.parsed.file()).text
+    }
+
+    /// Each param: its name, its value (SI), its unit.
+    #[getter]
+    fn _params(&self) -> Vec<(&str, f64, &str)> {
+        self.params.iter().map(|of| (of.name.as_str(), of.value, of.unit.as_str())).collect()
+    }
+
+    #[getter]
+    fn _inputs(&self) -> Vec<(&str, f64, &str)> {
+        self.inputs.iter().map(|of| (of.name.as_str(), of.value, of.unit.as_str())).collect()
+    }
+
+    fn _columns(&self) -> Vec<String> {
+        self.stages.compiled.columns()
+    }
+
+    #[getter]
+    fn _units(&self) -> Vec<String> {
+        self.stages.compiled.units().into_iter().map(|unit| unit.text).collect()
+    }
+
+    #[getter]
+    fn _results(&self) -> Vec<(String, String)> {
+        self.stages.compiled.results_of_variants()
+    }
+
+    /// First time, last time and step of the text's analysis (s), if it has one.
+    #[getter]
+    fn analysis(&self) -> Option<(f64, f64, f64)> {
+        self.stages.compiled.analysis().map(|[from, to, every]| (from, to, every))
+    }
+
+    /// Each driver with its equation as it is written.
+    #[getter]
+    fn drivers(&self) -> Vec<(String, String)> {
+        self.stages.compiled.drivers()
+    }
+
+    /// How many coordinates and equations there are, by body and declaration, as a table.
+    #[getter]
+    fn counts(&self) -> String {
+        self.stages.compiled.counts()
+    }
+
+    /// Runs it; `asked` has the options by their names.
+    fn _run(&self, py: Python<'_>, asked: Asked) -> PyResult<Py<PyDict>> {
+        asked.run(py, &self.stages)
+    }
+
+    /// Where it is at given inputs, params and times: coordinates, velocities, accelerations, measures and forces at one place.
+    ///
+    /// Inputs are given by their names, `m.at(theta=0.3)`: numbers in SI, texts with units, or arrays, which are broadcast against
+    /// each other. `rates` and `accelerations` say how they move there: `m.at(theta=0.3, rates={"theta": 5.0})`; they stand still where
+    /// nothing is said. A mechanism without inputs is asked for times, `m.at(t=0.02)`, and `t` may be an array too. Params may be
+    /// given beside, to which it is led along the branch: `m.at(t=0.02, rod_length=0.18)`.
+    ///
+    /// The answer has a column for each that a run has: `x["piston.x"]`, a number or an array of the elements' shape; `x.q`, `x.qd`, `x.qdd`
+    /// of shape (…, coordinates). `by` adds the derivatives of all columns by inputs and params (`x["piston.x.by.theta"]`, `x.columns`
+    /// has their names); `reactions` what joints exert and drivers supply.
+    ///
+    /// Each element starts from the assembled start, so that neither order nor company change a bit: with inputs it is what
+    /// `mechc run --input 'theta=0.3 rad' --at 0` gives. Where one does not get there an error is raised, with the answer as
+    /// `partial`; with `strict=False` its values are `nan`, and `x.status` says why.
+    #[pyo3(signature = (t=None, *, set=None, inputs=None, rates=None, accelerations=None, by=None, reactions=false, tolerance=None,
+                        pass_bifurcations=false, strict=true, **values))]
+    fn at<'py>(
+        &self,
+        py: Python<'py>,
+        t: Option<Bound<'py, PyAny>>,
+        set: Option<Bound<'py, PyDict>>,
+        inputs: Option<Bound<'py, PyDict>>,
+        rates: Option<Bound<'py, PyDict>>,
+        accelerations: Option<Bound<'py, PyDict>>,
+        by: Option<Vec<String>>,
+        reactions: bool,
+        tolerance: Option<f64>,
+        pass_bifurcations: bool,
+        strict: bool,
+        values: Option<Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, At>> {
+        let by = by.unwrap_or_default();
+        let options = Options { set, inputs, rates, accelerations, by, reactions, tolerance, pass_bifurcations };
+        let found = Bound::new(py, at::at(py, self, t.as_ref(), options, values.as_ref())?)?;
+        match found.get().error(py).filter(|_| strict) {
+            None => Ok(found),
+            Some(error) => {
+                error.setattr(py, "partial", &found)?;
+                Err(PyErr::from_value(error.into_bound(py)))
+            }
+        }
+    }
+
+    /// Results and rows as functions of some of its params.
+    fn _evaluator(&self, py: Python<'_>, asked: Asked, params: Vec<String>) -> PyResult<Evaluator> {
+        Evaluator::of(py, self, &asked, params)
+    }
+
+    /// What tolerances make of it.
+    fn _tolerance(&self, py: Python<'_>, asked: Asked, tol: Vec<String>, normal: bool, verify: bool) -> PyResult<Told> {
+        tolerance::tolerance(py, &self.stages, &asked, &tol, (normal, verify))
+    }
+
+    /// A module of Rust.
+    fn _rust(&self, py: Python<'_>, asked: AskedOfRust) -> PyResult<String> {
+        asked.module(py, &self.stages)
+    }
+
+    /// A crate of Rust: its files, and the mark that each begins with.
+    fn _crate(&self, py: Python<'_>, asked: AskedOfRust, name: &str) -> PyResult<exported::Crate> {
+        asked.package(py, &self.stages, name)
+    }
+
+    fn _latex(&self, py: Python<'_>) -> PyResult<String> {
+        exported::latex(py, &self.stages)
+    }
+
+    fn _json(&self, py: Python<'_>) -> PyResult<String> {
+        exported::json(py, &self.stages)
+    }
+
+    /// A page and a picture of its motion, with so many rows at the most.
+    #[pyo3(signature = (asked, most = None))]
+    fn _seen(&self, py: Python<'_>, asked: Asked, most: Option<usize>) -> PyResult<(String, String)> {
+        exported::seen(py, &self.stages, &asked, most)
+    }
+
+    /// A sweep of it; `asked` and `more` have the options by their names.
+    fn _sweep(&self, py: Python<'_>, asked: Asked, more: AskedOfSweep) -> PyResult<Sweep> {
+        Sweep::of(py, &self.stages, &asked, &more)
+    }
+}
+
+fn read(text: Option<&str>, path: &Path, files: &Files) -> Result<Parsed, (Sources, Diagnostics)> {
+    match text {
+        None => Parsed::read(path, files),
+        Some(text) => {
+            let mut sources = Sources::default();
+            let file = sources.add(path.to_string_lossy(), text);
+            Ok(Parsed::of_source(sources, file, path))
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! Sweeps: many variants of a mechanism as an Arrow stream, which is computed while it is read.
+
+use crate::errors::Said;
+use crate::files::WithLists;
+use crate::mechanism::Stages;
+use crate::run::Asked;
+use crate::stream;
+use crate::sweep::reader::{Reader, Source};
+use crate::table::{Head, Kind, Table, schema};
+use crate::waiting::interruptible;
+use arrow_schema::SchemaRef;
+use mechc::{
+    AskedTimes, Cancel, Checked, Choice, ColumnUnit, Compiled, Diagnostic, Diagnostics, Method, Sources, SweepOptions,
+    Variants, VaryOptions,
+};
+use pyo3::prelude::*;
+use pyo3::types::PyCapsule;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+mod block;
+mod reader;
+
+/// What of a sweep goes beyond what is asked of a run.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct AskedOfSweep {
+    /// `NAME=A..B:N`, `NAME=A,B,C`, `@FILE.csv`, as the command has it.
+    vary: Vec<String>,
+    /// Tables of variants as CSV, which options name `@` and a name that is made here.
+    lists: Vec<Vec<u8>>,
+    samples: Option<u64>,
+    method: Option<String>,
+    seed: Option<u64>,
+    rows: bool,
+    until: Option<String>,
+    jobs: Option<usize>,
+    skip: u64,
+    take: Option<u64>,
+}
+
+/// How many variants came to each end, and the first of them.
+pub type Summary = BTreeMap<&'static str, (u64, u64)>;
+
+/// A sweep that can be read, again and again.
+#[pyclass(frozen, module = "mechc._mechc")]
+pub struct Sweep {
+    whole: Arc<Whole>,
+    /// What became of the variants of the stream that was read last.
+    summary: Arc<Mutex<Summary>>,
+}
+
+/// All that a sweep is made of.
+pub struct Whole {
+    pub checked: Checked,
+    pub compiled: Compiled,
+    pub variants: Variants,
+    pub options: SweepOptions,
+    pub heads: Vec<Head>,
+    pub schema: SchemaRef,
+    /// The units of the columns of a run that it has; none where results alone are wanted.
+    pub units: Option<Vec<ColumnUnit>>,
+    /// Whether it ends behind a variant that is looked for.
+    pub has_until: bool,
+    /// The first variant, and the one behind the last.
+    pub range: [u64; 2],
+}
+
+type Refused = (Sources, Diagnostics);
+
+impl Whole {
+    fn of(stages: &Stages, asked: &Asked, more: &AskedOfSweep, cancel: &Cancel) -> Result<(Whole, Said), Said> {
+        let world = WithLists::new(&stages.files, more.lists.clone());
+        let choice = Choice { lead: true, until: more.until.clone(), ..asked.choice(stages) };
+        let redundant = asked.redundant(stages);
+        let ((checked, compiled), said) = stages.with(&choice, &world, redundant, cancel)?;
+        let told = |(sources, said): Refused| Said::of(&said, &sources);
+        let variants = checked.variants(&more.vary_options(), &choice, &world).map_err(told)?;
+        let mut sources = variants.sources().clone();
+        let ends = [&asked.from, &asked.to, &asked.every];
+        let times = AskedTimes::of(ends, &asked.at, &mut sources).map_err(|why| Said::of(&why, &sources))?;
+        let refused = |why: Box<Diagnostic>| Said::of_one(*why, &sources);
+        times.over(compiled.analysis()).and_then(|times| times.times()).map_err(refused)?;
+        let wanted = if more.rows { Some(compiled.chosen_columns(&asked.columns).map_err(refused)?) } else { None };
+        let (heads, units) = heads(&compiled, &variants, wanted.as_deref());
+        let run = asked.options(cancel);
+        let options = SweepOptions {
+            times,
+            columns: wanted,
+            redundant,
+            tolerance: run.tolerance,
+            pass_bifurcations: run.pass_bifurcations,
+            jobs: more.jobs,
+            skip: more.skip,
+            take: more.take,
+            cancel: Cancel::default(),
+        };
+        let count = variants.points().count();
+        let first = more.skip.min(count);
+        let range = [first, more.take.map_or(count, |take| first.saturating_add(take).min(count))];
+        let (schema, has_until) = (schema(&heads), more.until.is_some());
+        Ok((Whole { checked, compiled, variants, options, heads, schema, units, has_until, range }, said))
+    }
+}
+
+impl AskedOfSweep {
+    fn vary_options(&self) -> VaryOptions {
+        let mut params = self.vary.clone();
+        params.extend((0..self.lists.len()).map(|number| format!("@{}", WithLists::name(number))));
+        let method = self.method.as_deref().map(|name| if name == "random" { Method::Random } else { Method::Sobol });
+        VaryOptions { params, sample: self.samples, method, seed: self.seed }
+    }
+}
+
+/// The columns of a sweep, and the units of those of a run among them.
+fn heads(compiled: &Compiled, variants: &Variants, wanted: Option<&[usize]>) -> (Vec<Head>, Option<Vec<ColumnUnit>>) {
+    let head = |name: &str, unit: &str, kind| Head { name: name.to_owned(), unit: unit.to_owned(), kind };
+    let mut heads = vec![head("variant", "", Kind::Whole)];
+    let params = variants.points().params().iter().zip(variants.units());
+    heads.extend(params.map(|(name, unit)| head(name, unit, Kind::Numbers)));
+    let Some(wanted) = wanted else {
+        heads.extend(compiled.results_of_variants().iter().map(|(name, unit)| head(name, unit, Kind::Numbers)));
+        heads.push(head("status", "", Kind::Words));
+        heads.push(head("stopped", "s", Kind::Numbers));
+        return (heads, None);
+    };
+    let (names, all) = (compiled.columns(), compiled.units());
+    let units: Vec<ColumnUnit> = wanted.iter().map(|&k| all[k].clone()).collect();
+    heads.extend(wanted.iter().map(|&k| head(&names[k], &all[k].text, Kind::Numbers)));
+    (heads, Some(units))
+}
+
+impl Sweep {
+    /// A sweep of a mechanism.
+    pub fn of(py: Python<'_>, stages: &Stages, asked: &Asked, more: &AskedOfSweep) -> PyResult<Sweep> {
+        let made = interruptible(py, |cancel| Whole::of(stages, asked, more, cancel))?;
+        let (whole, said) = made.map_err(|said| said.raised(py))?;
+        said.warned(py)?;
+        Ok(Sweep { whole: Arc::new(whole), summary: Arc::default() })
+    }
+
+    fn reader(&self, progress: Option<Py<PyAny>>) -> Reader {
+        Reader::new(Source { whole: Arc::clone(&self.whole), summary: Arc::clone(&self.summary) }, progress)
+    }
+}
+
+#[pymethods]
+impl Sweep {
+    #[getter]
+    fn names(&self) -> Vec<&str> {
+        self.whole.heads.iter().map(|head| head.name.as_str()).collect()
+    }
+
+    #[getter]
+    fn units(&self) -> Vec<&str> {
+        self.whole.heads.iter().map(|head| head.unit.as_str()).collect()
+    }
+
+    /// How many variants it computes.
+    fn __len__(&self) -> usize {
+        let [first, last] = self.whole.range;
+        usize::try_from(last - first).unwrap_or(usize::MAX)
+    }
+
+    /// How many variants there are, taken or not.
+    #[getter]
+    fn count(&self) -> u64 {
+        self.whole.variants.points().count()
+    }
+
+    /// By status: how many variants of the stream that was read last, and the first of them.
+    #[getter]
+    fn summary(&self) -> Summary {
+        self.summary.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// What sets the params of a variant, as `set` takes it.
+    fn settings(&self, variant: u64) -> PyResult<Vec<String>> {
+        let count = self.whole.variants.points().count();
+        if variant >= count {
+            let said = format!("there are {count} variants, and no variant {variant}");
+            return Err(pyo3::exceptions::PyIndexError::new_err(said));
+        }
+        Ok(self.whole.variants.settings(variant))
+    }
+
+    /// All of it as a table.
+    #[pyo3(signature = (progress = None))]
+    fn _table(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Table> {
+        let mut reader = self.reader(progress);
+        let columns = reader.all(py)?;
+        Ok(Table::new(self.whole.heads.clone(), columns))
+    }
+
+    #[pyo3(signature = (progress = None))]
+    fn _stream<'py>(&self, py: Python<'py>, progress: Option<Py<PyAny>>) -> PyResult<Bound<'py, PyCapsule>> {
+        stream::capsule(py, Box::new(self.reader(progress)))
+    }
+
+    fn __arrow_c_schema__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
+        stream::schema_capsule(py, &self.whole.schema)
+    }
+}

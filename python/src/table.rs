@@ -1,0 +1,214 @@
+//! Tables of results by columns: for numpy and for Arrow the same memory, which nobody changes.
+
+use crate::stream;
+use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch, RecordBatchIterator, StringArray, UInt64Array};
+use arrow_buffer::{NullBuffer, ScalarBuffer};
+use arrow_schema::{DataType, Field, Schema, SchemaRef};
+use numpy::PyReadonlyArray1;
+use pyo3::exceptions::{PyIndexError, PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyCapsule, PyDict, PyList};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// The key of a column's unit in the metadata of its field.
+const UNIT: &str = "unit";
+
+/// A column that has a name, and a unit where its values have one.
+#[derive(Clone)]
+pub struct Head {
+    pub name: String,
+    pub unit: String,
+    pub kind: Kind,
+}
+
+/// What a column holds.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    Numbers,
+    Whole,
+    Words,
+}
+
+/// The values of a column.
+#[derive(Clone)]
+pub enum Values {
+    Numbers(ScalarBuffer<f64>),
+    Whole(ScalarBuffer<u64>),
+    Words(StringArray),
+}
+
+impl Values {
+    fn kind(&self) -> Kind {
+        match self {
+            Values::Numbers(_) => Kind::Numbers,
+            Values::Whole(_) => Kind::Whole,
+            Values::Words(_) => Kind::Words,
+        }
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Values::Numbers(values) => values.len(),
+            Values::Whole(values) => values.len(),
+            Values::Words(values) => values.len(),
+        }
+    }
+
+    /// As Arrow has them: what is no number has no value there.
+    fn array(&self) -> ArrayRef {
+        match self {
+            Values::Numbers(values) => {
+                let nulls = if values.iter().all(|value| value.is_finite()) {
+                    None
+                } else {
+                    Some(values.iter().map(|value| value.is_finite()).collect::<NullBuffer>())
+                };
+                Arc::new(Float64Array::new(values.clone(), nulls))
+            }
+            Values::Whole(values) => Arc::new(UInt64Array::new(values.clone(), None)),
+            Values::Words(values) => Arc::new(values.clone()),
+        }
+    }
+}
+
+/// The schema of columns.
+pub fn schema(heads: &[Head]) -> SchemaRef {
+    let field = |head: &Head| {
+        let (kind, has_gaps) = match head.kind {
+            Kind::Numbers => (DataType::Float64, true),
+            Kind::Whole => (DataType::UInt64, false),
+            Kind::Words => (DataType::Utf8, false),
+        };
+        let field = Field::new(&head.name, kind, has_gaps);
+        if head.unit.is_empty() {
+            field
+        } else {
+            field.with_metadata(HashMap::from([(UNIT.to_owned(), head.unit.clone())]))
+        }
+    };
+    Arc::new(Schema::new(heads.iter().map(field).collect::<Vec<_>>()))
+}
+
+/// Rows as a batch of Arrow.
+pub fn batch(schema: &SchemaRef, columns: &[Values]) -> Result<RecordBatch, arrow_schema::ArrowError> {
+    RecordBatch::try_new(Arc::clone(schema), columns.iter().map(Values::array).collect())
+}
+
+/// A column as numpy takes it, without a copy: `numpy.asarray(column)`; it cannot be written to.
+#[pyclass(frozen, module = "mechc._mechc")]
+pub struct Column {
+    values: Values,
+}
+
+#[pymethods]
+impl Column {
+    #[getter]
+    fn __array_interface__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (kind, address) = match &self.values {
+            Values::Numbers(values) => ("<f8", values.as_ptr() as usize),
+            Values::Whole(values) => ("<u8", values.as_ptr() as usize),
+            Values::Words(_) => return Err(PyTypeError::new_err("words are no array of numbers")),
+        };
+        let interface = PyDict::new(py);
+        interface.set_item("version", 3)?;
+        interface.set_item("typestr", kind)?;
+        interface.set_item("shape", (self.values.len(),))?;
+        interface.set_item("data", (address, true))?;
+        Ok(interface)
+    }
+
+    fn __len__(&self) -> usize {
+        self.values.len()
+    }
+}
+
+/// A column that was packed.
+fn unpacked(column: &Bound<'_, PyAny>) -> PyResult<Values> {
+    if let Ok(values) = column.extract::<PyReadonlyArray1<'_, f64>>() {
+        return Ok(Values::Numbers(values.as_array().to_vec().into()));
+    }
+    if let Ok(values) = column.extract::<PyReadonlyArray1<'_, u64>>() {
+        return Ok(Values::Whole(values.as_array().to_vec().into()));
+    }
+    Ok(Values::Words(StringArray::from(column.extract::<Vec<String>>()?)))
+}
+
+/// A table.
+#[pyclass(frozen, module = "mechc._mechc")]
+pub struct Table {
+    heads: Vec<Head>,
+    columns: Vec<Values>,
+}
+
+impl Table {
+    pub fn new(heads: Vec<Head>, columns: Vec<Values>) -> Table {
+        Table { heads, columns }
+    }
+
+    /// Columns of numbers with their units.
+    pub fn of_numbers(names: Vec<String>, units: Vec<String>, columns: Vec<Vec<f64>>) -> Table {
+        let heads = names.into_iter().zip(units).map(|(name, unit)| Head { name, unit, kind: Kind::Numbers }).collect();
+        Table::new(heads, columns.into_iter().map(|values| Values::Numbers(values.into())).collect())
+    }
+
+    fn rows(&self) -> usize {
+        self.columns.first().map_or(0, Values::len)
+    }
+}
+
+#[pymethods]
+impl Table {
+    /// Columns once more, as they were packed: arrays of numbers, lists of words.
+    #[new]
+    fn again(names: Vec<String>, units: Vec<String>, columns: Vec<Bound<'_, PyAny>>) -> PyResult<Table> {
+        let columns: Vec<Values> = columns.iter().map(unpacked).collect::<PyResult<_>>()?;
+        let lengths = columns.iter().map(Values::len);
+        if names.len() != columns.len() || units.len() != columns.len() || lengths.clone().min() != lengths.max() {
+            return Err(PyValueError::new_err("names, units and columns are not of one length"));
+        }
+        let heads = names.into_iter().zip(units).zip(&columns);
+        let heads = heads.map(|((name, unit), values)| Head { name, unit, kind: values.kind() }).collect();
+        Ok(Table::new(heads, columns))
+    }
+
+    #[getter]
+    fn names(&self) -> Vec<&str> {
+        self.heads.iter().map(|head| head.name.as_str()).collect()
+    }
+
+    #[getter]
+    fn units(&self) -> Vec<&str> {
+        self.heads.iter().map(|head| head.unit.as_str()).collect()
+    }
+
+    fn __len__(&self) -> usize {
+        self.rows()
+    }
+
+    /// A column by its number: for numpy, or a list of words.
+    fn column<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyAny>> {
+        match self.columns.get(number) {
+            None => Err(PyIndexError::new_err(format!("there is no column {number}"))),
+            Some(Values::Words(words)) => Ok(PyList::new(py, words.iter())?.into_any()),
+            Some(values) => Ok(Bound::new(py, Column { values: values.clone() })?.into_any()),
+        }
+    }
+
+    fn __arrow_c_schema__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
+        stream::schema_capsule(py, &schema(&self.heads))
+    }
+
+    #[pyo3(signature = (requested_schema = None))]
+    fn __arrow_c_stream__<'py>(
+        &self,
+        py: Python<'py>,
+        requested_schema: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyCapsule>> {
+        // who asks for another schema gets this one, as the interface allows
+        let _ = requested_schema;
+        let schema = schema(&self.heads);
+        let batch = batch(&schema, &self.columns).map_err(stream::failed)?;
+        stream::capsule(py, Box::new(RecordBatchIterator::new([Ok(batch)], schema)))
+    }
+}

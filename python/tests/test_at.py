@@ -1,0 +1,148 @@
+"""One place, or many: the bits of the command, in whatever order and company."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from conftest import ROOT, command, numbers, same_bits
+
+import mechc
+
+EXAMPLES = ROOT / "examples"
+ROBOT = EXAMPLES / "parallel_robot.mech"
+FOUR_BAR = """mechanism four_bar {
+    param crank_length = 40 mm
+    param arm = 2.5 * crank_length
+    input theta = 90 deg + 30 rpm * t
+    ground { point O = (0, 0) point Q = (80 mm, 0) }
+    body crank at (0, 0, 90 deg) { point O = (0, 0) point C = (crank_length, 0) }
+    body coupler at (0, 40 mm, 36 deg) { point C = (0, 0) point D = (arm, 0) point pen = (2 * arm, 0) mass 1 kg at (arm, 0) }
+    body rocker at (80 mm, 0, 91 deg) { point Q = (0, 0) point D = (arm, 0) }
+    gravity (0, -9.81 m/s^2)
+    joint main: revolute(ground.O, crank.O)
+    joint pin: revolute(crank.C, coupler.C)
+    joint knee: revolute(coupler.D, rocker.D)
+    joint pivot: revolute(ground.Q, rocker.Q)
+    driver motor: rotation(main) = theta
+    measure pen_x = x(coupler.pen) in mm
+    measure torque = effort(motor)
+    analysis from 0 s to 2 s every 20 ms
+}
+"""
+
+
+@pytest.fixture
+def four_bar(tmp_path):
+    path = tmp_path / "four_bar.mech"
+    path.write_text(FOUR_BAR)
+    return mechc.load(path), path
+
+
+def held_against(found, table):
+    for name, cells in table.items():
+        wanted = numbers(cells)[-1]
+        value = np.array([found[name]])
+        assert same_bits(value, np.array([wanted])), (name, found[name], wanted)
+
+
+@pytest.mark.filterwarnings("ignore::mechc.MechcWarning")
+@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.mech")), ids=lambda path: path.stem)
+def test_times_have_the_bits_of_the_command(path):
+    m = mechc.load(path)
+    if m.analysis is None:
+        pytest.skip("it is a part")
+    first, last, _ = m.analysis
+    for part in (0.0, 0.37, 1.0):
+        t = first + part * (last - first)
+        ended = command("run", str(path), "--at", repr(t))
+        found = m.at(t, strict=False)
+        if ended.code:
+            assert found.status != "ok"
+        else:
+            held_against(found, ended.table())
+
+
+@pytest.mark.parametrize("theta", [0.3, -1.0, 1.5707963267948966, 4.0, 8.0])
+def test_inputs_have_the_bits_of_the_command(four_bar, theta):
+    m, path = four_bar
+    ended = command("run", str(path), "--input", f"theta={theta} rad", "--from", "0", "--at", "0")
+    assert ended.code == 0, ended.err
+    held_against(m.at(theta=theta), ended.table())
+
+
+def test_rates_have_the_bits_of_the_command(four_bar):
+    m, path = four_bar
+    formula = "theta=0.3 rad + 5 rad/s * (t - 0.5 s) + 0.5 * 2 rad/s^2 * (t - 0.5 s)^2"
+    ended = command("run", str(path), "--input", formula, "--from", "0.5", "--at", "0.5", "--reactions")
+    assert ended.code == 0, ended.err
+    x = m.at(theta=0.3, t=0.5, rates={"theta": 5.0}, accelerations={"theta": "2 rad/s^2"}, reactions=True)
+    held_against(x, ended.table())
+    assert x["crank.phi.d"] == 5.0 and x["crank.phi.dd"] == 2.0 and x["motor.effort"] == x["torque"] != 0.0
+
+
+def test_a_robot(tmp_path):
+    m = mechc.load(ROBOT)
+    given = {"swing[0]": 0.1, "swing[1]": -0.05, "swing[2]": 0.2}
+    options = itertools.chain.from_iterable(("--input", f"{name}={value} rad") for name, value in given.items())
+    ended = command("run", str(ROBOT), *options, "--from", "0", "--at", "0")
+    assert ended.code == 0, ended.err
+    held_against(m.at(inputs=given), ended.table())
+
+
+def test_params_are_led_along_the_branch(four_bar):
+    m, path = four_bar
+    ended = command("run", str(path), "--lead", "--set", "crank_length=35 mm", "--at", "0.5")
+    held_against(m.at(0.5, crank_length=0.035), ended.table())
+    held_against(m.at("500 ms", crank_length="35 mm"), ended.table())
+
+
+def test_neither_order_nor_company_change_a_bit(four_bar):
+    m, _ = four_bar
+    thetas = np.random.default_rng(3).uniform(-3, 9, 60)
+    whole = m.at(theta=thetas)
+    assert whole.q.shape == (60, 9) and whole["pen_x"].shape == (60,) and whole.status == ["ok"] * 60
+    alone = np.array([m.at(theta=theta).q for theta in thetas])
+    turned = m.at(theta=thetas[::-1].reshape(6, 10))
+    assert turned.q.shape == (6, 10, 9) and turned.shape == (6, 10)
+    assert np.array_equal(whole.q, alone) and np.array_equal(turned.q.reshape(60, 9)[::-1], alone)
+    assert np.array_equal(whole.stacked(["pen_x", "torque"])[:, 0], whole["pen_x"])
+
+
+def test_broadcasting(four_bar):
+    m, _ = four_bar
+    x = m.at(theta=np.linspace(0, 1, 3)[:, None], rates={"theta": np.array([1.0, 2.0])})
+    assert x.shape == (3, 2) and np.array_equal(x["crank.phi.d"], [[1.0, 2.0]] * 3)
+    with pytest.raises(mechc.UsageError, match="broadcasting"):
+        m.at(theta=np.zeros(3), t=np.zeros(4))
+    assert m.at(theta=[]).q.shape == (0, 9)
+
+
+def test_derivatives_are_exact(four_bar):
+    m, _ = four_bar
+    x = m.at(theta=0.3, by=["theta", "crank_length"])
+    for name, h in (("theta", 1e-6), ("crank_length", 1e-8)):
+        value = 0.3 if name == "theta" else 0.04
+        more, less = (m.at(**{"theta": 0.3, name: value + sign * h})["coupler.phi"] for sign in (1, -1))
+        assert x[f"coupler.phi.by.{name}"] == pytest.approx((more - less) / (2 * h), rel=1e-6)
+
+
+def test_what_does_not_get_there(four_bar):
+    m, _ = four_bar
+    x = m.at(0.5, arm=np.array([0.1, 0.09, 0.02]), strict=False)
+    assert x.status[:2] == ["ok", "ok"] and x.status[2].startswith("E06")
+    assert np.isnan(x.q[2]).all() and np.isfinite(x.q[:2]).all()
+    with pytest.raises(mechc.AnalysisError) as caught:
+        m.at(0.5, arm=np.array([0.1, 0.02]))
+    assert caught.value.partial.status[0] == "ok"
+    with pytest.raises(mechc.UsageError, match="was `theta` meant"):
+        m.at(thta=1.0)
+    with pytest.raises(mechc.InputError):
+        m.at(theta="3 mm")
+    with pytest.raises(mechc.UsageError):
+        m.at(theta=1.0, rates={"t": 1.0})
+    with pytest.raises(mechc.UsageError):
+        m.at(-1.0)
+    with pytest.raises(KeyError):
+        m.at(theta=1.0)["nothing"]

@@ -1,0 +1,338 @@
+"""Nothing that a program does makes Python crash: it gets an error that says what is wrong, or an answer."""
+
+from __future__ import annotations
+
+import copy
+import gc
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pyarrow as pa
+import pytest
+from conftest import ROOT
+
+import mechc
+from mechc import _mechc
+
+ROBOT = ROOT / "examples/parallel_robot.mech"
+CRANK = ROOT / "examples/slider_crank.mech"
+
+#: What is no number, no text, or none that can be meant.
+ODD = [
+    None, True, b"180 mm", "", "   ", "nonsense", "0.18", "0.18 s", "1/0", "(", "\0", "𝔯𝔬𝔡", "9" * 400 + " m", float("nan"),
+    float("inf"), -float("inf"), 1e308, -1e308, 5e-324, 10**400, -(10**400), 1j, object(), object, [], [0.01, 0.02], {}, {"a": 1}, (),
+    set(), lambda: 1, np.nan, np.array([]), np.zeros(3), np.zeros((2, 2)), np.array("x"), np.array([object()], dtype=object),
+    np.datetime64("2020-01-01"), np.float32(0.18), range(3), iter([1]), ..., NotImplemented, type, sys, Exception("no"),
+]
+
+
+class Broken:
+    """Whatever is asked of it raises."""
+
+    def __float__(self):
+        raise RuntimeError("no float")
+
+    def __index__(self):
+        raise RuntimeError("no index")
+
+    def __array__(self, *_, **__):
+        raise RuntimeError("no array")
+
+    def __fspath__(self):
+        raise RuntimeError("no path")
+
+    def __repr__(self):
+        raise RuntimeError("no repr")
+
+    def __iter__(self):
+        raise RuntimeError("no iterator")
+
+    def __len__(self):
+        return -1
+
+
+@pytest.fixture(scope="module")
+def crank():
+    return mechc.load(CRANK)
+
+
+@pytest.fixture(scope="module")
+def robot():
+    return mechc.load(ROBOT)
+
+
+def survives(call):
+    """It answers or raises as Python does; nothing else comes."""
+    try:
+        call()
+    except (mechc.MechcError, TypeError, ValueError, KeyError, OverflowError, RuntimeError, OSError, MemoryError, IndexError, AttributeError):
+        pass
+
+
+CALLS = {
+    "load": lambda m, r, odd: mechc.load(odd),
+    "parse": lambda m, r, odd: mechc.parse(odd),
+    "parse files": lambda m, r, odd: mechc.parse(m.text, files={"a.mech": odd}),
+    "mechanism": lambda m, r, odd: mechc.parse(m.text, mechanism=odd),
+    "run param": lambda m, r, odd: m.run(rod_length=odd, columns="t"),
+    "run set": lambda m, r, odd: m.run(set=odd, columns="t"),
+    "run name": lambda m, r, odd: m.run(set={odd: 1.0}, columns="t"),
+    "run input": lambda m, r, odd: r.run(inputs={"swing[0]": odd}, columns="t"),
+    "run every": lambda m, r, odd: m.run(every=odd, columns="t") if odd not in (5e-324,) else None,
+    "run at": lambda m, r, odd: m.run(at=odd, columns="t"),
+    "run columns": lambda m, r, odd: m.run(columns=odd),
+    "run by": lambda m, r, odd: m.run(by=odd, columns="t"),
+    "run results": lambda m, r, odd: m.run(results=odd, columns="t"),
+    "run tolerance": lambda m, r, odd: m.run(tolerance=odd, columns="t"),
+    "run flag": lambda m, r, odd: m.run(reactions=odd, columns="t"),
+    "run samples": lambda m, r, odd: r.run(samples=odd, columns="t"),
+    "column": lambda m, r, odd: m.run()[odd],
+    "at t": lambda m, r, odd: m.at(odd),
+    "at input": lambda m, r, odd: r.at(inputs={"swing[0]": odd}),
+    "at inputs": lambda m, r, odd: r.at(inputs=odd),
+    "at rates": lambda m, r, odd: r.at(inputs={"swing[0]": 0.1}, rates={"swing[0]": odd}),
+    "at by": lambda m, r, odd: r.at(by=odd),
+    "at param": lambda m, r, odd: m.at(0.01, rod_length=odd),
+    "vary": lambda m, r, odd: m.sweep(vary=odd),
+    "vary values": lambda m, r, odd: m.sweep(vary={"rod_length": odd}, every="20 ms").read(),
+    "between": lambda m, r, odd: m.sweep(vary={"rod_length": mechc.between(0.14, odd, 2)}, every="20 ms").read(),
+    "variants": lambda m, r, odd: m.sweep(variants=odd),
+    "samples": lambda m, r, odd: m.sweep(vary={"rod_length": mechc.between(0.14, 0.15)}, samples=odd, take=2, every="20 ms").read(),
+    "jobs": lambda m, r, odd: m.sweep(vary={"rod_length": [0.14]}, jobs=odd, every="20 ms").read(),
+    "skip": lambda m, r, odd: m.sweep(vary={"rod_length": [0.14]}, skip=odd, every="20 ms").read(),
+    "until": lambda m, r, odd: m.sweep(vary={"rod_length": [0.14]}, until=odd, every="20 ms").read(),
+    "progress": lambda m, r, odd: m.sweep(vary={"rod_length": [0.14]}, progress=odd, every="20 ms").read(),
+    "jacobian": lambda m, r, odd: m.jacobian(odd, every="20 ms"),
+    "objective": lambda m, r, odd: m.objective(odd, by=["rod_length"]),
+    "residuals": lambda m, r, odd: m.residuals(["travel"], odd, by=["rod_length"], at=[0.0])([0.15]),
+    "tolerance": lambda m, r, odd: m.tolerance({"rod_length": odd}, every="20 ms"),
+    "to_rust": lambda m, r, odd: m.to_rust(lanes=odd),
+    "raw": lambda m, r, odd: _mechc.Mechanism(odd, odd, odd, odd, odd, odd, odd),
+    "raw run": lambda m, r, odd: m._run(odd),
+    "raw sweep": lambda m, r, odd: m._sweep(odd, odd),
+    "raw table": lambda m, r, odd: _mechc.Table(["a"], ["m"], [odd]),
+    "raw at": lambda m, r, odd: _mechc._at_again(["a"], ["m"], [[5], [], []], odd, None, ["ok"]),
+}
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("name", CALLS)
+def test_odd_arguments(name, crank, robot):
+    for odd in [*ODD, Broken()]:
+        if name == "run every" and isinstance(odd, (int, float)) and not isinstance(odd, bool) and 0 < odd < 1e-6:
+            continue
+        survives(lambda: CALLS[name](crank, robot, odd))
+
+
+def test_huge_questions_are_refused(crank):
+    with pytest.raises((MemoryError, mechc.UsageError)):
+        crank.run(every=1e-300)
+    with pytest.raises((MemoryError, mechc.UsageError)):
+        crank.run(to=1e9, every=1e-9)
+    with pytest.raises((MemoryError, mechc.UsageError)):
+        crank.at(np.broadcast_to(0.01, (1 << 20, 1 << 20)))
+    sweep = crank.sweep(vary={"rod_length": mechc.between(0.1, 0.2)}, samples=10**12)
+    assert len(sweep) == 10**12
+
+
+def test_deep_and_long_texts():
+    for text in ("mechanism m { param a = " + "(" * 3000, "mechanism " * 300, "\0" * 300, "{" * 3000):
+        with pytest.raises(mechc.InputError):
+            mechc.parse(text)
+
+
+def test_iterators_that_are_closed(crank):
+    sweep = crank.sweep(vary={"rod_length": mechc.between("140 mm", "160 mm", 3000)}, results={"top": "max(travel)"})
+    reader = pa.RecordBatchReader.from_stream(sweep)
+    del reader
+    for _ in range(3):
+        reader = pa.RecordBatchReader.from_stream(sweep)
+        reader.close()
+    capsule = sweep.__arrow_c_stream__()
+    del capsule
+    gc.collect()
+    stream = sweep.__arrow_c_stream__()
+    del sweep
+    gc.collect()
+    del stream
+
+
+def test_exceptions_in_callbacks(crank):
+    sweep = crank.sweep(vary={"rod_length": [0.14, 0.15]}, results={"top": "max(travel)"}, progress=lambda *_: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        sweep.read()
+    with pytest.raises(Exception, match="division"):
+        pa.table(sweep)
+
+
+def test_pickle_of_everything(crank):
+    run, sweep = crank.run(), crank.sweep(vary={"rod_length": [0.14, 0.15]}, results={"top": "max(travel)"})
+    jacobian = crank.jacobian(["rod_length"], every="20 ms")
+    everything = [crank, run, sweep, sweep.read(), crank.at(0.01), crank.at(np.array([0.0, 0.01])), jacobian, mechc.between(1, 2)]
+    for one in everything:
+        for again in (pickle.loads(pickle.dumps(one)), copy.copy(one), copy.deepcopy(one)):
+            assert type(again) is type(one)
+    again = pickle.loads(pickle.dumps(crank))
+    assert again.run()["piston.x"].tobytes() == run["piston.x"].tobytes() == pickle.loads(pickle.dumps(run))["piston.x"].tobytes()
+    assert pickle.loads(pickle.dumps(sweep)).read()["top"].tobytes() == sweep.read()["top"].tobytes()
+    assert np.array_equal(pickle.loads(pickle.dumps(crank.at(0.01))).q, crank.at(0.01).q)
+    try:
+        crank.run(rod_length=0.048)
+    except mechc.LockUp as error:
+        again = pickle.loads(pickle.dumps(error))
+        assert again.partial.rows == error.partial.rows and str(again) == str(error)
+    else:
+        pytest.fail("it does not lock up")
+    for one in (_mechc.Table([], [], []), run._table, sweep._sweep):
+        with pytest.raises(TypeError):
+            pickle.dumps(one)
+
+
+def test_eight_threads_over_one_mechanism(crank, robot):
+    wanted = crank.run(rod_length=0.18)["piston.x"].tobytes(), robot.at(inputs={"swing[0]": 0.1}).q.tobytes()
+
+    def work(k):
+        run = crank.run(rod_length=0.18)["piston.x"].tobytes()
+        swept = crank.sweep(vary={"rod_length": [0.14, 0.18]}, rows=True, columns=["piston.x"], jobs=1 + k % 2).read()
+        assert swept["piston.x"][81:].tobytes() == crank.run(rod_length=0.18, lead=True)["piston.x"].tobytes()
+        return run, robot.at(inputs={"swing[0]": 0.1}).q.tobytes()
+
+    with ThreadPoolExecutor(8) as pool:
+        assert set(pool.map(work, range(16))) == {wanted}
+
+
+def test_no_lock_is_held_while_computing(crank):
+    ticks, ended = [], threading.Event()
+
+    def tick():
+        while not ended.is_set():
+            ticks.append(time.monotonic())
+            time.sleep(0.001)
+
+    ticker = threading.Thread(target=tick)
+    ticker.start()
+    began = time.monotonic()
+    crank.run(to=8.0, every="0.1 ms", columns="travel")
+    took = time.monotonic() - began
+    ended.set()
+    ticker.join()
+    gaps = np.diff([began, *[t for t in ticks if began <= t <= began + took], began + took])
+    assert took > 0.05 and gaps.max() < took / 2
+
+
+def run_python(code, **options):
+    return subprocess.run([sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, timeout=100, cwd=ROOT, **options)
+
+
+@pytest.mark.parametrize(
+    "work",
+    [
+        "m.run(to=1000, every=1e-4, columns='t')",
+        "m.sweep(vary={'rod_length': mechc.between(0.1, 0.2)}, samples=10**9, results={'top': 'max(travel)'}).read()",
+        "pa.table(m.sweep(vary={'rod_length': mechc.between(0.1, 0.2)}, samples=10**9, results={'top': 'max(travel)'}))",
+        "pl.DataFrame(m.sweep(vary={'rod_length': mechc.between(0.1, 0.2)}, samples=10**9, results={'top': 'max(travel)'}))",
+        "m.at(np.linspace(0, 0.04, 10**6))",
+    ],
+)
+def test_ctrl_c(work):
+    done = run_python(
+        f"""
+        import os, signal, threading, time
+        import numpy as np, polars as pl, pyarrow as pa
+        import mechc
+        m = mechc.load("examples/slider_crank.mech")
+        timer = threading.Timer(0.7, lambda: os.kill(os.getpid(), signal.SIGINT))
+        timer.start()
+        began = time.monotonic()
+        try:
+            try:
+                {work}
+            except Exception as why:
+                # who reads a stream tells its own error, and the interruption is raised behind it
+                assert "interrupted" in str(why)
+                time.sleep(1)
+        except KeyboardInterrupt:
+            print("interrupted", time.monotonic() - began)
+        m.run()
+        print("goes on")
+        """
+    )
+    assert "interrupted" in done.stdout and "goes on" in done.stdout, done.stdout + done.stderr
+    assert float(done.stdout.split()[1]) < 30.0
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="it cannot fork")
+def test_fork_in_the_middle_of_a_sweep():
+    done = run_python(
+        """
+        import os, sys, warnings
+        warnings.simplefilter("ignore")
+        import pyarrow as pa
+        import mechc
+        m = mechc.load("examples/slider_crank.mech")
+        m.at(0.01)
+        sweep = m.sweep(vary={"rod_length": mechc.between(0.1, 0.2, 100)}, rows=True, columns=["travel"], jobs=2)
+        whole = sweep.read()["travel"]
+        told = []
+        def progress(done, count):
+            told.append(done)
+            if len(told) == 1:
+                global child
+                child = os.fork()
+        forked = m.sweep(vary={"rod_length": mechc.between(0.1, 0.2, 100)}, rows=True, columns=["travel"], jobs=2, progress=progress)
+        found = forked.read()["travel"]
+        assert found.tobytes() == whole.tobytes()
+        assert m.at(0.01)["travel"] == m.run(at=[0.01])["travel"][0]
+        if child == 0:
+            sys.stdout.flush()
+            os._exit(0)
+        _, status = os.waitpid(child, 0)
+        assert status == 0, status
+        print("both are whole")
+        """
+    )
+    assert "both are whole" in done.stdout, done.stdout + done.stderr
+
+
+def test_a_signal_handler_that_raises():
+    done = run_python(
+        """
+        import signal, os, threading
+        import mechc
+        class Enough(Exception): pass
+        def handler(*_): raise Enough()
+        signal.signal(signal.SIGUSR1, handler)
+        m = mechc.load("examples/slider_crank.mech")
+        threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGUSR1)).start()
+        try:
+            m.run(to=1000, every=1e-4, columns="t")
+        except Enough:
+            print("raised")
+        """
+    )
+    assert "raised" in done.stdout, done.stdout + done.stderr
+
+
+def test_the_end_of_the_interpreter():
+    done = run_python(
+        """
+        import threading
+        import pyarrow as pa
+        import mechc
+        m = mechc.load("examples/slider_crank.mech")
+        sweep = m.sweep(vary={"rod_length": mechc.between(0.1, 0.2)}, samples=10**9, results={"top": "max(travel)"})
+        kept = pa.RecordBatchReader.from_stream(sweep)
+        stream = sweep.__arrow_c_stream__()
+        threading.Thread(target=sweep.read, daemon=True).start()
+        print("ends")
+        """
+    )
+    assert done.stdout.strip() == "ends" and done.returncode == 0, (done.returncode, done.stderr)

@@ -1,0 +1,112 @@
+"""Sweeps with Ray: workers die on the way, and nothing is missing, nothing there twice, and every bit the same."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import threading
+import time
+
+import pyarrow as pa
+import pytest
+from conftest import ROOT
+
+import mechc
+
+ray = pytest.importorskip("ray")
+import mechc.ray  # noqa: E402
+
+VARY = {"base": mechc.between("60 mm", "220 mm"), "arm": mechc.between("90 mm", "120 mm")}
+OPTIONS = {"vary": VARY, "samples": 240, "seed": 3, "results": {"flatness": "max(deviation) - min(deviation)"}}
+
+
+@pytest.fixture(scope="module")
+def local_ray():
+    ray.init(num_cpus=2, include_dashboard=False, object_store_memory=200 * 2**20, log_to_driver=False, configure_logging=False)
+    yield
+    ray.shutdown()
+
+
+@pytest.fixture(scope="module")
+def hoeken():
+    return mechc.load(ROOT / "examples/hoeken.mech")
+
+
+def workers():
+    """The processes in which shares are made."""
+    found = []
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{pid}/cmdline", "rb") as file:
+                line = file.read()
+            with open(f"/proc/{pid}/stat") as file:
+                own = file.read().rsplit(")", 1)[1].split()
+        except OSError:
+            continue
+        # Ray calls a worker by what it is doing, and each session has its own
+        if line.startswith(b"ray::") and b"_make" in line.replace(b"(", b" ").replace(b")", b" ") and is_below(int(own[1])):
+            found.append(int(pid))
+    return found
+
+
+def is_below(pid):
+    """Whether a process is a descendant of this one, so that nobody else's is ended."""
+    while pid > 1:
+        if pid == os.getpid():
+            return True
+        try:
+            with open(f"/proc/{pid}/stat") as file:
+                pid = int(file.read().rsplit(")", 1)[1].split()[1])
+        except OSError:
+            return False
+    return False
+
+
+@pytest.mark.timeout(280)
+def test_workers_die_and_the_bits_are_the_same(local_ray, hoeken, tmp_path):
+    killed, ended = [], threading.Event()
+
+    def kill():
+        while not ended.is_set() and len(killed) < 3:
+            for pid in workers()[:1]:
+                os.kill(pid, signal.SIGKILL)
+                killed.append(pid)
+            time.sleep(0.4)
+
+    killer = threading.Thread(target=kill)
+    killer.start()
+    try:
+        found = mechc.ray.sweep(hoeken, out=tmp_path / "sweep", share=20, **OPTIONS)
+    finally:
+        ended.set()
+        killer.join()
+    assert killed, "no worker was there to be killed"
+    assert found.made == 12 and found.ranges[0] == (0, 20)
+    wanted = pa.table(hoeken.sweep(**OPTIONS))
+    assert found.to_arrow().combine_chunks().equals(wanted.combine_chunks())
+    names = sorted(os.listdir(tmp_path / "sweep"))
+    assert names == [*(f"part-{k:012}-{k + 20:012}.parquet" for k in range(0, 240, 20)), "sweep.json"]
+
+
+@pytest.mark.timeout(280)
+def test_a_second_call_makes_what_is_missing(local_ray, hoeken, tmp_path):
+    first = mechc.ray.sweep(hoeken, out=tmp_path, share=60, **OPTIONS)
+    assert first.made == 4
+    os.remove(first.files[1])
+    before = {file: os.stat(file).st_mtime_ns for file in first.files if os.path.exists(file)}
+    again = mechc.ray.sweep(hoeken, out=tmp_path, share=60, **OPTIONS)
+    assert again.made == 1 and all(os.stat(file).st_mtime_ns == at for file, at in before.items())
+    assert again.to_arrow().equals(pa.table(hoeken.sweep(**OPTIONS)).cast(again.to_arrow().schema))
+    assert mechc.ray.sweep(hoeken, out=tmp_path, share=60, **OPTIONS).made == 0
+    told = json.loads((tmp_path / "sweep.json").read_text())
+    assert told["variants"] == 240 and told["mechanism"] == "hoeken"
+    with pytest.raises(mechc.UsageError, match="another sweep"):
+        mechc.ray.sweep(hoeken, out=tmp_path, share=60, **{**OPTIONS, "seed": 4})
+    assert again.dataset().count() == 240
+
+
+def test_what_is_not_for_shares(hoeken, tmp_path):
+    for more in ({"skip": 3}, {"take": 3}, {"jobs": 2}, {"until": "flatness > 1"}):
+        with pytest.raises(mechc.UsageError, match="not for sweeps of shares"):
+            mechc.ray.sweep(hoeken, out=tmp_path, **OPTIONS, **more)

@@ -1,0 +1,131 @@
+"""Sweeps have the bits of the command, whoever reads them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import polars as pl
+import pyarrow as pa
+import pytest
+from conftest import ROOT, command, same_bits
+
+import mechc
+
+HOEKEN = ROOT / "examples/hoeken.mech"
+FLAT = {"flatness": "max(deviation) - min(deviation)"}
+AS_OPTION = ["--result", "flatness = max(deviation) - min(deviation)"]
+
+
+def held_against(frame, table):
+    assert list(frame) == list(table)
+    for name, cells in table.items():
+        if name == "status":
+            assert list(frame[name]) == cells
+        elif name == "variant":
+            assert list(frame[name]) == [int(cell) for cell in cells]
+        else:
+            assert same_bits(np.asarray(frame[name]), cells), name
+
+
+@pytest.mark.parametrize(
+    "vary, more, options",
+    [
+        ({"base": mechc.between("60 mm", "220 mm", 9)}, {}, ["--vary", "base=60mm..220mm:9"]),
+        ({"base": [0.06, 0.08, 0.2]}, {}, ["--vary", "base=60mm,80mm,200mm"]),
+        ({"base": ["60 mm", "0.2 m"]}, {}, ["--vary", "base=60 mm,0.2 m"]),
+        (
+            {"base": mechc.between("60 mm", "100 mm"), "arm": mechc.between(0.09, 0.12)},
+            {"samples": 12, "seed": 7},
+            ["--vary", "base=60mm..100mm", "--vary", "arm=90mm..120mm", "--sample", "12", "--seed", "7"],
+        ),
+        (
+            {"base": mechc.between("60 mm", "100 mm")},
+            {"samples": 5, "method": "random", "skip": 1, "take": 3},
+            ["--vary", "base=60mm..100mm", "--sample", "5", "--method", "random", "--skip", "1", "--take", "3"],
+        ),
+        (
+            {"base": mechc.between("60 mm", "100 mm", 9)},
+            {"until": "flatness > 37"},
+            ["--vary", "base=60mm..100mm:9", "--until", "flatness > 37"],
+        ),
+    ],
+)
+def test_bits_of_the_command(vary, more, options):
+    sweep = mechc.load(HOEKEN).sweep(vary=vary, results=FLAT, **more)
+    ended = command("sweep", str(HOEKEN), *options, *AS_OPTION)
+    held_against(sweep.read(), ended.table())
+
+
+def test_rows():
+    m = mechc.load(HOEKEN)
+    options = {"rows": True, "columns": ["pen_?", "pen_x.d"], "every": "0.5 s"}
+    sweep = m.sweep(vary={"base": mechc.between("60 mm", "180 mm", 5)}, **options)
+    ended = command(
+        "sweep", str(HOEKEN), "--vary", "base=60mm..180mm:5", "--rows", "--columns", "pen_?", "--columns", "pen_x.d",
+        "--every", "0.5s",
+    )
+    held_against(sweep.read(), ended.table())
+
+
+def test_a_table_of_variants(tmp_path):
+    m = mechc.load(HOEKEN)
+    variants = {"base": np.array([0.06, 0.08]), "speed": np.array([3.0, 4.0])}
+    file = tmp_path / "variants.csv"
+    file.write_text("base [mm],speed [rad/s]\n60,3\n80,4\n")
+    wanted = m.sweep(variants=file, results=FLAT).read()
+    for table in (variants, pd.DataFrame(variants), pl.DataFrame(variants)):
+        found = m.sweep(variants=table, results=FLAT).read()
+        assert list(found) == list(wanted)
+        assert all(found[name].tobytes() == wanted[name].tobytes() for name in wanted if name != "status")
+    ended = command("sweep", str(HOEKEN), "--vary", f"@{file}", *AS_OPTION)
+    held_against(wanted, ended.table())
+
+
+def test_whatever_speaks_arrow():
+    sweep = mechc.load(HOEKEN).sweep(vary={"base": mechc.between("60 mm", "220 mm", 9)}, results=FLAT)
+    wanted = sweep.read()
+    frame, table = pl.DataFrame(sweep), pa.table(sweep)
+    assert frame["flatness"].null_count() == table["flatness"].null_count == 4
+    assert frame["status"].to_list() == table["status"].to_pylist() == list(wanted["status"])
+    assert same_bits(frame["flatness"].fill_null(np.nan).to_numpy(), wanted["flatness"])
+    assert table.schema.field("base").metadata == {b"unit": b"m"}
+    assert list(sweep.to_pandas()["stopped"].isna()) == [True] * 5 + [False] * 4
+    assert sweep.summary["ok"] == (5, 0) and sweep.summary["E0602"] == (1, 6)
+    batches = pa.RecordBatchReader.from_stream(sweep)
+    assert sum(batch.num_rows for batch in batches) == 9
+
+
+def test_settings_of_a_variant_run_to_the_same_bits():
+    m = mechc.load(HOEKEN)
+    sweep = m.sweep(vary={"base": mechc.between("60 mm", "100 mm", 9)}, results=FLAT)
+    found = sweep.read()["flatness"][3]
+    assert m.run(lead=True, set=sweep.settings(3), results=FLAT).results["flatness"] == found
+
+
+def test_shares_are_the_whole_and_jobs_change_nothing():
+    m = mechc.load(HOEKEN)
+    vary = {"base": mechc.between("60 mm", "100 mm", 40)}
+    whole = m.sweep(vary=vary, results=FLAT, jobs=1).read()
+    shares = [m.sweep(vary=vary, results=FLAT, skip=k, take=13, jobs=3).read() for k in range(0, 40, 13)]
+    for name in ("variant", "base", "flatness"):
+        assert np.array_equal(np.concatenate([share[name] for share in shares]), whole[name])
+
+
+def test_progress():
+    told = []
+    m = mechc.load(HOEKEN)
+    m.sweep(vary={"base": mechc.between("60 mm", "100 mm", 9)}, results=FLAT, progress=lambda *done: told.append(done)).read()
+    assert told[-1] == (9, 9)
+
+    def broken(done, count):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        m.sweep(vary={"base": [0.06]}, results=FLAT, progress=broken).read()
+
+
+def test_what_cannot_vary_is_told():
+    m = mechc.load(HOEKEN)
+    for vary in ({"bse": [0.1]}, {"base": []}, {"base": [float("nan")]}, {}, None, {"base": mechc.between("1 mm", "2 mm")}, {3: [1]}):
+        with pytest.raises(mechc.UsageError):
+            m.sweep(vary=vary)

@@ -1,0 +1,69 @@
+//! Inputs that are numbers which may be set, instead of formulas of time: for who knows from elsewhere where an input is, and how it moves
+//! on from there.
+//!
+//! Such an input is a parabola of time around a moment. Its value and that moment, its rate and its acceleration are parameters of the
+//! model, in this order, so that a mechanism is compiled once for all that they may be. The first two can be led from what the text says.
+
+use super::formula::{Dim, Value};
+use super::{Checker, errors};
+use crate::expr::{ExprId, Symbol};
+use crate::model::{Declared, Dimension, Led, Param};
+use crate::syntax::ast::Name;
+
+/// Which inputs may be set.
+#[derive(Clone, Debug, Default)]
+pub struct SetInputs {
+    /// They begin with what the text says at this time (s).
+    pub t: f64,
+    /// Their names, with the parts before them.
+    pub names: Vec<String>,
+}
+
+impl Checker<'_> {
+    /// What an input is that may be set; what it is anyway, where it may not. Its own formula asks for nothing then: the conditions behind
+    /// the first `before` are its own.
+    pub(super) fn set_input(&mut self, name: &Name, own: Value, before: usize) -> Option<Value> {
+        let declared = self.declared(name);
+        let Some(SetInputs { t, .. }) = self.set_inputs.filter(|set| set.names.contains(&declared.name)) else {
+            return Some(own);
+        };
+        let (t, params) = (*t, &self.model.params);
+        let value = self.model.graph.value(own.id, |symbol| match symbol {
+            Symbol::Param(k) => params[k as usize].value,
+            Symbol::Time => t,
+            _ => f64::NAN,
+        });
+        if !value.is_finite() {
+            self.report(errors::not_finite(name.span, value));
+            return None;
+        }
+        self.model.conditions.truncate(before);
+        let dimension = match own.dim {
+            Dim::Of(dimension) => dimension,
+            Dim::Any => Dimension::PURE,
+        };
+        let id = self.parabola(&declared, [value, t], dimension);
+        Some(Value { id, ..own })
+    }
+
+    /// The formula of an input that is set, with its parameters, which begin with a value at a time (s).
+    fn parabola(&mut self, declared: &Declared, [value, t]: [f64; 2], dimension: Dimension) -> ExprId {
+        let first = self.model.params.len() as u32;
+        let per = |order: i32| dimension.over(Dimension::TIME.to_the(f64::from(order)));
+        for (param, own, dimension) in [(first, value, dimension), (first + 1, t, Dimension::TIME)] {
+            self.model.led.push(Led { declared: declared.clone(), param: Some(param), line: [own; 2], dimension });
+        }
+        for (value, dimension) in [(value, dimension), (t, Dimension::TIME), (0.0, per(1)), (0.0, per(2))] {
+            self.model.params.push(Param { declared: declared.clone(), docs: Vec::new(), value, dimension });
+        }
+        let graph = &mut self.model.graph;
+        let [value, moment, rate, acceleration] = [0, 1, 2, 3].map(|k| graph.symbol(Symbol::Param(first + k)));
+        let time = graph.symbol(Symbol::Time);
+        let since = graph.sub(time, moment);
+        let (squared, half) = (graph.mul(since, since), graph.constant(0.5));
+        let (halved, gone) = (graph.mul(half, acceleration), graph.mul(rate, since));
+        let bent = graph.mul(halved, squared);
+        let moved = graph.add(value, gone);
+        graph.add(moved, bent)
+    }
+}
