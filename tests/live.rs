@@ -30,16 +30,27 @@ struct Served {
 
 impl Served {
     fn new() -> Served {
+        Served::with(TEXT, &[])
+    }
+
+    /// Of a text, with other files beside it.
+    fn with(text: &str, beside: &[(&str, &str)]) -> Served {
         let folder = tempfile::tempdir().expect("a folder");
+        for &(name, text) in beside {
+            let path = folder.path().join(name);
+            fs::create_dir_all(path.parent().expect("a folder"))
+                .and_then(|()| fs::write(path, text))
+                .expect("it is written");
+        }
         let file = folder.path().join("disc.mech");
-        fs::write(&file, TEXT).expect("it is written");
-        let mut process = Command::new(env!("CARGO_BIN_EXE_mechc"))
-            .arg("view")
-            .arg(&file)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("it starts");
+        fs::write(&file, text).expect("it is written");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_mechc"));
+        command.arg("view").arg(&file);
+        Served::started(command, folder)
+    }
+
+    fn started(mut command: Command, folder: tempfile::TempDir) -> Served {
+        let mut process = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("it starts");
         let mut url = String::new();
         BufReader::new(process.stdout.as_mut().expect("its output")).read_line(&mut url).expect("an address");
         let (address, token) = url.trim().split_once("/#").expect("a token");
@@ -253,4 +264,164 @@ fn what_a_live_page_has_not_is_refused() {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mechc"));
     let output = command.args(["view", "there_is_none.mech"]).output().expect("it runs");
     assert_eq!(output.status.code(), Some(4));
+}
+
+#[cfg(target_os = "linux")]
+impl Served {
+    /// How long the process has worked (ticks).
+    fn worked(&self) -> u64 {
+        let stat = fs::read_to_string(format!("/proc/{}/stat", self.process.id())).expect("it runs");
+        let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
+        fields[11].parse::<u64>().expect("a number") + fields[12].parse::<u64>().expect("a number")
+    }
+
+    /// Waits until it rests: it works no more over a while.
+    fn comes_to_rest(&self) {
+        let began = Instant::now();
+        loop {
+            let before = self.worked();
+            std::thread::sleep(Duration::from_millis(500));
+            if self.worked() - before < 10 {
+                return;
+            }
+            assert!(began.elapsed() < Duration::from_secs(30), "it works on for nobody");
+        }
+    }
+}
+
+/// A motion that takes minutes.
+#[cfg(target_os = "linux")]
+fn endless() -> String {
+    TEXT.replace("every 10 ms", "every 1 ns").replace("to 1 s", "to 0.02 s")
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn what_nobody_waits_for_is_not_worked_on() {
+    let served = Served::with(&endless(), &[]);
+    let ask = |body: &str| {
+        let mut stream = served.connection();
+        let host = format!("127.0.0.1:{}", served.port);
+        let token = &served.token;
+        let head = format!("Host: {host}\r\nOrigin: http://{host}\r\nX-Mechc-Token: {token}");
+        write!(stream, "POST /motion HTTP/1.1\r\n{head}\r\nContent-Length: {}\r\n\r\n{body}", body.len())
+            .expect("it is sent");
+        stream
+    };
+    let works = || {
+        let before = served.worked();
+        std::thread::sleep(Duration::from_millis(1500));
+        served.worked() - before > 20
+    };
+    // the page is closed
+    let first = ask(r#"{"page":"a"}"#);
+    assert!(works(), "it does not take long");
+    drop(first);
+    served.comes_to_rest();
+    // of two pages one is closed
+    let (first, second) = (ask(r#"{"page":"a"}"#), ask(r#"{"page":"b"}"#));
+    assert!(works());
+    drop(first);
+    std::thread::sleep(Duration::from_millis(500));
+    assert!(works(), "the other one waits for it");
+    // another text is saved
+    fs::write(served.file(), TEXT).expect("it is written");
+    served.comes_to_rest();
+    drop(second);
+    served.is_well();
+}
+
+#[test]
+fn what_is_wrong_with_options_is_refused_at_the_start() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("disc.mech");
+    fs::write(&file, TEXT).expect("it is written");
+    let started = |options: &[&str], file: &std::path::Path| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_mechc"));
+        let mut process = command
+            .arg("view")
+            .arg(file)
+            .args(options)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("it starts");
+        let mut line = String::new();
+        BufReader::new(process.stdout.take().expect("its output")).read_line(&mut line).expect("a line, or its end");
+        if !line.is_empty() {
+            let _ = process.kill();
+        }
+        (line, process.wait().expect("it ends").code())
+    };
+    for (options, code) in [
+        (&["--mechanism", "zzz"][..], 2),
+        (&["--set", "nope=1"], 2),
+        (&["--set", "speed=1 mm"], 2),
+        (&["--input", "q=1"], 2),
+        (&["--samples", "there_is_none.csv"], 4),
+        (&["--theme", "dark"], 2),
+    ] {
+        assert_eq!(started(options, &file), (String::new(), Some(code)), "{options:?}");
+    }
+    // a text that is wrong may be mended
+    fs::write(&file, TEXT.replace("wheel.O)", "wheel.Z)")).expect("it is written");
+    assert!(started(&[], &file).0.starts_with("http://"));
+    assert!(started(&["--set", "speed=1 rpm"], &file).0.starts_with("http://"));
+    fs::write(&file, "").expect("it is written");
+    assert!(started(&[], &file).0.starts_with("http://"));
+    assert_eq!(started(&[], folder.path()), (String::new(), Some(4)));
+    #[cfg(unix)]
+    {
+        let pipe = folder.path().join("pipe.mech");
+        let made = Command::new("mkfifo").arg(&pipe).status().expect("it runs");
+        assert!(made.success());
+        assert_eq!(started(&[], &pipe), (String::new(), Some(4)));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn the_owner_of_a_file_stays() {
+    use std::os::unix::fs::{MetadataExt, chown};
+    let served = Served::new();
+    // only who may do so can give a file away
+    if chown(served.file(), Some(12345), Some(12346)).is_err() {
+        return;
+    }
+    let answer = served.asked_well("/write", WRITE);
+    assert!(answer.contains(r#"{"written":true}"#), "{answer}");
+    let found = fs::metadata(served.file()).expect("it is there");
+    assert_eq!((found.uid(), found.gid()), (12345, 12346));
+}
+
+#[cfg(unix)]
+#[test]
+fn the_file_that_leads_a_browser_to_the_page_is_gone_once_it_came() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().expect("a folder");
+    let (file, bin, scratch) = ["disc.mech", "bin", "scratch"].map(|name| folder.path().join(name)).into();
+    fs::write(&file, TEXT).expect("it is written");
+    fs::create_dir(&bin).and_then(|()| fs::create_dir(&scratch)).expect("folders");
+    // a browser that does nothing
+    let opener = bin.join("xdg-open");
+    fs::write(&opener, "#!/bin/sh\nexit 0\n").expect("it is written");
+    fs::set_permissions(&opener, fs::Permissions::from_mode(0o755)).expect("it can run");
+    let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap_or_default());
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mechc"));
+    command.arg("view").arg(&file).arg("--open").env("PATH", path).env("TMPDIR", &scratch);
+    let served = Served::started(command, folder);
+    let files = || fs::read_dir(&scratch).expect("a folder").count();
+    let began = Instant::now();
+    while files() == 0 {
+        assert!(began.elapsed() < Duration::from_secs(5), "there is none");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let came = Instant::now();
+    let page = served.asked("GET /", &[("Host", &format!("127.0.0.1:{}", served.port))], "");
+    assert!(page.starts_with("HTTP/1.1 200"));
+    while files() > 0 {
+        assert!(came.elapsed() < Duration::from_secs(5), "it is there still");
+        std::thread::sleep(Duration::from_millis(20));
+    }
 }

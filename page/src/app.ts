@@ -39,6 +39,8 @@ type Switch = (typeof SWITCHES)[number][1];
 export interface Following {
     /** Sliders, in the place of those of variants. */
     readonly knobs: Pane;
+    /** What the program has to say. */
+    readonly said: HTMLElement;
     /** What can be taken by the hand in the picture. */
     readonly hand: Grasp;
     /** Time goes on: nothing stands still any more. */
@@ -108,7 +110,7 @@ export class App implements Deeds {
                 ...(following ? [] : [results.element]),
             ),
             // what comes and goes takes no room from a picture that is in somebody's hand
-            html("div", { class: "beside" }, this.plots.element, ...(following ? [results.element] : []), tabs.element),
+            html("div", { class: "beside" }, this.plots.element, ...(following ? [following.said, results.element] : []), tabs.element),
             this.helping,
         );
         this.wishes.onChange((change) => this.wish(change));

@@ -44,6 +44,13 @@ pub(super) fn unusable(message: impl Into<String>) -> Diagnostic {
     Diagnostic::new(Code::E0706, message)
 }
 
+/// Whether all errors among these are of the options of a command, and of files that these name.
+pub(super) fn is_of_options(diagnostics: &Diagnostics, sources: &Sources) -> bool {
+    let code = |error: &Diagnostic| exit_code(&error.clone().into(), sources);
+    let mut errors = diagnostics.iter().filter(|said| said.is_error()).peekable();
+    errors.peek().is_some() && errors.all(|error| [USAGE, FILES].contains(&code(error)))
+}
+
 /// The exit code of a command that ended with these.
 pub(super) fn exit_code(diagnostics: &Diagnostics, sources: &Sources) -> u8 {
     match Blame::of(diagnostics, sources) {

@@ -194,7 +194,19 @@ impl Output {
 
     /// Writes a whole text in the place of the one that was read there.
     pub fn replace(name: &str, text: &str) -> Result<(), Failure> {
-        Output::write(name, text, &Spared::default())
+        Output::replace_if(name, text, &|| true).map(|_| ())
+    }
+
+    /// The same if that is due when nothing is left but to put the file in its place; says whether it was.
+    pub fn replace_if(name: &str, text: &str, is_due: &dyn Fn() -> bool) -> Result<bool, Failure> {
+        let mut output = Output::open(name, &Spared::default())?;
+        output.writer.write_all(text.as_bytes()).map_err(|error| output.failure(&error))?;
+        let written = output.written()?;
+        let is_due = is_due();
+        if is_due {
+            put_in_place(written)?;
+        }
+        Ok(is_due)
     }
 
     /// Whether it is standard output, and that a terminal.
@@ -379,7 +391,22 @@ impl Destination {
         let mut unfinished = interrupts::unfinished();
         let temporary = builder.tempfile_in(folder)?;
         unfinished.push(temporary.path().to_owned());
+        #[cfg(unix)]
+        keep_owner(&path, temporary.path());
         Ok(Destination::File { temporary, path })
+    }
+}
+
+/// Gives a file that will be in the place of another one the owner and the group of that one, where this process may.
+#[cfg(unix)]
+fn keep_owner(of: &Path, to: &Path) {
+    use std::os::unix::fs::{MetadataExt, chown};
+    let (Ok(old), Ok(new)) = (fs::metadata(of), fs::metadata(to)) else { return };
+    if old.gid() != new.gid() {
+        let _ = chown(to, None, Some(old.gid()));
+    }
+    if old.uid() != new.uid() {
+        let _ = chown(to, Some(old.uid()), None);
     }
 }
 

@@ -109,9 +109,9 @@ mod tests {
 
     #[test]
     fn a_formula_goes_only_if_its_writer_is_sure() {
-        let Edited::Asks(asks) = with(&[("half", "length / 2", 0.03)], false) else { panic!("it did not ask") };
+        let Edited::Asks(asks) = with(&[("half", "length / 2", 30.0)], false) else { panic!("it did not ask") };
         assert!(asks.contains("`length / 2`"), "{asks}");
-        assert_eq!(with(&[("half", "length / 2", 0.03)], true), Edited::Text(TEXT.replacen("length / 2", "0.03 m", 1)));
+        assert_eq!(with(&[("half", "length / 2", 30.0)], true), Edited::Text(TEXT.replacen("length / 2", "30 mm", 1)));
     }
 
     #[test]

@@ -36,7 +36,7 @@ const TOKEN: &str = "x-mechc-token";
 
 /// What a request asks for, or the status with which it is refused.
 pub(super) fn admitted(head: &Head, ours: &Ours) -> Result<Call, u16> {
-    let host = only(head, "host").filter(|host| names(ours.port).iter().any(|name| name == host)).ok_or(403_u16)?;
+    let host = only(head, "host").filter(|host| names(ours.port).any(|name| name == *host)).ok_or(403_u16)?;
     let path = head.target.split_once('?').map_or(head.target.as_str(), |(path, _)| path);
     let call = match path {
         "/" => Call::Page,
@@ -56,9 +56,13 @@ pub(super) fn admitted(head: &Head, ours: &Ours) -> Result<Call, u16> {
     if is_of_our_page && has_token { Ok(call) } else { Err(403) }
 }
 
+/// The port that addresses leave out.
+const USUAL: u16 = 80;
+
 /// What the server is called.
-fn names(port: u16) -> [String; 3] {
-    ["127.0.0.1", "[::1]", "localhost"].map(|name| format!("{name}:{port}"))
+fn names(port: u16) -> impl Iterator<Item = String> {
+    let named = move |name| [Some(format!("{name}:{port}")), (port == USUAL).then(|| str::to_owned(name))];
+    ["127.0.0.1", "[::1]", "localhost"].into_iter().flat_map(named).flatten()
 }
 
 /// The value of a header that is there once.
@@ -104,6 +108,22 @@ mod tests {
             let headers = [("host", host), ("origin", &origin), ("x-mechc-token", TOKEN)];
             assert_eq!(asked("POST", "/motion", &headers), Ok(Call::Motion));
         }
+    }
+
+    #[test]
+    fn the_usual_port_is_left_out_of_addresses() {
+        let at = |port, host: &str| {
+            let origin = format!("http://{host}");
+            let headers = [("host", host), ("origin", origin.as_str()), ("x-mechc-token", TOKEN)];
+            admitted(&head("POST", "/motion", &headers), &Ours { port, token: TOKEN.to_owned() })
+        };
+        for host in ["127.0.0.1", "[::1]", "localhost", "127.0.0.1:80"] {
+            assert_eq!(at(80, host), Ok(Call::Motion), "{host}");
+        }
+        for host in ["127.0.0.1:8080", "evil.example", "evil.example:80", ""] {
+            assert_eq!(at(80, host), Err(403), "{host}");
+        }
+        assert_eq!(at(8080, "127.0.0.1"), Err(403));
     }
 
     #[test]

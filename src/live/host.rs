@@ -18,11 +18,11 @@ pub trait Host: Send + Sync {
     /// They cannot be told.
     fn times(&self, compiled: &Compiled, sources: &mut Sources) -> Result<Times, Diagnostics>;
 
-    /// Puts a text in the place of the one that the file has.
+    /// Puts a text in the place of the one that the file has, if that is still due when nothing else is left to do; says whether it was.
     ///
     /// # Errors
     /// Why it cannot be written, in words.
-    fn write(&self, text: &str) -> Result<(), String>;
+    fn write(&self, text: &str, is_due: &dyn Fn() -> bool) -> Result<bool, String>;
 
     /// Shows a place of the file (UTF-16), where there is something to show it in.
     fn show(&self, at: u32) {

@@ -4,12 +4,14 @@ use super::asked::{Question, Write as Written, place_of};
 use super::guard::{Call, Ours, admitted};
 use super::http::{Connection, Fault, Kind, Patient, head_of};
 use super::workshop::Workshop;
+use crate::cancel::Cancel;
 use crate::view::page as html;
 use serde_json::json;
 use std::io::{self, Read, Write};
 use std::net::{Ipv4Addr, Ipv6Addr, Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
@@ -21,6 +23,8 @@ const MOST_LISTENERS: usize = 24;
 const PULSE: Duration = Duration::from_secs(2);
 /// Who takes nothing for so long is gone.
 const SENDING: Duration = Duration::from_secs(10);
+/// Who waits for an answer is looked at so often, whether it is still there.
+const LOOK: Duration = Duration::from_millis(100);
 /// Where no port is asked for, so many are tried for one that is free in both families of addresses.
 const MOST_PORTS: usize = 16;
 /// Bytes of randomness in a token.
@@ -36,6 +40,7 @@ pub struct Server {
 pub struct Serving {
     addresses: Vec<SocketAddr>,
     has_ended: Arc<AtomicBool>,
+    has_been_seen: Arc<AtomicBool>,
     url: String,
 }
 
@@ -84,11 +89,12 @@ impl Server {
         let Server { listeners, ours } = self;
         let url = format!("http://127.0.0.1:{}/#{}", ours.port, ours.token);
         let addresses = listeners.iter().map(TcpListener::local_addr).collect::<io::Result<_>>()?;
-        let has_ended = Arc::new(AtomicBool::new(false));
+        let (has_ended, has_been_seen): (Arc<AtomicBool>, Arc<AtomicBool>) = Default::default();
         let shared = Arc::new(Shared {
             workshop: Arc::clone(workshop),
             ours,
             has_ended: Arc::clone(&has_ended),
+            has_been_seen: Arc::clone(&has_been_seen),
             open: Arc::default(),
             listening: Arc::default(),
         });
@@ -96,7 +102,7 @@ impl Server {
             let shared = Arc::clone(&shared);
             thread::Builder::new().name("live page".to_owned()).spawn(move || accept(&listener, &shared))?;
         }
-        Ok(Serving { addresses, has_ended, url })
+        Ok(Serving { addresses, has_ended, has_been_seen, url })
     }
 }
 
@@ -105,6 +111,12 @@ impl Serving {
     #[must_use]
     pub fn url(&self) -> &str {
         &self.url
+    }
+
+    /// Whether somebody has come to see the page, from now on.
+    #[must_use]
+    pub fn seen(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.has_been_seen)
     }
 }
 
@@ -122,6 +134,7 @@ struct Shared {
     workshop: Arc<Workshop>,
     ours: Ours,
     has_ended: Arc<AtomicBool>,
+    has_been_seen: Arc<AtomicBool>,
     open: Arc<AtomicUsize>,
     listening: Arc<AtomicUsize>,
 }
@@ -209,12 +222,18 @@ fn answered(connection: &mut Connection<TcpStream>, shared: &Shared) -> Result<b
     let body = connection.body(&head, until)?;
     let workshop = &shared.workshop;
     let (kind, bytes) = match call {
-        Call::Page => (Kind::Html, html::shell().into_bytes()),
+        Call::Page => {
+            shared.has_been_seen.store(true, Ordering::Release);
+            (Kind::Html, html::shell().into_bytes())
+        }
         Call::Events => {
             tell(connection.stream(), shared)?;
             return Ok(false);
         }
-        Call::Motion => (Kind::Bytes, workshop.answer(&Question::of(&body).map_err(|_| Fault::Refused(400))?)),
+        Call::Motion => {
+            let question = Question::of(&body).map_err(|_| Fault::Refused(400))?;
+            (Kind::Bytes, while_there(connection.stream(), |cancel| workshop.answer(&question, cancel)))
+        }
         Call::Show => {
             workshop.show(place_of(&body).map_err(|_| Fault::Refused(400))?);
             (Kind::Json, b"{}".to_vec())
@@ -228,6 +247,38 @@ fn answered(connection: &mut Connection<TcpStream>, shared: &Shared) -> Result<b
     stream.write_all(head_of(200, kind, Some(bytes.len()), head.keeps).as_bytes())?;
     stream.write_all(&bytes)?;
     Ok(head.keeps)
+}
+
+/// Works for who waits at the other end of a connection; if nobody does any more, the work is cancelled.
+fn while_there<T>(stream: &TcpStream, work: impl FnOnce(&Cancel) -> T) -> T {
+    let cancel = Cancel::default();
+    let (ends, has_ended) = channel::<()>();
+    let gone = cancel.clone();
+    thread::scope(|scope| {
+        let watch = move || {
+            while has_ended.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+                if is_gone(stream) {
+                    gone.cancel();
+                }
+            }
+        };
+        // without it the work is only not cancelled
+        let _ = thread::Builder::new().name("live watch".to_owned()).spawn_scoped(scope, watch);
+        let made = work(&cancel);
+        drop(ends);
+        made
+    })
+}
+
+/// Whether a connection has been closed at its other end. Nobody else reads or writes meanwhile.
+fn is_gone(stream: &TcpStream) -> bool {
+    let looked = stream.set_nonblocking(true).and_then(|()| stream.peek(&mut [0]));
+    let is_gone = match looked {
+        Ok(count) => count == 0,
+        Err(error) => error.kind() != io::ErrorKind::WouldBlock,
+    };
+    // where it cannot be as it was, it is of no use
+    stream.set_nonblocking(false).is_err() || is_gone
 }
 
 /// Tells a page of every version of the texts, until it goes.

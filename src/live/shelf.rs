@@ -33,6 +33,13 @@ impl Shelf {
         })
     }
 
+    /// Whether a file that was looked at is another in a world.
+    pub fn is_other(&self, path: &Path, world: &dyn World) -> bool {
+        let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = read.iter().find(|(other, _)| other == path).and_then(|(_, known)| known.as_ref().ok());
+        known.is_none_or(|known| world.read(path).map_or(true, |now| now.bytes != known.bytes))
+    }
+
     /// The files that were looked at.
     pub fn files(&self) -> Vec<PathBuf> {
         let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
@@ -105,7 +112,10 @@ mod tests {
         assert!(!shelf.is_old(&*desk));
         *desk.0.lock().expect("a lock") = Memory::default().with("a", "1").with("b", "2");
         assert!(shelf.is_old(&*desk), "a file that was missing is there");
+        assert!(!shelf.is_other(Path::new("a"), &*desk), "it is the same");
         assert!(shelf.read(Path::new("b")).is_err(), "a version changed while it was in use");
         assert_eq!(shelf.files().len(), 2);
+        *desk.0.lock().expect("a lock") = Memory::default().with("a", "3");
+        assert!(shelf.is_other(Path::new("a"), &*desk));
     }
 }

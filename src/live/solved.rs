@@ -95,9 +95,20 @@ impl Solver<'_> {
     fn choice(&self, own: &Solved, set: &[(String, String)]) -> Choice {
         let knobs = own.knobs();
         let leads = |(name, _): &(String, String)| knobs.iter().any(|knob| knob.name == *name && knob.leads);
-        let mut choice = Choice { lead: set.iter().all(leads), ..self.choice.clone() };
+        let is_led = |knob: &Knob| knob.leads || self.held(&knob.name).is_none();
+        let mut choice = Choice { lead: set.iter().all(leads) && knobs.iter().all(is_led), ..self.choice.clone() };
         choice.set.extend(set.iter().map(|(name, formula)| format!("{name}={formula}")));
         choice
+    }
+
+    /// What the command sets a param to, or a point of which it is a coordinate, as it was told.
+    pub fn held(&self, name: &str) -> Option<&str> {
+        let is_it = |path: &str| {
+            let path: String = path.chars().filter(|c| !c.is_whitespace()).collect();
+            name.strip_prefix(path.as_str()).is_some_and(|axis| ["", ".x", ".y"].contains(&axis))
+        };
+        let said = |set: &&String| set.split_once('=').is_some_and(|(path, _)| is_it(path));
+        self.choice.set.iter().rev().find(said).map(String::as_str)
     }
 
     fn options(&self, stand: Option<Stand>, cancel: &Cancel) -> RunOptions {

@@ -9,15 +9,20 @@ use super::shelf::Shelf;
 use super::solved::{Solved, Solver};
 use crate::cancel::Cancel;
 use crate::diag::Diagnostics;
-use crate::source::Sources;
-use crate::stages::{Choice, Knob, Parsed, Redundant};
+use crate::source::{Sources, Span};
+use crate::stages::{Choice, Knob, Parsed, Redundant, size_of_unit};
 use crate::world::World;
 use rustc_hash::FxHashMap;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread;
 use std::time::Duration;
 
+/// Who waits for the file's motion looks so often whether it is still wanted.
+const LOOK: Duration = Duration::from_millis(20);
+/// The stack of what solves it.
+const STACK: usize = 8 << 20;
 /// Pages whose questions are remembered; one that is forgotten is only not interrupted.
 const MOST_PAGES: usize = 64;
 
@@ -59,16 +64,54 @@ struct Texts {
     parsed: Result<Parsed, (Sources, Diagnostics)>,
     /// Ends what is made of them, once there are others.
     cancel: Cancel,
-    own: OnceLock<Arc<Solved>>,
+    own: Mutex<Own>,
+    is_made: Condvar,
+    /// What was looked at of the versions before, as long as it is not known what is of this one.
+    before: Vec<PathBuf>,
     /// The settings that were asked for last, with what came of them.
     last: Mutex<Option<(Settings, Arc<Solved>)>>,
 }
 
+/// A file as it is, which is made once for all pages: as long as one of them waits for it.
+#[derive(Default)]
+struct Own {
+    made: Option<Arc<Solved>>,
+    /// Ends its making.
+    making: Option<Cancel>,
+    waiting: usize,
+}
+
 impl Texts {
-    fn read(version: u64, world: Arc<dyn World>, path: &Path) -> Texts {
+    fn read(version: u64, world: Arc<dyn World>, path: &Path, before: Vec<PathBuf>) -> Texts {
         let shelf = Shelf::new(world);
         let parsed = Parsed::read(path, &shelf);
-        Texts { version, shelf, parsed, cancel: Cancel::default(), own: OnceLock::new(), last: Mutex::default() }
+        let (cancel, own, is_made, last) = Default::default();
+        Texts { version, shelf, parsed, cancel, own, is_made, before, last }
+    }
+
+    /// The files that are looked at, as far as they are known.
+    fn files(&self) -> Vec<PathBuf> {
+        let mut files = self.shelf.files();
+        if lock(&self.own).made.is_none() {
+            files.extend(self.before.iter().filter(|file| !files.contains(file)).cloned().collect::<Vec<_>>());
+        }
+        files
+    }
+
+    /// Waits until the file as it is has been made, or its making has ended; nothing for who does not wait any more.
+    fn waited(&self, cancel: &Cancel) -> Option<Option<Arc<Solved>>> {
+        let mut own = lock(&self.own);
+        loop {
+            let is_over = cancel.is_cancelled() || self.cancel.is_cancelled();
+            if own.making.is_none() || is_over {
+                own.waiting -= 1;
+                if let Some(work) = own.making.as_ref().filter(|_| own.waiting == 0) {
+                    work.cancel();
+                }
+                return (!is_over).then(|| own.made.clone());
+            }
+            own = self.is_made.wait_timeout(own, LOOK).map_or_else(|error| error.into_inner().0, |(own, _)| own);
+        }
     }
 }
 
@@ -81,7 +124,7 @@ impl Workshop {
         (redundant, pass_bifurcations): (Redundant, bool),
         host: Box<dyn Host>,
     ) -> Workshop {
-        let texts = Arc::new(Texts::read(1, host.world(), path));
+        let texts = Arc::new(Texts::read(1, host.world(), path, Vec::new()));
         Workshop {
             path: path.to_owned(),
             choice,
@@ -98,7 +141,7 @@ impl Workshop {
     /// The files that it has looked at, and where some were missing.
     #[must_use]
     pub fn files(&self) -> Vec<PathBuf> {
-        let mut files = self.texts().shelf.files();
+        let mut files = self.texts().files();
         if !files.contains(&self.path) {
             files.push(self.path.clone());
         }
@@ -113,8 +156,12 @@ impl Workshop {
             return false;
         }
         before.cancel.cancel();
-        let texts = Texts::read(before.version + 1, self.host.world(), &self.path);
+        let texts = Texts::read(before.version + 1, self.host.world(), &self.path, before.files());
         lock(&self.now).texts = Arc::new(texts);
+        // of what was asked of the text before nobody wants to know any more
+        for (_, cancel) in lock(&self.waiting).drain() {
+            cancel.cancel();
+        }
         self.has_changed.notify_all();
         true
     }
@@ -140,12 +187,12 @@ impl Workshop {
         self.host.show(at);
     }
 
-    /// Answers a page. What it had asked before and is waiting for is given up.
+    /// Answers a page, as long as it waits. What it had asked before and is waiting for is given up.
     #[must_use]
-    pub fn answer(&self, asked: &Question) -> Vec<u8> {
-        let cancel = self.cancel_for(&asked.page);
+    pub fn answer(&self, asked: &Question, cancel: &Cancel) -> Vec<u8> {
+        self.take_place(&asked.page, cancel);
         let texts = self.texts();
-        let (answer, columns) = self.answered(&texts, asked, &cancel).unwrap_or_else(|| {
+        let (answer, columns) = self.answered(&texts, asked, cancel).unwrap_or_else(|| {
             // the page will ask again, or has
             (json!({ "live": { "version": texts.version, "superseded": true } }), Vec::new())
         });
@@ -153,9 +200,9 @@ impl Workshop {
     }
 
     fn answered(&self, texts: &Texts, asked: &Question, cancel: &Cancel) -> Option<Answer> {
-        let own = self.own(texts)?;
+        let own = self.own(texts, cancel)?;
         if !own.is_sound() {
-            return Some((wrong(texts.version, &own), Vec::new()));
+            return Some((json!({ "live": wrong(texts.version, &own) }), Vec::new()));
         }
         let knobs = own.knobs();
         let known = |(name, _): &&(String, String)| knobs.iter().any(|knob| knob.name == *name);
@@ -189,7 +236,7 @@ impl Workshop {
         if texts.version != write.version {
             return Err(refused(OTHER));
         }
-        let own = self.own(&texts).ok_or_else(|| refused(OTHER))?;
+        let own = self.own(&texts, &Cancel::default()).ok_or_else(|| refused(OTHER))?;
         let checked = own.checked.as_ref().filter(|_| own.is_sound()).ok_or_else(|| refused("the text is wrong"))?;
         let text = match edited(checked, write) {
             Edited::Text(text) => text,
@@ -197,26 +244,57 @@ impl Workshop {
         };
         let has_mark = texts.shelf.read(&self.path).is_ok_and(|file| file.bytes.starts_with(MARK.as_bytes()));
         let text = if has_mark { format!("{MARK}{text}") } else { text };
-        // as late as can be
         if texts.shelf.is_old(&*self.host.world()) {
             return Err(refused(OTHER));
         }
-        self.host.write(&text).map_err(Edited::Refused)?;
+        // and once more when all is done but to put it in its place
+        let is_due = || !texts.shelf.is_other(&self.path, &*self.host.world());
+        let is_written = self.host.write(&text, &is_due).map_err(Edited::Refused)?;
         self.look();
-        Ok(())
+        if is_written { Ok(()) } else { Err(refused(OTHER)) }
     }
 
-    /// The file as it is.
-    fn own(&self, texts: &Texts) -> Option<Arc<Solved>> {
-        let make = || {
-            let solver = self.solver(texts);
-            let own = solver.own(&texts.cancel);
-            // once for all pages, which wait for it
-            solver.watched(&own, None, &texts.cancel);
-            Arc::new(own)
-        };
-        let own = texts.own.get_or_init(make);
-        (!texts.cancel.is_cancelled()).then(|| Arc::clone(own))
+    /// The file as it is; nothing if there is another one, or who asks is gone.
+    fn own(&self, texts: &Texts, cancel: &Cancel) -> Option<Arc<Solved>> {
+        loop {
+            let work = {
+                let mut own = lock(&texts.own);
+                if let Some(made) = &own.made {
+                    return (!texts.cancel.is_cancelled()).then(|| Arc::clone(made));
+                }
+                own.waiting += 1;
+                let is_making = own.making.is_some();
+                let work = own.making.get_or_insert_with(Cancel::default);
+                (!is_making).then(|| work.clone())
+            };
+            let waited = thread::scope(|scope| {
+                if let Some(work) = work {
+                    let make = move || self.make(texts, &work);
+                    let maker = thread::Builder::new().name("live solve".to_owned()).stack_size(STACK);
+                    // a machine without room for a thread is one on which nobody waits
+                    if maker.spawn_scoped(scope, make).is_err() {
+                        lock(&texts.own).making = None;
+                    }
+                }
+                texts.waited(cancel)
+            })?;
+            // another one's, which was given up while this one came
+            if waited.is_some() {
+                return waited;
+            }
+        }
+    }
+
+    /// Makes the file as it is, unless nobody waits for it any more.
+    fn make(&self, texts: &Texts, work: &Cancel) {
+        let solver = self.solver(texts);
+        let made = solver.own(work);
+        solver.watched(&made, None, work);
+        let mut own = lock(&texts.own);
+        own.made = (!work.is_cancelled()).then(|| Arc::new(made));
+        own.making = None;
+        drop(own);
+        texts.is_made.notify_all();
     }
 
     fn solver<'s>(&'s self, texts: &'s Texts) -> Solver<'s> {
@@ -234,17 +312,15 @@ impl Workshop {
         Arc::clone(&lock(&self.now).texts)
     }
 
-    /// What ends the answer to a page; ends the one before.
-    fn cancel_for(&self, page: &str) -> Cancel {
+    /// An answer to a page begins; ends the one before.
+    fn take_place(&self, page: &str, cancel: &Cancel) {
         let mut waiting = lock(&self.waiting);
         if waiting.len() >= MOST_PAGES {
             waiting.clear();
         }
-        let cancel = Cancel::default();
         if let Some(before) = waiting.insert(page.to_owned(), cancel.clone()) {
             before.cancel();
         }
-        cancel
     }
 }
 
@@ -287,22 +363,20 @@ impl Asked<'_> {
             watched = self.solver.watched(solved, watched.seen.as_ref(), self.cancel)?;
         }
         let Some(seen) = &watched.seen else {
-            return Some((wrong(self.version, solved), Vec::new()));
+            let mut live = wrong(self.version, solved);
+            if !Arc::ptr_eq(own, solved) {
+                // the text is right
+                live["knobs"] = self.told(knobs);
+            }
+            return Some((json!({ "live": live }), Vec::new()));
         };
         let (mut data, mut columns) = page::of_one(seen, &solved.sources).data();
         let times: Vec<f64> = seen.motion.rows().iter().map(|row| row[0]).collect();
         let jogs = solved.jogs(&times);
         columns.extend(jogs.iter().map(|jog| jog.values.clone()));
-        let set = solved.knobs();
-        let now = |knob: &Knob| set.iter().find(|set| set.name == knob.name).map(|set| set.value);
         data["live"] = json!({
             "version": self.version,
-            "knobs": knobs.iter().map(|knob| json!({
-                "name": knob.name, "unit": knob.unit, "value": knob.value, "formula": knob.formula,
-                "whole": !knob.leads,
-                "now": knob.formula.as_ref().and_then(|_| now(knob)),
-                "text": knob.place.map(|place| own.sources.text(place)),
-            })).collect::<Vec<_>>(),
+            "knobs": self.told(knobs),
             "cranks": solved.cranks().iter().map(|crank| json!({
                 "frame": crank.body + 1, "pivot": crank.pivot, "input": crank.input,
             })).collect::<Vec<_>>(),
@@ -311,6 +385,29 @@ impl Asked<'_> {
             })).collect::<Vec<_>>(),
         });
         Some((data, columns))
+    }
+
+    /// What there is to set.
+    fn told(&self, knobs: &[Knob]) -> Value {
+        let sources = &self.own.sources;
+        let set = self.solved.knobs();
+        let now = |knob: &Knob| set.iter().find(|set| set.name == knob.name).map(|set| set.value);
+        let mut sizes: FxHashMap<&str, f64> = FxHashMap::default();
+        let told = knobs.iter().map(|knob| {
+            let place = |span: Span| {
+                let file = sources.get(span.file);
+                format!("{}:{}", file.name, file.position(span.start).0)
+            };
+            json!({
+                "name": knob.name, "unit": knob.unit, "value": knob.value, "formula": knob.formula,
+                "si": sizes.entry(&knob.unit).or_insert_with(|| size_of_unit(&knob.unit)),
+                "dimension": knob.dimension, "held": self.solver.held(&knob.name), "whole": !knob.leads,
+                "now": knob.formula.as_ref().and_then(|_| now(knob)),
+                "text": knob.place.map(|place| sources.text(place)),
+                "where": knob.stands.filter(|_| knob.place.is_none()).map(place),
+            })
+        });
+        Value::Array(told.collect())
     }
 }
 
@@ -322,7 +419,7 @@ const MARK: &str = "\u{feff}";
 
 /// What is said where there is nothing to show.
 fn wrong(version: u64, solved: &Solved) -> Value {
-    json!({ "live": { "version": version, "wrong": solved.rendered() } })
+    json!({ "version": version, "wrong": solved.rendered() })
 }
 
 /// What came of some settings, which is made unless they are those of the last time.
@@ -337,4 +434,136 @@ fn remembered(texts: &Texts, set: &[(String, String)], make: impl FnOnce() -> Op
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Question, Workshop, Write};
+    use crate::analysis::Times;
+    use crate::cancel::Cancel;
+    use crate::diag::Diagnostics;
+    use crate::live::asked::Change;
+    use crate::live::host::Host;
+    use crate::source::Sources;
+    use crate::stages::{Choice, Compiled, Redundant};
+    use crate::world::{Contents, Memory, World};
+    use std::io;
+    use std::path::{Path, PathBuf};
+    use std::sync::{Arc, Mutex};
+
+    const MAIN: &str = "use \"lib/arm.mech\"
+mechanism disc {
+    param speed = 1 rad/s
+    part one: arm
+    driver motor: rotation(one.axle) = speed * t
+    analysis from 0 s to 1 s every 100 ms
+}
+";
+    const ARM: &str = "mechanism arm {
+    ground { point O = (0, 0) }
+    body bar { point O = (0, 0) point P = (20 mm, 0) }
+    joint axle: revolute(ground.O, bar.O)
+}
+";
+
+    /// Files that a test changes.
+    #[derive(Default)]
+    struct Desk {
+        files: Mutex<Memory>,
+        /// What another hand writes while a text is about to be put in its place.
+        beside: Mutex<Option<Memory>>,
+        written: Mutex<Vec<String>>,
+    }
+
+    impl World for Desk {
+        fn read(&self, path: &Path) -> io::Result<Contents> {
+            self.files.lock().expect("a lock").read(path)
+        }
+    }
+
+    struct Held(Arc<Desk>);
+
+    impl Host for Held {
+        fn world(&self) -> Arc<dyn World> {
+            Arc::clone(&self.0) as Arc<dyn World>
+        }
+
+        fn times(&self, compiled: &Compiled, _: &mut Sources) -> Result<Times, Diagnostics> {
+            compiled.times().ok_or_else(Diagnostics::default)
+        }
+
+        fn write(&self, text: &str, is_due: &dyn Fn() -> bool) -> Result<bool, String> {
+            if let Some(files) = self.0.beside.lock().expect("a lock").take() {
+                *self.0.files.lock().expect("a lock") = files;
+            }
+            let is_due = is_due();
+            if is_due {
+                self.0.written.lock().expect("a lock").push(text.to_owned());
+            }
+            Ok(is_due)
+        }
+    }
+
+    fn workshop() -> (Arc<Desk>, Workshop) {
+        let desk = Arc::new(Desk::default());
+        desk.has(MAIN);
+        let options = (Redundant::Refused, false);
+        let made = Workshop::new(Path::new("disc.mech"), Choice::default(), options, Box::new(Held(Arc::clone(&desk))));
+        (desk, made)
+    }
+
+    impl Desk {
+        fn has(&self, main: &str) {
+            *self.files.lock().expect("a lock") = files(main);
+        }
+    }
+
+    fn files(main: &str) -> Memory {
+        Memory::default().with("disc.mech", main).with("lib/arm.mech", ARM)
+    }
+
+    #[test]
+    fn what_was_looked_at_is_looked_at_until_it_is_known_what_is() {
+        let (desk, workshop) = workshop();
+        let used = PathBuf::from("lib/arm.mech");
+        let ask = || workshop.answer(&Question { page: "a".to_owned(), ..Question::default() }, &Cancel::default());
+        assert!(String::from_utf8_lossy(&ask()).contains("one.bar.phi"));
+        assert!(workshop.files().contains(&used));
+        for round in 0..2 {
+            desk.has(&format!("{MAIN}// {round}"));
+            assert!(workshop.look());
+            assert!(workshop.files().contains(&used), "nobody has asked for the new version yet");
+        }
+        desk.has(&MAIN.replace("use", "// use"));
+        assert!(workshop.look());
+        ask();
+        assert_eq!(workshop.files(), [PathBuf::from("disc.mech")]);
+    }
+
+    #[test]
+    fn a_save_that_comes_as_late_as_can_be_is_not_overwritten() {
+        let (desk, workshop) = workshop();
+        let change = Change { name: "speed".to_owned(), old: "1 rad/s".to_owned(), value: 2.0 };
+        let write = |version| Write { version, changes: vec![change.clone()], sure: false };
+        *desk.beside.lock().expect("a lock") = Some(files(&format!("{MAIN}// another hand")));
+        let told = workshop.write(&write(1)).to_string();
+        assert!(told.contains("another by now"), "{told}");
+        assert!(desk.written.lock().expect("a lock").is_empty());
+        let told = workshop.write(&write(2)).to_string();
+        assert!(told.contains("written\":true"), "{told}");
+        let wanted = MAIN.replace("1 rad/s", "2 rad/s") + "// another hand";
+        assert_eq!(*desk.written.lock().expect("a lock"), [wanted]);
+    }
+
+    #[test]
+    fn who_is_gone_gets_nothing_and_the_next_one_all() {
+        let (_, workshop) = workshop();
+        let gone = Cancel::default();
+        gone.cancel();
+        let question = Question { page: "a".to_owned(), ..Question::default() };
+        let told = workshop.answer(&question, &gone);
+        assert!(String::from_utf8_lossy(&told).contains("superseded"));
+        let told = workshop.answer(&question, &Cancel::default());
+        assert!(String::from_utf8_lossy(&told).contains("one.bar.phi"));
+    }
 }

@@ -4,6 +4,7 @@
 //! for none of it.
 
 use crate::analysis::Times;
+use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::live::{Host, Question, Server, Serving, Workshop, Write};
 use crate::source::Sources;
@@ -130,7 +131,9 @@ impl Views {
         let body = asked.to_string();
         let work = move || {
             answer(match Question::of(body.as_bytes()) {
-                Ok(asked) => Ok(json!({ "data": crate::live::page::base64(&view.workshop.answer(&asked)) })),
+                Ok(asked) => {
+                    Ok(json!({ "data": crate::live::page::base64(&view.workshop.answer(&asked, &Cancel::default())) }))
+                }
                 Err(why) => Err(why.to_owned()),
             });
         };
@@ -216,9 +219,12 @@ impl Host for Editor {
     }
 
     /// The editor changes its text, which its user saves.
-    fn write(&self, text: &str) -> Result<(), String> {
+    fn write(&self, text: &str, is_due: &dyn Fn() -> bool) -> Result<bool, String> {
+        if !is_due() {
+            return Ok(false);
+        }
         let event = Event::Write(Arc::clone(&self.path), text.to_owned());
-        self.shared.tell.send(event).map_err(|_| "the editor is gone".to_owned())
+        self.shared.tell.send(event).map(|()| true).map_err(|_| "the editor is gone".to_owned())
     }
 
     fn show(&self, at: u32) {

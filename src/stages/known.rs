@@ -98,7 +98,7 @@ impl Checked {
         Some((param.value, param.dimension))
     }
 
-    fn mechanism(&self, name: &MechanismName) -> Option<&Mechanism> {
+    pub(super) fn mechanism(&self, name: &MechanismName) -> Option<&Mechanism> {
         let found = self.library.find(name.prefix.as_ref(), &name.name, self.sources()).ok()?;
         Some(self.library.tree(found))
     }
@@ -178,7 +178,7 @@ fn is_copy(known: &str, name: &str) -> bool {
     rest.is_empty()
 }
 
-fn item_named<'t>(tree: &'t Mechanism, name: &str) -> Option<&'t Item> {
+pub(super) fn item_named<'t>(tree: &'t Mechanism, name: &str) -> Option<&'t Item> {
     tree.items.iter().find(|item| match &item.kind {
         ItemKind::Ground { .. } => name == "ground",
         _ => check::name_of(item).is_some_and(|own| own.text == name),

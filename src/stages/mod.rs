@@ -48,7 +48,7 @@ pub(crate) use drawn::Drawn;
 pub use emitted::RustOptions;
 pub use formula::{Formula, NAMES};
 pub use imported::imported;
-pub use knobs::{Crank, Jog, Knob};
+pub use knobs::{Crank, Jog, Knob, size_of_unit};
 pub use known::{Declaration, Interface};
 #[cfg(feature = "rooms")]
 pub use lowered::lowered;

@@ -10,8 +10,13 @@ export interface Knob {
     name: string;
     /** In which it is set; empty for a pure number. */
     unit: string;
-    /** By the text, in that unit. */
+    /** One of that unit in SI, and the SI unit of its dimension. */
+    si: number;
+    dimension: string;
+    /** By the text and the options of the command, in that unit. */
     value: number;
+    /** What the command sets it to, if it does. */
+    held: string | null;
     /** What the text says, where that is more than a number. */
     formula: string | null;
     /** What that formula is with what is set. */
@@ -20,6 +25,8 @@ export interface Knob {
     whole: boolean;
     /** What stands in its place in the file; null where another file or mechanism says it. */
     text: string | null;
+    /** Where that is, in words. */
+    where: string | null;
 }
 
 /** An input. */
@@ -40,7 +47,7 @@ export interface Crank {
 
 export interface Told {
     version: number;
-    /** What is wrong with the text, as it is printed; nothing is to be shown of it. */
+    /** What is wrong with the text, as it is printed; nothing is to be shown of it. Where the text is right, with its params. */
     wrong?: string;
     /** The question was given up. */
     superseded?: boolean;

@@ -7,8 +7,8 @@ import { OF_A_FRAME, placeOf, type Moment, type Pair } from "../motion/motion.ts
 
 /** Something in the hand. */
 export interface Hold {
-    /** The hand is at another place (m). */
-    move(to: Pair): void;
+    /** The hand is at another place (m), in a picture whose pixels are so large (m). */
+    move(to: Pair, pixel: number): void;
 }
 
 /** What the picture asks of a hand. */
@@ -52,9 +52,9 @@ export class Hand implements Grasp {
         const drawn = this.drawn.find((point) => point.name === name);
         if (!drawn) return undefined;
         return {
-            move: (to) => {
+            move: (to, pixel) => {
                 drawn.at = to;
-                const inUnits = to.map((value, k) => rounded(value, drawn.units[k]!)) as Pair;
+                const inUnits = to.map((value, k) => rounded(value, drawn.units[k]!, pixel)) as Pair;
                 this.deeds.point(name, inUnits);
             },
         };
@@ -122,7 +122,10 @@ function drawnPoints(
     });
 }
 
-/** A length (m) in a unit, to a thousandth of what a hand can tell. */
-function rounded(value: number, unit: string): number {
-    return Number((value / unitOfLength(unit)).toPrecision(4));
+/** A length (m) in a unit, to the decade that is a tenth of a pixel at the most: a hand can tell no more. */
+export function rounded(value: number, unit: string, pixel: number): number {
+    const size = unitOfLength(unit);
+    const decade = Math.floor(Math.log10(pixel / 10 / size));
+    const inUnit = value / size;
+    return decade < 0 ? Number(inUnit.toFixed(Math.min(-decade, 15))) : Math.round(inUnit / 10 ** decade) * 10 ** decade;
 }

@@ -1,13 +1,16 @@
 // A page that follows a file: what its reader has set, what was asked for that, and what is shown of the answers.
 
 import { App } from "../app.ts";
-import { answerOf, documentOf, momentOf, type Answer, type Told } from "../data/live.ts";
+import { answerOf, documentOf, momentOf, type Answer, type Jog, type Knob, type Told } from "../data/live.ts";
 import type { Document } from "../data/document.ts";
+import type { Page } from "../data/format.ts";
 import { embedding } from "../embedding.ts";
+import { short } from "../numbers.ts";
 import { Knobs, type Refusal } from "../panes/knobs.ts";
 import { Said } from "../panes/said.ts";
 import { Hand } from "./hand.ts";
 import { head } from "./head.ts";
+import { Settings } from "./settings.ts";
 import type { News, State, Transport } from "./transport.ts";
 
 /** A question whose answer takes longer is given up for the next one, if there is one (ms). */
@@ -21,6 +24,8 @@ const REST = 50;
 const AS_SOON = 1.3;
 /** After a question that nobody answered (ms). */
 const PAUSE = 250;
+/** Who waits longer for an answer is told that it is being made (ms). */
+const LONG = 500;
 
 export class Live {
     private readonly id = crypto.randomUUID();
@@ -28,14 +33,14 @@ export class Live {
     private readonly knobs: Knobs;
     private readonly hand: Hand;
     private app: App | undefined;
-    /** The version of the texts that there is, and the one that is shown. */
+    /** The version of the texts that there is; the one that is shown is that of what is told. */
     private newest = 0;
-    private shown = 0;
     private told: Told | undefined;
     private document: Document | undefined;
-    /** Params that are set, in their units; inputs that are moved by hand (SI), and the time that stands still for it. */
-    private readonly set = new Map<string, number>();
+    private readonly settings = new Settings();
+    /** Inputs that are moved by hand (SI), where they are in the picture, and the time that stands still for it. */
     private readonly moved = new Map<string, number>();
+    private stood: readonly [name: string, value: number][] = [];
     private still: number | undefined;
     /** With what the motion was asked for that is shown. */
     private key = "";
@@ -57,6 +62,7 @@ export class Live {
             asInFile: () => this.asInFile(),
             timeAgain: () => this.timeAgain(),
             write: (sure) => this.write(sure),
+            say: (text) => this.said.note(text),
         });
         this.hand = new Hand({
             crank: (input, value) => void this.turn(input, value),
@@ -82,6 +88,10 @@ export class Live {
         this.said.state(state);
         // what was asked while nobody was there is asked again
         if (state === "there" && this.newest > 0) void this.change();
+    }
+
+    private get set(): Map<string, number> {
+        return this.settings.values;
     }
 
     /** A param or an input has another value; settles when that is drawn. */
@@ -122,35 +132,45 @@ export class Live {
     }
 
     private asInFile(): void {
-        this.set.clear();
+        this.settings.clear();
+        this.said.kept("");
         this.knobs.at(this.set, this.moved);
         void this.change();
     }
 
     /** Inputs are again what their formulas say. */
     private timeAgain(): void {
-        if (this.still === undefined) return;
-        this.still = undefined;
-        this.moved.clear();
-        this.knobs.at(this.set, this.moved);
         this.said.jog(null);
+        if (this.still === undefined) return;
+        this.letGo();
+        this.knobs.at(this.set, this.moved);
         this.app?.stand(undefined);
     }
 
+    private letGo(): void {
+        [this.still, this.stood] = [undefined, []];
+        this.moved.clear();
+    }
+
+    /** What cannot be written stays set, and does not keep the others from being written. */
     private async write(sure: boolean): Promise<Refusal | undefined> {
-        const changes = [...this.set].flatMap(([name, value]) => {
-            const text = this.told?.knobs?.find((knob) => knob.name === name)?.text;
-            return typeof text === "string" ? [{ name, old: text, value }] : [];
-        });
-        const others = [...this.set.keys()].filter((name) => !changes.some((change) => change.name === name));
-        if (others.length > 0) {
-            return { says: `Nothing was written: this file does not say what ${others.join(", ")} ${others.length > 1 ? "are" : "is"}.` };
-        }
-        const written = await this.transport.write({ version: this.shown, changes, sure });
+        const all = [...this.set].map(([name, value]) => ({ name, value, knob: this.settings.knob(name) }));
+        const changes = all.flatMap(({ name, value, knob }) => (typeof knob?.text === "string" ? [{ name, old: knob.text, value }] : []));
+        const others = all.filter(({ knob }) => typeof knob?.text !== "string");
+        const elsewhere = others.map(({ name, knob }) => (knob?.where ? `${name} stands in ${knob.where}` : `this file does not say what ${name} is`)).join("; ");
+        if (changes.length === 0) return elsewhere ? { says: `Nothing was written: ${elsewhere}.` } : undefined;
+        const written = await this.transport.write({ version: this.told?.version ?? 0, changes, sure });
         if ("asks" in written) return { says: written.asks, isQuestion: true };
         if ("refused" in written) return { says: written.refused };
+        const held = changes.flatMap(({ name }) => this.settings.knob(name)?.held ?? []);
         for (const { name, value } of changes) if (this.set.get(name) === value) this.set.delete(name);
         this.knobs.at(this.set, this.moved);
+        void this.change();
+        const says = [
+            ...(held.length > 0 ? [`It stands in the file. The page goes on with what the command says: --set ${held.join(" --set ")}.`] : []),
+            ...(elsewhere ? [`Not written: ${elsewhere}.`] : []),
+        ];
+        this.said.note(says.join(" "));
         return undefined;
     }
 
@@ -189,7 +209,7 @@ export class Live {
 
     /** What is set, as options have it. */
     private asked(): { set: [name: string, value: string][]; key: string } {
-        const set = [...this.set].map(([name, value]): [string, string] => [name, withUnit(value, this.unit(name))]);
+        const set = this.settings.asked();
         return { set, key: JSON.stringify(set) };
     }
 
@@ -203,7 +223,7 @@ export class Live {
         const answer = await this.ask({ set, at: app.time, jog: null }, PATIENCE).catch(() => undefined);
         const took = performance.now() - began;
         if (took > GLIMPSE) this.glimpsesFrom = began + SELDOM * took;
-        const there = answer?.live.glimpse && answer.live.version === this.shown ? momentOf(answer, document) : undefined;
+        const there = answer?.live.glimpse && answer.live.version === told?.version ? momentOf(answer, document) : undefined;
         if (!there) return false;
         app.glimpse(there);
         // the least, for what else a machine does passes
@@ -239,6 +259,7 @@ export class Live {
             if (this.hasChanged && performance.now() - began >= patience) abort.abort();
         };
         const watch = setInterval(() => this.interrupt(), 20);
+        const told = setTimeout(() => this.said.working(true), LONG);
         try {
             return answerOf(await this.transport.ask({ page: this.id, ...asked }, abort.signal));
         } catch (error) {
@@ -246,6 +267,8 @@ export class Live {
             throw error;
         } finally {
             clearInterval(watch);
+            clearTimeout(told);
+            this.said.working(false);
             this.interrupt = () => {};
         }
     }
@@ -258,64 +281,98 @@ export class Live {
         }
         // an answer of a version that is not told yet comes before its news
         this.newest = Math.max(this.newest, live.version);
-        this.shown = live.version;
         if (live.wrong !== undefined) {
-            // a text that was shown is right
-            this.said.wrong(live.wrong, live.version === this.told?.version ? "what is set" : "the text", this.app !== undefined);
-            this.app?.goBack();
+            this.takeWrong(live, live.wrong);
+            return;
+        }
+        if (live.jog) {
+            // where inputs are in another text: that text is to be seen first
+            if (live.version === this.told?.version) this.takeJog(answer);
+            else this.hasChanged = true;
             return;
         }
         this.said.right();
-        if (live.jog) {
-            this.takeJog(answer);
+        if (page) this.takeMotion(answer, page, key);
+    }
+
+    /** The text is wrong, or what is set cannot be in it. */
+    private takeWrong({ knobs }: Told, wrong: string): void {
+        this.app?.goBack();
+        if (!knobs) {
+            this.said.wrong(wrong, "the text", this.app !== undefined);
             return;
         }
-        if (!page) return;
+        // what is set may have been set in another text
+        if (this.follow(knobs, this.told?.jogs ?? [])) {
+            this.hasChanged = true;
+            return;
+        }
+        this.said.wrong(wrong, "what is set", this.app !== undefined);
+        if (!this.told) return;
+        this.told = { ...this.told, knobs };
+        this.knobs.offer(knobs, this.told.jogs ?? [], this.set);
+        this.knobs.at(this.set, this.moved);
+    }
+
+    /** There is another text: says whether something is set otherwise by that. */
+    private follow(knobs: readonly Knob[], jogs: readonly Jog[]): boolean {
+        const isOther = this.settings.follow(knobs);
+        this.said.kept(this.settings.said);
+        for (const name of [...this.moved.keys()]) if (!jogs.some((jog) => jog.name === name)) this.moved.delete(name);
+        if (this.moved.size === 0) this.letGo();
+        return isOther;
+    }
+
+    private takeMotion(answer: Answer, page: Page, key: string): void {
+        const { live } = answer;
         if (live.version !== this.told?.version) this.glimpsesFrom = 0;
         [this.told, this.key] = [live, key];
+        if (this.follow(live.knobs ?? [], live.jogs ?? [])) this.hasChanged = true;
         const document = documentOf(answer, page);
         this.document = document;
         const app = (this.app ??= this.begin(document));
         head(page);
         // those of a motion that is not there have no values
         const values = (k: number) => answer.columns[page.columns.length + k] ?? new Float64Array(0);
-        app.takeInputs((live.jogs ?? []).map(({ name }, k) => [name, values(k)]));
-        this.knobs.offer(live.knobs ?? [], live.jogs ?? [], this.set);
-        this.knobs.at(this.set, this.moved);
+        const inputs = (live.jogs ?? []).map(({ name }, k): [string, Float64Array] => [name, values(k)]);
+        app.takeInputs(inputs);
         this.hand.offer(live, document, this.set);
+        // inputs that are moved by hand are where they are in this motion until it is known how far they get in it
+        this.stood = [];
         app.show(document);
-        if (this.still !== undefined) this.hasChanged = true;
+        this.knobs.offer(live.knobs ?? [], live.jogs ?? [], this.set, { inputs: new Map(inputs), extent: document.scene.extent });
+        this.knobs.at(this.set, this.moved);
+        if (this.still === undefined) this.said.jog(null);
+        else this.hasChanged = true;
     }
 
     private takeJog(answer: Answer): void {
         const { reached, said } = answer.live.jog!;
-        if (this.still === undefined || !this.document) return;
-        this.said.jog(said);
-        for (const [name, value] of reached) {
-            // who has gone on meanwhile is not called back
-            if (!this.hasChanged) this.moved.set(name, value);
+        const { document } = this;
+        if (this.still === undefined || !document) return;
+        // what is said of the whole motion is not said once more
+        const isSaid = said !== null && document.messages.some(({ code, severity }) => severity === "error" && said.includes(`[${code}]`));
+        const there = momentOf(answer, document);
+        this.said.jog(there || !isSaid ? said : "", `t = ${short(this.still)} s`);
+        if (there) {
+            this.app?.stand(there);
+            this.stood = reached;
         }
-        if (!this.hasChanged) this.knobs.at(this.set, this.moved);
-        const there = momentOf(answer, this.document);
-        if (there) this.app?.stand(there);
+        // who has gone on meanwhile is not called back
+        if (this.hasChanged) return;
+        this.moved.clear();
+        for (const [name, value] of this.stood) this.moved.set(name, value);
+        if (this.moved.size === 0) this.letGo();
+        this.knobs.at(this.set, this.moved);
     }
 
     private begin(document: Document): App {
         const { page } = document;
-        const app = new App(page, { page, document: () => Promise.resolve(this.document!) }, { knobs: this.knobs, hand: this.hand, timeMoves: () => this.timeAgain(), show: (at) => this.transport.show?.(at) });
+        const app = new App(page, { page, document: () => Promise.resolve(this.document!) }, { knobs: this.knobs, said: this.said.element, hand: this.hand, timeMoves: () => this.timeAgain(), show: (at) => this.transport.show?.(at) });
         this.place.append(app.element);
         window.mechc = embedding(app, (name, value) => this.turn(name, value));
         app.show(document);
         app.begin();
         return app;
     }
-
-    private unit(name: string): string {
-        return this.told?.knobs?.find((knob) => knob.name === name)?.unit ?? "";
-    }
-}
-
-/** A value as `--set` takes it. */
-export function withUnit(value: number, unit: string): string {
-    return unit === "" || unit.startsWith("/") ? `${value}${unit}` : `${value} ${unit}`;
 }

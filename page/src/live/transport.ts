@@ -1,5 +1,7 @@
 // How a live page reaches the program that it shows: over the address that it comes from, or through the editor that it is a panel of.
 
+import { nameOf, shared } from "./shared.ts";
+
 /** What is new: there is another version of the texts, or the editor's cursor is elsewhere in the file (UTF-16). */
 export interface News {
     version: number;
@@ -41,12 +43,18 @@ export class Connection implements Transport {
     }
 
     listen(tell: (news: News) => void, turned: (state: State) => void): void {
-        const again = async (): Promise<void> => {
+        // another token belongs to another program at the same address, of which nothing is known yet
+        addEventListener("hashchange", () => location.reload());
+        const hearing = (tell: (news: News) => void, turned: (state: State) => void) => this.hearing(tell, turned);
+        void nameOf(location.hash).then((name) => shared(name, hearing, tell, turned));
+    }
+
+    private async hearing(tell: (news: News) => void, turned: (state: State) => void): Promise<never> {
+        for (;;) {
             const state = await this.heard(tell, turned).catch((): State => "gone");
             turned(state);
-            setTimeout(() => void again(), state === "refused" ? 8 * AGAIN : AGAIN);
-        };
-        void again();
+            await new Promise((resolve) => setTimeout(resolve, state === "refused" ? 8 * AGAIN : AGAIN));
+        }
     }
 
     /** Hears the program until it is gone. */

@@ -2,8 +2,9 @@
 
 import type { Document } from "../data/document.ts";
 import type { Jog, Knob } from "../data/live.ts";
+import { typedIn } from "../data/typed.ts";
 import { html } from "../elements.ts";
-import type { Moment } from "../motion/motion.ts";
+import type { Moment, Pair } from "../motion/motion.ts";
 import { set as setUnit, short } from "../numbers.ts";
 import type { Pane } from "./pane.ts";
 
@@ -16,6 +17,8 @@ export interface Deeds {
     timeAgain(): void;
     /** Writes what is set into the file; says why not. */
     write(sure: boolean): Promise<Refusal | undefined>;
+    /** Says something that is not about what is set. */
+    say(text: string): void;
 }
 
 /** Why nothing is written; it may be if the reader says so. */
@@ -24,12 +27,21 @@ export interface Refusal {
     isQuestion?: boolean;
 }
 
-/** Steps of a slider. */
+/** What inputs are over time (SI), and how much of the plane is drawn (m): from where to where sliders go. */
+export interface Reach {
+    inputs: ReadonlyMap<string, Float64Array>;
+    extent: readonly [Pair, Pair];
+}
+
+/** Steps of a slider, and of one of a place or of an input. */
 const STEPS = 400;
+const FINE_STEPS = 1000;
 /** A slider goes from its value by so much of it to both sides. */
 const AROUND = 0.5;
 /** An angle's slider goes so far to both sides, by unit. */
 const TURN: Record<string, number> = { deg: 180, rad: Math.PI, rev: 0.5 };
+/** An input that turns something goes so many turns to both sides at least. */
+const TURNS = 2;
 /** Params from here on are folded away at first. */
 const MANY = 6;
 
@@ -37,9 +49,13 @@ interface Row {
     slider: HTMLInputElement;
     field: HTMLInputElement;
     label: HTMLElement;
+    range: Range;
     /** What it is as long as nobody sets it; nothing of an input, which time moves. */
     own: number | undefined;
 }
+
+/** From where to where a slider goes, in which steps. */
+type Range = readonly [from: number, to: number, by: number];
 
 export class Knobs implements Pane {
     readonly element = html("section", { class: "knobs", "aria-label": "params and inputs" });
@@ -54,6 +70,8 @@ export class Knobs implements Pane {
     private knobs: readonly Knob[] = [];
     private jogs: readonly Jog[] = [];
     private set: ReadonlyMap<string, number> = new Map();
+    private reach: Reach = { inputs: new Map(), extent: [[0, 0], [0, 0]] };
+    private isSet = "";
 
     constructor(private readonly does: Deeds) {
         const button = (shows: string, title: string, click: () => void) => {
@@ -63,9 +81,9 @@ export class Knobs implements Pane {
         };
         this.time.addEventListener("click", () => does.timeAgain());
         this.deeds.append(
-            button("Copy as --set", "what is set, for mechc run --lead", () => void this.copy()),
+            button("Copy as --set", "what is set, as options of mechc run", () => void this.copy()),
             button("Write into the file", "what is set takes the place of what the file says", () => void this.write()),
-            button("As in the file", "params are what the file says again", () => does.asInFile()),
+            button("As in the file", "params are what the file says again", () => this.asInFile()),
             this.told,
         );
         this.element.append(this.turning, this.folded, this.deeds);
@@ -73,15 +91,15 @@ export class Knobs implements Pane {
     }
 
     /** What there is to turn; sliders that a hand may hold stay. */
-    offer(knobs: readonly Knob[], jogs: readonly Jog[], set: ReadonlyMap<string, number>): void {
+    offer(knobs: readonly Knob[], jogs: readonly Jog[], set: ReadonlyMap<string, number>, reach = this.reach): void {
         const offered = JSON.stringify([knobs.map((knob) => ({ ...knob, now: null })), jogs]);
-        [this.knobs, this.jogs] = [knobs, jogs];
+        [this.knobs, this.jogs, this.reach] = [knobs, jogs, reach];
         if (offered !== this.offered) {
             const wasEmpty = this.offered === "";
             this.offered = offered;
             this.rows.clear();
-            this.setting.replaceChildren(...knobs.map((knob) => this.row(knob.name, knob.unit, knob.value, rangeOf(knob), knob.whole ? 1 : undefined, knob.formula)));
-            const sliders = jogs.map((jog) => this.row(jog.name, jog.unit, 0, TURN[jog.unit] ? [-2 * TURN[jog.unit]!, 2 * TURN[jog.unit]!] : [-1, 1], "any", jog.formula));
+            this.setting.replaceChildren(...knobs.map((knob) => this.row(knob, knob.value, rangeOf(knob, reach))));
+            const sliders = jogs.map((jog) => this.row({ ...jog, si: 1, dimension: dimensionOf(jog.unit) }, 0, rangeOfInput(jog, reach)));
             this.turning.replaceChildren(...(jogs.length > 0 ? [...sliders, this.time] : []));
             if (wasEmpty) this.folded.open = knobs.length < MANY;
             this.folded.hidden = knobs.length === 0;
@@ -96,13 +114,22 @@ export class Knobs implements Pane {
     at(set: ReadonlyMap<string, number>, moved: ReadonlyMap<string, number>): void {
         this.set = set;
         for (const [name, row] of this.rows) {
-            const value = set.get(name) ?? moved.get(name) ?? row.own;
-            if (value !== undefined) show(row, value);
+            const value = set.get(name) ?? moved.get(name) ?? row.own ?? this.does.value(name);
+            show(row, value);
             row.label.classList.toggle("changed", set.has(name) || moved.has(name));
         }
         this.deeds.hidden = set.size === 0;
         this.time.hidden = moved.size === 0;
-        this.told.textContent = "";
+        const isSet = JSON.stringify([...set]);
+        // what was said of other settings
+        if (isSet !== this.isSet) this.told.textContent = "";
+        this.isSet = isSet;
+    }
+
+    /** Sliders that a number made longer are as long as they were. */
+    private asInFile(): void {
+        for (const row of this.rows.values()) [row.slider.min, row.slider.max] = [String(row.range[0]), String(row.range[1])];
+        this.does.asInFile();
     }
 
     show(_: Document): void {}
@@ -115,8 +142,10 @@ export class Knobs implements Pane {
         }
     }
 
-    private row(name: string, unit: string, value: number, [from, to]: [number, number], by: number | "any" | undefined, formula: string | null): HTMLElement {
-        const slider = html("input", { type: "range", min: from, max: to, step: by ?? step(from, to), value, "data-param": name, "aria-label": name });
+    private row(of: { name: string; unit: string; si: number; dimension: string; formula: string | null }, value: number, range: Range): HTMLElement {
+        const { name, unit, formula } = of;
+        const [from, to, by] = range;
+        const slider = html("input", { type: "range", min: from, max: to, step: by, value, "data-param": name, "aria-label": name });
         const field = html("input", { type: "text", inputmode: "decimal", size: 8, "aria-label": `${name}, a number`, spellcheck: "false" });
         const label = html(
             "div",
@@ -126,24 +155,30 @@ export class Knobs implements Pane {
             field,
             html("span", { class: "unit" }, setUnit(unit)),
         );
-        const row: Row = { slider, field, label, own: undefined };
+        const row: Row = { slider, field, label, range, own: undefined };
         this.rows.set(name, row);
         slider.addEventListener("input", () => this.does.set(name, Number(slider.value)));
         field.addEventListener("change", () => {
-            const typed = numberIn(field.value, unit);
-            field.value = short(typed ?? Number(slider.value));
-            if (typed !== undefined) this.does.set(name, typed);
+            const typed = typedIn(field.value, of);
+            this.does.say(typeof typed === "string" ? `${name}: ${typed}` : "");
+            field.value = typeof typed === "number" ? short(typed) : slider.getAttribute("aria-valuetext")!;
+            if (typeof typed === "number") this.does.set(name, typed);
         });
         show(row, value);
         return label;
     }
 
     private async copy(): Promise<void> {
-        const options = [...this.set].map(([name, value]) => {
-            const unit = this.knobs.find((knob) => knob.name === name)?.unit ?? "";
-            const text = `${name}=${value}${unit.startsWith("/") || unit === "" ? "" : " "}${unit}`;
-            return `--set ${/^[\w.=\-+]+$/.test(text) ? text : `'${text}'`}`;
+        const knob = (name: string) => this.knobs.find((knob) => knob.name === name);
+        const settings = [...this.set].map(([name, value]) => {
+            const unit = knob(name)?.unit ?? "";
+            return `${name}=${value}${unit.startsWith("/") || unit === "" ? "" : " "}${unit}`;
         });
+        const held = this.knobs.filter(({ name, held }) => held !== null && !this.set.has(name));
+        // nothing leads from one number of bodies to another
+        const isLed = ![...[...this.set.keys()].map(knob), ...held].some((knob) => knob?.whole);
+        const all = [...new Set(held.map(({ held }) => held!)), ...settings];
+        const options = [...(isLed ? ["--lead"] : []), ...all.map((text) => `--set ${/^[\w.=\-+]+$/.test(text) ? text : `'${text}'`}`)];
         const text = options.join(" ");
         await navigator.clipboard.writeText(text).then(
             () => (this.told.textContent = "copied"),
@@ -163,14 +198,6 @@ export class Knobs implements Pane {
     }
 }
 
-/** What was typed, with the unit behind it or without. */
-function numberIn(typed: string, unit: string): number | undefined {
-    const text = typed.trim();
-    const bare = unit !== "" && text.endsWith(unit) ? text.slice(0, -unit.length).trim() : text;
-    const number = Number(bare.replace(/\u2212/g, "-").replace(",", "."));
-    return bare === "" || !Number.isFinite(number) ? undefined : number;
-}
-
 /** A number that its slider may not reach moves the slider's end. */
 function show({ slider, field }: Row, value: number): void {
     if (!Number.isFinite(value)) return;
@@ -181,22 +208,45 @@ function show({ slider, field }: Row, value: number): void {
     slider.setAttribute("aria-valuetext", short(value));
 }
 
+/** The dimension of what is in an SI unit; angles are pure numbers. */
+function dimensionOf(unit: string): string {
+    return unit === "rad" ? "" : unit;
+}
+
 /** From where to where a param goes. */
-function rangeOf({ value, unit, whole }: Knob): [number, number] {
+function rangeOf({ name, value, unit, si, whole }: Knob, { extent: [[left, bottom], [right, top]] }: Reach): Range {
+    if (whole) return [Math.min(value, 1), 2 * Math.abs(value) + 2, 1];
     const turn = TURN[unit];
-    if (turn !== undefined) return [value - turn, value + turn];
-    if (whole) return [Math.min(value, 1), 2 * Math.abs(value) + 2];
-    const around = value === 0 ? (unit === "mm" ? 50 : 1) : AROUND * Math.abs(value);
-    return [round(value - around), round(value + around)];
+    if (turn !== undefined) return around(value, turn, STEPS);
+    // a place goes as far as there is something to see
+    const size = Math.max(right - left, top - bottom) / si;
+    if (/\.[xy]$/.test(name) && size > 0) return around(value, AROUND * size, FINE_STEPS);
+    return around(value, value === 0 ? (unit === "mm" ? 50 : 1) : AROUND * Math.abs(value), STEPS);
 }
 
-/** A step that a reader would choose. */
-function step(from: number, to: number): number {
-    const least = (to - from) / STEPS;
-    const power = 10 ** Math.floor(Math.log10(least));
-    return Number((power * (least / power < 2 ? 1 : least / power < 5 ? 2 : 5)).toPrecision(1));
+/** From where to where an input goes: as far as time moves it, and on. */
+function rangeOfInput({ name, unit }: Jog, { inputs, extent: [[left, bottom], [right, top]] }: Reach): Range {
+    const values = inputs.get(name)?.filter(Number.isFinite) ?? [];
+    const [least, most] = values.length > 0 ? [Math.min(...values), Math.max(...values)] : [0, 0];
+    if (TURN[unit]) {
+        const turns = 2 * TURNS * TURN[unit]!;
+        return ended(Math.min(least, -turns), Math.max(most, turns), FINE_STEPS);
+    }
+    const usual = unit === "m" ? AROUND * Math.max(right - left, top - bottom) : AROUND * Math.abs(most);
+    const beyond = AROUND * (most - least) || usual || 1;
+    return ended(least - beyond, most + beyond, FINE_STEPS);
 }
 
-function round(value: number): number {
-    return Number(value.toPrecision(4));
+function around(value: number, by: number, steps: number): Range {
+    return ended(value - by, value + by, steps);
+}
+
+/** Steps that a reader would choose, on round numbers from end to end. */
+function ended(from: number, to: number, steps: number): Range {
+    const least = (to - from) / steps;
+    const power = Math.floor(Math.log10(least));
+    const digit = [1, 2, 5].find((digit) => digit * 10 ** power >= least * 0.999) ?? 10;
+    const by = Number((digit * 10 ** power).toPrecision(1));
+    const round = (value: number) => Number((value * by).toPrecision(12));
+    return [round(Math.floor(from / by + 1e-9)), round(Math.ceil(to / by - 1e-9)), by];
 }

@@ -209,7 +209,7 @@ export class Picture implements Pane {
             const at = this.pixelOf(event);
             if (from && hold && event.buttons === 1) {
                 moved += Math.hypot(at[0] - from[0], at[1] - from[1]);
-                if (moved > CLICK) hold.move(this.camera!.place(at));
+                if (moved > CLICK) hold.move(this.camera!.place(at), this.camera!.metres);
                 from = at;
             } else if (from && event.buttons === 1) {
                 moved += Math.hypot(at[0] - from[0], at[1] - from[1]);

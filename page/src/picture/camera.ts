@@ -11,6 +11,13 @@ const MARGIN = 0.07;
 /** How far it goes in and out. */
 const [FARTHEST, NEAREST] = [0.2, 60];
 
+/** What is farther away (units) is as far as this: browsers read no greater numbers. */
+const BEYOND = 1e9;
+
+function near(value: number): number {
+    return value > BEYOND ? BEYOND : value < -BEYOND ? -BEYOND : value;
+}
+
 export class Camera {
     /** Units in a metre. */
     readonly scale: number;
@@ -41,8 +48,13 @@ export class Camera {
         return this.zoom * Math.min((free * this.width) / this.size[0], (free * this.height) / this.size[1]);
     }
 
+    /** Metres in a pixel. */
+    get metres(): number {
+        return 1 / (this.pixels * this.scale);
+    }
+
     units([x, y]: Pair): Pair {
-        return [(x - this.middle[0]) * this.scale, (y - this.middle[1]) * this.scale];
+        return [near((x - this.middle[0]) * this.scale), near((y - this.middle[1]) * this.scale)];
     }
 
     /** The picture's pixel of a place in metres. */

@@ -8,30 +8,10 @@ import { join } from "node:path";
 import { after, test } from "node:test";
 import { close } from "./browser.mjs";
 import { axeFindsNothing, rowsOf } from "./checks.mjs";
-import { CRANK, ROCKING, ROW, looked, served, table } from "./served.mjs";
+import { CRANK, ROCKING, ROW, following, looked, served, table, until } from "./served.mjs";
 import { sliderToPicture } from "./speed.mjs";
 
 after(close);
-
-/** A server and a page of it, which are ended whatever happens. */
-async function following(text, work, options) {
-    const server = await served(text, options);
-    try {
-        const { page, faults, close } = await looked(server.url);
-        await work({ server, page });
-        assert.deepEqual(faults, []);
-        await close();
-    } finally {
-        await server.end();
-    }
-}
-
-/** Waits until something is so, and says how long it took (ms). */
-async function until(page, work, argument) {
-    const began = performance.now();
-    await page.waitForFunction(work, argument, { polling: "raf", timeout: 5000 });
-    return performance.now() - began;
-}
 
 const shows = (text) => document.querySelector(".source").textContent.includes(text);
 const said = (page) => page.locator(".broken:visible pre, .stopped:visible pre").allTextContents();
@@ -44,7 +24,7 @@ test("sliders have the numbers of run --lead --set, to the bit", async () => {
         const at = (rows) => rows.filter(([t]) => times.includes(t));
         assert.deepEqual(await page.evaluate(() => mechc.columns), plain.columns);
         assert.deepEqual(await rowsOf(page, times), at(plain.rows));
-        for (const [name, value, unit] of [["rod", 80.5, " mm"], ["rod", 120, " mm"], ["half", 0.052, " m"], ["C.y", 12.25, " mm"]]) {
+        for (const [name, value, unit] of [["rod", 80.5, " mm"], ["rod", 120, " mm"], ["half", 52, " mm"], ["C.y", 12.25, " mm"]]) {
             await page.evaluate(() => [...document.querySelectorAll(".deeds button")].find((b) => b.textContent === "As in the file").click());
             await page.evaluate(([name, value]) => mechc.set(name, value), [name, value]);
             const set = `${name}=${value}${unit}`;
@@ -91,12 +71,13 @@ test("a formula shows what it is by now, what is counted is whole, the origin ha
                 const [field, unit] = [slider.closest(".knob").querySelector("[type=text]").value, slider.closest(".knob").querySelector(".unit").textContent];
                 return [field, unit, Number(slider.step)];
             }, name);
-        assert.equal((await knob("half"))[0], "0.045");
+        // in the unit of what it is made of
+        assert.deepEqual((await knob("half")).slice(0, 2), ["45", "mm"]);
         await page.evaluate(() => mechc.set("rod", 110));
-        assert.equal((await knob("half"))[0], "0.055");
+        assert.equal((await knob("half"))[0], "55");
         // it is no more what the text says than the rod is
-        await page.evaluate(() => mechc.set("half", 0.045));
-        assert.equal((await knob("half"))[0], "0.045");
+        await page.evaluate(() => mechc.set("half", 45));
+        assert.equal((await knob("half"))[0], "45");
         await page.evaluate(() => [...document.querySelectorAll(".deeds button")].find((b) => b.textContent === "As in the file").click());
 
         assert.deepEqual(await knob("flags"), ["2", "", 1]);
@@ -219,7 +200,7 @@ test("a save is seen at once, a wrong one keeps the picture, a mended one goes o
         assert.equal(await length(), shown);
         assert.match((await said(page))[0], /linkage\.mech:1[0-9]:/);
         // what points at a column of a line stays below it
-        const quoted = await page.locator(".broken .quoting").evaluateAll((lines) => lines.map(({ offsetHeight }) => offsetHeight));
+        const quoted = await page.locator(".broken .quoting, .broken .mark-of").evaluateAll((lines) => lines.map(({ offsetHeight }) => offsetHeight));
         assert.ok(quoted.length >= 4 && new Set(quoted).size === 1, `${quoted}`);
         server.save(CRANK);
         await until(page, () => document.querySelector(".broken").hidden);
@@ -260,14 +241,14 @@ test("what is set is written into the file, and only if that is still the one", 
 
         // a formula goes only if its writer says so
         const before = readFileSync(server.path, "utf8");
-        await page.evaluate(() => mechc.set("half", 0.046));
+        await page.evaluate(() => mechc.set("half", 46));
         assert.match(await write(), /`half` has the formula `rod \/ 2`/);
         await page.click("text=Leave it");
         assert.equal(readFileSync(server.path, "utf8"), before);
         await write();
         await page.click("text=Replace");
         await page.waitForTimeout(200);
-        assert.equal(readFileSync(server.path, "utf8"), before.replace("rod / 2", "0.046 m"));
+        assert.equal(readFileSync(server.path, "utf8"), before.replace("rod / 2", "46 mm"));
 
         // a link stays a link
         await page.evaluate(() => mechc.set("rod", 96));

@@ -1,5 +1,6 @@
 // `mechc view FILE` as a reader starts it: on a copy of a file in a folder of its own.
 
+import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
 import { mkdtempSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -9,10 +10,11 @@ import { browser } from "./browser.mjs";
 export const MECHC = process.env.MECHC ?? "mechc";
 
 /** A file with a text, and a server that follows it. */
-export async function served(text, { name = "linkage.mech", options = [] } = {}) {
+export async function served(text, { name = "linkage.mech", options = [], beside = {} } = {}) {
     const folder = mkdtempSync(join(tmpdir(), "live-"));
     const path = join(folder, name);
     writeFileSync(path, text);
+    for (const [name, text] of Object.entries(beside)) writeFileSync(join(folder, name), text);
     const process = spawn(MECHC, ["view", path, ...options], { stdio: ["ignore", "pipe", "pipe"] });
     const ended = new Promise((resolve) => process.on("exit", (code, signal) => resolve(code ?? signal)));
     let heard = "";
@@ -57,6 +59,26 @@ export async function looked(url, options = {}) {
     await page.waitForFunction(() => window.mechc && document.querySelector(".time")?.textContent);
     await page.evaluate(() => mechc.pause());
     return { page, faults, close: () => context.close() };
+}
+
+/** A server and a page of it, which are ended whatever happens. */
+export async function following(text, work, options) {
+    const server = await served(text, options);
+    try {
+        const { page, faults, close } = await looked(server.url);
+        await work({ server, page });
+        assert.deepEqual(faults, []);
+        await close();
+    } finally {
+        await server.end();
+    }
+}
+
+/** Waits until something is so, and says how long it took (ms). */
+export async function until(page, work, argument) {
+    const began = performance.now();
+    await page.waitForFunction(work, argument, { polling: "raf", timeout: 5000 });
+    return performance.now() - began;
 }
 
 /** The table that `mechc run` prints: the names, and the rows. */

@@ -1,6 +1,6 @@
 //! The file to write, and what is drawn in it: by its name and its ending.
 
-use crate::cli::arguments::ViewArguments;
+use crate::cli::arguments::{ThemeChoice, ViewArguments};
 use crate::cli::endings;
 use crate::cli::failure::{Failure, unusable};
 use std::path::Path;
@@ -21,7 +21,7 @@ const FORMS: [(&str, Form); 3] = [("html", Form::Page), ("svg", Form::Picture), 
 type Said = (&'static str, fn(&ViewArguments) -> bool, &'static [Form]);
 
 /// All of them; a page that follows a file has none.
-const OPTIONS: [Said; 10] = [
+const OPTIONS: [Said; 11] = [
     ("--vary", |asked| !asked.vary.is_empty(), &[Form::Page]),
     ("--plots", |asked| asked.plots, &[Form::Plots]),
     ("--at", |asked| !asked.at.is_empty(), &[Form::Page, Form::Picture, Form::Dxf]),
@@ -31,6 +31,7 @@ const OPTIONS: [Said; 10] = [
     ("--labels", |asked| asked.labels, &[Form::Page, Form::Picture, Form::Dxf]),
     ("--size", |asked| asked.size.is_some(), &[Form::Page, Form::Picture, Form::Plots, Form::Dxf]),
     ("--scale", |asked| asked.scale.is_some(), &[Form::Picture, Form::Dxf]),
+    ("--theme", |asked| asked.theme != ThemeChoice::Auto, &[Form::Page, Form::Picture, Form::Plots, Form::Dxf]),
     ("--body", |asked| asked.body.is_some(), &[Form::Picture, Form::Dxf]),
 ];
 

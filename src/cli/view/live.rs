@@ -4,7 +4,7 @@ use super::form;
 use super::watch::Watch;
 use crate::analysis::Times;
 use crate::cli::arguments::{Interval, ViewArguments};
-use crate::cli::failure::{Failure, unusable};
+use crate::cli::failure::{Failure, is_of_options, unusable};
 use crate::cli::files::{self, Disk, Output};
 use crate::cli::report::Reporter;
 use crate::cli::times;
@@ -12,16 +12,18 @@ use crate::cli::{input, interrupts};
 use crate::diag::Diagnostics;
 use crate::live::{Host, Server, Workshop};
 use crate::source::Sources;
-use crate::stages::{Choice, Compiled, Redundant};
+use crate::stages::{Choice, Compiled, Parsed, Redundant};
 use crate::world::World;
 use std::io::Write;
 use std::process::{Command, Stdio};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-/// A browser has read the file that leads it to the page after this time.
+/// A browser has read the file that leads it to the page when it asks for the page, or after this time; and how often that is looked at.
 const READ: Duration = Duration::from_secs(10);
+const LOOK: Duration = Duration::from_millis(50);
 
 pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let given = &arguments.input;
@@ -33,9 +35,7 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
         let help = "add `-o OUT.html` or another file, or leave it out";
         return Err(unusable(format!("`{option}` is for what is written")).help(help).into());
     }
-    // what is not there at the begin is a mistake; what goes later may come back
-    files::read(&given.file, &mut reporter.sources)?;
-    times::asked((&arguments.interval, &[]), None, &mut reporter.sources)?;
+    refuse_wrong_options(arguments, reporter)?;
     let desk = Desk { file: given.file.clone(), interval: arguments.interval.clone() };
     let redundant = if arguments.allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
     let options = (redundant, arguments.pass_bifurcations);
@@ -53,13 +53,29 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     files::print(&format!("{}\n", serving.url()))?;
     Reporter::say(&told(&given.file, port));
     if arguments.open {
-        open(serving.url());
+        open(serving.url(), serving.seen());
     }
     let mut watch = Watch::new();
     loop {
         watch.wait(&workshop.files());
         workshop.look();
     }
+}
+
+/// Refuses what is wrong already with the file, its times and what is chosen of it. A text that is wrong may be mended while the page
+/// follows it; what the command says stays as it is.
+fn refuse_wrong_options(arguments: &ViewArguments, reporter: &mut Reporter) -> Result<(), Failure> {
+    let given = &arguments.input;
+    // what is not there at the begin is a mistake; what goes later may come back
+    let (file, _) = files::read_to_replace(&given.file, &mut reporter.sources)?;
+    times::asked((&arguments.interval, &[]), None, &mut reporter.sources)?;
+    let parsed = Parsed::of_source(reporter.sources.clone(), file, input::path(given));
+    let checked = parsed.check(&input::choice(given), &Disk);
+    if parsed.mechanisms().len() > 0 && is_of_options(checked.diagnostics(), checked.sources()) {
+        reporter.sources = checked.sources().clone();
+        return Err(checked.diagnostics().clone().into());
+    }
+    Ok(())
 }
 
 /// What is said beside the address.
@@ -91,8 +107,8 @@ impl Host for Desk {
         times.map_err(said)
     }
 
-    fn write(&self, text: &str) -> Result<(), String> {
-        let written = Output::replace(&self.file, text);
+    fn write(&self, text: &str, is_due: &dyn Fn() -> bool) -> Result<bool, String> {
+        let written = Output::replace_if(&self.file, text, is_due);
         written.map_err(|why| said(why).iter().map(|said| said.message.clone()).collect::<Vec<_>>().join("; "))
     }
 }
@@ -106,7 +122,7 @@ fn said(why: Failure) -> Diagnostics {
 
 /// Opens the browser, in words where that fails. Its address holds the token, and arguments of a process are for all users of a machine to
 /// see: so the browser is given a file that only this user can read, and that leads to the page.
-fn open(url: &str) {
+fn open(url: &str, is_seen: Arc<AtomicBool>) {
     const OPENERS: [&[&str]; 3] = [&["xdg-open"], &["open"], &["cmd", "/c", "start", ""]];
     let opener = match std::env::consts::OS {
         "macos" => OPENERS[1],
@@ -126,7 +142,10 @@ fn open(url: &str) {
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let mut child = command.spawn()?;
         thread::Builder::new().name("browser".to_owned()).spawn(move || {
-            thread::sleep(READ);
+            let began = Instant::now();
+            while !is_seen.load(Ordering::Acquire) && began.elapsed() < READ {
+                thread::sleep(LOOK);
+            }
             drop(file);
             let _ = child.wait();
         })
