@@ -84,6 +84,19 @@ impl Cells {
     }
 }
 
+/// The names and numbers of a flat object, as they are written: who reads numbers as JSON may lose the last bit.
+fn object(text: &str) -> Vec<(String, String)> {
+    let pairs = text.trim().trim_start_matches('{').trim_end_matches('}').split(',');
+    let pair = |(name, value): (&str, &str)| (name.trim().trim_matches('"').to_owned(), value.trim().to_owned());
+    pairs.filter_map(|of| of.split_once(':')).map(pair).collect()
+}
+
+/// The number of a name in such an object.
+#[track_caller]
+fn number_in(object: &[(String, String)], name: &str) -> Option<u64> {
+    number(&object.iter().find(|(other, _)| other == name).unwrap_or_else(|| panic!("{name} in {object:?}")).1)
+}
+
 fn number(cell: &str) -> Option<u64> {
     cell.parse::<f64>().ok().map(f64::to_bits)
 }
@@ -95,7 +108,7 @@ fn settings(cells: &Cells, row: &[String], params: &[(&str, &str)]) -> Vec<Strin
 }
 
 /// The status, the time at which it stopped, and the results or rows of what `run --lead --set` makes of a variant.
-fn alone(folder: &Path, file: &str, set: &[String], more: &[&str]) -> (String, String, Cells, serde_json::Value) {
+fn alone(folder: &Path, file: &str, set: &[String], more: &[&str]) -> (String, String, Cells, Vec<(String, String)>) {
     let mut arguments = vec!["run", file, "--lead", "--message-format", "json", "-o", "alone.csv"];
     let at_times = more.contains(&"--at");
     if !at_times {
@@ -121,12 +134,18 @@ fn alone(folder: &Path, file: &str, set: &[String], more: &[&str]) -> (String, S
     };
     let table = fs::read_to_string(folder.join("alone.csv")).unwrap_or_else(|_| "t\n".to_owned());
     let results = fs::read_to_string(folder.join("alone.json")).unwrap_or_else(|_| "{}".to_owned());
-    (status, stopped, Cells::of(&table), serde_json::from_str(&results).expect("results"))
+    (status, stopped, Cells::of(&table), object(&results))
 }
 
 /// Each row of a sweep of results is what `run` makes of it; gives the statuses in order.
 #[track_caller]
-fn results_are_those_of_runs(folder: &Path, file: &str, params: &[(&str, &str)], sweep: &[&str], more: &[&str]) -> Vec<String> {
+fn results_are_those_of_runs(
+    folder: &Path,
+    file: &str,
+    params: &[(&str, &str)],
+    sweep: &[&str],
+    more: &[&str],
+) -> Vec<String> {
     let mut arguments = vec!["sweep", file, "-o", "sweep.csv"];
     arguments.extend(sweep);
     arguments.extend(more);
@@ -143,7 +162,7 @@ fn results_are_those_of_runs(folder: &Path, file: &str, params: &[(&str, &str)],
             let is_result = !["variant", "status", "stopped"].contains(&name.as_str())
                 && !params.iter().any(|(param, _)| param == name);
             if is_result {
-                let wanted = results[name].as_f64().map(f64::to_bits);
+                let wanted = if status.starts_with('E') { None } else { number_in(&results, name) };
                 assert_eq!(number(&row[k]), wanted, "{name} with {set:?} {more:?}");
             }
         }
@@ -178,60 +197,62 @@ fn variants_of_all_broken_kinds_are_what_runs_say_and_leave_the_others_alone() {
     assert_eq!(back, statuses);
 }
 
+/// What may vary: its name, its unit in options and behind a number in SI, and its ends.
+type Range = (&'static str, &'static str, &'static str, f64, f64);
+
+const RANGES: [Range; 6] = [
+    ("ground_length", "mm", " m", 60.0, 160.0),
+    ("crank_length", "mm", " m", -10.0, 80.0),
+    ("pen.x", "mm", " m", -50.0, 50.0),
+    ("speed", "rpm", "/s", -60.0, 90.0),
+    ("gap", "", "", -1.0, 2.0),
+    ("span", "s", " s", -0.1, 1.0),
+];
+
+/// A random `--vary`: an even one, a list, a file; a range that is to be sampled if that is wanted.
+fn random_vary(path: &Path, name: &str, of: &Range, is_sampled: Option<bool>, random: &mut Random) -> String {
+    let (param, unit, _, low, high) = of;
+    let mut value = || format!("{:.3}", random.between(*low, *high));
+    let [a, b, c] = [value(), value(), value()];
+    match random.below(3) {
+        _ if is_sampled == Some(true) => format!("{param}={a}{unit}..{b}{unit}"),
+        0 if is_sampled.is_none() => format!("{param}={a}{unit}..{b}{unit}:{}", 1 + random.below(4)),
+        1 => {
+            let head = if unit.is_empty() { (*param).to_owned() } else { format!("{param} [{unit}]") };
+            fs::write(path.join(name), format!("{head}\n{a}\n{b}\n")).unwrap();
+            format!("@{name}")
+        }
+        _ => format!("{param}={a}{unit},{b}{unit},{c}{unit}"),
+    }
+}
+
 /// Random options together, against runs: rows and results, to the bit.
 #[test]
 fn random_sweeps_are_what_runs_say() {
     let folder = in_folder(&[("a.mech", FOUR_BAR)]);
     let path = folder.path();
     let mut random = Random::new(7);
-    // names, units in options and in SI, ends
-    let params = [
-        ("ground_length", "mm", " m", 60.0, 160.0),
-        ("crank_length", "mm", " m", -10.0, 80.0),
-        ("pen.x", "mm", " m", -50.0, 50.0),
-        ("speed", "rpm", "/s", -60.0, 90.0),
-        ("gap", "", "", -1.0, 2.0),
-        ("span", "s", " s", -0.1, 1.0),
-    ];
     let mut statuses = Vec::new();
     for round in 0..12 {
-        let mut rest = params.to_vec();
-        let taken: Vec<_> = (0..1 + random.below(3)).map(|_| rest.swap_remove(random.below(rest.len()))).collect();
-        let mut vary = Vec::new();
+        let mut rest = RANGES.to_vec();
+        let taken: Vec<Range> = (0..1 + random.below(3)).map(|_| rest.swap_remove(random.below(rest.len()))).collect();
         let is_sample = random.below(3) == 0;
-        for (k, (name, unit, _, low, high)) in taken.iter().enumerate() {
-            let mut value = || format!("{:.3}{unit}", random.between(*low, *high));
-            let [a, b, c] = [value(), value(), value()];
-            vary.push(match random.below(3) {
-                _ if is_sample && k == 0 => format!("{name}={a}..{b}"),
-                0 if !is_sample => format!("{name}={a}..{b}:{}", 1 + random.below(4)),
-                1 => {
-                    let plain = |value: &str| value.trim_end_matches(|c: char| c.is_alphabetic()).to_owned();
-                    let head = if unit.is_empty() { (*name).to_owned() } else { format!("{name} [{unit}]") };
-                    let file = format!("{round}{k}.csv");
-                    fs::write(path.join(&file), format!("{head}\n{}\n{}\n", plain(&a), plain(&b))).unwrap();
-                    format!("@{file}")
-                }
-                _ => format!("{name}={a},{b},{c}"),
-            });
+        let mut vary = Vec::new();
+        for (k, of) in taken.iter().enumerate() {
+            let file = format!("{round}{k}.csv");
+            vary.push(random_vary(path, &file, of, is_sample.then_some(k == 0), &mut random));
         }
         let mut sweep: Vec<&str> = vary.iter().flat_map(|vary| ["--vary", vary]).collect();
         if is_sample {
             sweep.extend(["--sample", "4"]);
         }
-        let mut more = Vec::new();
-        if random.below(3) == 0 {
-            more.extend(["--to", "0.4s"]);
-        }
-        if random.below(3) == 0 {
-            more.extend(["--every", "0.03s"]);
-        }
-        if random.below(3) == 0 {
-            more.extend(["--result", "peak = max(abs(der(der(height))))"]);
-        }
-        if random.below(4) == 0 {
-            more.push("--pass-bifurcations");
-        }
+        let others: [&[&str]; 4] = [
+            &["--to", "0.4s"],
+            &["--every", "0.03s"],
+            &["--result", "peak = max(abs(der(der(height))))"],
+            &["--pass-bifurcations"],
+        ];
+        let more: Vec<&str> = others.iter().filter(|_| random.below(3) == 0).flat_map(|words| words.to_vec()).collect();
         let names: Vec<(&str, &str)> = taken.iter().map(|(name, _, si, ..)| (*name, *si)).collect();
         statuses.extend(results_are_those_of_runs(path, "a.mech", &names, &sweep, &more));
         threads_units_and_shares_change_nothing(path, &sweep, &more, &mut random);
@@ -251,13 +272,16 @@ fn threads_units_and_shares_change_nothing(path: &Path, sweep: &[&str], more: &[
         is_there.then(|| fs::read(path.join(name)).expect("a table"))
     };
     let whole = bytes("whole.csv", &["--jobs", "1"]).expect("a table");
-    for with in [["--jobs", "2"], ["--jobs", "16"], ["--vectors", "base"], ["--vectors", "avx2"], ["--vectors", "avx512"]] {
+    for with in
+        [["--jobs", "2"], ["--jobs", "16"], ["--vectors", "base"], ["--vectors", "avx2"], ["--vectors", "avx512"]]
+    {
         assert!(bytes("again.csv", &with).is_none_or(|again| again == whole), "{sweep:?} {more:?} {with:?}");
     }
     let count = whole.iter().filter(|byte| **byte == b'\n').count() - 1;
     if count > 1 {
         let cut = (1 + random.below(count - 1)).to_string();
-        let [mut first, second] = [["--take", &cut], ["--skip", &cut]].map(|with| bytes("share.csv", &with).expect("a table"));
+        let [mut first, second] =
+            [["--take", &cut], ["--skip", &cut]].map(|with| bytes("share.csv", &with).expect("a table"));
         let header = second.iter().position(|byte| *byte == b'\n').expect("a header") + 1;
         first.extend(&second[header..]);
         assert!(first == whole, "{sweep:?} {more:?}, shares at {cut}");
@@ -265,7 +289,8 @@ fn threads_units_and_shares_change_nothing(path: &Path, sweep: &[&str], more: &[
 }
 
 fn rows_are_those_of_runs(path: &Path, params: &[(&str, &str)], (sweep, more): (&[&str], &[&str])) {
-    let more: Vec<&str> = more.iter().copied().filter(|word| *word != "--result" && !word.starts_with("peak")).collect();
+    let more: Vec<&str> =
+        more.iter().copied().filter(|word| *word != "--result" && !word.starts_with("peak")).collect();
     let columns = ["--columns", "height*", "--columns", "coupler.*"];
     let arguments: Vec<&str> =
         [&["sweep", "a.mech", "--rows", "--format", "json", "-o", "rows.json"], sweep, &more, &columns]
@@ -277,38 +302,60 @@ fn rows_are_those_of_runs(path: &Path, params: &[(&str, &str)], (sweep, more): (
     let listed = output(path, &[&["sweep", "a.mech"], sweep, &more].concat());
     let listed = Cells::of(&String::from_utf8(listed.stdout).expect("text"));
     let text = fs::read_to_string(path.join("rows.json")).expect("rows");
-    let mut lines = text.lines().map(|line| serde_json::from_str::<serde_json::Value>(line).expect("an object")).peekable();
+    let mut lines = text.lines().map(object).peekable();
+    let is_of = |line: &[(String, String)], variant: usize| line[0] == ("variant".to_owned(), variant.to_string());
     for (variant, row) in listed.rows.iter().enumerate() {
         let set = settings(&listed, row, params);
         let more: Vec<&str> = more.iter().copied().chain(columns).collect();
         let (_, _, rows, _) = alone(path, "a.mech", &set, &more);
         for row in &rows.rows {
-            let line = lines.next_if(|line| line["variant"] == variant).unwrap_or_else(|| panic!("a row of {set:?}"));
+            let line = lines.next_if(|line| is_of(line, variant)).unwrap_or_else(|| panic!("a row of {set:?}"));
             for (name, cell) in rows.names.iter().zip(row) {
-                assert_eq!(line[name].as_f64().map(f64::to_bits), number(cell), "{name} with {set:?} {more:?}");
+                assert_eq!(number_in(&line, name), number(cell), "{name} with {set:?} {more:?}");
             }
         }
-        assert!(lines.peek().is_none_or(|line| line["variant"] != variant), "more rows than {set:?} has");
+        assert!(lines.peek().is_none_or(|line| !is_of(line, variant)), "more rows than {set:?} has");
     }
     assert!(lines.next().is_none(), "rows of nobody");
 }
 
+#[test]
+fn sensitivities_in_a_sweep_are_differences_of_its_neighbours() {
+    let folder = in_folder(&[("a.mech", FOUR_BAR)]);
+    let columns = ["height", "height.d", "height.dd"];
+    let derivatives = columns.map(|column| format!("{column}.by.crank_length"));
+    let mut sweep = vec!["sweep", "a.mech", "--vary", "crank_length=29.999mm,30mm,30.001mm", "--rows"];
+    sweep.extend(["--by", "crank_length"]);
+    sweep
+        .extend(columns.iter().copied().chain(derivatives.iter().map(String::as_str)).flat_map(|of| ["--columns", of]));
+    let cells = Cells::of(&String::from_utf8(output(folder.path(), &sweep).stdout).expect("text"));
+    let rows = cells.rows.len() / 3;
+    assert_eq!(rows, 21);
+    let value = |row: usize, name: &str| cells.rows[row][cells.column(name)].parse::<f64>().expect("a number");
+    for (column, derivative) in columns.iter().zip(&derivatives) {
+        let size = (0..rows).map(|row| value(rows + row, derivative).abs()).fold(0.0, f64::max);
+        for row in 0..rows {
+            let [less, more] = [row, 2 * rows + row].map(|row| value(row, column));
+            let (wanted, found) = ((more - less) / 2e-6, value(rows + row, derivative));
+            assert!(
+                (found - wanted).abs() < 1e-6 * size,
+                "{derivative} in row {row}: {found}, by differences {wanted}"
+            );
+        }
+    }
+}
+
 // ---- interruptions
 
-/// Starts a sweep that takes a while, and waits until something of its table is there.
-fn begun(folder: &Path, arguments: &[&str], least: u64) -> Child {
+/// Starts a sweep that takes a while, and lets it write for some time.
+fn begun(folder: &Path, arguments: &[&str], while_it_writes: Duration) -> Child {
     let mut child = mechc(folder).args(arguments).stderr(Stdio::piped()).spawn().expect("it runs");
-    let is_written = |entry: &fs::DirEntry| {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        name.starts_with('.') && entry.metadata().is_ok_and(|found| found.len() > least)
-    };
-    for _ in 0..3000 {
-        let entries = fs::read_dir(folder).expect("a folder").flatten();
-        if entries.filter(is_written).count() > 0 || child.try_wait().expect("a state").is_some() {
-            break;
-        }
-        sleep(Duration::from_millis(10));
+    let is_hidden = |entry: fs::DirEntry| entry.file_name().to_string_lossy().starts_with('.');
+    while !fs::read_dir(folder).expect("a folder").flatten().any(is_hidden) {
+        assert!(child.try_wait().expect("a state").is_none(), "it ends before it writes");
+        sleep(Duration::from_millis(5));
     }
+    sleep(while_it_writes);
     child
 }
 
@@ -330,7 +377,7 @@ fn what_is_killed_leaves_nothing_under_the_name() {
             fs::write(path.join(out), "precious").unwrap();
         }
         let sweep = ["sweep", "a.mech", "--vary", "rod_length=100mm..200mm:100000000", "--rows", "-o", out];
-        let mut child = begun(path, &sweep, 100_000);
+        let mut child = begun(path, &sweep, Duration::from_secs(1));
         assert!(child.try_wait().expect("a state").is_none(), "it was to take a while");
         signal(&child, "-9");
         child.wait().expect("it ends");
@@ -353,6 +400,26 @@ fn all_rows(path: &Path) -> Vec<String> {
     text.lines().skip(header).map(str::to_owned).collect()
 }
 
+/// Interrupts a sweep of so many variants somewhere between, and gives the number that it tells to go on with.
+fn interrupted_within(path: &Path, arguments: &[&str], count: usize) -> String {
+    // how soon it has something depends on the machine
+    for wait in [100, 300, 1000, 3000, 9000] {
+        let child = begun(path, arguments, Duration::from_millis(wait));
+        signal(&child, "-2");
+        let ended = child.wait_with_output().expect("it ends");
+        let told = said(&ended);
+        assert_eq!(ended.status.code(), Some(130), "{told}");
+        let skip = told.split("--skip ").nth(1).and_then(|rest| rest.split('`').next()).expect("how to go on");
+        let done: usize = skip.parse().expect("a number");
+        assert!(told.contains(&format!("interrupted: {done} of {count} variants are written")), "{told}");
+        if done > 0 {
+            assert!(done < count, "{told}");
+            return skip.to_owned();
+        }
+    }
+    panic!("nothing was written in nine seconds");
+}
+
 #[test]
 fn an_interrupted_sweep_has_whole_variants_and_the_rest_goes_on_behind_them() {
     const COUNT: usize = 6000;
@@ -365,15 +432,7 @@ fn an_interrupted_sweep_has_whole_variants_and_the_rest_goes_on_behind_them() {
             sweep.iter().map(|word| (*word).to_owned()).chain(more.iter().map(|word| (*word).to_owned())).collect()
         };
         let arguments: Vec<&str> = sweep.into_iter().chain(["--jobs", "1", "-o", out]).collect();
-        let child = begun(path, &arguments, 4);
-        signal(&child, "-2");
-        let ended = child.wait_with_output().expect("it ends");
-        let told = said(&ended);
-        assert_eq!(ended.status.code(), Some(130), "{told}");
-        let skip = told.split("--skip ").nth(1).and_then(|rest| rest.split('`').next()).expect("how to go on").to_owned();
-        let done: usize = skip.parse().expect("a number");
-        assert!(done > 0 && done < COUNT, "{told}");
-        assert!(told.contains(&format!("interrupted: {done} of {COUNT} variants are written")), "{told}");
+        let skip = interrupted_within(path, &arguments, COUNT);
         let ending = out.split_once('.').expect("an ending").1;
         let [rest, whole] = ["rest", "whole"].map(|name| format!("{name}.{ending}"));
         let mut more: Vec<String> = with(&["--skip"]);
@@ -433,7 +492,10 @@ fn each_number_of_copies_is_a_mechanism_of_its_own() {
     assert_eq!(statuses[2], "ok");
     assert!(statuses[4].starts_with('E') && statuses[8] == "ok", "{statuses:?}");
     // columns go by their names
-    let rows = output(path, &["sweep", "a.mech", "--vary", "cells=3,5", "--rows", "--columns", "rise", "--columns", "up[3].x", "--at", "1"]);
+    let rows = output(
+        path,
+        &["sweep", "a.mech", "--vary", "cells=3,5", "--rows", "--columns", "rise", "--columns", "up[3].x", "--at", "1"],
+    );
     let rows = String::from_utf8(rows.stdout).unwrap();
     let run = |cells: &str| {
         let set = format!("cells={cells}");

@@ -118,7 +118,8 @@ impl Contributions {
             for (j, by) in self.tolerances.iter().enumerate() {
                 let [low, high] = by.range.map(number);
                 let slope = of.slopes[j].map_or(String::new(), number);
-                let [from, to] = of.slopes[j].map_or([String::new(), String::new()], |slope| by.times(slope).map(number));
+                let [from, to] =
+                    of.slopes[j].map_or([String::new(), String::new()], |slope| by.times(slope).map(number));
                 let share = deviation.as_ref().map_or(String::new(), |all| number(all.shares[j]));
                 line(["param".to_owned(), by.name.clone(), low, high, by.si.clone(), slope, from, to, share]);
             }

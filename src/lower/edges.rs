@@ -48,11 +48,23 @@ impl Lowering<'_> {
             nodes.into_iter().flat_map(|id| decided_by(&mut self.graph, id, what)).collect();
         operands.sort_unstable();
         operands.dedup();
+        let (moves, symbol) = (self.moves_anything(variable), self.model.variables[variable as usize].symbol);
         operands.into_iter().any(|of| {
-            let by = self.derivative_by(of, variable);
             // how reductions go is not looked at here
-            self.graph.dependence(of).on(Dependence::NAMED) || !self.graph.is_zero(by)
+            self.graph.dependence(of).on(Dependence::NAMED)
+                || if moves {
+                    let by = self.derivative_by(of, variable);
+                    !self.graph.is_zero(by)
+                } else {
+                    self.graph.symbols(of).contains(&symbol)
+                }
         })
+    }
+
+    /// Whether the motion goes with a variable at all: masses and loads do not move it.
+    fn moves_anything(&self, variable: u32) -> bool {
+        let rows: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
+        self.graph.symbols_of_all(&rows).contains(&self.model.variables[variable as usize].symbol)
     }
 }
 

@@ -290,11 +290,12 @@ impl Slopes<'_, '_> {
         let most = graph.binary(Binary::Max, low, high);
         let (part, zero) = (graph.constant(MOVED), graph.constant(0.0));
         let moved = graph.mul(part, range);
-        let (step, does) = (graph.div(moved, most), graph.compare(Comparison::Less, zero, most));
-        let step = graph.select(does, step, zero);
+        // of what has no largest value nothing is known, not even that it rests
+        let (step, rests) = (graph.div(moved, most), graph.compare(Comparison::LessEqual, most, zero));
+        let step = graph.select(rests, zero, step);
         let change = graph.mul(step, by);
-        let both = [graph.add(value, change), graph.sub(value, change)]
-            .map(|formula| self.reduce(kind, formula, holds));
+        let both =
+            [graph.add(value, change), graph.sub(value, change)].map(|formula| self.reduce(kind, formula, holds));
         let graph = &mut self.lowering.graph;
         let (sum, twice) = (graph.add(both[0], both[1]), graph.add(found, found));
         let off = graph.sub(sum, twice);
@@ -329,8 +330,8 @@ impl Slopes<'_, '_> {
         let size = graph.add(own, usual);
         let part = graph.constant(NOTHING);
         let (change, limit) = (graph.mul(most, size), graph.mul(part, range));
-        let (goes, zero) = (graph.compare(Comparison::Less, limit, change), graph.constant(0.0));
-        graph.select(goes, slope, zero)
+        let (rests, zero) = (graph.compare(Comparison::LessEqual, change, limit), graph.constant(0.0));
+        graph.select(rests, zero, slope)
     }
 
     /// The largest value less the least.
