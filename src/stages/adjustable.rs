@@ -94,7 +94,8 @@ impl Checked {
         let (set_inputs, open) = (SetInputs { t, names: adjusting.inputs.clone() }, adjusting.params.clone());
         let surroundings = Surroundings { set_inputs: Some(set_inputs), open, ..(*self.surroundings).clone() };
         let Some(number) = self.number else { return Err((self.sources().clone(), self.diagnostics().clone())) };
-        let checked = Checked::in_surroundings(self.parsed.clone(), number, surroundings, false, Diagnostics::default());
+        let checked =
+            Checked::in_surroundings(self.parsed.clone(), number, surroundings, false, Diagnostics::default());
         let refused = |said: &Diagnostics| (checked.sources().clone(), said.clone());
         let (compiled, said) = checked.compile(adjusting.redundant, cancel);
         let Some((compiled, model)) = compiled.zip(checked.model()) else {
@@ -112,7 +113,9 @@ impl Checked {
         let inputs = inputs.collect::<Result<Vec<usize>, _>>()?;
         if let Some(name) = adjusting.params.iter().find(|name| first_param(name).is_none()) {
             return Err(if self.settable_params().iter().any(|of| of.name == *name) {
-                let said = format!("`{name}` decides what is repeated, and nothing leads from one number of bodies to another");
+                let said = format!(
+                    "`{name}` decides what is repeated, and nothing leads from one number of bodies to another"
+                );
                 own(unusable(said).help("set it when the mechanism is loaded"))
             } else {
                 unknown(name, "param")

@@ -127,4 +127,6 @@ pub mod slopes {
     pub const MOVED: f64 = 1e-5;
     pub const ALONE: f64 = 0.01;
     pub const LAST_DIGITS: f64 = 1e-13;
+    /// A parameter that as much again would change a formula by no more than this part of its range does not change it.
+    pub const NOTHING: f64 = 1e-12;
 }
