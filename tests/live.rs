@@ -280,8 +280,8 @@ impl Served {
         let began = Instant::now();
         loop {
             let before = self.worked();
-            std::thread::sleep(Duration::from_millis(500));
-            if self.worked() - before < 10 {
+            std::thread::sleep(Duration::from_secs(1));
+            if self.worked() - before <= 2 {
                 return;
             }
             assert!(began.elapsed() < Duration::from_secs(30), "it works on for nobody");
@@ -292,7 +292,7 @@ impl Served {
 /// A motion that takes minutes.
 #[cfg(target_os = "linux")]
 fn endless() -> String {
-    TEXT.replace("every 10 ms", "every 1 ns").replace("to 1 s", "to 0.02 s")
+    TEXT.replace("every 10 ms", "every 0.001 ms").replace("to 1 s", "to 100 s")
 }
 
 #[cfg(target_os = "linux")]
@@ -310,8 +310,8 @@ fn what_nobody_waits_for_is_not_worked_on() {
     };
     let works = || {
         let before = served.worked();
-        std::thread::sleep(Duration::from_millis(1500));
-        served.worked() - before > 20
+        std::thread::sleep(Duration::from_secs(2));
+        served.worked() - before > 5
     };
     // the page is closed
     let first = ask(r#"{"page":"a"}"#);

@@ -81,6 +81,15 @@ struct Own {
     waiting: usize,
 }
 
+/// How waiting for it ends.
+enum Waited {
+    Made(Arc<Solved>),
+    /// Nobody waited for it.
+    GivenUp,
+    /// Who waited does not any more.
+    Left,
+}
+
 impl Texts {
     fn read(version: u64, world: Arc<dyn World>, path: &Path, before: Vec<PathBuf>) -> Texts {
         let shelf = Shelf::new(world);
@@ -98,8 +107,8 @@ impl Texts {
         files
     }
 
-    /// Waits until the file as it is has been made, or its making has ended; nothing for who does not wait any more.
-    fn waited(&self, cancel: &Cancel) -> Option<Option<Arc<Solved>>> {
+    /// Waits until the file as it is has been made, or its making has ended.
+    fn waited(&self, cancel: &Cancel) -> Waited {
         let mut own = lock(&self.own);
         loop {
             let is_over = cancel.is_cancelled() || self.cancel.is_cancelled();
@@ -108,7 +117,11 @@ impl Texts {
                 if let Some(work) = own.making.as_ref().filter(|_| own.waiting == 0) {
                     work.cancel();
                 }
-                return (!is_over).then(|| own.made.clone());
+                return match &own.made {
+                    _ if is_over => Waited::Left,
+                    Some(made) => Waited::Made(Arc::clone(made)),
+                    None => Waited::GivenUp,
+                };
             }
             own = self.is_made.wait_timeout(own, LOOK).map_or_else(|error| error.into_inner().0, |(own, _)| own);
         }
@@ -277,10 +290,12 @@ impl Workshop {
                     }
                 }
                 texts.waited(cancel)
-            })?;
-            // another one's, which was given up while this one came
-            if waited.is_some() {
-                return waited;
+            });
+            match waited {
+                Waited::Made(made) => return Some(made),
+                Waited::Left => return None,
+                // it was another one's, while this one came
+                Waited::GivenUp => {}
             }
         }
     }

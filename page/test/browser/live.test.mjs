@@ -200,7 +200,7 @@ test("a save is seen at once, a wrong one keeps the picture, a mended one goes o
         assert.equal(await length(), shown);
         assert.match((await said(page))[0], /linkage\.mech:1[0-9]:/);
         // what points at a column of a line stays below it
-        const quoted = await page.locator(".broken .quoting, .broken .mark-of").evaluateAll((lines) => lines.map(({ offsetHeight }) => offsetHeight));
+        const quoted = await page.locator(".broken .quoting").evaluateAll((lines) => lines.map(({ offsetHeight }) => offsetHeight));
         assert.ok(quoted.length >= 4 && new Set(quoted).size === 1, `${quoted}`);
         server.save(CRANK);
         await until(page, () => document.querySelector(".broken").hidden);

@@ -206,7 +206,7 @@ test("a point is moved by hand to a tenth of a pixel, however far from the origi
 
 test("what another file says is not written, is told of, and does not keep others from being written", async () => {
     const arm = "mechanism arm {\n    param length = 70 mm\n    ground { point C = (0, 0) }\n    body bar { point C = (0, 0)  point B = (length, 0) }\n    joint back: revolute(ground.C, bar.C)\n}\n";
-    const main = `use "arm.mech"\n${CRANK.replace(/ {4}body rocker.*\n/, "    part rocker: arm at (C.x, C.y, 0)\n").replace("rocker.B", "rocker.bar.B").replace(/ {4}joint back.*\n/, "")}`;
+    const main = `use "arm.mech"\n${CRANK.replace(/ {4}body rocker.*\n/, "    part rocker: arm() at (C.x, C.y, 0)\n").replace("rocker.B", "rocker.bar.B").replace(/ {4}joint back.*\n/, "")}`;
     await following(
         main,
         async ({ server, page }) => {
@@ -232,11 +232,11 @@ test("messages cover nothing, and are folded", async () => {
         await page.waitForSelector(".stopped:not([hidden])");
         // each thing can be scrolled to where it is on top
         const covered = await page.evaluate(() => {
-            const all = [...document.querySelectorAll(".tabbed > .tabs button, .knob input[type=range], .transport button, .message, .source")];
+            const all = [...document.querySelectorAll(".tabbed > .tabs button, .knob input[type=range], .transport button, .message, .text .sheet")];
             return all.filter((one) => {
                 one.scrollIntoView({ block: "center" });
                 const { left, top, width, height } = one.getBoundingClientRect();
-                const on = document.elementFromPoint(Math.min(left + width / 2, innerWidth - 5), top + Math.min(height / 2, 8));
+                const on = document.elementFromPoint(left + Math.min(width / 2, 40), top + Math.min(height / 2, 8));
                 return !(on && (one.contains(on) || on.contains(one)));
             }).map((one) => one.className || one.textContent);
         });
