@@ -76,8 +76,9 @@ pub use layout::ColumnUnit;
 pub use output::{TableFormat, TableWriter};
 pub use source::{Encoding, FileId, Source, Sources, Span};
 pub use stages::{
-    AskedTimes, Assembly, Checked, Choice, Compiled, Formula, Parsed, Redundant, Run, RunOptions, RustOptions, Seen,
-    Sweep, SweepOptions, Variants, VaryOptions, Vectors, imported, seconds,
+    Affected, AskedTimes, Assembly, Checked, Choice, Compiled, Deviation, Formula, Parsed, Redundant, Run, RunOptions,
+    RustOptions, Seen, Shown, Sweep, SweepOptions, Tolerance, Tolerancing, Variants, VaryOptions, Vectors, Verified,
+    imported, seconds,
 };
 pub use sweep::{Levels, Method, Points, Sampling, Status, Swept, Varying};
 pub use syntax::{Comment, Trivia};

@@ -17,7 +17,7 @@ pub(super) struct Contributions {
 }
 
 /// The columns of the CSV form.
-const COLUMNS: [&str; 12] = [
+const COLUMNS: [&str; 13] = [
     "name",
     "t",
     "nominal",
@@ -26,11 +26,15 @@ const COLUMNS: [&str; 12] = [
     "param",
     "tolerance_low",
     "tolerance_high",
+    "param_unit",
     "derivative",
     "low",
     "high",
     "share",
 ];
+
+/// A value this much smaller than what tolerances make of it is nothing to a reader.
+const NOTHING: f64 = 1e-9;
 
 impl Contributions {
     fn deviation(&self, of: &Affected) -> Option<Deviation> {
@@ -54,7 +58,9 @@ impl Contributions {
             text += if text.is_empty() { "" } else { "\n" };
             let at = of.at.map(|t| format!(" at {} s", short(t))).unwrap_or_default();
             let nominal = if of.nominal.is_finite() {
-                in_unit(of.nominal, &of.to_be_read(&self.tolerances))
+                let worst = self.deviation(of).map_or(0.0, |all| f64::max(-all.worst[0], all.worst[1]));
+                let is_nothing = of.nominal.abs() < NOTHING * worst;
+                in_unit(if is_nothing { 0.0 } else { of.nominal }, &of.to_be_read(&self.tolerances))
             } else {
                 "null".to_owned()
             };
@@ -99,33 +105,27 @@ impl Contributions {
         lines
     }
 
-    /// A line for each contribution and each sum, in the units that are told.
+    /// A line for each contribution and each sum, all numbers in SI.
     pub fn csv(&self) -> String {
         let mut text = COLUMNS.join(",") + "\n";
         for (k, of) in self.affected.iter().enumerate() {
-            let printed = |value: f64| number(of.unit.printed(value));
-            let begin =
-                [of.name.clone(), of.at.map_or(String::new(), number), printed(of.nominal), of.unit.text.clone()];
-            let mut line = |rest: [String; 8]| {
+            let begin = [of.name.clone(), of.at.map_or(String::new(), number), number(of.nominal), of.si.clone()];
+            let mut line = |rest: [String; 9]| {
                 let cells: Vec<String> = begin.iter().chain(&rest).map(|cell| quoted(cell)).collect();
                 text += &(cells.join(",") + "\n");
             };
             let deviation = self.deviation(of);
             for (j, by) in self.tolerances.iter().enumerate() {
-                let [low, high] = by.range.map(|off| format!("{}{}", readable(off / by.unit.1), after(&by.unit.0)));
-                let slope = of.slopes[j].map_or(String::new(), |slope| {
-                    let (slope, unit) = Shown::of(&of.unit).slope(slope, by);
-                    format!("{}{}", readable(slope), after(&unit))
-                });
-                let ends = of.slopes[j].map_or([String::new(), String::new()], |slope| by.times(slope).map(printed));
+                let [low, high] = by.range.map(number);
+                let slope = of.slopes[j].map_or(String::new(), number);
+                let [from, to] =
+                    of.slopes[j].map_or([String::new(), String::new()], |slope| by.times(slope).map(number));
                 let share = deviation.as_ref().map_or(String::new(), |all| number(all.shares[j]));
-                let [from, to] = ends;
-                line(["param".to_owned(), by.name.clone(), low, high, slope, from, to, share]);
+                line(["param".to_owned(), by.name.clone(), low, high, by.si.clone(), slope, from, to, share]);
             }
             let mut sum = |kind: &str, ends: [f64; 2]| {
-                let [low, high] = ends.map(printed);
-                let none = String::new;
-                line([kind.to_owned(), none(), none(), none(), none(), low, high, none()]);
+                let ([low, high], none) = (ends.map(number), String::new);
+                line([kind.to_owned(), none(), none(), none(), none(), none(), low, high, none()]);
             };
             if let Some(all) = deviation {
                 sum("worst", all.worst);
@@ -201,7 +201,7 @@ impl Contributions {
             if !unknown.is_empty() {
                 let why = match of.at {
                     None => {
-                        "it is none of a smooth motion: an extremum at a kink or a jump, or with too many derivatives"
+                        "it is of an extremum that two times share, of a kink or jump that goes with the param, or of too many derivatives"
                     }
                     Some(_) => "it needs too many derivatives, or is too near a singular position at all times",
                 };

@@ -3,6 +3,7 @@
 //! 1989).
 
 mod contacts;
+mod edges;
 mod features;
 mod forces;
 mod frames;

@@ -3,15 +3,16 @@
 //! With `e_p` the derivative of a formula by `p` at fixed time, `ė` that by time, and `T_p` how a time goes with `p`,
 //!
 //! - a value is differentiated to `e_p(T) + ė(T) T_p`;
-//! - an extremum at its time `T` likewise, and within the analysis `ė(T) = 0` (the envelope theorem); its time goes with `−ė_p/ë`;
-//! - an integral to `∫ e_p dt + e(to) to_p − e(from) from_p` (Leibniz);
+//! - an extremum at its time `T` likewise, and within the analysis `ė(T) = 0` (the envelope theorem), or `T` is an edge that stays; its time
+//!   goes with `−ė_p/ë`;
+//! - an integral to `∫ e_p dt + e(to) to_p − e(from) from_p` (Leibniz), where `e` does not jump at an edge that goes with `p`;
 //! - a formula of such numbers by the chain rule.
 
 use super::Lowering;
 use crate::expr::{Binary, Comparison, ExprId, Symbol, Unary};
 use crate::ir::{Outcome, Reduction, ReductionKind, Units};
-use crate::model::quotient;
-use crate::tolerances::results::slopes::{ALONE, DIGITS, FLAT, LAST_DIGITS, MOVED, SAME};
+use crate::model::{Dimension, Variable, quotient};
+use crate::tolerances::results::slopes::{ALONE, DIGITS, FLAT, LAST_DIGITS, MOVED, NOTHING, SAME};
 use rustc_hash::FxHashMap;
 
 /// The first and the last time of the analysis.
@@ -112,7 +113,8 @@ impl Slopes<'_, '_> {
         });
         let graph = &mut self.lowering.graph;
         let more = graph.sub(to, from);
-        Some(graph.add(inside, more))
+        let slope = graph.add(inside, more);
+        self.where_it_does_not_jump(k, slope)
     }
 
     fn of_mean(&mut self, k: u32) -> Option<ExprId> {
@@ -129,36 +131,66 @@ impl Slopes<'_, '_> {
         let span = self.span();
         let graph = &mut self.lowering.graph;
         let more = graph.sub(to, from);
-        if graph.is_zero(more) {
-            return Some(inside);
-        }
         let more = graph.div(more, span);
-        Some(graph.add(inside, more))
+        let slope = graph.add(inside, more);
+        self.where_it_does_not_jump(k, slope)
     }
 
-    /// Of the largest or least value, or of its time. It has none where the extremum is none of a smooth formula: at a kink or jump within the
-    /// analysis, whose time goes with the variable as nobody knows.
+    /// A slope of an integral, which a jump of its formula adds to where its time goes with the variable, as nobody knows how. With a weight `w`
+    /// that no two times have, `∫ d(w e)/dt dt` lacks the jumps of `w e` from end to end.
+    fn where_it_does_not_jump(&mut self, k: u32, slope: ExprId) -> Option<ExprId> {
+        let Reduced { value, holds } = self.formulas[k as usize];
+        if !self.lowering.may_jump_elsewhere(value, self.variable) {
+            return Some(slope);
+        }
+        let (of, weight) = (self.reductions[k as usize].of, self.weight());
+        let weighed = self.lowering.graph.mul(weight, value);
+        let rate = self.lowering.along_the_motion(weighed)?;
+        let inside = self.reduce(ReductionKind::Integral, rate, holds);
+        let [from, to] = ENDS.map(|end| self.reduce(end, weighed, holds));
+        let graph = &mut self.lowering.graph;
+        let whole = graph.sub(to, from);
+        let jumps = graph.sub(whole, inside);
+        Some(self.where_as_near(of, jumps, slope))
+    }
+
+    /// `exp((t − from)/(to − from))`
+    fn weight(&mut self) -> ExprId {
+        let (from, span) = (self.time(ENDS[0]), self.span());
+        let graph = &mut self.lowering.graph;
+        let time = graph.symbol(Symbol::Time);
+        let gone = graph.sub(time, from);
+        let part = graph.div(gone, span);
+        graph.unary(Unary::Exp, part)
+    }
+
+    /// Of the largest or least value, or of its time. It has none where the extremum is at a kink or jump within the analysis whose time goes with
+    /// the variable, as nobody knows how.
     fn of_extreme(&mut self, k: u32, largest: bool, when: bool) -> Option<ExprId> {
         let Reduced { value, holds } = self.formulas[k as usize];
         let by = self.partial(value)?;
         let rate = self.lowering.along_the_motion(value);
+        let bends = self.lowering.may_bend_elsewhere(value, self.variable);
         let ends = self.of_ends();
         let stays = ends.iter().all(|(_, goes)| self.is_zero(*goes));
-        if self.is_zero(by) && stays {
+        if self.is_zero(by) && stays && !bends {
             return Some(by);
         }
         let of = self.reductions[k as usize].of;
         let time = self.asked(ReductionKind::Extreme { largest, when: true }, of);
         let at = ReductionKind::At(time);
         let inside = if when { self.of_time_within(at, (value, holds), by)? } else { self.reduce(at, by, holds) };
-        let rate = rate.map(|rate| self.reduce(at, rate, holds));
-        let mut slope = self.where_flat((of, rate), inside);
+        let mut slope = inside;
+        if when || bends {
+            let rate = rate.map(|rate| self.reduce(at, rate, holds))?;
+            slope = self.where_flat((of, rate), inside);
+        }
         for (kind, goes) in ends {
             let at_end = if when {
                 goes
             } else {
                 let still = self.reduce(at, by, holds);
-                self.moved(still, rate, goes)?
+                self.moved((at, still), (rate, holds), goes)?
             };
             let end = self.time(kind);
             let graph = &mut self.lowering.graph;
@@ -172,12 +204,18 @@ impl Slopes<'_, '_> {
     }
 
     /// What changes at fixed time, and with a time that goes.
-    fn moved(&mut self, still: ExprId, rate: Option<ExprId>, goes: ExprId) -> Option<ExprId> {
+    fn moved(
+        &mut self,
+        (at, still): (ReductionKind, ExprId),
+        (rate, holds): (Option<ExprId>, Option<ExprId>),
+        goes: ExprId,
+    ) -> Option<ExprId> {
         if self.is_zero(goes) {
             return Some(still);
         }
+        let rate = self.reduce(at, rate?, holds);
         let graph = &mut self.lowering.graph;
-        let more = graph.mul(rate?, goes);
+        let more = graph.mul(rate, goes);
         Some(graph.add(still, more))
     }
 
@@ -197,9 +235,8 @@ impl Slopes<'_, '_> {
         Some(graph.neg(quotient))
     }
 
-    /// A slope where the formula does not change with time, as far as its rate is known.
-    fn where_flat(&mut self, (of, rate): (ExprId, Option<ExprId>), slope: ExprId) -> ExprId {
-        let Some(rate) = rate else { return slope };
+    /// A slope where the formula does not change with time.
+    fn where_flat(&mut self, (of, rate): (ExprId, ExprId), slope: ExprId) -> ExprId {
         let (range, span) = (self.range(of), self.span());
         let graph = &mut self.lowering.graph;
         let (steep, part) = (graph.unary(Unary::Abs, rate), graph.constant(FLAT));
@@ -212,17 +249,24 @@ impl Slopes<'_, '_> {
     /// A slope where the formula has the extremum's value at its time, as rows have it: at a jump it may be that of the side that they are not of.
     fn where_it_is_met(&mut self, (of, largest): (ExprId, bool), met: ExprId, slope: ExprId) -> ExprId {
         let found = self.asked(ReductionKind::Extreme { largest, when: false }, of);
-        let range = self.range(of);
+        let off = self.lowering.graph.sub(met, found);
+        self.where_as_near(of, off, slope)
+    }
+
+    /// A slope where something of a formula's kind is as good as nothing.
+    fn where_as_near(&mut self, of: ExprId, off: ExprId, slope: ExprId) -> ExprId {
+        let ends = self.extremes(of);
         let graph = &mut self.lowering.graph;
+        let range = graph.sub(ends[1], ends[0]);
         let [part, digits] = [SAME, DIGITS].map(|part| graph.constant(part));
-        let size = graph.unary(Unary::Abs, found);
+        let [low, high] = ends.map(|end| graph.unary(Unary::Abs, end));
+        let size = graph.binary(Binary::Max, low, high);
         let [part, digits] = [graph.mul(part, range), graph.mul(digits, size)];
         let limit = graph.add(part, digits);
-        let off = graph.sub(met, found);
         let off = graph.unary(Unary::Abs, off);
-        let is_met = graph.compare(Comparison::LessEqual, off, limit);
+        let is_near = graph.compare(Comparison::LessEqual, off, limit);
         let nothing = self.no_value();
-        self.lowering.graph.select(is_met, slope, nothing)
+        self.lowering.graph.select(is_near, slope, nothing)
     }
 
     /// A slope where no other extremum is alike: the value of that may go with the variable otherwise. Then it goes to one side as to the other,
@@ -237,21 +281,21 @@ impl Slopes<'_, '_> {
         if self.is_zero(by) {
             return slope;
         }
-        let kind = |largest| ReductionKind::Extreme { largest, when: false };
+        let kind = ReductionKind::Extreme { largest, when: false };
         let by_of = self.lowering.only_where(holds, by);
-        let ends = [false, true].map(|largest| self.asked(kind(largest), by_of));
-        let range = self.range(of);
-        let found = self.asked(kind(largest), of);
+        let (ends, range) = (self.extremes(by_of), self.range(of));
+        let found = self.asked(kind, of);
         let graph = &mut self.lowering.graph;
         let [low, high] = ends.map(|end| graph.unary(Unary::Abs, end));
         let most = graph.binary(Binary::Max, low, high);
         let (part, zero) = (graph.constant(MOVED), graph.constant(0.0));
         let moved = graph.mul(part, range);
-        let (step, does) = (graph.div(moved, most), graph.compare(Comparison::Less, zero, most));
-        let step = graph.select(does, step, zero);
+        // of what has no largest value nothing is known, not even that it rests
+        let (step, rests) = (graph.div(moved, most), graph.compare(Comparison::LessEqual, most, zero));
+        let step = graph.select(rests, zero, step);
         let change = graph.mul(step, by);
-        let both = [graph.add(value, change), graph.sub(value, change)]
-            .map(|formula| self.reduce(kind(largest), formula, holds));
+        let both =
+            [graph.add(value, change), graph.sub(value, change)].map(|formula| self.reduce(kind, formula, holds));
         let graph = &mut self.lowering.graph;
         let (sum, twice) = (graph.add(both[0], both[1]), graph.add(found, found));
         let off = graph.sub(sum, twice);
@@ -262,13 +306,43 @@ impl Slopes<'_, '_> {
         let limit = graph.add(part, digits);
         let is_alone = graph.compare(Comparison::LessEqual, off, limit);
         let nothing = self.no_value();
-        self.lowering.graph.select(is_alone, slope, nothing)
+        let slope = self.lowering.graph.select(is_alone, slope, nothing);
+        self.where_it_goes((most, range), slope)
+    }
+
+    /// A slope where the variable changes the formula at all, by more than rounding does: if it were so much as it is large.
+    fn where_it_goes(&mut self, (most, range): (ExprId, ExprId), slope: ExprId) -> ExprId {
+        let Variable { symbol, dimension, .. } = self.lowering.model.variables[self.variable as usize];
+        let largest_size = self.lowering.largest_size;
+        let own = match symbol {
+            Symbol::Param(_) => self.lowering.graph.symbol(symbol),
+            _ => self.lowering.graph.constant(0.0),
+        };
+        let usual = if dimension == Dimension::TIME {
+            self.span()
+        } else {
+            let usual = [(Dimension::LENGTH, largest_size), (Dimension::PURE, 1.0)];
+            let usual = usual.into_iter().find(|(of, _)| *of == dimension).map_or(0.0, |(_, size)| size);
+            self.lowering.graph.constant(usual)
+        };
+        let graph = &mut self.lowering.graph;
+        let own = graph.unary(Unary::Abs, own);
+        let size = graph.add(own, usual);
+        let part = graph.constant(NOTHING);
+        let (change, limit) = (graph.mul(most, size), graph.mul(part, range));
+        let (rests, zero) = (graph.compare(Comparison::LessEqual, change, limit), graph.constant(0.0));
+        graph.select(rests, zero, slope)
     }
 
     /// The largest value less the least.
     fn range(&mut self, of: ExprId) -> ExprId {
-        let [low, high] = [false, true].map(|largest| self.asked(ReductionKind::Extreme { largest, when: false }, of));
+        let [low, high] = self.extremes(of);
         self.lowering.graph.sub(high, low)
+    }
+
+    /// The least and the largest value.
+    fn extremes(&mut self, of: ExprId) -> [ExprId; 2] {
+        [false, true].map(|largest| self.asked(ReductionKind::Extreme { largest, when: false }, of))
     }
 
     /// The time of the analysis.

@@ -6,7 +6,7 @@ struct Topic {
     page: &'static str,
 }
 
-const PAGES: [Topic; 9] = [
+const PAGES: [Topic; 10] = [
     Topic { names: &["parts"], page: include_str!("topics/parts.md") },
     Topic { names: &["inputs"], page: include_str!("topics/inputs.md") },
     Topic { names: &["samples"], page: include_str!("topics/samples.md") },
@@ -15,6 +15,7 @@ const PAGES: [Topic; 9] = [
     Topic { names: &["by"], page: include_str!("topics/by.md") },
     Topic { names: &["names"], page: include_str!("topics/names.md") },
     Topic { names: &["sweep", "sweeps", "variants"], page: include_str!("topics/sweep.md") },
+    Topic { names: &["tolerance", "tolerances"], page: include_str!("topics/tolerance.md") },
     Topic { names: &["view", "vary", "pictures", "vectors"], page: include_str!("topics/view.md") },
 ];
 

@@ -1,0 +1,85 @@
+//! Where a formula may jump or bend along the motion, and whether that goes with a variable. Edges that stay where they are, as those of
+//! time, are none for who differentiates at fixed time.
+
+use super::Lowering;
+use crate::expr::{Binary, Dependence, ExprId, Graph, Node, Unary};
+
+/// What may be wrong with a formula at an edge.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Break {
+    /// Its value.
+    Jump,
+    /// Its value, or its rate.
+    Bend,
+}
+
+impl Lowering<'_> {
+    /// Whether a formula may jump where that goes with a variable.
+    pub(super) fn may_jump_elsewhere(&mut self, formula: ExprId, variable: u32) -> bool {
+        self.goes(&[formula], Break::Jump, variable) || self.decides(formula, 2, variable)
+    }
+
+    /// Whether a formula may jump, or its rate, where that goes with a variable.
+    pub(super) fn may_bend_elsewhere(&mut self, formula: ExprId, variable: u32) -> bool {
+        self.goes(&[formula], Break::Bend, variable) || self.decides(formula, 1, variable)
+    }
+
+    /// Whether edges of what decides about derivatives of this order, and about forces, go with a variable. Places and velocities do not jump,
+    /// whatever equations do.
+    fn decides(&mut self, formula: ExprId, order: u8, variable: u32) -> bool {
+        let dependence = self.graph.dependence(formula);
+        let holds_forces = dependence.on(Dependence::FORCES);
+        let highest = dependence.highest_order().max(dependence.highest_varied_order());
+        let mut roots = Vec::new();
+        if holds_forces || highest >= Some(order) {
+            roots.extend(self.rows.iter().map(|row| row.phi));
+        }
+        if holds_forces {
+            let loads: Vec<ExprId> = self.model.loads.iter().map(|load| load.force).collect();
+            roots.extend(loads.into_iter().map(|force| self.formula(force)));
+        }
+        self.goes(&roots, Break::Bend, variable)
+    }
+
+    /// Whether what breaks formulas goes with a variable.
+    fn goes(&mut self, roots: &[ExprId], what: Break, variable: u32) -> bool {
+        let nodes = self.graph.reachable(roots);
+        let mut operands: Vec<ExprId> =
+            nodes.into_iter().flat_map(|id| decided_by(&mut self.graph, id, what)).collect();
+        operands.sort_unstable();
+        operands.dedup();
+        let (moves, symbol) = (self.moves_anything(variable), self.model.variables[variable as usize].symbol);
+        operands.into_iter().any(|of| {
+            // how reductions go is not looked at here
+            self.graph.dependence(of).on(Dependence::NAMED)
+                || if moves {
+                    let by = self.derivative_by(of, variable);
+                    !self.graph.is_zero(by)
+                } else {
+                    self.graph.symbols(of).contains(&symbol)
+                }
+        })
+    }
+
+    /// Whether the motion goes with a variable at all: masses and loads do not move it.
+    fn moves_anything(&self, variable: u32) -> bool {
+        let rows: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
+        self.graph.symbols_of_all(&rows).contains(&self.model.variables[variable as usize].symbol)
+    }
+}
+
+/// What must stay for a node not to break elsewhere.
+fn decided_by(graph: &mut Graph, id: ExprId, what: Break) -> Vec<ExprId> {
+    let bends = what == Break::Bend;
+    match graph.node(id) {
+        Node::Compare(_, a, b) => vec![graph.sub(a, b)],
+        Node::Binary(Binary::Min | Binary::Max, a, b) if bends => vec![graph.sub(a, b)],
+        Node::Binary(Binary::Hypot | Binary::Pow, a, b) if bends => vec![a, b],
+        Node::Binary(Binary::Atan2 | Binary::Mod, a, b) => vec![a, b],
+        Node::Unary(Unary::Sign | Unary::Floor, a) => vec![a],
+        Node::Unary(Unary::Abs | Unary::Sqrt | Unary::Asin | Unary::Acos, a) if bends => vec![a],
+        // the third derivative of a natural spline jumps
+        Node::Table(_, order, a) if bends || order == 3 => vec![a],
+        _ => Vec::new(),
+    }
+}
