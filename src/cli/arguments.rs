@@ -79,7 +79,7 @@ pub(super) enum Command {
         N = 1 is A, and B may be less than A. `NAME=A,B,C` is a list, `@FILE.csv` a table of variants with a column for each param, units in \
         brackets (`rod [mm],speed [rpm]`). Several of them are combined, each value with each other, the last fastest. `NAME=A..B` without \
         a number of values, with --sample N, are N points within all such ranges, by Sobol's sequence or at random. A point of a drawing \
-        varies as `A.x`.\n\n\
+        varies as `A.x`. A param that decides what is repeated is set, and the others are led; what a variant has no column or result of is empty.\n\n\
         Without more, the table has a row for each variant: its number, its params and results in SI, its `status`, and when it stopped. \
         --result adds results to those of the file. With --rows it has the whole motion of each variant instead: its number, its params, and the columns \
         of `mechc run`, of which --columns chooses.\n\n\
@@ -88,7 +88,7 @@ pub(super) enum Command {
         are those of `mechc run --set`; or the code that stopped it, whose page `mechc explain` has. At the end each is counted, with the first of \
         them as a command.\n\n\
         Ctrl-C ends it with whole variants, and tells how to go on. Shares that `--skip K --take N` makes are, put together, the whole. The exit code \
-        is 0 if any variant ran to its end, else 3.",
+        is 0 if any variant ran to its end, else 3. `mechc explain sweep` has more.",
         after_help = "Examples:\n  mechc sweep linkage.mech --vary rod=100mm..200mm:50 --result 'stroke = max(x(tip)) - min(x(tip))'\n  \
         mechc sweep linkage.mech --vary rod=100mm..200mm:11 --vary speed=60rpm,90rpm -o variants.csv\n  \
         mechc sweep linkage.mech --vary rod=100mm..200mm --vary A.x=0..20mm --sample 100000 -o variants.parquet\n  \
@@ -102,8 +102,9 @@ pub(super) enum Command {
         --tol says how far a param may be off. Of each measure, at the time at which all of them together bring it off the most, and of each \
         result, a table shows what each param contributes, from exact derivatives; its share of the variance; the worst case, all errors at \
         their worst; and the statistical one, the root of the sum of their squares, with the standard deviation σ.\n\n\
-        Params of their own formula are taken as dimensions of their own, as `--set` takes them. A result whose extremum is at a kink or a jump has no \
-        derivative, and says so. Derivatives are not all: --verify runs the corners.",
+        A param with a formula of its own is a dimension of its own where it has a tolerance; else it goes with what it is made of. A result has no \
+        derivative, and says so, where two times share its extremum, or where that is at a kink or jump that goes with the param. Derivatives are \
+        not all: --verify runs the corners. `mechc explain tolerance` has more.",
         after_help = "Examples:\n  mechc tolerance linkage.mech --tol rod=0.05mm --tol A.x=0.02mm\n  \
         mechc tolerance linkage.mech --tol rod=-0.1mm..0mm --tol crank=0.05mm --normal --verify\n  \
         mechc tolerance linkage.mech --tol rod=0.05mm --result 'stroke = max(x(tip)) - min(x(tip))' -o contributions.csv"
@@ -567,6 +568,10 @@ pub(super) struct SweepArguments {
 
     #[command(flatten)]
     pub following: Following,
+
+    /// As `run` has it. For tests: the numbers are the same
+    #[arg(long, hide = true, value_name = "NAME", value_parser = vectors)]
+    pub vectors: Option<Vectors>,
 }
 
 /// How variants are followed.
@@ -631,7 +636,7 @@ pub(super) struct ToleranceArguments {
 pub(super) enum ContributionFormat {
     /// To be read
     Table,
-    /// A header, then a line for each contribution and each sum
+    /// A header, then a line for each contribution and each sum, all numbers in SI
     Csv,
     /// One object, all numbers in SI
     Json,

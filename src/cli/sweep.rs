@@ -48,6 +48,7 @@ pub(super) fn sweep(arguments: &SweepArguments, reporter: &mut Reporter) -> Resu
         jobs: arguments.jobs,
         skip: range[0],
         take: Some(range[1] - range[0]),
+        vectors: arguments.vectors.unwrap_or_default(),
         cancel: Cancel::default(),
     };
     let rows = options.times.over(compiled.analysis())?.times()?.len();

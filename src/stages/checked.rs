@@ -185,8 +185,7 @@ impl Checked {
                     ..Surroundings::default()
                 };
                 let parsed = parsed.with_sources(sources);
-                let checked = Checked::in_surroundings(parsed, number, surroundings, is_led, diagnostics);
-                return if is_led { checked.unless_counts_are_led() } else { checked };
+                return Checked::in_surroundings(parsed, number, surroundings, is_led, diagnostics);
             }
         }
         Checked::with(parsed.with_sources(sources), Some(number), library, None, diagnostics)
@@ -238,28 +237,6 @@ impl Checked {
         surroundings.settings.extend(settings);
         let parsed = self.parsed.with_sources(sources.clone());
         Checked::in_surroundings(parsed, number, surroundings, true, Diagnostics::default())
-    }
-
-    /// Refuses to lead what decides how often something is there: no way leads from one number of bodies to another.
-    fn unless_counts_are_led(mut self) -> Checked {
-        let is_led =
-            |path: &str| ["", ".x", ".y"].iter().any(|axis| self.param_in_part(&format!("{path}{axis}")).is_some());
-        let settings = self.surroundings.settings.iter();
-        let counts =
-            settings.filter(|setting| self.is_sound() && !is_led(&setting.path)).map(|Setting { path, value }| {
-                let said = format!(
-                    "`{path}` decides what is repeated, and nothing leads from one number of bodies to another"
-                );
-                Diagnostic::new(Code::E0706, said).at(value.span, "").help("leave `--lead` out, or this setting")
-            });
-        let mut refused = Diagnostics::default();
-        refused.extend(counts.collect::<Vec<_>>());
-        if !refused.is_empty() {
-            self.model = None;
-            refused.extend((*self.diagnostics).clone());
-            self.diagnostics = Arc::new(refused);
-        }
-        self
     }
 
     /// What it takes to have the mechanism once more.

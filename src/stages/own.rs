@@ -3,7 +3,7 @@
 use super::over::{FromOwn, Own};
 use super::{Checked, Redundant, RunOptions};
 use crate::analysis::Horizon;
-use crate::check::{Given, Surroundings};
+use crate::check::{Given, Setting, Surroundings};
 use crate::diag::Diagnostics;
 use std::sync::Arc;
 
@@ -14,11 +14,30 @@ impl Checked {
         Arc::new(FromOwn::new(move |options| led.at_own_values()?.stands(redundant, options)))
     }
 
-    /// The same with its own values, of which those that are set may be others.
+    /// The same with its own values, of which those that are set may be others; but what decides how often something is there is as it is set.
     fn at_own_values(&self) -> Option<Checked> {
+        self.opened_with(self.counts())
+    }
+
+    /// Those of its settings that decide how often something is there: nothing leads from one number of bodies to another.
+    pub(super) fn counts(&self) -> Vec<Setting> {
+        let counts = self.not_led_with(Vec::new());
+        // with more bodies there may be more that is led
+        if counts.is_empty() { counts } else { self.not_led_with(counts) }
+    }
+
+    /// Those of its settings that are no params of the mechanism with some of them; these, if it is none.
+    fn not_led_with(&self, set: Vec<Setting>) -> Vec<Setting> {
+        let Some(opened) = self.opened_with(set.clone()).filter(Checked::is_sound) else { return set };
+        let is_led =
+            |path: &str| ["", ".x", ".y"].iter().any(|axis| opened.param_in_part(&format!("{path}{axis}")).is_some());
+        self.surroundings.settings.iter().filter(|setting| !is_led(&setting.path)).cloned().collect()
+    }
+
+    /// The same with its own values but for some settings, and with the params of all settings as symbols of the model.
+    fn opened_with(&self, settings: Vec<Setting>) -> Option<Checked> {
         let open = self.surroundings.settings.iter().map(|setting| setting.path.clone()).collect();
-        let (settings, given) = (Vec::new(), Given::default());
-        let surroundings = Surroundings { settings, given, open, ..(*self.surroundings).clone() };
+        let surroundings = Surroundings { settings, given: Given::default(), open, ..(*self.surroundings).clone() };
         Some(Checked::in_surroundings(self.parsed.clone(), self.number?, surroundings, false, Diagnostics::default()))
     }
 

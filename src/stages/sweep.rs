@@ -1,8 +1,9 @@
 //! Many variants of one mechanism, each led over to its params along the branch.
 
 use super::checked::UNTIL;
-use super::over::{FromOwn, Reached};
-use super::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Variants};
+use super::families::{Families, Places};
+use super::over::Reached;
+use super::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Variants, Vectors};
 use crate::analysis::{Asked, Started, Times};
 use crate::cancel::Cancel;
 use crate::crew::{Crew, usual_jobs};
@@ -36,16 +37,18 @@ pub struct SweepOptions {
     pub skip: u64,
     /// So many are computed at the most.
     pub take: Option<u64>,
+    /// As a run has it.
+    pub vectors: Vectors,
     /// Ends it.
     pub cancel: Cancel,
 }
 
 impl Default for SweepOptions {
     fn default() -> SweepOptions {
-        let RunOptions { tolerance, pass_bifurcations, cancel, .. } = RunOptions::default();
+        let RunOptions { tolerance, pass_bifurcations, vectors, cancel, .. } = RunOptions::default();
         let (times, redundant) = (AskedTimes::default(), Redundant::default());
         let (columns, jobs, skip, take) = (None, None, 0, None);
-        SweepOptions { times, columns, redundant, tolerance, pass_bifurcations, jobs, skip, take, cancel }
+        SweepOptions { times, columns, redundant, tolerance, pass_bifurcations, jobs, skip, take, vectors, cancel }
     }
 }
 
@@ -91,13 +94,12 @@ impl Checked {
         let results: Vec<String> = compiled.results().into_iter().map(|(name, _)| name).collect();
         let until = results.iter().position(|name| name == UNTIL);
         let jobs = options.jobs.unwrap_or_else(usual_jobs).max(1);
+        let names = compiled.columns();
+        let columns = options.columns.iter().flatten().map(|&column| names[column].clone()).collect();
+        let count = results.len();
+        let families = Families::of((self, variants), options.redundant, [columns, results], first);
         let (own, variants, options) = (self.clone(), variants.clone(), options.clone());
-        let mut values = vec![0.0; variants.points().params().len()];
-        variants.points().values(first, &mut values);
-        // which params are led is all that counts of it
-        let one = own.led_to(variants.read_settings(&values), variants.sources());
-        let from_own = one.begins_at_own(options.redundant);
-        let sweeping = Arc::new(Sweeping { own, from_own, variants, options, results: results.len(), until });
+        let sweeping = Arc::new(Sweeping { own, families, variants, options, results: count, until });
         let pieces = 0..(last - first).div_ceil(size);
 
         let work = move |piece: u64| {
@@ -126,7 +128,7 @@ impl<T: Send + 'static> Iterator for Sweep<T> {
 /// What all variants have in common.
 struct Sweeping {
     own: Checked,
-    from_own: Arc<FromOwn>,
+    families: Families,
     variants: Variants,
     options: SweepOptions,
     /// How many results there are, that of the variant that is looked for among them.
@@ -182,12 +184,13 @@ impl Sweeping {
         if self.own.is_told() {
             return self.run_by_all_stages(params, variant);
         }
+        let family = self.families.that_of(params, &self.own, &self.variants);
         let (model, said) = self.own.model_led_to(self.variants.read_settings(params), self.variants.sources());
         let model = model.ok_or_else(|| first_error(&said))?;
         let times = self.options.times.over(model.analysis.map(|of| [of.from, of.to, of.every]))?.times()?;
         let values: Vec<f64> = model.params.iter().map(|param| param.value).collect();
-        match self.from_own.lead_values(&values, &times, &options) {
-            Reached::There(started) => self.follow(*started?, &times, &options, variant),
+        match family.from_own.lead_values(&values, &times, &options) {
+            Reached::There(started) => self.follow(*started?, (&times, &options), &family.places, variant),
             Reached::Refused(said) => Err(first_error(&said)),
             Reached::Nowhere => {
                 variant.status = Status::Reassembled;
@@ -200,8 +203,8 @@ impl Sweeping {
     fn follow(
         &self,
         mut started: Started,
-        times: &Times,
-        options: &RunOptions,
+        (times, options): (&Times, &RunOptions),
+        places: &Places,
         variant: &mut OneVariant,
     ) -> Result<(), Box<Diagnostic>> {
         // what a run tells of its start looks at the same factors
@@ -214,10 +217,10 @@ impl Sweeping {
             motion.pass_bifurcations();
         }
         while let Some(row) = motion.next_row() {
-            self.push_row(row?, variant);
+            self.push_row(row?, places, variant);
         }
         let answers = asked.and_then(Asked::answer).unwrap_or_default();
-        write_results(&answers.values, variant);
+        write_results(&answers.values, places, variant);
         Ok(())
     }
 
@@ -229,7 +232,9 @@ impl Sweeping {
             return Err(first_error(checked.diagnostics()));
         }
         let (compiled, said) = checked.compile(self.options.redundant, &options.cancel);
-        let compiled = compiled.ok_or_else(|| first_error(&said))?.led_over(Some(Arc::clone(&self.from_own)));
+        let family = self.families.that_of(params, &self.own, &self.variants);
+        let compiled = compiled.ok_or_else(|| first_error(&said))?.led_over(Some(Arc::clone(&family.from_own)));
+        let places = self.families.places_in(&compiled);
         let times = self.options.times.over(compiled.analysis())?.times()?;
         let (run, said) = compiled.run(&times, &options);
         let mut run = run.ok_or_else(|| first_error(&said))?;
@@ -237,27 +242,35 @@ impl Sweeping {
             variant.status = Status::Reassembled;
         }
         while let Some(row) = run.next_row() {
-            self.push_row(row?, variant);
+            self.push_row(row?, &places, variant);
         }
-        write_results(&run.results().unwrap_or_default().values, variant);
+        write_results(&run.results().unwrap_or_default().values, &places, variant);
         Ok(())
     }
 
     fn run_options(&self) -> RunOptions {
-        let SweepOptions { tolerance, pass_bifurcations, ref cancel, .. } = self.options;
-        RunOptions { tolerance, pass_bifurcations, cancel: cancel.clone(), ..RunOptions::default() }
+        let SweepOptions { tolerance, pass_bifurcations, vectors, ref cancel, .. } = self.options;
+        RunOptions { tolerance, pass_bifurcations, vectors, cancel: cancel.clone(), ..RunOptions::default() }
     }
 
-    fn push_row(&self, row: &[f64], variant: &mut OneVariant) {
-        if let Some(columns) = &self.options.columns {
-            variant.rows.extend(columns.iter().map(|&column| row[column]));
+    fn push_row(&self, row: &[f64], places: &Places, variant: &mut OneVariant) {
+        let Some(columns) = &self.options.columns else { return };
+        match places {
+            Places::Same => variant.rows.extend(columns.iter().map(|&column| row[column])),
+            Places::Others { columns, .. } => {
+                variant.rows.extend(columns.iter().map(|column| column.map_or(f64::NAN, |column| row[column])));
+            }
         }
     }
 }
 
-fn write_results(values: &[Option<f64>], variant: &mut OneVariant) {
-    for (into, value) in variant.results.iter_mut().zip(values) {
-        *into = value.unwrap_or(f64::NAN);
+fn write_results(values: &[Option<f64>], places: &Places, variant: &mut OneVariant) {
+    for (k, into) in variant.results.iter_mut().enumerate() {
+        let place = match places {
+            Places::Same => Some(k),
+            Places::Others { results, .. } => results[k],
+        };
+        *into = place.and_then(|place| values.get(place).copied().flatten()).unwrap_or(f64::NAN);
     }
 }
 

@@ -300,7 +300,7 @@ impl Listing<'_> {
     fn param(&mut self, name: &str, formulas: &[String]) -> Found<(usize, Vec<f64>)> {
         let (mut values, mut dimension) = (Vec::with_capacity(formulas.len()), None);
         for formula in formulas {
-            self.could_be(name, formula)?;
+            self.reader.with(name, formula)?;
             let (value, found) = self.reader.value(formula)?;
             values.push(value);
             dimension = dimension.or(found);
@@ -308,19 +308,6 @@ impl Listing<'_> {
         let texts: Vec<&str> = formulas.iter().map(String::as_str).collect();
         let unit = si_unit(dimension.unwrap_or(Dimension::PURE), texts.iter().any(|text| is_of_angles(text)));
         Ok((self.add(name, unit), values))
-    }
-
-    /// Refuses what the param cannot be set to because of what it says, be the mechanism sound with it or not.
-    fn could_be(&self, name: &str, formula: &str) -> Found<()> {
-        let checked = self.reader.with(name, formula)?;
-        if checked.is_sound() && checked.param_in_part(name).is_none() {
-            let own = self.reader.own.sources().clone();
-            let said =
-                format!("`{name}` decides what is repeated, and nothing leads from one number of bodies to another");
-            let why = unusable(said).help("sweep once for each of its values, with `--set`, from files that say it");
-            return Err((own, why.into()));
-        }
-        Ok(())
     }
 
     fn add(&mut self, name: &str, unit: String) -> usize {
@@ -341,7 +328,7 @@ impl Listing<'_> {
         let mut params = Vec::with_capacity(columns.len());
         for Column { name, dimension, is_of_angles, values, .. } in &columns {
             let unit = si_unit(dimension.unwrap_or(Dimension::PURE), *is_of_angles);
-            self.could_be(name, &written(values[0], &unit))?;
+            self.reader.with(name, &written(values[0], &unit))?;
             params.push(self.add(name, unit));
         }
         let rows = columns.first().map_or(0, |column| column.values.len());

@@ -1,0 +1,93 @@
+//! Variants of a sweep that have the same declarations: what decides how often something is there is the same in all of a family. Each family
+//! is compiled once, and its variants begin where it stands with its own values.
+
+use super::over::FromOwn;
+use super::{Checked, Compiled, Redundant, Variants};
+use crate::cancel::Cancel;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// All families of a sweep.
+pub(super) struct Families {
+    /// The params that decide how often something is there, by their numbers among those that vary.
+    counts: Vec<usize>,
+    redundant: Redundant,
+    /// The columns and the results that are told, by their names.
+    told: [Vec<String>; 2],
+    /// The one that there is where nothing decides; else one that nobody asks for.
+    only: Arc<Family>,
+    /// By the values of what decides (the bits).
+    known: Mutex<BTreeMap<Vec<u64>, Arc<OnceLock<Arc<Family>>>>>,
+}
+
+/// One family.
+pub(super) struct Family {
+    pub from_own: Arc<FromOwn>,
+    pub places: Places,
+}
+
+/// Where what is told stands among the columns and results of a variant.
+pub(super) enum Places {
+    /// Where it stands in the mechanism of the text.
+    Same,
+    /// Elsewhere; nowhere where this variant has no such column or result.
+    Others { columns: Vec<Option<usize>>, results: Vec<Option<usize>> },
+}
+
+impl Families {
+    /// Of the variants of a mechanism from one of them on, whose params are those of all.
+    pub fn of(
+        (own, variants): (&Checked, &Variants),
+        redundant: Redundant,
+        told: [Vec<String>; 2],
+        first: u64,
+    ) -> Families {
+        let mut values = vec![0.0; variants.points().params().len()];
+        variants.points().values(first, &mut values);
+        let one = own.led_to(variants.read_settings(&values), variants.sources());
+        let counts = one.counts();
+        let decides = |name: &String| counts.iter().any(|count| count.path == *name);
+        let names = variants.points().params().iter().enumerate();
+        let counts = names.filter(|(_, name)| decides(name)).map(|(k, _)| k).collect();
+        let only = Arc::new(Family { from_own: one.begins_at_own(redundant), places: Places::Same });
+        Families { counts, redundant, told, only, known: Mutex::default() }
+    }
+
+    /// The family of a variant, by the values of its params.
+    pub fn that_of(&self, params: &[f64], own: &Checked, variants: &Variants) -> Arc<Family> {
+        if self.counts.is_empty() {
+            return Arc::clone(&self.only);
+        }
+        let key: Vec<u64> = self.counts.iter().map(|&count| params[count].to_bits()).collect();
+        let family = {
+            let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+            Arc::clone(known.entry(key).or_default())
+        };
+        // others are made meanwhile
+        Arc::clone(family.get_or_init(|| Arc::new(self.family(params, own, variants))))
+    }
+
+    fn family(&self, params: &[f64], own: &Checked, variants: &Variants) -> Family {
+        let one = own.led_to(variants.read_settings(params), variants.sources());
+        let counts = variants.read_settings(params).enumerate().filter(|(k, _)| self.counts.contains(k));
+        let with_counts = own.led_to(counts.map(|(_, setting)| setting), variants.sources());
+        let compiled = with_counts.compile(self.redundant, &Cancel::default()).0;
+        // of one that is not determined nothing is told
+        let places = compiled.map_or(Places::Same, |compiled| self.places_in(&compiled));
+        Family { from_own: one.begins_at_own(self.redundant), places }
+    }
+
+    /// Where what is told stands in a variant.
+    pub fn places_in(&self, compiled: &Compiled) -> Places {
+        if self.counts.is_empty() {
+            return Places::Same;
+        }
+        let among = |told: &[String], names: &[String]| -> Vec<Option<usize>> {
+            told.iter().map(|name| names.iter().position(|other| other == name)).collect()
+        };
+        let results: Vec<String> = compiled.results().into_iter().map(|(name, _)| name).collect();
+        let [columns_told, results_told] = &self.told;
+        let (columns, results) = (among(columns_told, &compiled.columns()), among(results_told, &results));
+        Places::Others { columns, results }
+    }
+}
