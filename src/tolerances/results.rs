@@ -124,7 +124,7 @@ pub mod slopes {
     pub const FLAT: f64 = 1e-3;
     /// An extremum is alone, if it goes with what moves the formula by the first part of its range as much to one side as to the other, but for
     /// the second part of that; or for the last digits of its value.
-    pub const MOVED: f64 = 1e-5;
+    pub const MOVED: f64 = 1e-6;
     pub const ALONE: f64 = 0.01;
     pub const LAST_DIGITS: f64 = 1e-13;
     /// A parameter that as much again would change a formula by no more than this part of its range does not change it.
