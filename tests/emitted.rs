@@ -106,7 +106,7 @@ fn what_is_generated_for_each_construct_is_as_a_reviewer_has_read_it() {
 }
 
 /// Whole modules: what tests here and the benchmark run.
-const GOLDENS: [&str; 3] = ["slider_crank", "four_bar", "followed"];
+const GOLDENS: [&str; 5] = ["slider_crank", "four_bar", "followed", "andrews", "jansen"];
 
 #[test]
 fn goldens_are_what_is_emitted() {
@@ -114,6 +114,8 @@ fn goldens_are_what_is_emitted() {
         let (path, input, lanes) = match name {
             "four_bar" => ("benches/steps/four_bar.rs", "benches/steps/four_bar.mech", Some(16)),
             "followed" => ("benches/steps/followed.rs", "tests/following/four_bar.mech", None),
+            "andrews" => ("benches/steps/andrews.rs", "benches/steps/andrews.mech", None),
+            "jansen" => ("benches/steps/jansen.rs", "benches/steps/jansen.mech", None),
             _ => ("tests/emitted/slider_crank.rs", "tests/stages/slider_crank/input.mech", Some(4)),
         };
         let of = if name == "followed" { "four_bar" } else { name };

@@ -237,7 +237,9 @@ fn no_two_rooms_show_types_of_one_name() {
 /// connections and their limits.
 const PLATFORM: &[(&str, &str)] = &[
     ("analysis/follow/rows/leap.rs", "std::thread"),
-    ("crew.rs", "std::thread"),
+    ("crew/mod.rs", "std::thread"),
+    ("crew/relay.rs", "std::thread"),
+    ("crew/shares.rs", "std::thread"),
     ("live/http.rs", "std::time"),
     ("live/server.rs", "std::net"),
     ("live/server.rs", "std::thread"),

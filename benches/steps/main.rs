@@ -9,6 +9,9 @@
 #![allow(clippy::expect_used, clippy::panic)] // a bench fails by panicking
 #![allow(clippy::default_constructed_unit_structs)] // this four-bar has no parameters, others have
 
+#[allow(clippy::pedantic, dead_code)] // code of another hand
+#[rustfmt::skip]
+mod andrews;
 mod closed_form;
 mod copies;
 #[allow(clippy::pedantic, dead_code)] // code of another hand
@@ -18,8 +21,12 @@ mod four_bar;
 #[rustfmt::skip]
 mod followed;
 mod forces;
+#[allow(clippy::pedantic, dead_code)]
+#[rustfmt::skip]
+mod jansen;
 mod mechanisms;
 mod newton;
+mod sweeps;
 mod timing;
 
 use closed_form::closed_form;
@@ -44,11 +51,13 @@ fn main() {
     emitted(floor);
     follow(floor);
     single(floor);
+    beside_emitted();
+    sweeps::sweeps(floor);
+    output();
+    set_up();
+    forces::forces();
     four_bars(floor);
     scissor_lifts(floor);
-    forces::forces();
-    set_up();
-    output();
 }
 
 fn by_hand() {
@@ -153,6 +162,42 @@ fn single(floor: f64) {
         let compiled = compile(&text);
         table.row(name, 1.0, &ways(&compiled, STEPS));
     }
+}
+
+/// The same in lanes, beside what is emitted of them, one time after the other.
+fn beside_emitted() {
+    macro_rules! emitted {
+        ($module:ident, $text:expr) => {{
+            let compiled = compile($text);
+            let [from, to, _] = compiled.analysis().expect("an analysis");
+            let times: Vec<f64> =
+                (0..STEPS).map(|k| from + (to - from) * f64::from(k) / f64::from(STEPS - 1)).collect();
+            let scalar = median(21, || {
+                let mut state = $module::assemble(&$module::Params::default()).expect("it assembles");
+                per_step(STEPS, || {
+                    for t in &times {
+                        $module::step(black_box(*t), &mut state).expect("it moves");
+                        black_box(state.row());
+                    }
+                })
+            });
+            let lanes = median(21, || {
+                let mut motion = started(&compiled, &Times::listed(from, times.clone()));
+                per_step(STEPS, || {
+                    while let Some(row) = motion.next_row() {
+                        black_box(row.expect("it moves"));
+                    }
+                })
+            });
+            [scalar, lanes]
+        }};
+    }
+    println!("mechc beside emitted Rust, one at a time");
+    let both = [("Andrews", emitted!(andrews, mechanisms::ANDREWS)), ("Jansen", emitted!(jansen, mechanisms::JANSEN))];
+    for (name, [scalar, lanes]) in both {
+        println!("  {name:<16} {lanes:>6.0} ns   emitted {scalar:>6.0} ns {:>7.2} x", lanes / scalar);
+    }
+    println!();
 }
 
 fn four_bars(floor: f64) {

@@ -15,17 +15,17 @@ pub fn compile_as(text: &str, choice: &Choice) -> Compiled {
     compiled.expect("it is determined")
 }
 
-/// Those of one loop or a few, a turn of the crank each, without measures.
+/// Those of `tests/cases`, without their measures.
+pub const ANDREWS: &str = include_str!("andrews.mech");
+pub const JANSEN: &str = include_str!("jansen.mech");
+
+/// Those of one loop or a few, a turn of the crank each.
 pub fn singles() -> Vec<(&'static str, String)> {
-    let without_measures = |text: &str| {
-        let lines: Vec<&str> = text.lines().filter(|line| !line.trim_start().starts_with("measure")).collect();
-        lines.join("\n")
-    };
     vec![
         ("four-bar", four_bars(1)),
         ("slider-crank", slider_crank()),
-        ("Andrews", without_measures(include_str!("../../tests/cases/andrews.mech"))),
-        ("Jansen", without_measures(include_str!("../../tests/cases/jansen.mech"))),
+        ("Andrews", ANDREWS.to_owned()),
+        ("Jansen", JANSEN.to_owned()),
     ]
 }
 

@@ -21,16 +21,23 @@ pub struct ColumnUnit {
     pub text: String,
     /// What SI is divided by, multiplied with and divided by to be in this unit.
     scale: [f64; 3],
+    /// Whether that changes nothing.
+    is_si: bool,
 }
 
 impl ColumnUnit {
+    fn new(text: String, scale: [f64; 3]) -> ColumnUnit {
+        let is_si = scale.map(f64::to_bits) == [1.0_f64.to_bits(); 3];
+        ColumnUnit { text, scale, is_si }
+    }
+
     fn si(text: impl Into<String>) -> ColumnUnit {
-        ColumnUnit { text: text.into(), scale: [1.0; 3] }
+        ColumnUnit::new(text.into(), [1.0; 3])
     }
 
     /// That of a value, or of its time derivative of some order.
     fn of(units: &Units, order: usize) -> ColumnUnit {
-        ColumnUnit { text: units.printed[order].clone(), scale: units.scale }
+        ColumnUnit::new(units.printed[order].clone(), units.scale)
     }
 
     /// What SI is divided by, multiplied with and divided by to be in this unit.
@@ -42,7 +49,8 @@ impl ColumnUnit {
     /// A value in SI, in this unit.
     #[must_use]
     pub fn printed(&self, value: f64) -> f64 {
-        value / self.scale[0] * self.scale[1] / self.scale[2]
+        // one is divided by and multiplied with in vain, which takes as long as a digit
+        if self.is_si { value } else { value / self.scale[0] * self.scale[1] / self.scale[2] }
     }
 }
 
@@ -92,7 +100,7 @@ fn column(system: &ConstraintSystem, holds: Holds) -> Option<Column> {
         }
         Holds::Appended(index) => {
             let of = &system.appended()[index];
-            let unit = ColumnUnit { text: of.unit.clone(), scale: of.scale };
+            let unit = ColumnUnit::new(of.unit.clone(), of.scale);
             Column { name: of.name.clone(), unit, kind: ColumnKind::Variation }
         }
         Holds::Slope { .. } | Holds::Varied | Holds::Multiplier => return None,

@@ -4,12 +4,14 @@ mod cells;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod sheet;
+mod text;
 
 pub use cells::{Cells, Kind, SheetColumn};
 #[cfg(feature = "parquet")]
 use parquet::ParquetWriter;
 pub use sheet::{Made, Sheet, SheetWriter};
 use std::io::{self, Write};
+use text::TextWriter;
 
 /// The forms of a result table.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -30,7 +32,7 @@ pub struct TableWriter<W: Write + Send> {
 }
 
 enum Form<W: Write + Send> {
-    Text(TextWriter<W>),
+    Text(Box<TextWriter<W>>),
     #[cfg(feature = "parquet")]
     Parquet(Box<ParquetWriter<W>>),
 }
@@ -42,8 +44,8 @@ impl<W: Write + Send> TableWriter<W> {
     /// As the writer underneath.
     pub fn new(out: W, format: TableFormat, columns: &[String], units: &[&str]) -> io::Result<TableWriter<W>> {
         let form = match format {
-            TableFormat::Csv => Form::Text(TextWriter::csv(out, columns)?),
-            TableFormat::Json => Form::Text(TextWriter::json(out, columns, units)?),
+            TableFormat::Csv => Form::Text(Box::new(TextWriter::csv(out, columns)?)),
+            TableFormat::Json => Form::Text(Box::new(TextWriter::json(out, columns, units)?)),
             #[cfg(feature = "parquet")]
             TableFormat::Parquet => {
                 let column = |(name, unit): (&String, &&str)| SheetColumn {
@@ -83,61 +85,6 @@ impl<W: Write + Send> TableWriter<W> {
     }
 }
 
-/// The name of a column in CSV: no name holds a quote, and a comma one of two numbers (RFC 4180).
-fn quoted(name: &str) -> String {
-    if name.contains(',') { format!("\"{name}\"") } else { name.to_owned() }
-}
-
-/// A table as CSV or JSON.
-struct TextWriter<W> {
-    out: W,
-    is_json: bool,
-    number: zmij::Buffer,
-    line: Vec<u8>,
-    rows: u64,
-}
-
-impl<W: Write> TextWriter<W> {
-    fn csv(mut out: W, columns: &[String]) -> io::Result<TextWriter<W>> {
-        writeln!(out, "{}", columns.iter().map(|name| quoted(name)).collect::<Vec<_>>().join(","))?;
-        Ok(TextWriter { out, is_json: false, number: zmij::Buffer::new(), line: Vec::new(), rows: 0 })
-    }
-
-    fn json(mut out: W, columns: &[String], units: &[&str]) -> io::Result<TextWriter<W>> {
-        let [columns, units] = [serde_json::json!(columns), serde_json::json!(units)];
-        write!(out, "{{\"columns\": {columns}, \"units\": {units}, \"rows\": [")?;
-        Ok(TextWriter { out, is_json: true, number: zmij::Buffer::new(), line: Vec::new(), rows: 0 })
-    }
-
-    fn row(&mut self, values: &[f64]) -> io::Result<()> {
-        self.line.clear();
-        if self.is_json {
-            self.line.extend_from_slice(if self.rows == 0 { b"\n[" } else { b",\n[" });
-        }
-        self.rows += 1;
-        for (k, &value) in values.iter().enumerate() {
-            if k > 0 {
-                self.line.push(b',');
-            }
-            if value.is_finite() {
-                self.line.extend_from_slice(self.number.format_finite(value).as_bytes());
-            } else if self.is_json {
-                self.line.extend_from_slice(b"null");
-            }
-        }
-        self.line.push(if self.is_json { b']' } else { b'\n' });
-        self.out.write_all(&self.line)
-    }
-
-    fn finish(mut self) -> io::Result<W> {
-        if self.is_json {
-            self.out.write_all(b"\n]}\n")?;
-        }
-        self.out.flush()?;
-        Ok(self.out)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -166,6 +113,18 @@ mod tests {
         assert_eq!(written(TableFormat::Csv, rows), "t,a.x\n0.0,\n1.0,\n2.0,1.5\n");
         let value: serde_json::Value = serde_json::from_str(&written(TableFormat::Json, rows)).unwrap();
         assert_eq!(value["rows"], serde_json::json!([[0.0, null], [1.0, null], [2.0, 1.5]]));
+    }
+
+    #[test]
+    fn rows_beyond_what_is_written_at_once_come_in_order() {
+        let rows: Vec<[f64; 2]> = (0..50_000).map(|k| [f64::from(k), 0.1 * f64::from(k)]).collect();
+        let rows: Vec<&[f64]> = rows.iter().map(<[f64; 2]>::as_slice).collect();
+        let text = written(TableFormat::Csv, &rows);
+        let read = text.lines().skip(1).map(|line| line.split(',').map(|n| n.parse().unwrap()).collect::<Vec<f64>>());
+        assert!(read.eq(rows.iter().map(|row| row.to_vec())));
+        let value: serde_json::Value = serde_json::from_str(&written(TableFormat::Json, &rows)).unwrap();
+        assert_eq!(value["rows"].as_array().unwrap().len(), rows.len());
+        assert_eq!(value["rows"][49_999][0], 49_999.0);
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! Tables of variants: columns of whole numbers, numbers and words, written block by block. The text of a block is made wherever the block
 //! is; only the order of blocks is the writer's.
 
+use super::TableFormat;
 use super::cells::{Cells, SheetColumn};
-use super::{TableFormat, quoted};
+use super::text::quoted;
 use std::io::{self, Write};
 
 #[cfg(feature = "parquet")]

@@ -218,11 +218,14 @@ impl<const W: usize> Run<'_, W> {
                     }
                 }
                 Instruction::Store { column, a } => {
-                    let mut at = column as usize;
-                    for (value, finite) in machine.v[a as usize].0.iter().zip(finite.iter_mut()) {
-                        // −0 would surprise a reader
-                        self.rows[at] = value + 0.0;
+                    // −0 would surprise a reader; lanes together first, then one by one to their rows
+                    let values = machine.v[a as usize].0.map(|value| value + 0.0);
+                    for (finite, value) in finite.iter_mut().zip(values) {
                         *finite += 0.0 * value;
+                    }
+                    let mut at = column as usize;
+                    for value in values {
+                        self.rows[at] = value;
                         at += stride;
                     }
                 }

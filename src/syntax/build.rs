@@ -165,15 +165,20 @@ impl Reader<'_> {
         let span = self.span(&pair);
         let mut inner = pair.into_inner();
         let Head { name, .. } = self.head(inner.next().ok_or_else(|| self.truncated())?)?;
+        Ok(Mechanism { docs: self.docs_above(span.start), name, span, items: self.items(inner)? })
+    }
+
+    /// Declarations of a mechanism, up to what ends them.
+    pub(super) fn items<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>) -> Built<Vec<Item>> {
         let mut items = Vec::new();
-        for pair in inner {
+        for pair in pairs {
             match pair.as_rule() {
-                Rule::close => {}
+                Rule::close | Rule::EOI => {}
                 Rule::ground | Rule::body => items.push(self.block(pair)?),
                 _ => items.push(self.plain_item(pair)?),
             }
         }
-        Ok(Mechanism { docs: self.docs_above(span.start), name, span, items })
+        Ok(items)
     }
 
     /// The ground or a body.

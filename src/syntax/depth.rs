@@ -13,6 +13,9 @@ use crate::vocabulary::is_declaration;
 /// The deepest nesting that is read.
 pub const DEEPEST: usize = 200;
 
+/// Stack that a text as deep as that may take, in bytes.
+pub(super) const STACK: usize = 16 << 20;
+
 /// Refuses a piece of a text, from its byte `base` on, that nests deeper than [`DEEPEST`].
 pub fn measure(text: &str, file: FileId, base: usize) -> Result<(), Box<Diagnostic>> {
     // each level takes a character at least

@@ -16,6 +16,7 @@ mod mends;
 mod moved;
 mod outline;
 mod parse;
+mod pieces;
 mod tokens;
 mod trivia;
 

@@ -8,10 +8,12 @@
 
 use super::ast::{Expr, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, UsedFile};
 use super::build::{Built, Head, Piece, Reader, docs_above, normalized};
+use super::depth::STACK;
 use super::errors;
 use super::grammar::Rule;
 use super::known::Known;
 use super::outline::Outline;
+use super::pieces::in_pieces;
 use super::trivia::{self, Trivia};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::source::{FileId, Source, Sources, Span};
@@ -20,9 +22,6 @@ use pest::iterators::Pair;
 use rustc_hash::FxHashSet;
 use std::convert::Infallible;
 use std::ops::Range;
-
-/// Stack that the deepest text may take, in bytes.
-const STACK: usize = 16 << 20;
 
 /// How many faults of a text are worth a look for what was meant.
 const MOST_MENDS: usize = 100;
@@ -45,8 +44,9 @@ pub fn parse(sources: &Sources, file: FileId) -> ParsedText {
     let whole = Piece { source, file, range: 0..source.text.len() };
     // once for the whole text: a stack of its own takes longer than most declarations
     let (tree, faults) = stacker::maybe_grow(STACK, STACK, || {
-        let at_once = whole.read(Rule::file, |reader, pair| reader.file(pair));
-        at_once.map_or_else(|_| by_declarations(source, file, None), |tree| (tree, Diagnostics::default()))
+        let at_once = || whole.read(Rule::file, |reader, pair| reader.file(pair)).ok();
+        let read = in_pieces(source, file).or_else(at_once);
+        read.map_or_else(|| by_declarations(source, file, None), |tree| (tree, Diagnostics::default()))
     });
     with_all(sources, file, tree, faults)
 }

@@ -91,7 +91,7 @@ pub fn lead_again(
 enum Solving {
     /// What each start makes for itself.
     Own,
-    /// This, where it is not too large.
+    /// This, where it is not too large; of what only goes to other values of its params.
     With(Option<Arc<Solver>>),
 }
 
@@ -113,7 +113,7 @@ impl Leader<'_> {
         for _ in 0..MOST_KINKS {
             let known = way.reached.len();
             let Way { reached, passed, .. } = &mut way;
-            way.stopped = follow(started, from.0, &parts[known..], options, reached, passed);
+            way.stopped = self.follow(started, from.0, &parts[known..], reached, passed);
             let Some((part, why)) = &way.stopped else { return way };
             if let Some(last) = way.reached[known..].last() {
                 from = (parts[way.reached.len() - 1], last.clone());
@@ -153,47 +153,50 @@ impl Leader<'_> {
         let (before, behind) = ((part - BESIDE_A_KINK).max(*known), (part + BESIDE_A_KINK).min(1.0));
         let again = self.start(WAY.beginning(*known), Some(q)).ok()?;
         let mut there = Vec::new();
-        let stopped = follow(again, *known, &[before], self.options, &mut there, &mut Vec::new());
+        let stopped = self.follow(again, *known, &[before], &mut there, &mut Vec::new());
         let near = there.pop().filter(|_| stopped.is_none())?;
         let beyond = self.start(WAY.beginning(behind), Some(&near)).ok()?;
         is_the_same(self.determined.system(), &near, beyond.q()).then_some((behind, beyond))
     }
-}
 
-/// Adds the positions at some parts of the way, and the bifurcations that are passed; says where the motion ends before the last, and
-/// why.
-fn follow(
-    started: Started,
-    from: f64,
-    parts: &[f64],
-    options: &LeadOptions,
-    reached: &mut Vec<Vec<f64>>,
-    passed: &mut Vec<(f64, Diagnostic)>,
-) -> Option<(f64, Box<Diagnostic>)> {
-    let layout = RowLayout::new(started.system());
-    let mut motion = started.into_motion(&Times::listed(from, parts.to_vec()));
-    if options.pass_bifurcations {
-        motion.pass_bifurcations();
-    }
-    let part_of = |why: &Diagnostic| why.data.get("t").and_then(serde_json::Value::as_f64).unwrap_or(from);
-    let mut stopped = None;
-    for _ in parts {
-        match motion.next_row() {
-            Some(Ok(row)) => {
-                reached.push(layout.position(row).to_vec());
-                continue;
-            }
-            Some(Err(why)) => stopped = Some((part_of(&why), why)),
-            None => {
-                let why = Diagnostic::new(Code::E0604, "the way was not followed to its end");
-                stopped = Some((from, Box::new(why)));
-            }
+    /// Adds the positions at some parts of the way, and the bifurcations that are passed; says where the motion ends before the last, and
+    /// why.
+    fn follow(
+        &self,
+        started: Started,
+        from: f64,
+        parts: &[f64],
+        reached: &mut Vec<Vec<f64>>,
+        passed: &mut Vec<(f64, Diagnostic)>,
+    ) -> Option<(f64, Box<Diagnostic>)> {
+        let layout = RowLayout::new(started.system());
+        let mut motion = started.into_motion(&Times::listed(from, parts.to_vec()));
+        if self.options.pass_bifurcations {
+            motion.pass_bifurcations();
         }
-        break;
+        if let Solving::With(_) = self.solving {
+            motion.go_straight();
+        }
+        let part_of = |why: &Diagnostic| why.data.get("t").and_then(serde_json::Value::as_f64).unwrap_or(from);
+        let mut stopped = None;
+        for _ in parts {
+            match motion.next_row() {
+                Some(Ok(row)) => {
+                    reached.push(layout.position(row).to_vec());
+                    continue;
+                }
+                Some(Err(why)) => stopped = Some((part_of(&why), why)),
+                None => {
+                    let why = Diagnostic::new(Code::E0604, "the way was not followed to its end");
+                    stopped = Some((from, Box::new(why)));
+                }
+            }
+            break;
+        }
+        let remarks = motion.take_remarks().into_iter().filter(|remark| remark.code == Code::W0602);
+        passed.extend(remarks.map(|remark| (part_of(&remark), remark)));
+        stopped
     }
-    let remarks = motion.take_remarks().into_iter().filter(|remark| remark.code == Code::W0602);
-    passed.extend(remarks.map(|remark| (part_of(&remark), remark)));
-    stopped
 }
 
 fn is_the_same(system: &ConstraintSystem, a: &[f64], b: &[f64]) -> bool {

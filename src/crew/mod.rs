@@ -1,7 +1,13 @@
-//! Work that falls into numbered pieces, done by several threads and handed out in order.
+//! Work that falls into pieces, done by several threads and handed out in order: pieces by their numbers, pieces that come one
+//! after the other (`relay.rs`), and shares that hold what is borrowed (`shares.rs`).
 //!
 //! Without the feature `threads` the pieces are done one after the other, when they are asked for; nothing else differs.
 
+mod relay;
+mod shares;
+
+pub use relay::Relay;
+pub use shares::in_shares;
 #[cfg(feature = "threads")]
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -1,0 +1,3320 @@
+//! Kinematics of mechanism `jansen`, written by mechc 0.1.0 from `jansen.mech`.
+//!
+//! - coordinates `q`: 21 (m, rad), equations `phi = 0`: 21
+//! - `phi_q`: 55 entries that do not vanish, see [`PHI_Q_PATTERN`]
+//! - parameters: 13; those that follow from others are worked out
+//! - the motion: [`assemble`], then [`step`] from time to time
+//! - needs the crate `libm`, for elementary functions with the same bits on every platform
+//! - needs no heap and no standard library; nothing in it panics
+//!
+//! This code carries no licence of mechc's: use, change and pass it on as you like.
+
+#![allow(clippy::approx_constant, clippy::eq_op)]
+#![allow(clippy::excessive_precision, clippy::large_const_arrays)]
+
+use runtime::blocks::Blocks;
+use runtime::blocks::work_of;
+use runtime::equations::Branches;
+use runtime::equations::Checks;
+use runtime::equations::Equations;
+use runtime::error::Fault;
+use runtime::grid::on_grid;
+use runtime::limits::ITERATIONS;
+use runtime::newton::Newton;
+use runtime::pivoting::Pivoting;
+use runtime::pivoting::solve_with_pivoting;
+use runtime::sine_and_cosine::sin_cos;
+use runtime::solution::Solved;
+use runtime::state::Parameters;
+use runtime::state::Time;
+use runtime::state::Timed;
+
+/// The parameters, in SI; those of the file by default.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Params {
+    /// `la` (m), line 3
+    pub la: f64,
+    /// `lb` (m), line 4
+    pub lb: f64,
+    /// `lc` (m), line 5
+    pub lc: f64,
+    /// `ld` (m), line 6
+    pub ld: f64,
+    /// `le` (m), line 7
+    pub le: f64,
+    /// `lf` (m), line 8
+    pub lf: f64,
+    /// `lg` (m), line 9
+    pub lg: f64,
+    /// `lh` (m), line 10
+    pub lh: f64,
+    /// `li` (m), line 11
+    pub li: f64,
+    /// `lj` (m), line 12
+    pub lj: f64,
+    /// `lk` (m), line 13
+    pub lk: f64,
+    /// `ll` (m), line 14
+    pub ll: f64,
+    /// `lm` (m), line 15
+    pub lm: f64,
+}
+
+impl Default for Params {
+    #[rustfmt::skip]
+    fn default() -> Self {
+        Self {
+            la: 0.038,
+            lb: 0.0415,
+            lc: 0.039299999999999995,
+            ld: 0.040100000000000004,
+            le: 0.055799999999999995,
+            lf: 0.0394,
+            lg: 0.0367,
+            lh: 0.06570000000000001,
+            li: 0.049,
+            lj: 0.05,
+            lk: 0.0619,
+            ll: 0.0078,
+            lm: 0.015,
+        }
+    }
+}
+
+impl Parameters for Params {
+    #[rustfmt::skip]
+    fn towards(&self, other: &Self, part: f64) -> Self {
+        Self {
+            la: self.la + part * (other.la - self.la),
+            lb: self.lb + part * (other.lb - self.lb),
+            lc: self.lc + part * (other.lc - self.lc),
+            ld: self.ld + part * (other.ld - self.ld),
+            le: self.le + part * (other.le - self.le),
+            lf: self.lf + part * (other.lf - self.lf),
+            lg: self.lg + part * (other.lg - self.lg),
+            lh: self.lh + part * (other.lh - self.lh),
+            li: self.li + part * (other.li - self.li),
+            lj: self.lj + part * (other.lj - self.lj),
+            lk: self.lk + part * (other.lk - self.lk),
+            ll: self.ll + part * (other.ll - self.ll),
+            lm: self.lm + part * (other.lm - self.lm),
+        }
+    }
+
+    #[rustfmt::skip]
+    fn is_finite(&self) -> bool {
+        let all = [
+            self.la, self.lb, self.lc, self.ld,
+            self.le, self.lf, self.lg, self.lh,
+            self.li, self.lj, self.lk, self.ll,
+            self.lm,
+        ];
+        all.into_iter().all(f64::is_finite)
+    }
+}
+
+/// Number of coordinates, and of equations.
+pub const N: usize = 21;
+
+/// Number of entries of `phi_q` that do not vanish.
+pub const ENTRIES: usize = 55;
+
+/// Coordinates (m, rad).
+pub type Q = [f64; N];
+
+/// Velocities (m/s, rad/s).
+pub type Qd = [f64; N];
+
+/// Accelerations (m/s^2, rad/s^2).
+pub type Qdd = [f64; N];
+
+/// Where each coordinate stands in `q`.
+pub mod coordinate {
+    /// `crank.x` (m), line 27
+    pub const CRANK_X: usize = 0;
+    /// `crank.y` (m), line 27
+    pub const CRANK_Y: usize = 1;
+    /// `crank.phi` (rad), line 27
+    pub const CRANK_PHI: usize = 2;
+    /// `rod1.x` (m), line 31
+    pub const ROD1_X: usize = 3;
+    /// `rod1.y` (m), line 31
+    pub const ROD1_Y: usize = 4;
+    /// `rod1.phi` (rad), line 31
+    pub const ROD1_PHI: usize = 5;
+    /// `rod2.x` (m), line 35
+    pub const ROD2_X: usize = 6;
+    /// `rod2.y` (m), line 35
+    pub const ROD2_Y: usize = 7;
+    /// `rod2.phi` (rad), line 35
+    pub const ROD2_PHI: usize = 8;
+    /// `upper.x` (m), line 39
+    pub const UPPER_X: usize = 9;
+    /// `upper.y` (m), line 39
+    pub const UPPER_Y: usize = 10;
+    /// `upper.phi` (rad), line 39
+    pub const UPPER_PHI: usize = 11;
+    /// `rocker.x` (m), line 44
+    pub const ROCKER_X: usize = 12;
+    /// `rocker.y` (m), line 44
+    pub const ROCKER_Y: usize = 13;
+    /// `rocker.phi` (rad), line 44
+    pub const ROCKER_PHI: usize = 14;
+    /// `link.x` (m), line 48
+    pub const LINK_X: usize = 15;
+    /// `link.y` (m), line 48
+    pub const LINK_Y: usize = 16;
+    /// `link.phi` (rad), line 48
+    pub const LINK_PHI: usize = 17;
+    /// `foot.x` (m), line 52
+    pub const FOOT_X: usize = 18;
+    /// `foot.y` (m), line 52
+    pub const FOOT_Y: usize = 19;
+    /// `foot.phi` (rad), line 52
+    pub const FOOT_PHI: usize = 20;
+}
+
+/// Which equation each joint, constraint or driver wrote, and its unit.
+pub mod row {
+    /// joint `main 1` (m), line 58
+    pub const MAIN_1: usize = 0;
+    /// joint `main 2` (m), line 58
+    pub const MAIN_2: usize = 1;
+    /// joint `X1 1` (m), line 59
+    pub const X1_1: usize = 2;
+    /// joint `X1 2` (m), line 59
+    pub const X1_2: usize = 3;
+    /// joint `X2 1` (m), line 60
+    pub const X2_1: usize = 4;
+    /// joint `X2 2` (m), line 60
+    pub const X2_2: usize = 5;
+    /// joint `Y1 1` (m), line 61
+    pub const Y1_1: usize = 6;
+    /// joint `Y1 2` (m), line 61
+    pub const Y1_2: usize = 7;
+    /// joint `Y2 1` (m), line 62
+    pub const Y2_1: usize = 8;
+    /// joint `Y2 2` (m), line 62
+    pub const Y2_2: usize = 9;
+    /// joint `V 1` (m), line 63
+    pub const V_1: usize = 10;
+    /// joint `V 2` (m), line 63
+    pub const V_2: usize = 11;
+    /// joint `W1 1` (m), line 64
+    pub const W1_1: usize = 12;
+    /// joint `W1 2` (m), line 64
+    pub const W1_2: usize = 13;
+    /// joint `W2 1` (m), line 65
+    pub const W2_1: usize = 14;
+    /// joint `W2 2` (m), line 65
+    pub const W2_2: usize = 15;
+    /// joint `U 1` (m), line 66
+    pub const U_1: usize = 16;
+    /// joint `U 2` (m), line 66
+    pub const U_2: usize = 17;
+    /// joint `P 1` (m), line 67
+    pub const P_1: usize = 18;
+    /// joint `P 2` (m), line 67
+    pub const P_2: usize = 19;
+    /// driver `motor` (rad), line 69
+    pub const MOTOR: usize = 20;
+}
+
+/// Row and column of each value that [`phi_q`] gives.
+#[rustfmt::skip]
+pub static PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [
+    (0, 0),
+    (1, 1),
+    (2, 0),
+    (2, 2),
+    (2, 3),
+    (3, 1),
+    (3, 2),
+    (3, 4),
+    (4, 0),
+    (4, 2),
+    (4, 6),
+    (5, 1),
+    (5, 2),
+    (5, 7),
+    (6, 9),
+    (7, 10),
+    (8, 12),
+    (9, 13),
+    (10, 3),
+    (10, 5),
+    (10, 9),
+    (10, 11),
+    (11, 4),
+    (11, 5),
+    (11, 10),
+    (11, 11),
+    (12, 6),
+    (12, 8),
+    (12, 12),
+    (12, 14),
+    (13, 7),
+    (13, 8),
+    (13, 13),
+    (13, 14),
+    (14, 12),
+    (14, 14),
+    (14, 18),
+    (15, 13),
+    (15, 14),
+    (15, 19),
+    (16, 9),
+    (16, 11),
+    (16, 15),
+    (17, 10),
+    (17, 11),
+    (17, 16),
+    (18, 15),
+    (18, 17),
+    (18, 18),
+    (18, 20),
+    (19, 16),
+    (19, 17),
+    (19, 19),
+    (19, 20),
+    (20, 2),
+];
+
+/// The bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Body {
+    /// `crank`, line 27
+    Crank,
+    /// `rod1`, line 31
+    Rod1,
+    /// `rod2`, line 35
+    Rod2,
+    /// `upper`, line 39
+    Upper,
+    /// `rocker`, line 44
+    Rocker,
+    /// `link`, line 48
+    Link,
+    /// `foot`, line 52
+    Foot,
+}
+
+/// Where a body is, or how its place changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// (m)
+    pub x: f64,
+    /// (m)
+    pub y: f64,
+    /// (rad)
+    pub phi: f64,
+}
+
+impl Pose {
+    /// That of a body, out of the coordinates or their derivatives.
+    #[rustfmt::skip]
+#[must_use]
+    pub fn of(q: &[f64; N], body: Body) -> Self {
+        match body {
+            Body::Crank => Self { x: q[0], y: q[1], phi: q[2] },
+            Body::Rod1 => Self { x: q[3], y: q[4], phi: q[5] },
+            Body::Rod2 => Self { x: q[6], y: q[7], phi: q[8] },
+            Body::Upper => Self { x: q[9], y: q[10], phi: q[11] },
+            Body::Rocker => Self { x: q[12], y: q[13], phi: q[14] },
+            Body::Link => Self { x: q[15], y: q[16], phi: q[17] },
+            Body::Foot => Self { x: q[18], y: q[19], phi: q[20] },
+        }
+    }
+}
+
+/// The residual of the equations, each in its unit: see [`row`].
+///
+/// 79 operations.
+pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    let lb = p.lb;
+    let le = p.le;
+    let ld = p.ld;
+    let crank_phi = q[2];
+    let crank_x = q[0];
+    let crank_y = q[1];
+    let lm = p.lm;
+    let rod1_phi = q[5];
+    let rod1_x = q[3];
+    let rod1_y = q[4];
+    let rod2_phi = q[8];
+    let rod2_x = q[6];
+    let rod2_y = q[7];
+    let upper_phi = q[11];
+    let la = p.la;
+    let upper_x = q[9];
+    let ll = p.ll;
+    let upper_y = q[10];
+    let rocker_phi = q[14];
+    let rocker_x = q[12];
+    let rocker_y = q[13];
+    let lj = p.lj;
+    let lk = p.lk;
+    let lc = p.lc;
+    let foot_phi = q[20];
+    let foot_x = q[18];
+    let foot_y = q[19];
+    let link_phi = q[17];
+    let link_x = q[15];
+    let link_y = q[16];
+    let lf = p.lf;
+    let lg = p.lg;
+
+    let v1 = 2.0 * lb;
+    let v2 = le * le;
+    let v3 = ld * ld;
+    let v4 = lb * lb;
+    let v5 = v3 + v4;
+    let v6 = v5 - v2;
+    let v7 = v6 / v1;
+    let v8 = v7 * v7;
+    let v9 = v3 - v8;
+    let v10 = libm::sqrt(v9);
+    let v11 = 3.141592653589793 * t;
+    let (s12, c12) = sin_cos(crank_phi);
+    let v13 = -crank_x;
+    let v14 = -crank_y;
+    let v15 = c12 * lm;
+    let v16 = s12 * lm;
+    let v17 = crank_x + v15;
+    let v18 = crank_y + v16;
+    let (s19, c19) = sin_cos(rod1_phi);
+    let v20 = v17 - rod1_x;
+    let v21 = v18 - rod1_y;
+    let (s22, c22) = sin_cos(rod2_phi);
+    let v23 = v17 - rod2_x;
+    let v24 = v18 - rod2_y;
+    let (s25, c25) = sin_cos(upper_phi);
+    let v26 = la + upper_x;
+    let v27 = -v26;
+    let v28 = ll + upper_y;
+    let v29 = -v28;
+    let (s30, c30) = sin_cos(rocker_phi);
+    let v31 = la + rocker_x;
+    let v32 = -v31;
+    let v33 = ll + rocker_y;
+    let v34 = -v33;
+    let v35 = c19 * lj;
+    let v36 = s19 * lj;
+    let v37 = rod1_x + v35;
+    let v38 = rod1_y + v36;
+    let v39 = c25 * lb;
+    let v40 = s25 * lb;
+    let v41 = upper_x + v39;
+    let v42 = upper_y + v40;
+    let v43 = v37 - v41;
+    let v44 = v38 - v42;
+    let v45 = c22 * lk;
+    let v46 = s22 * lk;
+    let v47 = rod2_x + v45;
+    let v48 = rod2_y + v46;
+    let v49 = c30 * lc;
+    let v50 = s30 * lc;
+    let v51 = rocker_x + v49;
+    let v52 = rocker_y + v50;
+    let v53 = v47 - v51;
+    let v54 = v48 - v52;
+    let (s55, c55) = sin_cos(foot_phi);
+    let v56 = v51 - foot_x;
+    let v57 = v52 - foot_y;
+    let v58 = c25 * v7;
+    let v59 = s25 * v10;
+    let v60 = s25 * v7;
+    let v61 = c25 * v10;
+    let v62 = v58 - v59;
+    let v63 = v60 + v61;
+    let v64 = upper_x + v62;
+    let v65 = upper_y + v63;
+    let (s66, c66) = sin_cos(link_phi);
+    let v67 = v64 - link_x;
+    let v68 = v65 - link_y;
+    let v69 = c66 * lf;
+    let v70 = s66 * lf;
+    let v71 = link_x + v69;
+    let v72 = link_y + v70;
+    let v73 = c55 * lg;
+    let v74 = s55 * lg;
+    let v75 = foot_x + v73;
+    let v76 = foot_y + v74;
+    let v77 = v71 - v75;
+    let v78 = v72 - v76;
+    let v79 = crank_phi - v11;
+
+    out[0] = v13;
+    out[1] = v14;
+    out[2] = v20;
+    out[3] = v21;
+    out[4] = v23;
+    out[5] = v24;
+    out[6] = v27;
+    out[7] = v29;
+    out[8] = v32;
+    out[9] = v34;
+    out[10] = v43;
+    out[11] = v44;
+    out[12] = v53;
+    out[13] = v54;
+    out[14] = v56;
+    out[15] = v57;
+    out[16] = v67;
+    out[17] = v68;
+    out[18] = v77;
+    out[19] = v78;
+    out[20] = v79;
+    out
+}
+
+/// The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`] (the equation's unit per m or
+/// rad).
+///
+/// 46 operations.
+pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
+    let mut out = [0.0; ENTRIES];
+    let lb = p.lb;
+    let le = p.le;
+    let ld = p.ld;
+    let crank_phi = q[2];
+    let lm = p.lm;
+    let rod1_phi = q[5];
+    let rod2_phi = q[8];
+    let upper_phi = q[11];
+    let rocker_phi = q[14];
+    let lj = p.lj;
+    let lk = p.lk;
+    let lc = p.lc;
+    let foot_phi = q[20];
+    let link_phi = q[17];
+    let lf = p.lf;
+    let lg = p.lg;
+
+    let v1 = 2.0 * lb;
+    let v2 = le * le;
+    let v3 = ld * ld;
+    let v4 = lb * lb;
+    let v5 = v3 + v4;
+    let v6 = v5 - v2;
+    let v7 = v6 / v1;
+    let v8 = v7 * v7;
+    let v9 = v3 - v8;
+    let v10 = libm::sqrt(v9);
+    let (s11, c11) = sin_cos(crank_phi);
+    let v12 = c11 * lm;
+    let v13 = s11 * lm;
+    let (s14, c14) = sin_cos(rod1_phi);
+    let (s15, c15) = sin_cos(rod2_phi);
+    let (s16, c16) = sin_cos(upper_phi);
+    let (s17, c17) = sin_cos(rocker_phi);
+    let v18 = c14 * lj;
+    let v19 = s14 * lj;
+    let v20 = c16 * lb;
+    let v21 = s16 * lb;
+    let v22 = c15 * lk;
+    let v23 = s15 * lk;
+    let v24 = c17 * lc;
+    let v25 = s17 * lc;
+    let (s26, c26) = sin_cos(foot_phi);
+    let v27 = c16 * v7;
+    let v28 = s16 * v10;
+    let v29 = s16 * v7;
+    let v30 = c16 * v10;
+    let v31 = v27 - v28;
+    let v32 = v29 + v30;
+    let (s33, c33) = sin_cos(link_phi);
+    let v34 = c33 * lf;
+    let v35 = s33 * lf;
+    let v36 = c26 * lg;
+    let v37 = s26 * lg;
+    let v38 = -v13;
+    let v39 = -v19;
+    let v40 = -v20;
+    let v41 = -v25;
+    let v42 = -v23;
+    let v43 = -v24;
+    let v44 = -v32;
+    let v45 = -v35;
+    let v46 = -v36;
+
+    out[0] = -1.0;
+    out[1] = -1.0;
+    out[2] = 1.0;
+    out[3] = v38;
+    out[4] = -1.0;
+    out[5] = 1.0;
+    out[6] = v12;
+    out[7] = -1.0;
+    out[8] = 1.0;
+    out[9] = v38;
+    out[10] = -1.0;
+    out[11] = 1.0;
+    out[12] = v12;
+    out[13] = -1.0;
+    out[14] = -1.0;
+    out[15] = -1.0;
+    out[16] = -1.0;
+    out[17] = -1.0;
+    out[18] = 1.0;
+    out[19] = v39;
+    out[20] = -1.0;
+    out[21] = v21;
+    out[22] = 1.0;
+    out[23] = v18;
+    out[24] = -1.0;
+    out[25] = v40;
+    out[26] = 1.0;
+    out[27] = v42;
+    out[28] = -1.0;
+    out[29] = v25;
+    out[30] = 1.0;
+    out[31] = v22;
+    out[32] = -1.0;
+    out[33] = v43;
+    out[34] = 1.0;
+    out[35] = v41;
+    out[36] = -1.0;
+    out[37] = 1.0;
+    out[38] = v24;
+    out[39] = -1.0;
+    out[40] = 1.0;
+    out[41] = v44;
+    out[42] = -1.0;
+    out[43] = 1.0;
+    out[44] = v31;
+    out[45] = -1.0;
+    out[46] = 1.0;
+    out[47] = v45;
+    out[48] = -1.0;
+    out[49] = v37;
+    out[50] = 1.0;
+    out[51] = v34;
+    out[52] = -1.0;
+    out[53] = v46;
+    out[54] = 1.0;
+    out
+}
+
+/// The partial derivative of `phi` by time (the equation's unit per s).
+///
+/// 0 operations.
+pub fn phi_t(_q: &[f64; N], _t: f64, _p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    out[20] = -3.141592653589793;
+    out
+}
+
+/// Right side of the velocity equation `phi_q qd = nu` (the equation's unit per s).
+///
+/// 0 operations.
+pub fn nu(_q: &[f64; N], _t: f64, _p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    out[20] = 3.141592653589793;
+    out
+}
+
+/// Right side of the acceleration equation `phi_q qdd = gamma` (the equation's unit per s^2).
+///
+/// 71 operations.
+pub fn gamma(q: &[f64; N], qd: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    let lb = p.lb;
+    let le = p.le;
+    let ld = p.ld;
+    let crank_phi = q[2];
+    let rod1_phi = q[5];
+    let rod2_phi = q[8];
+    let upper_phi = q[11];
+    let rocker_phi = q[14];
+    let foot_phi = q[20];
+    let link_phi = q[17];
+    let crank_phi_d = qd[2];
+    let rod1_phi_d = qd[5];
+    let rod2_phi_d = qd[8];
+    let upper_phi_d = qd[11];
+    let rocker_phi_d = qd[14];
+    let foot_phi_d = qd[20];
+    let link_phi_d = qd[17];
+    let lm = p.lm;
+    let lj = p.lj;
+    let lk = p.lk;
+    let lc = p.lc;
+    let lf = p.lf;
+    let lg = p.lg;
+
+    let v1 = 2.0 * lb;
+    let v2 = le * le;
+    let v3 = ld * ld;
+    let v4 = lb * lb;
+    let v5 = v3 + v4;
+    let v6 = v5 - v2;
+    let v7 = v6 / v1;
+    let v8 = v7 * v7;
+    let v9 = v3 - v8;
+    let v10 = libm::sqrt(v9);
+    let (s11, c11) = sin_cos(crank_phi);
+    let (s12, c12) = sin_cos(rod1_phi);
+    let (s13, c13) = sin_cos(rod2_phi);
+    let (s14, c14) = sin_cos(upper_phi);
+    let (s15, c15) = sin_cos(rocker_phi);
+    let (s16, c16) = sin_cos(foot_phi);
+    let (s17, c17) = sin_cos(link_phi);
+    let v18 = s11 * crank_phi_d;
+    let v19 = c11 * crank_phi_d;
+    let v20 = s12 * rod1_phi_d;
+    let v21 = c12 * rod1_phi_d;
+    let v22 = s13 * rod2_phi_d;
+    let v23 = c13 * rod2_phi_d;
+    let v24 = s14 * upper_phi_d;
+    let v25 = c14 * upper_phi_d;
+    let v26 = s15 * rocker_phi_d;
+    let v27 = c15 * rocker_phi_d;
+    let v28 = s16 * foot_phi_d;
+    let v29 = c16 * foot_phi_d;
+    let v30 = s17 * link_phi_d;
+    let v31 = c17 * link_phi_d;
+    let v32 = crank_phi_d * v19;
+    let v33 = crank_phi_d * v18;
+    let v34 = lm * v32;
+    let v35 = lm * v33;
+    let v36 = rod1_phi_d * v21;
+    let v37 = rod1_phi_d * v20;
+    let v38 = rod2_phi_d * v23;
+    let v39 = rod2_phi_d * v22;
+    let v40 = upper_phi_d * v25;
+    let v41 = upper_phi_d * v24;
+    let v42 = rocker_phi_d * v27;
+    let v43 = rocker_phi_d * v26;
+    let v44 = lj * v36;
+    let v45 = lj * v37;
+    let v46 = lb * v40;
+    let v47 = lb * v41;
+    let v48 = lk * v38;
+    let v49 = lk * v39;
+    let v50 = lc * v42;
+    let v51 = lc * v43;
+    let v52 = foot_phi_d * v29;
+    let v53 = foot_phi_d * v28;
+    let v54 = v7 * v40;
+    let v55 = v10 * v41;
+    let v56 = v7 * v41;
+    let v57 = v10 * v40;
+    let v58 = v54 - v55;
+    let v59 = v56 + v57;
+    let v60 = link_phi_d * v31;
+    let v61 = link_phi_d * v30;
+    let v62 = lf * v60;
+    let v63 = lf * v61;
+    let v64 = lg * v52;
+    let v65 = lg * v53;
+    let v66 = v44 - v46;
+    let v67 = v45 - v47;
+    let v68 = v48 - v50;
+    let v69 = v49 - v51;
+    let v70 = v62 - v64;
+    let v71 = v63 - v65;
+
+    out[2] = v34;
+    out[3] = v35;
+    out[4] = v34;
+    out[5] = v35;
+    out[10] = v66;
+    out[11] = v67;
+    out[12] = v68;
+    out[13] = v69;
+    out[14] = v50;
+    out[15] = v51;
+    out[16] = v58;
+    out[17] = v59;
+    out[18] = v70;
+    out[19] = v71;
+    out
+}
+
+/// The Jacobian as a full matrix, row by row.
+pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {
+    let mut full = [[0.0; N]; N];
+    for (&(row, column), value) in PHI_Q_PATTERN.iter().zip(phi_q(q, t, p)) {
+        if let Some(entry) = full.get_mut(row).and_then(|line| line.get_mut(column)) {
+            *entry = value;
+        }
+    }
+    full
+}
+
+pub use runtime::error::Error;
+pub use runtime::limits::MOST_STEPS;
+
+/// The mechanism at a time.
+pub type State = runtime::state::State<Model>;
+
+impl State {
+    /// Where a body is (m, m, rad).
+    #[must_use]
+    pub fn pose(&self, body: Body) -> Pose {
+        Pose::of(self.q(), body)
+    }
+
+    /// How fast a body moves (m/s, m/s, rad/s).
+    #[must_use]
+    pub fn velocity(&self, body: Body) -> Pose {
+        Pose::of(self.qd(), body)
+    }
+
+    /// How a body's velocity changes (m/s^2, m/s^2, rad/s^2).
+    #[must_use]
+    pub fn acceleration(&self, body: Body) -> Pose {
+        Pose::of(self.qdd(), body)
+    }
+}
+
+/// Brings the mechanism to its first time with some parameters, along the branch that the file's
+/// parameters give.
+///
+/// # Errors
+/// It cannot be assembled with these, or not on that branch.
+pub fn assemble(params: &Params) -> Result<State, Error> {
+    runtime::assemble::assemble(params)
+}
+
+/// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
+/// and acceleration are those of the branch that it is on, whichever way `t` lies.
+///
+/// It takes [`MOST_STEPS`] steps at most, and mostly one; [`step_within`] takes as many as it is
+/// allowed. What a driver does and undoes within a
+/// step, by formulas without branches, is not seen: no step is longer than [`LONGEST_STEP`].
+///
+/// # Errors
+/// Why it cannot get there; the state stays at the last time that it could reach.
+pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
+    step_within(t, state, MOST_STEPS)
+}
+
+/// As [`step`], in so many steps at most, for those who have a deadline: each solves the equations
+/// about once, and one that has to be made shorter counts as well.
+///
+/// # Errors
+/// Why it cannot get there; the state stays at the last time that it could reach. Where that is
+/// [`Error::TooFar`] the same call goes on from there.
+pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> {
+    runtime::step::step_within(t, state, most)
+}
+
+/// Number of results at a time.
+pub const COLUMNS: usize = 64;
+
+/// The first time of the file's analysis (s), at which the mechanism is assembled.
+pub const START_TIME: f64 = 0.0;
+
+/// How long the file's analysis takes (s).
+const SPAN: f64 = 2.0;
+
+/// The longest step (s).
+pub const LONGEST_STEP: f64 = 0.0625;
+
+/// The shortest step (s).
+const SMALLEST_STEP: f64 = 2e-12;
+
+/// What a change of each coordinate is judged against.
+#[rustfmt::skip]
+static SCALES: [f64; N] = [
+    0.015, 0.015, 1.0, 0.05,
+    0.05, 1.0, 0.0619, 0.0619,
+    1.0, 0.055799999999999995, 0.055799999999999995, 1.0,
+    0.039299999999999995, 0.039299999999999995, 1.0, 0.0394,
+    0.0394, 1.0, 0.06570000000000001, 0.06570000000000001,
+    1.0,
+];
+
+/// The assembled position (m, rad).
+#[rustfmt::skip]
+static START: [f64; N] = [
+    0.0, 0.0, 0.0, 0.015,
+    0.0, 2.465894844308564, 0.015, 0.0,
+    3.9677042625400487, -0.038, -0.0078, 1.2270429474429436,
+    -0.038, -0.0078, 4.997346692961635, -0.07479436538093606,
+    0.008143170205896154, 5.118452698935835, -0.02695210703157296, -0.04551517017008116,
+    2.645707522702991,
+];
+
+/// Number of values that follow from the parameters alone.
+const KNOWN: usize = 2;
+
+/// What follows from the parameters alone.
+///
+/// 10 operations.
+fn known(p: &Params) -> [f64; KNOWN] {
+    let mut out = [0.0; KNOWN];
+    let lb = p.lb;
+    let le = p.le;
+    let ld = p.ld;
+
+    let v1 = 2.0 * lb;
+    let v2 = le * le;
+    let v3 = ld * ld;
+    let v4 = lb * lb;
+    let v5 = v3 + v4;
+    let v6 = v5 - v2;
+    let v7 = v6 / v1;
+    let v8 = v7 * v7;
+    let v9 = v3 - v8;
+    let v10 = libm::sqrt(v9);
+
+    out[0] = v10;
+    out[1] = v7;
+    out
+}
+
+/// The mechanism with its parameters, and what follows from these alone.
+#[derive(Clone, Debug)]
+pub struct Model {
+    params: Params,
+    known: [f64; KNOWN],
+}
+
+/// Number of coordinates that Newton solves for; the others follow.
+const TEARS: usize = 6;
+
+/// What a change of each of them is judged against (m, or 1 rad).
+#[rustfmt::skip]
+static TEAR_SCALES: [f64; TEARS] = [
+    1.0, 1.0, 1.0, 1.0,
+    1.0, 1.0,
+];
+
+/// Number of blocks of equations whose determinants change with the position.
+const TURNS: usize = 3;
+
+/// Whether they are negative where all pivots are positive.
+#[rustfmt::skip]
+static TURNED: [bool; TURNS] = [
+    true, true, false,
+];
+
+/// Number of places where formulas have branches.
+const SIDES: usize = 0;
+
+/// Which branch is taken at each: what a comparison gives, the number of a piece.
+type Sides = [f64; SIDES];
+
+/// What solves the equations at a time.
+type Solution = runtime::solution::Solution<Model>;
+
+/// Position, velocity and acceleration at a time. Newton begins with a guess of `upper.phi`,
+/// `rod1.phi`, `rocker.phi`, `rod2.phi`, `foot.phi`, `link.phi`; all else follows.
+///
+/// 270 operations.
+fn solve(guess: &[f64; TEARS], t: f64, m: &Model, at: &mut Solution) {
+    at.begin(t);
+    let crank_phi = 3.141592653589793 * t;
+    at.q[2] = crank_phi + 0.0;
+    at.qd[2] = 3.141592653589793;
+    let (s2, c2) = sin_cos(crank_phi);
+    let rod1_x = c2 * m.params.lm;
+    at.q[3] = rod1_x + 0.0;
+    let rod1_y = s2 * m.params.lm;
+    let v5 = rod1_y * 3.141592653589793;
+    let rod1_x_d = -v5;
+    at.qd[3] = rod1_x_d + 0.0;
+    let v7 = c2 * 3.141592653589793;
+    let v8 = 3.141592653589793 * v7;
+    let v9 = m.params.lm * v8;
+    let rod1_x_dd = -v9;
+    at.qdd[3] = rod1_x_dd + 0.0;
+    at.q[4] = rod1_y + 0.0;
+    let rod1_y_d = rod1_x * 3.141592653589793;
+    at.qd[4] = rod1_y_d + 0.0;
+    let v12 = s2 * 3.141592653589793;
+    let v13 = 3.141592653589793 * v12;
+    let v14 = m.params.lm * v13;
+    let rod1_y_dd = -v14;
+    at.qdd[4] = rod1_y_dd + 0.0;
+    at.q[6] = rod1_x + 0.0;
+    let v16 = rod1_y * 3.141592653589793;
+    let rod2_x_d = -v16;
+    at.qd[6] = rod2_x_d + 0.0;
+    let rod2_x_dd = -v9;
+    at.qdd[6] = rod2_x_dd + 0.0;
+    at.q[7] = rod1_y + 0.0;
+    let rod2_y_d = rod1_x * 3.141592653589793;
+    at.qd[7] = rod2_y_d + 0.0;
+    let rod2_y_dd = -v14;
+    at.qdd[7] = rod2_y_dd + 0.0;
+    let upper_x = -m.params.la;
+    at.q[9] = upper_x + 0.0;
+    let upper_y = -m.params.ll;
+    at.q[10] = upper_y + 0.0;
+    let rocker_x = -m.params.la;
+    at.q[12] = rocker_x + 0.0;
+    let rocker_y = -m.params.ll;
+    at.q[13] = rocker_y + 0.0;
+    let mut x1 = guess[0];
+    let mut x2 = guess[1];
+    let mut s25 = 0.0;
+    let mut c25 = 0.0;
+    let mut s27 = 0.0;
+    let mut c27 = 0.0;
+    let mut v46 = 0.0;
+    let mut v47 = 0.0;
+    x1 = on_grid(x1, 7.450580596923828e-9);
+    x2 = on_grid(x2, 7.450580596923828e-9);
+    let mut newton = Newton::new();
+    for _ in 0..ITERATIONS {
+        (s25, c25) = sin_cos(x2);
+        let v26 = s25 * m.params.lj;
+        (s27, c27) = sin_cos(x1);
+        let v28 = s27 * m.params.lb;
+        let v29 = c25 * m.params.lj;
+        let v30 = c27 * m.params.lb;
+        let v31 = v29 * v28;
+        let v32 = v31 - v30 * v26;
+        let v33 = 1.0 / v32;
+        let v34 = v30 - m.params.la;
+        let v35 = rod1_x + v29;
+        let v36 = v35 - v34;
+        let v37 = v28 - m.params.ll;
+        let v38 = rod1_y + v26;
+        let v39 = v38 - v37;
+        let v40 = v28 * v39;
+        let v41 = v30 * v36 + v40;
+        let v42 = v41 * v33;
+        let v43 = v29 * v36;
+        let v44 = v26 * v39 + v43;
+        let v45 = v44 * v33;
+        v46 = -v45;
+        v47 = -v42;
+        newton.see(v46, 7.450580596923828e-9, 1.0);
+        newton.see(v47, 7.450580596923828e-9, 1.0);
+        if newton.is_done() {
+            break;
+        }
+        x1 = newton.next(x1, v46, 7.450580596923828e-9);
+        x2 = newton.next(x2, v47, 7.450580596923828e-9);
+    }
+    at.note(&newton);
+    x1 += v46;
+    x2 += v47;
+    let v48 = 0.5 * v46;
+    let v49 = c27 - v48 * s27;
+    let v50 = v46 * v49 + s27;
+    let v51 = v48 * c27 + s27;
+    let v52 = c27 - v46 * v51;
+    let v53 = v52 * m.params.lb;
+    let v54 = v53 - m.params.la;
+    let v55 = 0.5 * v47;
+    let v56 = c25 - v55 * s25;
+    let v57 = v47 * v56 + s25;
+    let v58 = v55 * c25 + s25;
+    let v59 = c25 - v47 * v58;
+    let v60 = v59 * m.params.lj;
+    let v61 = rod1_x + v60;
+    let v62 = v61 - v54;
+    at.holds &= v62.abs() <= 9.023810730146881e-14;
+    let v63 = v50 * m.params.lb;
+    let v64 = v63 - m.params.ll;
+    let v65 = v57 * m.params.lj;
+    let v66 = rod1_y + v65;
+    let v67 = v66 - v64;
+    at.holds &= v67.abs() <= 8.579400225180759e-14;
+    let v68 = v60 * v63;
+    let v69 = v68 - v53 * v65;
+    let v70 = 1.0 / v69;
+    at.q[5] = x2 + 0.0;
+    at.q[11] = x1 + 0.0;
+    at.pivot(0, v70, 0.007714738691098705);
+    let v71 = v53 * v5;
+    let v72 = v71 - v63 * rod1_y_d;
+    let rod1_phi_d = v72 * v70;
+    let v74 = v60 * v5;
+    let v75 = v74 - v65 * rod1_y_d;
+    let upper_phi_d = v75 * v70;
+    at.qd[5] = rod1_phi_d + 0.0;
+    at.qd[11] = upper_phi_d + 0.0;
+    let v77 = v52 * upper_phi_d;
+    let v78 = upper_phi_d * v77;
+    let v79 = v59 * rod1_phi_d;
+    let v80 = rod1_phi_d * v79;
+    let v81 = m.params.lj * v80;
+    let v82 = v81 - m.params.lb * v78;
+    let v83 = v82 + v9;
+    let v84 = v50 * upper_phi_d;
+    let v85 = upper_phi_d * v84;
+    let v86 = v57 * rod1_phi_d;
+    let v87 = rod1_phi_d * v86;
+    let v88 = m.params.lj * v87;
+    let v89 = v88 - m.params.lb * v85;
+    let v90 = v89 + v14;
+    let v91 = v63 * v90;
+    let v92 = v53 * v83 + v91;
+    let rod1_phi_dd = v92 * v70;
+    let v94 = v60 * v83;
+    let v95 = v65 * v90 + v94;
+    let upper_phi_dd = v95 * v70;
+    at.qdd[5] = rod1_phi_dd + 0.0;
+    at.qdd[11] = upper_phi_dd + 0.0;
+    let mut x3 = guess[2];
+    let mut x4 = guess[3];
+    let mut s97 = 0.0;
+    let mut c97 = 0.0;
+    let mut s99 = 0.0;
+    let mut c99 = 0.0;
+    let mut v118 = 0.0;
+    let mut v119 = 0.0;
+    x3 = on_grid(x3, 7.450580596923828e-9);
+    x4 = on_grid(x4, 7.450580596923828e-9);
+    let mut newton = Newton::new();
+    for _ in 0..ITERATIONS {
+        (s97, c97) = sin_cos(x4);
+        let v98 = s97 * m.params.lk;
+        (s99, c99) = sin_cos(x3);
+        let v100 = s99 * m.params.lc;
+        let v101 = c97 * m.params.lk;
+        let v102 = c99 * m.params.lc;
+        let v103 = v101 * v100;
+        let v104 = v103 - v102 * v98;
+        let v105 = 1.0 / v104;
+        let v106 = v102 - m.params.la;
+        let v107 = rod1_x + v101;
+        let v108 = v107 - v106;
+        let v109 = v100 - m.params.ll;
+        let v110 = rod1_y + v98;
+        let v111 = v110 - v109;
+        let v112 = v100 * v111;
+        let v113 = v102 * v108 + v112;
+        let v114 = v113 * v105;
+        let v115 = v101 * v108;
+        let v116 = v98 * v111 + v115;
+        let v117 = v116 * v105;
+        v118 = -v117;
+        v119 = -v114;
+        newton.see(v118, 7.450580596923828e-9, 1.0);
+        newton.see(v119, 7.450580596923828e-9, 1.0);
+        if newton.is_done() {
+            break;
+        }
+        x3 = newton.next(x3, v118, 7.450580596923828e-9);
+        x4 = newton.next(x4, v119, 7.450580596923828e-9);
+    }
+    at.note(&newton);
+    x3 += v118;
+    x4 += v119;
+    let v120 = 0.5 * v118;
+    let v121 = c99 - v120 * s99;
+    let v122 = v118 * v121 + s99;
+    let v123 = v120 * c99 + s99;
+    let v124 = c99 - v118 * v123;
+    let v125 = v124 * m.params.lc;
+    let foot_x = v125 - m.params.la;
+    let v127 = 0.5 * v119;
+    let v128 = c97 - v127 * s97;
+    let v129 = v119 * v128 + s97;
+    let v130 = v127 * c97 + s97;
+    let v131 = c97 - v119 * v130;
+    let v132 = v131 * m.params.lk;
+    let v133 = rod1_x + v132;
+    let v134 = v133 - foot_x;
+    at.holds &= v134.abs() <= 9.451635245189325e-14;
+    let v135 = v122 * m.params.lc;
+    let foot_y = v135 - m.params.ll;
+    let v137 = v129 * m.params.lk;
+    let v138 = rod1_y + v137;
+    let v139 = v138 - foot_y;
+    at.holds &= v139.abs() <= 8.549037102178223e-14;
+    let v140 = v132 * v135;
+    let v141 = v140 - v125 * v137;
+    let v142 = 1.0 / v141;
+    at.q[8] = x4 + 0.0;
+    at.q[14] = x3 + 0.0;
+    at.pivot(1, v142, 0.008023768154829213);
+    let v143 = v125 * v16;
+    let v144 = v143 - v135 * rod2_y_d;
+    let rod2_phi_d = v144 * v142;
+    let v146 = v132 * v16;
+    let v147 = v146 - v137 * rod2_y_d;
+    let rocker_phi_d = v147 * v142;
+    at.qd[8] = rod2_phi_d + 0.0;
+    at.qd[14] = rocker_phi_d + 0.0;
+    let v149 = v124 * rocker_phi_d;
+    let v150 = rocker_phi_d * v149;
+    let v151 = m.params.lc * v150;
+    let v152 = v131 * rod2_phi_d;
+    let v153 = rod2_phi_d * v152;
+    let v154 = m.params.lk * v153 - v151;
+    let v155 = v154 + v9;
+    let v156 = v122 * rocker_phi_d;
+    let v157 = rocker_phi_d * v156;
+    let v158 = m.params.lc * v157;
+    let v159 = v129 * rod2_phi_d;
+    let v160 = rod2_phi_d * v159;
+    let v161 = m.params.lk * v160 - v158;
+    let v162 = v161 + v14;
+    let v163 = v135 * v162;
+    let v164 = v125 * v155 + v163;
+    let rod2_phi_dd = v164 * v142;
+    let v166 = v132 * v155;
+    let v167 = v137 * v162 + v166;
+    let rocker_phi_dd = v167 * v142;
+    at.qdd[8] = rod2_phi_dd + 0.0;
+    at.qdd[14] = rocker_phi_dd + 0.0;
+    at.q[18] = foot_x + 0.0;
+    let v169 = v135 * rocker_phi_d;
+    let foot_x_d = -v169;
+    at.qd[18] = foot_x_d + 0.0;
+    let v171 = v135 * rocker_phi_dd + v151;
+    let foot_x_dd = -v171;
+    at.qdd[18] = foot_x_dd + 0.0;
+    at.q[19] = foot_y + 0.0;
+    let foot_y_d = v125 * rocker_phi_d;
+    at.qd[19] = foot_y_d + 0.0;
+    let v174 = v158 - v125 * rocker_phi_dd;
+    let foot_y_dd = -v174;
+    at.qdd[19] = foot_y_dd + 0.0;
+    let v176 = v52 * m.known[1];
+    let v177 = v176 - v50 * m.known[0];
+    let link_x = v177 - m.params.la;
+    at.q[15] = link_x + 0.0;
+    let v179 = v50 * m.known[1];
+    let v180 = v52 * m.known[0] + v179;
+    let v181 = v180 * upper_phi_d;
+    let link_x_d = -v181;
+    at.qd[15] = link_x_d + 0.0;
+    let v183 = m.known[1] * v78;
+    let v184 = v183 - m.known[0] * v85;
+    let v185 = v180 * upper_phi_dd + v184;
+    let link_x_dd = -v185;
+    at.qdd[15] = link_x_dd + 0.0;
+    let link_y = v180 - m.params.ll;
+    at.q[16] = link_y + 0.0;
+    let link_y_d = v177 * upper_phi_d;
+    at.qd[16] = link_y_d + 0.0;
+    let v189 = m.known[1] * v85;
+    let v190 = m.known[0] * v78 + v189;
+    let v191 = v190 - v177 * upper_phi_dd;
+    let link_y_dd = -v191;
+    at.qdd[16] = link_y_dd + 0.0;
+    let mut x5 = guess[4];
+    let mut x6 = guess[5];
+    let mut s193 = 0.0;
+    let mut c193 = 0.0;
+    let mut s195 = 0.0;
+    let mut c195 = 0.0;
+    let mut v210 = 0.0;
+    let mut v213 = 0.0;
+    x5 = on_grid(x5, 7.450580596923828e-9);
+    x6 = on_grid(x6, 7.450580596923828e-9);
+    let mut newton = Newton::new();
+    for _ in 0..ITERATIONS {
+        (s193, c193) = sin_cos(x6);
+        let v194 = s193 * m.params.lf;
+        (s195, c195) = sin_cos(x5);
+        let v196 = s195 * m.params.lg;
+        let v197 = c193 * m.params.lf;
+        let v198 = c195 * m.params.lg;
+        let v199 = v194 * v198;
+        let v200 = v199 - v196 * v197;
+        let v201 = 1.0 / v200;
+        let v202 = foot_x + v198;
+        let v203 = link_x + v197;
+        let v204 = v203 - v202;
+        let v205 = foot_y + v196;
+        let v206 = link_y + v194;
+        let v207 = v206 - v205;
+        let v208 = v198 * v204;
+        let v209 = v196 * v207 + v208;
+        v210 = v209 * v201;
+        let v211 = v194 * v207;
+        let v212 = v197 * v204 + v211;
+        v213 = v212 * v201;
+        newton.see(v213, 7.450580596923828e-9, 1.0);
+        newton.see(v210, 7.450580596923828e-9, 1.0);
+        if newton.is_done() {
+            break;
+        }
+        x5 = newton.next(x5, v213, 7.450580596923828e-9);
+        x6 = newton.next(x6, v210, 7.450580596923828e-9);
+    }
+    at.note(&newton);
+    x5 += v213;
+    x6 += v210;
+    let v214 = 0.5 * v213;
+    let v215 = c195 - v214 * s195;
+    let v216 = v213 * v215 + s195;
+    let v217 = v214 * c195 + s195;
+    let v218 = c195 - v213 * v217;
+    let v219 = v218 * m.params.lg;
+    let v220 = foot_x + v219;
+    let v221 = 0.5 * v210;
+    let v222 = c193 - v221 * s193;
+    let v223 = v210 * v222 + s193;
+    let v224 = v221 * c193 + s193;
+    let v225 = c193 - v210 * v224;
+    let v226 = v225 * m.params.lf;
+    let v227 = link_x + v226;
+    let v228 = v227 - v220;
+    at.holds &= v228.abs() <= 8.683885597474093e-14;
+    let v229 = v216 * m.params.lg;
+    let v230 = foot_y + v229;
+    let v231 = v223 * m.params.lf;
+    let v232 = link_y + v231;
+    let v233 = v232 - v230;
+    at.holds &= v233.abs() <= 8.472718817438194e-14;
+    let v234 = v231 * v219;
+    let v235 = v234 - v229 * v226;
+    let v236 = 1.0 / v235;
+    at.q[17] = x6 + 0.0;
+    at.q[20] = x5 + 0.0;
+    at.pivot(2, v236, 0.007316604300031398);
+    let v237 = v181 - v169;
+    let v238 = foot_y_d - link_y_d;
+    let v239 = v219 * v237;
+    let v240 = v229 * v238 + v239;
+    let v241 = v240 * v236;
+    let v242 = v231 * v238;
+    let v243 = v226 * v237 + v242;
+    let v244 = v243 * v236;
+    let link_phi_d = -v241;
+    at.qd[17] = link_phi_d + 0.0;
+    let foot_phi_d = -v244;
+    at.qd[20] = foot_phi_d + 0.0;
+    let v247 = v218 * v244;
+    let v248 = v244 * v247;
+    let v249 = v225 * v241;
+    let v250 = v241 * v249;
+    let v251 = m.params.lf * v250;
+    let v252 = v251 - m.params.lg * v248;
+    let v253 = v252 + v185;
+    let v254 = v253 - v171;
+    let v255 = v216 * v244;
+    let v256 = v244 * v255;
+    let v257 = v223 * v241;
+    let v258 = v241 * v257;
+    let v259 = m.params.lf * v258;
+    let v260 = v259 - m.params.lg * v256;
+    let v261 = v260 + v191;
+    let v262 = v261 - v174;
+    let v263 = v219 * v254;
+    let v264 = v229 * v262 + v263;
+    let v265 = v264 * v236;
+    let v266 = v231 * v262;
+    let v267 = v226 * v254 + v266;
+    let v268 = v267 * v236;
+    let link_phi_dd = -v265;
+    at.qdd[17] = link_phi_dd + 0.0;
+    let foot_phi_dd = -v268;
+    at.qdd[20] = foot_phi_dd + 0.0;
+}
+
+impl Equations for Model {
+    type Q = Q;
+    type Entries = [f64; ENTRIES];
+    type Sides = Sides;
+
+    fn pattern() -> &'static [(usize, usize)] {
+        &PHI_Q_PATTERN
+    }
+
+    fn scales() -> &'static Q {
+        &SCALES
+    }
+
+    fn phi(&self, q: &Q, t: f64, _sides: &Sides) -> Q {
+        phi(q, t, &self.params)
+    }
+
+    fn phi_q(&self, q: &Q, t: f64, _sides: &Sides) -> Self::Entries {
+        phi_q(q, t, &self.params)
+    }
+
+    fn nu(&self, q: &Q, t: f64, _sides: &Sides) -> Q {
+        nu(q, t, &self.params)
+    }
+
+    fn gamma(&self, q: &Q, qd: &Qd, t: f64, _sides: &Sides) -> Qdd {
+        gamma(q, qd, t, &self.params)
+    }
+}
+
+impl Branches for Model {}
+
+impl Checks for Model {
+    type Watched = [bool; 0];
+}
+
+impl Solved for Model {
+    type Tears = [f64; TEARS];
+    type Turns = [bool; TURNS];
+    type Measures = ();
+    type Joined = [f64; 0];
+    type Along = Time;
+
+    fn tear_scales() -> &'static Self::Tears {
+        &TEAR_SCALES
+    }
+
+    fn turned() -> &'static Self::Turns {
+        &TURNED
+    }
+
+    #[rustfmt::skip]
+    fn tears(q: &Q) -> Self::Tears {
+        [
+            q[11], q[5], q[14], q[8],
+            q[20], q[17],
+        ]
+    }
+
+    fn solve(&self, guess: &Self::Tears, t: f64, _sides: &Sides, at: &mut Solution) {
+        solve(guess, t, self, at);
+    }
+
+    fn pivoted(&self, q: &Q, t: f64, sides: &Sides, _at: &Solution) -> Result<Solution, Fault> {
+        solve_with_pivoting(self, q, t, sides)
+    }
+}
+
+/// The width of a cell of each coordinate's grid.
+#[rustfmt::skip]
+static CELLS: [f64; N] = [
+    5.820766091346741e-11, 5.820766091346741e-11, 7.450580596923828e-9, 2.3283064365386963e-10,
+    2.3283064365386963e-10, 7.450580596923828e-9, 2.3283064365386963e-10, 2.3283064365386963e-10,
+    7.450580596923828e-9, 2.3283064365386963e-10, 2.3283064365386963e-10, 7.450580596923828e-9,
+    2.3283064365386963e-10, 2.3283064365386963e-10, 7.450580596923828e-9, 2.3283064365386963e-10,
+    2.3283064365386963e-10, 7.450580596923828e-9, 4.656612873077393e-10, 4.656612873077393e-10,
+    7.450580596923828e-9,
+];
+
+/// Number of blocks of equations that can be solved one after the other.
+const BLOCKS: usize = 18;
+
+/// The blocks whose determinants change.
+#[rustfmt::skip]
+static TURNING: [usize; TURNS] = [
+    11, 12, 17,
+];
+
+/// Numbers that the elimination of the largest block works on.
+const WORK: usize = work_of(2);
+
+/// How the equations fall apart into blocks.
+#[rustfmt::skip]
+static EQUATIONS: Blocks<'static> = Blocks {
+    sizes: &[
+        1, 1, 1, 1,
+        1, 1, 1, 1,
+        1, 1, 1, 2,
+        2, 1, 1, 1,
+        1, 2,
+    ],
+    rows: &[
+        0, 1, 20, 2,
+        3, 4, 5, 6,
+        7, 8, 9, 10,
+        11, 12, 13, 14,
+        15, 16, 17, 18,
+        19,
+    ],
+    columns: &[
+        0, 1, 2, 3,
+        4, 6, 7, 9,
+        10, 12, 13, 5,
+        11, 8, 14, 18,
+        19, 15, 16, 17,
+        20,
+    ],
+    starts: &[
+        0, 1, 2, 5,
+        8, 11, 14, 15,
+        16, 17, 18, 22,
+        26, 30, 34, 37,
+        40, 43, 46, 50,
+        54, 55,
+    ],
+    entries: &[
+        0, 1, 0, 2,
+        3, 1, 2, 4,
+        0, 2, 6, 1,
+        2, 7, 9, 10,
+        12, 13, 3, 5,
+        9, 11, 4, 5,
+        10, 11, 6, 8,
+        12, 14, 7, 8,
+        13, 14, 12, 14,
+        18, 13, 14, 19,
+        9, 11, 15, 10,
+        11, 16, 15, 17,
+        18, 20, 16, 17,
+        19, 20, 2,
+    ],
+    places: &[
+        0, 1, 2, 3,
+        4, 11, 5, 6,
+        13, 7, 8, 12,
+        9, 10, 14, 17,
+        18, 19, 15, 16,
+        20,
+    ],
+    units: &[
+        0.0078125, 0.0078125, 1.0, 0.03125,
+        0.03125, 1.0, 0.03125, 0.03125,
+        1.0, 0.03125, 0.03125, 1.0,
+        0.03125, 0.03125, 1.0, 0.03125,
+        0.03125, 1.0, 0.0625, 0.0625,
+        1.0,
+    ],
+};
+
+impl Pivoting for Model {
+    type Work = [f64; WORK];
+    type Blocks = [bool; BLOCKS];
+    type Varied = [f64; 0];
+    type Rights = [Q; 0];
+
+    const TOLERANCE: f64 = 1e-12;
+
+    fn blocks() -> &'static Blocks<'static> {
+        &EQUATIONS
+    }
+
+    fn turning() -> &'static [usize] {
+        &TURNING
+    }
+
+    fn cells() -> &'static Q {
+        &CELLS
+    }
+
+    fn rights(&self, _q: &Q, _t: f64, _sides: &Sides) -> [Q; 0] {
+        []
+    }
+
+    fn measured(&self, _orders: [&Q; 4], _varied: &[f64; 0], _multipliers: &Q, _t: f64) {}
+}
+
+impl Timed for Model {
+    type Params = Params;
+    type Lead = ();
+    type Passed = [f64; 0];
+    type Row = [f64; COLUMNS];
+
+    const START_TIME: f64 = START_TIME;
+    const SPAN: f64 = SPAN;
+    const LONGEST_STEP: f64 = LONGEST_STEP;
+    const SMALLEST_STEP: f64 = SMALLEST_STEP;
+
+    fn new(params: &Params) -> Self {
+        Self {
+            params: *params,
+            known: known(params),
+        }
+    }
+
+    fn params(&self) -> &Params {
+        &self.params
+    }
+
+    fn start() -> &'static Q {
+        &START
+    }
+}
+
+/// What solves the equations and follows the motion, the same for all mechanisms.
+#[rustfmt::skip]
+mod runtime {
+pub mod numbers {
+//! Numbers by place, and how large they are.
+
+use core::fmt::Debug;
+
+/// So many numbers.
+pub trait Numbers: Copy + Debug + 'static + AsRef<[f64]> + AsMut<[f64]> {
+    /// All of them 0.
+    const ZERO: Self;
+}
+
+impl<const K: usize> Numbers for [f64; K] {
+    const ZERO: Self = [0.0; K];
+}
+
+/// So many answers.
+pub trait Flags: Copy + Debug + PartialEq + 'static + AsRef<[bool]> + AsMut<[bool]> {
+    /// All of them no.
+    const NONE: Self;
+}
+
+impl<const K: usize> Flags for [bool; K] {
+    const NONE: Self = [false; K];
+}
+
+/// The largest value beside its scale; not a number if one is not.
+pub fn largest<N: Numbers>(values: &N, scales: &N) -> f64 {
+    let pairs = values.as_ref().iter().zip(scales.as_ref());
+    let sizes = pairs.map(|(value, scale)| value.abs() / scale);
+    sizes.fold(0.0, larger)
+}
+
+/// The larger one; not a number if one is not.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
+}
+
+/// What leads from some numbers to others.
+pub fn difference<N: Numbers>(to: &N, from: &N) -> N {
+    let mut way = *to;
+    way.as_mut().iter_mut().zip(from.as_ref()).for_each(|(way, from)| *way -= from);
+    way
+}
+
+/// Coordinates after a time `h` (s), by their velocities and accelerations now.
+pub fn predicted<N: Numbers>(q: &N, qd: &N, qdd: &N, h: f64) -> N {
+    let mut later = *q;
+    let rates = qd.as_ref().iter().zip(qdd.as_ref());
+    for (q, (qd, qdd)) in later.as_mut().iter_mut().zip(rates) {
+        *q += h * (qd + 0.5 * h * qdd);
+    }
+    later
+}
+}
+
+pub mod error {
+//! Why something cannot be done.
+
+/// Why a mechanism could not be brought to a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The time, a parameter or a formula is not a number.
+    NotANumber,
+    /// A driver has come to a position beyond which the mechanism cannot follow it: a dead point.
+    LockUp,
+    /// Two branches of the motion meet: which one goes on is not determined.
+    Bifurcation,
+    /// Newton's iteration does not arrive, however short the step.
+    Divergence,
+    /// The steps that were allowed do not lead so far; nothing is wrong with the motion up to here.
+    TooFar,
+    /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
+    NotSmooth,
+    /// An equation that was left out as redundant does not hold beside the others.
+    Inconsistent,
+}
+
+impl core::fmt::Display for Error {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Error::NotANumber => "the time, a parameter or a formula is not a number",
+            Error::LockUp => "the mechanism locks up: its driver cannot go on",
+            Error::Bifurcation => "two branches of the motion meet",
+            Error::Divergence => "the motion cannot be followed",
+            Error::TooFar => "the time is too far away for so few steps",
+            Error::NotSmooth => "a position or velocity jumps",
+            Error::Inconsistent => "an equation that was left out as redundant does not hold",
+        })
+    }
+}
+
+impl core::error::Error for Error {}
+
+/// Why a step is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// Something is not a number.
+    NotANumber,
+    /// The step is too long for the motion.
+    TooFar,
+    /// The position is on another branch, or too near to one.
+    Singular,
+    /// A position or velocity jumps.
+    NotSmooth,
+    /// An equation that was left out does not hold.
+    LeftOut,
+}
+
+impl Fault {
+    /// Why a mechanism cannot be assembled.
+    pub fn at_start(self) -> Error {
+        match self {
+            Self::NotANumber => Error::NotANumber,
+            Self::LeftOut => Error::Inconsistent,
+            _ => Error::Divergence,
+        }
+    }
+}
+}
+
+pub mod equations {
+//! What is asked of a mechanism with its parameters: its equations, their branches, and what must hold beside them.
+
+use super::numbers::{Flags, Numbers};
+use core::fmt::Debug;
+
+/// The equations `phi = 0` and what follows from them.
+pub trait Equations: Clone + Debug {
+    /// A number for each coordinate, and for each equation.
+    type Q: Numbers;
+    /// One for each entry of `phi_q` that does not vanish.
+    type Entries: Numbers;
+    /// Which branch formulas take, by place: what a comparison gives, the number of a piece.
+    type Sides: Numbers + PartialEq;
+
+    /// Row and column of each entry of `phi_q`.
+    fn pattern() -> &'static [(usize, usize)];
+
+    /// What a change of each coordinate is judged against.
+    fn scales() -> &'static Self::Q;
+
+    /// What is left of the equations.
+    fn phi(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
+
+    /// The entries of their Jacobian.
+    fn phi_q(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Entries;
+
+    /// The right side of the velocity equation.
+    fn nu(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
+
+    /// The right side of the acceleration equation.
+    fn gamma(&self, q: &Self::Q, qd: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
+}
+
+/// What decides the branches of formulas. Where formulas have none, all of this is nothing.
+pub trait Branches: Equations {
+    /// Whether time alone decides some.
+    const OF_TIME: bool = false;
+
+    /// Whether the motion decides some.
+    const OF_MOTION: bool = false;
+
+    /// The last time of the file's analysis (s), at which formulas of time take their earlier branches.
+    const END: Option<f64> = None;
+
+    /// Which of them time alone decides.
+    fn is_of_time() -> &'static [bool] {
+        &[]
+    }
+
+    /// The branches that time alone decides, the others as 0.
+    fn sides_of_time(&self, _t: f64) -> Self::Sides {
+        Self::Sides::ZERO
+    }
+
+    /// The branches at a position, those of time being known.
+    fn sides_of_motion(&self, _q: &Self::Q, _t: f64, sides: &Self::Sides) -> Self::Sides {
+        *sides
+    }
+}
+
+/// What must hold beside the equations; of most mechanisms nothing.
+pub trait Checks: Equations {
+    /// Which quantities that keep their signs along a branch are positive.
+    type Watched: Flags;
+
+    /// Whether distances are positive, and places within their intervals and tables.
+    fn conditions_hold(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
+        true
+    }
+
+    /// Whether the equations that were left out hold.
+    fn left_out_holds(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
+        true
+    }
+
+    /// What keeps its sign along a branch of the motion.
+    fn watched(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> Self::Watched {
+        Self::Watched::NONE
+    }
+}
+}
+
+pub mod measured {
+//! What is measured.
+
+use core::fmt::Debug;
+
+/// Measures with their first and second time derivatives.
+pub trait Measured: Copy + Debug {
+    /// Nothing is measured yet.
+    const ZERO: Self;
+
+    /// Which of them, in the order of [`lists`](Measured::lists), are derivatives by inputs or parameters, or forces.
+    const IS_VARIED: &'static [bool] = &[];
+
+    /// Values, rates and accelerations.
+    fn lists(&self) -> [&[f64]; 3];
+
+    /// The same, to be written.
+    fn lists_mut(&mut self) -> [&mut [f64]; 3];
+
+    /// What is not finite is no number.
+    fn leave_out(&mut self) {
+        for list in self.lists_mut() {
+            for value in list.iter_mut().filter(|value| !value.is_finite()) {
+                *value = f64::NAN;
+            }
+        }
+    }
+
+    /// Close to a singular position derivatives by inputs and parameters, and forces, have no value.
+    fn leave_varied_out(&mut self) {
+        let mut rest = Self::IS_VARIED.iter();
+        for list in self.lists_mut() {
+            for (value, _) in list.iter_mut().zip(&mut rest).filter(|(_, is_varied)| **is_varied) {
+                *value = f64::NAN;
+            }
+        }
+    }
+}
+
+/// Where nothing is measured.
+impl Measured for () {
+    const ZERO: Self = ();
+
+    fn lists(&self) -> [&[f64]; 3] {
+        [&[]; 3]
+    }
+
+    fn lists_mut(&mut self) -> [&mut [f64]; 3] {
+        [&mut [], &mut [], &mut []]
+    }
+}
+}
+
+pub mod solution {
+//! What solves the equations at a time, and what that is found by.
+
+use super::equations::{Branches, Checks};
+use super::error::Fault;
+use super::measured::Measured;
+use super::numbers::{Flags, Numbers};
+use core::fmt::Debug;
+
+/// Equations with the operations that solve them.
+pub trait Solved: Branches + Checks {
+    /// A number for each coordinate that Newton solves for; the others follow.
+    type Tears: Numbers;
+    /// An answer for each block of equations whose determinant changes with the position.
+    type Turns: Flags;
+    /// What is measured.
+    type Measures: Measured;
+    /// Values that only measures need.
+    type Joined: Numbers;
+    /// What the motion goes along: time, or signals.
+    type Along: Along<Self>;
+
+    /// What a change of each coordinate that Newton solves for is judged against.
+    fn tear_scales() -> &'static Self::Tears;
+
+    /// Whether determinants are negative where all pivots are positive.
+    fn turned() -> &'static Self::Turns;
+
+    /// Of all coordinates those that Newton solves for.
+    fn tears(q: &Self::Q) -> Self::Tears;
+
+    /// Position, velocity and acceleration at a time.
+    fn solve(&self, guess: &Self::Tears, t: f64, sides: &Self::Sides, at: &mut Solution<Self>);
+
+    /// The same by elimination with partial pivoting from a position nearby, where [`solve`](Solved::solve) has failed with `at`;
+    /// a fault where blocks are too large for that.
+    fn pivoted(
+        &self,
+        _q: &Self::Q,
+        _t: f64,
+        _sides: &Self::Sides,
+        at: &Solution<Self>,
+    ) -> Result<Solution<Self>, Fault> {
+        Err(at.fault())
+    }
+}
+
+/// What a motion goes along, with what a solution holds of that.
+pub trait Along<M: Solved>: Clone + Debug {
+    /// Nothing is known yet.
+    const ZERO: Self;
+
+    /// Coordinates at a distance `h` from a solution.
+    fn predicted(m: &M, from: &Solution<M>, h: f64) -> M::Q;
+
+    /// A place a little ahead, at which the branches of formulas tell those on which the motion goes on.
+    fn ahead(m: &M, at: &Solution<M>) -> (M::Q, f64);
+
+    /// Takes down what a solution has been found for.
+    fn note(&mut self, _m: &M, _t: f64) {}
+
+    /// The derivatives of the coordinates, by what the motion goes along.
+    fn slopes(&self) -> &[M::Q] {
+        &[]
+    }
+
+    /// The same, to be written.
+    #[allow(dead_code)] // what is neither pivoted nor listed knows them by their names
+    fn slopes_mut(&mut self) -> &mut [M::Q] {
+        &mut []
+    }
+}
+
+/// What solves the equations at a time.
+#[derive(Clone, Debug)]
+pub struct Solution<M: Solved> {
+    /// The time (s), or the place on a way.
+    pub t: f64,
+    /// Coordinates.
+    pub q: M::Q,
+    /// Velocities.
+    pub qd: M::Q,
+    /// Accelerations.
+    pub qdd: M::Q,
+    /// Measures.
+    pub measures: M::Measures,
+    /// What only measures need.
+    #[allow(dead_code)] // mostly they need nothing
+    pub joined: M::Joined,
+    /// What it holds of what the motion goes along.
+    pub along: M::Along,
+    /// The branches of formulas.
+    pub sides: M::Sides,
+    /// Which quantities that must keep their signs are positive.
+    pub watched: M::Watched,
+    /// By block of equations: whether its determinant is negative.
+    pub is_negative: M::Turns,
+    /// Whether Newton has arrived.
+    pub is_settled: bool,
+    /// Whether no digits were lost, and the equations hold.
+    pub holds: bool,
+    /// Newton's largest first correction, scaled.
+    pub first: f64,
+    /// One over the smallest pivot, scaled.
+    pub steepest: f64,
+}
+
+impl<M: Solved> Solution<M> {
+    /// Nothing is solved yet.
+    pub const ZERO: Self = Self {
+        t: 0.0,
+        q: M::Q::ZERO,
+        qd: M::Q::ZERO,
+        qdd: M::Q::ZERO,
+        measures: M::Measures::ZERO,
+        joined: M::Joined::ZERO,
+        along: M::Along::ZERO,
+        sides: M::Sides::ZERO,
+        watched: M::Watched::NONE,
+        is_negative: M::Turns::NONE,
+        is_settled: true,
+        holds: true,
+        first: 0.0,
+        steepest: 0.0,
+    };
+
+    /// Nothing but a position and its time.
+    pub fn near(q: &M::Q, t: f64) -> Self {
+        let mut near = Self::ZERO;
+        (near.t, near.q) = (t, *q);
+        near
+    }
+
+    /// Makes ready for being solved for.
+    pub fn begin(&mut self, t: f64) {
+        self.t = t;
+        self.is_negative = *M::turned();
+        (self.is_settled, self.holds) = (true, true);
+        (self.first, self.steepest) = (0.0, 0.0);
+    }
+
+    /// Why it cannot be used.
+    pub fn fault(&self) -> Fault {
+        if self.is_finite() { Fault::TooFar } else { Fault::NotANumber }
+    }
+
+    /// Whether all of it is numbers; measures may be none.
+    pub fn is_finite(&self) -> bool {
+        let are_finite = |list: &M::Q| list.as_ref().iter().all(|value| value.is_finite());
+        let lists = are_finite(&self.q) && are_finite(&self.qd) && are_finite(&self.qdd);
+        lists && self.along.slopes().iter().all(are_finite)
+    }
+}
+}
+
+pub mod so_far {
+//! What is the largest, found one by one.
+
+/// What is the largest so far, in the loops that solve, which have time for one comparison: a value that is not a number wins, but only
+/// until the next. What it comes from is not a number either, and is asked for that.
+pub fn larger_so_far(largest: f64, value: f64) -> f64 {
+    if value <= largest { largest } else { value }
+}
+}
+
+pub mod pivots {
+//! What pivots tell of a position.
+
+use super::so_far::larger_so_far;
+use super::solution::{Solution, Solved};
+
+impl<M: Solved> Solution<M> {
+    /// Takes note of one over a pivot, and of what makes that a pure number.
+    pub fn pivot(&mut self, turn: usize, inverse: f64, weight: f64) {
+        if let Some(is_negative) = self.is_negative.as_mut().get_mut(turn) {
+            *is_negative ^= inverse < 0.0;
+        }
+        self.steepest = larger_so_far(self.steepest, inverse.abs() * weight);
+    }
+}
+}
+
+pub mod grid {
+// The grid on which Newton's iteration goes from point to point.
+//
+// It goes to the point next to the solution, as often as that takes, and ends where all corrections stay in their cells: so where it began
+// leaves no trace. Of a coordinate on the border of two cells, to rounding, either point may say that the other one is nearer, or that
+// it is so itself. Therefore such a border is judged from one side alone. All coordinates whose corrections end next to a border
+// go to the even one of the two points, the others stay; and from there each goes to where its correction leads, for good.
+
+/// The grid point next to a value.
+#[must_use]
+#[inline]
+pub fn on_grid(x: f64, cell: f64) -> f64 {
+    // adding and taking away 1.5 * 2^52 cells rounds to a whole number of them
+    let rounding = 6_755_399_441_055_744.0 * cell;
+    (x + rounding) - rounding
+}
+
+/// The largest correction, in cells, with which an iteration ends that has met no border; one that is no farther from half a cell than
+/// `border` leads to one.
+#[must_use]
+#[inline]
+pub fn bound_at_first(border: f64) -> f64 {
+    0.5 - border
+}
+
+/// How an iteration goes on whose largest correction, in cells, is beyond its bound: the bound that it has then; and the cells, in cells,
+/// among whose points those coordinates go on that are next to a border.
+#[must_use]
+#[inline]
+pub fn going_on(largest: f64, bound: f64, border: f64) -> (f64, f64) {
+    let is_free = bound < 0.5;
+    let is_at_border = is_free && largest <= 0.5 + border;
+    // at the even points only what is beyond the border goes on; behind that nothing does that is no stray
+    let next = if is_free { bound } else { 1.0 };
+    (if is_at_border { 0.5 } else { next }, if is_at_border { 2.0 } else { 1.0 })
+}
+
+/// The grid point that a coordinate goes on to, from one and its correction there.
+#[must_use]
+#[inline]
+pub fn next_point(x: f64, delta: f64, cell: f64, cells: f64, border: f64) -> f64 {
+    // from an odd point the even one in the direction of the correction, from an even one none
+    let is_at_border = delta.abs() > (0.5 - border) * cell;
+    on_grid(x + delta, if is_at_border { cells * cell } else { cell })
+}
+}
+
+pub mod newton {
+//! Newton's iteration.
+
+use super::grid::{bound_at_first, going_on, next_point};
+use super::limits::{BORDER, LARGEST_CORRECTION};
+use super::numbers::larger;
+use super::so_far::larger_so_far;
+use super::solution::{Solution, Solved};
+
+/// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace in where it ends.
+pub struct Newton {
+    is_first: bool,
+    is_lost: bool,
+    has_settled: bool,
+    first: f64,
+    /// The largest correction, and with which one it ends, both in cells of the grid.
+    largest: f64,
+    bound: f64,
+    /// The cells, in cells, among whose points coordinates next to a border go on.
+    cells: f64,
+}
+
+impl Newton {
+    /// It has not begun.
+    pub fn new() -> Self {
+        let bound = bound_at_first(BORDER);
+        Self { is_first: true, is_lost: false, has_settled: false, first: 0.0, largest: 0.0, bound, cells: 1.0 }
+    }
+
+    /// The correction of a coordinate; its grid has cells so wide, and it is judged against `scale`.
+    pub fn see(&mut self, delta: f64, cell: f64, scale: f64) {
+        let size = delta.abs();
+        if self.is_first {
+            self.first = larger_so_far(self.first, size / scale);
+        }
+        self.largest = larger_so_far(self.largest, size / cell);
+        self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
+    }
+
+    /// Whether no further iteration is needed, or none helps.
+    pub fn is_done(&mut self) -> bool {
+        self.has_settled = !self.is_lost && self.largest <= self.bound;
+        let is_done = self.has_settled || self.is_lost;
+        if !is_done {
+            (self.bound, self.cells) = going_on(self.largest, self.bound, BORDER);
+        }
+        (self.is_first, self.largest) = (false, 0.0);
+        is_done
+    }
+
+    /// The grid point that a coordinate goes on to.
+    pub fn next(&self, x: f64, delta: f64, cell: f64) -> f64 {
+        next_point(x, delta, cell, self.cells, BORDER)
+    }
+}
+
+impl<M: Solved> Solution<M> {
+    /// Takes over how an iteration went.
+    pub fn note(&mut self, newton: &Newton) {
+        self.is_settled &= newton.has_settled;
+        self.first = larger(self.first, newton.first);
+    }
+}
+}
+
+pub mod branches {
+//! The branches of formulas along the motion.
+
+use super::equations::Branches;
+use super::limits::{MOST_HALVINGS, SLACK};
+use super::solution::{Along, Solution, Solved};
+
+/// A time on the later side of whatever is meant to happen at `t` (s).
+fn shortly_after(t: f64) -> f64 {
+    t + SLACK * f64::EPSILON * t.abs() + f64::MIN_POSITIVE
+}
+
+/// The branches of formulas of time at a time: the later ones where they change just then, but at the end of the file's analysis
+/// the earlier ones.
+pub fn sides_at<M: Branches>(t: f64, m: &M) -> M::Sides {
+    match M::END {
+        Some(end) if t <= end && shortly_after(t) >= end => m.sides_of_time(end - 2.0 * (shortly_after(end) - end)),
+        _ => m.sides_of_time(shortly_after(t)),
+    }
+}
+
+/// The first time of a step at which formulas of time take other branches than at its beginning; its end if they do not.
+pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M) -> f64 {
+    let here = sides_at(from, m);
+    if sides_at(to, m) == here {
+        return to;
+    }
+    let (mut near, mut far) = (from, to);
+    for _ in 0..MOST_HALVINGS {
+        let middle = 0.5 * (near + far);
+        if middle == near || middle == far {
+            break;
+        }
+        if sides_at(middle, m) == here {
+            near = middle;
+        } else {
+            far = middle;
+        }
+    }
+    far
+}
+
+/// The branches at a position that is next to one that is looked for.
+pub fn sides_near<M: Branches>(q: &M::Q, t: f64, m: &M) -> M::Sides {
+    m.sides_of_motion(q, t, &sides_at(t, m))
+}
+
+/// The branches with those of time exchanged.
+pub fn with_time<M: Branches>(sides: &M::Sides, of_time: &M::Sides) -> M::Sides {
+    let mut all = *sides;
+    let pairs = of_time.as_ref().iter().zip(M::is_of_time());
+    for (side, (of_time, is_of_time)) in all.as_mut().iter_mut().zip(pairs) {
+        if *is_of_time {
+            *side = *of_time;
+        }
+    }
+    all
+}
+
+/// The branches of formulas of the motion that lie ahead of a position.
+pub fn sides_ahead<M: Solved>(at: &Solution<M>, m: &M) -> M::Sides {
+    let (q, t) = M::Along::ahead(m, at);
+    m.sides_of_motion(&q, t, &at.sides)
+}
+}
+
+pub mod reach {
+//! Solving at a time, on the branches that are there.
+
+use super::branches::{sides_ahead, sides_at, with_time};
+use super::error::Fault;
+use super::limits::{ACCURACY, MOST_BRANCHES, STEEP, STEEPEST};
+use super::measured::Measured;
+use super::numbers::{larger, largest};
+use super::solution::{Along, Solution, Solved};
+
+/// Solves at a time, from a guess; `from` is where the motion comes from.
+pub fn reach<M: Solved>(
+    guess: &M::Tears,
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    at: &mut Solution<M>,
+) -> Result<(), Fault> {
+    let of_time = sides_at(t, m);
+    if !M::OF_MOTION {
+        return find(guess, from, t, m, &of_time, at);
+    }
+    let mut sides = from.sides;
+    for _ in 0..MOST_BRANCHES {
+        sides = with_time::<M>(&sides, &of_time);
+        find(guess, from, t, m, &sides, at)?;
+        let now = sides_ahead(at, m);
+        if now == sides {
+            return Ok(());
+        }
+        sides = now;
+    }
+    Err(Fault::TooFar)
+}
+
+/// Solves with branches of formulas that are known.
+pub fn find<M: Solved>(
+    guess: &M::Tears,
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    sides: &M::Sides,
+    at: &mut Solution<M>,
+) -> Result<(), Fault> {
+    m.solve(guess, t, sides, at);
+    if !at.is_settled || !at.holds {
+        find_with_pivoting(from, t, m, sides, at)?;
+    }
+    if !m.conditions_hold(&at.q, t, sides) {
+        return Err(Fault::NotANumber);
+    }
+    if !m.left_out_holds(&at.q, t, sides) {
+        return Err(Fault::LeftOut);
+    }
+    at.watched = m.watched(&at.q, t, sides);
+    at.sides = *sides;
+    at.along.note(m, t);
+    at.measures.leave_out();
+    if at.is_finite() { Ok(()) } else { Err(Fault::NotANumber) }
+}
+
+/// Solves once more from a position that is known, and if that does not help either, takes that.
+#[cold]
+#[inline(never)]
+fn find_with_pivoting<M: Solved>(
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    sides: &M::Sides,
+    at: &mut Solution<M>,
+) -> Result<(), Fault> {
+    let q = M::Along::predicted(m, from, t - from.t);
+    let pivoted = m.pivoted(&q, t, sides, at)?;
+    m.solve(&M::tears(&pivoted.q), t, sides, at);
+    let first = pivoted.first;
+    if !at.is_settled || !at.holds {
+        *at = pivoted;
+    }
+    at.first = first;
+    Ok(())
+}
+
+/// What rounding makes of the velocities and accelerations, for every unit of steepness: they are amplified by as much as the
+/// position is near to a singular one.
+pub fn rounding<M: Solved>(at: &Solution<M>, m: &M) -> f64 {
+    let (t, sides, scales) = (at.t, &at.sides, M::scales());
+    let slopes = m.phi_q(&at.q, t, sides);
+    let mut norms = at.q;
+    norms.as_mut().fill(f64::MIN_POSITIVE);
+    for (&(row, column), slope) in M::pattern().iter().zip(slopes.as_ref()) {
+        let norm = norms.as_mut().get_mut(row);
+        if let (Some(norm), Some(scale)) = (norm, scales.as_ref().get(column)) {
+            *norm = larger(*norm, slope.abs() * scale);
+        }
+    }
+    let ratio = |left: f64, right: f64| if right > 0.0 { left / right } else { 1.0 };
+    let nu = m.nu(&at.q, t, sides);
+    let velocity = ratio(largest(&at.qd, scales), largest(&nu, &norms));
+    let gamma = m.gamma(&at.q, &at.qd, t, sides);
+    let acceleration = ratio(largest(&at.qdd, scales), largest(&gamma, &norms));
+    let amplified = larger(larger(velocity, acceleration), 1.0);
+    f64::EPSILON * amplified
+}
+
+/// Whether a position that is reached lies on the branch of the motion that it comes from, whose equations are so steep.
+pub fn stays_on_branch<M: Solved>(
+    from: &Solution<M>,
+    at: &mut Solution<M>,
+    m: &M,
+    is_wanted: bool,
+    steepness: f64,
+) -> bool {
+    let steepest = at.steepest / steepness;
+    if at.watched != from.watched || at.is_negative != from.is_negative || steepest > STEEPEST {
+        return false;
+    }
+    if steepest > STEEP {
+        at.measures.leave_varied_out();
+    }
+    let is_in_doubt = is_wanted && steepest > STEEP && steepest * rounding(at, m) > ACCURACY;
+    !is_in_doubt
+}
+}
+
+pub mod state {
+//! A mechanism that moves with time, and where it is.
+
+use super::error::Error;
+use super::limits::{AHEAD, FARTHEST_AHEAD, LONGEST_AHEAD};
+use super::measured::Measured;
+use super::numbers::{Numbers, largest, predicted};
+use super::solution::{Along, Solution, Solved};
+use core::fmt::Debug;
+
+/// What can be set of a mechanism.
+pub trait Parameters: Copy + Debug + Default {
+    /// Part of the way from these to others.
+    #[must_use]
+    fn towards(&self, other: &Self, part: f64) -> Self;
+
+    /// Whether all are numbers.
+    fn is_finite(&self) -> bool;
+}
+
+/// A mechanism whose motion goes along time.
+pub trait Timed: Solved<Along = Time> {
+    /// Its parameters.
+    type Params: Parameters;
+    /// What leads it by its inputs; `()` where it has none.
+    type Lead: Lead<Self>;
+    /// By rim, where formulas of time may end: the time at which it was looked at last (s).
+    type Passed: Numbers;
+    /// A number for each result.
+    type Row: Numbers;
+
+    /// The first time of the file's analysis (s), at which the mechanism is assembled.
+    const START_TIME: f64;
+    /// How long the file's analysis takes (s).
+    const SPAN: f64;
+    /// The longest step (s).
+    const LONGEST_STEP: f64;
+    /// The shortest step (s).
+    const SMALLEST_STEP: f64;
+
+    /// The mechanism with some parameters.
+    fn new(params: &Self::Params) -> Self;
+
+    /// Its parameters.
+    fn params(&self) -> &Self::Params;
+
+    /// The assembled position with the file's parameters.
+    fn start() -> &'static Self::Q;
+
+    /// The first rim of a step that was not looked at yet, with its time.
+    fn first_rim(&self, _from: f64, _to: f64, _passed: &Self::Passed) -> Option<(usize, f64)> {
+        None
+    }
+
+    /// Looks at both sides of a rim next to the state.
+    fn look_at_rim(_state: &mut State<Self>, _rim: usize, _t: f64) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// What leads a mechanism by its inputs.
+pub trait Lead<M: Timed>: Clone + Debug {
+    /// Nothing is led yet.
+    fn new(params: &M::Params) -> Self;
+
+    /// Whether inputs have led to where the mechanism is, rather than the time.
+    fn is_leading(&self) -> bool;
+
+    /// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its time.
+    fn take_up_time(state: &mut State<M>, most: usize) -> Result<(), Error>;
+}
+
+impl<M: Timed> Lead<M> for () {
+    fn new(_: &M::Params) -> Self {}
+
+    fn is_leading(&self) -> bool {
+        false
+    }
+
+    fn take_up_time(_: &mut State<M>, _: usize) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// The motion goes along time.
+#[derive(Clone, Copy, Debug)]
+pub struct Time;
+
+impl<M: Timed> Along<M> for Time {
+    const ZERO: Self = Self;
+
+    fn predicted(_: &M, from: &Solution<M>, h: f64) -> M::Q {
+        predicted(&from.q, &from.qd, &from.qdd, h)
+    }
+
+    fn ahead(_: &M, at: &Solution<M>) -> (M::Q, f64) {
+        let (speed, acceleration) = (largest(&at.qd, M::scales()), largest(&at.qdd, M::scales()));
+        let mut ahead = f64::min(f64::min(AHEAD * M::SPAN, LONGEST_AHEAD), FARTHEST_AHEAD / speed);
+        ahead = f64::min(ahead, FARTHEST_AHEAD / (acceleration * ahead));
+        (predicted(&at.q, &at.qd, &at.qdd, ahead), at.t + ahead)
+    }
+}
+
+/// A mechanism at a time.
+#[derive(Clone, Debug)]
+pub struct State<M: Timed> {
+    pub(super) model: M,
+    /// The solution of now and the one before, or the next one in the making.
+    pub(super) solutions: [Solution<M>; 2],
+    /// Whether that of now is the second.
+    pub(super) is_second: bool,
+    /// Whether the one before lies on the same smooth motion.
+    pub(super) is_smooth: bool,
+    /// How much steeper these parameters make the equations than the file's.
+    pub(super) steepness: f64,
+    /// The step that goes well (s).
+    pub(super) step: f64,
+    /// What leads by inputs.
+    pub(super) lead: M::Lead,
+    /// By rim: the time at which it was looked at last (s).
+    pub(super) passed: M::Passed,
+}
+
+impl<M: Timed> State<M> {
+    /// The solution of now.
+    pub(super) fn at(&self) -> &Solution<M> {
+        let [first, second] = &self.solutions;
+        if self.is_second { second } else { first }
+    }
+
+    /// The time (s).
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.at().t
+    }
+
+    /// The parameters.
+    #[must_use]
+    pub fn params(&self) -> &M::Params {
+        self.model.params()
+    }
+
+    /// The coordinates (m, rad), by their indices.
+    #[must_use]
+    pub fn q(&self) -> &M::Q {
+        &self.at().q
+    }
+
+    /// Their velocities (m/s, rad/s).
+    #[must_use]
+    pub fn qd(&self) -> &M::Q {
+        &self.at().qd
+    }
+
+    /// Their accelerations (m/s^2, rad/s^2).
+    #[must_use]
+    pub fn qdd(&self) -> &M::Q {
+        &self.at().qdd
+    }
+
+    /// The measures, by their indices, and their first and second time derivatives; `NAN` where one has no value, and no step fails
+    /// for that.
+    #[must_use]
+    pub fn measures(&self) -> &M::Measures {
+        &self.at().measures
+    }
+
+    /// Whether inputs have led here, rather than the time.
+    pub(super) fn is_led(&self) -> bool {
+        self.lead.is_leading()
+    }
+
+    /// All results, in the order of the columns of `mechc run`: the time, coordinates and measures, then their first and their second
+    /// derivatives.
+    #[must_use]
+    pub fn row(&self) -> M::Row {
+        let at = self.at();
+        let [values, rates, accelerations] = at.measures.lists();
+        let zeroth = at.q.as_ref().iter().chain(values);
+        let first = at.qd.as_ref().iter().chain(rates);
+        let second = at.qdd.as_ref().iter().chain(accelerations);
+        let all = [at.t].into_iter().chain(zeroth.chain(first).chain(second).copied());
+        let mut row = M::Row::ZERO;
+        row.as_mut().iter_mut().zip(all).for_each(|(cell, value)| *cell = value);
+        row
+    }
+}
+}
+
+pub mod assemble {
+//! The start of a motion.
+
+use super::branches::sides_near;
+use super::error::{Error, Fault};
+use super::limits::{LARGEST_CORRECTION, MOST_PARTS, SMALLEST_PART};
+use super::numbers::Numbers;
+use super::reach::reach;
+use super::solution::Solution;
+use super::state::{Lead, Parameters, State, Timed};
+
+/// Brings the mechanism to its first time with some parameters, along the branch that the file's parameters give.
+pub fn assemble<M: Timed>(params: &M::Params) -> Result<State<M>, Error> {
+    if !params.is_finite() {
+        return Err(Error::NotANumber);
+    }
+    let file = M::Params::default();
+    let mut at = Solution::ZERO;
+    start(M::start(), &M::new(&file), &mut at).map_err(Fault::at_start)?;
+    let mut found = at.clone();
+    let usual = at.steepest;
+    let mut why = Error::Divergence;
+    // the part of the way from the file's parameters to those that are wanted
+    let (mut done, mut part) = (0.0, 1.0);
+    for _ in 0..MOST_PARTS {
+        let next = f64::min(done + part, 1.0);
+        let params = if next < 1.0 { file.towards(params, next) } else { *params };
+        let model = M::new(&params);
+        let result = start(&at.q, &model, &mut found);
+        if result.is_ok() && found.is_negative == at.is_negative {
+            if next >= 1.0 {
+                let ratio = found.steepest / usual;
+                let mut passed = M::Passed::ZERO;
+                passed.as_mut().fill(f64::NEG_INFINITY);
+                return Ok(State {
+                    steepness: if ratio > 0.0 { ratio } else { 1.0 },
+                    lead: M::Lead::new(&params),
+                    model,
+                    solutions: [found, at],
+                    is_second: false,
+                    is_smooth: false,
+                    step: M::LONGEST_STEP,
+                    passed,
+                });
+            }
+            at.clone_from(&found);
+            (done, part) = (next, 2.0 * part);
+        } else {
+            why = result.err().map_or(Error::Divergence, Fault::at_start);
+            part *= 0.5;
+        }
+        if part < SMALLEST_PART {
+            break;
+        }
+    }
+    Err(why)
+}
+
+/// Solves at the first time, from a position nearby.
+fn start<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>) -> Result<(), Fault> {
+    let mut near = Solution::near(q, M::START_TIME);
+    near.sides = sides_near(q, M::START_TIME, m);
+    reach(&M::tears(q), &near, M::START_TIME, m, at)?;
+    if at.first <= LARGEST_CORRECTION { Ok(()) } else { Err(Fault::TooFar) }
+}
+}
+
+pub mod explain {
+//! Why a motion cannot go on.
+
+use super::branches::sides_at;
+use super::error::{Error, Fault};
+use super::limits::{NEAR_FOLD, SINGULAR};
+use super::solution::{Solution, Solved};
+use super::state::{State, Timed};
+
+/// Why even the shortest step from a state towards a time is refused.
+pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64) -> Error {
+    let at = state.at();
+    if let Some(error) = regular(at, fault, t, &state.model) {
+        return error;
+    }
+    if at.steepest < SINGULAR * state.steepness {
+        return if fault == Fault::LeftOut { Error::Inconsistent } else { Error::Divergence };
+    }
+    let left = until_turn(at);
+    meeting(if t < at.t { -left } else { left }, M::SPAN)
+}
+
+/// Why it is, if that has nothing to do with how near the position is to a singular one.
+pub fn regular<M: Solved>(at: &Solution<M>, fault: Fault, t: f64, m: &M) -> Option<Error> {
+    let values = m.phi(&at.q, t, &at.sides);
+    if fault == Fault::NotANumber || values.as_ref().iter().any(|value| !value.is_finite()) {
+        return Some(Error::NotANumber);
+    }
+    // a position that jumps far is not even found on the other side
+    let is_at_edge = || sides_at(at.t, m) != sides_at(t, m);
+    let jumps = fault == Fault::NotSmooth || (fault == Fault::TooFar && is_at_edge());
+    jumps.then_some(Error::NotSmooth)
+}
+
+/// How long it takes to a dead point: a motion that comes to one after a time u is as the root of u, whose slope over twice its
+/// curvature is u. That of the fastest coordinate counts.
+pub fn until_turn<M: Solved>(at: &Solution<M>) -> f64 {
+    let rates = at.qd.as_ref().iter().zip(at.qdd.as_ref()).zip(M::scales().as_ref());
+    let sooner = |(speed, left): (f64, f64), ((v, a), scale): ((&f64, &f64), &f64)| {
+        if v.abs() / scale > speed { (v.abs() / scale, 0.5 * v / a) } else { (speed, left) }
+    };
+    rates.fold((0.0, 0.0), sooner).1
+}
+
+/// What the motion meets at a singular position: a dead point if that is so little of a span ahead.
+pub fn meeting(left: f64, span: f64) -> Error {
+    if left > 0.0 && left < NEAR_FOLD * span { Error::LockUp } else { Error::Bifurcation }
+}
+}
+
+pub mod step {
+//! Steps from time to time.
+
+use super::branches::first_edge;
+use super::error::{Error, Fault};
+use super::explain::explain;
+use super::limits::{
+    FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD, POSITION_JUMP, REST, VELOCITY_JUMP,
+};
+use super::numbers::{Numbers, difference, largest};
+use super::reach::{find, reach, stays_on_branch};
+use super::solution::{Solution, Solved};
+use super::state::{Lead, State, Timed};
+
+/// Moves a state to time `t` (s) in so many steps at most, each as short as the motion asks for: position, velocity and acceleration
+/// are those of the branch that it is on, whichever way `t` lies.
+pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize) -> Result<(), Error> {
+    if !(t - state.at().t).is_finite() {
+        return Err(Error::NotANumber);
+    }
+    if state.is_led() {
+        M::Lead::take_up_time(state, most)?;
+    }
+    for _ in 0..most {
+        let now = state.at().t;
+        let left = t - now;
+        if left == 0.0 {
+            return Ok(());
+        }
+        // no crumb at the end
+        let wanted = if state.step >= 0.999 * left.abs() { t } else { now + state.step.copysign(left) };
+        // what is fast may be over before the step's end
+        let edge = first_edge(now, wanted, &state.model);
+        let next = match state.model.first_rim(now, edge, &state.passed) {
+            None => edge,
+            Some((rim, at)) => {
+                let before = at - (LEAD * M::SPAN).copysign(left);
+                if (before - now) * left <= 0.0 {
+                    M::look_at_rim(state, rim, at)?;
+                    continue;
+                }
+                before
+            }
+        };
+        let (is_last, size) = (next == t, (next - now).abs());
+        match advance(state, next, is_last) {
+            Ok(is_calm) => {
+                let longest = if is_calm { state.step.max(2.0 * size) } else { state.step.min(size) };
+                state.step = longest.min(M::LONGEST_STEP);
+                if is_last {
+                    return Ok(());
+                }
+            }
+            Err(fault) => {
+                state.step = 0.5 * size;
+                state.is_smooth = false;
+                if state.step < M::SMALLEST_STEP || now + state.step == now {
+                    state.step = M::SMALLEST_STEP;
+                    return Err(explain(state, fault, next));
+                }
+            }
+        }
+    }
+    if state.at().t == t { Ok(()) } else { Err(Error::TooFar) }
+}
+
+/// One step to a time; says whether a longer one would do as well.
+fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool) -> Result<bool, Fault> {
+    let [first, second] = &mut state.solutions;
+    let (from, at) = if state.is_second { (second, first) } else { (first, second) };
+    let from = &*from;
+    let h = t - from.t;
+    let (x, v, a) = (M::tears(&from.q), M::tears(&from.qd), M::tears(&from.qdd));
+    let mut way = if state.is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
+    let mut guess = x;
+    let rates = v.as_ref().iter().zip(a.as_ref());
+    for ((way, guess), (v, a)) in way.as_mut().iter_mut().zip(guess.as_mut()).zip(rates) {
+        // Taylor
+        *way += h * (v + 0.5 * h * a);
+        *guess += *way;
+    }
+    // what is not a number is not small either
+    let is_short = largest(&way, M::tear_scales()) <= LARGEST_MOTION;
+    if !is_short {
+        return Err(Fault::TooFar);
+    }
+    reach(&guess, from, t, &state.model, at)?;
+    let gap = gap(from, at, h);
+    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
+    if !is_near {
+        return Err(Fault::TooFar);
+    }
+    if !stays_on_branch(from, at, &state.model, is_wanted, state.steepness) {
+        return Err(Fault::Singular);
+    }
+    if M::OF_TIME && at.sides != from.sides && jumps(from, at, &state.model) {
+        return Err(Fault::NotSmooth);
+    }
+    state.is_smooth = at.sides == from.sides;
+    state.is_second = !state.is_second;
+    Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
+}
+
+/// How far positions are from what both ends' velocities and accelerations make of the way between (Hermite), scaled.
+fn gap<M: Solved>(from: &Solution<M>, at: &Solution<M>, h: f64) -> f64 {
+    let (x, v, a) = (M::tears(&from.q), M::tears(&from.qd), M::tears(&from.qdd));
+    let (y, w, b) = (M::tears(&at.q), M::tears(&at.qd), M::tears(&at.qdd));
+    let mut gaps = M::Tears::ZERO;
+    let ways = y.as_ref().iter().zip(x.as_ref());
+    let rates = v.as_ref().iter().zip(w.as_ref());
+    let bends = a.as_ref().iter().zip(b.as_ref());
+    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
+        *gap = y - x - 0.5 * h * (v + w) - h * h * (1.0 / 12.0) * (a - b);
+    }
+    largest(&gaps, M::tear_scales())
+}
+
+/// What the motion since the solution before adds to Taylor's way over a time `h` (s): value, velocity and acceleration at two times
+/// make a polynomial of degree 5 (Hermite).
+fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears {
+    let back = now.t - before.t;
+    let u = h / back;
+    if u.is_nan() || u.abs() > FARTHEST_BEND {
+        return M::Tears::ZERO;
+    }
+    let (x, v, a) = (M::tears(&now.q), M::tears(&now.qd), M::tears(&now.qdd));
+    let (y, w, b) = (M::tears(&before.q), M::tears(&before.qd), M::tears(&before.qdd));
+    let mut bend = M::Tears::ZERO;
+    let ways = x.as_ref().iter().zip(y.as_ref());
+    let rates = v.as_ref().iter().zip(w.as_ref());
+    let bends = a.as_ref().iter().zip(b.as_ref());
+    for ((bend, (x, y)), ((v, w), (a, b))) in bend.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
+        let value = y - x + back * (v - 0.5 * back * a);
+        let slope = back * (v - back * a - w);
+        let curvature = 0.5 * back * back * (b - a);
+        let cubic = 4.0 * slope - 10.0 * value - curvature;
+        let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
+        let quintic = 3.0 * slope - 6.0 * value - curvature;
+        *bend = u * u * u * (cubic + u * (quartic + u * quintic));
+    }
+    bend
+}
+
+/// Whether position or velocity differ on the two sides of a time at which formulas change their branches: `at` is the later side, and
+/// `from` has the branches of the earlier one.
+fn jumps<M: Timed>(from: &Solution<M>, at: &Solution<M>, m: &M) -> bool {
+    let mut before = at.clone();
+    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before).is_err() {
+        return true;
+    }
+    let (way, change) = (difference(&at.q, &before.q), difference(&at.qd, &before.qd));
+    let scales = M::scales();
+    let fastest = largest(&at.qd, scales) + largest(&before.qd, scales) + REST / M::SPAN;
+    largest(&way, scales) > POSITION_JUMP || largest(&change, scales) > VELOCITY_JUMP * fastest
+}
+}
+
+pub mod blocks {
+// Sparse linear equations that fall apart into blocks, each solved by elimination with partial pivoting.
+//
+// For places where an order of elimination that was fixed beforehand loses digits. All scaling is by powers of two, which
+// round nothing.
+
+/// Equations for as many unknowns, and how they fall apart: a block's equations hold its own unknowns and those of the blocks
+/// before it.
+#[derive(Clone, Copy, Debug)]
+pub struct Blocks<'b> {
+    /// How many equations each block has.
+    pub sizes: &'b [usize],
+    /// The equations, block by block.
+    pub rows: &'b [usize],
+    /// The unknowns, block by block.
+    pub columns: &'b [usize],
+    /// Where the entries of each equation begin, and where those of the last one end.
+    pub starts: &'b [usize],
+    /// The unknown of each entry.
+    pub entries: &'b [usize],
+    /// By unknown: its place in `columns`.
+    pub places: &'b [usize],
+    /// By unknown: the power of two that it is measured by.
+    pub units: &'b [f64],
+}
+
+/// Solves for `x`: the values of the entries times `x` are `right`, which is given by equation.
+///
+/// `work` holds as many numbers as the largest block has entries, and one more for each of its equations. Writes for each block
+/// whether its determinant is negative, and gives the smallest pivot, beside rows whose largest entry is about 1; what is not a
+/// number wins.
+pub fn solve(
+    blocks: &Blocks<'_>,
+    values: &[f64],
+    right: &[f64],
+    x: &mut [f64],
+    work: &mut [f64],
+    is_negative: &mut [bool],
+) -> f64 {
+    let (mut smallest, mut at) = (f64::INFINITY, 0);
+    for (&size, is_negative) in blocks.sizes.iter().zip(is_negative) {
+        let places = at..at + size;
+        at += size;
+        let (Some(rows), Some(columns)) = (blocks.rows.get(places.clone()), blocks.columns.get(places.clone())) else {
+            break;
+        };
+        let Some((matrix, solution)) = work.split_at_mut_checked(size * (size + 1)) else {
+            break;
+        };
+        for (line, &row) in lines(matrix, size + 1).zip(rows) {
+            fill(blocks, row, places.start, values, right, x, line);
+        }
+        let Some(solution) = solution.get_mut(..size) else {
+            break;
+        };
+        let pivot;
+        (pivot, *is_negative) = eliminate(matrix, solution);
+        smallest = if pivot >= smallest { smallest } else { pivot };
+        for (&column, &value) in columns.iter().zip(&*solution) {
+            if let (Some(x), Some(unit)) = (x.get_mut(column), blocks.units.get(column)) {
+                *x = value * unit;
+            }
+        }
+    }
+    smallest
+}
+
+/// How many numbers the work for a block of a size takes.
+#[must_use]
+pub const fn work_of(size: usize) -> usize {
+    size * (size + 2)
+}
+
+/// A matrix row by row.
+fn lines(matrix: &mut [f64], width: usize) -> impl Iterator<Item = &mut [f64]> {
+    let mut left = matrix;
+    core::iter::from_fn(move || {
+        let (line, rest) = core::mem::take(&mut left).split_at_mut_checked(width)?;
+        left = rest;
+        Some(line)
+    })
+}
+
+/// One equation of the block whose unknowns begin at a place, scaled, with what is known brought to the right.
+fn fill(blocks: &Blocks<'_>, row: usize, first: usize, values: &[f64], right: &[f64], x: &[f64], line: &mut [f64]) {
+    line.fill(0.0);
+    let (mut sum, mut largest) = (right.get(row).copied().unwrap_or(f64::NAN), 0.0);
+    let ends = (blocks.starts.get(row), blocks.starts.get(row + 1));
+    let (Some(&from), Some(&to)) = ends else {
+        return;
+    };
+    let entries = blocks.entries.iter().zip(values).take(to).skip(from);
+    let size = line.len() - 1;
+    for (&column, &value) in entries {
+        let place = blocks.places.get(column).map_or(usize::MAX, |place| place.wrapping_sub(first));
+        let unit = blocks.units.get(column).copied().unwrap_or(1.0);
+        match line.get_mut(place).filter(|_| place < size) {
+            Some(entry) => {
+                *entry = value * unit;
+                largest = if entry.abs() > largest { entry.abs() } else { largest };
+            }
+            None => sum -= value * x.get(column).copied().unwrap_or(0.0),
+        }
+    }
+    if let Some(last) = line.last_mut() {
+        *last = sum;
+    }
+    if largest > 0.0 && largest.is_finite() {
+        // two over the power of two that is not above it
+        let factor = 1.0 / f64::from_bits(largest.to_bits() & 0x7ff0_0000_0000_0000);
+        for entry in line {
+            *entry *= factor;
+        }
+    }
+}
+
+/// Elimination with partial pivoting of rows that end with their right sides; gives the smallest pivot, and whether the
+/// determinant is negative.
+fn eliminate(matrix: &mut [f64], x: &mut [f64]) -> (f64, bool) {
+    let width = x.len() + 1;
+    let (mut smallest, mut is_negative) = (f64::INFINITY, false);
+    let mut left = &mut *matrix;
+    for k in 0..x.len() {
+        let Some((first, below)) = core::mem::take(&mut left).split_at_mut_checked(width) else {
+            break;
+        };
+        let entry = |line: &[f64]| line.get(k).copied().unwrap_or(0.0);
+        for line in lines(below, width) {
+            if entry(line).abs() > entry(first).abs() {
+                is_negative = !is_negative;
+                for (a, b) in first.iter_mut().zip(line) {
+                    core::mem::swap(a, b);
+                }
+            }
+        }
+        let pivot = entry(first);
+        is_negative ^= pivot < 0.0;
+        smallest = if pivot.abs() >= smallest { smallest } else { pivot.abs() };
+        for line in lines(below, width) {
+            let factor = entry(line) / pivot;
+            if factor != 0.0 {
+                for (a, b) in line.iter_mut().zip(&*first).skip(k) {
+                    *a -= factor * b;
+                }
+            }
+        }
+        left = below;
+    }
+    let mut rest = &*matrix;
+    for k in (0..x.len()).rev() {
+        let Some((before, line)) = rest.split_at_checked(k * width) else {
+            break;
+        };
+        rest = before;
+        let sum = line.get(width - 1).copied().unwrap_or(f64::NAN);
+        let sum = line.iter().zip(&*x).skip(k + 1).fold(sum, |sum, (a, x)| sum - a * x);
+        if let (Some(x), Some(pivot)) = (x.get_mut(k), line.get(k)) {
+            *x = sum / pivot;
+        }
+    }
+    (smallest, is_negative)
+}
+}
+
+pub mod pivoting {
+//! Solving by elimination with partial pivoting, where the order that `solve` has loses digits.
+
+use super::blocks::{self, Blocks};
+use super::error::Fault;
+use super::grid::{bound_at_first, going_on, next_point, on_grid};
+use super::limits::{BORDER, ITERATIONS};
+use super::numbers::{Flags, Numbers, largest};
+use super::solution::{Along, Solution, Solved};
+
+/// Equations that can be solved by elimination with partial pivoting.
+pub trait Pivoting: Solved {
+    /// Numbers that the elimination of the largest block works on.
+    type Work: Numbers;
+    /// An answer for each block of equations.
+    type Blocks: Flags;
+    /// The derivatives of coordinates, velocities and accelerations by inputs and parameters that measures hold.
+    type Varied: Numbers;
+    /// A right side for each derivative by what the motion goes along.
+    type Rights: AsRef<[Self::Q]>;
+
+    /// What may be left of an equation, beside the norm of its row.
+    const TOLERANCE: f64;
+    /// Whether measures hold third derivatives of the coordinates.
+    const HAS_JERK: bool = false;
+    /// By derivative by inputs and parameters: whether it is one by two.
+    const IS_BY_TWO: &'static [bool] = &[];
+
+    /// How the equations fall apart into blocks.
+    fn blocks() -> &'static Blocks<'static>;
+
+    /// The blocks whose determinants change.
+    fn turning() -> &'static [usize];
+
+    /// The width of a cell of each coordinate's grid.
+    fn cells() -> &'static Self::Q;
+
+    /// The right side of the jerk equation.
+    fn jerk(&self, _orders: [&Self::Q; 3], _t: f64, _sides: &Self::Sides) -> Self::Q {
+        Self::Q::ZERO
+    }
+
+    /// The right sides for the derivatives by inputs and parameters, as far as those before them are found.
+    fn varied_right(
+        &self,
+        _orders: [&Self::Q; 3],
+        _varied: &Self::Varied,
+        _t: f64,
+        _sides: &Self::Sides,
+    ) -> Self::Varied {
+        Self::Varied::ZERO
+    }
+
+    /// The transposed matrix, where somebody asks for forces.
+    fn transposed() -> Option<&'static Transposed> {
+        None
+    }
+
+    /// What the multipliers have to hold, by coordinate.
+    fn needed(&self, _orders: [&Self::Q; 3], _t: f64, _sides: &Self::Sides) -> Self::Q {
+        Self::Q::ZERO
+    }
+
+    /// The right sides for the derivatives by what the motion goes along.
+    fn rights(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Rights;
+
+    /// What is measured, from the coordinates with their first three derivatives, what these vary by, and the multipliers.
+    fn measured(&self, orders: [&Self::Q; 4], varied: &Self::Varied, multipliers: &Self::Q, t: f64) -> Self::Measures;
+}
+
+/// The transposed matrix, an equation for each coordinate.
+pub struct Transposed {
+    /// How its equations fall apart into blocks.
+    pub blocks: &'static Blocks<'static>,
+    /// The place of each of its entries among those of the matrix.
+    pub places: &'static [usize],
+}
+
+/// The solution from a position nearby. All coordinates lie on a grid while Newton goes on.
+pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Sides) -> Result<Solution<M>, Fault> {
+    let mut at = Solution::near(q, t);
+    let mut elimination = Elimination::<M>::new();
+    if !settle(m, &mut at, sides, &mut elimination) {
+        return Err(at.fault());
+    }
+    let slopes = m.phi_q(&at.q, t, sides);
+    let (qd, pivot) = elimination.solve(&slopes, &m.nu(&at.q, t, sides));
+    let (qdd, _) = elimination.solve(&slopes, &m.gamma(&at.q, &qd, t, sides));
+    let orders = [&at.q, &qd, &qdd];
+    let qddd = if M::HAS_JERK { elimination.solve(&slopes, &m.jerk(orders, t, sides)).0 } else { M::Q::ZERO };
+    let rights = m.rights(&at.q, t, sides);
+    for (slopes_by, right) in at.along.slopes_mut().iter_mut().zip(rights.as_ref()) {
+        *slopes_by = without_signs_of_zero(elimination.solve(&slopes, right).0);
+    }
+    let varied = vary(m, &mut elimination, &slopes, orders, t, sides);
+    let multipliers = elimination.multipliers(m, &slopes, orders, t, sides);
+    at.measures = m.measured([&at.q, &qd, &qdd, &qddd], &varied, &multipliers, t);
+    (at.qd, at.qdd) = (without_signs_of_zero(qd), without_signs_of_zero(qdd));
+    at.holds = is_next_to_nothing::<M>(&m.phi(&at.q, t, sides), &slopes, &at.q);
+    at.q = without_signs_of_zero(at.q);
+    at.steepest = 1.0 / pivot;
+    let negative = elimination.is_negative.as_ref();
+    for (turned, block) in at.is_negative.as_mut().iter_mut().zip(M::turning()) {
+        *turned = negative.get(*block).copied().unwrap_or(false);
+    }
+    if at.holds { Ok(at) } else { Err(Fault::TooFar) }
+}
+
+/// Newton's iteration; whether it has arrived.
+fn settle<M: Pivoting>(m: &M, at: &mut Solution<M>, sides: &M::Sides, elimination: &mut Elimination<M>) -> bool {
+    let mut bound = bound_at_first(BORDER);
+    for (q, cell) in at.q.as_mut().iter_mut().zip(M::cells().as_ref()) {
+        *q = on_grid(*q, *cell);
+    }
+    for iteration in 0..ITERATIONS {
+        let slopes = m.phi_q(&at.q, at.t, sides);
+        let mut right = m.phi(&at.q, at.t, sides);
+        right.as_mut().iter_mut().for_each(|value| *value = -*value);
+        let (x, _) = elimination.solve(&slopes, &right);
+        if iteration == 0 {
+            at.first = largest(&x, M::scales());
+        }
+        let corrected = at.q.as_mut().iter_mut().zip(x.as_ref());
+        let size = largest(&x, M::cells());
+        if size <= bound {
+            corrected.for_each(|(q, x)| *q += x);
+            return true;
+        }
+        let (next, cells) = going_on(size, bound, BORDER);
+        corrected.zip(M::cells().as_ref()).for_each(|((q, x), cell)| *q = next_point(*q, *x, *cell, cells, BORDER));
+        bound = next;
+    }
+    false
+}
+
+/// The derivatives of the coordinates, their velocities and accelerations by inputs and parameters: those by one before those by two,
+/// each order from those before.
+fn vary<M: Pivoting>(
+    m: &M,
+    elimination: &mut Elimination<M>,
+    slopes: &M::Entries,
+    orders: [&M::Q; 3],
+    t: f64,
+    sides: &M::Sides,
+) -> M::Varied {
+    let mut varied = M::Varied::ZERO;
+    let n = M::scales().as_ref().len();
+    for by_two in [false, true] {
+        for order in 0..3 {
+            let rights = m.varied_right(orders, &varied, t, sides);
+            for (number, _) in M::IS_BY_TWO.iter().enumerate().filter(|(_, of)| **of == by_two) {
+                let first = (3 * number + order) * n;
+                let mut right = M::Q::ZERO;
+                let given = rights.as_ref().iter().skip(first);
+                right.as_mut().iter_mut().zip(given).for_each(|(to, from)| *to = *from);
+                let (x, _) = elimination.solve(slopes, &right);
+                let places = varied.as_mut().iter_mut().skip(first);
+                places.zip(x.as_ref()).for_each(|(place, x)| *place = *x);
+            }
+        }
+    }
+    varied
+}
+
+/// The work of solving linear equations in blocks.
+pub struct Elimination<M: Pivoting> {
+    work: M::Work,
+    is_negative: M::Blocks,
+}
+
+impl<M: Pivoting> Elimination<M> {
+    /// Room for the work.
+    pub fn new() -> Self {
+        Self { work: M::Work::ZERO, is_negative: M::Blocks::NONE }
+    }
+
+    /// The solution for a right side, and the smallest pivot.
+    pub fn solve(&mut self, slopes: &M::Entries, right: &M::Q) -> (M::Q, f64) {
+        let mut x = M::Q::ZERO;
+        let (work, is_negative) = (self.work.as_mut(), self.is_negative.as_mut());
+        let pivot = blocks::solve(M::blocks(), slopes.as_ref(), right.as_ref(), x.as_mut(), work, is_negative);
+        (x, pivot)
+    }
+
+    /// The multipliers of a state; 0 where nobody asks for forces.
+    pub fn multipliers(&mut self, m: &M, slopes: &M::Entries, orders: [&M::Q; 3], t: f64, sides: &M::Sides) -> M::Q {
+        let mut multipliers = M::Q::ZERO;
+        let Some(Transposed { blocks, places }) = M::transposed() else { return multipliers };
+        let mut across = *slopes;
+        for (entry, place) in across.as_mut().iter_mut().zip(*places) {
+            *entry = slopes.as_ref().get(*place).copied().unwrap_or(f64::NAN);
+        }
+        let (work, is_negative) = (self.work.as_mut(), self.is_negative.as_mut());
+        let needed = m.needed(orders, t, sides);
+        blocks::solve(blocks, across.as_ref(), needed.as_ref(), multipliers.as_mut(), work, is_negative);
+        multipliers
+    }
+}
+
+/// Whether what is left of the equations is within their tolerance, and what rounding makes of the coordinates.
+fn is_next_to_nothing<M: Pivoting>(values: &M::Q, slopes: &M::Entries, q: &M::Q) -> bool {
+    let mut bounds = M::Q::ZERO;
+    for (&(row, column), slope) in M::pattern().iter().zip(slopes.as_ref()) {
+        let bound = bounds.as_mut().get_mut(row);
+        let sizes = (M::scales().as_ref().get(column), q.as_ref().get(column), bound);
+        if let (Some(scale), Some(q), Some(bound)) = sizes {
+            *bound += M::TOLERANCE * (slope * scale).abs() + 8.0 * f64::EPSILON * (slope * q).abs();
+        }
+    }
+    let mut pairs = values.as_ref().iter().zip(bounds.as_ref());
+    pairs.all(|(value, bound)| value.abs() <= *bound)
+}
+
+/// No number is -0.
+pub fn without_signs_of_zero<N: Numbers>(mut values: N) -> N {
+    values.as_mut().iter_mut().for_each(|value| *value += 0.0);
+    values
+}
+}
+
+pub mod sine_and_cosine {
+// Sine and cosine of one angle (rad), together: the same bits on every platform, within 1 ulp, for arguments of any size.
+//
+// The angle is reduced to |r + tail| <= pi/4 with `angle = n pi/2 + r + tail`: up to a million by subtracting n times
+// pi/2 in pieces of 33 bits, whose products are exact (W. Cody and W. Waite, Software Manual for the Elementary
+// Functions, 1980); above by as many bits of 2/pi as the angle asks for (M. Payne and R. Hanek, Radian Reduction for
+// Trigonometric Functions, 1983). The coefficients of the two polynomials are those of Sun's fdlibm.
+
+/// Sine and cosine of an angle in radians; not a number for an angle that is not finite.
+#[must_use]
+pub fn sin_cos(angle: f64) -> (f64, f64) {
+    if !angle.is_finite() {
+        return (f64::NAN, f64::NAN);
+    }
+    let (quarter, r, tail) = if angle.abs() < 1e6 { reduce_small(angle) } else { reduce_large(angle) };
+    let (sin, cos) = (sin_near_zero(r, tail), cos_near_zero(r, tail));
+    match quarter & 3 {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    }
+}
+
+/// `sin(r + tail)` for `|r| <= pi/4`, the tail below an ulp of r.
+#[inline]
+pub(super) fn sin_near_zero(r: f64, tail: f64) -> f64 {
+    let z = r * r;
+    let (cube, square) = (z * r, z * z);
+    // in halves that do not wait for each other (G. Estrin, 1960)
+    let lower = 8.333_333_333_322_49e-3 - z * 1.984_126_982_985_795e-4;
+    let upper = (2.755_731_370_707_006_8e-6 - z * 2.505_076_025_340_686_3e-8) + square * 1.589_690_995_211_55e-10;
+    let higher = lower + square * upper;
+    r - ((z * (0.5 * tail - cube * higher) - tail) + cube * 1.666_666_666_666_663_2e-1)
+}
+
+/// `cos(r + tail)` for `|r| <= pi/4`, the tail below an ulp of r.
+#[inline]
+pub(super) fn cos_near_zero(r: f64, tail: f64) -> f64 {
+    let z = r * r;
+    let square = z * z;
+    let lower = 4.166_666_666_666_66e-2 - z * 1.388_888_888_887_411e-3;
+    let middle = 2.480_158_728_947_673e-5 - z * 2.755_731_435_139_066_3e-7;
+    let upper = 2.087_572_321_298_175e-9 - z * 1.135_964_755_778_819_5e-11;
+    let higher = z * (lower + square * (middle + square * upper));
+    let half = 0.5 * z;
+    let most = 1.0 - half;
+    most + (((1.0 - most) - half) + (z * higher - r * tail))
+}
+
+/// `a + b` as its rounded value and what the rounding lost.
+#[inline]
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let b_part = sum - a;
+    (sum, (a - (sum - b_part)) + (b - b_part))
+}
+
+/// The nearest whole number of quarter turns, by its last bits, and what is left of an angle below a million.
+#[inline]
+pub(super) fn reduce_small(angle: f64) -> (u64, f64, f64) {
+    // pi/2 in three pieces of 33 bits and a rest
+    const PIECES: [f64; 3] = [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_711_166_5e-21];
+    const REST: f64 = 8.478_427_660_368_9e-32;
+    // adding and taking away 1.5 * 2^52 rounds to a whole number, which the last bits of the sum are
+    const ROUNDING: f64 = 6_755_399_441_055_744.0;
+    let sum = angle * core::f64::consts::FRAC_2_PI + ROUNDING;
+    let quarters = sum - ROUNDING;
+    let first = angle - quarters * PIECES[0];
+    let (second, lost_second) = two_sum(first, -(quarters * PIECES[1]));
+    let (third, lost_third) = two_sum(second, -(quarters * PIECES[2]));
+    let lost = (lost_second + lost_third) - quarters * REST;
+    let r = third + lost;
+    (sum.to_bits(), r, (third - r) + lost)
+}
+
+/// The bits of 2/pi after the binary point.
+const TWO_OVER_PI: [u64; 20] = [
+    0xa2f9_836e_4e44_1529,
+    0xfc27_57d1_f534_ddc0,
+    0xdb62_9599_3c43_9041,
+    0xfe51_63ab_debb_c561,
+    0xb724_6e3a_424d_d2e0,
+    0x0649_2eea_09d1_921c,
+    0xfe1d_eb1c_b129_a73e,
+    0xe882_35f5_2ebb_4484,
+    0xe99c_7026_b45f_7e41,
+    0x3991_d639_8353_39f4,
+    0x9c84_5f8b_bdf9_283b,
+    0x1ff8_97ff_de05_980f,
+    0xef2f_118b_5a0a_6d1f,
+    0x6d36_7ecf_27cb_09b7,
+    0x4f46_3f66_9e5f_ea2d,
+    0x7527_bac7_ebe5_f17b,
+    0x3d07_39f7_8a52_92ea,
+    0x6bfb_5fb1_1f8d_5d08,
+    0x5603_3046_fc7b_6bab,
+    0xf0cf_bc20_9af4_361d,
+];
+
+/// 64 bits of 2/pi from a bit on, the first bit after the point being bit 1.
+fn bits_from(bit: i64) -> u64 {
+    let word = |k: i64| usize::try_from(k).ok().and_then(|k| TWO_OVER_PI.get(k)).copied().unwrap_or(0);
+    let (at, shift) = ((bit - 1).div_euclid(64), (bit - 1).rem_euclid(64));
+    if shift == 0 { word(at) } else { (word(at) << shift) | (word(at + 1) >> (64 - shift)) }
+}
+
+/// The whole number of quarter turns modulo 4, and what is left of an angle of a million or more.
+#[allow(clippy::cast_possible_truncation, clippy::cast_possible_wrap, clippy::cast_sign_loss)] // bits are cut on purpose
+#[allow(clippy::cast_precision_loss)] // what is lost is taken up by the next part
+fn reduce_large(angle: f64) -> (u64, f64, f64) {
+    let bits = angle.to_bits();
+    let exponent = ((bits >> 52) & 0x7ff) as i64 - 1075;
+    let mantissa = u128::from((bits & ((1 << 52) - 1)) | (1 << 52));
+    // bits of 2/pi before these make whole turns; of the product only what is below four quarters counts
+    let start = exponent - 1;
+    let [high, middle, low] = [bits_from(start), bits_from(start + 64), bits_from(start + 128)];
+    let low = mantissa * u128::from(low);
+    let middle = mantissa * u128::from(middle) + (low >> 64);
+    let high = (mantissa * u128::from(high) + (middle >> 64)) as u64;
+    // two bits of quarters, then the fraction of a quarter
+    let mut quarter = (high >> 62) as i64;
+    let fraction = (u128::from(high) << 66) | (u128::from(middle as u64) << 2) | u128::from((low as u64) >> 62);
+    // to the nearest quarter: a fraction above a half counts back from the next one
+    let back = fraction >> 127 == 1;
+    let size = if back { fraction.wrapping_neg() } else { fraction };
+    quarter += i64::from(back);
+    // 53 bits from the first that is set, and the 53 after those
+    let leading = size.leading_zeros();
+    let digits = size.checked_shl(leading).unwrap_or(0);
+    let power_of_two = |power: i64| f64::from_bits(((1023 + power) as u64) << 52);
+    let upper = (digits >> 75) as f64 * power_of_two(-53 - i64::from(leading));
+    let lower = ((digits >> 22) as u64 & ((1 << 53) - 1)) as f64 * power_of_two(-106 - i64::from(leading));
+    let (r, tail) = times_half_pi(upper, lower);
+    let sign = if back == (angle < 0.0) { 1.0 } else { -1.0 };
+    ((if angle < 0.0 { -quarter } else { quarter }) as u64, sign * r, sign * tail)
+}
+
+/// `(a + b) pi/2` as a value and its tail.
+fn times_half_pi(a: f64, b: f64) -> (f64, f64) {
+    // 2^27 + 1 splits a number into two halves whose products are exact (T. Dekker, 1971)
+    let split = |x: f64| {
+        let shifted = x * 134_217_729.0;
+        let high = shifted - (shifted - x);
+        (high, x - high)
+    };
+    let (half_pi, rest) = (core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17);
+    let product = a * half_pi;
+    let ((a_high, a_low), (p_high, p_low)) = (split(a), split(half_pi));
+    let lost = ((a_high * p_high - product) + a_high * p_low + a_low * p_high) + a_low * p_low;
+    let tail = lost + (a * rest + b * half_pi);
+    let r = product + tail;
+    (r, (product - r) + tail)
+}
+}
+
+/// Where to stop, and what counts as large.
+pub mod limits {
+/// Rounding may make so much of velocities and accelerations that are given out.
+pub const ACCURACY: f64 = 1e-9;
+/// How far the motion is looked ahead to tell on which side of an edge it goes on, as a part of the span.
+pub const AHEAD: f64 = 1e-9;
+/// A correction that is no farther from half a cell of the grid than this, in cells, leads to the border of two.
+pub const BORDER: f64 = 0.000244140625;
+/// Nothing may move farther than this meanwhile, scaled.
+pub const FARTHEST_AHEAD: f64 = 1e-7;
+/// The step before tells of one that is so many times as long at most.
+pub const FARTHEST_BEND: f64 = 4.0;
+/// Iterations of Newton at most.
+pub const ITERATIONS: usize = 8;
+/// Newton's first correction at most, beside the size of a body or 1 rad.
+pub const LARGEST_CORRECTION: f64 = 0.05;
+/// How far velocities may lead elsewhere than positions, likewise: more is another branch.
+pub const LARGEST_GAP: f64 = 0.001;
+/// The largest motion of a step, beside the size of a body or 1 rad.
+pub const LARGEST_MOTION: f64 = 0.5;
+/// How far before a rim its sides are looked at, as a part of the span.
+pub const LEAD: f64 = 0.001;
+/// And at most (s).
+pub const LONGEST_AHEAD: f64 = 1e-9;
+/// How often the branches of formulas are chosen anew at one time.
+pub const MOST_BRANCHES: usize = 8;
+/// Halvings until two times are neighbours.
+pub const MOST_HALVINGS: usize = 100;
+/// Trials on the way from the file's parameters to others at most.
+pub const MOST_PARTS: usize = 10_000;
+/// Steps that one call takes at most that has no bound of its own.
+pub const MOST_STEPS: usize = 1_000_000;
+/// A dead point is no further off than this part of the span.
+pub const NEAR_FOLD: f64 = 1e-5;
+/// A position that changes by more than this at an edge jumps, scaled.
+pub const POSITION_JUMP: f64 = 1e-9;
+/// A speed below this part of one per span is rest, scaled.
+pub const REST: f64 = 0.001;
+/// Where steps become too small, this is steep enough for a singular position to be the reason.
+pub const SINGULAR: f64 = 100.0;
+/// So many units in the last place of a time it may be off from what is meant to happen then.
+pub const SLACK: f64 = 4.0;
+/// The smallest part of the way to other parameters.
+pub const SMALLEST_PART: f64 = 1e-6;
+/// One over a pivot, scaled: beyond this the position is looked at more closely.
+pub const STEEP: f64 = 1000.0;
+/// One over a pivot, scaled: beyond this it is too near to a singular one.
+pub const STEEPEST: f64 = 1000000.0;
+/// A velocity that changes by more than this part of the fastest at an edge jumps.
+pub const VELOCITY_JUMP: f64 = 1e-7;
+}
+}

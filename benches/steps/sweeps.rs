@@ -1,0 +1,92 @@
+//! Many variants of the four-bar, beside its closed form: what a row, a motion, a result of a variant cost.
+
+use crate::mechanisms::compile_as;
+use crate::timing::{least, per_step};
+use mechc::{Checked, Choice, Compiled, Memory, Parsed, SweepOptions, VaryOptions};
+use std::f64::consts::PI;
+use std::hint::black_box;
+
+/// Variants that are enough to time one.
+const VARIANTS: u32 = 400;
+
+/// The four-bar of the closed form, whose coupler and rocker may have other lengths.
+fn four_bar(times: u32, more: &str) -> String {
+    format!(
+        "mechanism four_bar {{
+            param rod = 3.5
+            param arm = 3
+            ground {{ point A = (0, 0) point B = (4, 0) }}
+            body crank at (0, 0, 0.5) {{ point A = (0, 0) point C = (1, 0) }}
+            body coupler at (0.88, 0.48, 0.78) {{ point C = (0, 0) point D = (rod, 0) }}
+            body rocker at (3.7, 1.5, 1.8) {{ point B = (-arm / 2, 0) point D = (arm / 2, 0) }}
+            joint main: revolute(ground.A, crank.A)
+            joint pin: revolute(crank.C, coupler.C)
+            joint knee: revolute(coupler.D, rocker.D)
+            joint pivot: revolute(ground.B, rocker.B)
+            driver motor: rotation(main) = 0.5 + 2 * t
+            {more}
+            analysis from 0 to {PI} every {}
+        }}",
+        PI / f64::from(times - 1)
+    )
+}
+
+/// A sweep of it.
+struct Subject {
+    text: String,
+    checked: Checked,
+    compiled: Compiled,
+    choice: Choice,
+}
+
+impl Subject {
+    fn new(times: u32, more: &str) -> Subject {
+        let text = four_bar(times, more);
+        let choice = Choice { lead: true, ..Choice::default() };
+        let checked = Parsed::of("bench.mech", &text).check(&choice, &Memory::default());
+        let compiled = compile_as(&text, &choice);
+        Subject { text, checked, compiled, choice }
+    }
+
+    /// ns a variant, of some columns; of results where none are wanted.
+    fn per_variant(&self, columns: Option<&[usize]>, jobs: usize) -> f64 {
+        let vary = VaryOptions {
+            params: vec!["rod=3.4..3.6".to_owned(), "arm=2.9..3.1".to_owned()],
+            sample: Some(u64::from(VARIANTS)),
+            ..VaryOptions::default()
+        };
+        let variants = self.checked.variants(&vary, &self.choice, &Memory::default());
+        let variants = variants.unwrap_or_else(|_| panic!("they vary: {}", self.text));
+        let options =
+            SweepOptions { columns: columns.map(<[usize]>::to_vec), jobs: Some(jobs), ..SweepOptions::default() };
+        least(5, || {
+            per_step(VARIANTS, || {
+                let blocks = self.checked.sweep(&self.compiled, &variants, &options, |block| block).expect("times");
+                let done: usize = blocks.map(|block| black_box(block).len()).sum();
+                assert_eq!(done, VARIANTS as usize);
+            })
+        })
+    }
+}
+
+pub fn sweeps(floor: f64) {
+    println!("variants of the four-bar, one thread");
+    let turn = Subject::new(360, "");
+    let all: Vec<usize> = (1..turn.compiled.columns().len()).collect();
+    let one = turn.per_variant(Some(&all), 1);
+    let row = one / 360.0;
+    println!("  (a) rows: 360 times, 27 numbers            {row:>9.0} ns a row {:>7.2} x", row / floor);
+    let two = Subject::new(200, "").per_variant(Some(&[4, 5]), 1);
+    println!("  (b) two columns of position, 200 times     {:>9.1} s for 1,000,000", two * 1e-3);
+    let result = Subject::new(360, "result farthest = max(x(coupler.C))").per_variant(None, 1);
+    println!("  (c) the largest of a coordinate in a turn  {:>9.1} us a variant", result * 1e-3);
+    let three = Subject::new(3, "").per_variant(Some(&all), 1);
+    println!("  (d) three times, leading over included     {:>9.1} us a variant", three * 1e-3);
+    if std::thread::available_parallelism().is_ok_and(|cores| cores.get() > 1) {
+        println!(
+            "  (a) by two threads                         {:>9.2} times as fast",
+            one / turn.per_variant(Some(&all), 2)
+        );
+    }
+    println!();
+}

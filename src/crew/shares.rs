@@ -1,0 +1,42 @@
+//! Work on numbered pieces that holds what is borrowed: each thread does a share of them, and all are waited for.
+
+use std::ops::Range;
+#[cfg(feature = "threads")]
+use std::thread;
+
+/// What is made of shares of `count` pieces, one behind the other, by as many threads as there are shares; by the one that asks, where
+/// that is one.
+pub fn in_shares<T: Send>(jobs: usize, count: usize, work: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
+    let jobs = jobs.min(count);
+    if jobs < 2 {
+        return vec![work(0..count)];
+    }
+    let share = |job: usize| job * count / jobs..(job + 1) * count / jobs;
+    #[cfg(feature = "threads")]
+    let made = thread::scope(|scope| {
+        let work = &work;
+        let others: Vec<_> = (1..jobs).map(|job| scope.spawn(move || work(share(job)))).collect();
+        let first = work(share(0));
+        let others =
+            others.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        std::iter::once(first).chain(others).collect()
+    });
+    #[cfg(not(feature = "threads"))]
+    let made = (0..jobs).map(|job| work(share(job))).collect();
+    made
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_shares;
+
+    #[test]
+    fn shares_are_the_whole_in_order() {
+        for jobs in [1, 2, 3, 8] {
+            for count in [0, 1, 2, 7, 100] {
+                let all: Vec<usize> = in_shares(jobs, count, Vec::from_iter).concat();
+                assert_eq!(all, (0..count).collect::<Vec<_>>(), "{jobs} {count}");
+            }
+        }
+    }
+}
