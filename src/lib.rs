@@ -70,7 +70,9 @@ mod world;
 pub use analysis::{Answers, TOLERANCE, Times};
 pub use cancel::Cancel;
 pub use check::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
-pub use diag::{Applies, Blame, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, Severity, fixed, render};
+pub use diag::{
+    Applies, Blame, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, Severity, fixed, render,
+};
 pub use emit::{File, LARGEST_STRAIGHT, MARK};
 pub use layout::ColumnUnit;
 #[cfg(feature = "live")]
@@ -78,8 +80,8 @@ pub use live::page::{picture, written as page};
 pub use output::{TableFormat, TableWriter};
 pub use source::{Encoding, FileId, Source, Sources, Span};
 pub use stages::{
-    Adjustable, Adjusting, Affected, AskedTimes, Assembly, Checked, Choice, Compiled, Deviation, Formula, Parsed,
-    Redundant, Run, RunOptions, RustOptions, Seen, Settable, Signal, Sweep, SweepOptions, Tolerance, Variants,
+    Adjustable, Adjusting, Affected, AskedTimes, Assembly, Checked, Choice, Compiled, Deviation, Formula, InputMotion,
+    Parsed, Redundant, Run, RunOptions, RustOptions, Seen, Settable, Sweep, SweepOptions, Tolerance, Variants,
     VaryOptions, Vectors, Verified, imported, seconds,
 };
 pub use sweep::{Levels, Method, Points, Sampling, Status, Swept, Varying};
