@@ -4,7 +4,7 @@ use crate::errors::Said;
 use crate::mechanism::{Mechanism, Stages};
 use crate::waiting::interruptible;
 pub use found::{_at_again, At, Columns};
-use mechc::{Adjustable, Adjusting, AskedTimes, Cancel, Choice, ColumnUnit, Diagnostic, Signal};
+use mechc::{Adjustable, Adjusting, AskedTimes, Cancel, Choice, ColumnUnit, Diagnostic, InputMotion};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyString};
@@ -226,12 +226,12 @@ impl Question {
         cancel: &Cancel,
         row: impl FnMut(&[f64]),
     ) -> Result<(), Box<Diagnostic>> {
-        let signal = |[value, rate, acceleration]: &[Operand; 3]| Signal {
+        let signal = |[value, rate, acceleration]: &[Operand; 3]| InputMotion {
             value: value.at(element),
             rate: rate.at(element),
             acceleration: acceleration.at(element),
         };
-        let inputs: Vec<Signal> = self.inputs.iter().map(signal).collect();
+        let inputs: Vec<InputMotion> = self.inputs.iter().map(signal).collect();
         let params: Vec<f64> = self.params.iter().map(|param| param.at(element)).collect();
         let t = self.t.as_ref().map(|t| t.at(element));
         let first = || adjustable.compiled().analysis().map_or(0.0, |[from, ..]| from);

@@ -37,7 +37,7 @@ impl Default for Adjusting {
 
 /// What an input is at a moment (SI).
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub struct Signal {
+pub struct InputMotion {
     /// Its value.
     pub value: f64,
     /// By time.
@@ -49,7 +49,7 @@ pub struct Signal {
 /// A mechanism whose inputs and params can be adjusted.
 ///
 /// ```
-/// use mechc::{Adjusting, AskedTimes, Cancel, Choice, Memory, Parsed, Signal};
+/// use mechc::{Adjusting, AskedTimes, Cancel, Choice, Memory, Parsed, InputMotion};
 ///
 /// let text = "mechanism disc {
 ///      input turn = 90 deg/s * t
@@ -61,7 +61,7 @@ pub struct Signal {
 /// let checked = Parsed::of("disc.mech", text).check(&Choice::default(), &Memory::default());
 /// let adjusting = Adjusting { inputs: vec!["turn".to_owned()], ..Adjusting::default() };
 /// let disc = checked.adjustable(&adjusting, &Cancel::default()).expect("it is determined");
-/// let turn = Signal { value: 0.3, rate: 2.0, acceleration: 0.0 };
+/// let turn = InputMotion { value: 0.3, rate: 2.0, acceleration: 0.0 };
 /// let (once, mut row) = (AskedTimes { at: vec![0.0], ..AskedTimes::default() }, Vec::new());
 /// let found = disc.follow(&[turn], &[], &once, &Cancel::default(), |found| row.extend_from_slice(found));
 /// assert!(found.is_ok());
@@ -161,7 +161,7 @@ impl Adjustable {
     /// Why it does not get there, or cannot go on: no way leads there (E0612), for instance.
     pub fn follow(
         &self,
-        inputs: &[Signal],
+        inputs: &[InputMotion],
         params: &[f64],
         times: &AskedTimes,
         cancel: &Cancel,
@@ -170,7 +170,7 @@ impl Adjustable {
         let options = self.0.options(cancel);
         let (mut values, analysis) = self.0.values(params)?;
         let times = &times.over(analysis)?.times()?;
-        for (&first, &Signal { value, rate, acceleration }) in self.0.inputs.iter().zip(inputs) {
+        for (&first, &InputMotion { value, rate, acceleration }) in self.0.inputs.iter().zip(inputs) {
             values[first..first + 4].copy_from_slice(&[value, times.from(), rate, acceleration]);
         }
         let mut started = match self.0.from_own.lead_values(&values, times, &options) {

@@ -41,7 +41,7 @@ mod varied;
 mod vary;
 
 pub use crate::math::Vectors;
-pub use adjustable::{Adjustable, Adjusting, Signal};
+pub use adjustable::{Adjustable, Adjusting, InputMotion};
 pub use checked::{Checked, Choice};
 pub use compiled::{Compiled, Redundant};
 pub use constant::seconds;

@@ -1,0 +1,133 @@
+"""What is for people: notebooks, pages, plots, files; and tables of derivatives and tolerances."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import numpy as np
+import pytest
+from conftest import EXAMPLES, ROOT, command, same_bits
+
+import mechc
+
+CRANK = ROOT / "examples/slider_crank.mech"
+PEAK = {"peak": "max(abs(der(der(travel))))"}
+
+
+@pytest.mark.filterwarnings("ignore::mechc.MechcWarning")
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_a_notebook_shows_the_page_in_a_frame(path):
+    m = mechc.load(path)
+    if m.analysis is None:
+        assert m._repr_html_() is None
+        return
+    text = m._repr_html_()
+    assert len(text.encode()) <= 300_000
+    frame = re.search(r"<iframe ([^>]*)>", text)
+    # an origin of its own: scripts run, and reach nothing of the notebook
+    assert frame and 'sandbox="allow-scripts"' in frame[1] and "allow-same-origin" not in text
+    assert "<noscript><svg" in text.replace("\n", "") or "<noscript><?xml" in text
+
+
+@pytest.mark.timeout(200)
+def test_a_notebook_runs(monkeypatch):
+    nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
+    notebook = nbformat.read(ROOT / "python/examples/notebook.ipynb", as_version=4)
+    done = nbclient.NotebookClient(notebook, timeout=150, resources={"metadata": {"path": str(ROOT)}}).execute()
+    outputs = [output for cell in done.cells if cell.cell_type == "code" for output in cell.outputs]
+    kinds = {kind for output in outputs for kind in output.get("data", {})}
+    assert {"text/html", "image/png"} <= kinds
+    assert not [output for output in outputs if output.output_type == "error"]
+
+
+def test_plots():
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    run = mechc.load(CRANK).run()
+    ax = run.plot("travel", "travel.dd")
+    assert len(ax.figure.axes) == 2 and np.array_equal(ax.get_lines()[0].get_ydata(), run["travel"])
+    assert len(run.plot().figure.axes) == 2
+    with pytest.raises(KeyError, match="was `travel` meant"):
+        run.plot("travl")
+    with pytest.raises(mechc.UsageError, match="do not go into one plot"):
+        run.plot("travel", "travel.d", "travel.dd")
+
+
+def test_files_are_those_of_the_command(tmp_path):
+    m = mechc.load(CRANK)
+    for name, write, options in (
+        ("a.rs", m.to_rust, []),
+        ("a.tex", m.to_latex, []),
+        ("a.json", m.to_json, []),
+    ):
+        written = write(tmp_path / name).read_text()
+        wanted = tmp_path / f"wanted-{name}"
+        assert command("emit", str(CRANK), "-o", str(wanted), *options).code == 0
+        assert written == wanted.read_text()
+    page, picture = m.view(tmp_path / "a.html"), m.view(tmp_path / "a.svg")
+    assert page.read_text().lstrip().startswith("<!") and "<svg" in picture.read_text()
+    with pytest.raises(mechc.UsageError):
+        m.view(tmp_path / "a.png")
+
+
+def test_a_crate_spares_what_others_wrote(tmp_path):
+    m = mechc.load(CRANK)
+    folder = m.to_rust(tmp_path / "crank")
+    assert (folder / "Cargo.toml").exists() and m.to_rust(folder) == folder
+    (folder / "Cargo.toml").write_text("[package]\n")
+    with pytest.raises(mechc.FileError, match="did not write"):
+        m.to_rust(folder)
+
+
+def test_jacobians_are_those_of_the_command():
+    m = mechc.load(CRANK)
+    j = m.jacobian(by=["rod_length", "speed"], results=PEAK)
+    table = command("run", str(CRANK), "--by", "rod_length", "--by", "speed").table()
+    assert j["travel"].shape == (81, 2) and j.results.shape == (1, 2) and j.result_names == ["peak"]
+    for k, name in enumerate(("rod_length", "speed")):
+        assert same_bits(np.ascontiguousarray(j["travel"][:, k]), table[f"travel.by.{name}"])
+    f = m.objective("peak", by=["rod_length"], results=PEAK)
+    value, gradient = f(f.x0)
+    assert value == m.run(results=PEAK).results["peak"] and gradient[0] == j.results[0, 0]
+    h = 1e-6
+    assert gradient[0] == pytest.approx((f.value(f.x0 + h) - f.value(f.x0 - h)) / (2 * h), rel=1e-5)
+    # a value does not depend on those that were asked for before
+    assert f([0.2])[0] == m.objective("peak", by=["rod_length"], results=PEAK)([0.2])[0]
+    assert m.objective("peak", by=["rod_length"], results=PEAK, failed=np.inf)([0.01])[0] == np.inf
+    with pytest.raises(mechc.AnalysisError):
+        f([0.01])
+
+
+def test_residuals_have_exact_derivatives():
+    m = mechc.load(CRANK)
+    f = m.residuals(["travel", "lean"], np.zeros((3, 2)), by=["rod_length", "crank_length"], at=[0.0, 0.01, 0.02])
+    slopes = f.jacobian(f.x0)
+    assert f(f.x0).shape == (6,) and slopes.shape == (6, 2)
+    for k in range(2):
+        step = np.eye(2)[k] * 1e-7
+        assert slopes[:, k] == pytest.approx((f(f.x0 + step) - f(f.x0 - step)) / 2e-7, rel=1e-5, abs=1e-6)
+    with pytest.raises(mechc.UsageError, match="do not rise"):
+        m.residuals(["travel"], [0.0, 0.0], by=["rod_length"], at=[0.01, 0.0])
+
+
+def test_tolerances_are_those_of_the_command():
+    found = mechc.load(CRANK).tolerance({"rod_length": "0.05 mm", "crank_length": ("-0.02 mm", 0)}, results=PEAK, verify=True)
+    ended = command(
+        "tolerance", str(CRANK), "--tol", "rod_length=0.05mm", "--tol", "crank_length=-0.02mm..0mm",
+        "--result", "peak = max(abs(der(der(travel))))", "--verify", "-o", "/dev/stdout", "--format", "json",
+    )
+    assert ended.code == 0, ended.err
+    told = json.dumps(json.loads(ended.out))
+    for deviation in found.deviations.values():
+        for number in (deviation.nominal, *deviation.worst, *deviation.slopes.values()):
+            assert repr(number) in told or number == 0.0, (deviation.name, number)
+    assert found.variants and found.lost == 0 and found.to_pandas().shape[0] == len(found)
+
+
+def test_reactions_are_those_of_the_command():
+    path = ROOT / "examples/compressor.mech"
+    found = mechc.load(path).reactions()
+    table = command("run", str(path), "--reactions").table()
+    assert len(found.columns) > 5 and all(same_bits(found[name], table[name]) for name in found)
+    assert not [name for name in found if name.endswith(".x")]
