@@ -114,7 +114,9 @@ fn alone(folder: &Path, file: &str, set: &[String], more: &[&str]) -> (String, S
     if !at_times {
         arguments.extend(["--results", "alone.json"]);
     }
-    set.iter().for_each(|set| arguments.extend(["--set", set]));
+    for set in set {
+        arguments.extend(["--set", set]);
+    }
     arguments.extend(more);
     for name in ["alone.csv", "alone.json"] {
         let _ = fs::remove_file(folder.join(name));
@@ -235,7 +237,7 @@ fn random_sweeps_are_what_runs_say() {
     let mut statuses = Vec::new();
     for round in 0..12 {
         let mut rest = RANGES.to_vec();
-        let taken: Vec<Range> = (0..1 + random.below(3)).map(|_| rest.swap_remove(random.below(rest.len()))).collect();
+        let taken: Vec<Range> = (0..=random.below(3)).map(|_| rest.swap_remove(random.below(rest.len()))).collect();
         let is_sample = random.below(3) == 0;
         let mut vary = Vec::new();
         for (k, of) in taken.iter().enumerate() {
@@ -277,7 +279,7 @@ fn threads_units_and_shares_change_nothing(path: &Path, sweep: &[&str], more: &[
     {
         assert!(bytes("again.csv", &with).is_none_or(|again| again == whole), "{sweep:?} {more:?} {with:?}");
     }
-    let count = whole.iter().filter(|byte| **byte == b'\n').count() - 1;
+    let count = String::from_utf8_lossy(&whole).lines().count() - 1;
     if count > 1 {
         let cut = (1 + random.below(count - 1)).to_string();
         let [mut first, second] =

@@ -148,8 +148,7 @@ mod tests {
 
     #[test]
     fn numbers_are_read_to_the_last_bit() {
-        for value in [0.1_f64 + 0.2, 1.817_724_553_117_437_2, 51.248_170_270_318_33, 1.153_729_583_102_345_1e-5, 5e-324]
-        {
+        for value in [0.1_f64 + 0.2, 1.817_724_553_117_437_2, 51.248_170_270_318_33, 1.153_729_583_102_345e-5, 5e-324] {
             let asked = Question::of(format!(r#"{{"page":"a","jog":{{"time":{value},"inputs":[]}}}}"#).as_bytes());
             let time = asked.ok().and_then(|asked| asked.jog).map(|jog| jog.time.to_bits());
             assert_eq!(time, Some(value.to_bits()), "{value}");

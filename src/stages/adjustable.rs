@@ -194,6 +194,9 @@ impl Adjustable {
     }
 }
 
+/// Of all params (SI), and first time, last time and step of the analysis (s), if there is one.
+type Values = (Vec<f64>, Option<[f64; 3]>);
+
 impl Shared {
     fn options(&self, cancel: &Cancel) -> RunOptions {
         let Adjusting { tolerance, pass_bifurcations, .. } = self.adjusting;
@@ -201,7 +204,7 @@ impl Shared {
     }
 
     /// The values of all params of the model, with its own inputs, and first time, last time and step of its analysis (s).
-    fn values(&self, params: &[f64]) -> Result<(Vec<f64>, Option<[f64; 3]>), Box<Diagnostic>> {
+    fn values(&self, params: &[f64]) -> Result<Values, Box<Diagnostic>> {
         let Some(variants) = &self.params else { return Ok((self.own.clone(), self.compiled.analysis())) };
         let (model, said) = self.checked.model_led_to(variants.read_settings(params), variants.sources());
         let model = model.ok_or_else(|| first_error(said))?;

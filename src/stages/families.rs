@@ -17,8 +17,11 @@ pub(super) struct Families {
     /// The one that there is where nothing decides; else one that nobody asks for.
     only: Arc<Family>,
     /// By the values of what decides (the bits).
-    known: Mutex<BTreeMap<Vec<u64>, Arc<OnceLock<Arc<Family>>>>>,
+    known: Mutex<BTreeMap<Vec<u64>, Made>>,
 }
+
+/// A family that is made by whoever asks for it first.
+type Made = Arc<OnceLock<Arc<Family>>>;
 
 /// One family.
 pub(super) struct Family {

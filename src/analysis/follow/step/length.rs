@@ -51,8 +51,8 @@ impl Length {
         let [longest, near] = self.fewest.map(|fewest| self.span / fewest);
         let is_near = 2.0 * accepted.motion * longest >= kinematics.linear().smallest_pivot() * h;
         let longest = if is_near { near } else { longest };
-        // the predictor's error grows with h³, the curve's between with h⁶
-        let calm = accepted.first_correction < LARGEST_CORRECTION / 12.0 && accepted.between < LARGEST_BETWEEN / 100.0;
+        let calm = accepted.first_correction < LARGEST_CORRECTION / CALM_CORRECTION
+            && accepted.between < LARGEST_BETWEEN / CALM_BETWEEN;
         if calm {
             // a step cut short by an output time says little of a longer one
             self.h = self.h.max(2.0 * h).min(longest);
