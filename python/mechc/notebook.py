@@ -9,11 +9,11 @@ from typing import Any
 LARGEST = 300_000
 
 #: Rows of the motion that are tried, until it is small enough.
-ROWS = (400, 200, 100, 50, 25)
+ROWS = (400, 200, 100, 50, 25, 12)
 
 
 def shown(m: Any, asked: dict[str, Any]) -> str:
-    """The page in a sandboxed frame, with a picture for readers whose scripts are off."""
+    """The page in a sandboxed frame, with a picture for readers whose scripts are off; of what is too large for that the picture alone."""
     for rows in ROWS:
         page, picture = m._seen(asked, rows)
         text = framed(page, picture)
@@ -27,7 +27,15 @@ def framed(page: str, picture: str) -> str:
     """The frame takes the page's script and nothing of the notebook's: it has an origin of its own."""
     # a picture alone would be hidden where scripts run: what is within `noscript` is shown where they do not
     return (
-        f'<iframe sandbox="allow-scripts" srcdoc="{html.escape(page)}" title="the mechanism, moving" '
+        f'<iframe sandbox="allow-scripts" srcdoc={_quoted(page)} title="the mechanism, moving" '
         'style="width:100%;height:640px;border:0"></iframe>'
         f"<noscript>{picture}</noscript>"
     )
+
+
+def _quoted(page: str) -> str:
+    """A page as the value of an attribute: of its characters only `&` and the quote mean something else there."""
+    page = page.replace("&", "&amp;")
+    if page.count("'") < page.count('"'):
+        return "'" + page.replace("'", "&#39;") + "'"
+    return '"' + page.replace('"', "&quot;") + '"'

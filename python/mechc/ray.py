@@ -88,6 +88,7 @@ def sweep(
     import ray.data
 
     whole_sweep, share = _whole(m, options), whole("share", share, 1)
+    concurrency = None if concurrency is None else whole("concurrency", concurrency, 1)
     name = os.fspath(out)
     if not isinstance(name, str):
         raise usage(f"`out` is {out!r}, and a folder is wanted")
@@ -108,14 +109,16 @@ def sweep(
     missing = [of for of in ranges if _name(*of) not in there]
     if missing:
         packed = ray.put(pickle.dumps(whole_sweep))
-        shares = ray.data.from_items([{"first": first, "last": last} for first, last in missing], override_num_blocks=len(missing))
         context = ray.data.DataContext.get_current()
         shown = context.enable_progress_bars
         context.enable_progress_bars = bool(progress)
         try:
+            rows = [{"first": first, "last": last} for first, last in missing]
+            shares = ray.data.from_items(rows, override_num_blocks=len(rows))
             # within a list a reference is handed on as it is, and fetched once by each worker
             keywords = {"packed": [packed], "folder": name}
-            made = shares.map(_make, fn_kwargs=keywords, num_cpus=1, concurrency=concurrency)
+            compute = ray.data.TaskPoolStrategy(size=concurrency)
+            made = shares.map(_make, fn_kwargs=keywords, num_cpus=1, compute=compute)
             done = sum(row["made"] for row in made.iter_rows())
         finally:
             context.enable_progress_bars = shown

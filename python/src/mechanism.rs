@@ -39,18 +39,19 @@ impl Mechanism {
         if let Some(place) = found(&self.params) {
             return Ok((&self.params[place], false));
         }
-        let units =
-            |list: &[Settable]| list.iter().map(|of| (of.name.clone(), of.unit.clone())).collect::<BTreeMap<_, _>>();
         let given = PyDict::new(py);
         given.set_item(name, value)?;
         let options = ["t", "set", "inputs", "rates", "accelerations", "by", "reactions", "strict"];
-        py.import("mechc.asking")?.getattr("split")?.call1((
-            given,
-            units(&self.params),
-            units(&self.inputs),
-            options,
-        ))?;
+        let known = (units(&self.params), units(&self.inputs));
+        py.import("mechc.asking")?.getattr("split")?.call1((given, known.0, known.1, options))?;
         Err(pyo3::exceptions::PyKeyError::new_err(name.to_owned()))
+    }
+
+    /// Says of options that are given that their names win over those of params and inputs.
+    pub fn warn_of_options(&self, py: Python<'_>, given: &Bound<'_, PyDict>) -> PyResult<()> {
+        let warn = py.import("mechc.asking")?.getattr("warn_of_options")?;
+        warn.call1((units(&self.params), units(&self.inputs), given, given.keys()))?;
+        Ok(())
     }
 
     /// The SI unit of an input's rate, or of its acceleration.
@@ -321,4 +322,9 @@ fn read(text: Option<&str>, path: &Path, files: &Files) -> Result<Parsed, (Sourc
             Ok(Parsed::of_source(sources, file, path))
         }
     }
+}
+
+/// Names with their units.
+fn units(list: &[Settable]) -> BTreeMap<String, String> {
+    list.iter().map(|of| (of.name.clone(), of.unit.clone())).collect()
 }

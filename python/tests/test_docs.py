@@ -41,3 +41,10 @@ def test_the_guide(monkeypatch):
             assert not told, "\n".join(told)
     assert found["python"] >= 10 and found["pycon"] >= 8
     assert set(os.listdir(ROOT)) == before
+
+
+def test_the_readmes_example(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    found = [code for kind, code in BLOCK.findall((ROOT / "README.md").read_text()) if kind == "python"]
+    assert len(found) == 1
+    exec(compile(found[0], "README.md", "exec"), {})

@@ -24,6 +24,10 @@ def test_a_notebook_shows_the_page_in_a_frame(path):
         return
     text = m._repr_html_()
     assert len(text.encode()) <= 300_000
+    if path.stem == "walker":
+        # so many bodies do not fit into a page of that size
+        assert "<svg" in text and "<iframe" not in text
+        return
     frame = re.search(r"<iframe ([^>]*)>", text)
     # an origin of its own: scripts run, and reach nothing of the notebook
     assert frame and 'sandbox="allow-scripts"' in frame[1] and "allow-same-origin" not in text

@@ -29,6 +29,28 @@ impl Options<'_> {
     }
 }
 
+impl<'py> Options<'py> {
+    /// Those that are given, by their names.
+    fn given(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let given = PyDict::new(py);
+        let Options { set, inputs, rates, accelerations, by, reactions, tolerance, pass_bifurcations } = self;
+        let are_given = [
+            ("set", set.is_some()),
+            ("inputs", inputs.is_some()),
+            ("rates", rates.is_some()),
+            ("accelerations", accelerations.is_some()),
+            ("by", !by.is_empty()),
+            ("reactions", *reactions),
+            ("tolerance", tolerance.is_some()),
+            ("pass_bifurcations", *pass_bifurcations),
+        ];
+        for (name, _) in are_given.into_iter().filter(|(_, is_given)| *is_given) {
+            given.set_item(name, true)?;
+        }
+        Ok(given)
+    }
+}
+
 /// A value that was read, and not yet laid out by elements.
 enum Value<'py> {
     One(f64),
@@ -48,6 +70,9 @@ pub fn at<'py>(
     {
         let question = Question { kind: Kind::default(), t: None, inputs, params: Vec::new(), shape: None };
         return question.answer(py, &compiled);
+    }
+    if !options.are_usual() {
+        mechanism.warn_of_options(py, &options.given(py)?)?;
     }
     let (mut inputs, mut params) = (Vec::new(), Vec::new());
     for given in [options.set.as_ref(), options.inputs.as_ref(), values].into_iter().flatten() {

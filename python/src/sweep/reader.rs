@@ -76,15 +76,16 @@ impl Pump {
         Ok(Pump { blocks, cancel, thread, process: std::process::id() })
     }
 
-    /// Ends it, and waits for that; what another process has left behind is left alone.
-    fn end(self) {
+    /// Ends it, and waits for that; what another process has left behind is left alone. Whether it has not broken down.
+    fn end(self) -> bool {
         let Pump { blocks, cancel, thread, process } = self;
         if process == std::process::id() {
             cancel.cancel();
             drop(blocks);
-            let _ = thread.join();
+            thread.join().is_ok()
         } else {
             std::mem::forget((blocks, cancel, thread));
+            true
         }
     }
 }
@@ -129,9 +130,9 @@ impl Reader {
                 }
                 Err(RecvTimeoutError::Timeout) => self.look_for_signals()?,
                 Err(RecvTimeoutError::Disconnected) => {
-                    self.end();
+                    let is_sound = self.end();
                     // it ends early behind a variant that is looked for, and never otherwise
-                    return if self.source.whole.has_until {
+                    return if self.source.whole.has_until && is_sound {
                         Ok(None)
                     } else {
                         let said = format!("mechc broke down at variant {}, which is a mistake of its own", self.next);
@@ -188,11 +189,10 @@ impl Reader {
         told
     }
 
-    fn end(&mut self) {
+    /// Ends it; whether nothing has broken down.
+    fn end(&mut self) -> bool {
         self.has_ended = true;
-        if let Some(pump) = self.pump.take() {
-            pump.end();
-        }
+        self.pump.take().is_none_or(Pump::end)
     }
 
     /// The next batch.
