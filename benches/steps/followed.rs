@@ -2475,6 +2475,63 @@ pub fn next_point(x: f64, delta: f64, cell: f64, cells: f64, border: f64) -> f64
 }
 }
 
+pub mod hermite {
+// The quintic through two states of which value, velocity and acceleration are known (Hermite).
+
+/// The coefficients of the third, fourth and fifth power of a curve in the part of its step, by what its parabola at the beginning
+/// leaves at the end of value, slope and half the curvature, all by the part of the step.
+#[must_use]
+#[inline]
+pub fn higher_terms([value, slope, bend]: [f64; 3]) -> [f64; 3] {
+    let cubic = 10.0 * value - 4.0 * slope + bend;
+    let quartic = -15.0 * value + 7.0 * slope - 2.0 * bend;
+    let quintic = 6.0 * value - 3.0 * slope + bend;
+    [cubic, quartic, quintic]
+}
+
+/// What the motion since a state that lies a time `back` before adds to the parabola of now, `u` times as long ahead as that is back. A
+/// state is value, velocity and acceleration.
+#[must_use]
+#[inline]
+pub fn bend_ahead([x, v, a]: [f64; 3], [y, w, b]: [f64; 3], back: f64, u: f64) -> f64 {
+    // the curve leads back from now
+    let value = y - x + back * (v - 0.5 * back * a);
+    let slope = back * (v - back * a - w);
+    let bend = 0.5 * back * back * (b - a);
+    let [cubic, quartic, quintic] = higher_terms([value, slope, bend]);
+    u * u * u * (u * (quartic - u * quintic) - cubic)
+}
+}
+
+pub mod neighbours {
+// Places that are neighbours, to the last bits.
+
+/// Where something ceases to hold that holds at the first of two places and not at the second: two neighbouring doubles, or what
+/// so many halvings leave of the interval.
+#[must_use]
+pub fn bisect([mut near, mut far]: [f64; 2], most: usize, mut holds: impl FnMut(f64) -> bool) -> [f64; 2] {
+    for _ in 0..most {
+        let middle = 0.5 * (near + far);
+        let is_between = f64::min(near, far) < middle && middle < f64::max(near, far);
+        if !is_between {
+            break;
+        }
+        if holds(middle) {
+            near = middle;
+        } else {
+            far = middle;
+        }
+    }
+    [near, far]
+}
+
+/// A time on the later side of whatever is meant to happen at `t` (s), off by so many units in its last place.
+#[must_use]
+pub fn shortly_after(t: f64, slack: f64) -> f64 {
+    t + slack * f64::EPSILON * t.abs() + f64::MIN_POSITIVE
+}
+}
+
 pub mod newton {
 //! Newton's iteration.
 
@@ -2545,19 +2602,17 @@ pub mod branches {
 
 use super::equations::Branches;
 use super::limits::{MOST_HALVINGS, SLACK};
+use super::neighbours::{bisect, shortly_after};
 use super::solution::{Along, Solution, Solved};
-
-/// A time on the later side of whatever is meant to happen at `t` (s).
-fn shortly_after(t: f64) -> f64 {
-    t + SLACK * f64::EPSILON * t.abs() + f64::MIN_POSITIVE
-}
 
 /// The branches of formulas of time at a time: the later ones where they change just then, but at the end of the file's analysis
 /// the earlier ones.
 pub fn sides_at<M: Branches>(t: f64, m: &M) -> M::Sides {
     match M::END {
-        Some(end) if t <= end && shortly_after(t) >= end => m.sides_of_time(end - 2.0 * (shortly_after(end) - end)),
-        _ => m.sides_of_time(shortly_after(t)),
+        Some(end) if t <= end && shortly_after(t, SLACK) >= end => {
+            m.sides_of_time(end - 2.0 * (shortly_after(end, SLACK) - end))
+        }
+        _ => m.sides_of_time(shortly_after(t, SLACK)),
     }
 }
 
@@ -2567,19 +2622,8 @@ pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M) -> f64 {
     if sides_at(to, m) == here {
         return to;
     }
-    let (mut near, mut far) = (from, to);
-    for _ in 0..MOST_HALVINGS {
-        let middle = 0.5 * (near + far);
-        if middle == near || middle == far {
-            break;
-        }
-        if sides_at(middle, m) == here {
-            near = middle;
-        } else {
-            far = middle;
-        }
-    }
-    far
+    let [_, edge] = bisect([from, to], MOST_HALVINGS, |t| sides_at(t, m) == here);
+    edge
 }
 
 /// The branches at a position that is next to one that is looked for.
@@ -3042,8 +3086,10 @@ pub mod step {
 use super::branches::first_edge;
 use super::error::{Error, Fault};
 use super::explain::explain;
+use super::hermite::bend_ahead;
 use super::limits::{
-    FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD, POSITION_JUMP, REST, VELOCITY_JUMP,
+    CALM_BETWEEN, CALM_CORRECTION, CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD,
+    POSITION_JUMP, REST, VELOCITY_JUMP,
 };
 use super::numbers::{Numbers, difference, largest};
 use super::reach::{find, reach, stays_on_branch};
@@ -3065,8 +3111,7 @@ pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize) -> Resul
         if left == 0.0 {
             return Ok(());
         }
-        // no crumb at the end
-        let wanted = if state.step >= 0.999 * left.abs() { t } else { now + state.step.copysign(left) };
+        let wanted = if state.step >= CRUMB * left.abs() { t } else { now + state.step.copysign(left) };
         // what is fast may be over before the step's end
         let edge = first_edge(now, wanted, &state.model);
         let next = match state.model.first_rim(now, edge, &state.passed) {
@@ -3106,37 +3151,52 @@ pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize) -> Resul
 fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool) -> Result<bool, Fault> {
     let [first, second] = &mut state.solutions;
     let (from, at) = if state.is_second { (second, first) } else { (first, second) };
-    let from = &*from;
+    let (from, m) = (&*from, &state.model);
     let h = t - from.t;
-    let (x, v, a) = (M::tears(&from.q), M::tears(&from.qd), M::tears(&from.qdd));
+    let (v, a) = (M::tears(&from.qd), M::tears(&from.qdd));
     let mut way = if state.is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
-    let mut guess = x;
-    let rates = v.as_ref().iter().zip(a.as_ref());
-    for ((way, guess), (v, a)) in way.as_mut().iter_mut().zip(guess.as_mut()).zip(rates) {
+    for (way, (v, a)) in way.as_mut().iter_mut().zip(v.as_ref().iter().zip(a.as_ref())) {
         // Taylor
         *way += h * (v + 0.5 * h * a);
-        *guess += *way;
     }
-    // what is not a number is not small either
-    let is_short = largest(&way, M::tear_scales()) <= LARGEST_MOTION;
-    if !is_short {
-        return Err(Fault::TooFar);
-    }
-    reach(&guess, from, t, &state.model, at)?;
-    let gap = gap(from, at, h);
-    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
-    if !is_near {
-        return Err(Fault::TooFar);
-    }
-    if !stays_on_branch(from, at, &state.model, is_wanted, state.steepness) {
+    let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, h))?;
+    if !stays_on_branch(from, at, m, is_wanted, state.steepness) {
         return Err(Fault::Singular);
     }
-    if M::OF_TIME && at.sides != from.sides && jumps(from, at, &state.model) {
+    if M::OF_TIME && at.sides != from.sides && jumps(from, at, m) {
         return Err(Fault::NotSmooth);
     }
     state.is_smooth = at.sides == from.sides;
     state.is_second = !state.is_second;
-    Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
+    Ok(is_calm)
+}
+
+/// Solves at a time, or a place of a way, to which the tears are expected to go so far, if that is near enough for a step; says whether
+/// a longer step would do as well. A gap is how far a solution is from what the slopes at both ends make of the way between, scaled.
+pub fn tried<M: Solved>(
+    way: &M::Tears,
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    at: &mut Solution<M>,
+    gap: impl FnOnce(&Solution<M>) -> f64,
+) -> Result<bool, Fault> {
+    // what is not a number is not small either
+    let is_short = largest(way, M::tear_scales()) <= LARGEST_MOTION;
+    if !is_short {
+        return Err(Fault::TooFar);
+    }
+    let mut guess = M::tears(&from.q);
+    for (guess, way) in guess.as_mut().iter_mut().zip(way.as_ref()) {
+        *guess += *way;
+    }
+    reach(&guess, from, t, m, at)?;
+    let gap = gap(at);
+    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
+    if !is_near {
+        return Err(Fault::TooFar);
+    }
+    Ok(at.first < LARGEST_CORRECTION / CALM_CORRECTION && gap < LARGEST_GAP / CALM_BETWEEN)
 }
 
 /// How far positions are from what both ends' velocities and accelerations make of the way between (Hermite), scaled.
@@ -3153,8 +3213,7 @@ fn gap<M: Solved>(from: &Solution<M>, at: &Solution<M>, h: f64) -> f64 {
     largest(&gaps, M::tear_scales())
 }
 
-/// What the motion since the solution before adds to Taylor's way over a time `h` (s): value, velocity and acceleration at two times
-/// make a polynomial of degree 5 (Hermite).
+/// What the motion since the solution before adds to Taylor's way over a time `h` (s).
 fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears {
     let back = now.t - before.t;
     let u = h / back;
@@ -3168,13 +3227,7 @@ fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears 
     let rates = v.as_ref().iter().zip(w.as_ref());
     let bends = a.as_ref().iter().zip(b.as_ref());
     for ((bend, (x, y)), ((v, w), (a, b))) in bend.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
-        let value = y - x + back * (v - 0.5 * back * a);
-        let slope = back * (v - back * a - w);
-        let curvature = 0.5 * back * back * (b - a);
-        let cubic = 4.0 * slope - 10.0 * value - curvature;
-        let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
-        let quintic = 3.0 * slope - 6.0 * value - curvature;
-        *bend = u * u * u * (cubic + u * (quartic + u * quintic));
+        *bend = bend_ahead([*x, *v, *a], [*y, *w, *b], back, u);
     }
     bend
 }
@@ -3731,14 +3784,12 @@ pub mod follow {
 use super::branches::{first_edge, sides_near};
 use super::error::{Error, Fault};
 use super::explain::{meeting, regular, until_turn};
-use super::limits::{
-    FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LARGEST_TURN, POSITION_JUMP, SHORTEST_STEP,
-    SINGULAR,
-};
+use super::limits::{CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_TURN, POSITION_JUMP, SHORTEST_STEP, SINGULAR};
 use super::numbers::{Numbers, difference, larger, largest};
 use super::reach::{find, reach, stays_on_branch};
 use super::solution::{Solution, Solved};
 use super::state::{Lead, State, Timed};
+use super::step::tried;
 use super::way::{Led, Signals, Way, sum};
 
 /// What leads a mechanism by its inputs.
@@ -3899,8 +3950,8 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         for _ in 0..most {
             let now = self.at().t;
             let step = f64::max(self.stride / length, smallest);
-            // no crumb at the end; a way without length is one step
-            let wanted = if step < 0.999 * (1.0 - now) { now + step } else { 1.0 };
+            // a way without length is one step
+            let wanted = if step < CRUMB * (1.0 - now) { now + step } else { 1.0 };
             let next = first_edge(now, wanted, &self.model);
             let (is_last, size) = (next >= 1.0, next - now);
             match self.advance(next, is_last, steepness) {
@@ -3945,22 +3996,10 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         let change = m.way().direction().map(|rate| h * rate);
         let v = tears_along(from, &change);
         let mut way = if self.is_smooth { bend(from, at, &v, &change) } else { E::Tears::ZERO };
-        let mut guess = E::tears(&from.q);
-        for ((way, guess), v) in way.as_mut().iter_mut().zip(guess.as_mut()).zip(v.as_ref()) {
+        for (way, v) in way.as_mut().iter_mut().zip(v.as_ref()) {
             *way += v;
-            *guess += *way;
         }
-        // what is not a number is not small either
-        let is_short = largest(&way, E::tear_scales()) <= LARGEST_MOTION;
-        if !is_short {
-            return Err(Fault::TooFar);
-        }
-        reach(&guess, from, t, m, at)?;
-        let gap = gap(from, at, &v, &change);
-        let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
-        if !is_near {
-            return Err(Fault::TooFar);
-        }
+        let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, &v, &change))?;
         if !stays_on_branch(from, at, m, is_wanted, steepness) {
             return Err(Fault::Singular);
         }
@@ -3969,7 +4008,7 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         }
         self.is_smooth = at.sides == from.sides;
         self.is_second = !self.is_second;
-        Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
+        Ok(is_calm)
     }
 
     /// Why even the shortest step towards a place of the way is refused.
@@ -4074,13 +4113,16 @@ pub mod sine_and_cosine {
 // Functions, 1980); above by as many bits of 2/pi as the angle asks for (M. Payne and R. Hanek, Radian Reduction for
 // Trigonometric Functions, 1983). The coefficients of the two polynomials are those of Sun's fdlibm.
 
+/// Below it an angle (rad) is small: it is reduced in pieces whose products are exact.
+pub const A_MILLION: f64 = 1e6;
+
 /// Sine and cosine of an angle in radians; not a number for an angle that is not finite.
 #[must_use]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     if !angle.is_finite() {
         return (f64::NAN, f64::NAN);
     }
-    let (quarter, r, tail) = if angle.abs() < 1e6 { reduce_small(angle) } else { reduce_large(angle) };
+    let (quarter, r, tail) = if angle.abs() < A_MILLION { reduce_small(angle) } else { reduce_large(angle) };
     let (sin, cos) = (sin_near_zero(r, tail), cos_near_zero(r, tail));
     match quarter & 3 {
         0 => (sin, cos),
@@ -4230,6 +4272,12 @@ pub const ACCURACY: f64 = 1e-9;
 pub const AHEAD: f64 = 1e-9;
 /// A correction that is no farther from half a cell of the grid than this, in cells, leads to the border of two.
 pub const BORDER: f64 = 0.000244140625;
+/// A step is calm, so that a longer one would do as well, if its gap is so many times less than the largest.
+pub const CALM_BETWEEN: f64 = 100.0;
+/// And if its first correction is so many times less.
+pub const CALM_CORRECTION: f64 = 12.0;
+/// A step that makes this part of what is left makes all of it.
+pub const CRUMB: f64 = 0.999;
 /// Nothing may move farther than this meanwhile, scaled.
 pub const FARTHEST_AHEAD: f64 = 1e-7;
 /// The step before tells of one that is so many times as long at most.

@@ -66,7 +66,7 @@ pub(super) enum Command {
     #[command(
         long_about = "The kinematic analysis, as a table.\n\n\
         Prints a row per output time with, for each body, x, y and phi, then the measures; all of them again with .d \
-        (first time derivative) and .dd (second). Units are m, rad and s. The times are those of the file's `analysis` \
+        (first time derivative) and .dd (second). Units are SI. The times are those of the file's `analysis` \
         unless given here.",
         after_help = "Examples:\n  mechc run linkage.mech\n  mechc run linkage.mech --from 0 --to 2 --every 10ms -o out.csv\n  \
         mechc run linkage.mech --at 0.25 --at '1/3' --format json\n  mechc run linkage.mech --set crank_length=60mm"

@@ -469,7 +469,7 @@ mod tests {
     const MAIN: &str = "use \"lib/arm.mech\"
 mechanism disc {
     param speed = 1 rad/s
-    part one: arm
+    part one: arm()
     driver motor: rotation(one.axle) = speed * t
     analysis from 0 s to 1 s every 100 ms
 }

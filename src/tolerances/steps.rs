@@ -28,8 +28,6 @@ pub mod march {
     pub const FEWEST_STEPS: f64 = 32.0;
     /// Where a singular position may be as near as the motion of such a step is large, there are more of them.
     pub const FEWEST_STEPS_NEAR: f64 = 64.0;
-    /// The same on the way of a variant to the values of its params, along which these go in straight lines.
-    pub const FEWEST_STEPS_OF_A_WAY: f64 = 4.0;
     /// Smallest step, as a part of the whole span.
     pub const SMALLEST_STEP: f64 = 1e-12;
     /// A position nearer to a singular one than this is not stepped to.

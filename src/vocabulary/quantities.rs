@@ -10,7 +10,7 @@ pub struct QuantityWord {
     /// What it is called with, in words.
     pub takes: &'static str,
     /// Whether a function or table of the mechanism that is called so means itself, as in texts that were written before there was
-    /// this quantity. All of these stand in measures and traces alone.
+    /// this quantity. All of these stand in measures, traces and results alone; forces in no trace.
     pub gives_way: bool,
     /// Whether it is what comes out of forces, rather than of positions and their rates.
     pub is_force: bool,

@@ -174,9 +174,6 @@ impl Leader<'_> {
         if self.options.pass_bifurcations {
             motion.pass_bifurcations();
         }
-        if let Solving::With(_) = self.solving {
-            motion.go_straight();
-        }
         let part_of = |why: &Diagnostic| why.data.get("t").and_then(serde_json::Value::as_f64).unwrap_or(from);
         let mut stopped = None;
         for _ in parts {

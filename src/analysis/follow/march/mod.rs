@@ -75,11 +75,6 @@ impl Follower {
         self.crossing.pass_bifurcations();
     }
 
-    /// It goes along straight lines, in steps as long as the error allows, nearly.
-    pub fn go_straight(&mut self) {
-        self.step.be_long();
-    }
-
     /// From now on it remembers at which times accelerations jump.
     pub fn keep_edges(&mut self) {
         self.remarks.keep_jumps();

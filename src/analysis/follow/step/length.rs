@@ -4,8 +4,8 @@ use super::Accepted;
 use crate::analysis::state::Kinematics;
 use crate::tolerances::UNTOLD_SPAN;
 use crate::tolerances::steps::march::{
-    CALM_BETWEEN, CALM_CORRECTION, CRUMB, FEWEST_STEPS, FEWEST_STEPS_NEAR, FEWEST_STEPS_OF_A_WAY, LARGEST_BETWEEN,
-    LARGEST_CORRECTION, SMALLEST_STEP,
+    CALM_BETWEEN, CALM_CORRECTION, CRUMB, FEWEST_STEPS, FEWEST_STEPS_NEAR, LARGEST_BETWEEN, LARGEST_CORRECTION,
+    SMALLEST_STEP,
 };
 
 /// The length of the next step, as far as the error is known.
@@ -14,22 +14,13 @@ pub struct Length {
     smallest: f64,
     /// The time that the steps are measured against (s).
     span: f64,
-    /// Steps over that at least, and where a singular position may be near.
-    fewest: [f64; 2],
 }
 
 impl Length {
     /// For a motion over a span (s).
     pub fn new(span: f64) -> Length {
         let measure = if span > 0.0 { span } else { UNTOLD_SPAN };
-        let fewest = [FEWEST_STEPS, FEWEST_STEPS_NEAR];
-        Length { h: span / FEWEST_STEPS_NEAR, smallest: SMALLEST_STEP * span, span: measure, fewest }
-    }
-
-    /// From now on steps are as long as the error allows, nearly: what goes along straight lines holds no surprise.
-    pub fn be_long(&mut self) {
-        self.fewest = [FEWEST_STEPS_OF_A_WAY; 2];
-        self.h = self.span / FEWEST_STEPS_OF_A_WAY;
+        Length { h: span / FEWEST_STEPS_NEAR, smallest: SMALLEST_STEP * span, span: measure }
     }
 
     pub fn h(&self) -> f64 {
@@ -48,9 +39,9 @@ impl Length {
     /// Behind a step of length `h` that was accepted.
     pub fn adapt(&mut self, kinematics: &Kinematics, h: f64, accepted: &Accepted) {
         // a singular value changes by no more than the motion, or little more
-        let [longest, near] = self.fewest.map(|fewest| self.span / fewest);
+        let longest = self.span / FEWEST_STEPS;
         let is_near = 2.0 * accepted.motion * longest >= kinematics.linear().smallest_pivot() * h;
-        let longest = if is_near { near } else { longest };
+        let longest = if is_near { self.span / FEWEST_STEPS_NEAR } else { longest };
         let calm = accepted.first_correction < LARGEST_CORRECTION / CALM_CORRECTION
             && accepted.between < LARGEST_BETWEEN / CALM_BETWEEN;
         if calm {

@@ -123,11 +123,6 @@ impl Step {
         self.length.set(h);
     }
 
-    /// From now on steps are as long as the error allows, nearly.
-    pub fn be_long(&mut self) {
-        self.length.be_long();
-    }
-
     /// What the next step begins from.
     pub fn mark(&self) -> Mark {
         Mark { state: self.state.clone(), signs: self.branch.signs().clone(), h: self.length.h() }
