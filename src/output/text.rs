@@ -72,16 +72,13 @@ impl<W: Write> TextWriter<W> {
     fn make_text(&mut self) -> io::Result<()> {
         let next = Rows { numbers: Vec::with_capacity(self.gathered.numbers.len()), count: 0 };
         let rows = mem::replace(&mut self.gathered, next);
-        match &mut self.relay {
-            Some(relay) => {
-                let text = relay.give(rows);
-                text.map_or(Ok(()), |text| self.write(&text))
-            }
-            None => {
-                let marks = self.marks;
-                self.relay = Some(Relay::new(usual_jobs().min(MOST_JOBS), move |rows: Rows| marks.text(&rows)));
-                self.write(&marks.text(&rows))
-            }
+        if let Some(relay) = &mut self.relay {
+            let text = relay.give(rows);
+            text.map_or(Ok(()), |text| self.write(&text))
+        } else {
+            let marks = self.marks;
+            self.relay = Some(Relay::new(usual_jobs().min(MOST_JOBS), move |rows: Rows| marks.text(&rows)));
+            self.write(&marks.text(&rows))
         }
     }
 

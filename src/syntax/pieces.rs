@@ -1,6 +1,8 @@
 //! A large text that follows the grammar, read in pieces of whole declarations, by several threads: what the parser notes of a piece
 //! fits the caches, and each is forgotten before the next. The tree is that of the whole.
 
+#![allow(clippy::redundant_closure_for_method_calls)] // a method of one reader is not general enough for all
+
 use super::ast::{File, Mechanism};
 use super::build::{Head, Piece, docs_above};
 use super::depth::STACK;
