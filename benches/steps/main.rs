@@ -293,11 +293,13 @@ fn output() {
     let compiled = compile(&mechanisms::four_bars(1));
     let motion = started(&compiled, &Times::listed(0.0, turn().collect()));
     let columns = motion.columns().to_vec();
+    let units: Vec<String> = motion.units().iter().map(|unit| unit.text.clone()).collect();
+    let units: Vec<&str> = units.iter().map(String::as_str).collect();
     let rows: Vec<Vec<f64>> = motion.map(|row| row.expect("it moves")).collect();
     for (name, format) in [("CSV", TableFormat::Csv), ("JSON", TableFormat::Json), ("Parquet", TableFormat::Parquet)] {
         let time = median(9, || {
             per_step(STEPS, || {
-                let mut table = TableWriter::new(std::io::sink(), format, &columns, &[]).expect("a sink");
+                let mut table = TableWriter::new(std::io::sink(), format, &columns, &units).expect("a sink");
                 for row in &rows {
                     table.row(row).expect("a sink");
                 }
@@ -306,4 +308,5 @@ fn output() {
         });
         println!("  {name:<32} {time:>9.0} ns a row");
     }
+    println!();
 }
