@@ -58,13 +58,6 @@ class Shares:
         fs, root = _opened(self.folder)
         return pyarrow.concat_tables(parquet.read_table(f"{root}/{_name(*of)}", filesystem=fs) for of in self.ranges)
 
-    def dataset(self) -> Any:
-        """The shares as a ``ray.data`` dataset."""
-        import ray.data
-
-        fs, root = _opened(self.folder)
-        return ray.data.read_parquet([f"{root}/{_name(*of)}" for of in self.ranges], filesystem=fs)
-
 
 def sweep(
     m: Mechanism,

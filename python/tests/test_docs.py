@@ -18,7 +18,7 @@ def sections():
     return re.split(r"^(?=## )", text, flags=re.MULTILINE)[1:]
 
 
-@pytest.mark.timeout(280)
+@pytest.mark.timeout(600)
 @pytest.mark.filterwarnings("ignore")
 def test_the_guide(monkeypatch):
     pytest.importorskip("jax")
