@@ -244,6 +244,7 @@ const PLATFORM: &[(&str, &str)] = &[
     ("live/server.rs", "std::net"),
     ("live/server.rs", "std::thread"),
     ("live/server.rs", "std::time"),
+    ("live/workshop.rs", "std::thread"),
     ("live/workshop.rs", "std::time"),
 ];
 

@@ -52,6 +52,9 @@ pub mod search {
     /// The top of a parabola is that of the formula, where it lies no farther from the middle of its three points than so many times what
     /// these are apart.
     pub const FARTHEST: f64 = 2.0;
+    /// Its three points come closer by this factor, until they are this part of the span apart.
+    pub const CLOSER: f64 = 0.1;
+    pub const FINEST: f64 = 1e-4;
     /// Corrections of a time at most.
     pub const ITERATIONS: usize = 100;
     /// An edge so little behind an extremum, as a part of the span, is the extremum, where the value is the same.

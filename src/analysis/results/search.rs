@@ -7,7 +7,7 @@
 use super::formulas::{Cell, Point, between};
 use super::survey::{Scale, Survey};
 use crate::program::Range;
-use crate::tolerances::results::search::{BESIDE, CERTAIN, FARTHEST, GAP, GAP_OF_VALUES, ITERATIONS};
+use crate::tolerances::results::search::{BESIDE, CERTAIN, CLOSER, FARTHEST, FINEST, GAP, GAP_OF_VALUES, ITERATIONS};
 use std::rc::Rc;
 
 /// The largest value of a formula, or the largest of its opposite.
@@ -233,24 +233,46 @@ impl Survey<'_> {
         is_small
     }
 
-    /// The top of the parabola through three points around one of the ends of a cell, as far apart as these; none where it lies farther away,
-    /// where another cell has it.
+    /// The top beside one of the ends of a cell; none where it lies farther away, where another cell has it. It is that of a parabola through
+    /// three points, as far apart as these ends at first, and then ever closer.
     fn top_beside(&mut self, cell: &Cell, near: &Rc<Point>, sign: f64, scale: Scale) -> Option<Extremum> {
         let [from, to] = [&self.stretch.from, &self.stretch.to].map(|state| state.t);
-        let h = cell.length().min(0.5 * (to - from));
-        let t = near.state.t.clamp(from + h, (to - h).max(from + h));
-        let [before, middle, behind] = [t - h, t, t + h].map(|t| self.point_of_stretch(t.clamp(from, to)));
-        let [before, middle, behind] = [before?, middle?, behind?].map(|point| sign * point.sample.value);
-        let (rise, bend) = (0.5 * (behind - before), behind - 2.0 * middle + before);
-        let rounding = scale.gap(0.0);
-        if bend >= -rounding {
-            // it rests, or goes on as it comes
-            let rests = rise.abs() <= rounding;
-            return rests.then_some(Extremum { t: near.state.t, value: sign * near.sample.value, kind: Kind::Turn });
+        let (mut t, mut apart) = (near.state.t, cell.length());
+        let (rounding, finest) = (scale.gap(0.0), FINEST * scale.span);
+        for fit in 0.. {
+            let h = apart.min(0.5 * (to - from));
+            let center = t.clamp(from + h, (to - h).max(from + h));
+            let [before, middle, behind] = self.values_at([center - h, center, center + h], sign)?;
+            let (rise, bend) = (0.5 * (behind - before), behind - 2.0 * middle + before);
+            if bend >= -rounding {
+                // it rests, or goes on as it comes
+                if fit == 0 && rise.abs() > rounding {
+                    return None;
+                }
+                break;
+            }
+            let off = -rise / bend;
+            if off.abs() > FARTHEST {
+                return None;
+            }
+            t = (center + off * h).clamp(from, to);
+            if apart <= finest {
+                break;
+            }
+            apart = finest.max(CLOSER * apart);
         }
-        let off = -rise / bend;
-        let value = middle + 0.5 * rise * off;
-        (off.abs() <= FARTHEST).then_some(Extremum { t: (t + off * h).clamp(from, to), value, kind: Kind::Turn })
+        let [value] = self.values_at([t], sign)?;
+        Some(Extremum { t, value, kind: Kind::Turn })
+    }
+
+    /// The formula at some times (s) of the stretch, times the sign.
+    fn values_at<const N: usize>(&mut self, times: [f64; N], sign: f64) -> Option<[f64; N]> {
+        let [from, to] = [&self.stretch.from, &self.stretch.to].map(|state| state.t);
+        let mut values = [0.0; N];
+        for (value, t) in values.iter_mut().zip(times) {
+            *value = sign * self.point_of_stretch(t.clamp(from, to))?.sample.value;
+        }
+        Some(values)
     }
 }
 
