@@ -93,6 +93,7 @@ impl Whole {
             jobs: more.jobs,
             skip: more.skip,
             take: more.take,
+            vectors: run.vectors,
             cancel: Cancel::default(),
         };
         let count = variants.points().count();
