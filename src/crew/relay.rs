@@ -63,6 +63,7 @@ impl<P: Send + 'static, T: Send + 'static> Relay<P, T> {
 
     /// Gives a piece and hands back what was made of it.
     #[cfg(not(feature = "threads"))]
+    #[allow(clippy::unnecessary_wraps)] // with threads there may be nothing yet
     pub fn give(&mut self, piece: P) -> Option<T> {
         Some((self.work)(piece))
     }
@@ -84,6 +85,7 @@ impl<P: Send + 'static, T: Send + 'static> Relay<P, T> {
 
     /// As nothing is under way.
     #[cfg(not(feature = "threads"))]
+    #[allow(clippy::unused_self)] // with threads there are some
     pub fn take(&mut self) -> Option<T> {
         None
     }
