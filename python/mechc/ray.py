@@ -117,6 +117,7 @@ def sweep(
             context.enable_progress_bars = shown
         if done != len(missing):
             raise RuntimeError(f"Ray gave {done} shares of {len(missing)}")
+        _clear(fs, root, missing)
     return Shares(name, count, tuple(ranges), len(missing))
 
 
@@ -224,6 +225,14 @@ def _there(fs: pyarrow.fs.FileSystem, root: str) -> set[str]:
     from pyarrow.fs import FileSelector
 
     return {info.base_name for info in fs.get_file_info(FileSelector(root, allow_not_found=True))}
+
+
+def _clear(fs: pyarrow.fs.FileSystem, root: str, made: list[tuple[int, int]]) -> None:
+    """Removes what workers that died have left beside shares that others have made since."""
+    left = tuple(f".{_name(*of)}." for of in made)
+    for name in _there(fs, root):
+        if name.startswith(left):
+            fs.delete_file(f"{root}/{name}")
 
 
 def _opened(folder: str) -> tuple[pyarrow.fs.FileSystem, str]:

@@ -220,7 +220,7 @@ def test_no_lock_is_held_while_computing(crank):
     ticker = threading.Thread(target=tick)
     ticker.start()
     began = time.monotonic()
-    crank.run(to=8.0, every="0.1 ms", columns="travel")
+    crank.run(to=80.0, every="0.1 ms", columns="travel")
     took = time.monotonic() - began
     ended.set()
     ticker.join()

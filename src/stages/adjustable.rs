@@ -151,7 +151,7 @@ impl Adjustable {
         &self.0.compiled
     }
 
-    /// Follows it at the times that are asked for, as options of a run ask, with its inputs set at the first of them, and its params [SI]
+    /// Follows it at the times that are asked for, as options of a run ask, with its inputs set at the first of them, and its params (SI)
     /// over those of its text, to which it is led along the branch. Each row goes to `row`, in SI and the order of its columns. Gives the
     /// results, as [`super::Run::results`] does.
     ///
