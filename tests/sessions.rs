@@ -32,9 +32,8 @@ fn has_blocks_that_hold(path: &Path) {
     for (language, block) in blocks(&text) {
         match language.as_str() {
             // sessions are run; commands of the shell and code for a crate of one's own have no output here
-            "console" | "sh" | "rust,ignore" | "c" => {}
             // the tests of the Python package run those of the README and of the guide, but for what asks for more machines
-            "python" | "pycon" | "python,no-run" => {}
+            "console" | "sh" | "rust,ignore" | "c" | "python" | "pycon" | "python,no-run" => {}
             "mech" => is_a_mechanism(&block, stem(path) == LANGUAGE || block.starts_with(USES_AN_EXAMPLE)),
             "text" => assert!(stem(path) == TIMINGS && !block.contains('$'), "nobody runs this `text`:\n{block}"),
             _ => panic!("a block of `{language}`:\n{block}"),
