@@ -103,6 +103,10 @@ impl<'a> Checker<'a> {
                     self.report(errors::unknown_function(name, &[], &[]).instead(fix));
                     return None;
                 }
+                if let Some(fix) = self.effort_for(e, name, arguments) {
+                    self.report(errors::unknown_function(name, &[], &[]).instead(fix));
+                    return None;
+                }
                 let own = self.suggestions(|entity| matches!(entity, Entity::Function(_) | Entity::Table(_)));
                 let texts: Vec<&str> = arguments.iter().map(|e| self.sources.text(e.span)).collect();
                 let diagnostic = errors::unknown_function(name, &own, &texts);

@@ -204,11 +204,14 @@ pub fn circle(names: &[&Name]) -> Diagnostic {
         [only] => format!("`{}` is defined by itself", only.text),
         _ => format!("definitions go in a circle: {} needs {}", chain[0], chain[1..].join(", which needs ")),
     };
+    // `measure power = power(motor)`
+    let synonym = Synonym::of(Place::Call, &first.text).filter(|_| names.len() == 1);
     names[1..]
         .iter()
         .fold(Diagnostic::new(Code::E0206, message).at(first.span, "needs its own value"), |diagnostic, name| {
             diagnostic.also(name.span, "on the circle")
         })
+        .help_if(synonym.map(|synonym| synonym.say(&[])))
 }
 
 pub fn hidden_name(argument: &Name, declared: Span, free: Option<&str>, uses: &[Span]) -> Diagnostic {
@@ -277,6 +280,13 @@ pub fn point_as_number(name: &Name) -> Diagnostic {
 }
 
 /// `A.x` where a point is wanted.
+pub fn own_point_with_owner(span: Span, owner: &str, feature: &str) -> Diagnostic {
+    let fix = Fix::replace(span, feature, format!("within `{owner}` it is `{feature}`"), Applies::Always);
+    Diagnostic::new(Code::E0302, format!("a feature of `{owner}` is named alone in the braces of `{owner}`"))
+        .at(span, "with its owner")
+        .fix(fix)
+}
+
 pub fn coordinate_as_point(span: Span, owner: &Name) -> Diagnostic {
     let diagnostic = wrong_kind(span, "a point", "a number");
     diagnostic.help(format!("the point is `{}`", owner.text))
@@ -453,7 +463,10 @@ pub fn quantity_of_measures(place: &str, name: &str, span: Span) -> Diagnostic {
     let what = if name == "angle" { "angle(P, Q, R)" } else { name };
     Diagnostic::new(Code::E0307, format!("the kinematic quantity `{what}` may not stand in {place}"))
         .at(span, "for measures and traces alone")
-        .help("drivers and constraints are made of `x`, `y`, `angle`, `distance`, `rotation` and `displacement`")
+        .help(match place {
+            "a load" => "loads are made of `x`, `y`, `angle`, `distance`, `rotation`, `displacement` and their `der`",
+            _ => "drivers and constraints are made of `x`, `y`, `angle`, `distance`, `rotation` and `displacement`",
+        })
 }
 
 pub fn no_quantity(driver: bool, name: &Name, span: Span) -> Diagnostic {
@@ -486,6 +499,12 @@ pub fn derivative_in(place: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0310, format!("`der` may not stand in {place}"))
         .at(span, "a time derivative along the motion")
         .help("`der` stands in measures only; a driver prescribes a speed by its formula: `rotation(joint) = 2 rad/s * t`")
+}
+
+pub fn derivative_by_in(place: &str, span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0310, format!("`der(e, NAME)` may not stand in {place}"))
+        .at(span, "a derivative by an input or parameter")
+        .help("it stands in measures, traces and results")
 }
 
 pub fn derivative_too_high(span: Span) -> Diagnostic {

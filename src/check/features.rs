@@ -321,8 +321,18 @@ impl<'a> Checker<'a> {
                 self.scope_takes_own(name);
                 self.point_named(frame, name)
             }
+            ExprKind::Member { owner, feature } if self.is_own_feature(frame, owner, feature) => {
+                self.report(errors::own_point_with_owner(e.span, &owner.text, &feature.text));
+                None
+            }
             _ => self.unnamed_point(frame, e),
         }
+    }
+
+    /// `arm.tip` in the braces of `arm`
+    fn is_own_feature(&self, frame: Frame, owner: &Name, feature: &Name) -> bool {
+        let is_there = || self.features.get(&frame).is_some_and(|space| space.get(&feature.text).is_some());
+        self.frame_name(frame) == owner.text && is_there()
     }
 
     fn unnamed_point(&mut self, frame: Frame, e: &Expr) -> Option<PointId> {

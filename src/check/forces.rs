@@ -3,6 +3,7 @@
 use super::Checker;
 use super::entity::Entity;
 use super::errors::{self, NoLoad};
+use super::features::Feature;
 use super::formula::{Context, Dim, Value};
 use super::rates::Part;
 use super::sites::Site;
@@ -142,6 +143,10 @@ impl Checker<'_> {
     }
 
     fn load(&mut self, name: &Name, force: &Expr, on: &Expr) -> Option<Load> {
+        if let ExprKind::Tuple(_) = &force.bare().kind {
+            self.report(errors::load_of_a_pair(name, force.span));
+            return None;
+        }
         let judged = self.is_dimensional(force);
         let context = Context { rates: true, ..driven("a load", judged) };
         let conditions = self.model.conditions.len();
@@ -160,8 +165,11 @@ impl Checker<'_> {
     fn quantity_of_load(&mut self, name: &Name, on: &Expr) -> Option<Quantity> {
         let bare = on.bare();
         let ExprKind::Call { name: called, arguments } = &bare.kind else {
-            let is_sum = matches!(bare.kind, ExprKind::Sum(..));
-            self.report(errors::load_on_no_quantity(name, on.span, if is_sum { &NoLoad::Sum } else { &NoLoad::Other }));
+            let fault = match &bare.kind {
+                ExprKind::Sum(..) => NoLoad::Sum,
+                kind => self.quantities_of(kind).map_or(NoLoad::Other, NoLoad::Meant),
+            };
+            self.report(errors::load_on_no_quantity(name, on.span, &fault));
             return None;
         };
         let Some(word) = self.quantity_word(called) else {
@@ -187,6 +195,29 @@ impl Checker<'_> {
             },
             _ => None,
         })
+    }
+
+    /// The quantities that are meant by what moves: a joint, a body, a point.
+    fn quantities_of(&self, moved: &ExprKind) -> Option<Vec<String>> {
+        match moved {
+            ExprKind::Name(name) => match self.entity(name)? {
+                Entity::Body(_) => Some(vec![format!("angle({})", name.text)]),
+                Entity::Joint(k) => match self.model[self.joints.get(k).copied().flatten()?].kind.plain() {
+                    kind if kind.has_quantity("rotation") => Some(vec![format!("rotation({})", name.text)]),
+                    kind if kind.has_quantity("displacement") => Some(vec![format!("displacement({})", name.text)]),
+                    _ => None,
+                },
+                _ => None,
+            },
+            ExprKind::Member { owner, feature } => {
+                let Some(Entity::Body(k)) = self.entity(owner) else { return None };
+                let space = self.features.get(self.bodies.get(k)?)?;
+                let is_point = matches!(space.get(&feature.text), Some(Feature::Point(_)));
+                let both = || ["x", "y"].map(|axis| format!("{axis}({}.{})", owner.text, feature.text)).to_vec();
+                is_point.then(both)
+            }
+            _ => None,
+        }
     }
 
     /// Demands that the product of a load and what it works on is an energy. A plain one is a torque on an angle; on a length it has to
@@ -285,7 +316,7 @@ impl Checker<'_> {
     }
 
     /// The driver that speaks of a joint.
-    fn driver_of(&self, joint: &str) -> Option<String> {
+    pub(super) fn driver_of(&self, joint: &str) -> Option<String> {
         let speaks_of_it = |e: &Expr| {
             let mut open = vec![e];
             while let Some(e) = open.pop() {

@@ -9,7 +9,7 @@ use crate::diag::{Applies, Code, Diagnostic, Edit, Fix};
 use crate::model::{Dimension, Frame, JointKind};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name};
-use crate::vocabulary::Unit;
+use crate::vocabulary::{Place, QuantityWord, Synonym, Unit};
 
 impl Checker<'_> {
     /// A point in the place of an axis: one of the axes of its body, or one through the point.
@@ -44,6 +44,9 @@ impl Checker<'_> {
 
     /// A body in the place of a joint: the joints of that body, and the angle of the body itself.
     pub(super) fn joint_for(&self, quantity: &str, name: &Name, diagnostic: Diagnostic) -> Diagnostic {
+        if let (true, Some(Entity::Equation(_))) = (is_force(quantity), self.entity(name)) {
+            return diagnostic.help(format!("what it supplies is `effort({})`", name.text));
+        }
         let body = match self.entity(name) {
             _ if name.text == "ground" => self.ground,
             Some(Entity::Body(k)) => self.bodies[k],
@@ -67,6 +70,42 @@ impl Checker<'_> {
         } else {
             diagnostic
         }
+    }
+
+    /// `power(motor)`, `moment(main)`, `force(motor)`: what others call what a driver supplies, told of the one that is named.
+    pub(super) fn effort_for(&self, e: &Expr, called: &Name, arguments: &[Expr]) -> Option<Fix> {
+        let [argument] = arguments else { return None };
+        let ExprKind::Name(name) = &argument.bare().kind else { return None };
+        let means = Synonym::of(Place::Call, &called.text)?.means;
+        let (what, text) = match self.entity(name)? {
+            Entity::Equation(_) if called.text == "power" => {
+                let moved = self.moved_by(&name.text)?;
+                ("the power of a driver is".to_owned(), format!("effort({}) * der({moved})", name.text))
+            }
+            Entity::Equation(_) if means.iter().any(|word| is_force(word)) => {
+                (format!("`{}` supplies", name.text), format!("effort({})", name.text))
+            }
+            Entity::Joint(k) if means == ["torque"] => {
+                let joint = self.joints.get(k).copied().flatten()?;
+                let has_none = !self.model[joint].kind.plain().has_torque();
+                let driver = self.driver_of(&name.text).filter(|_| has_none)?;
+                (format!("what drives `{}` supplies", name.text), format!("effort({driver})"))
+            }
+            _ => return None,
+        };
+        let message = format!("{what} `{text}`");
+        Some(Fix::replace(e.span, text, message, Applies::Probably))
+    }
+
+    /// The quantity alone on the left of a driver, as it was written.
+    fn moved_by(&self, driver: &str) -> Option<&str> {
+        let left = self.items().iter().find_map(|item| match &item.kind {
+            ItemKind::Equation { driver: true, name, left, .. } if name.text == driver => Some(left),
+            _ => None,
+        })?;
+        let is_quantity =
+            matches!(&left.bare().kind, ExprKind::Call { name, .. } if self.quantity_word(name).is_some());
+        is_quantity.then(|| self.sources.text(left.span))
     }
 
     /// `crank.phi`, `crank.x`, or a point in the place of a number.
@@ -189,6 +228,11 @@ impl Checker<'_> {
             _ => self.warn_of_degrees(e),
         }
     }
+}
+
+/// Whether a word asks for what comes out of the motion.
+fn is_force(word: &str) -> bool {
+    QuantityWord::named(word).is_some_and(|quantity| quantity.is_force)
 }
 
 fn is_unit_of_angle(unit: &str) -> bool {

@@ -31,7 +31,7 @@ impl Checker<'_> {
             return self.force(e, name, arguments, context);
         }
         let is_of_measures = QuantityWord::named(&name.text).is_some_and(|quantity| quantity.gives_way);
-        if !context.rates && (is_of_measures || name.text == "angle" && arguments.len() == 3) {
+        if !context.measures && (is_of_measures || name.text == "angle" && arguments.len() == 3) {
             let diagnostic = errors::quantity_of_measures(context.place, &name.text, e.span);
             let diagnostic = match self.rate_of_joint(e, name, arguments, context) {
                 Some(fix) => diagnostic.instead(fix),

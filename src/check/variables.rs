@@ -121,7 +121,7 @@ impl Checker<'_> {
             return None;
         }
         if !context.measures {
-            self.report(errors::derivative_in(context.place, e.span));
+            self.report(errors::derivative_by_in(context.place, e.span));
             return None;
         }
         let (inner, variable) = (self.number(of, context), self.variable(by));

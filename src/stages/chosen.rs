@@ -31,14 +31,20 @@ fn chosen(patterns: &[String], columns: &[String]) -> Result<Vec<usize>, Box<Dia
         if !found {
             let said = Diagnostic::new(Code::E0706, format!("there is no column `{}`", pattern.trim()));
             let meant = nearest(pattern.trim(), columns.iter().map(String::as_str));
-            let help = meant.map_or_else(
-                || "`*` stands for anything, `?` for one character, as in `--columns 'rod.*'`".to_owned(),
-                |name| format!("was `{name}` meant?"),
-            );
+            let help = match meant {
+                Some(name) => format!("was `{name}` meant?"),
+                None if is_of_forces(pattern) => "forces have columns with `--reactions`".to_owned(),
+                None => "`*` stands for anything, `?` for one character, as in `--columns 'rod.*'`".to_owned(),
+            };
             return Err(Box::new(said.help(help)));
         }
     }
     Ok((0..columns.len()).filter(|&k| is_chosen[k]).collect())
+}
+
+/// Whether a pattern ends as columns do that hold what joints exert and drivers supply.
+fn is_of_forces(pattern: &str) -> bool {
+    [".fx", ".fy", ".torque", ".effort"].iter().any(|ending| pattern.trim().ends_with(ending))
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Declarations as other programs and textbooks write them: what they were meant to be, where their words leave no doubt.
 
+mod forces;
 mod ground;
 mod heads;
 mod keywords;
@@ -50,7 +51,12 @@ impl<'a> Intent<'a> {
         let word = |k: usize| all.get(k).map_or("", |token| token.text);
         let is_opener = |k: usize| match all[k].text {
             "load" => word(k + 2) == ":",
-            "gravity" | "mass" => word(k + 1).starts_with(|c: char| c == '(' || c.is_ascii_digit()),
+            "gravity" | "mass" => {
+                let is_named = || word(k + 2) == ":" && is_name(word(k + 1));
+                // what comes next is the fault itself
+                let is_last = k + 1 == all.len() && found == "=" || k + 2 == all.len() && found == ":";
+                word(k + 1).starts_with(|c: char| c == '(' || c.is_ascii_digit()) || is_named() || is_last
+            }
             other => opens(other) && word(k + 2) == "=",
         };
         let is_keyword = |k: usize| begins_declaration(text, all[k]) || is_opener(k);
@@ -69,13 +75,14 @@ impl<'a> Intent<'a> {
             return Some(intended);
         }
         let (keyword, last) = (self.before.first()?.text, self.before.last()?);
-        if let Some(half) = self.of_half_a_feature(keyword, last) {
+        if let Some(half) = self.of_half_a_declaration(keyword, last) {
             return Some(half);
         }
         if self.text[last.end()..self.at].contains('\n') {
             return None;
         }
-        self.of_a_head(keyword, last)
+        self.of_forces(keyword, last)
+            .or_else(|| self.of_a_head(keyword, last))
             .or_else(|| self.of_bare_arguments(keyword, last))
             .or_else(|| self.of_the_ground())
             .or_else(|| self.of_an_axis_with_a_comma(keyword))
@@ -197,7 +204,7 @@ impl<'a> Intent<'a> {
         let from = usize::from(is_joined);
         let unit = named(from)?;
         if !is_joined && Unit::named(last.text).is_some() {
-            return Some(Intent::both_ways(unit));
+            return Some(self.of_units_side_by_side(last).unwrap_or_else(|| Intent::both_ways(unit)));
         }
         let behind: Vec<&str> = self.rest[from + 1..].iter().map(|token| token.text).collect();
         let is_power = |word: &str| word.parse::<u32>().is_ok() || ["/", "*", "^", "-"].contains(&word);
@@ -216,6 +223,16 @@ impl<'a> Intent<'a> {
             _ => unit.to_owned(),
         };
         Some(Intent::both_ways(&unit))
+    }
+
+    /// `3 N m`
+    fn of_units_side_by_side(&self, last: &Token<'_>) -> Option<Intended> {
+        let [.., number, _] = self.before.as_slice() else { return None };
+        let is_number = number.text.starts_with(|c: char| c.is_ascii_digit());
+        // an angle is no factor of a unit
+        Unit::named(self.found).filter(|unit| is_number && !unit.dimension.is(Dimension::PURE))?;
+        let message = format!("a product of units is written with `*`: `{} {}*{}`", number.text, last.text, self.found);
+        Some(Intent::change(message, vec![self.edit(last.end()..self.at, "*")]))
     }
 
     fn both_ways(unit: &str) -> Intended {

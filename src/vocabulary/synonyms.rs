@@ -318,7 +318,9 @@ pub static SYNONYMS: &[Synonym] = &[
     // ---- powers, roots, logarithms
     call(&["sqr", "square"], &[], "a square is written `{0 (a)}^2`").takes_a_formula(),
     call(&["cube"], &[], "a cube is written `{0 (a)}^3`").takes_a_formula(),
-    call(&["pow", "power"], &[], "a power is written `{0 (a)} ^ {1 (b)}`").takes_a_formula(),
+    call(&["pow"], &[], "a power is written `{0 (a)} ^ {1 (b)}`").takes_a_formula(),
+    call(&["power"], &[], "a power is written `{0 (a)} ^ {1 (b)}`; that of a driver is its `effort` times a `der`")
+        .takes_a_formula(),
     call(&["cbrt", "curt", "cuberoot"], &[], "a cube root is `{0 (a)}^(1/3)`, where that is not negative").takes_a_formula(),
     call(&["root", "nthroot"], &[], "a root is a power: `{0 (a)}^(1/{1 (n)})`, where the first is not negative").takes_a_formula(),
     call(&["squareroot", "square_root"], &["sqrt"], "a square root is `sqrt({0 a})`"),

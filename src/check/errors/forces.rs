@@ -12,6 +12,8 @@ use crate::syntax::ast::Name;
 pub enum NoLoad<'n> {
     /// Several of them.
     Sum,
+    /// What moves, with the quantities that say how, as formulas.
+    Meant(Vec<String>),
     /// Something else, which is none.
     Other,
     /// `der(…)`
@@ -47,8 +49,20 @@ pub fn gravity_of_a_part(part: &Name, mechanism: &str, gravity: Span) -> Diagnos
         .help("gravity is that of the outermost mechanism: say `gravity (gx, gy)` there, `gravity (0, 0)` where there is none")
 }
 
+pub fn load_of_a_pair(name: &Name, span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0302, format!("load `{}` is one number, found a pair", name.text))
+        .at(span, "two numbers")
+        .help("a force on a point is two loads: `FX on x(P)` and `FY on y(P)`")
+}
+
 pub fn load_on_no_quantity(name: &Name, span: Span, fault: &NoLoad<'_>) -> Diagnostic {
+    let meant: String;
     let (label, help) = match fault {
+        NoLoad::Meant(quantities) => {
+            let each: Vec<String> = quantities.iter().map(|quantity| format!("`… on {quantity}`")).collect();
+            meant = format!("say what of it moves: {}", each.join(" or "));
+            ("this is none", meant.as_str())
+        }
         NoLoad::Sum => ("a sum", "a force on a sum of quantities is a load on each of them"),
         NoLoad::Other => ("this is none", QUANTITIES),
         NoLoad::Rate => {

@@ -7,6 +7,9 @@ use crate::vocabulary::{JointWord, Keyword, Place, Role, Synonym};
 impl Intent<'_> {
     /// `a = 30 mm`, `j: revolute(…)`, `revolute j: (…)`, where a declaration begins.
     pub(super) fn of_no_keyword(&self) -> Option<Intended> {
+        if self.found == "inertia" && self.begins_feature() {
+            return Some(Intended::Words("an inertia stands behind its mass: `mass M inertia I`".to_owned()));
+        }
         let is_free = |token: &str| is_name(token) && Keyword::named(token).is_none();
         let is_expected = self.begins_large() || self.begins_feature();
         if !is_free(self.found) || !is_expected || !self.is_first_on_its_line() {

@@ -4,7 +4,7 @@ use super::{Intended, Intent, is_name};
 use crate::diag::{Applies, Fix};
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Token, begins_declaration};
-use crate::vocabulary::{JointWord, Keyword, QuantityWord};
+use crate::vocabulary::{JointWord, Keyword, QuantityWord, Role};
 
 impl Intent<'_> {
     /// `joint j: revolute A, B`, `rotation j = …`, `x arm.tip`
@@ -52,14 +52,17 @@ impl Intent<'_> {
         Some(Intent::change(message, vec![self.edit(self.before.last()?.end()..next.start, &format!(" {word} "))]))
     }
 
-    /// `circle c = (0, 0, 6 mm)`, `axis a = (0, 1)`, after which nothing comes: it is told where it ends.
-    pub(super) fn of_half_a_feature(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+    /// `circle c = (0, 0, 6 mm)`, `axis a = (0, 1)`, `load push: 20 N`, after which nothing comes: it is told where it ends.
+    pub(super) fn of_half_a_declaration(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
         let wanted = match keyword {
             "circle" if self.expects(Rule::radius) => "`radius`",
             "axis" if self.expects(Rule::along) => "`along` or `to`",
+            "load" if self.expects(Rule::kw_on) => "`on`",
             _ => return None,
         };
         let begins = begins_declaration(self.text, Token { start: self.at, text: self.found });
+        let is_opener = || Keyword::named(self.found).is_some_and(|keyword| keyword.role == Role::Opener);
+        let begins = begins || self.text[last.end()..self.at].contains('\n') && is_opener();
         let is_over = begins || self.found == "}" || self.found.is_empty();
         if !is_over {
             return None;

@@ -3,7 +3,7 @@
 use super::{at, ceases_to_hold, in_units, named_all, no_contact, short, with_places};
 use crate::analysis::state::{Fault, Unknown};
 use crate::diag::{Code, Diagnostic};
-use crate::expr::TableId;
+use crate::expr::{Symbol, TableId};
 use crate::ir::{ConditionKind, ConstraintSystem, DeclarationId, DeclarationKind, JointKind, LoadForce, Press};
 
 /// Columns that one message names at most.
@@ -65,7 +65,14 @@ pub fn without_value(system: &ConstraintSystem, what: Unknown, t: f64, rows: u64
         Unknown::Measure(index) => {
             let measure = &system.measures()[index];
             let message = format!("measure `{}` or a derivative of it has no value at {place}", measure.name);
-            (message, measure.span, "infinite or undefined", "its")
+            let symbols = system.graph().symbols(measure.value);
+            let holds_forces = symbols.iter().any(|symbol| matches!(symbol, Symbol::Multiplier(_)));
+            let why = if holds_forces {
+                "infinite, undefined, or too near to a singular position"
+            } else {
+                "infinite or undefined"
+            };
+            (message, measure.span, why, "its")
         }
         Unknown::Derivative(index) => {
             let variable = &system.variables()[index];
