@@ -63,6 +63,8 @@ mod tests {
         assert_eq!(of(&["leg[?].x"]), Some(vec![0, 3, 4]));
         assert_eq!(of(&["leg[2].x", "rod.x"]), Some(vec![0, 1, 4]), "in the order of the table");
         assert_eq!(of(&["rod.y"]), None);
+        let said = chosen(&["main.fx".to_owned()], &columns).expect_err("no such column");
+        assert_eq!(said.help, ["forces have columns with `--reactions`"]);
         assert_eq!(of(&[""]), None);
     }
 }
