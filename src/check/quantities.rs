@@ -17,20 +17,34 @@ impl Checker<'_> {
         arguments: &[Expr],
         context: &Context<'_>,
     ) -> Option<Value> {
-        if !context.quantities && context.results {
-            let what = format!("the kinematic quantity `{}`", name.text);
-            let text = self.sources.text(e.span);
-            self.report(errors::outside_reduction(&what, e.span, text));
-            return None;
-        }
-        if !context.quantities {
-            self.report(errors::quantity_in(context.place, &name.text, e.span));
+        if !self.quantity_may_stand(e, name, arguments, context) {
             return None;
         }
         if QuantityWord::named(&name.text).is_some_and(|quantity| quantity.is_force) {
             return self.force(e, name, arguments, context);
         }
-        let is_of_measures = QuantityWord::named(&name.text).is_some_and(|quantity| quantity.gives_way);
+        let quantity = self.quantity_called(e, name, arguments)?;
+        if quantity.may_not_exist() {
+            self.ask_for_existence(quantity, e.span);
+        }
+        let id = self.name_symbol(Named::Quantity(self.part, quantity), quantity.order());
+        Some(Value { id, dim: Dim::Of(quantity.dimension()) })
+    }
+
+    /// Whether kinematic quantities, and this one, may stand in a formula; says why not.
+    fn quantity_may_stand(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> bool {
+        if !context.quantities && context.results {
+            let what = format!("the kinematic quantity `{}`", name.text);
+            let text = self.sources.text(e.span);
+            self.report(errors::outside_reduction(&what, e.span, text));
+            return false;
+        }
+        if !context.quantities {
+            self.report(errors::quantity_in(context.place, &name.text, e.span));
+            return false;
+        }
+        let is_of_measures =
+            QuantityWord::named(&name.text).is_some_and(|quantity| quantity.gives_way && !quantity.is_force);
         if !context.measures && (is_of_measures || name.text == "angle" && arguments.len() == 3) {
             let diagnostic = errors::quantity_of_measures(context.place, &name.text, e.span);
             let diagnostic = match self.rate_of_joint(e, name, arguments, context) {
@@ -38,9 +52,14 @@ impl Checker<'_> {
                 None => diagnostic,
             };
             self.report(diagnostic);
-            return None;
+            return false;
         }
-        let quantity = match (name.text.as_str(), arguments) {
+        true
+    }
+
+    /// The quantity that is called; its arguments are what it is of.
+    fn quantity_called(&mut self, e: &Expr, name: &Name, arguments: &[Expr]) -> Option<Quantity> {
+        Some(match (name.text.as_str(), arguments) {
             ("x", [p]) => Quantity::X(None, self.point(p)?),
             ("y", [p]) => Quantity::Y(None, self.point(p)?),
             ("x", [p, q]) => {
@@ -91,12 +110,7 @@ impl Checker<'_> {
                 self.report(errors::argument_count(what, Some(&quantity.word), e.span, quantity.takes, found));
                 return None;
             }
-        };
-        if quantity.may_not_exist() {
-            self.ask_for_existence(quantity, e.span);
-        }
-        let id = self.name_symbol(Named::Quantity(self.part, quantity), quantity.order());
-        Some(Value { id, dim: Dim::Of(quantity.dimension()) })
+        })
     }
 
     /// Asks that a quantity exists, where the branch that it stands in counts.

@@ -117,7 +117,6 @@ pub fn long_name(span: Span, longest: usize) -> Diagnostic {
 /// To see what was meant takes a look at all of the text before it.
 pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize, with_mend: bool) -> Diagnostic {
     let text = source.text.as_str();
-    let end = if source.is_option { "the end of the formula" } else { "the end of the file" };
     let offset = match error.location {
         pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => base + at,
     };
@@ -128,13 +127,25 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
     if let Some(bracket) = other_bracket(error, text, &found, file) {
         return bracket;
     }
-    let word = &text[found.clone()];
-    // a string is marked along its length
-    let string =
-        word.starts_with('"').then(|| text[found.end..].lines().next().unwrap_or_default().find('"')).flatten();
-    let length = string.map_or(word.len(), |inside| word.len() + inside + 1);
-    let span = Span { file, start: found.start as u32, end: (found.start + length) as u32 };
-    let rules = match &error.variant {
+    let rules = expected_rules(error);
+    let end = if source.is_option { "the end of the formula" } else { "the end of the file" };
+    let expected = expectation(rules, &text[found.clone()], end);
+    let diagnostic = match comment_at(text, found.start) {
+        Some(at) => {
+            let span = Span { file, start: at as u32, end: at as u32 + 2 };
+            misplaced(span, "`/*` begins no comment", "not expected here")
+        }
+        None => unexpected(text, file, found.clone(), &expected, end),
+    };
+    if !with_mend {
+        return diagnostic;
+    }
+    mended(diagnostic, &Fault { text, file, at: found.start, found: &text[found], expected: rules }, source, &expected)
+}
+
+/// What the parser would have liked.
+fn expected_rules(error: &Error<Rule>) -> &[Rule] {
+    match &error.variant {
         // no prefix is called `use`, if a file follows: that is the next one
         ErrorVariant::ParsingError { positives, negatives }
             if positives.is_empty() && negatives.contains(&Rule::kw_use) =>
@@ -143,49 +154,50 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
         }
         ErrorVariant::ParsingError { positives, .. } => positives.as_slice(),
         ErrorVariant::CustomError { .. } => &[],
-    };
-    let expected = expectation(rules, word, end);
-    let is_closed = text[found.end..].lines().next().is_some_and(|line| line.contains('"'));
+    }
+}
+
+/// A word or character in the place of something else.
+fn unexpected(text: &str, file: FileId, found: Range<usize>, expected: &str, end: &str) -> Diagnostic {
+    let (word, line) = (&text[found.clone()], text[found.end..].lines().next().unwrap_or_default());
+    // a string is marked along its length
+    let closing = line.find('"').filter(|_| word.starts_with('"'));
+    let length = closing.map_or(word.len(), |inside| word.len() + inside + 1);
+    let span = Span { file, start: found.start as u32, end: (found.start + length) as u32 };
     let shown = match word.chars().next() {
         None => end.to_owned(),
-        Some('"') if is_closed => "a string".to_owned(),
+        Some('"') if closing.is_some() => "a string".to_owned(),
         Some('"') => "an unclosed string".to_owned(),
         Some(_) if word == "ground" && text[found.end..].trim_start().starts_with([',', ')']) => {
             "`ground` alone".to_owned()
         }
         Some(_) => format!("`{word}`"),
     };
-    let fault = Fault { text, file, at: found.start, found: word, expected: rules };
     // of one thing it can be said where it goes
     let label = if expected.split('`').count() == 3 && expected.starts_with('`') && expected.ends_with('`') {
         format!("{expected} goes here")
     } else {
         "not expected here".to_owned()
     };
-    let diagnostic = match comment_at(text, found.start) {
-        Some(at) => {
-            let span = Span { file, start: at as u32, end: at as u32 + 2 };
-            misplaced(span, "`/*` begins no comment", "not expected here")
-        }
-        None => Diagnostic::new(Code::E0101, format!("expected {expected}, found {shown}")).at(span, label),
-    };
-    if !with_mend {
-        return diagnostic;
-    }
+    Diagnostic::new(Code::E0101, format!("expected {expected}, found {shown}")).at(span, label)
+}
+
+/// With what was meant, as far as the words around the fault tell.
+fn mended(diagnostic: Diagnostic, fault: &Fault<'_>, source: &Source, expected: &str) -> Diagnostic {
     let diagnostic = match fault.reason() {
-        Some((at, text)) => diagnostic.also(Span { file, start: at as u32, end: at as u32 + 1 }, text),
+        Some((at, text)) => diagnostic.also(Span { file: fault.file, start: at as u32, end: at as u32 + 1 }, text),
         None => diagnostic,
     };
-    let intent = Intent::new(text, file, found.start, word, rules);
+    let intent = Intent::new(fault.text, fault.file, fault.at, fault.found, fault.expected);
     if let Some(intended) = intent.mend() {
         return with_intended(diagnostic, intended);
     }
     // of an option's value the declaration is not there
-    if source.is_option && word == "," && source.name.starts_with("--") {
+    if source.is_option && fault.found == "," && source.name.starts_with("--") {
         let option = source.name.split(' ').next().unwrap_or_default();
         return diagnostic.help(format!("give `{option}` once for each"));
     }
-    match fault.mend(&expected) {
+    match fault.mend(expected) {
         Some(Mend::Words(words)) => diagnostic.help(words),
         Some(Mend::Fix(fix)) => diagnostic.fix(fix),
         None => match intent.written() {
