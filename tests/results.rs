@@ -349,7 +349,94 @@ fn at_a_jump_of_a_load_the_later_side_counts() {
     let column = compiled.columns().iter().position(|name| name == "e").expect("a column");
     let found: Vec<f64> = rows.iter().map(|row| row[column]).collect();
     assert_eq!(found, [-921.0, -421.0, -1112.0, -612.0, -1112.0]);
-    // a force that is nothing has no rates either
+}
+
+/// Whatever the last digits of a state are.
+#[test]
+fn rounding_decides_no_side() {
+    let effort_at = |driver: &str, load: &str, times: &[f64]| -> Vec<f64> {
+        let text = format!(
+            "mechanism m {{
+                ground {{ point O = (0, 0) axis way = O along (1, 0) }}
+                body crank at (0, 0, 0) {{ point O = (0, 0) point A = (50 mm, 0) point top = (0, 100 mm) }}
+                body rod at (50 mm, 0, 0) {{ point A = (0, 0) point B = (150 mm, 0) }}
+                body ram at (200 mm, 0, 0) {{ point B = (0, 0) axis way = B along (1, 0) }}
+                joint main: revolute(ground.O, crank.O)
+                joint big: revolute(crank.A, rod.A)
+                joint small: revolute(rod.B, ram.B)
+                joint guide: translational(ground.way, ram.way)
+                driver motor: rotation(main) = {driver}
+                load of_it: {load}
+                measure pull = force_x(small) measure e = effort(motor)
+                analysis from 0 s to 6 s every 1 s
+            }}"
+        );
+        let compiled = compiled("m", &text);
+        let column = |name: &str| compiled.columns().iter().position(|of| of == name).expect("a column");
+        let (pull, e) = (column("pull"), column("e"));
+        let times = mechc::Times::listed(times[0], times.to_vec());
+        let mut run = compiled.run(&times, &mechc::RunOptions::default()).0.expect("it assembles");
+        let mut found = Vec::new();
+        while let Some(row) = run.next_row() {
+            let row = row.expect("a row");
+            found.push(if load.contains("guide") { row[pull] } else { row[e] });
+        }
+        found
+    };
+    // Coulomb's friction where a slider turns round: half a turn a row
+    let friction = "-10 N * sign(der(displacement(guide))) on displacement(guide)";
+    let times: Vec<f64> = (0..7).map(f64::from).collect();
+    let pulls: Vec<f64> = (0..7).map(|k| if k % 2 == 0 { 10.0 } else { -10.0 }).collect();
+    let found = effort_at("0.5 rev/s * t", friction, &times);
+    for (found, wanted) in found.iter().zip(&pulls) {
+        assert!((found + wanted).abs() < 1e-9, "{found} beside {wanted}");
+    }
+    // where a dwell ends
+    let friction = "-1 N*m * sign(der(rotation(main))) on rotation(main)";
+    let found = effort_at("step5(t, 0.25 s, 0, 0.5 s, 1)", friction, &[0.0, 0.125, 0.25, 0.375, 0.5, 1.0]);
+    assert_eq!(found, [0.0, 0.0, 1.0, 1.0, 0.0, 0.0]);
+    // of time alone
+    let found = effort_at("0.1 * t / 1 s", "1 N*m * sign(cos(pi * t / 1 s)) on rotation(main)", &[0.0, 0.5, 1.0, 1.5]);
+    assert_eq!(found, [-1.0, 1.0, 1.0, -1.0]);
+    let found = effort_at("0.1 * t / 1 s", "1 N*m * mod(3 * sin(pi * t / 1 s), 1) on rotation(main)", &[0.0, 0.5, 1.0]);
+    assert_eq!(found, [0.0, -1.0, -1.0]);
+    // a value that holds at one time alone
+    let found = effort_at(
+        "1 rad/s * (t - pi / 2 * 1 s)",
+        "if y(crank.top) >= 100 mm then 1 N*m else 2 N*m on rotation(main)",
+        &[0.0, PI / 2.0],
+    );
+    assert_eq!(found, [-2.0, -2.0]);
+}
+
+/// `der` goes as deep in loads as in measures, whatever else is asked for.
+#[test]
+fn a_load_holds_a_jerk() {
+    let text = |more: &str| {
+        format!(
+            "mechanism m {{
+                ground {{ point O = (0, 0) }}
+                body b {{ point O = (0, 0) }}
+                joint g: revolute(ground.O, b.O)
+                driver d: rotation(g) = sin(2 rad/s * t)
+                load f: 1 N*m*s^3 * der(der(der(rotation(g)))) on rotation(g)
+                measure e = effort(d) {more}
+                analysis from 0 s to 1 s every 250 ms
+            }}"
+        )
+    };
+    for more in ["", "measure j = der(der(der(rotation(g))))", "result most = max(e)"] {
+        let rows = support::run("m", &text(more), Default::default()).expect_success();
+        let column = rows.columns.iter().position(|name| name == "e").expect("a column");
+        for row in &rows.rows {
+            let wanted = 8.0 * (2.0 * row[0]).cos();
+            assert!((row[column] - wanted).abs() < 1e-12, "{more}: {} beside {wanted}", row[column]);
+        }
+    }
+}
+
+#[test]
+fn a_force_that_is_nothing_has_no_rates() {
     let text = ram("", "measure side = force_x(guide) measure other = force_y(guide)");
     assert!(
         !support::compiled("m", &text).columns().iter().any(|name| name.contains("side.") || name.contains("other."))

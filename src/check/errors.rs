@@ -424,7 +424,7 @@ pub fn input_in(place: &str, name: &Name, in_an_input: bool) -> Diagnostic {
     match (in_an_input, place) {
         (true, _) => diagnostic.help("an input is a signal of its own; what several hold in common is an `fn` of `t`"),
         (false, "a constraint") => diagnostic.help("an equation that holds an input is a `driver`"),
-        (false, _) => diagnostic.help("an input may stand in drivers and measures; a constant is a `param`"),
+        (false, _) => diagnostic.help("an input may stand in drivers, loads and measures; a constant is a `param`"),
     }
 }
 
@@ -453,9 +453,12 @@ pub fn input_told_twice(name: &str, places: [Span; 2]) -> Diagnostic {
 }
 
 pub fn quantity_in(place: &str, name: &str, span: Span) -> Diagnostic {
+    if QuantityWord::named(name).is_some_and(|quantity| quantity.is_force) {
+        return force_in(place, &format!("`{name}`"), span);
+    }
     Diagnostic::new(Code::E0307, format!("the kinematic quantity `{name}` may not stand in {place}"))
         .at(span, "depends on the motion")
-        .help("kinematic quantities stand in constraints, drivers and measures")
+        .help("kinematic quantities stand in constraints, drivers, loads and measures")
 }
 
 /// A quantity that measures and traces alone may hold.

@@ -534,13 +534,14 @@ impl Checker<'_> {
         self.demand("an exponent", Dimension::PURE, exponent.span, b.dim, context)?;
         let id = self.model.graph.pow(a.id, b.id);
         let dim = match a.dim {
-            Dim::Of(dimension) if context.judged && !dimension.is(Dimension::PURE) => {
-                let Some(power) = self.constant_value(b.id) else {
+            Dim::Of(dimension) if !dimension.is(Dimension::PURE) => match self.constant_value(b.id) {
+                Some(power) => Dim::Of(dimension.to_the(power)),
+                None if context.judged => {
                     self.report(errors::exponent(exponent.span, Part { span: base.span, dimension }));
                     return None;
-                };
-                Dim::Of(dimension.to_the(power))
-            }
+                }
+                None => Dim::PURE,
+            },
             _ => Dim::PURE,
         };
         Some(Value { id, dim })

@@ -85,10 +85,10 @@ impl Checker<'_> {
             Entity::Equation(_) if means.iter().any(|word| is_force(word)) => {
                 (format!("`{}` supplies", name.text), format!("effort({})", name.text))
             }
-            Entity::Joint(k) if means == ["torque"] => {
+            Entity::Joint(k) if means == ["torque"] || means == ["effort"] => {
                 let joint = self.joints.get(k).copied().flatten()?;
-                let has_none = !self.model[joint].kind.plain().has_torque();
-                let driver = self.driver_of(&name.text).filter(|_| has_none)?;
+                let is_driven = means == ["effort"] || !self.model[joint].kind.plain().has_torque();
+                let driver = self.driver_of(&name.text).filter(|_| is_driven)?;
                 (format!("what drives `{}` supplies", name.text), format!("effort({driver})"))
             }
             _ => return None,

@@ -68,6 +68,14 @@ pub struct Mechanics {
     pub applied: Vec<ExprId>,
 }
 
+impl Forces {
+    /// All formulas of it.
+    pub fn formulas(&self) -> impl Iterator<Item = ExprId> {
+        let columns = self.reactions.iter().map(|of| of.value).chain(self.loads.iter().map(|of| of.force));
+        columns.chain(self.presses.iter().map(|of| of.force)).chain(self.needed.iter().copied())
+    }
+}
+
 impl ConstraintSystem {
     /// What multipliers have to hold, in the words of mechanics; nothing where nobody asks for forces.
     pub fn mechanics(&mut self) -> Option<Mechanics> {

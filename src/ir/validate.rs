@@ -6,8 +6,8 @@
 
 use super::scopes::as_leaf;
 use super::{
-    BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, Owner, ReductionKind, Row,
-    RowUnit, Variations, With,
+    BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, Forces, JointKind, Owner, ReductionKind,
+    Row, RowUnit, Variations, With,
 };
 use crate::expr::{ExprId, Symbol, TIME_SIGNAL};
 
@@ -170,10 +170,7 @@ impl ConstraintSystem {
 
     /// All symbols in formulas that are looked at beside the equations are of something.
     fn symbols_are_of_something(&self) -> Result<(), String> {
-        let of_forces = self.forces.iter().flat_map(|forces| {
-            let columns = forces.reactions.iter().map(|of| of.value).chain(forces.loads.iter().map(|of| of.force));
-            columns.chain(forces.presses.iter().map(|of| of.force)).chain(forces.needed.iter().copied())
-        });
+        let of_forces = self.forces.iter().flat_map(Forces::formulas);
         let of_rows = self.conditions.iter().map(|of| of.positive);
         let of_rows = of_rows.chain(self.watches.iter().map(|of| of.value)).chain(of_forces);
         let of_rows = of_rows.chain(self.rims.iter().flat_map(|rim| [rim.gauge, rim.slope]));

@@ -1,57 +1,117 @@
 //! What a formula is right behind a state of the motion: at a jump of it the later side counts.
 //!
-//! A comparison whose sides are equal, a sign of zero and a floor at a whole number are decided by how what they ask of changes with time.
+//! A comparison of what is as large, a sign of nothing and a floor at a whole number are decided by how what they ask of changes with time;
+//! where that rests as well, by how its rate does. What is off by no more than it changes in no time at all is as large: no output time
+//! and no state is exacter than rounding.
 
 use super::Lowering;
-use crate::expr::{Binary, Comparison, ExprId, Graph, Node, Unary};
+use crate::expr::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary};
 use crate::ir::ConstraintSystem;
+use crate::tolerances::UNTOLD_SPAN;
+use crate::tolerances::jumps::{LATER_AT_ONCE, LATER_AT_REST};
 
 impl Lowering<'_> {
     /// A formula of the motion, its jumps as they are right behind the state.
     pub(super) fn later_side(&mut self, formula: ExprId) -> ExprId {
-        self.graph.rewritten(formula, later)
+        let span = self.model.analysis.map_or(UNTOLD_SPAN, |analysis| analysis.to - analysis.from);
+        let highest = if self.model.has_signals { 2 } else { 3 };
+        let behind = Behind { span: if span > 0.0 { span } else { UNTOLD_SPAN }, highest };
+        self.graph.rewritten(formula, |graph, node, plain| behind.of(graph, node, plain))
     }
 }
 
-/// What an operation is right behind the state, where that may be something else than what it is there.
-fn later(graph: &mut Graph, node: Node, plain: ExprId) -> Option<ExprId> {
-    let zero = graph.constant(0.0);
-    match node {
-        Node::Compare(comparison @ (Comparison::Less | Comparison::LessEqual), a, b) => {
-            let difference = graph.sub(a, b);
-            let rate = rate(graph, difference)?;
-            let (is_even, behind) = (graph.compare(Comparison::Equal, a, b), graph.compare(comparison, rate, zero));
-            Some(graph.select(is_even, behind, plain))
+/// How formulas are looked at right behind a state.
+struct Behind {
+    /// For how long the motion is looked at (s).
+    span: f64,
+    /// The highest derivatives of coordinates that are known.
+    highest: u8,
+}
+
+/// A number that may be nothing, to rounding.
+struct Nothing {
+    /// Whether it is.
+    is_so: ExprId,
+    /// What has its sign right behind, where it is.
+    behind: ExprId,
+}
+
+impl Behind {
+    /// What an operation is right behind the state, where that may be something else than what it is there.
+    fn of(&self, graph: &mut Graph, node: Node, plain: ExprId) -> Option<ExprId> {
+        let zero = graph.constant(0.0);
+        match node {
+            Node::Compare(comparison @ (Comparison::Less | Comparison::LessEqual), a, b) => {
+                let difference = graph.sub(a, b);
+                let nothing = self.nothing(graph, difference, difference)?;
+                let behind = graph.compare(comparison, nothing.behind, zero);
+                Some(graph.select(nothing.is_so, behind, plain))
+            }
+            Node::Unary(Unary::Sign, a) => {
+                let nothing = self.nothing(graph, a, a)?;
+                let behind = graph.unary(Unary::Sign, nothing.behind);
+                Some(graph.select(nothing.is_so, behind, plain))
+            }
+            Node::Unary(Unary::Floor, a) => {
+                let (whole, past) = past_whole(graph, a);
+                let nothing = self.nothing(graph, past, a)?;
+                let one = graph.constant(1.0);
+                let below = graph.sub(whole, one);
+                let falls = graph.compare(Comparison::Less, nothing.behind, zero);
+                let behind = graph.select(falls, below, whole);
+                Some(graph.select(nothing.is_so, behind, plain))
+            }
+            Node::Binary(Binary::Mod, a, b) => {
+                let turns = graph.div(a, b);
+                let (_, past) = past_whole(graph, turns);
+                let nothing = self.nothing(graph, past, turns)?;
+                let falls = graph.compare(Comparison::Less, nothing.behind, zero);
+                let behind = graph.select(falls, b, zero);
+                Some(graph.select(nothing.is_so, behind, plain))
+            }
+            _ => None,
         }
-        Node::Unary(Unary::Sign, a) => {
-            let rate = rate(graph, a)?;
-            let (is_zero, behind) = (graph.compare(Comparison::Equal, a, zero), graph.unary(Unary::Sign, rate));
-            Some(graph.select(is_zero, behind, plain))
+    }
+
+    /// A number that changes as another one does: whether it is nothing, and which sign it has right behind. None where it does not change,
+    /// or where nobody knows how.
+    fn nothing(&self, graph: &mut Graph, number: ExprId, as_this: ExprId) -> Option<Nothing> {
+        let rate = self.rate(graph, as_this)?;
+        let by_rate = is_within(graph, number, rate, LATER_AT_ONCE * self.span);
+        let Some(bend) = self.rate(graph, rate) else {
+            return Some(Nothing { is_so: by_rate, behind: rate });
+        };
+        let little = LATER_AT_REST * self.span;
+        let (touches, rests) =
+            (is_within(graph, number, bend, 0.5 * little * little), is_within(graph, rate, bend, little));
+        let by_bend = graph.and(touches, rests);
+        let behind = graph.select(by_bend, bend, rate);
+        Some(Nothing { is_so: graph.or(by_bend, by_rate), behind })
+    }
+
+    /// How something changes with time; none where it does not, or where nobody knows.
+    fn rate(&self, graph: &mut Graph, of: ExprId) -> Option<ExprId> {
+        let is_last = |symbol: &Symbol| matches!(symbol, Symbol::Signal { order: 2.., .. });
+        if graph.dependence(of).highest_order() >= Some(self.highest) || graph.symbols(of).iter().any(is_last) {
+            return None;
         }
-        Node::Unary(Unary::Floor, a) => {
-            let rate = rate(graph, a)?;
-            let (is_whole, one) = (graph.compare(Comparison::Equal, a, plain), graph.constant(1.0));
-            let (falls, below) = (graph.compare(Comparison::Less, rate, zero), graph.sub(plain, one));
-            let is_below = graph.and(is_whole, falls);
-            Some(graph.select(is_below, below, plain))
-        }
-        Node::Binary(Binary::Mod, a, b) => {
-            let turns = graph.div(a, b);
-            let rate = rate(graph, turns)?;
-            let (is_whole, falls) =
-                (graph.compare(Comparison::Equal, plain, zero), graph.compare(Comparison::Less, rate, zero));
-            let is_below = graph.and(is_whole, falls);
-            Some(graph.select(is_below, b, plain))
-        }
-        _ => None,
+        let rate = ConstraintSystem::time_derivatives(graph, &[of], self.highest)[0];
+        (!graph.is_zero(rate)).then_some(rate)
     }
 }
 
-/// How something changes with time; none where it does not, or where nobody knows.
-fn rate(graph: &mut Graph, of: ExprId) -> Option<ExprId> {
-    if graph.dependence(of).highest_order() > Some(1) {
-        return None;
-    }
-    let rate = ConstraintSystem::time_derivatives(graph, &[of], 2)[0];
-    (!graph.is_zero(rate)).then_some(rate)
+/// The whole number that is next to a number, and how far past that it is.
+fn past_whole(graph: &mut Graph, number: ExprId) -> (ExprId, ExprId) {
+    let half = graph.constant(0.5);
+    let above = graph.add(number, half);
+    let whole = graph.unary(Unary::Floor, above);
+    (whole, graph.sub(number, whole))
+}
+
+/// Whether a number is no larger than so many times another one.
+fn is_within(graph: &mut Graph, number: ExprId, other: ExprId, times: f64) -> ExprId {
+    let times = graph.constant(times);
+    let most = graph.mul(times, other);
+    let [number, most] = [number, most].map(|of| graph.unary(Unary::Abs, of));
+    graph.compare(Comparison::LessEqual, number, most)
 }

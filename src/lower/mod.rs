@@ -27,7 +27,7 @@ mod velocities;
 use crate::expr::{Comparison, Dependence, ExprId, Graph, Symbol, TIME_SIGNAL};
 use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId, DeclarationKind,
-    Fit, IdVec, Measure, OpenContact, Owner, Param, Row, RowUnit, Units, Variations, Watch, Written,
+    Fit, Forces, IdVec, Measure, OpenContact, Owner, Param, Row, RowUnit, Units, Variations, Watch, Written,
 };
 use crate::model::{
     self, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId, Quantity,
@@ -58,15 +58,17 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
     system
 }
 
-/// Whether measures or results hold third derivatives of the coordinates, which only a system of time alone has.
+/// Whether measures, results or loads hold third derivatives of the coordinates, which only a system of time alone has.
 fn needs_jerk(model: &Mechanism, written: &Written) -> bool {
     let is_third = |id: ExprId| written.graph.dependence(id).highest_order() == Some(3);
     let mut measures = written.measures.iter();
     let is_measured = measures.any(|measure| (0..3).filter_map(|order| measure.derivative(order)).any(is_third));
+    let mut of_forces = written.forces.iter().flat_map(Forces::formulas);
+    let is_of_forces = of_forces.any(is_third);
     // where an extremum goes is seen by two more
     let holds = if model.slopes.is_some() { HOLDS_JERK - 1 } else { HOLDS_JERK };
     let is_asked_for = model.reductions.iter().any(|reduction| reduction.order >= holds);
-    (is_measured || is_asked_for) && !model.has_signals
+    (is_measured || is_of_forces || is_asked_for) && !model.has_signals
 }
 
 /// The parameters; of each, how much of its name says in which part it is.

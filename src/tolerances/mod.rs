@@ -31,6 +31,10 @@ pub mod jumps {
     pub const ACCELERATION_JUMP: f64 = 1e-6;
     /// A speed below this part of one per span, scaled, is rest.
     pub const REST: f64 = 1e-3;
+    /// What a load's condition is off by no more than it changes in this part of the span, it is not off by: it jumps here.
+    pub const LATER_AT_ONCE: f64 = 1e-12;
+    /// Likewise where it comes to rest there, by what its rate changes by in this part of the span.
+    pub const LATER_AT_REST: f64 = 1e-8;
 }
 
 /// Contacts, and what they press with.

@@ -71,6 +71,7 @@ pub fn load_on_no_quantity(name: &Name, span: Span, fault: &NoLoad<'_>) -> Diagn
         NoLoad::OfMeasures(_) => ("for measures alone", QUANTITIES),
     };
     let what = match fault {
+        NoLoad::OfMeasures("angle") => format!("load `{}` cannot work on `angle(P, Q, R)`", name.text),
         NoLoad::OfMeasures(word) => format!("load `{}` cannot work on `{word}`", name.text),
         _ => format!("load `{}` works on one kinematic quantity", name.text),
     };
@@ -100,7 +101,7 @@ pub fn plain_load(name: &Name, span: Span, text: &str, on: Part, wanted: Dimensi
     let help =
         "a number without a unit is a torque where it works on an angle; a force says its unit: `20 N`, `1800 N/m`";
     Diagnostic::new(Code::E0419, format!("load `{}` on {} holds no unit", name.text, words_of_place(on.dimension)))
-        .at(span, "a pure number")
+        .at(span, "no unit in it")
         .also(on.span, words_of_place(on.dimension))
         .help(help)
         .change(with_unit(span, text, unit_of_force(wanted)))
