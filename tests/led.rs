@@ -168,7 +168,7 @@ fn a_dead_point_on_the_way_is_told_and_the_estimates_alone_are_tried() {
     let part = told.data["part"].as_f64().expect("a number");
     let (from, to) = (30_f64.to_radians(), 330_f64.to_radians());
     assert!((from + (to - from) * part - limit).abs() < 1e-6, "{part}");
-    assert_eq!(told.labels[0].text, "led from 0.5235987756 to 5.759586532, and got to 1.817743041");
+    assert_eq!(told.labels[0].text, "led from 0.5235987756 rad to 5.759586532 rad, and got to 1.817743041 rad");
     // where there is no position, that is told too
     let (rows, said) = run(&compiled(&text, &["turn=180 deg"], None), &Times::listed(0.0, vec![0.0]));
     assert_eq!((rows.len(), codes(&said)), (0, vec!["E0612", "E0601"]));

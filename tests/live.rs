@@ -253,6 +253,52 @@ fn values_are_written_with_their_unit_and_once_for_a_version() {
 }
 
 #[test]
+fn nothing_is_written_that_makes_a_text_wrong() {
+    let text = TEXT.replace("    ground", "    param wheels = 2\n    ground").replace("wheel {", "more[k in 0..wheels] { point O = (0, 0) }\n    joint fixed[k in 0..wheels]: weld(ground.O, more[k].O)\n    body wheel {");
+    let served = Served::with(&text, &[]);
+    let write = |value: &str| {
+        let body = format!(r#"{{"version":1,"changes":[{{"name":"wheels","old":"2","value":{value}}}],"sure":true}}"#);
+        served.asked_well("/write", &body)
+    };
+    let answer = write("2.5");
+    assert!(answer.contains("the text would be wrong") && answer.contains("whole number"), "{answer}");
+    assert_eq!(fs::read_to_string(served.file()).expect("it is there"), text);
+    let answer = write("3");
+    assert!(answer.contains(r#"{"written":true}"#), "{answer}");
+}
+
+#[test]
+fn over_ssh_the_line_that_forwards_the_port_is_printed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("disc.mech");
+    fs::write(&file, TEXT).expect("it is written");
+    for (connection, wanted) in [
+        ("192.0.2.1 50022 192.0.2.7 22", Some(" 192.0.2.7,")),
+        ("2001:db8::1 50022 2001:db8::7 2222", Some(" -p 2222 2001:db8::7,")),
+        ("", None),
+    ] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_mechc"));
+        command.arg("view").arg(&file).env("SSH_CONNECTION", connection);
+        let mut process = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it starts");
+        let mut url = String::new();
+        BufReader::new(process.stdout.take().expect("its output")).read_line(&mut url).expect("an address");
+        let port = url.trim_start_matches("http://127.0.0.1:").split('/').next().unwrap_or_default();
+        let mut said = BufReader::new(process.stderr.take().expect("what it says"));
+        let (mut follows, mut forwards) = (String::new(), String::new());
+        said.read_line(&mut follows).expect("a line");
+        assert!(follows.starts_with("the page follows "), "{follows}");
+        if let Some(wanted) = wanted {
+            said.read_line(&mut forwards).expect("a line");
+            let line = format!("from another machine: ssh -N -L {port}:127.0.0.1:{port}{wanted}");
+            assert!(forwards.starts_with(&line), "{forwards}");
+        }
+        process.kill().and_then(|()| process.wait()).expect("it ends");
+        said.read_to_string(&mut forwards).expect("its end");
+        assert_eq!(forwards.lines().count(), usize::from(wanted.is_some()), "{forwards}");
+    }
+}
+
+#[test]
 fn what_a_live_page_has_not_is_refused() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/slider_crank.mech");
     for options in [&["-"][..], &[file, "--labels"], &[file, "--vary", "rod_length=1mm..2mm:3"], &[file, "--at", "0"]] {
@@ -361,6 +407,9 @@ fn what_is_wrong_with_options_is_refused_at_the_start() {
         (&["--input", "q=1"], 2),
         (&["--samples", "there_is_none.csv"], 4),
         (&["--theme", "dark"], 2),
+        (&["--from", "2 s", "--to", "1 s"], 2),
+        (&["--from", "2 s"], 2),
+        (&["--every", "0 s"], 2),
     ] {
         assert_eq!(started(options, &file), (String::new(), Some(code)), "{options:?}");
     }

@@ -255,6 +255,11 @@ impl Workshop {
             Edited::Text(text) => text,
             other => return Err(other),
         };
+        let parsed = texts.parsed.as_ref().map_err(|_| refused(OTHER))?;
+        let then = parsed.edited(&text).check(&self.choice, &texts.shelf);
+        if let Some(wrong) = then.diagnostics().iter().find(|said| said.is_error()) {
+            return Err(refused(&format!("the text would be wrong with that: {}", wrong.message)));
+        }
         let has_mark = texts.shelf.read(&self.path).is_ok_and(|file| file.bytes.starts_with(MARK.as_bytes()));
         let text = if has_mark { format!("{MARK}{text}") } else { text };
         if texts.shelf.is_old(&*self.host.world()) {
@@ -406,8 +411,10 @@ impl Asked<'_> {
     fn told(&self, knobs: &[Knob]) -> Value {
         let sources = &self.own.sources;
         let set = self.solved.knobs();
-        let now = |knob: &Knob| set.iter().find(|set| set.name == knob.name).map(|set| set.value);
+        let set: FxHashMap<&str, f64> = set.iter().map(|knob| (knob.name.as_str(), knob.value)).collect();
+        let now = |knob: &Knob| set.get(knob.name.as_str()).filter(|_| knob.formula.is_some() || knob.of.is_some());
         let mut sizes: FxHashMap<&str, f64> = FxHashMap::default();
+        let is_here = |place: &Span| self.own.checked.as_ref().is_some_and(|own| own.file() == place.file);
         let told = knobs.iter().map(|knob| {
             let place = |span: Span| {
                 let file = sources.get(span.file);
@@ -417,9 +424,10 @@ impl Asked<'_> {
                 "name": knob.name, "unit": knob.unit, "value": knob.value, "formula": knob.formula,
                 "si": sizes.entry(&knob.unit).or_insert_with(|| size_of_unit(&knob.unit)),
                 "dimension": knob.dimension, "held": self.solver.held(&knob.name), "whole": !knob.leads,
-                "now": knob.formula.as_ref().and_then(|_| now(knob)),
-                "text": knob.place.map(|place| sources.text(place)),
-                "where": knob.stands.filter(|_| knob.place.is_none()).map(place),
+                "now": now(knob),
+                "of": knob.of,
+                "text": knob.place.filter(is_here).map(|place| sources.text(place)),
+                "where": knob.stands.filter(|_| knob.place.filter(is_here).is_none()).map(place),
             })
         });
         Value::Array(told.collect())

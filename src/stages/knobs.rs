@@ -1,7 +1,8 @@
 //! What of a mechanism can be turned by hand: its params, and its inputs.
 
+use super::angles::Angles;
 use super::known::item_named;
-use super::varied::{is_of_angles, number_and_unit, si_unit, written};
+use super::varied::{number_and_unit, si_unit, written};
 use super::{Checked, Compiled, Formula};
 use crate::check::{Amount, usual_unit_of_length};
 use crate::expr::{ExprId, Symbol};
@@ -10,6 +11,7 @@ use crate::model::Dimension;
 use crate::source::{Sources, Span};
 use crate::sweep::rounded;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind};
+use rustc_hash::FxHashMap;
 
 /// A param, or a coordinate of one that is a point, as an option sets it.
 #[derive(Clone, PartialEq, Debug)]
@@ -24,10 +26,14 @@ pub struct Knob {
     pub value: f64,
     /// What the text says, where that is more than a number.
     pub formula: Option<String>,
-    /// Where the text says it; nothing of what another mechanism declares.
+    /// Where any text says it in words that can be replaced.
     pub place: Option<Span>,
+    /// Whether that says the other coordinate of a point too.
+    pub is_half: bool,
     /// Where any text says it.
     pub stands: Option<Span>,
+    /// The one of all copies of a part, where it is of a single copy.
+    pub of: Option<String>,
     /// Whether a mechanism can be led from one value to another: what decides how often something is there jumps.
     pub leads: bool,
 }
@@ -57,7 +63,8 @@ pub struct Crank {
 }
 
 impl Checked {
-    /// What can be set of it, in the order of the text, then what can be set in parts; nothing where it is not sound.
+    /// What can be set of it, in the order of the text, then what can be set in parts; where there are copies of these, of all of them
+    /// and then of each. Nothing where it is not sound.
     #[must_use]
     pub fn knobs(&self) -> Vec<Knob> {
         let (Some(tree), Some(model)) = (self.tree(), self.model()) else { return Vec::new() };
@@ -89,18 +96,16 @@ impl Checked {
                         // and what is nothing else, of that of the others
                         let is_origin = beside.is_empty() && at.iter().all(|at| *at == 0.0);
                         let unit = usual.filter(|_| is_origin).map_or(beside, str::to_owned);
-                        knobs.push(Knob { unit, place: knob.place.filter(|_| parts.is_some()), ..knob });
+                        knobs.push(Knob { unit, is_half: parts.is_none(), ..knob });
                     }
                 }
             }
         }
-        let own = knobs.len();
-        for param in &model.params {
-            let name = &param.declared.name;
-            if name.contains('.') && !knobs[..own].iter().any(|knob| knob.name == *name) {
-                knobs.push(self.knob_of_part(name, param.value, param.dimension));
-            }
-        }
+        let is_own = |name: &str| knobs.iter().any(|knob| knob.name == name);
+        let of_parts = model.params.iter().filter(|param| param.declared.name.contains('.'));
+        let of_parts = of_parts.filter(|param| !is_own(&param.declared.name));
+        let of_parts = of_parts.map(|param| self.knob_of_part(&param.declared.name, param.value, param.dimension));
+        knobs.extend(with_all_copies(of_parts.collect()));
         knobs
     }
 
@@ -114,27 +119,34 @@ impl Checked {
         if let Some((number, unit)) = number_and_unit(text) {
             let value = if self.is_set(&name) { in_unit(si, unit) } else { number };
             let (unit, leads) = (unit.to_owned(), param.is_some());
-            return Knob { name, unit, dimension, value, formula: None, place, stands: place, leads };
+            let (formula, is_half, of) = (None, false, None);
+            return Knob { name, unit, dimension, value, formula, place, is_half, stands: place, of, leads };
         }
         let unit =
             unit.or_else(|| kind.usual.map(str::to_owned)).unwrap_or_else(|| si_unit(kind.dimension, kind.is_angle));
         let value = in_unit(si, &unit);
-        Knob { name, unit, dimension, value, formula: Some(text.to_owned()), place, stands: place, leads: true }
+        let (formula, is_half, of) = (Some(text.to_owned()), false, None);
+        Knob { name, unit, dimension, value, formula, place, is_half, stands: place, of, leads: true }
     }
 
     /// A param of a part: in the unit in which some text says it.
     fn knob_of_part(&self, name: &str, si: f64, dimension: Dimension) -> Knob {
-        let stands = self.said_of_part(name);
-        let said = stands.and_then(|formula| number_and_unit(self.sources().text(formula.span)));
-        let unit = said.map(|(_, unit)| unit).filter(|unit| !unit.is_empty()).map(str::to_owned);
-        let unit = unit.unwrap_or_else(|| si_unit(dimension, false));
+        let found = self.said_of_part(name);
+        let text = found.as_ref().map(|said| self.sources().text(said.formula.span));
+        let number = text.and_then(number_and_unit);
+        let unit = number.map(|(_, unit)| unit).filter(|unit| !unit.is_empty());
+        let usual = || found.as_ref().and_then(|said| said.usual).filter(|_| dimension == LENGTH);
+        let unit = unit.or_else(usual).map_or_else(|| si_unit(dimension, false), str::to_owned);
         let (value, dimension) = (in_unit(si, &unit), si_unit(dimension, false));
-        let stands = stands.map(|formula| formula.span);
-        Knob { name: name.to_owned(), unit, dimension, value, formula: None, place: None, stands, leads: true }
+        let formula = text.filter(|_| number.is_none()).map(str::to_owned);
+        let stands = found.as_ref().map(|said| said.formula.span);
+        let (is_half, is_bound) = found.map_or((false, true), |said| (said.is_half, said.is_bound));
+        let (name, place, of) = (name.to_owned(), stands.filter(|_| !is_bound), None);
+        Knob { name, unit, dimension, value, formula, place, is_half, stands, of, leads: true }
     }
 
-    /// The formula that says what a param of a part is: where the part is declared, or in its own mechanism.
-    fn said_of_part(&self, path: &str) -> Option<&Expr> {
+    /// What says what a param of a part is: where the part is declared, or in its own mechanism.
+    fn said_of_part(&self, path: &str) -> Option<SaidOfPart<'_>> {
         let mut tree = self.tree()?;
         let mut names = path.split('.').map(|name| name.split('[').next().unwrap_or_default());
         let mut name = names.next()?;
@@ -142,14 +154,17 @@ impl Checked {
             match &item_named(tree, name)?.kind {
                 ItemKind::Param { value, .. } => {
                     let axis = names.next().map(|axis| usize::from(axis == "y"));
-                    return Some(axis.zip(coordinates(value)).map_or(value, |(axis, parts)| &parts[axis]));
+                    let coordinate = axis.zip(coordinates(value)).map(|(axis, parts)| &parts[axis]);
+                    let usual = usual_unit_of_length(&tree.items).map(|unit| unit.word.name);
+                    let is_half = axis.is_some() && coordinate.is_none();
+                    return Some(SaidOfPart { formula: coordinate.unwrap_or(value), is_half, is_bound: false, usual });
                 }
                 ItemKind::Part(part) => {
                     name = names.next()?;
                     let bound =
                         part.bindings.iter().find(|bound| bound.name.text == name && bound.coordinate.is_none());
                     if let Some(bound) = bound {
-                        return Some(&bound.value);
+                        return Some(SaidOfPart { formula: &bound.value, is_half: false, is_bound: true, usual: None });
                     }
                     tree = self.mechanism(&part.mechanism)?;
                 }
@@ -164,6 +179,44 @@ impl Checked {
             |path: &str| path == name || name.strip_prefix(path).is_some_and(|axis| [".x", ".y"].contains(&axis));
         self.surroundings.settings.iter().any(|setting| is_it(&setting.path))
     }
+}
+
+/// What says what a param of a part, or a coordinate of one, is.
+struct SaidOfPart<'t> {
+    formula: &'t Expr,
+    /// Whether it says both coordinates of a point.
+    is_half: bool,
+    /// Whether it is said where the part is declared, and so may be said there of other things.
+    is_bound: bool,
+    /// The unit in which lengths are written around it.
+    usual: Option<&'static str>,
+}
+
+/// Params of parts, and before those of copies one of all of them.
+fn with_all_copies(knobs: Vec<Knob>) -> Vec<Knob> {
+    let mut all: Vec<(String, Vec<Knob>)> = Vec::new();
+    let mut known: FxHashMap<String, usize> = FxHashMap::default();
+    for knob in knobs {
+        let name = of_all_copies(&knob.name);
+        let number = *known.entry(name.clone()).or_insert(all.len());
+        if number == all.len() {
+            all.push((name, Vec::new()));
+        }
+        all[number].1.push(knob);
+    }
+    let of_all = |(name, copies): (String, Vec<Knob>)| {
+        let are_copies = copies.len() > 1;
+        let first = copies.first().filter(|_| are_copies).map(|first| Knob { name: name.clone(), ..first.clone() });
+        first
+            .into_iter()
+            .chain(copies.into_iter().map(move |copy| Knob { of: are_copies.then(|| name.clone()), ..copy }))
+    };
+    all.into_iter().flat_map(of_all).collect()
+}
+
+/// The path of a param of a part without the numbers of copies.
+fn of_all_copies(path: &str) -> String {
+    path.split('.').map(|name| name.split('[').next().unwrap_or_default()).collect::<Vec<_>>().join(".")
 }
 
 /// What a param is by its value.
@@ -221,6 +274,7 @@ impl Checked {
     #[must_use]
     pub fn jogs(&self, compiled: &Compiled, times: &[f64]) -> Vec<Jog> {
         let system = compiled.system();
+        let angles = Angles::of(self.library(), self.sources());
         let formula = |span: Span| {
             let items =
                 self.library().files().iter().flat_map(|file| &file.read.tree.mechanisms).flat_map(|m| &m.items);
@@ -233,7 +287,7 @@ impl Checked {
         let jog = |input: &Input| Jog {
             name: input.name.clone(),
             unit: match input.unit.as_str() {
-                "1" if is_of_angles(formula(input.span)) || compiled.turns(input) => "rad".to_owned(),
+                "1" if angles.has(input.span) || compiled.turns(input) => "rad".to_owned(),
                 "1" => String::new(),
                 unit => unit.to_owned(),
             },
@@ -305,6 +359,51 @@ fn at_time(system: &ConstraintSystem, formula: ExprId, t: f64) -> f64 {
 mod tests {
     use crate::stages::{Choice, Parsed};
     use crate::world::Memory;
+
+    #[test]
+    fn params_of_copies_are_told_of_all_and_of_each() {
+        let text = "mechanism legs {
+            param speed = 60 rpm
+            part leg[k in 0..2]: leg() at (k * 200 mm, 0, 0)
+            part one: leg(rod = 50 mm) at (0, 200 mm, 0)
+            driver motor[k in 0..2]: rotation(leg[k].axle) = speed * t
+            driver other: rotation(one.axle) = speed * t
+        }
+        mechanism leg {
+            param rod = 40 mm
+            param half = 40 mm / 2
+            param P = (0, 3 mm)
+            ground { point O = (0, 0) }
+            body bar { point O = (0, 0) point M = (half, 0) point P = P point Q = (rod, 0) }
+            joint axle: revolute(ground.O, bar.O)
+        }";
+        let checked = Parsed::of("legs.mech", text)
+            .check(&Choice { mechanism: Some("legs".to_owned()), ..Choice::default() }, &Memory::default());
+        let knobs = checked.knobs();
+        let told: Vec<_> = knobs.iter().map(|k| (k.name.as_str(), k.value, k.unit.as_str(), k.of.as_deref())).collect();
+        let of_copies = |name: &'static str, value, copies: [&'static str; 2]| {
+            let [first, second] = copies.map(|copy| (copy, value, "mm", Some(name)));
+            [(name, value, "mm", None), first, second]
+        };
+        let copies = [
+            of_copies("leg.rod", 40.0, ["leg[0].rod", "leg[1].rod"]),
+            of_copies("leg.half", 20.0, ["leg[0].half", "leg[1].half"]),
+            of_copies("leg.P.x", 0.0, ["leg[0].P.x", "leg[1].P.x"]),
+            of_copies("leg.P.y", 3.0, ["leg[0].P.y", "leg[1].P.y"]),
+        ];
+        let one = [("one.half", 20.0, "mm", None), ("one.P.x", 0.0, "mm", None), ("one.P.y", 3.0, "mm", None)];
+        let wanted: Vec<_> = std::iter::once(("speed", 60.0, "rpm", None)).chain(copies.concat()).chain(one).collect();
+        assert_eq!(told, wanted);
+        let place = |name: &str| knobs.iter().find(|knob| knob.name == name).and_then(|knob| knob.place);
+        let text_of = |name: &str| place(name).map(|place| checked.sources().text(place));
+        assert_eq!(text_of("leg.rod"), Some("40 mm"));
+        assert_eq!(text_of("one.P.x"), Some("0"));
+        assert_eq!(place("leg[1].rod"), place("leg.rod"));
+        assert_eq!(
+            knobs.iter().find(|knob| knob.name == "leg.half").and_then(|k| k.formula.as_deref()),
+            Some("40 mm / 2")
+        );
+    }
 
     #[test]
     fn params_are_told_as_they_are_written() {

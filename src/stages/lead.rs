@@ -1,6 +1,7 @@
 //! Where a mechanism begins that has parts, or is told other inputs than its own: each part where it comes to alone and is led to what its
 //! inputs are; the whole where the inputs that it is told lead it, from where it is with its own.
 
+use super::angles::Angles;
 use super::lines::{Line, Target, lines};
 use super::lowered::lowered;
 use super::options::RunOptions;
@@ -172,10 +173,12 @@ impl<'s> Starts<'s> {
         match way.stopped {
             None => {
                 self.said.extend(way.remarks);
-                self.said.extend(way.passed.iter().map(|(part, what)| passed(None, &inputs, times, *part, what)));
+                let remarks = |(part, what): &_| passed(None, &self.told(&inputs), times, *part, what);
+                let passed: Vec<Diagnostic> = way.passed.iter().map(remarks).collect();
+                self.said.extend(passed);
             }
             Some(_) if self.options.cancel.is_cancelled() => {}
-            Some((part, why)) => self.said.push(not_led(None, &inputs, times, span, part, &why)),
+            Some((part, why)) => self.said.push(not_led(None, &self.told(&inputs), times, span, part, &why)),
         }
         way.reached.into_iter().next()
     }
@@ -298,11 +301,11 @@ impl<'s> Starts<'s> {
                         let inputs = shortened(&inputs, *part_of_line);
                         let before = way.passed.iter().filter(|(part, _)| part <= part_of_line);
                         said.extend(before.map(|(part, what)| {
-                            (number, passed(Some(start), &inputs, times, part / part_of_line, what))
+                            (number, passed(Some(start), &self.told(&inputs), times, part / part_of_line, what))
                         }));
                     }
                     (None, Some((part, why))) if !self.options.cancel.is_cancelled() => {
-                        let inputs = shortened(&inputs, *part_of_line);
+                        let inputs = self.told(&shortened(&inputs, *part_of_line));
                         said.push((number, not_led(Some(start), &inputs, times, span, part / part_of_line, why)));
                     }
                     (None, _) => {}
@@ -378,6 +381,11 @@ impl<'s> Starts<'s> {
         Some(alone)
     }
 
+    /// What is led, as messages tell it.
+    fn told(&self, inputs: &[Led]) -> Vec<Told> {
+        Told::of(inputs, &Angles::of(&self.surroundings.library, self.sources))
+    }
+
     fn text_of(&self, start: &PartStart) -> Option<&'s ast::Mechanism> {
         let surroundings: &'s Surroundings = self.surroundings;
         surroundings.library.mechanism_at(start.text)
@@ -413,28 +421,58 @@ fn within(settings: &[Setting], part: &str) -> Vec<Setting> {
     settings.iter().filter_map(inner).collect()
 }
 
+/// What is led, as messages tell it.
+pub(super) struct Told {
+    led: Led,
+    /// Its SI unit; empty for a pure number.
+    unit: String,
+}
+
+impl Told {
+    /// What has another value at the end of the way.
+    pub fn of(inputs: &[Led], angles: &Angles) -> Vec<Told> {
+        let moving = inputs.iter().filter(|input| input.line[0].total_cmp(&input.line[1]).is_ne());
+        let told = |led: &Led| {
+            let unit = match led.dimension.unit().as_str() {
+                "1" if angles.has(led.declared.span) => "rad".to_owned(),
+                "1" => String::new(),
+                unit => unit.to_owned(),
+            };
+            Told { led: led.clone(), unit }
+        };
+        moving.map(told).collect()
+    }
+
+    /// The value at a part of the way, with its unit.
+    fn value_at(&self, part: f64) -> String {
+        let [from, to] = self.led.line;
+        let value = from + (to - from) * part;
+        let text = readable(format!("{value:.9e}").parse().unwrap_or(value));
+        if self.unit.is_empty() { text } else { format!("{text} {}", self.unit) }
+    }
+}
+
 /// A way that ends before it is gone, at a part of it from 0 to 1, with what happens there; of a mechanism or of a part of it.
 pub(super) fn not_led(
     of: Option<&PartStart>,
-    inputs: &[Led],
+    moving: &[Told],
     times: [f64; 2],
     whole: Span,
     part: f64,
     why: &Diagnostic,
 ) -> Diagnostic {
-    let moving: Vec<&Led> = inputs.iter().filter(|input| input.line[0].total_cmp(&input.line[1]).is_ne()).collect();
     let what = if why.code == Code::E0602 { "a dead point" } else { why.code.title() };
-    let here = moving.first().map(|input| format!(" at `{}` = {}", input.declared.name, value_at(input, part)));
+    let here = moving.first().map(|input| format!(" at `{}` = {}", input.led.declared.name, input.value_at(part)));
     let here = here.unwrap_or_default();
     let message = match of {
-        None => format!("on the way to {} there is {what}{here}", aim(&moving)),
+        None => format!("on the way to {} there is {what}{here}", aim(moving)),
         Some(of) => format!("on the way of the part `{}` to its inputs there is {what}{here}", of.name),
     };
     let mut diagnostic = Diagnostic::new(Code::E0612, message);
     for (k, input) in moving.iter().take(TOLD).enumerate() {
-        let [from, to, here] = [0.0, 1.0, part].map(|part| value_at(input, part));
-        let text = format!("{}led from {from} to {to}, and got to {here}", named(input, &moving));
-        let span = input.declared.span;
+        let [from, to, here] = [0.0, 1.0, part].map(|part| input.value_at(part));
+        let text = format!("{}led from {from} to {to}, and got to {here}", named(input, moving));
+        let span = input.led.declared.span;
         diagnostic = if k == 0 { diagnostic.at(span, text) } else { diagnostic.also(span, text) };
     }
     let stop = why.labels.first().map_or(whole, |label| label.span);
@@ -442,7 +480,7 @@ pub(super) fn not_led(
     let (tried, mend) = match of {
         None => (
             "the estimates in `at` alone are tried instead, which may mean another branch",
-            if is_of_params(&moving) {
+            if is_of_params(moving) {
                 "set a value from before that"
             } else {
                 "give the input a formula of its own from which a way leads to what is given"
@@ -460,23 +498,23 @@ pub(super) fn not_led(
 }
 
 /// Which one is spoken of, where several stand in one place: the coordinates of a point.
-fn named(input: &Led, moving: &[&Led]) -> String {
-    let beside = moving.iter().filter(|other| other.declared.span == input.declared.span).count();
-    if beside > 1 { format!("`{}` ", input.declared.name) } else { String::new() }
+fn named(input: &Told, moving: &[Told]) -> String {
+    let Told { led, .. } = input;
+    let beside = moving.iter().filter(|other| other.led.declared.span == led.declared.span).count();
+    if beside > 1 { format!("`{}` ", led.declared.name) } else { String::new() }
 }
 
 /// A bifurcation that was passed at a part of a way, from 0 to 1; of a mechanism or of a part of it.
 pub(super) fn passed(
     of: Option<&PartStart>,
-    inputs: &[Led],
+    moving: &[Told],
     times: [f64; 2],
     part: f64,
     what: &Diagnostic,
 ) -> Diagnostic {
-    let moving: Vec<&Led> = inputs.iter().filter(|input| input.line[0].total_cmp(&input.line[1]).is_ne()).collect();
-    let here = moving.first().map(|input| format!(" at `{}` = {}", input.declared.name, value_at(input, part)));
+    let here = moving.first().map(|input| format!(" at `{}` = {}", input.led.declared.name, input.value_at(part)));
     let way = match of {
-        None => format!("on the way to {}", aim(&moving)),
+        None => format!("on the way to {}", aim(moving)),
         Some(of) => format!("on the way of the part `{}` to its inputs", of.name),
     };
     let message = format!(
@@ -485,9 +523,9 @@ pub(super) fn passed(
     );
     let mut diagnostic = Diagnostic::new(Code::W0602, message);
     for (k, input) in moving.iter().take(TOLD).enumerate() {
-        let [from, to, here] = [0.0, 1.0, part].map(|part| value_at(input, part));
-        let text = format!("{}led from {from} to {to}, by way of {here}", named(input, &moving));
-        let span = input.declared.span;
+        let [from, to, here] = [0.0, 1.0, part].map(|part| input.value_at(part));
+        let text = format!("{}led from {from} to {to}, by way of {here}", named(input, moving));
+        let span = input.led.declared.span;
         diagnostic = if k == 0 { diagnostic.at(span, text) } else { diagnostic.also(span, text) };
     }
     for (k, label) in what.labels.iter().enumerate() {
@@ -502,22 +540,11 @@ pub(super) fn passed(
     diagnostic.datum("part", part).datum("t", times[0] + (times[1] - times[0]) * part)
 }
 
-fn is_of_params(moving: &[&Led]) -> bool {
-    moving.iter().any(|led| led.param.is_some())
+fn is_of_params(moving: &[Told]) -> bool {
+    moving.iter().any(|told| told.led.param.is_some())
 }
 
 /// What a mechanism is led to.
-fn aim(moving: &[&Led]) -> &'static str {
+fn aim(moving: &[Told]) -> &'static str {
     if is_of_params(moving) { "the values that are set" } else { "the inputs that are given" }
-}
-
-/// The value of an input or a parameter at a part of its way, with its unit.
-fn value_at(input: &Led, part: f64) -> String {
-    let [from, to] = input.line;
-    let value = from + (to - from) * part;
-    let text = readable(format!("{value:.9e}").parse().unwrap_or(value));
-    match input.dimension.unit().as_str() {
-        "1" => text,
-        unit => format!("{text} {unit}"),
-    }
 }

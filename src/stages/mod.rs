@@ -8,6 +8,7 @@
 
 mod adjustable;
 mod again;
+mod angles;
 mod asked;
 mod checked;
 mod chosen;

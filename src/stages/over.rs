@@ -1,6 +1,7 @@
 //! A mechanism that is led over from the values that its text gives to its params to others: all that such variants share, and one of them.
 
-use super::lead::{not_led, passed};
+use super::angles::Angles;
+use super::lead::{Told, not_led, passed};
 use super::lowered::lowered_on_its_way;
 use super::options::RunOptions;
 use crate::analysis::{self, Horizon, LeadOptions, Started, Times};
@@ -36,6 +37,8 @@ pub(super) struct Own {
     pub t: f64,
     /// Whether redundant equations are left out.
     pub leave_out_redundant: bool,
+    /// For messages.
+    pub angles: Angles,
 }
 
 /// Makes a mechanism with its own values; nothing where it does not stand with these.
@@ -138,7 +141,7 @@ impl Over {
     }
 
     /// What its params are led along.
-    fn lines(&self, system: &ConstraintSystem, values: &[f64]) -> Vec<model::Led> {
+    fn lines(&self, system: &ConstraintSystem, values: &[f64]) -> Vec<Told> {
         let line = |led: &model::Led| {
             let k = led.param? as usize;
             Some(model::Led {
@@ -147,7 +150,8 @@ impl Over {
                 ..led.clone()
             })
         };
-        self.own.model.led.iter().filter_map(line).collect()
+        let lines: Vec<model::Led> = self.own.model.led.iter().filter_map(line).collect();
+        Told::of(&lines, &self.own.angles)
     }
 
     /// What variants of so many values that begin at a time (s) share.

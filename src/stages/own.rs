@@ -1,5 +1,6 @@
 //! A mechanism with the values of its own text, from which it is led over to others.
 
+use super::angles::Angles;
 use super::over::{FromOwn, Own};
 use super::{Checked, Redundant, RunOptions};
 use crate::analysis::Horizon;
@@ -54,6 +55,7 @@ impl Checked {
         let horizon = Horizon::of_analysis(compiled.analysis()).beginning(t);
         let started = compiled.start(horizon, &RunOptions { stand: None, ..options.clone() }).0.ok()?;
         let whole = (Arc::clone(compiled.determined()), Arc::clone(compiled.program()));
-        Some(Own { whole, model, started, t, leave_out_redundant: redundant == Redundant::LeftOut })
+        let angles = Angles::of(self.library(), self.sources());
+        Some(Own { whole, model, started, t, leave_out_redundant: redundant == Redundant::LeftOut, angles })
     }
 }

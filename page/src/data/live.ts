@@ -19,11 +19,13 @@ export interface Knob {
     held: string | null;
     /** What the text says, where that is more than a number. */
     formula: string | null;
-    /** What that formula is with what is set. */
+    /** What that formula, or what one of several copies, is with what is set. */
     now: number | null;
+    /** The one of all copies of a part, where it is of a single copy. */
+    of: string | null;
     /** Whether it says how often something is there, which only whole numbers do. */
     whole: boolean;
-    /** What stands in its place in the file; null where another file or mechanism says it. */
+    /** What stands in its place in the file; null where another file says it. */
     text: string | null;
     /** Where that is, in words. */
     where: string | null;

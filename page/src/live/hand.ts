@@ -109,9 +109,12 @@ function drawnPoints(
     const first = table.rows > 0 ? motion.at(motion.from, motion.moment()) : undefined;
     const places = first && scene.points.map(({ frame, at }) => placeOf(first, [frame, ...at]));
     const size = Math.hypot(scene.extent[1][0] - scene.extent[0][0], scene.extent[1][1] - scene.extent[0][1]);
-    return knobs.flatMap((knob, k) => {
-        const other = knobs[k + 1];
-        if (!knob.name.endsWith(".x") || other?.name !== `${knob.name.slice(0, -1)}y` || knob.formula !== null || other.formula !== null) return [];
+    const known = new Map(knobs.map((knob) => [knob.name, knob]));
+    // of several copies each has its own place
+    const ofAll = new Set(knobs.map(({ of }) => of));
+    return knobs.flatMap((knob) => {
+        const other = known.get(`${knob.name.slice(0, -1)}y`);
+        if (!knob.name.endsWith(".x") || !other || knob.formula !== null || other.formula !== null || ofAll.has(knob.name)) return [];
         const units: [string, string] = [knob.unit || other.unit || "m", other.unit || knob.unit || "m"];
         const now = ({ name, value }: Knob) => set.get(name) ?? value;
         const at = [now(knob) * unitOfLength(units[0]), now(other) * unitOfLength(units[1])] as Pair;

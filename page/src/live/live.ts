@@ -98,10 +98,7 @@ export class Live {
     async turn(name: string, value: number): Promise<void> {
         const isParam = this.told?.knobs?.some((knob) => knob.name === name) ?? false;
         if (isParam) {
-            const own = this.told!.knobs!.find((knob) => knob.name === name)!;
-            // a formula may be something else by now
-            if (value === own.value && own.formula === null) this.set.delete(name);
-            else this.set.set(name, value);
+            this.settings.set(name, value);
         } else if (this.told?.jogs?.some((jog) => jog.name === name)) {
             this.app?.pause();
             this.still ??= this.app?.time ?? 0;
@@ -119,7 +116,7 @@ export class Live {
     private async movePoint(name: string, [x, y]: [number, number]): Promise<void> {
         for (const [axis, value] of [["x", x], ["y", y]] as const) {
             const knob = this.told?.knobs?.find((knob) => knob.name === `${name}.${axis}`);
-            if (knob) this.set.set(knob.name, value);
+            if (knob) this.settings.set(knob.name, value);
         }
         const changed = this.change();
         this.knobs.at(this.set, this.moved);

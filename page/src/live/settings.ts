@@ -20,6 +20,16 @@ export class Settings {
         return this.knobs.find((knob) => knob.name === name);
     }
 
+    /** What is set of all copies of a part takes the place of what is set of each. */
+    set(name: string, value: number): void {
+        for (const copy of this.knobs) if (copy.of === name) this.values.delete(copy.name);
+        const own = this.knob(name);
+        // a formula, or one of several copies, may be something else by now
+        const isAsSaid = own?.value === value && own.formula === null && !(own.of !== null && this.values.has(own.of));
+        if (isAsSaid) this.values.delete(name);
+        else this.values.set(name, value);
+    }
+
     clear(): void {
         this.values.clear();
         this.aside.clear();

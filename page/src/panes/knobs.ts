@@ -40,7 +40,7 @@ const FINE_STEPS = 1000;
 const AROUND = 0.5;
 /** An angle's slider goes so far to both sides, by unit. */
 const TURN: Record<string, number> = { deg: 180, rad: Math.PI, rev: 0.5 };
-/** An input that turns something goes so many turns to both sides at least. */
+/** An input that goes on turning something goes so many turns to both sides at least. */
 const TURNS = 2;
 /** Params from here on are folded away at first. */
 const MANY = 6;
@@ -98,10 +98,13 @@ export class Knobs implements Pane {
             const wasEmpty = this.offered === "";
             this.offered = offered;
             this.rows.clear();
-            this.setting.replaceChildren(...knobs.map((knob) => this.row(knob, knob.value, rangeOf(knob, reach))));
-            const sliders = jogs.map((jog) => this.row({ ...jog, si: 1, dimension: dimensionOf(jog.unit) }, 0, rangeOfInput(jog, reach)));
+            this.setting.replaceChildren(...this.rowsOf(knobs, reach));
+            const sliders = jogs.map((jog) => {
+                const range = rangeOfInput(jog, reach);
+                return this.row({ ...jog, si: 1, dimension: dimensionOf(jog.unit) }, range[0], range);
+            });
             this.turning.replaceChildren(...(jogs.length > 0 ? [...sliders, this.time] : []));
-            if (wasEmpty) this.folded.open = knobs.length < MANY;
+            if (wasEmpty) this.folded.open = knobs.filter(({ of }) => of === null).length < MANY;
             this.folded.hidden = knobs.length === 0;
         }
         // a formula follows what is set
@@ -140,6 +143,18 @@ export class Knobs implements Pane {
             const row = this.rows.get(jog.name)!;
             if (!row.label.classList.contains("changed")) show(row, this.does.value(jog.name));
         }
+    }
+
+    /** A row for each param; those of single copies are folded away behind the one of all of them. */
+    private rowsOf(knobs: readonly Knob[], reach: Reach): HTMLElement[] {
+        const row = (knob: Knob) => this.row(knob, knob.value, rangeOf(knob, reach));
+        return knobs.flatMap((knob) => {
+            if (knob.of !== null) return [];
+            const copies = knobs.filter(({ of }) => of === knob.name);
+            if (copies.length === 0) return [row(knob)];
+            const each = html("details", { class: "copies" }, html("summary", {}, `each of ${copies.length}`), ...copies.map(row));
+            return [html("div", { role: "group", "aria-label": `${knob.name}, of all copies` }, row(knob), each)];
+        });
     }
 
     private row(of: { name: string; unit: string; si: number; dimension: string; formula: string | null }, value: number, range: Range): HTMLElement {
@@ -187,7 +202,8 @@ export class Knobs implements Pane {
     }
 
     private async write(sure = false): Promise<void> {
-        const why = await this.does.write(sure);
+        this.deeds.ariaBusy = "true";
+        const why = await this.does.write(sure).finally(() => (this.deeds.ariaBusy = null));
         this.told.textContent = why?.says ?? "";
         if (!why?.isQuestion) return;
         const [replace, leave] = ["Replace", "Leave it"].map((shows) => html("button", { type: "button" }, shows));
@@ -224,14 +240,16 @@ function rangeOf({ name, value, unit, si, whole }: Knob, { extent: [[left, botto
     return around(value, value === 0 ? (unit === "mm" ? 50 : 1) : AROUND * Math.abs(value), STEPS);
 }
 
-/** From where to where an input goes: as far as time moves it, and on. */
+/** From where to where an input goes: as far as time moves it, and on; what swings goes as far again to both sides. */
 function rangeOfInput({ name, unit }: Jog, { inputs, extent: [[left, bottom], [right, top]] }: Reach): Range {
     const values = inputs.get(name)?.filter(Number.isFinite) ?? [];
     const [least, most] = values.length > 0 ? [Math.min(...values), Math.max(...values)] : [0, 0];
-    if (TURN[unit]) {
+    const isOneWay = [1, -1].some((way) => values.every((value, k) => k === 0 || way * (value - values[k - 1]!) >= 0));
+    if (TURN[unit] && isOneWay) {
         const turns = 2 * TURNS * TURN[unit]!;
         return ended(Math.min(least, -turns), Math.max(most, turns), FINE_STEPS);
     }
+    if (TURN[unit]) return ended(2 * least - most, 2 * most - least, FINE_STEPS);
     const usual = unit === "m" ? AROUND * Math.max(right - left, top - bottom) : AROUND * Math.abs(most);
     const beyond = AROUND * (most - least) || usual || 1;
     return ended(least - beyond, most + beyond, FINE_STEPS);

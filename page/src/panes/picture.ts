@@ -222,6 +222,8 @@ export class Picture implements Pane {
                 this.point(at, event);
             }
         });
+        // a page that scrolls under a finger would take from it what it holds
+        over.addEventListener("touchmove", (event) => hold && event.preventDefault(), { passive: false });
         over.addEventListener("pointerleave", () => this.pointNowhere());
         over.addEventListener("pointerup", () => (hold = undefined));
         over.addEventListener("pointercancel", () => (hold = undefined));

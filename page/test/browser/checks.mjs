@@ -17,6 +17,9 @@ export async function tableOf(data, variant = 0) {
     return { rows, values, named: (name) => values[data.columns.findIndex((column) => column.name === name)] };
 }
 
+/** What comes of another size or of a moved pointer is drawn: that takes a frame, or two. */
+export const drawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));
+
 /** The rows that a page has at some times. */
 export async function rowsOf(page, times) {
     return page.evaluate(async (times) => {
@@ -161,7 +164,8 @@ export async function playsAndScrubs({ page }) {
         await mechc.seek(-Infinity);
         const first = mechc.time;
         mechc.play();
-        await new Promise((resolve) => setTimeout(resolve, 250));
+        const late = performance.now() + 60_000;
+        while (mechc.time === first && performance.now() < late) await new Promise(requestAnimationFrame);
         mechc.pause();
         return mechc.time - first;
     });
@@ -195,7 +199,7 @@ export async function keysDoWhatTheySay({ page }, path) {
     await at(rows - 1);
     await press("Home");
     await press("Space");
-    await page.waitForTimeout(120);
+    await page.waitForFunction((first) => mechc.time > first, times[0]);
     await press("Space");
     assert.ok((await time()) > times[0], "Space does not play");
     const pressed = (name) => page.getByRole("button", { name, exact: true }).getAttribute("aria-pressed");

@@ -69,15 +69,14 @@ test("between rows the picture goes on", () =>
 
 test("it plays by itself, but not for who asked for little motion", async () => {
     await looked(usual, { moves: true }, async ({ page }) => {
-        await page.waitForTimeout(200);
-        assert.ok((await page.evaluate(() => mechc.time)) > 0);
+        await page.waitForFunction(() => mechc.time > 0);
     });
     await looked(usual, { moves: true, reducedMotion: "reduce" }, async ({ page }) => {
         await page.waitForTimeout(200);
         assert.equal(await page.evaluate(() => mechc.time), 0);
+        // but it can be played
         await page.keyboard.press("Space");
-        await page.waitForTimeout(200);
-        assert.ok((await page.evaluate(() => mechc.time)) > 0, "but it can be played");
+        await page.waitForFunction(() => mechc.time > 0);
     });
 });
 
@@ -245,8 +244,7 @@ test("variants: the slider sets them, within a frame or two", async () => {
         const before = await place();
         await page.getByLabel("length").focus();
         await page.keyboard.press("Home");
-        await page.waitForTimeout(100);
-        assert.notEqual(await place(), before);
+        await page.waitForFunction((before) => mechc.pins().find(({ point }) => point === "coupler.D").x !== before, before);
         assert.equal(await page.evaluate(() => mechc.time), 0.3, "time stays where it is");
         assert.equal(await page.locator(".variants output").textContent(), "330 mm");
     });
@@ -269,7 +267,8 @@ test("navigation to the first picture", async () => {
     const took = [];
     for (let k = 0; k < 5; k++) {
         await looked(usual, {}, async ({ page }) => {
-            took.push(await page.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0].startTime));
+            const painted = await page.waitForFunction(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime);
+            took.push(await painted.jsonValue());
         });
     }
     took.sort((a, b) => a - b);

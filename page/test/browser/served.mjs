@@ -74,11 +74,18 @@ export async function following(text, work, options) {
     }
 }
 
-/** Waits until something is so, and says how long it took (ms). */
+/** Waits until something is so, as long as a machine may take that does much else, and says how long it took (ms). */
 export async function until(page, work, argument) {
     const began = performance.now();
-    await page.waitForFunction(work, argument, { polling: "raf", timeout: 5000 });
+    await page.waitForFunction(work, argument, { polling: "raf", timeout: 60_000 });
     return performance.now() - began;
+}
+
+/** Presses a button that writes what is set into the file; says what the page says of that, once it has been answered. */
+export async function written(page, button = "Write into the file") {
+    await page.click(`.deeds >> text=${button}`);
+    await page.waitForSelector(".deeds:not([aria-busy])", { state: "attached" });
+    return page.textContent(".deeds .told");
 }
 
 /** The table that `mechc run` prints: the names, and the rows. */

@@ -62,10 +62,10 @@ test("eight tabs of one browser follow the file, whichever of them are closed", 
     for (let k = 0; k < 8; k++) {
         const tab = await context.newPage();
         await tab.goto(server.url);
-        await tab.waitForFunction(() => document.querySelector(".time")?.textContent, undefined, { timeout: 10_000 });
+        await until(tab, () => document.querySelector(".time")?.textContent);
         tabs.push(tab);
     }
-    const all = (text) => Promise.all(tabs.map((tab) => tab.waitForFunction(shows, text, { polling: 50, timeout: 10_000 })));
+    const all = (text) => Promise.all(tabs.map((tab) => tab.waitForFunction(shows, text, { polling: 50, timeout: 60_000 })));
     server.save(CRANK.replace("90 mm", "91 mm"));
     await all("rod = 91 mm");
     for (const gone of [0, 3]) {
@@ -88,7 +88,7 @@ test("a new address in the same tab is followed", async () => {
     const second = await served(CRANK.replace("90 mm", "93 mm"), { options: ["--port", port] });
     assert.equal(new URL(second.url).origin, origin);
     await page.evaluate((hash) => (location.hash = hash), new URL(second.url).hash);
-    await page.waitForFunction(shows, "rod = 93 mm", { timeout: 10_000 });
+    await until(page, shows, "rod = 93 mm");
     assert.ok(await page.isHidden(".away"));
     await close();
     await second.end();
@@ -99,8 +99,8 @@ test("a page says that it works, where that takes time", async () => {
         // a program that gets no time, as beside other work
         server.process.kill("SIGSTOP");
         await page.evaluate(() => void mechc.set("rod", 91));
-        await page.waitForSelector(".working:not([hidden])", { timeout: 20_000 });
+        await page.waitForSelector(".working:not([hidden])", { timeout: 60_000 });
         server.process.kill("SIGCONT");
-        await page.waitForSelector(".working", { state: "hidden", timeout: 20_000 });
+        await page.waitForSelector(".working", { state: "hidden", timeout: 60_000 });
     });
 });

@@ -130,7 +130,7 @@ test("in a lecture hall the picture fills any window, and what is written in it 
         };
         const before = await size();
         await page.getByRole("button", { name: "the picture alone" }).click();
-        await page.waitForTimeout(50);
+        await checks.drawn(page);
         const after = await size();
         for (const what of ["area", "letters", "line"]) assert.ok(after[what] > 1.15 * before[what], `${what} at ${width}×${height}`);
         const [picture, slider, scrubber] = [await box(page, ".picture"), await box(page, ".variants input"), await box(page, ".scrub input")];
@@ -143,7 +143,7 @@ test("in a lecture hall the picture fills any window, and what is written in it 
         assert.equal(seen, 0, "something else is in sight");
         await checks.axeFindsNothing({ page });
         await page.keyboard.press("f");
-        await page.waitForTimeout(50);
+        await checks.drawn(page);
         assert.deepEqual(await size(), before);
     }
     assert.deepEqual(faults, []);

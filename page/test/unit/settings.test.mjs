@@ -35,6 +35,20 @@ test("what is set stays what it is, and waits for its param", () => {
     assert.equal(settings.follow([MM]), false);
 });
 
+test("what is set of all copies takes the place of what is set of each", () => {
+    const settings = new Settings();
+    const all = { ...MM, name: "leg.rod", value: 40, formula: null, of: null };
+    settings.follow([all, { ...all, name: "leg[0].rod", of: "leg.rod" }, { ...all, name: "leg[1].rod", of: "leg.rod" }]);
+    settings.set("leg[1].rod", 41);
+    settings.set("leg.rod", 50);
+    assert.deepEqual(settings.asked(), [["leg.rod", "50 mm"]]);
+    // as the text says, and not as all are by now
+    settings.set("leg[0].rod", 40);
+    assert.deepEqual(settings.asked(), [["leg.rod", "50 mm"], ["leg[0].rod", "40 mm"]]);
+    settings.set("leg.rod", 40);
+    assert.deepEqual(settings.asked(), []);
+});
+
 test("a hand's places are told to a tenth of a pixel", () => {
     assert.equal(rounded(0.1234567, "mm", 0.0005), 123.46);
     assert.equal(rounded(0.1234567, "mm", 0.005), 123.5);

@@ -3,6 +3,7 @@
 use super::form;
 use super::watch::Watch;
 use crate::analysis::Times;
+use crate::cancel::Cancel;
 use crate::cli::arguments::{Interval, ViewArguments};
 use crate::cli::failure::{Failure, is_of_options, unusable};
 use crate::cli::files::{self, Disk, Output};
@@ -21,6 +22,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
+/// The port that `ssh` goes to by itself.
+const USUAL_OF_SSH: &str = "22";
 /// A browser has read the file that leads it to the page when it asks for the page, or after this time; and how often that is looked at.
 const READ: Duration = Duration::from_secs(10);
 const LOOK: Duration = Duration::from_millis(50);
@@ -35,9 +38,9 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
         let help = "add `-o OUT.html` or another file, or leave it out";
         return Err(unusable(format!("`{option}` is for what is written")).help(help).into());
     }
-    refuse_wrong_options(arguments, reporter)?;
-    let desk = Desk { file: given.file.clone(), interval: arguments.interval.clone() };
     let redundant = if arguments.allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
+    refuse_wrong_options(arguments, redundant, reporter)?;
+    let desk = Desk { file: given.file.clone(), interval: arguments.interval.clone() };
     let options = (redundant, arguments.pass_bifurcations);
     let choice = Choice { pictures_forces: true, ..input::choice(given) };
     let workshop = Workshop::new(input::path(given), choice, options, Box::new(desk));
@@ -64,16 +67,27 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
 
 /// Refuses what is wrong already with the file, its times and what is chosen of it. A text that is wrong may be mended while the page
 /// follows it; what the command says stays as it is.
-fn refuse_wrong_options(arguments: &ViewArguments, reporter: &mut Reporter) -> Result<(), Failure> {
+fn refuse_wrong_options(
+    arguments: &ViewArguments,
+    redundant: Redundant,
+    reporter: &mut Reporter,
+) -> Result<(), Failure> {
     let given = &arguments.input;
     // what is not there at the begin is a mistake; what goes later may come back
     let (file, _) = files::read_to_replace(&given.file, &mut reporter.sources)?;
-    times::asked((&arguments.interval, &[]), None, &mut reporter.sources)?;
+    let interval = &arguments.interval;
+    times::asked((interval, &[]), None, &mut reporter.sources)?;
     let parsed = Parsed::of_source(reporter.sources.clone(), file, input::path(given));
     let checked = parsed.check(&input::choice(given), &Disk);
     if parsed.mechanisms().len() > 0 && is_of_options(checked.diagnostics(), checked.sources()) {
         reporter.sources = checked.sources().clone();
         return Err(checked.diagnostics().clone().into());
+    }
+    // the file says the rest of what an option says
+    if [&interval.from, &interval.to, &interval.every].into_iter().any(Option::is_some)
+        && let Some(compiled) = checked.compile(redundant, &Cancel::default()).0
+    {
+        times::asked((interval, &[]), compiled.analysis(), &mut reporter.sources)?.grid()?;
     }
     Ok(())
 }
@@ -81,11 +95,12 @@ fn refuse_wrong_options(arguments: &ViewArguments, reporter: &mut Reporter) -> R
 /// What is said beside the address.
 fn told(file: &str, port: u16) -> String {
     let mut told = format!("the page follows {file}; Ctrl-C ends it\n");
-    // the third word is the address at which this machine was reached
+    // the last words are the address and the port at which this machine was reached
     let ssh = std::env::var("SSH_CONNECTION").unwrap_or_default();
-    if let Some(host) = ssh.split_whitespace().nth(2) {
+    if let [_, _, host, at] = ssh.split_whitespace().collect::<Vec<_>>().as_slice() {
         let forwarded = format!("{port}:127.0.0.1:{port}");
-        told += &format!("from another machine: ssh -N -L {forwarded} {host}, then open the same address there\n");
+        let at = if *at == USUAL_OF_SSH { String::new() } else { format!(" -p {at}") };
+        told += &format!("from another machine: ssh -N -L {forwarded}{at} {host}, then open the same address there\n");
     }
     told
 }
