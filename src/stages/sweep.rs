@@ -1,6 +1,7 @@
 //! Many variants of one mechanism, each led over to its params along the branch.
 
 use super::checked::UNTIL;
+use super::abreast::Abreast;
 use super::families::{Families, Places};
 use super::over::Reached;
 use super::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Variants, Vectors};
@@ -8,8 +9,8 @@ use crate::analysis::{Asked, Started, Times};
 use crate::cancel::Cancel;
 use crate::crew::{Crew, usual_jobs};
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::sweep::{OneVariant, Status, Swept};
-use std::sync::Arc;
+use crate::sweep::{Group, LANES, OneVariant, Status, Swept};
+use std::sync::{Arc, OnceLock};
 
 /// Numbers that a piece of work holds, more or less: 2 MB.
 const NUMBERS: u64 = 1 << 18;
@@ -99,7 +100,8 @@ impl Checked {
         let count = results.len();
         let families = Families::of((self, variants), options.redundant, [columns, results], first);
         let (own, variants, options) = (self.clone(), variants.clone(), options.clone());
-        let sweeping = Arc::new(Sweeping { own, families, variants, options, results: count, until });
+        let abreast = OnceLock::new();
+        let sweeping = Arc::new(Sweeping { own, families, variants, options, results: count, until, first, abreast });
         let pieces = 0..(last - first).div_ceil(size);
 
         let work = move |piece: u64| {
@@ -135,6 +137,10 @@ struct Sweeping {
     results: usize,
     /// The number of the result that is 1 for the variant that is looked for.
     until: Option<usize>,
+    /// The number of the first variant.
+    first: u64,
+    /// What variants share that go side by side, once somebody has asked; nothing where they go alone.
+    abreast: OnceLock<Option<Abreast>>,
 }
 
 impl Sweeping {
@@ -149,7 +155,20 @@ impl Sweeping {
             columns,
         );
         let mut params = vec![0.0; points.params().len()];
-        for number in variants {
+        let mut abreast = self.abreast().map(|abreast| (abreast, Group::new(&abreast.together), [false; LANES]));
+        for number in variants.clone() {
+            if let Some((abreast, group, done)) = &mut abreast {
+                let lane = (number - variants.start) as usize % LANES;
+                if lane == 0 {
+                    let side_by_side = number..variants.end.min(number + LANES as u64);
+                    *done = self.follow_abreast(abreast, group, side_by_side);
+                }
+                if done[lane] && !self.options.cancel.is_cancelled() {
+                    points.values(number, &mut params);
+                    block.push_columns(&params, (0..columns).map(|place| group.column(place, lane)));
+                    continue;
+                }
+            }
             points.values(number, &mut params);
             let mut variant = self.variant(&params);
             if self.options.cancel.is_cancelled() {
@@ -162,6 +181,40 @@ impl Sweeping {
             }
         }
         Some((block, false))
+    }
+
+    /// What variants share that go side by side; nothing where they go alone.
+    fn abreast(&self) -> Option<&Abreast> {
+        let new = || {
+            let columns = self.options.columns.as_ref().filter(|_| self.results == 0)?;
+            let times = self.options.times.over(self.own.model()?.analysis.map(|of| [of.from, of.to, of.every]));
+            let times = times.and_then(|times| times.times()).ok()?;
+            Abreast::of(
+                &self.own,
+                (&self.variants, self.first),
+                &self.families,
+                (&times, columns),
+                &self.run_options(),
+            )
+        };
+        self.abreast.get_or_init(new).as_ref()
+    }
+
+    /// Follows some variants side by side; says which have all their rows.
+    fn follow_abreast(
+        &self,
+        abreast: &Abreast,
+        group: &mut Group<'_>,
+        variants: std::ops::Range<u64>,
+    ) -> [bool; LANES] {
+        let mut params = vec![0.0; self.variants.points().params().len()];
+        let values: Vec<Option<Vec<f64>>> = variants
+            .map(|number| {
+                self.variants.points().values(number, &mut params);
+                abreast.values(&params)
+            })
+            .collect();
+        group.follow(&values, &self.options.cancel)
     }
 
     /// A variant as `run --lead --set` has it.

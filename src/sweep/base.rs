@@ -84,6 +84,16 @@ impl Base {
         Ok(Base { whole, own, stands, on_its_way, begins, led, goes, options })
     }
 
+    /// Where it stands with its own values, and what it is there.
+    pub(super) fn stands(&self) -> (&Whole, &[f64]) {
+        (&self.whole, &self.own)
+    }
+
+    /// Whether the way to a variant leads all of some parameters, by their numbers.
+    pub(super) fn leads(&self, params: &[u32]) -> bool {
+        !self.goes && params.iter().all(|param| self.led.contains(param))
+    }
+
     /// A variant, by the values of all its parameters (SI).
     pub fn variant(&self, values: &[f64]) -> Arc<Determined> {
         Arc::new(self.whole.0.with_values(values))

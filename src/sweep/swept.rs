@@ -61,6 +61,8 @@ pub struct Swept {
     pub lengths: Vec<usize>,
     /// By wanted column, row after row (SI).
     pub columns: Vec<Vec<f64>>,
+    /// How many of them went side by side: which way a variant went changes no bit of it.
+    pub abreast: usize,
 }
 
 impl Swept {
@@ -69,6 +71,20 @@ impl Swept {
     pub fn new(first: u64, params: usize, results: usize, columns: usize) -> Swept {
         let of = |count| vec![Vec::new(); count];
         Swept { first, params: of(params), results: of(results), columns: of(columns), ..Swept::default() }
+    }
+
+    /// Adds the next variant, which has run with rows as some columns have them.
+    pub fn push_columns<'c>(&mut self, params: &[f64], columns: impl Iterator<Item = &'c [f64]>) {
+        self.statuses.push(Status::Ok);
+        self.stopped.push(f64::NAN);
+        self.params.iter_mut().zip(params).for_each(|(column, value)| column.push(*value));
+        let mut length = 0;
+        for (column, more) in self.columns.iter_mut().zip(columns) {
+            column.extend_from_slice(more);
+            length = more.len();
+        }
+        self.lengths.push(length);
+        self.abreast += 1;
     }
 
     /// Adds the next variant.
