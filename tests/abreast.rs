@@ -5,7 +5,7 @@
 
 mod support;
 
-use mechc::{Choice, Method, Status, SweepOptions, Vectors, VaryOptions};
+use mechc::{Choice, Method, Status, SweepOptions, VaryOptions, Vectors};
 use support::swept::{Subject, bits_of, compare_all, count, subject, vary};
 
 /// A four-bar that is turned once, or to and fro, by what is said of it.
@@ -67,7 +67,7 @@ fn plain_variants_go_side_by_side() {
 
 #[test]
 fn linkages_of_all_shapes_are_what_they_are_alone() {
-    let ranges = ["base=0.5..6", "arm=0.3..3", "rod=0.5..6", "lever=0.5..6", "speed=-2..2"];
+    let ranges = ["base=2..5", "arm=0.3..2", "rod=1.5..5", "lever=1.5..5", "speed=-2..2"];
     let mut all = 0;
     for every in ["0.15", "1.05"] {
         let subject = subject(&four_bar(TURNS, every), Choice::default());
@@ -131,6 +131,22 @@ fn at_the_end_of_their_reach_variants_are_assembled_as_alone() {
     }
 }
 
+/// Rows are known to be there without being followed once more; what is asked of the whole motion is as it is alone.
+#[test]
+fn results_beside_a_lane_are_those_alone() {
+    let results = ["top = max(height)", "when = argmax(height)", "mean_reach = mean(reach)", "late = at(height, 3)"];
+    let results = results.iter().map(|&result| result.to_owned()).collect();
+    let subject = subject(&four_bar(TURNS, "0.45"), Choice { results, ..Choice::default() });
+    let asked = sampled(&["rod=2..4", "lever=2..4", "pen_x=-1..2"], 24, Method::Sobol);
+    let (found, abreast) = compare(&subject, &asked);
+    assert!(abreast > 8 && abreast <= count(&found, Status::Ok), "{abreast} of {found:?}");
+    let alone = subject.swept(&subject.variants(&asked), &SweepOptions::default());
+    let beside = subject.swept(&subject.variants(&asked), &subject.all_columns());
+    assert_eq!((alone.abreast, &alone.statuses), (abreast, &beside.statuses));
+    let bits = |columns: &[Vec<f64>]| columns.iter().flatten().map(|x| x.to_bits()).collect::<Vec<_>>();
+    assert_eq!(bits(&alone.results), bits(&beside.results));
+}
+
 /// One that stops, or is not even a mechanism, beside others: they do not feel it.
 #[test]
 fn who_leaves_a_lane_leaves_the_others_alone() {
@@ -172,6 +188,48 @@ fn threads_vectors_and_columns_change_no_bit() {
             let known = &known[first..first + rows];
             assert!(column.iter().map(|x| x.to_bits()).eq(known.iter().map(|x| x.to_bits())), "from {skip} on");
         }
+    }
+}
+
+/// Of a zero the text's check decides other things than of other values; times may be a list that begins later than the motion; and a text
+/// may say nothing but values.
+#[test]
+fn zeros_and_times_of_their_own_are_as_alone() {
+    let text = four_bar(TURNS, "0.5").replace("param rise", "param P = (0.4, 0.3) param rise");
+    let text = text.replace("point pen = (pen_x, rise / 2)", "point pen = P + (pen_x, 0)");
+    let subject = subject(&text, Choice::default());
+    for asked in [["P.x=0,0.1,-0.2", "pen_x=0.5,0"], ["P.x=-0.1,0", "P.y=0,0.2"], ["speed=0,1,2", "rod=3.4,3.5"]] {
+        let (found, abreast) = compare(&subject, &vary(&asked));
+        assert!(
+            abreast >= 1 && abreast < found.iter().map(|(_, count)| count).sum(),
+            "{asked:?}: {abreast} of {found:?}"
+        );
+    }
+    let variants = subject.variants(&vary(&["rod=3.3..3.7:9"]));
+    let all = subject.swept(&variants, &subject.all_columns());
+    let times = mechc::AskedTimes { at: vec![1.5, 3.0], ..mechc::AskedTimes::default() };
+    let some = subject.swept(&variants, &SweepOptions { times, ..subject.all_columns() });
+    assert_eq!((some.abreast, &some.lengths), (9, &vec![2; 9]));
+    let rows = all.lengths[0];
+    for (some, all) in some.columns.iter().zip(&all.columns) {
+        let wanted = (0..9).flat_map(|k| [all[k * rows + 3], all[k * rows + 6]]);
+        assert!(some.iter().map(|x| x.to_bits()).eq(wanted.map(f64::to_bits)));
+    }
+}
+
+/// On the way to its params a mechanism may come over an edge, or to an end, that it does not meet at either of its ends.
+#[test]
+fn what_happens_on_the_way_is_seen_as_alone() {
+    for (from, to) in [
+        ("(arm, 0)", "(arm - mod(arm, 1) + mod(arm, 1), 0)"),
+        ("(arm, 0)", "(abs(arm - 1.2) + 0.8, 0)"),
+        ("(base, 0)", "(4 + sqrt((arm - 1.1) * (arm - 1.3) + 0.0001), 0)"),
+        ("(base, 0)", "(4 + arm * lever / 100, 0)"),
+    ] {
+        let text = four_bar(TURNS, "0.5").replace(from, to);
+        let (found, abreast) =
+            compare(&subject(&text, Choice::default()), &vary(&["arm=1,1.05,1.21,1.4,2.1", "lever=3,3.1"]));
+        assert_eq!(abreast, 0, "{to}: {found:?}");
     }
 }
 

@@ -4,9 +4,7 @@
 
 mod support;
 
-use mechc::{
-    Cancel, Choice, Memory, Method, Parsed, Redundant, RunOptions, Status, SweepOptions, VaryOptions,
-};
+use mechc::{Cancel, Choice, Memory, Method, Parsed, Redundant, RunOptions, Status, SweepOptions, VaryOptions};
 use support::swept::{bits, bits_of, compare, count, join, subject, vary};
 
 /// A four-bar, whose crank turns fully where it is shortest and shortest and longest together are no longer than the other two.

@@ -4,8 +4,8 @@ use super::formula::{Context, Dim, Value};
 use super::{Checker, errors};
 use crate::expr::{Dependence, ExprId, Symbol};
 use crate::model::{
-    Analysis, Condition, ConditionKind, DecidedBy, Declared, Dimension, Equation, EquationForm, Measure, Named, PointId,
-    Quantity, Trace, Units,
+    Analysis, Condition, ConditionKind, DecidedBy, Declared, Dimension, Equation, EquationForm, Measure, Named,
+    PointId, Quantity, Trace, Units,
 };
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name, WrittenUnit};

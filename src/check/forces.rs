@@ -52,9 +52,8 @@ impl<'a> Checker<'a> {
     fn not_negative(&mut self, frame: Frame, e: Option<&Expr>, keyword: &str, wanted: Dimension) -> Option<ExprId> {
         let Some(e) = e else { return Some(self.model.graph.constant(0.0)) };
         let place = format!("what stands behind `{keyword}`");
-        let (id, value) = self.at_site(Site::Inside(frame), None, |checker| {
-            checker.constant_by(e, &place, wanted, DecidedBy::Sign)
-        })?;
+        let (id, value) =
+            self.at_site(Site::Inside(frame), None, |checker| checker.constant_by(e, &place, wanted, DecidedBy::Sign))?;
         if value < 0.0 {
             self.report(errors::negative_mass(e.span, value, wanted));
             return None;

@@ -66,7 +66,8 @@ pub use tables::TableFiles;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::expr::{Dependence, ExprId, Graph, Symbol};
 use crate::model::{
-    Condition, DecidedBy, Declared, Dimension, EquationId, Frame, JointId, Mechanism, Named, NamedId, Param, PartId, PointId,
+    Condition, DecidedBy, Declared, Dimension, EquationId, Frame, JointId, Mechanism, Named, NamedId, Param, PartId,
+    PointId,
 };
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows, WrittenUnit};

@@ -109,7 +109,7 @@ impl<const W: usize> Lanes<W> {
             row[0] = t;
         }
         self.solve(solver, (program, scalars), OfTimes { solver, scalars, batch, rows });
-        from_fn(|k| self.multiplier[k] <= LARGEST_MULTIPLIER && self.is_settled(k))
+        from_fn(|k| !is_lost(self.farthest[k]) && self.multiplier[k] <= LARGEST_MULTIPLIER && self.residual[k] <= 1.0)
     }
 
     /// Solves in all lanes.
@@ -126,19 +126,22 @@ impl<const W: usize> Lanes<W> {
         );
     }
 
-    /// Whether Newton has settled in a lane, and every equation is met.
-    pub(super) fn is_settled(&self, lane: usize) -> bool {
-        !is_lost(self.farthest[lane]) && self.residual[lane] <= 1.0
+    /// Adds to each lane in which Newton has not settled, an equation is not met, a multiplier is above a part of the largest, or what was
+    /// stored is not finite.
+    #[inline(always)]
+    #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
+    pub(super) fn write_doubts(&self, part: f64, doubts: &mut [f64; W]) {
+        let largest = part * LARGEST_MULTIPLIER;
+        for k in 0..W {
+            let is_settled = self.farthest[k] <= LARGEST_CORRECTION && self.residual[k] <= 1.0;
+            let is_certain = self.multiplier[k] <= largest && self.finite[k] == 0.0;
+            doubts[k] += if is_settled & is_certain { 0.0 } else { 1.0 };
+        }
     }
 
-    /// The largest multiplier of a lane.
-    pub(super) fn multiplier(&self, lane: usize) -> f64 {
-        self.multiplier[lane]
-    }
-
-    /// How far a guess was from the solution: the largest first correction of a lane, scaled.
-    pub(super) fn first_correction_of(&self, lane: usize) -> f64 {
-        self.first_correction[lane]
+    /// How far the guess of each lane was from its solution, scaled.
+    pub(super) fn first_corrections(&self) -> &[f64; W] {
+        &self.first_correction
     }
 }
 

@@ -1,7 +1,7 @@
 //! Running a solver for several variants of a mechanism at once, each with parameters of its own, at one time.
 
 use super::lanes::{Around, Lanes};
-use super::{LARGEST_MULTIPLIER, Pivot, Solver};
+use super::{Pivot, Solver};
 use crate::math::{Vectors, max};
 use crate::program::{LaneValues, Program, Register, Registers};
 use crate::tolerances::solving::variants::CERTAIN_MULTIPLIER;
@@ -65,17 +65,18 @@ impl<const W: usize> Abreast<W> {
         self.lanes.solve(solver, of, OfVariants { guesses, pivots: &solver.pivots, out });
     }
 
-    /// Whether a lane holds beyond doubt: its Newton has settled, every equation is met, no pivot was too small, and all that was kept is finite.
-    #[must_use]
-    pub fn holds(&self, lane: usize) -> bool {
-        let certain = CERTAIN_MULTIPLIER * LARGEST_MULTIPLIER;
-        self.lanes.is_settled(lane) && self.lanes.multiplier(lane) <= certain && self.lanes.is_finite(lane)
+    /// Adds to each lane that does not hold beyond doubt: its Newton has settled, every equation is met, no pivot was too small, and all that
+    /// was kept is finite.
+    #[inline(always)]
+    #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
+    pub fn write_doubts(&self, doubts: &mut [f64; W]) {
+        self.lanes.write_doubts(CERTAIN_MULTIPLIER, doubts);
     }
 
-    /// How far the guess of a lane was from its solution, scaled.
+    /// How far the guess of each lane was from its solution, scaled.
     #[must_use]
-    pub fn first_correction(&self, lane: usize) -> f64 {
-        self.lanes.first_correction_of(lane)
+    pub fn first_corrections(&self) -> &[f64; W] {
+        self.lanes.first_corrections()
     }
 
     /// One over the smallest pivot of a lane, scaled.
@@ -92,8 +93,9 @@ impl<const W: usize> Abreast<W> {
 
     /// What is in a column that is kept.
     #[must_use]
-    pub fn column(&self, column: u32) -> &[f64; W] {
-        &self.out.kept[self.out.places[column as usize] as usize].0
+    #[inline]
+    pub fn column(&self, column: u32) -> &LaneValues<W> {
+        &self.out.kept[self.out.places[column as usize] as usize]
     }
 }
 

@@ -3,13 +3,14 @@
 
 mod base;
 mod group;
+mod judge;
 mod points;
 mod sobol;
 mod swept;
 mod together;
 
 pub use base::{Arrived, Base, Lost, Whole};
-pub use group::{Group, LANES};
+pub use group::{Each, Group, LANES};
 pub use points::{Levels, MOST_OF_SOBOL, Method, Points, Sampling, Varying, evenly, rounded};
 pub use swept::{OneVariant, Status, Swept};
 pub use together::Together;

@@ -73,18 +73,35 @@ impl Swept {
         Swept { first, params: of(params), results: of(results), columns: of(columns), ..Swept::default() }
     }
 
-    /// Adds the next variant, which has run with rows as some columns have them.
-    pub fn push_columns<'c>(&mut self, params: &[f64], columns: impl Iterator<Item = &'c [f64]>) {
-        self.statuses.push(Status::Ok);
-        self.stopped.push(f64::NAN);
-        self.params.iter_mut().zip(params).for_each(|(column, value)| column.push(*value));
-        let mut length = 0;
+    /// Adds the next variants, so many, which have run side by side, each with so many rows: what their params are, one variant behind the
+    /// other, and by column their rows.
+    pub fn push_abreast<'c>(
+        &mut self,
+        (count, rows): (usize, usize),
+        params: &[f64],
+        columns: impl Iterator<Item = &'c [f64]>,
+    ) {
+        self.statuses.resize(self.statuses.len() + count, Status::Ok);
+        self.stopped.resize(self.stopped.len() + count, f64::NAN);
+        self.lengths.resize(self.lengths.len() + count, if self.columns.is_empty() { 0 } else { rows });
+        let width = self.params.len();
+        for (k, column) in self.params.iter_mut().enumerate() {
+            column.extend(params.iter().skip(k).step_by(width));
+        }
         for (column, more) in self.columns.iter_mut().zip(columns) {
             column.extend_from_slice(more);
-            length = more.len();
         }
-        self.lengths.push(length);
-        self.abreast += 1;
+        self.abreast += count;
+    }
+
+    /// Adds the results of the variant that was added last.
+    pub fn push_results(&mut self, results: &[f64]) {
+        self.results.iter_mut().zip(results).for_each(|(column, value)| column.push(*value));
+    }
+
+    /// Makes room for so many variants, with so many rows each.
+    pub fn reserve(&mut self, variants: usize, rows: usize) {
+        self.columns.iter_mut().for_each(|column| column.reserve_exact(variants * rows));
     }
 
     /// Adds the next variant.

@@ -2,13 +2,14 @@
 //! position is near. What is not plain is left to the careful way, which knows all cases.
 
 use super::Base;
-use super::group::LANES;
+use super::group::{Each, LANES};
+use super::judge::Stand;
 use crate::analysis::{Started, Times};
 use crate::ir::CoordinateKind;
 use crate::math::Vectors;
 use crate::program::{LaneMachine, LaneValues, Op, Program, Register, Registers, Stage};
 use crate::solver::{Abreast, Guesses, Solver};
-use crate::tolerances::solving::variants::CERTAIN_RESIDUAL;
+use crate::tolerances::solving::variants::{BESIDE, CERTAIN_RESIDUAL};
 use std::sync::Arc;
 
 /// What variants share that go side by side.
@@ -20,7 +21,7 @@ pub struct Together {
     prologue: Vec<Op>,
     /// The mechanism's own values, and the parameters that may have others, by their numbers.
     pub(super) own: Vec<f64>,
-    pub(super) led: Vec<u32>,
+    led: Vec<u32>,
     /// For steps between output times, and for rows.
     pub(super) steps: Solver,
     pub(super) rows: Solver,
@@ -30,15 +31,15 @@ pub struct Together {
     pub(super) tears: Vec<usize>,
     /// By row of `Φ`: one over what may be left of it.
     pub(super) bounds: Vec<f64>,
-    /// Formulas of parameters that must be positive.
-    pub(super) conditions: Vec<Register>,
-    /// Where it stands with its own values, and by turn of the solver one over each determinant there.
-    pub(super) q: Vec<f64>,
-    pub(super) determinants: Vec<f64>,
+    /// Where it stands with its own values: the coordinates that steps are judged by, and by turn of the solver one over each determinant.
+    q: Vec<f64>,
+    determinants: Vec<f64>,
+    /// By parameter that may have other values: how each tear changes with it there.
+    slopes: Vec<Vec<f64>>,
     /// The nearness to a singular position, as far as one over the smallest pivot tells it.
     nearness: f64,
     /// That where it stands with its own values.
-    pub(super) own_nearness: f64,
+    own_nearness: f64,
     pub(super) times: Times,
     /// The columns of rows that are wanted.
     pub(super) wanted: Vec<u32>,
@@ -49,7 +50,8 @@ pub struct Together {
 pub(super) struct Tracked {
     /// Its columns in a row: value, velocity, acceleration.
     pub columns: [u32; 3],
-    pub scale: f64,
+    /// One over what a change of it is judged against.
+    pub per_scale: f64,
 }
 
 impl Together {
@@ -64,7 +66,7 @@ impl Together {
         vectors: Vectors,
     ) -> Option<Together> {
         let mut started = started.clone();
-        if times.is_empty() || !started.is_plain() || !base.leads(params) {
+        if times.is_empty() || !started.is_plain() || !base.leads_plainly(params) {
             return None;
         }
         let ((determined, program), own) = base.stands();
@@ -77,7 +79,7 @@ impl Together {
             .iter()
             .map(|&k| Tracked {
                 columns: [0, 1, 2].map(|order| layout.coordinate(k as u32, order)),
-                scale: system.coordinates()[k].scale,
+                per_scale: 1.0 / system.coordinates()[k].scale,
             })
             .collect();
         let wanted: Vec<u32> = columns.iter().map(|&column| column as u32).collect();
@@ -87,8 +89,7 @@ impl Together {
         let tears = rows.tears().iter().map(|&tear| judged.iter().position(|&k| k == tear as usize));
         let tears = tears.collect::<Option<Vec<usize>>>()?;
         let bounds = started.bounds().into_iter().map(|bound| 1.0 / (CERTAIN_RESIDUAL * bound)).collect();
-        let conditions = program.outputs.conditions.clone();
-        let loaded: Vec<Register> = steps.loads().chain(rows.loads()).chain(conditions.iter().copied()).collect();
+        let loaded: Vec<Register> = steps.loads().chain(rows.loads()).collect();
         let mut together = Together {
             prologue: prologue(program, &loaded),
             program: Arc::clone(program),
@@ -100,9 +101,9 @@ impl Together {
             tracked,
             tears,
             bounds,
-            conditions,
             q: judged.iter().map(|&k| started.q()[k]).collect(),
             determinants: Vec::new(),
+            slopes: Vec::new(),
             nearness: 1.0,
             own_nearness: 1.0,
             times: times.clone(),
@@ -113,25 +114,70 @@ impl Together {
         Some(together)
     }
 
-    /// Learns what the solver's pivots tell of nearness to a singular position, where it stands with its own values.
+    /// Learns what the solver's pivots tell of nearness to a singular position where it stands with its own values, and how it moves with
+    /// parameters there.
     fn look_at_own(&mut self, started: &mut Started) -> Option<()> {
-        let mut abreast = self.abreast(&self.steps);
-        let mut loaded = self.registers();
-        let own: Vec<LaneValues<LANES>> = self.own.iter().map(|&value| LaneValues([value; LANES])).collect();
-        self.load(&mut loaded, &own);
-        let tears: Vec<_> = self.tears.iter().map(|&tear| LaneValues([self.q[tear]; LANES])).collect();
-        let guesses = Guesses { t: self.times.from(), tears: &tears, loaded: &loaded, bounds: &self.bounds };
-        abreast.run(&self.steps, (&self.program, &self.scalars), &guesses);
+        let (mut abreast, mut loaded) = (self.abreast(&self.steps), self.registers());
+        let own: Vec<Each> = self.own.iter().map(|&value| LaneValues([value; LANES])).collect();
+        self.solve(&mut abreast, &mut loaded, &own)?;
         self.determinants = abreast.determinants().iter().map(|of| of.0[0]).collect();
         // pivots of rows of unit norm say little more than it is
         self.nearness = f64::min(1.0, started.conditioning() * abreast.steepest()[0].max(1.0));
         self.own_nearness = self.nearness(abreast.steepest()[0]);
-        abreast.holds(0).then_some(())
+        let place = |abreast: &Abreast<LANES>, tear: usize| abreast.column(self.tracked[tear].columns[0]).0[0];
+        let here: Vec<f64> = self.tears.iter().map(|&tear| place(&abreast, tear)).collect();
+        let mut slopes = Vec::with_capacity(self.led.len());
+        for &param in &self.led {
+            let (mut beside, own_value) = (own.clone(), self.own[param as usize]);
+            let value = if own_value == 0.0 { BESIDE } else { own_value * (1.0 + BESIDE) };
+            beside[param as usize].0 = [value; LANES];
+            let is_solved = self.solve(&mut abreast, &mut loaded, &beside).is_some();
+            let slope = |(&tear, here): (&usize, &f64)| (place(&abreast, tear) - here) / (value - own_value);
+            // only a guess is made of it
+            let known = |slope: f64| if is_solved && slope.is_finite() { slope } else { 0.0 };
+            slopes.push(self.tears.iter().zip(&here).map(slope).map(known).collect());
+        }
+        self.slopes = slopes;
+        Some(())
+    }
+
+    /// Solves beside where it stands with its own values, with others; nothing where that does not hold.
+    fn solve(&self, abreast: &mut Abreast<LANES>, loaded: &mut [Each], params: &[Each]) -> Option<()> {
+        self.load(loaded, params);
+        let tears: Vec<Each> = self.tears.iter().map(|&tear| LaneValues([self.q[tear]; LANES])).collect();
+        let guesses = Guesses { t: self.times.from(), tears: &tears, loaded, bounds: &self.bounds };
+        abreast.run(&self.steps, (&self.program, &self.scalars), &guesses);
+        let mut doubts = [0.0; LANES];
+        abreast.write_doubts(&mut doubts);
+        (doubts[0] == 0.0).then_some(())
+    }
+
+    /// Where all variants come from.
+    pub(super) fn stand(&self) -> Stand {
+        Stand::of(self.times.from(), &self.q, &self.determinants, self.own_nearness)
+    }
+
+    /// Where tears are, by how they change with parameters where it stands with its own values.
+    pub(super) fn write_first_guesses(&self, params: &[Each], guesses: &mut [Each]) {
+        for (place, (guess, &tear)) in guesses.iter_mut().zip(&self.tears).enumerate() {
+            guess.0 = [self.q[tear]; LANES];
+            for (&param, slopes) in self.led.iter().zip(&self.slopes) {
+                let (own, values) = (self.own[param as usize], &params[param as usize].0);
+                guess.0.iter_mut().zip(values).for_each(|(guess, value)| *guess += slopes[place] * (value - own));
+            }
+        }
     }
 
     /// How near to a singular position pivots are, of which one over the smallest is this.
+    #[inline]
     pub(super) fn nearness(&self, steepest: f64) -> f64 {
-        self.nearness / f64::max(steepest, 1.0)
+        self.nearness / if steepest > 1.0 { steepest } else { 1.0 }
+    }
+
+    /// How many rows each variant has.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.times.len() as usize
     }
 
     /// Registers for one of its solvers.
@@ -140,7 +186,7 @@ impl Together {
     }
 
     /// The program's registers, a lane for each variant.
-    pub(super) fn registers(&self) -> Vec<LaneValues<LANES>> {
+    pub(super) fn registers(&self) -> Vec<Each> {
         let mut registers = vec![LaneValues([0.0; LANES]); self.program.registers()];
         for &(register, value) in self.program.constants() {
             registers[register as usize].0 = [value; LANES];
@@ -149,7 +195,7 @@ impl Together {
     }
 
     /// Computes what depends on parameters alone.
-    pub(super) fn load(&self, registers: &mut [LaneValues<LANES>], params: &[LaneValues<LANES>]) {
+    pub(super) fn load(&self, registers: &mut [Each], params: &[Each]) {
         let first = self.program.inputs.params as usize;
         registers[first..first + params.len()].copy_from_slice(params);
         let mut machine = LaneMachine { v: registers, program: &self.program, scalars: &self.scalars };
