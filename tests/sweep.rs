@@ -4,10 +4,8 @@
 
 mod support;
 
-use mechc::{
-    Cancel, Checked, Choice, Code, Compiled, Memory, Method, Parsed, Redundant, RunOptions, Status, SweepOptions,
-    Swept, Variants, VaryOptions, World,
-};
+use mechc::{Cancel, Choice, Memory, Method, Parsed, Redundant, RunOptions, Status, SweepOptions, VaryOptions};
+use support::swept::{bits, bits_of, compare, count, join, subject, vary};
 
 /// A four-bar, whose crank turns fully where it is shortest and shortest and longest together are no longer than the other two.
 const FOUR_BAR: &str = "mechanism four_bar {
@@ -33,134 +31,6 @@ const FOUR_BAR: &str = "mechanism four_bar {
     result pause = ground_length / (rocker_length - 70 mm + 1 mm)
     analysis from 0 s to 1 / (speed / 60 rpm) * 1 s every 50 ms
 }";
-
-struct Subject {
-    parsed: Parsed,
-    choice: Choice,
-    checked: Checked,
-    compiled: Compiled,
-}
-
-fn subject(text: &str, choice: Choice) -> Subject {
-    let parsed = Parsed::of("text.mech", text);
-    let choice = Choice { lead: true, ..choice };
-    let checked = parsed.check(&choice, &Memory::default());
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    let compiled = compiled.unwrap_or_else(|| panic!("{:?} {said:?}", checked.diagnostics()));
-    Subject { parsed, choice, checked, compiled }
-}
-
-impl Subject {
-    fn variants(&self, vary: &VaryOptions) -> Variants {
-        self.variants_in(vary, &Memory::default()).unwrap_or_else(|said| panic!("{said}"))
-    }
-
-    fn variants_in(&self, vary: &VaryOptions, world: &dyn World) -> Result<Variants, String> {
-        let said = |(_, said): (_, mechc::Diagnostics)| {
-            said.iter().map(|said| said.message.clone()).collect::<Vec<_>>().join("; ")
-        };
-        self.checked.variants(vary, &self.choice, world).map_err(said)
-    }
-
-    /// All blocks of a sweep, as one.
-    fn swept(&self, variants: &Variants, options: &SweepOptions) -> Swept {
-        let mut blocks = self.checked.sweep(&self.compiled, variants, options, |block| block).expect("times are said");
-        let mut all = blocks.next().expect("a block");
-        for block in blocks {
-            assert_eq!(block.first, all.first + all.len() as u64, "blocks follow each other");
-            join(&mut all, block);
-        }
-        all
-    }
-
-    /// What `run --lead --set` makes of a variant: its status, its results, and the rows up to where it stops.
-    fn alone(&self, settings: Vec<String>) -> (Status, Vec<f64>, Vec<Vec<f64>>) {
-        let count = self.compiled.results().len();
-        let nothing = vec![f64::NAN; count];
-        let set = self.choice.set.iter().cloned().chain(settings).collect();
-        let checked = self.parsed.check(&Choice { set, ..self.choice.clone() }, &Memory::default());
-        let stopped = |said: &mechc::Diagnostics| {
-            let error = said.iter().find(|said| said.is_error() && said.code != Code::E0612);
-            Status::Stopped(error.expect("an error").code)
-        };
-        let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-        let Some(compiled) = compiled else {
-            let said = if checked.is_sound() { said } else { checked.diagnostics().clone() };
-            return (stopped(&said), nothing, Vec::new());
-        };
-        let (run, said) = compiled.run(&compiled.times().expect("an analysis"), &RunOptions::default());
-        let Some(mut run) = run else { return (stopped(&said), nothing, Vec::new()) };
-        let is_reassembled = said.iter().any(|said| said.code == Code::E0612);
-        let mut rows = Vec::new();
-        while let Some(row) = run.next_row() {
-            match row {
-                Ok(row) => rows.push(row.to_vec()),
-                Err(why) => return (Status::Stopped(why.code), nothing, rows),
-            }
-        }
-        let results =
-            run.results().unwrap_or_default().values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect();
-        (if is_reassembled { Status::Reassembled } else { Status::Ok }, results, rows)
-    }
-
-    fn all_columns(&self) -> SweepOptions {
-        SweepOptions { columns: Some((0..self.compiled.columns().len()).collect()), ..SweepOptions::default() }
-    }
-}
-
-fn join(all: &mut Swept, block: Swept) {
-    all.statuses.extend(block.statuses);
-    all.stopped.extend(block.stopped);
-    all.lengths.extend(block.lengths);
-    for (all, more) in
-        [(&mut all.params, block.params), (&mut all.results, block.results), (&mut all.columns, block.columns)]
-    {
-        all.iter_mut().zip(more).for_each(|(all, more)| all.extend(more));
-    }
-}
-
-/// The bits of numbers; what is no number is one.
-fn bits(numbers: &[f64]) -> Vec<u64> {
-    numbers.iter().map(|number| if number.is_nan() { u64::MAX } else { number.to_bits() }).collect()
-}
-
-fn bits_of(block: &Swept) -> (Vec<Status>, Vec<usize>, Vec<Vec<u64>>) {
-    let columns = block.params.iter().chain(&block.results).chain(&block.columns).chain([&block.stopped]);
-    (block.statuses.clone(), block.lengths.clone(), columns.map(|column| bits(column)).collect())
-}
-
-/// Compares each variant with what it is alone; gives how many of each status there are.
-fn compare(subject: &Subject, variants: &Variants) -> Vec<(Status, usize)> {
-    let block = subject.swept(variants, &subject.all_columns());
-    let (mut first_row, mut found) = (0, Vec::new());
-    for k in 0..block.len() {
-        let settings = variants.settings(k as u64);
-        let (status, results, rows) = subject.alone(settings.clone());
-        assert_eq!(block.statuses[k], status, "{settings:?}");
-        let swept: Vec<f64> = block.results.iter().map(|column| column[k]).collect();
-        assert_eq!(bits(&swept), bits(&results), "{settings:?}");
-        assert_eq!(block.lengths[k], rows.len(), "{settings:?}");
-        for (at, row) in rows.iter().enumerate() {
-            let swept: Vec<f64> = block.columns.iter().map(|column| column[first_row + at]).collect();
-            assert_eq!(bits(&swept), bits(row), "{settings:?}, row {at}");
-        }
-        first_row += rows.len();
-        match found.iter_mut().find(|(known, _)| *known == status) {
-            Some((_, count)) => *count += 1,
-            None => found.push((status, 1)),
-        }
-    }
-    assert!(block.columns.iter().all(|column| column.len() == first_row));
-    found
-}
-
-fn vary(params: &[&str]) -> VaryOptions {
-    VaryOptions { params: params.iter().map(|&param| param.to_owned()).collect(), ..VaryOptions::default() }
-}
-
-fn count(found: &[(Status, usize)], wanted: Status) -> usize {
-    found.iter().find(|(status, _)| *status == wanted).map_or(0, |(_, count)| *count)
-}
 
 #[test]
 fn each_variant_is_what_it_is_alone() {

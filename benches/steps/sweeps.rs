@@ -6,8 +6,10 @@ use mechc::{Checked, Choice, Compiled, Memory, Parsed, SweepOptions, VaryOptions
 use std::f64::consts::PI;
 use std::hint::black_box;
 
-/// Variants that are enough to time one.
-const VARIANTS: u32 = 400;
+/// Variants that are enough to time one, where each is followed alone; what they share is made once and included.
+const ALONE: u32 = 400;
+/// The same where they go side by side.
+const ABREAST: u32 = 20_000;
 
 /// The four-bar of the closed form, whose coupler and rocker may have other lengths.
 fn four_bar(times: u32, more: &str) -> String {
@@ -49,10 +51,10 @@ impl Subject {
     }
 
     /// ns a variant, of some columns; of results where none are wanted.
-    fn per_variant(&self, columns: Option<&[usize]>, jobs: usize) -> f64 {
+    fn per_variant(&self, columns: Option<&[usize]>, count: u32, jobs: usize) -> f64 {
         let vary = VaryOptions {
             params: vec!["rod=3.4..3.6".to_owned(), "arm=2.9..3.1".to_owned()],
-            sample: Some(u64::from(VARIANTS)),
+            sample: Some(u64::from(count)),
             ..VaryOptions::default()
         };
         let variants = self.checked.variants(&vary, &self.choice, &Memory::default());
@@ -60,10 +62,10 @@ impl Subject {
         let options =
             SweepOptions { columns: columns.map(<[usize]>::to_vec), jobs: Some(jobs), ..SweepOptions::default() };
         least(5, || {
-            per_step(VARIANTS, || {
+            per_step(count, || {
                 let blocks = self.checked.sweep(&self.compiled, &variants, &options, |block| block).expect("times");
                 let done: usize = blocks.map(|block| black_box(block).len()).sum();
-                assert_eq!(done, VARIANTS as usize);
+                assert_eq!(done, count as usize);
             })
         })
     }
@@ -73,19 +75,19 @@ pub fn sweeps(floor: f64) {
     println!("variants of the four-bar, one thread");
     let turn = Subject::new(360, "");
     let all: Vec<usize> = (1..turn.compiled.columns().len()).collect();
-    let one = turn.per_variant(Some(&all), 1);
+    let one = turn.per_variant(Some(&all), ABREAST, 1);
     let row = one / 360.0;
     println!("  (a) rows: 360 times, 27 numbers            {row:>9.0} ns a row {:>7.2} x", row / floor);
-    let two = Subject::new(200, "").per_variant(Some(&[4, 5]), 1);
+    let two = Subject::new(200, "").per_variant(Some(&[4, 5]), ABREAST, 1);
     println!("  (b) two columns of position, 200 times     {:>9.1} s for 1,000,000", two * 1e-3);
-    let result = Subject::new(360, "result farthest = max(x(coupler.C))").per_variant(None, 1);
+    let result = Subject::new(360, "result farthest = max(x(coupler.C))").per_variant(None, ALONE, 1);
     println!("  (c) the largest of a coordinate in a turn  {:>9.1} us a variant", result * 1e-3);
-    let three = Subject::new(3, "").per_variant(Some(&all), 1);
+    let three = Subject::new(3, "").per_variant(Some(&all), ABREAST, 1);
     println!("  (d) three times, leading over included     {:>9.1} us a variant", three * 1e-3);
     if std::thread::available_parallelism().is_ok_and(|cores| cores.get() > 1) {
         println!(
             "  (a) by two threads                         {:>9.2} times as fast",
-            one / turn.per_variant(Some(&all), 2)
+            one / turn.per_variant(Some(&all), ABREAST, 2)
         );
     }
     println!();

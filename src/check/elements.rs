@@ -4,8 +4,8 @@ use super::formula::{Context, Dim, Value};
 use super::{Checker, errors};
 use crate::expr::{Dependence, ExprId, Symbol};
 use crate::model::{
-    Analysis, Condition, ConditionKind, Declared, Dimension, Equation, EquationForm, Measure, Named, PointId, Quantity,
-    Trace, Units,
+    Analysis, Condition, ConditionKind, DecidedBy, Declared, Dimension, Equation, EquationForm, Measure, Named,
+    PointId, Quantity, Trace, Units,
 };
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name, WrittenUnit};
@@ -214,7 +214,7 @@ impl Checker<'_> {
         if let Some((p, q)) = self.as_distance(left, a.id)
             && !self.holds_quantity(right)
         {
-            let constant = self.constant_value(b.id);
+            let constant = self.decided(b.id, DecidedBy::Sign);
             if let Some(value) = constant.filter(|&value| value <= 0.0) {
                 self.report(errors::not_positive_length("a distance", right.span, value));
                 return None;

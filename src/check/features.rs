@@ -7,7 +7,7 @@ use super::names::Space;
 use super::sites::{Drawn, Site};
 use super::{Checker, errors};
 use crate::expr::ExprId;
-use crate::model::{Axis, AxisId, Body, CircleId, CurveId, Dimension, Frame, Point, PointId};
+use crate::model::{Axis, AxisId, Body, CircleId, CurveId, DecidedBy, Dimension, Frame, Point, PointId};
 use crate::source::Span;
 use crate::syntax::ast::{self, DrawnPose, Expr, ExprKind, FeatureKind, Item, ItemKind, Name};
 use crate::vocabulary::Keyword;
@@ -253,7 +253,7 @@ impl<'a> Checker<'a> {
     }
 
     fn not_zero(&mut self, direction: [ExprId; 2], span: Span) -> Option<[ExprId; 2]> {
-        let [x, y] = direction.map(|id| self.constant_value(id));
+        let [x, y] = direction.map(|id| self.decided(id, DecidedBy::Sign));
         if x? == 0.0 && y? == 0.0 {
             self.report(errors::zero_direction(span));
             return None;
@@ -300,7 +300,7 @@ impl<'a> Checker<'a> {
     /// A constant angle, with a warning where degrees were probably meant.
     pub(super) fn angle(&mut self, e: &Expr, place: &str) -> Option<ExprId> {
         self.warn_of_degrees_in(e);
-        let (id, _) = self.constant(e, place, Dimension::PURE)?;
+        let (id, _) = self.constant_by(e, place, Dimension::PURE, DecidedBy::Finite)?;
         Some(id)
     }
 

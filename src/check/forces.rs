@@ -9,7 +9,8 @@ use super::rates::Part;
 use super::sites::Site;
 use crate::expr::{ExprId, Symbol};
 use crate::model::{
-    BodyId, Declared, Dimension, EquationId, Force, Frame, JointId, Load, Mass, Named, Point, PointId, Quantity,
+    BodyId, DecidedBy, Declared, Dimension, EquationId, Force, Frame, JointId, Load, Mass, Named, Point, PointId,
+    Quantity,
 };
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprKind, Factor, FeatureKind, ItemKind, Name};
@@ -52,7 +53,8 @@ impl<'a> Checker<'a> {
     fn not_negative(&mut self, frame: Frame, e: Option<&Expr>, keyword: &str, wanted: Dimension) -> Option<ExprId> {
         let Some(e) = e else { return Some(self.model.graph.constant(0.0)) };
         let place = format!("what stands behind `{keyword}`");
-        let (id, value) = self.at_site(Site::Inside(frame), None, |checker| checker.constant(e, &place, wanted))?;
+        let (id, value) =
+            self.at_site(Site::Inside(frame), None, |checker| checker.constant_by(e, &place, wanted, DecidedBy::Sign))?;
         if value < 0.0 {
             self.report(errors::negative_mass(e.span, value, wanted));
             return None;

@@ -10,7 +10,7 @@ use super::kinds::{self, Wanted, coordinate};
 use super::meaning::{Alone, alone};
 use super::rates::Part;
 use crate::expr::{Comparison, Dependence, ExprId, Symbol};
-use crate::model::{Dimension, Named};
+use crate::model::{DecidedBy, Dimension, Named};
 use crate::source::Span;
 use crate::syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, ItemKind, Name, PathSegment, Sign};
 use crate::vocabulary::{Constant, QuantityWord, StandsFor, Unit, is_called};
@@ -252,7 +252,7 @@ impl Checker<'_> {
 
     /// Refuses a constant that is not finite, where it arises.
     pub(super) fn finite(&mut self, span: Span, value: Value) -> Option<Value> {
-        match self.constant_value(value.id) {
+        match self.decided(value.id, DecidedBy::Finite) {
             Some(number) if !number.is_finite() && !self.untaken => {
                 self.report(errors::not_finite(span, number));
                 None
@@ -713,18 +713,18 @@ impl Checker<'_> {
 
     /// A constant of a given dimension, judged on its own: its place in the graph and its value.
     pub(super) fn constant(&mut self, e: &Expr, place: &str, wanted: Dimension) -> Option<(ExprId, f64)> {
-        let judged = self.is_dimensional(e);
-        self.constant_in(e, place, wanted, judged)
+        self.constant_by(e, place, wanted, DecidedBy::Value)
     }
 
-    /// A constant of a given dimension, in a group that is judged or not.
-    pub(super) fn constant_in(
+    /// The same of one of whose value not all decides.
+    pub(super) fn constant_by(
         &mut self,
         e: &Expr,
         place: &str,
         wanted: Dimension,
-        judged: bool,
+        by: DecidedBy,
     ) -> Option<(ExprId, f64)> {
+        let judged = self.is_dimensional(e);
         let context = Context { judged, ..Context::constant(place) };
         let value = self.formula(e, &context)?;
         if !judged && wanted.is(Dimension::LENGTH) && self.refuses_angle(place, e) {
@@ -734,7 +734,7 @@ impl Checker<'_> {
         if wanted.is(Dimension::LENGTH) {
             self.remember_any_length(e, value.id, judged);
         }
-        let number = self.constant_value(value.id)?;
+        let number = self.decided(value.id, by)?;
         Some((value.id, number))
     }
 }

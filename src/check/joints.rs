@@ -2,7 +2,7 @@
 
 use super::{Checker, errors};
 use crate::expr::ExprId;
-use crate::model::{BodyId, CircleId, Dimension, Frame, Joint, JointId, JointKind, PointId, Side};
+use crate::model::{BodyId, CircleId, DecidedBy, Dimension, Frame, Joint, JointId, JointKind, PointId, Side};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use crate::vocabulary::JointWord;
@@ -109,7 +109,8 @@ impl Checker<'_> {
             }
             ("revolute_translational", [p, a, offset]) => {
                 let (p, a) = (self.point(p), self.axis(a));
-                let offset = self.constant(offset, "the offset from the axis", Dimension::LENGTH);
+                let place = "the offset from the axis";
+                let offset = self.constant_by(offset, place, Dimension::LENGTH, DecidedBy::Finite);
                 JointKind::RevoluteTranslational(p?, a?, offset?.0)
             }
             _ => return self.wrong_count(kind, span, arguments.len()),
@@ -157,7 +158,7 @@ impl Checker<'_> {
     }
 
     fn positive_length(&mut self, e: &Expr, what: &str) -> Option<ExprId> {
-        let (id, value) = self.constant(e, what, Dimension::LENGTH)?;
+        let (id, value) = self.constant_by(e, what, Dimension::LENGTH, DecidedBy::Sign)?;
         if value <= 0.0 {
             self.report(errors::not_positive_length(what, e.span, value));
             return None;
@@ -178,7 +179,7 @@ impl Checker<'_> {
             self.report(errors::side_without_phase(&name.text, e.span));
             return None;
         }
-        self.constant(e, "the phase", Dimension::LENGTH).map(|(id, _)| id)
+        self.constant_by(e, "the phase", Dimension::LENGTH, DecidedBy::Finite).map(|(id, _)| id)
     }
 
     fn side(&mut self, e: &Expr) -> Option<Side> {

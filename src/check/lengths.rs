@@ -38,7 +38,7 @@ impl<'a> Checker<'a> {
 
     /// Remembers a constant length with a unit.
     fn remember_length(&mut self, id: ExprId) {
-        if let Some(value) = self.constant_value(id).map(f64::abs).filter(|value| *value > 0.0) {
+        if let Some(value) = self.number_of(id).map(f64::abs).filter(|value| *value > 0.0) {
             let [least, most] = self.lengths.with_unit.unwrap_or([value; 2]);
             self.lengths.with_unit = Some([least.min(value), most.max(value)]);
         }
@@ -46,7 +46,7 @@ impl<'a> Checker<'a> {
 
     /// Remembers a length without one: a constant, or the constant terms of a sum.
     fn remember_plain_length(&mut self, e: &Expr, id: ExprId) {
-        if let Some(value) = self.constant_value(id).map(f64::abs) {
+        if let Some(value) = self.number_of(id).map(f64::abs) {
             let plain = self.root_of(e).unwrap_or(Plain { value, span: e.span, name: None, is_number: false });
             self.lengths.plain.extend(Some(plain).filter(|plain| plain.value > 0.0));
         } else if let ExprKind::Sum(first, rest) = &e.bare().kind {
@@ -73,7 +73,7 @@ impl<'a> Checker<'a> {
                 ExprKind::Name(name) => {
                     let Some(Entity::Param(k)) = self.entity(name) else { return found };
                     let (name, formula, is_in_the_text) = self.param_as_given(k);
-                    let value = self.params[k].and_then(|value| self.constant_value(value.id))?.abs();
+                    let value = self.params[k].and_then(|value| self.number_of(value.id))?.abs();
                     let is_number = is_in_the_text && found.is_none_or(|plain| plain.is_number);
                     found = Some(Plain { value, span: formula.span, name: Some(name), is_number });
                     e = formula;

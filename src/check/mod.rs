@@ -66,7 +66,8 @@ pub use tables::TableFiles;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::expr::{Dependence, ExprId, Graph, Symbol};
 use crate::model::{
-    Condition, Declared, Dimension, EquationId, Frame, JointId, Mechanism, Named, NamedId, Param, PartId, PointId,
+    Condition, DecidedBy, Declared, Dimension, EquationId, Frame, JointId, Mechanism, Named, NamedId, Param, PartId,
+    PointId,
 };
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows, WrittenUnit};
@@ -725,9 +726,10 @@ impl<'a> Checker<'a> {
         if self.follows(value.id) && !is_open {
             return Some(self.with_shift(&declared, value));
         }
-        let number = self.constant_value(value.id)?;
+        let number = self.number_of(value.id)?;
         // what decides how many declarations there are is not to be changed afterwards
         if self.deciding.contains(name) {
+            self.constant_value(value.id);
             return Some(Value { id: self.model.graph.constant(number), dim: value.dim });
         }
         let index = self.model.params.len() as u32;
@@ -756,7 +758,7 @@ impl<'a> Checker<'a> {
         let mut coordinate = |k: usize, axis: &str| {
             let declared = Declared { name: format!("{}{}.{axis}", self.path, name.text), span: name.span };
             // a zero has no sign here: in a direction it would count
-            let is_zero = self.constant_value(at[k]) == Some(0.0);
+            let is_zero = self.decided(at[k], DecidedBy::Sign) == Some(0.0);
             let id = if is_zero && !self.follows(at[k]) { self.model.graph.constant(0.0) } else { at[k] };
             self.settable(declared, &name.text, docs, Value { id, dim: Dim::LENGTH })
         };
@@ -877,8 +879,22 @@ impl<'a> Checker<'a> {
         self.model.graph.symbol(Symbol::Named(id.index() as u32))
     }
 
-    /// The value of a constant formula, under the params' values.
+    /// The value of a constant formula, under the params' values, by which something is decided.
     fn constant_value(&mut self, id: ExprId) -> Option<f64> {
+        self.decided(id, DecidedBy::Value)
+    }
+
+    /// The same, where only what it is decides, and not how large.
+    fn decided(&mut self, id: ExprId, by: DecidedBy) -> Option<f64> {
+        let value = self.number_of(id);
+        if value.is_some() {
+            self.model.decided.push((id, by));
+        }
+        value
+    }
+
+    /// The value of a constant formula by which nothing is decided.
+    fn number_of(&mut self, id: ExprId) -> Option<f64> {
         if !self.model.graph.dependence(id).is_constant() {
             return None;
         }

@@ -9,7 +9,7 @@ use super::named_points::Found;
 use super::sites::{Drawn, Place, Site};
 use super::{Checker, errors, mends};
 use crate::expr::{Binary, Comparison, ExprId, Graph, Node, Unary};
-use crate::model::{Dimension, Frame};
+use crate::model::{DecidedBy, Dimension, Frame};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Factor, Name, Sign};
 use crate::vocabulary::{Function, Keyword};
@@ -308,7 +308,7 @@ impl Checker<'_> {
 
     /// The angle of the way between two points, in (−π, π].
     pub(super) fn direction_of_way(&mut self, way: Place, what: &str, span: Span) -> Option<ExprId> {
-        let [dx, dy] = way.map(|id| self.constant_value(id));
+        let [dx, dy] = way.map(|id| self.decided(id, DecidedBy::Sign));
         if dx == Some(0.0) && dy == Some(0.0) && !self.untaken {
             self.report(errors::points_coincide(what, span));
             return None;

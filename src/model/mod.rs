@@ -150,6 +150,20 @@ pub struct Mechanism {
     pub conditions: Vec<Condition>,
     /// What `run` does unless told otherwise.
     pub analysis: Option<Analysis>,
+    /// Formulas of parameters by whose values something was decided when the text was checked: with other values of which nothing else
+    /// would be decided the mechanism is the same but for these.
+    pub decided: Vec<(ExprId, DecidedBy)>,
+}
+
+/// What of a formula's value decides something about the text.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum DecidedBy {
+    /// Whether it is a finite number.
+    Finite,
+    /// Whether it is negative, nothing, or positive.
+    Sign,
+    /// All of it.
+    Value,
 }
 
 impl Mechanism {
@@ -189,6 +203,7 @@ impl Mechanism {
             named_before_results: 0,
             conditions: Vec::new(),
             analysis: None,
+            decided: Vec::new(),
         }
     }
 

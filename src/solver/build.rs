@@ -26,7 +26,7 @@ pub(super) fn build(
     determined: &Determined,
     program: &Program,
     values: &impl Values,
-    purpose: Purpose,
+    (purpose, is_kept): (Purpose, &dyn Fn(u32) -> bool),
 ) -> Option<Solver> {
     let system = determined.system();
     let groups = Groups::new(determined);
@@ -41,14 +41,14 @@ pub(super) fn build(
         let solved: Vec<(&Block, Factors)> = blocks.map(|block| (block, builder.block(block))).collect();
         builder.forces(&solved);
         builder.outputs(&wanted[group]);
-        all.append(builder.finish(), purpose);
+        all.append(builder.finish(is_kept), purpose);
         if all.instructions.len() > MOST_OPERATIONS {
             return None;
         }
     }
     builder.terms.begin_across();
     builder.outputs(&wanted[across]);
-    all.append(builder.finish(), purpose);
+    all.append(builder.finish(is_kept), purpose);
     let Builder { weights, tears, pivots, turns, layout, .. } = builder;
     let Component { instructions, segments, registers } = all;
     Some(Solver { instructions, segments, registers, weights, tears, pivots, turns, layout })
@@ -60,7 +60,7 @@ impl Component {
         let from = self.instructions.len();
         let segments = other.segments.into_iter().map(|segment| segment.behind(from));
         match purpose {
-            Purpose::Lanes => {
+            Purpose::Lanes | Purpose::Variants => {
                 self.instructions.extend(other.instructions);
                 self.segments.extend(segments);
                 self.registers = self.registers.max(other.registers);
@@ -150,14 +150,19 @@ impl<'s, V: Values> Builder<'s, V> {
         }
     }
 
-    /// Ends a component.
-    fn finish(&mut self) -> Component {
+    /// Ends a component, of whose columns some are kept.
+    fn finish(&mut self, is_kept: &dyn Fn(u32) -> bool) -> Component {
         self.close_once();
         let tape = &mut self.terms.tape;
         let instructions = std::mem::take(&mut tape.instructions);
         let component =
             Component { instructions, segments: std::mem::take(&mut self.segments), registers: tape.registers() };
-        finish(component, self.purpose == Purpose::Lanes)
+        let is_needed = |instruction: &Instruction| match *instruction {
+            Instruction::Store { column, .. } => is_kept(column),
+            Instruction::Multiplier { .. } => self.purpose == Purpose::Variants,
+            _ => instruction.writes().is_empty(),
+        };
+        finish(component, is_needed, self.purpose != Purpose::Code)
     }
 
     /// Ends a run of instructions that are done once.
@@ -172,7 +177,7 @@ impl<'s, V: Values> Builder<'s, V> {
         for &column in &block.columns {
             self.store(0, column);
         }
-        if self.purpose == Purpose::Code {
+        if self.purpose != Purpose::Lanes {
             self.note_pivots(block, &factors);
         }
         self.rates(block, &factors);

@@ -6,10 +6,14 @@ use std::ops::Range;
 
 const NONE: u32 = u32::MAX;
 
-/// A component whose registers are each written once, in fewer instructions; its registers may be used several times if they are
-/// shared.
-pub(super) fn finish(mut component: Component, are_shared: bool) -> Component {
-    let is_needed = needed(&component);
+/// A component whose registers are each written once, in fewer instructions: those that are needed for themselves, and what leads to them. Its
+/// registers may be used several times if they are shared.
+pub(super) fn finish(
+    mut component: Component,
+    is_needed: impl Fn(&Instruction) -> bool,
+    are_shared: bool,
+) -> Component {
+    let is_needed = needed(&component, is_needed);
     let is_joined = join(&mut component, &is_needed);
     let keep: Vec<bool> = is_needed.iter().zip(&is_joined).map(|(needed, joined)| *needed && !joined).collect();
     let mut component = compact(component, &keep);
@@ -19,8 +23,8 @@ pub(super) fn finish(mut component: Component, are_shared: bool) -> Component {
     component
 }
 
-/// Which instructions lead to a result.
-fn needed(component: &Component) -> Vec<bool> {
+/// Which instructions are needed for themselves, or lead to some that are.
+fn needed(component: &Component, is_result: impl Fn(&Instruction) -> bool) -> Vec<bool> {
     let mut is_read = vec![false; component.registers];
     for tear in component.segments.iter().flat_map(Segment::tears) {
         (is_read[tear.x as usize], is_read[tear.delta as usize]) = (true, true);
@@ -29,7 +33,7 @@ fn needed(component: &Component) -> Vec<bool> {
     // what a loop reads of itself it has written before, in the same iteration
     for (at, instruction) in component.instructions.iter().enumerate().rev() {
         let writes = instruction.writes();
-        is_needed[at] = writes.is_empty() || writes.iter().any(|&register| is_read[register as usize]);
+        is_needed[at] = is_result(instruction) || writes.iter().any(|&register| is_read[register as usize]);
         if is_needed[at] {
             for register in instruction.reads() {
                 is_read[register as usize] = true;

@@ -1,10 +1,11 @@
-//! Running a solver at several times at once. Allocates nothing but the registers, once.
+//! Running a solver in several lanes at once: at several times of one mechanism, or for several variants of it (`variants.rs`). Allocates
+//! nothing but the registers, once.
 
 use super::curve::Bend;
 use super::{Instruction, LARGEST_MULTIPLIER, Solver, Tear, from_bits};
 use crate::math::grid::{bound_at_first, going_on, next_point, on_grid};
 use crate::math::{self, Vectors};
-use crate::program::{LaneMachine, LaneValues, Machine, Op, Program, Registers};
+use crate::program::{LaneMachine, LaneValues, Machine, Op, Program, Register, Registers};
 use crate::tolerances::solving::lanes::{BORDER, ITERATIONS, LARGEST_CORRECTION};
 use std::array::from_fn;
 use std::ops::Range;
@@ -25,6 +26,24 @@ pub struct Lanes<const W: usize> {
     first_correction: [f64; W],
     /// By lane: 0 if all that was stored is finite, else not a number.
     finite: [f64; W],
+}
+
+/// What a run reads beside its registers, and where it leaves its results.
+pub(super) trait Around<const W: usize> {
+    /// The value of one of the program's registers.
+    fn loaded(&self, from: Register) -> [f64; W];
+    /// The times (s).
+    fn times(&self) -> [f64; W];
+    /// Where Newton begins with a tear.
+    fn guess(&self, tear: u32) -> [f64; W];
+    /// What has been left in a column.
+    fn stored(&self, column: u32) -> [f64; W];
+    /// Leaves a result in a column.
+    fn store(&mut self, column: u32, values: &[f64; W]);
+    /// One over what may be left of a row of `Φ`.
+    fn bound(&self, row: u32) -> f64;
+    /// Takes note of one over a pivot.
+    fn note(&mut self, pivot: u32, inverse: &[f64; W]);
 }
 
 /// Times to solve at, and what is known there.
@@ -86,34 +105,110 @@ impl<const W: usize> Lanes<W> {
         batch: &Batch<'_, W>,
         rows: &mut [f64],
     ) -> [bool; W] {
-        (self.multiplier, self.residual, self.farthest) = ([0.0; W], [0.0; W], [0.0; W]);
-        (self.first_correction, self.finite) = ([0.0; W], [0.0; W]);
         for (row, t) in rows.chunks_exact_mut(solver.layout.stride).zip(batch.times) {
             row[0] = t;
         }
+        self.solve(solver, (program, scalars), OfTimes { solver, scalars, batch, rows });
+        from_fn(|k| !is_lost(self.farthest[k]) && self.multiplier[k] <= LARGEST_MULTIPLIER && self.residual[k] <= 1.0)
+    }
+
+    /// Solves in all lanes.
+    pub(super) fn solve(&mut self, solver: &Solver, of: (&Program, &Registers), around: impl Around<W>) {
+        (self.multiplier, self.residual, self.farthest) = ([0.0; W], [0.0; W], [0.0; W]);
+        (self.first_correction, self.finite) = ([0.0; W], [0.0; W]);
         // one lane has nothing to do at once
         let vectors = if W == 1 { Vectors::BASE } else { self.vectors };
-        let mut run = Run { lanes: self, solver, program, scalars, batch, rows };
+        let (program, scalars) = of;
+        let mut run = Run { lanes: self, solver, program, scalars, around };
         vectors.run(
             #[inline(always)]
             || run.segments(),
         );
-        from_fn(|k| !is_lost(self.farthest[k]) && self.multiplier[k] <= LARGEST_MULTIPLIER && self.residual[k] <= 1.0)
+    }
+
+    /// Adds to each lane in which Newton has not settled, an equation is not met, a multiplier is above a part of the largest, or what was
+    /// stored is not finite.
+    #[inline(always)]
+    #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
+    pub(super) fn write_doubts(&self, part: f64, doubts: &mut [f64; W]) {
+        let largest = part * LARGEST_MULTIPLIER;
+        for k in 0..W {
+            let is_settled = self.farthest[k] <= LARGEST_CORRECTION && self.residual[k] <= 1.0;
+            let is_certain = self.multiplier[k] <= largest && self.finite[k] == 0.0;
+            doubts[k] += if is_settled & is_certain { 0.0 } else { 1.0 };
+        }
+    }
+
+    /// How far the guess of each lane was from its solution, scaled.
+    pub(super) fn first_corrections(&self) -> &[f64; W] {
+        &self.first_correction
     }
 }
 
-struct Run<'r, const W: usize> {
-    lanes: &'r mut Lanes<W>,
+/// Several times of one mechanism, and a row for each.
+struct OfTimes<'r, const W: usize> {
     solver: &'r Solver,
-    program: &'r Program,
     scalars: &'r Registers,
     batch: &'r Batch<'r, W>,
     rows: &'r mut [f64],
 }
 
-// All of it becomes part of `Lanes::run`, once for each kind of vector instructions.
+#[allow(clippy::inline_always)] // as all that `Lanes::solve` does
+impl<const W: usize> Around<W> for OfTimes<'_, W> {
+    #[inline(always)]
+    fn loaded(&self, from: Register) -> [f64; W] {
+        [self.scalars.get(from); W]
+    }
+
+    #[inline(always)]
+    fn times(&self) -> [f64; W] {
+        self.batch.times
+    }
+
+    #[inline(always)]
+    fn guess(&self, tear: u32) -> [f64; W] {
+        self.batch.on_curve(self.solver, tear)
+    }
+
+    #[inline(always)]
+    fn stored(&self, column: u32) -> [f64; W] {
+        let (mut at, stride, mut values) = (column as usize, self.solver.layout.stride, [0.0; W]);
+        for value in &mut values {
+            *value = self.rows[at];
+            at += stride;
+        }
+        values
+    }
+
+    #[inline(always)]
+    fn store(&mut self, column: u32, values: &[f64; W]) {
+        let (mut at, stride) = (column as usize, self.solver.layout.stride);
+        for value in values {
+            self.rows[at] = *value;
+            at += stride;
+        }
+    }
+
+    #[inline(always)]
+    fn bound(&self, row: u32) -> f64 {
+        self.batch.bounds[row as usize]
+    }
+
+    #[inline(always)]
+    fn note(&mut self, _: u32, _: &[f64; W]) {}
+}
+
+struct Run<'r, A, const W: usize> {
+    lanes: &'r mut Lanes<W>,
+    solver: &'r Solver,
+    program: &'r Program,
+    scalars: &'r Registers,
+    around: A,
+}
+
+// All of it becomes part of `Lanes::solve`, once for each kind of vector instructions.
 #[allow(clippy::inline_always)]
-impl<const W: usize> Run<'_, W> {
+impl<A: Around<W>, const W: usize> Run<'_, A, W> {
     #[inline(always)]
     fn segments(&mut self) {
         for segment in &self.solver.segments {
@@ -197,7 +292,7 @@ impl<const W: usize> Run<'_, W> {
     #[inline(always)]
     fn instructions(&mut self, range: Range<usize>) {
         let Lanes { values, multiplier, residual, finite, .. } = &mut *self.lanes;
-        let (batch, stride) = (self.batch, self.solver.layout.stride);
+        let around = &mut self.around;
         let mut machine = LaneMachine { v: values.as_mut_slice(), program: self.program, scalars: self.scalars };
         for instruction in &self.solver.instructions[range] {
             // most are operations: one choice of many, and not two
@@ -206,36 +301,27 @@ impl<const W: usize> Run<'_, W> {
                 continue;
             }
             match *instruction {
-                Instruction::Compute(_) | Instruction::Pivot { .. } => {}
+                Instruction::Compute(_) => {}
+                Instruction::Pivot { a, pivot } => around.note(pivot, &machine.v[a as usize].0),
                 Instruction::Number { to, bits } => machine.write(to, [from_bits(bits); W]),
-                Instruction::Load { to, from } => machine.write(to, [self.scalars.get(from); W]),
-                Instruction::Time { to } => machine.write(to, batch.times),
-                Instruction::Column { to, column } => {
-                    let mut at = column as usize;
-                    for value in &mut machine.v[to as usize].0 {
-                        *value = self.rows[at];
-                        at += stride;
-                    }
-                }
+                Instruction::Load { to, from } => machine.write(to, around.loaded(from)),
+                Instruction::Time { to } => machine.write(to, around.times()),
+                Instruction::Column { to, column } => machine.write(to, around.stored(column)),
                 Instruction::Store { column, a } => {
                     // −0 would surprise a reader; lanes together first, then one by one to their rows
                     let values = machine.v[a as usize].0.map(|value| value + 0.0);
                     for (finite, value) in finite.iter_mut().zip(values) {
                         *finite += 0.0 * value;
                     }
-                    let mut at = column as usize;
-                    for value in values {
-                        self.rows[at] = value;
-                        at += stride;
-                    }
+                    around.store(column, &values);
                 }
-                Instruction::Curve { to, tear } => machine.write(to, batch.on_curve(self.solver, tear)),
+                Instruction::Curve { to, tear } => machine.write(to, around.guess(tear)),
                 Instruction::Multiplier { to, a, b, weight } => {
                     Op::Mul { to, a, b }.run(&mut machine);
                     keep_largest(multiplier, &machine.v[to as usize].0, self.solver.weights[weight as usize]);
                 }
                 Instruction::Residual { a, row } => {
-                    keep_largest(residual, &machine.v[a as usize].0, batch.bounds[row as usize]);
+                    keep_largest(residual, &machine.v[a as usize].0, around.bound(row));
                 }
             }
         }
@@ -245,7 +331,7 @@ impl<const W: usize> Run<'_, W> {
 impl<const W: usize> Batch<'_, W> {
     /// Where Newton begins with a tear: on the curve of the step.
     #[inline(always)]
-    #[allow(clippy::inline_always)] // as all that `Lanes::run` does
+    #[allow(clippy::inline_always)] // as all that `Lanes::solve` does
     fn on_curve(&self, solver: &Solver, tear: u32) -> [f64; W] {
         let curve = &self.curve[solver.tears[tear as usize] as usize];
         let bend = self.bends.get(tear as usize).unwrap_or(&Bend::NONE);
@@ -256,14 +342,14 @@ impl<const W: usize> Batch<'_, W> {
 
 /// Whether an iteration has gone astray whose largest correction, scaled, is this.
 #[inline(always)]
-#[allow(clippy::inline_always)] // as all that `Lanes::run` does
+#[allow(clippy::inline_always)] // as all that `Lanes::solve` does
 fn is_lost(farthest: f64) -> bool {
     farthest.is_nan() || farthest > LARGEST_CORRECTION
 }
 
 /// Keeps the larger of what is known and `|value| factor`; what is not a number stays.
 #[inline(always)]
-#[allow(clippy::inline_always)] // as all that `Lanes::run` does
+#[allow(clippy::inline_always)] // as all that `Lanes::solve` does
 fn keep_largest<const W: usize>(largest: &mut [f64; W], values: &[f64; W], factor: f64) {
     for (largest, value) in largest.iter_mut().zip(values) {
         *largest = math::max(*largest, value.abs() * factor);

@@ -31,6 +31,7 @@ mod rates;
 mod tape;
 mod tear;
 mod terms;
+mod variants;
 
 use crate::tolerances::solving::solver::{LARGEST_MULTIPLIER, MOST_OPERATIONS};
 pub use curve::Bend;
@@ -38,6 +39,7 @@ pub use instruction::{Instruction, from_bits};
 pub use lanes::{Batch, Lanes};
 pub use order::{BlockEntry, Order};
 pub use pivoting::{BlockTables, Equations, Pivoting};
+pub use variants::{Abreast, Guesses};
 
 use crate::layout::RowLayout;
 use crate::program::{Program, Register};
@@ -164,6 +166,8 @@ pub struct Tear {
 enum Purpose {
     /// To be run here: registers are used again and again.
     Lanes,
+    /// The same for variants in the lanes: with notes of the pivots, and every multiplier watched.
+    Variants,
     /// To be written as code: with notes of the pivots, which tell branches apart, and a register of its own for every value.
     Code,
 }
@@ -180,14 +184,34 @@ impl Solver {
     /// Lays the solution of a system out; none where that takes too many operations.
     #[must_use]
     pub fn new(determined: &Determined, program: &Program, values: &impl Values) -> Option<Solver> {
-        build::build(determined, program, values, Purpose::Lanes)
+        build::build(determined, program, values, (Purpose::Lanes, &|_| true))
     }
 
     /// As [`Solver::new`] to be written as code: with notes of the pivots, which tell branches apart, and with a register of its own
     /// for every value.
     #[must_use]
     pub fn for_code(determined: &Determined, program: &Program, values: &impl Values) -> Option<Solver> {
-        build::build(determined, program, values, Purpose::Code)
+        build::build(determined, program, values, (Purpose::Code, &|_| true))
+    }
+
+    /// The same operations as those of [`Solver::new`], with notes of the pivots, for variants of a mechanism side by side; only what leads to
+    /// some columns.
+    #[must_use]
+    pub fn for_variants(
+        determined: &Determined,
+        program: &Program,
+        values: &impl Values,
+        is_wanted: &dyn Fn(u32) -> bool,
+    ) -> Option<Solver> {
+        let whole = build::build(determined, program, values, (Purpose::Variants, &|_| true))?;
+        // what joins components is read where it was left
+        let read = |instruction: &Instruction| match *instruction {
+            Instruction::Column { column, .. } => Some(column),
+            _ => None,
+        };
+        let joining: Vec<u32> = whole.instructions.iter().filter_map(read).collect();
+        let is_kept = |column: u32| is_wanted(column) || joining.contains(&column);
+        build::build(determined, program, values, (Purpose::Variants, &is_kept))
     }
 
     /// What there is to run, in order.
@@ -230,6 +254,25 @@ impl Solver {
     #[must_use]
     pub fn instructions(&self) -> &[Instruction] {
         &self.instructions
+    }
+
+    /// The program's registers that they load.
+    pub fn loads(&self) -> impl Iterator<Item = Register> {
+        self.instructions.iter().filter_map(|instruction| match *instruction {
+            Instruction::Load { from, .. } => Some(from),
+            _ => None,
+        })
+    }
+
+    /// Which columns they leave something in.
+    pub fn keeps(&self) -> impl Fn(u32) -> bool + use<> {
+        let mut is_kept = vec![false; self.layout.stride];
+        for instruction in &self.instructions {
+            if let Instruction::Store { column, .. } = *instruction {
+                is_kept[column as usize] = true;
+            }
+        }
+        move |column| is_kept[column as usize]
     }
 
     /// How many registers they need.

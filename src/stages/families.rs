@@ -56,6 +56,11 @@ impl Families {
         Families { counts, redundant, told, only, known: Mutex::default() }
     }
 
+    /// The only one, where nothing decides.
+    pub fn only(&self) -> Option<&Family> {
+        self.counts.is_empty().then_some(&*self.only)
+    }
+
     /// The family of a variant, by the values of its params.
     pub fn that_of(&self, params: &[f64], own: &Checked, variants: &Variants) -> Arc<Family> {
         if self.counts.is_empty() {

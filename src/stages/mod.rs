@@ -6,6 +6,7 @@
 //!
 //! None stops the ones after it from speaking of what is whole. What is to be said of a stage is on it, or comes beside it.
 
+mod abreast;
 mod adjustable;
 mod again;
 mod angles;

@@ -11,7 +11,7 @@ use crate::ir::ConstraintSystem;
 use crate::lower::Clock;
 use crate::model::{self, Mechanism};
 use crate::program::Program;
-use crate::sweep::{Arrived, Base, Lost, Whole};
+use crate::sweep::{Arrived, Base, Lost, Together, Whole};
 use std::sync::{Arc, OnceLock};
 
 /// Where a mechanism begins that was led there, or why it cannot; nothing where no way leads there. With what is to be said of the way.
@@ -65,6 +65,13 @@ impl FromOwn {
     pub fn lead_values(&self, values: &[f64], times: &Times, options: &RunOptions) -> Reached {
         let lead = |over: Arc<Over>| over.lead_values(values, times, &options.cancel);
         self.over(options).map_or(Reached::Nowhere, lead)
+    }
+
+    /// What variants share that go side by side, which differ in some of its params, by their numbers; nothing where they had better go alone.
+    pub fn together(&self, params: &[u32], wanted: (&Times, &[usize]), options: &RunOptions) -> Option<Together> {
+        let over = self.over(options)?;
+        let base = over.base(&over.values, wanted.0.from(), &options.cancel)?;
+        Together::of(base, &over.own.started, params, wanted, options.vectors)
     }
 
     fn over(&self, options: &RunOptions) -> Option<Arc<Over>> {

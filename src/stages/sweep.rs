@@ -1,5 +1,6 @@
 //! Many variants of one mechanism, each led over to its params along the branch.
 
+use super::abreast::Abreast;
 use super::checked::UNTIL;
 use super::families::{Families, Places};
 use super::over::Reached;
@@ -8,8 +9,8 @@ use crate::analysis::{Asked, Started, Times};
 use crate::cancel::Cancel;
 use crate::crew::{Crew, usual_jobs};
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::sweep::{OneVariant, Status, Swept};
-use std::sync::Arc;
+use crate::sweep::{Group, LANES, OneVariant, Status, Swept};
+use std::sync::{Arc, OnceLock};
 
 /// Numbers that a piece of work holds, more or less: 2 MB.
 const NUMBERS: u64 = 1 << 18;
@@ -99,7 +100,8 @@ impl Checked {
         let count = results.len();
         let families = Families::of((self, variants), options.redundant, [columns, results], first);
         let (own, variants, options) = (self.clone(), variants.clone(), options.clone());
-        let sweeping = Arc::new(Sweeping { own, families, variants, options, results: count, until });
+        let abreast = OnceLock::new();
+        let sweeping = Arc::new(Sweeping { own, families, variants, options, results: count, until, first, abreast });
         let pieces = 0..(last - first).div_ceil(size);
 
         let work = move |piece: u64| {
@@ -135,33 +137,128 @@ struct Sweeping {
     results: usize,
     /// The number of the result that is 1 for the variant that is looked for.
     until: Option<usize>,
+    /// The number of the first variant.
+    first: u64,
+    /// What variants share that go side by side, once somebody has asked; nothing where they go alone.
+    abreast: OnceLock<Option<Abreast>>,
 }
 
 impl Sweeping {
     /// Some variants, up to the one that is looked for, and whether it is among them; nothing when it was cancelled.
     fn block(&self, variants: std::ops::Range<u64>) -> Option<(Swept, bool)> {
-        let columns = self.options.columns.as_ref().map_or(0, Vec::len);
-        let points = self.variants.points();
-        let mut block = Swept::new(
-            variants.start,
-            points.params().len(),
-            self.results - usize::from(self.until.is_some()),
-            columns,
-        );
-        let mut params = vec![0.0; points.params().len()];
-        for number in variants {
-            points.values(number, &mut params);
-            let mut variant = self.variant(&params);
+        let (columns, width) = (self.options.columns.as_ref().map_or(0, Vec::len), self.width());
+        let results = self.results - usize::from(self.until.is_some());
+        let mut block = Swept::new(variants.start, self.variants.points().params().len(), results, columns);
+        let abreast = self.abreast();
+        let mut side = abreast.map(Abreast::side);
+        block.reserve((variants.end - variants.start) as usize, abreast.map_or(0, Abreast::rows));
+        let mut params = vec![0.0; width * LANES];
+        let mut found = Some(false);
+        for first in variants.clone().step_by(LANES) {
+            let count = (variants.end - first).min(LANES as u64) as usize;
+            for (number, params) in (first..).zip(params.chunks_exact_mut(width)).take(count) {
+                self.variants.points().values(number, params);
+            }
+            let (params, side) = (&params[..count * width], side.as_mut());
+            let done = abreast.zip(side).map(|(abreast, side)| {
+                let done = abreast.follow(side, params, &self.options.cancel);
+                (&side.group, done)
+            });
+            found = self.push_all(&mut block, params, done);
+            if found != Some(false) {
+                break;
+            }
+        }
+        if let (Some(abreast), Some(side)) = (abreast, side) {
+            abreast.give_back(side);
+        }
+        found.map(|found| (block, found))
+    }
+
+    /// How many values a variant has, one at least.
+    fn width(&self) -> usize {
+        self.variants.points().params().len().max(1)
+    }
+
+    /// Adds variants, some of which went side by side, by their params; says whether the one that is looked for is among them, up to which they
+    /// are added; nothing when it was cancelled.
+    fn push_all(&self, block: &mut Swept, params: &[f64], done: Option<(&Group, [bool; LANES])>) -> Option<bool> {
+        let width = self.width();
+        let (count, mut lane) = (params.len() / width, 0);
+        while lane < count {
             if self.options.cancel.is_cancelled() {
                 return None;
             }
-            let found = self.until.map(|until| variant.results.remove(until));
-            block.push(&params, &variant);
-            if found == Some(1.0) {
-                return Some((block, true));
+            let of = |lanes: std::ops::Range<usize>| &params[lanes.start * width..lanes.end * width];
+            if let Some((group, done)) = done.filter(|(_, done)| self.results == 0 && done[lane]) {
+                let end = (lane..count).find(|&lane| !done[lane]).unwrap_or(count);
+                let columns = (0..).map(|place| group.column(place, lane..end));
+                block.push_abreast((end - lane, group.rows()), of(lane..end), columns);
+                lane = end;
+                continue;
             }
+            let alone = lane..lane + 1;
+            // what has all its rows wants its results alone
+            let beside = done.filter(|(_, done)| done[lane]);
+            let beside = beside.and_then(|(group, _)| Some((group, self.results_of(of(alone.clone()))?)));
+            let found = if let Some((group, mut results)) = beside {
+                let found = self.until.map(|until| results.remove(until));
+                let columns = (0..).map(|place| group.column(place, alone.clone()));
+                block.push_abreast((1, group.rows()), of(alone.clone()), columns);
+                block.push_results(&results);
+                found
+            } else {
+                let mut variant = self.variant(of(alone.clone()));
+                let found = self.until.map(|until| variant.results.remove(until));
+                block.push(of(alone), &variant);
+                found
+            };
+            // who cancelled wants no more, and of this one not all may be there
+            if self.options.cancel.is_cancelled() {
+                return None;
+            }
+            if found == Some(1.0) {
+                return Some(true);
+            }
+            lane += 1;
         }
-        Some((block, false))
+        Some(false)
+    }
+
+    /// The results of a variant which is known to have all its rows; nothing where they cannot be had without these.
+    fn results_of(&self, params: &[f64]) -> Option<Vec<f64>> {
+        let options = self.run_options();
+        let family = self.families.that_of(params, &self.own, &self.variants);
+        let (model, _) = self.own.model_led_to(self.variants.read_settings(params), self.variants.sources());
+        let model = model?;
+        let times = self.options.times.over(model.analysis.map(|of| [of.from, of.to, of.every])).ok()?.times().ok()?;
+        let values: Vec<f64> = model.params.iter().map(|param| param.value).collect();
+        let Reached::There(Ok(mut started)) = family.from_own.lead_values(&values, &times, &options) else {
+            return None;
+        };
+        let asked = self.asked(&mut started, &times, &options);
+        let mut results = vec![f64::NAN; self.results];
+        write_results(&asked.and_then(Asked::answer).unwrap_or_default().values, &family.places, &mut results);
+        Some(results)
+    }
+
+    /// What results are computed from, where there are any.
+    fn asked(&self, started: &mut Started, times: &Times, options: &RunOptions) -> Option<Asked> {
+        // what a run tells of its start looks at the same factors
+        let _ = started.conditioning();
+        started.use_vectors(options.vectors);
+        let interval = times.interval().filter(|_| self.results > 0);
+        interval.map(|interval| started.asked(interval, options.pass_bifurcations, &options.cancel))
+    }
+
+    /// What variants share that go side by side; nothing where they go alone.
+    fn abreast(&self) -> Option<&Abreast> {
+        let new = || {
+            let columns = self.options.columns.as_deref().unwrap_or_default();
+            let (variants, wanted) = ((&self.variants, self.first), (&self.options.times, columns));
+            Abreast::of(&self.own, variants, &self.families, wanted, &self.run_options())
+        };
+        self.abreast.get_or_init(new).as_ref()
     }
 
     /// A variant as `run --lead --set` has it.
@@ -207,11 +304,7 @@ impl Sweeping {
         places: &Places,
         variant: &mut OneVariant,
     ) -> Result<(), Box<Diagnostic>> {
-        // what a run tells of its start looks at the same factors
-        let _ = started.conditioning();
-        started.use_vectors(options.vectors);
-        let interval = times.interval().filter(|_| self.results > 0);
-        let asked = interval.map(|interval| started.asked(interval, options.pass_bifurcations, &options.cancel));
+        let asked = self.asked(&mut started, times, options);
         let mut motion = started.into_motion(times);
         if options.pass_bifurcations {
             motion.pass_bifurcations();
@@ -220,7 +313,7 @@ impl Sweeping {
             self.push_row(row?, places, variant);
         }
         let answers = asked.and_then(Asked::answer).unwrap_or_default();
-        write_results(&answers.values, places, variant);
+        write_results(&answers.values, places, &mut variant.results);
         Ok(())
     }
 
@@ -244,7 +337,7 @@ impl Sweeping {
         while let Some(row) = run.next_row() {
             self.push_row(row?, &places, variant);
         }
-        write_results(&run.results().unwrap_or_default().values, &places, variant);
+        write_results(&run.results().unwrap_or_default().values, &places, &mut variant.results);
         Ok(())
     }
 
@@ -264,8 +357,8 @@ impl Sweeping {
     }
 }
 
-fn write_results(values: &[Option<f64>], places: &Places, variant: &mut OneVariant) {
-    for (k, into) in variant.results.iter_mut().enumerate() {
+fn write_results(values: &[Option<f64>], places: &Places, results: &mut [f64]) {
+    for (k, into) in results.iter_mut().enumerate() {
         let place = match places {
             Places::Same => Some(k),
             Places::Others { results, .. } => results[k],

@@ -46,6 +46,8 @@ pub struct Base {
     led: Vec<u32>,
     /// Whether time goes on the way.
     goes: bool,
+    /// Whether the equations are smooth all along every way.
+    is_plain: bool,
     options: LeadOptions,
 }
 
@@ -80,8 +82,18 @@ impl Base {
     ) -> Result<Base, Box<Diagnostic>> {
         let (own, stands) = (whole.0.system().values_of_params(), Place::of(started));
         let begins = analysis::before_ways(&on_its_way.0, &on_its_way.1, &stands.q, &options)?;
-        let begins = Place::of(&begins);
-        Ok(Base { whole, own, stands, on_its_way, begins, led, goes, options })
+        let (is_plain, begins) = (begins.is_plain(), Place::of(&begins));
+        Ok(Base { whole, own, stands, on_its_way, begins, led, goes, is_plain, options })
+    }
+
+    /// Where it stands with its own values, and what it is there.
+    pub(super) fn stands(&self) -> (&Whole, &[f64]) {
+        (&self.whole, &self.own)
+    }
+
+    /// Whether ways lead all of some parameters, by their numbers, and on none anything happens but that the mechanism moves.
+    pub(super) fn leads_plainly(&self, params: &[u32]) -> bool {
+        self.is_plain && !self.goes && params.iter().all(|param| self.led.contains(param))
     }
 
     /// A variant, by the values of all its parameters (SI).

@@ -2,10 +2,15 @@
 //! so that it is lowered, proven and compiled once, with these as symbols at the values of its text.
 
 mod base;
+mod group;
+mod judge;
 mod points;
 mod sobol;
 mod swept;
+mod together;
 
 pub use base::{Arrived, Base, Lost, Whole};
+pub use group::{Each, Group, LANES};
 pub use points::{Levels, MOST_OF_SOBOL, Method, Points, Sampling, Varying, evenly, rounded};
 pub use swept::{OneVariant, Status, Swept};
+pub use together::Together;

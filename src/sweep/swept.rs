@@ -61,6 +61,8 @@ pub struct Swept {
     pub lengths: Vec<usize>,
     /// By wanted column, row after row (SI).
     pub columns: Vec<Vec<f64>>,
+    /// How many of them went side by side: which way a variant went changes no bit of it.
+    pub abreast: usize,
 }
 
 impl Swept {
@@ -69,6 +71,37 @@ impl Swept {
     pub fn new(first: u64, params: usize, results: usize, columns: usize) -> Swept {
         let of = |count| vec![Vec::new(); count];
         Swept { first, params: of(params), results: of(results), columns: of(columns), ..Swept::default() }
+    }
+
+    /// Adds the next variants, so many, which have run side by side, each with so many rows: what their params are, one variant behind the
+    /// other, and by column their rows.
+    pub fn push_abreast<'c>(
+        &mut self,
+        (count, rows): (usize, usize),
+        params: &[f64],
+        columns: impl Iterator<Item = &'c [f64]>,
+    ) {
+        self.statuses.resize(self.statuses.len() + count, Status::Ok);
+        self.stopped.resize(self.stopped.len() + count, f64::NAN);
+        self.lengths.resize(self.lengths.len() + count, if self.columns.is_empty() { 0 } else { rows });
+        let width = self.params.len();
+        for (k, column) in self.params.iter_mut().enumerate() {
+            column.extend(params.iter().skip(k).step_by(width));
+        }
+        for (column, more) in self.columns.iter_mut().zip(columns) {
+            column.extend_from_slice(more);
+        }
+        self.abreast += count;
+    }
+
+    /// Adds the results of the variant that was added last.
+    pub fn push_results(&mut self, results: &[f64]) {
+        self.results.iter_mut().zip(results).for_each(|(column, value)| column.push(*value));
+    }
+
+    /// Makes room for so many variants, with so many rows each.
+    pub fn reserve(&mut self, variants: usize, rows: usize) {
+        self.columns.iter_mut().for_each(|column| column.reserve_exact(variants * rows));
     }
 
     /// Adds the next variant.

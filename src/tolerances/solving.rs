@@ -43,6 +43,34 @@ pub mod lanes {
     pub const BORDER: f64 = 1.0 / 4_096.0;
 }
 
+/// Variants side by side (`solver/variants.rs`, `sweep`).
+pub mod variants {
+    /// A multiplier up to this part of the largest is small enough, wherever Newton begins.
+    pub const CERTAIN_MULTIPLIER: f64 = 0.99;
+    /// What may be left of an equation, beside what may be left of it where a variant goes alone: rounding leaves less by orders of magnitude.
+    pub const CERTAIN_RESIDUAL: f64 = 1e-3;
+    /// A variant nearer to a singular position than this goes alone: so far off no row is in doubt, and no step is looked into.
+    pub const NEAREST: f64 = 0.04;
+    /// A first correction is at most this part of the distance to a singular position: other branches are farther away.
+    pub const PART_OF_DISTANCE: f64 = 0.25;
+    /// Largest motion of a step, scaled.
+    pub const LARGEST_MOTION: f64 = 0.5;
+    /// How far velocities and accelerations at both ends of a step may lead elsewhere than positions, scaled.
+    pub const LARGEST_GAP: f64 = 1e-3;
+    /// A determinant grows or falls within a step by no more than this factor.
+    pub const LARGEST_CHANGE: f64 = 2.0;
+    /// Steps over the whole span at least.
+    pub const FEWEST_STEPS: f64 = 20.0;
+    /// How far parameters are changed, as a part of themselves, to learn how the mechanism moves with them.
+    pub const BESIDE: f64 = 1e-6;
+    /// How often one variant may ask all that go with it for shorter steps.
+    pub const PATIENCE: u32 = 16;
+    /// Behind a step that was refused so many are taken before longer ones are tried.
+    pub const CALM_STEPS: u32 = 6;
+    /// The way to a variant's parameters is tried in so many parts.
+    pub const PARTS_OF_WAY: [u32; 4] = [1, 2, 4, 8];
+}
+
 /// Blocks that are pivoted (`solver/pivoting.rs`).
 pub mod pivoting {
     /// Larger blocks are not solved this way.

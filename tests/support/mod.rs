@@ -9,6 +9,7 @@ pub mod listed;
 pub mod random;
 pub mod reading;
 pub mod shape;
+pub mod swept;
 pub mod table;
 pub mod tex;
 

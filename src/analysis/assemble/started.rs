@@ -15,6 +15,7 @@ use crate::tolerances::TOLERANCE;
 use std::sync::Arc;
 
 /// A mechanism that is assembled at its first time, in a position of full rank.
+#[derive(Clone)]
 pub struct Started {
     kinematics: Kinematics,
     state: State,
@@ -200,6 +201,19 @@ impl Started {
     pub fn solver_for_code_of(&mut self, program: &Program) -> Option<Solver> {
         self.kinematics.restore(&self.state);
         self.kinematics.solver_for_code_of(program)
+    }
+
+    /// What solves for some columns of several variants at once; none where it would be too large.
+    #[must_use]
+    pub fn solver_of_variants(&mut self, is_wanted: &dyn Fn(u32) -> bool) -> Option<Solver> {
+        self.kinematics.restore(&self.state);
+        self.kinematics.solver_of_variants(is_wanted)
+    }
+
+    /// Whether the equations are smooth wherever the motion is, and nothing is looked at beside them.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        self.kinematics.is_plain()
     }
 
     /// By row of `Φ`: what may be left of it at the start.

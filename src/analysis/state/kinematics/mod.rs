@@ -206,6 +206,24 @@ impl Kinematics {
         Solver::for_code(&self.determined, program, self)
     }
 
+    /// As [`Kinematics::solver`], for some columns of several variants at once.
+    pub fn solver_of_variants(&self, is_wanted: &dyn Fn(u32) -> bool) -> Option<Solver> {
+        Solver::for_variants(&self.determined, &self.program, self, is_wanted)
+    }
+
+    /// Whether equations are such that their smoothness does not depend on where the motion is: no formula of them has branches or ends, none
+    /// may lose its slope, nothing is looked at beside them, and what time alone decides goes straight on.
+    pub fn is_plain(&self) -> bool {
+        let system = self.system();
+        let has_branches = !self.program.switches().is_empty() || !self.program.tables().is_empty();
+        let is_watched = !system.watches().is_empty() || !system.checks().is_empty() || !system.rims().is_empty();
+        let on_the_way = system.conditions().iter().any(|it| !system.graph().dependence(it.positive).is_constant());
+        let has_more = !system.needed_forces().is_empty() || !system.loads().is_empty() || !system.presses().is_empty();
+        let is_varied = system.has_signals() || system.all_variations().is_some() || !system.open_contacts().is_empty();
+        let is_bent = !self.bent.is_empty() || !self.signals().is_empty();
+        !(has_branches || is_watched || on_the_way || has_more || is_varied || is_bent)
+    }
+
     /// The program with its registers, whose switches stand as they are in this step.
     pub fn program(&self) -> (&Program, &Registers) {
         (&self.program, &self.registers)

@@ -1,0 +1,150 @@
+//! Running a solver for several variants of a mechanism at once, each with parameters of its own, at one time.
+
+use super::lanes::{Around, Lanes};
+use super::{Pivot, Solver};
+use crate::math::{Vectors, max};
+use crate::program::{LaneValues, Program, Register, Registers};
+use crate::tolerances::solving::variants::CERTAIN_MULTIPLIER;
+
+/// No column is left there.
+const NOWHERE: u32 = u32::MAX;
+
+/// Registers for `W` variants, and what a run leaves of each.
+#[derive(Clone, Debug)]
+pub struct Abreast<const W: usize> {
+    lanes: Lanes<W>,
+    out: Out<W>,
+}
+
+/// What a run leaves.
+#[derive(Clone, Debug)]
+struct Out<const W: usize> {
+    /// By column of a row: where it is among those that are kept.
+    places: Vec<u32>,
+    kept: Vec<LaneValues<W>>,
+    /// By turn of the solver: one over the block's determinant, but for its sign where pivots are positive.
+    determinants: Vec<LaneValues<W>>,
+    /// One over the smallest pivot, scaled.
+    steepest: [f64; W],
+}
+
+/// What variants are solved with.
+#[derive(Clone, Copy, Debug)]
+pub struct Guesses<'g, const W: usize> {
+    /// The time (s).
+    pub t: f64,
+    /// By tear: where Newton begins.
+    pub tears: &'g [LaneValues<W>],
+    /// The program's registers, as far as they depend on parameters alone.
+    pub loaded: &'g [LaneValues<W>],
+    /// By row of `Φ`: one over what may be left of it.
+    pub bounds: &'g [f64],
+}
+
+impl<const W: usize> Abreast<W> {
+    /// For a solver that is laid out for variants, which keeps some columns.
+    #[must_use]
+    pub fn new(solver: &Solver, is_kept: impl Fn(u32) -> bool, vectors: Vectors) -> Abreast<W> {
+        let (mut places, mut count) = (vec![NOWHERE; solver.layout.stride], 0);
+        for (column, place) in places.iter_mut().enumerate() {
+            if is_kept(column as u32) {
+                *place = count;
+                count += 1;
+            }
+        }
+        let zero = LaneValues([0.0; W]);
+        let (kept, determinants) = (vec![zero; count as usize], vec![zero; solver.turns.len()]);
+        Abreast { lanes: Lanes::new(solver, vectors), out: Out { places, kept, determinants, steepest: [0.0; W] } }
+    }
+
+    /// Solves for all variants.
+    pub fn run(&mut self, solver: &Solver, of: (&Program, &Registers), guesses: &Guesses<'_, W>) {
+        let out = &mut self.out;
+        out.determinants.fill(LaneValues([1.0; W]));
+        out.steepest = [0.0; W];
+        self.lanes.solve(solver, of, OfVariants { guesses, pivots: &solver.pivots, out });
+    }
+
+    /// Adds to each lane that does not hold beyond doubt: its Newton has settled, every equation is met, no pivot was too small, and all that
+    /// was kept is finite.
+    #[inline(always)]
+    #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
+    pub fn write_doubts(&self, doubts: &mut [f64; W]) {
+        self.lanes.write_doubts(CERTAIN_MULTIPLIER, doubts);
+    }
+
+    /// How far the guess of each lane was from its solution, scaled.
+    #[must_use]
+    pub fn first_corrections(&self) -> &[f64; W] {
+        self.lanes.first_corrections()
+    }
+
+    /// One over the smallest pivot of a lane, scaled.
+    #[must_use]
+    pub fn steepest(&self) -> &[f64; W] {
+        &self.out.steepest
+    }
+
+    /// By turn of the solver: one over the block's determinant, but for a sign that stays.
+    #[must_use]
+    pub fn determinants(&self) -> &[LaneValues<W>] {
+        &self.out.determinants
+    }
+
+    /// What is in a column that is kept.
+    #[must_use]
+    #[inline]
+    pub fn column(&self, column: u32) -> &LaneValues<W> {
+        &self.out.kept[self.out.places[column as usize] as usize]
+    }
+}
+
+/// Several variants at one time.
+struct OfVariants<'r, const W: usize> {
+    guesses: &'r Guesses<'r, W>,
+    pivots: &'r [Pivot],
+    out: &'r mut Out<W>,
+}
+
+#[allow(clippy::inline_always)] // as all that `Lanes::solve` does
+impl<const W: usize> Around<W> for OfVariants<'_, W> {
+    #[inline(always)]
+    fn loaded(&self, from: Register) -> [f64; W] {
+        self.guesses.loaded[from as usize].0
+    }
+
+    #[inline(always)]
+    fn times(&self) -> [f64; W] {
+        [self.guesses.t; W]
+    }
+
+    #[inline(always)]
+    fn guess(&self, tear: u32) -> [f64; W] {
+        self.guesses.tears[tear as usize].0
+    }
+
+    #[inline(always)]
+    fn stored(&self, column: u32) -> [f64; W] {
+        self.out.kept[self.out.places[column as usize] as usize].0
+    }
+
+    #[inline(always)]
+    fn store(&mut self, column: u32, values: &[f64; W]) {
+        self.out.kept[self.out.places[column as usize] as usize].0 = *values;
+    }
+
+    #[inline(always)]
+    fn bound(&self, row: u32) -> f64 {
+        self.guesses.bounds[row as usize]
+    }
+
+    #[inline(always)]
+    fn note(&mut self, pivot: u32, inverse: &[f64; W]) {
+        let Pivot { turn, weight } = self.pivots[pivot as usize];
+        let (of_turn, steepest) = (&mut self.out.determinants[turn as usize].0, &mut self.out.steepest);
+        for k in 0..W {
+            of_turn[k] *= inverse[k];
+            steepest[k] = max(steepest[k], inverse[k].abs() * weight);
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Where variants stand side by side, and whether the next place of each is beyond doubt on the branch that it is on.
+
+use super::group::{Each, LANES, ZERO};
+use super::together::{Together, Tracked};
+use crate::math::max;
+use crate::program::LaneValues;
+use crate::solver::Abreast;
+use crate::tolerances::solving::variants::{LARGEST_CHANGE, LARGEST_GAP, LARGEST_MOTION, NEAREST, PART_OF_DISTANCE};
+
+/// Where variants stand.
+#[derive(Clone)]
+pub(super) struct Stand {
+    pub t: f64,
+    /// By coordinate that steps are judged by: value, velocity, acceleration.
+    pub tracked: Vec<[Each; 3]>,
+    /// By turn of the solver: one over the determinant.
+    pub determinants: Vec<Each>,
+    /// How near to a singular position that is.
+    pub nearness: Each,
+}
+
+/// By variant: how much is in doubt; nothing where it is 0.
+pub(super) struct Doubts(pub [f64; LANES]);
+
+impl Stand {
+    /// All at one place, at rest.
+    pub fn of(t: f64, q: &[f64], determinants: &[f64], nearness: f64) -> Stand {
+        Stand {
+            t,
+            tracked: q.iter().map(|&q| [LaneValues([q; LANES]), ZERO, ZERO]).collect(),
+            determinants: determinants.iter().map(|&of| LaneValues([of; LANES])).collect(),
+            nearness: LaneValues([nearness; LANES]),
+        }
+    }
+
+    /// Takes over what was solved for.
+    #[inline(always)]
+    #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
+    pub fn take(&mut self, together: &Together, t: f64, from: &Abreast<LANES>) {
+        self.t = t;
+        for (tracked, of) in self.tracked.iter_mut().zip(&together.tracked) {
+            for (to, column) in tracked.iter_mut().zip(of.columns) {
+                *to = *from.column(column);
+            }
+        }
+        self.determinants.copy_from_slice(from.determinants());
+        for (near, steepest) in self.nearness.0.iter_mut().zip(from.steepest()) {
+            *near = together.nearness(*steepest);
+        }
+    }
+
+    /// Takes over where one variant stands.
+    pub fn copy_lane(&mut self, from: &Stand, lane: usize) {
+        for (to, from) in self.tracked.iter_mut().zip(&from.tracked) {
+            to[0].0[lane] = from[0].0[lane];
+        }
+        for (to, from) in self.determinants.iter_mut().zip(&from.determinants) {
+            to.0[lane] = from.0[lane];
+        }
+        self.nearness.0[lane] = from.nearness.0[lane];
+    }
+}
+
+/// Adds what is in doubt of a step from one place to the next, of a length (s) if it is one of time.
+///
+/// Nothing is where both ends are far from singular positions, which the motion between does not come up to; the first correction is small
+/// beside the distance to them, for so far off are other branches; no determinant has turned, or changed by much; and both ends' velocities
+/// and accelerations lead to where positions are.
+#[inline(always)]
+#[allow(clippy::inline_always)] // it is compiled for several kinds of processors
+pub(super) fn of_step(
+    tracked: &[Tracked],
+    [now, next]: [&Stand; 2],
+    (h, first_corrections): (Option<f64>, &[f64; LANES]),
+    doubts: &mut Doubts,
+) {
+    let (mut motion, mut gap) = ([0.0; LANES], [0.0; LANES]);
+    for ((now, next), of) in now.tracked.iter().zip(&next.tracked).zip(tracked) {
+        let ([x, v, a], [y, w, b]) = (now, next);
+        for k in 0..LANES {
+            motion[k] = max(motion[k], (y.0[k] - x.0[k]).abs() * of.per_scale);
+        }
+        if let Some(h) = h {
+            let (half, twelfth) = (0.5 * h, h * h * (1.0 / 12.0));
+            for k in 0..LANES {
+                let way = half * (v.0[k] + w.0[k]) + twelfth * (a.0[k] - b.0[k]);
+                gap[k] = max(gap[k], (y.0[k] - x.0[k] - way).abs() * of.per_scale);
+            }
+        }
+    }
+    let doubts = &mut doubts.0;
+    for k in 0..LANES {
+        let (from, to) = (now.nearness.0[k], next.nearness.0[k]);
+        let (least, most) = if from < to { (from, to) } else { (to, from) };
+        let is_clear = least >= NEAREST && first_corrections[k] <= PART_OF_DISTANCE * least;
+        let is_short = motion[k] <= LARGEST_MOTION && motion[k] <= most && gap[k] <= LARGEST_GAP;
+        doubts[k] += if is_clear & is_short { 0.0 } else { 1.0 };
+    }
+    for (now, next) in now.determinants.iter().zip(&next.determinants) {
+        for k in 0..LANES {
+            // both are of one sign, and neither is more than so many times the other
+            let (product, a, b) = (now.0[k] * next.0[k], now.0[k].abs(), next.0[k].abs());
+            let is_alike = product > 0.0 && a <= LARGEST_CHANGE * b && b <= LARGEST_CHANGE * a;
+            doubts[k] += if is_alike { 0.0 } else { 1.0 };
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! What variants share that go side by side, a lane for each: those of a mechanism whose equations are smooth everywhere, as far as no singular
+//! position is near. What is not plain is left to the careful way, which knows all cases.
+
+use super::Base;
+use super::group::{Each, LANES};
+use super::judge::Stand;
+use crate::analysis::{Started, Times};
+use crate::ir::CoordinateKind;
+use crate::math::Vectors;
+use crate::program::{LaneMachine, LaneValues, Op, Program, Register, Registers, Stage};
+use crate::solver::{Abreast, Guesses, Solver};
+use crate::tolerances::solving::variants::{BESIDE, CERTAIN_RESIDUAL};
+use std::sync::Arc;
+
+/// What variants share that go side by side.
+pub struct Together {
+    pub(super) program: Arc<Program>,
+    /// The program's registers with the mechanism's own values.
+    pub(super) scalars: Registers,
+    /// The operations of parameters alone that solving needs.
+    prologue: Vec<Op>,
+    /// The mechanism's own values, and the parameters that may have others, by their numbers.
+    pub(super) own: Vec<f64>,
+    led: Vec<u32>,
+    /// For steps between output times, and for rows.
+    pub(super) steps: Solver,
+    pub(super) rows: Solver,
+    /// The coordinates that steps are judged by.
+    pub(super) tracked: Vec<Tracked>,
+    /// By tear: its place among these.
+    pub(super) tears: Vec<usize>,
+    /// By row of `Φ`: one over what may be left of it.
+    pub(super) bounds: Vec<f64>,
+    /// Where it stands with its own values: the coordinates that steps are judged by, and by turn of the solver one over each determinant.
+    q: Vec<f64>,
+    determinants: Vec<f64>,
+    /// By parameter that may have other values: how each tear changes with it there.
+    slopes: Vec<Vec<f64>>,
+    /// The nearness to a singular position, as far as one over the smallest pivot tells it.
+    nearness: f64,
+    /// That where it stands with its own values.
+    own_nearness: f64,
+    pub(super) times: Times,
+    /// The columns of rows that are wanted.
+    pub(super) wanted: Vec<u32>,
+    pub(super) vectors: Vectors,
+}
+
+/// A coordinate that steps are judged by.
+pub(super) struct Tracked {
+    /// Its columns in a row: value, velocity, acceleration.
+    pub columns: [u32; 3],
+    /// One over what a change of it is judged against.
+    pub per_scale: f64,
+}
+
+impl Together {
+    /// Of a mechanism that stands with its own values, for variants of some of its params, by their numbers, and some columns of their rows at
+    /// some times; nothing where they had better go alone.
+    #[must_use]
+    pub fn of(
+        base: &Base,
+        started: &Started,
+        params: &[u32],
+        (times, columns): (&Times, &[usize]),
+        vectors: Vectors,
+    ) -> Option<Together> {
+        let mut started = started.clone();
+        if times.is_empty() || !started.is_plain() || !base.leads_plainly(params) {
+            return None;
+        }
+        let ((determined, program), own) = base.stands();
+        let layout = *started.solver()?.layout();
+        let system = determined.system();
+        let is_tear = |k: usize| started.solver().is_some_and(|solver| solver.tears().contains(&(k as u32)));
+        let judged = |k: &usize| is_tear(*k) || system.coordinates()[*k].kind != CoordinateKind::Length;
+        let judged: Vec<usize> = (0..system.coordinates().len()).filter(judged).collect();
+        let tracked: Vec<Tracked> = judged
+            .iter()
+            .map(|&k| Tracked {
+                columns: [0, 1, 2].map(|order| layout.coordinate(k as u32, order)),
+                per_scale: 1.0 / system.coordinates()[k].scale,
+            })
+            .collect();
+        let wanted: Vec<u32> = columns.iter().map(|&column| column as u32).collect();
+        let is_tracked = |column: u32| tracked.iter().any(|of| of.columns.contains(&column));
+        let steps = started.solver_of_variants(&is_tracked)?;
+        let rows = started.solver_of_variants(&|column| is_tracked(column) || wanted.contains(&column))?;
+        let tears = rows.tears().iter().map(|&tear| judged.iter().position(|&k| k == tear as usize));
+        let tears = tears.collect::<Option<Vec<usize>>>()?;
+        let bounds = started.bounds().into_iter().map(|bound| 1.0 / (CERTAIN_RESIDUAL * bound)).collect();
+        let loaded: Vec<Register> = steps.loads().chain(rows.loads()).collect();
+        let mut together = Together {
+            prologue: prologue(program, &loaded),
+            program: Arc::clone(program),
+            scalars: program.start(own),
+            own: own.to_vec(),
+            led: params.to_vec(),
+            steps,
+            rows,
+            tracked,
+            tears,
+            bounds,
+            q: judged.iter().map(|&k| started.q()[k]).collect(),
+            determinants: Vec::new(),
+            slopes: Vec::new(),
+            nearness: 1.0,
+            own_nearness: 1.0,
+            times: times.clone(),
+            wanted,
+            vectors,
+        };
+        together.look_at_own(&mut started)?;
+        Some(together)
+    }
+
+    /// Learns what the solver's pivots tell of nearness to a singular position where it stands with its own values, and how it moves with
+    /// parameters there.
+    fn look_at_own(&mut self, started: &mut Started) -> Option<()> {
+        let (mut abreast, mut loaded) = (self.abreast(&self.steps), self.registers());
+        let own: Vec<Each> = self.own.iter().map(|&value| LaneValues([value; LANES])).collect();
+        self.solve(&mut abreast, &mut loaded, &own)?;
+        self.determinants = abreast.determinants().iter().map(|of| of.0[0]).collect();
+        // pivots of rows of unit norm say little more than it is
+        self.nearness = f64::min(1.0, started.conditioning() * abreast.steepest()[0].max(1.0));
+        self.own_nearness = self.nearness(abreast.steepest()[0]);
+        let place = |abreast: &Abreast<LANES>, tear: usize| abreast.column(self.tracked[tear].columns[0]).0[0];
+        let here: Vec<f64> = self.tears.iter().map(|&tear| place(&abreast, tear)).collect();
+        let mut slopes = Vec::with_capacity(self.led.len());
+        for &param in &self.led {
+            let (mut beside, own_value) = (own.clone(), self.own[param as usize]);
+            let value = if own_value == 0.0 { BESIDE } else { own_value * (1.0 + BESIDE) };
+            beside[param as usize].0 = [value; LANES];
+            let is_solved = self.solve(&mut abreast, &mut loaded, &beside).is_some();
+            let slope = |(&tear, here): (&usize, &f64)| (place(&abreast, tear) - here) / (value - own_value);
+            // only a guess is made of it
+            let known = |slope: f64| if is_solved && slope.is_finite() { slope } else { 0.0 };
+            slopes.push(self.tears.iter().zip(&here).map(slope).map(known).collect());
+        }
+        self.slopes = slopes;
+        Some(())
+    }
+
+    /// Solves beside where it stands with its own values, with others; nothing where that does not hold.
+    fn solve(&self, abreast: &mut Abreast<LANES>, loaded: &mut [Each], params: &[Each]) -> Option<()> {
+        self.load(loaded, params);
+        let tears: Vec<Each> = self.tears.iter().map(|&tear| LaneValues([self.q[tear]; LANES])).collect();
+        let guesses = Guesses { t: self.times.from(), tears: &tears, loaded, bounds: &self.bounds };
+        abreast.run(&self.steps, (&self.program, &self.scalars), &guesses);
+        let mut doubts = [0.0; LANES];
+        abreast.write_doubts(&mut doubts);
+        (doubts[0] == 0.0).then_some(())
+    }
+
+    /// Where all variants come from.
+    pub(super) fn stand(&self) -> Stand {
+        Stand::of(self.times.from(), &self.q, &self.determinants, self.own_nearness)
+    }
+
+    /// Where tears are, by how they change with parameters where it stands with its own values.
+    pub(super) fn write_first_guesses(&self, params: &[Each], guesses: &mut [Each]) {
+        for (place, (guess, &tear)) in guesses.iter_mut().zip(&self.tears).enumerate() {
+            guess.0 = [self.q[tear]; LANES];
+            for (&param, slopes) in self.led.iter().zip(&self.slopes) {
+                let (own, values) = (self.own[param as usize], &params[param as usize].0);
+                guess.0.iter_mut().zip(values).for_each(|(guess, value)| *guess += slopes[place] * (value - own));
+            }
+        }
+    }
+
+    /// How near to a singular position pivots are, of which one over the smallest is this.
+    #[inline]
+    pub(super) fn nearness(&self, steepest: f64) -> f64 {
+        self.nearness / if steepest > 1.0 { steepest } else { 1.0 }
+    }
+
+    /// How many rows each variant has.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.times.len() as usize
+    }
+
+    /// Registers for one of its solvers.
+    pub(super) fn abreast(&self, solver: &Solver) -> Abreast<LANES> {
+        Abreast::new(solver, solver.keeps(), self.vectors)
+    }
+
+    /// The program's registers, a lane for each variant.
+    pub(super) fn registers(&self) -> Vec<Each> {
+        let mut registers = vec![LaneValues([0.0; LANES]); self.program.registers()];
+        for &(register, value) in self.program.constants() {
+            registers[register as usize].0 = [value; LANES];
+        }
+        registers
+    }
+
+    /// Computes what depends on parameters alone.
+    pub(super) fn load(&self, registers: &mut [Each], params: &[Each]) {
+        let first = self.program.inputs.params as usize;
+        registers[first..first + params.len()].copy_from_slice(params);
+        let mut machine = LaneMachine { v: registers, program: &self.program, scalars: &self.scalars };
+        self.prologue.iter().for_each(|op| op.run(&mut machine));
+    }
+}
+
+/// The operations of parameters alone that lead to some registers.
+fn prologue(program: &Program, wanted: &[Register]) -> Vec<Op> {
+    let mut is_read = vec![false; program.registers()];
+    wanted.iter().for_each(|&register| is_read[register as usize] = true);
+    let mut kept = Vec::new();
+    for &op in program.stage(Stage::Prologue).iter().rev() {
+        if op.writes().iter().any(|&to| is_read[to as usize]) {
+            program.reads(op).for_each(|register| is_read[register as usize] = true);
+            kept.push(op);
+        }
+    }
+    kept.reverse();
+    kept
+}
