@@ -44,6 +44,8 @@ pub(super) trait Around<const W: usize> {
     fn bound(&self, row: u32) -> f64;
     /// Takes note of one over a pivot.
     fn note(&mut self, pivot: u32, inverse: &[f64; W]);
+    /// With corrections of up to so many cells Newton ends, where nobody asks for bits; 0 where only the grid point next to the solution will do.
+    fn nearly(&self) -> f64;
 }
 
 /// Times to solve at, and what is known there.
@@ -129,7 +131,7 @@ impl<const W: usize> Lanes<W> {
     /// Adds to each lane in which Newton has not settled, an equation is not met, a multiplier is above a part of the largest, or what was
     /// stored is not finite.
     #[inline(always)]
-    #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
+    #[allow(clippy::inline_always, clippy::needless_range_loop)] // compiled for several kinds of processors; by lane it vectorises best
     pub(super) fn write_doubts(&self, part: f64, doubts: &mut [f64; W]) {
         let largest = part * LARGEST_MULTIPLIER;
         for k in 0..W {
@@ -196,6 +198,11 @@ impl<const W: usize> Around<W> for OfTimes<'_, W> {
 
     #[inline(always)]
     fn note(&mut self, _: u32, _: &[f64; W]) {}
+
+    #[inline(always)]
+    fn nearly(&self) -> f64 {
+        0.0
+    }
 }
 
 struct Run<'r, A, const W: usize> {
@@ -228,7 +235,8 @@ impl<A: Around<W>, const W: usize> Run<'_, A, W> {
     /// Newton begins at the grid points next to its guesses.
     #[inline(always)]
     fn begin(&mut self, tears: &[Tear]) {
-        self.lanes.bound = [bound_at_first(BORDER); W];
+        let nearly = self.around.nearly();
+        self.lanes.bound = [if nearly > 0.0 { nearly } else { bound_at_first(BORDER) }; W];
         for tear in tears {
             self.lanes.values[tear.x as usize].0.iter_mut().for_each(|x| *x = on_grid(*x, tear.cell));
         }
@@ -238,6 +246,7 @@ impl<A: Around<W>, const W: usize> Run<'_, A, W> {
     /// settled stays where it is, whatever the others do.
     #[inline(always)]
     fn go_on(&mut self, tears: &[Tear], iteration: usize) -> bool {
+        let nearly = self.around.nearly();
         let Lanes { values, bound, farthest, first_correction, .. } = &mut *self.lanes;
         let (mut largest, mut far) = ([0.0; W], [0.0; W]);
         for tear in tears {
@@ -254,6 +263,7 @@ impl<A: Around<W>, const W: usize> Run<'_, A, W> {
         for k in 0..W {
             let stays = largest[k] <= bound[k] || is_lost(farthest[k]);
             let (next, width) = going_on(largest[k], bound[k], BORDER);
+            let next = if nearly > 0.0 { nearly } else { next };
             bound[k] = if stays { f64::INFINITY } else { next };
             cells[k] = if stays { 0.0 } else { width };
             open += cells[k];

@@ -39,6 +39,8 @@ pub struct Guesses<'g, const W: usize> {
     pub loaded: &'g [LaneValues<W>],
     /// By row of `Φ`: one over what may be left of it.
     pub bounds: &'g [f64],
+    /// With corrections of up to so many cells Newton ends; 0 where rows are wanted, whose bits must not depend on the guesses.
+    pub nearly: f64,
 }
 
 impl<const W: usize> Abreast<W> {
@@ -136,6 +138,11 @@ impl<const W: usize> Around<W> for OfVariants<'_, W> {
     #[inline(always)]
     fn bound(&self, row: u32) -> f64 {
         self.guesses.bounds[row as usize]
+    }
+
+    #[inline(always)]
+    fn nearly(&self) -> f64 {
+        self.guesses.nearly
     }
 
     #[inline(always)]

@@ -8,7 +8,7 @@ use crate::cancel::Cancel;
 use crate::expr::Symbol;
 use crate::model::{DecidedBy, Mechanism};
 use crate::program::{LaneMachine, LaneValues, Program, Register, Registers, Stage};
-use crate::sweep::{Each, Group, LANES, Together};
+use crate::sweep::{Each, LANES, Team, Together};
 use std::array::from_fn;
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -16,7 +16,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// What is known of variants that may go side by side.
 pub(super) struct Abreast {
     together: Arc<Together>,
-    /// Groups that nobody follows now.
+    /// Teams that nobody follows now.
     idle: Mutex<Vec<Side>>,
     /// All params of one of them (SI).
     values: Vec<f64>,
@@ -27,7 +27,7 @@ pub(super) struct Abreast {
 
 /// Variants side by side, with what is decided of them.
 pub(super) struct Side {
-    pub group: Group,
+    pub team: Team,
     params: Vec<Each>,
     registers: Vec<Each>,
 }
@@ -82,12 +82,12 @@ impl Abreast {
         Some(Abreast { together, idle, values, places, decided })
     }
 
-    /// A group, to be followed.
+    /// A team, to be followed.
     pub fn side(&self) -> Side {
         let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
         idle.unwrap_or_else(|| {
             let params = self.values.iter().map(|&value| LaneValues([value; LANES])).collect();
-            Side { group: Group::new(&self.together), params, registers: self.decided.start() }
+            Side { team: Team::new(&self.together), params, registers: self.decided.start() }
         })
     }
 
@@ -109,14 +109,16 @@ impl Abreast {
         for (k, places) in self.places.iter().enumerate() {
             // lanes that are left over do the last one again
             let values: [f64; LANES] = from_fn(|lane| varying[lane.min(count - 1) * width + k]);
-            places.iter().for_each(|&at| side.params[at].0 = values);
+            for &at in places {
+                side.params[at].0 = values;
+            }
         }
         let mut those = self.decided.are_the_same(&mut side.registers, &side.params);
         those[count..].fill(false);
         for (those, varying) in those.iter_mut().zip(varying.chunks_exact(width)) {
             *those &= varying.iter().all(|value| value.is_finite() && *value != 0.0);
         }
-        side.group.follow(&side.params, those, cancel)
+        side.team.follow(&side.params, those, cancel)
     }
 }
 

@@ -9,7 +9,7 @@ use crate::analysis::{Asked, Started, Times};
 use crate::cancel::Cancel;
 use crate::crew::{Crew, usual_jobs};
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::sweep::{Group, LANES, OneVariant, Status, Swept};
+use crate::sweep::{LANES, OneVariant, Status, Swept, Team};
 use std::sync::{Arc, OnceLock};
 
 /// Numbers that a piece of work holds, more or less: 2 MB.
@@ -162,7 +162,7 @@ impl Sweeping {
             let (params, side) = (&params[..count * width], side.as_mut());
             let done = abreast.zip(side).map(|(abreast, side)| {
                 let done = abreast.follow(side, params, &self.options.cancel);
-                (&side.group, done)
+                (&side.team, done)
             });
             found = self.push_all(&mut block, params, done);
             if found != Some(false) {
@@ -182,7 +182,7 @@ impl Sweeping {
 
     /// Adds variants, some of which went side by side, by their params; says whether the one that is looked for is among them, up to which they
     /// are added; nothing when it was cancelled.
-    fn push_all(&self, block: &mut Swept, params: &[f64], done: Option<(&Group, [bool; LANES])>) -> Option<bool> {
+    fn push_all(&self, block: &mut Swept, params: &[f64], done: Option<(&Team, [bool; LANES])>) -> Option<bool> {
         let width = self.width();
         let (count, mut lane) = (params.len() / width, 0);
         while lane < count {
@@ -190,21 +190,21 @@ impl Sweeping {
                 return None;
             }
             let of = |lanes: std::ops::Range<usize>| &params[lanes.start * width..lanes.end * width];
-            if let Some((group, done)) = done.filter(|(_, done)| self.results == 0 && done[lane]) {
+            if let Some((team, done)) = done.filter(|(_, done)| self.results == 0 && done[lane]) {
                 let end = (lane..count).find(|&lane| !done[lane]).unwrap_or(count);
-                let columns = (0..).map(|place| group.column(place, lane..end));
-                block.push_abreast((end - lane, group.rows()), of(lane..end), columns);
+                let columns = (0..).map(|place| team.column(place, lane..end));
+                block.push_abreast((end - lane, team.rows()), of(lane..end), columns);
                 lane = end;
                 continue;
             }
             let alone = lane..lane + 1;
             // what has all its rows wants its results alone
             let beside = done.filter(|(_, done)| done[lane]);
-            let beside = beside.and_then(|(group, _)| Some((group, self.results_of(of(alone.clone()))?)));
-            let found = if let Some((group, mut results)) = beside {
+            let beside = beside.and_then(|(team, _)| Some((team, self.results_of(of(alone.clone()))?)));
+            let found = if let Some((team, mut results)) = beside {
                 let found = self.until.map(|until| results.remove(until));
-                let columns = (0..).map(|place| group.column(place, alone.clone()));
-                block.push_abreast((1, group.rows()), of(alone.clone()), columns);
+                let columns = (0..).map(|place| team.column(place, alone.clone()));
+                block.push_abreast((1, team.rows()), of(alone.clone()), columns);
                 block.push_results(&results);
                 found
             } else {

@@ -1,7 +1,9 @@
 //! Where variants stand side by side, and whether the next place of each is beyond doubt on the branch that it is on.
 
-use super::group::{Each, LANES, ZERO};
-use super::together::{Together, Tracked};
+// what is done in every lane reads best, and vectorises best, with the lane's number
+#![allow(clippy::needless_range_loop)]
+
+use super::each::{Each, LANES, ZERO};
 use crate::math::max;
 use crate::program::LaneValues;
 use crate::solver::Abreast;
@@ -17,6 +19,21 @@ pub(super) struct Stand {
     pub determinants: Vec<Each>,
     /// How near to a singular position that is.
     pub nearness: Each,
+}
+
+/// A coordinate that steps are judged by.
+pub(super) struct Tracked {
+    /// Its columns in a row: value, velocity, acceleration.
+    pub columns: [u32; 3],
+    /// One over what a change of it is judged against.
+    pub per_scale: f64,
+}
+
+/// How near to a singular position it is, as far as pivots tell, of which one over the smallest is this; `unit` is what makes that a
+/// singular value.
+#[inline]
+pub(super) fn nearness(unit: f64, steepest: f64) -> f64 {
+    unit / if steepest > 1.0 { steepest } else { 1.0 }
 }
 
 /// By variant: how much is in doubt; nothing where it is 0.
@@ -36,16 +53,16 @@ impl Stand {
     /// Takes over what was solved for.
     #[inline(always)]
     #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
-    pub fn take(&mut self, together: &Together, t: f64, from: &Abreast<LANES>) {
+    pub fn take(&mut self, tracked: &[Tracked], unit: f64, t: f64, from: &Abreast<LANES>) {
         self.t = t;
-        for (tracked, of) in self.tracked.iter_mut().zip(&together.tracked) {
-            for (to, column) in tracked.iter_mut().zip(of.columns) {
+        for (own, of) in self.tracked.iter_mut().zip(tracked) {
+            for (to, column) in own.iter_mut().zip(of.columns) {
                 *to = *from.column(column);
             }
         }
         self.determinants.copy_from_slice(from.determinants());
         for (near, steepest) in self.nearness.0.iter_mut().zip(from.steepest()) {
-            *near = together.nearness(*steepest);
+            *near = nearness(unit, *steepest);
         }
     }
 

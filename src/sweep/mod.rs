@@ -2,15 +2,17 @@
 //! so that it is lowered, proven and compiled once, with these as symbols at the values of its text.
 
 mod base;
-mod group;
+mod each;
 mod judge;
 mod points;
 mod sobol;
 mod swept;
+mod team;
 mod together;
 
 pub use base::{Arrived, Base, Lost, Whole};
-pub use group::{Each, Group, LANES};
+pub use each::{Each, LANES};
 pub use points::{Levels, MOST_OF_SOBOL, Method, Points, Sampling, Varying, evenly, rounded};
 pub use swept::{OneVariant, Status, Swept};
+pub use team::Team;
 pub use together::Together;

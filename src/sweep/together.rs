@@ -2,14 +2,14 @@
 //! position is near. What is not plain is left to the careful way, which knows all cases.
 
 use super::Base;
-use super::group::{Each, LANES};
-use super::judge::Stand;
+use super::each::{Each, LANES};
+use super::judge::{Stand, Tracked, nearness};
 use crate::analysis::{Started, Times};
 use crate::ir::CoordinateKind;
 use crate::math::Vectors;
 use crate::program::{LaneMachine, LaneValues, Op, Program, Register, Registers, Stage};
 use crate::solver::{Abreast, Guesses, Solver};
-use crate::tolerances::solving::variants::{BESIDE, CERTAIN_RESIDUAL};
+use crate::tolerances::solving::variants::{BESIDE, CERTAIN_RESIDUAL, NEARLY, RESIDUAL_OF_STEP};
 use std::sync::Arc;
 
 /// What variants share that go side by side.
@@ -29,29 +29,21 @@ pub struct Together {
     pub(super) tracked: Vec<Tracked>,
     /// By tear: its place among these.
     pub(super) tears: Vec<usize>,
-    /// By row of `Φ`: one over what may be left of it.
-    pub(super) bounds: Vec<f64>,
+    /// By row of `Φ`: one over what may be left of it, in steps and in rows.
+    pub(super) bounds: [Vec<f64>; 2],
     /// Where it stands with its own values: the coordinates that steps are judged by, and by turn of the solver one over each determinant.
     q: Vec<f64>,
     determinants: Vec<f64>,
     /// By parameter that may have other values: how each tear changes with it there.
     slopes: Vec<Vec<f64>>,
-    /// The nearness to a singular position, as far as one over the smallest pivot tells it.
-    nearness: f64,
+    /// What makes a smallest pivot the nearness to a singular position.
+    pub(super) nearness: f64,
     /// That where it stands with its own values.
     own_nearness: f64,
     pub(super) times: Times,
     /// The columns of rows that are wanted.
     pub(super) wanted: Vec<u32>,
     pub(super) vectors: Vectors,
-}
-
-/// A coordinate that steps are judged by.
-pub(super) struct Tracked {
-    /// Its columns in a row: value, velocity, acceleration.
-    pub columns: [u32; 3],
-    /// One over what a change of it is judged against.
-    pub per_scale: f64,
 }
 
 impl Together {
@@ -88,7 +80,9 @@ impl Together {
         let rows = started.solver_of_variants(&|column| is_tracked(column) || wanted.contains(&column))?;
         let tears = rows.tears().iter().map(|&tear| judged.iter().position(|&k| k == tear as usize));
         let tears = tears.collect::<Option<Vec<usize>>>()?;
-        let bounds = started.bounds().into_iter().map(|bound| 1.0 / (CERTAIN_RESIDUAL * bound)).collect();
+        let bounds = started.bounds();
+        let bounds =
+            [RESIDUAL_OF_STEP, CERTAIN_RESIDUAL].map(|part| bounds.iter().map(|bound| 1.0 / (part * bound)).collect());
         let loaded: Vec<Register> = steps.loads().chain(rows.loads()).collect();
         let mut together = Together {
             prologue: prologue(program, &loaded),
@@ -123,7 +117,7 @@ impl Together {
         self.determinants = abreast.determinants().iter().map(|of| of.0[0]).collect();
         // pivots of rows of unit norm say little more than it is
         self.nearness = f64::min(1.0, started.conditioning() * abreast.steepest()[0].max(1.0));
-        self.own_nearness = self.nearness(abreast.steepest()[0]);
+        self.own_nearness = nearness(self.nearness, abreast.steepest()[0]);
         let place = |abreast: &Abreast<LANES>, tear: usize| abreast.column(self.tracked[tear].columns[0]).0[0];
         let here: Vec<f64> = self.tears.iter().map(|&tear| place(&abreast, tear)).collect();
         let mut slopes = Vec::with_capacity(self.led.len());
@@ -145,7 +139,8 @@ impl Together {
     fn solve(&self, abreast: &mut Abreast<LANES>, loaded: &mut [Each], params: &[Each]) -> Option<()> {
         self.load(loaded, params);
         let tears: Vec<Each> = self.tears.iter().map(|&tear| LaneValues([self.q[tear]; LANES])).collect();
-        let guesses = Guesses { t: self.times.from(), tears: &tears, loaded, bounds: &self.bounds };
+        let [bounds, _] = &self.bounds;
+        let guesses = Guesses { t: self.times.from(), tears: &tears, loaded, bounds, nearly: NEARLY };
         abreast.run(&self.steps, (&self.program, &self.scalars), &guesses);
         let mut doubts = [0.0; LANES];
         abreast.write_doubts(&mut doubts);
@@ -166,12 +161,6 @@ impl Together {
                 guess.0.iter_mut().zip(values).for_each(|(guess, value)| *guess += slopes[place] * (value - own));
             }
         }
-    }
-
-    /// How near to a singular position pivots are, of which one over the smallest is this.
-    #[inline]
-    pub(super) fn nearness(&self, steepest: f64) -> f64 {
-        self.nearness / if steepest > 1.0 { steepest } else { 1.0 }
     }
 
     /// How many rows each variant has.
@@ -206,7 +195,9 @@ impl Together {
 /// The operations of parameters alone that lead to some registers.
 fn prologue(program: &Program, wanted: &[Register]) -> Vec<Op> {
     let mut is_read = vec![false; program.registers()];
-    wanted.iter().for_each(|&register| is_read[register as usize] = true);
+    for &register in wanted {
+        is_read[register as usize] = true;
+    }
     let mut kept = Vec::new();
     for &op in program.stage(Stage::Prologue).iter().rev() {
         if op.writes().iter().any(|&to| is_read[to as usize]) {

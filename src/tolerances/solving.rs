@@ -49,6 +49,11 @@ pub mod variants {
     pub const CERTAIN_MULTIPLIER: f64 = 0.99;
     /// What may be left of an equation, beside what may be left of it where a variant goes alone: rounding leaves less by orders of magnitude.
     pub const CERTAIN_RESIDUAL: f64 = 1e-3;
+    /// Between output times Newton ends with corrections of so many cells: what is left then is the square of that, far less than guesses are
+    /// off.
+    pub const NEARLY: f64 = 8_192.0;
+    /// What may be left of an equation then, beside what may be left of it where a variant goes alone.
+    pub const RESIDUAL_OF_STEP: f64 = 1e4;
     /// A variant nearer to a singular position than this goes alone: so far off no row is in doubt, and no step is looked into.
     pub const NEAREST: f64 = 0.04;
     /// A first correction is at most this part of the distance to a singular position: other branches are farther away.

@@ -2,30 +2,23 @@
 //! time to time. Newton goes from grid point to grid point (`math/grid.rs`), so that rows have the bits that they have alone, as long as the
 //! branch is the same. A step is taken where that is beyond doubt; a variant in doubt leaves, and goes alone from the beginning.
 
+use super::each::{Each, LANES, ZERO};
 use super::judge::{self, Doubts, Stand};
 use super::together::Together;
 use crate::cancel::Cancel;
 use crate::math::hermite::bend_ahead;
 use crate::program::LaneValues;
 use crate::solver::{Abreast, Guesses};
-use crate::tolerances::solving::variants::{CALM_STEPS, FEWEST_STEPS, PARTS_OF_WAY, PATIENCE};
+use crate::tolerances::solving::variants::{CALM_STEPS, FEWEST_STEPS, NEARLY, PARTS_OF_WAY, PATIENCE};
 use crate::tolerances::steps::march::CRUMB;
 use std::array::from_fn;
 use std::sync::Arc;
-
-/// So many variants go side by side.
-pub const LANES: usize = 16;
-
-/// A number for each of them.
-pub type Each = LaneValues<LANES>;
-
-pub(super) const ZERO: Each = LaneValues([0.0; LANES]);
 
 /// Rows that are put into columns together: as many as are a line of memory.
 const TILE: usize = 8;
 
 /// Variants that go side by side.
-pub struct Group {
+pub struct Team {
     together: Arc<Together>,
     /// The program's registers.
     registers: Vec<Each>,
@@ -50,12 +43,12 @@ pub struct Group {
     table: Vec<f64>,
 }
 
-impl Group {
+impl Team {
     /// Of a mechanism.
     #[must_use]
-    pub fn new(together: &Arc<Together>) -> Group {
+    pub fn new(together: &Arc<Together>) -> Team {
         let rows = together.times.len() as usize;
-        Group {
+        Team {
             registers: together.registers(),
             params: together.own.iter().map(|&value| LaneValues([value; LANES])).collect(),
             steps: together.abreast(&together.steps),
@@ -226,7 +219,7 @@ impl Group {
         let straight = [1.0, h, 0.5 * h * h];
         let now_share: [f64; 3] = from_fn(|of| straight[of] + share(of, false));
         let before_share: [f64; 3] = from_fn(|of| share(of, true));
-        let Group { together, now, before, guesses, .. } = self;
+        let Team { together, now, before, guesses, .. } = self;
         together.vectors.run(
             #[inline(always)]
             || {
@@ -244,15 +237,17 @@ impl Group {
 
     /// Solves at a time, with rows if they are wanted, and gives what is in doubt of each variant: after a step, if it was one of time.
     fn try_at(&mut self, t: f64, h: Option<f64>, is_of_rows: bool) -> Doubts {
-        let Group { together, registers, steps, rows, guesses, now, next, .. } = self;
-        let guesses = Guesses { t, tears: guesses, loaded: registers, bounds: &together.bounds };
+        let Team { together, registers, steps, rows, guesses, now, next, .. } = self;
+        let [of_steps, of_rows] = &together.bounds;
+        let (bounds, nearly) = if is_of_rows { (of_rows, 0.0) } else { (of_steps, NEARLY) };
+        let guesses = Guesses { t, tears: guesses, loaded: registers, bounds, nearly };
         let (solver, abreast) = if is_of_rows { (&together.rows, rows) } else { (&together.steps, steps) };
         abreast.run(solver, (&together.program, &together.scalars), &guesses);
         let mut doubts = Doubts([0.0; LANES]);
         together.vectors.run(
             #[inline(always)]
             || {
-                next.take(together, t, abreast);
+                next.take(&together.tracked, together.nearness, t, abreast);
                 abreast.write_doubts(&mut doubts.0);
                 judge::of_step(&together.tracked, [now, next], (h, abreast.first_corrections()), &mut doubts);
             },
@@ -268,7 +263,7 @@ impl Group {
 
     /// Takes the rows of an output time, by its number.
     fn write(&mut self, number: u64) {
-        let Group { together, rows, tile, table, .. } = self;
+        let Team { together, rows, tile, table, .. } = self;
         let at = number as usize % TILE;
         for (tile, &column) in tile.iter_mut().zip(&together.wanted) {
             tile[at] = if column == 0 { LaneValues([together.times.at(number); LANES]) } else { *rows.column(column) };
