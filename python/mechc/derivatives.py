@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mechc.errors import AnalysisError
 from mechc.tables import Run
-from mechc.values import meant, texts, usage
+from mechc.values import meant, refused, texts, usage
 
 if TYPE_CHECKING:
     from mechc.mechanism import Mechanism
@@ -85,13 +85,15 @@ class Objective:
     """A result, or what is made of columns, as a function of params, with its exact gradient.
 
     ``f(x)`` gives value and gradient, for ``scipy.optimize.minimize(f, x0, jac=True)``; ``f.value(x)`` and ``f.gradient(x)`` one of
-    them. ``x`` are the params in the order of ``f.by`` (SI). Where the mechanism does not get there an error is raised, or with
-    ``failed=math.inf`` that is the value, and the gradient is zero.
+    them. ``x`` are the params in the order of ``f.by`` (SI). Where the mechanism does not get there, or the result has no value, an
+    error is raised, or with ``failed=math.inf`` that is the value, and the gradient is zero. Where it has a value and no derivative,
+    as an extremum at a jump that goes with a param, the gradient is an error; ``f.value(x)`` is for methods without gradients.
     """
 
     def __init__(self, evaluate: Evaluation, place: int, failed: float | None) -> None:
         self._evaluate = evaluate
         self._place = place
+        self._name = evaluate.results[place]
         self._failed = failed
         #: The params, in the order of ``x``.
         self.by = evaluate.by
@@ -99,17 +101,27 @@ class Objective:
         self.x0 = evaluate.x0
 
     def __call__(self, x: ArrayLike) -> tuple[float, Array]:
+        value, gradient = self._both(x)
+        lacking = [name for name, slope in zip(self.by, gradient) if np.isnan(slope)]
+        if lacking:
+            message = f"result `{self._name}` has no derivative by {', '.join(f'`{name}`' for name in lacking)} here"
+            raise refused(message, "its value alone is `f.value(x)`, for methods that take no gradient")
+        return value, gradient
+
+    def _both(self, x: ArrayLike) -> tuple[float, Array]:
         try:
             results, slopes, _, _ = self._evaluate(x)
+            if np.isnan(results[self._place]):
+                raise refused(f"result `{self._name}` has no value here", "`failed=` gives one to such places")
         except AnalysisError:
             if self._failed is None:
                 raise
             return self._failed, np.zeros(len(self.by))
-        return results[self._place], slopes[self._place]
+        return float(results[self._place]), slopes[self._place].copy()
 
     def value(self, x: ArrayLike) -> float:
         """The value alone."""
-        return self(x)[0]
+        return self._both(x)[0]
 
     def gradient(self, x: ArrayLike) -> Array:
         """The gradient alone, of shape (params,)."""
@@ -183,6 +195,9 @@ class Evaluation:
         values, rows = self._evaluator.evaluate(x)
         numbers = np.array([np.nan if value is None else value for value in values], dtype=float)
         own = len(self.results)
+        if not len(numbers):
+            # times alone have no results
+            numbers = np.full(own * (1 + len(self.by)), np.nan)
         found = (
             numbers[:own],
             numbers[own:].reshape(own, len(self.by)),

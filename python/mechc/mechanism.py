@@ -91,12 +91,12 @@ class Mechanism(_mechc.Mechanism):
         """Its name in the text."""
         return self._name
 
-    @cached_property
+    @property
     def params(self) -> dict[str, float]:
         """Its params with their values (SI), those of parts by their paths; ``m.units`` has their units."""
         return {name: value for name, value, _ in self._params}
 
-    @cached_property
+    @property
     def inputs(self) -> dict[str, float]:
         """Its inputs with what they are at the first time (SI)."""
         return {name: value for name, value, _ in self._inputs}
@@ -109,17 +109,17 @@ class Mechanism(_mechc.Mechanism):
     def _input_units(self) -> dict[str, str]:
         return {name: unit for name, _, unit in self._inputs}
 
-    @cached_property
+    @property
     def columns(self) -> list[str]:
         """The columns of a run: ``t``, coordinates, measures, and the first (``.d``) and second (``.dd``) derivatives of all."""
         return self._columns()
 
-    @cached_property
+    @property
     def results(self) -> list[str]:
         """The names of its results, numbers for the whole analysis."""
         return [name for name, _ in self._results]
 
-    @cached_property
+    @property
     def units(self) -> dict[str, str]:
         """The units of columns as they are tabulated, and the SI units of params, inputs and results; ``"1"`` for a pure number."""
         units = dict(zip(self._columns(), self._units))

@@ -61,7 +61,7 @@ class Sweep:
         """All of it as a polars frame."""
         import polars
 
-        return polars.DataFrame(self.read())
+        return self.read().to_polars()
 
     def to_pandas(self) -> pandas.DataFrame:
         """All of it as a pandas frame."""

@@ -18,12 +18,22 @@ if TYPE_CHECKING:
     from mechc.errors import AnalysisError
 
 
+class _Stream:
+    """A table as a stream alone, for those who would take it for a mapping."""
+
+    def __init__(self, rows: Rows) -> None:
+        self._rows = rows
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        return self._rows.__arrow_c_stream__(requested_schema)
+
+
 class Rows(Mapping[str, Any]):
     """A table, a mapping from the names of its columns to their values.
 
     ``table["travel"]`` is a numpy array of shape (rows,) that shares the table's memory and cannot be written to. Whatever takes
-    Arrow takes the table: ``polars.DataFrame(table)``, ``pyarrow.table(table)``, ``duckdb``; there a value that is missing is null,
-    in arrays it is ``nan``.
+    Arrow takes the table: ``table.to_polars()``, ``pyarrow.table(table)``, ``duckdb``; there a value that is missing is null, in arrays,
+    and where the table is taken for a mapping, as by ``polars.DataFrame(table)``, it is ``nan``.
     """
 
     def __init__(self, table: _mechc.Table) -> None:
@@ -98,7 +108,8 @@ class Rows(Mapping[str, Any]):
         """The table as a polars frame."""
         import polars
 
-        return polars.DataFrame(self)
+        # a mapping would be taken for one, whose missing values are NaN
+        return polars.DataFrame(_Stream(self))
 
     def to_pandas(self) -> pandas.DataFrame:
         """The table as a pandas frame."""

@@ -12,7 +12,10 @@ from typing import Any, Union
 
 import numpy as np
 
-from mechc.errors import UsageError
+from mechc.errors import AnalysisError, UsageError
+
+#: Arrays have at most so many dimensions, as numpy's interface for other languages has.
+MOST_DIMENSIONS = 32
 
 #: A number in SI, or a text with its unit: ``0.18`` or ``"180 mm"``.
 Value = Union[float, int, str, "np.floating[Any]", "np.integer[Any]"]
@@ -20,8 +23,17 @@ Value = Union[float, int, str, "np.floating[Any]", "np.integer[Any]"]
 
 def usage(message: str, help: str | None = None, kind: type[UsageError] = UsageError) -> UsageError:
     """Wrong usage, as the command says it."""
+    return kind(*_said("E0706", message, help))
+
+
+def refused(message: str, help: str) -> AnalysisError:
+    """A number that cannot be had."""
+    return AnalysisError(*_said("N0604", message, help))
+
+
+def _said(code: str, message: str, help: str | None) -> tuple[str, list[dict[str, Any]]]:
     diagnostic = {
-        "code": "E0706",
+        "code": code,
         "severity": "error",
         "message": message,
         "labels": [],
@@ -30,10 +42,10 @@ def usage(message: str, help: str | None = None, kind: type[UsageError] = UsageE
         "fixes": [],
         "data": {},
     }
-    text = f"error[E0706]: {message}"
+    text = f"error[{code}]: {message}"
     if help is not None:
         text += f"\n = help: {help}"
-    return kind(text, [diagnostic])
+    return text, [diagnostic]
 
 
 def number(name: str, value: Any) -> float:
@@ -188,6 +200,8 @@ def elements(name: str, values: Any) -> float | np.ndarray[Any, Any]:
         return number(name, values if array.dtype == object else array[()])
     if array.dtype.kind not in "iuf":
         raise usage(f"`{name}` is an array of {array.dtype}, and one of numbers is wanted", "numbers are taken in SI")
+    if array.ndim > MOST_DIMENSIONS:
+        raise usage(f"`{name}` is an array of {array.ndim} dimensions", f"it may have at most {MOST_DIMENSIONS}")
     array = np.ascontiguousarray(array, dtype=np.float64)
     if not np.isfinite(array).all():
         raise usage(f"`{name}` has elements that are not finite", "only finite numbers can be computed with")

@@ -5,7 +5,7 @@ use crate::files::WithLists;
 use crate::mechanism::Stages;
 use crate::run::Asked;
 use crate::stream;
-use crate::sweep::reader::{Reader, Source};
+use crate::sweep::reader::{InTurns, Reader, Source};
 use crate::table::{Head, Kind, Table, schema};
 use crate::waiting::interruptible;
 use arrow_schema::SchemaRef;
@@ -195,7 +195,7 @@ impl Sweep {
 
     #[pyo3(signature = (progress = None))]
     fn _stream<'py>(&self, py: Python<'py>, progress: Option<Py<PyAny>>) -> PyResult<Bound<'py, PyCapsule>> {
-        stream::capsule(py, Box::new(self.reader(progress)))
+        stream::capsule(py, Box::new(InTurns::new(self.reader(progress))))
     }
 
     fn __arrow_c_schema__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {

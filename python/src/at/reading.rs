@@ -163,6 +163,12 @@ fn read<'py>(py: Python<'py>, name: &str, value: &Bound<'py, PyAny>, unit: &str)
 /// The value of a formula in SI; it must be of a unit, as an addend of that unit is.
 fn formula(py: Python<'_>, name: &str, text: &str, unit: &str) -> PyResult<f64> {
     let mut sources = Sources::default();
+    let is_of_time = |word: &str| word == "t";
+    if name != "t" && text.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(is_of_time) {
+        let message = format!("`{name}` is a formula of time, and `at` takes values");
+        let help = "an array has one for each element; what is not given follows its formula: `m.at(t=0.1)`";
+        return Err(usage(py, &message, help)?);
+    }
     if name == "t" {
         return seconds("t", text, &mut sources).map_err(|why| Said::of(&why, &sources).raised(py));
     }

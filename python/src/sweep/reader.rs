@@ -13,13 +13,16 @@ use mechc::{Cancel, SweepOptions};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, TryLockError};
 use std::thread::{self, JoinHandle, ThreadId};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// A batch has at least so many rows, or numbers, if that many come; few large batches are read faster than many small ones.
 const ROWS: usize = 1 << 16;
 const NUMBERS: usize = 1 << 20;
+
+/// Who waits for another one that reads looks again after this.
+const TURN: Duration = Duration::from_millis(1);
 
 /// Blocks that wait to be read.
 const AHEAD: usize = 2;
@@ -214,17 +217,40 @@ impl Reader {
     }
 }
 
-impl Iterator for Reader {
-    type Item = Result<RecordBatch, ArrowError>;
+/// A reader as Arrow's stream. Arrow asks of who reads one to do so by one thread at a time, which not all keep to: whoever comes while
+/// another one reads waits, and holds no lock of Python meanwhile.
+pub struct InTurns {
+    reader: Mutex<Reader>,
+    schema: SchemaRef,
+}
 
-    fn next(&mut self) -> Option<Self::Item> {
-        self.batch().map(|batch| batch.map_err(told))
+impl InTurns {
+    pub fn new(reader: Reader) -> InTurns {
+        let schema = Arc::clone(&reader.source.whole.schema);
+        InTurns { reader: Mutex::new(reader), schema }
     }
 }
 
-impl RecordBatchReader for Reader {
+impl Iterator for InTurns {
+    type Item = Result<RecordBatch, ArrowError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let mut reader = loop {
+            match self.reader.try_lock() {
+                Ok(reader) => break reader,
+                Err(TryLockError::Poisoned(poisoned)) => break poisoned.into_inner(),
+                Err(TryLockError::WouldBlock) => {
+                    Python::try_attach(|py| py.detach(|| thread::sleep(TURN)));
+                }
+            }
+        };
+        reader.batch().map(|batch| batch.map_err(told))
+    }
+}
+
+impl RecordBatchReader for InTurns {
     fn schema(&self) -> SchemaRef {
-        Arc::clone(&self.source.whole.schema)
+        Arc::clone(&self.schema)
     }
 }
 
