@@ -254,14 +254,17 @@ impl Mechanism {
         inputs: Option<Bound<'py, PyDict>>,
         rates: Option<Bound<'py, PyDict>>,
         accelerations: Option<Bound<'py, PyDict>>,
-        by: Option<Vec<String>>,
+        by: Option<Bound<'py, PyAny>>,
         reactions: bool,
         tolerance: Option<f64>,
         pass_bifurcations: bool,
         strict: bool,
         values: Option<Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, At>> {
-        let by = by.unwrap_or_default();
+        let by = match by {
+            Some(by) => py.import("mechc.values")?.getattr("texts")?.call1(("by", by))?.extract()?,
+            None => Vec::new(),
+        };
         let options = Options { set, inputs, rates, accelerations, by, reactions, tolerance, pass_bifurcations };
         let found = Bound::new(py, at::at(py, self, t.as_ref(), options, values.as_ref())?)?;
         match found.get().error(py).filter(|_| strict) {

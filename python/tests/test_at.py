@@ -146,3 +146,20 @@ def test_what_does_not_get_there(four_bar):
         m.at(-1.0)
     with pytest.raises(KeyError):
         m.at(theta=1.0)["nothing"]
+
+
+def test_a_formula_of_time_is_no_value(four_bar):
+    m, _ = four_bar
+    with pytest.raises(mechc.UsageError, match="`theta` is a formula of time"):
+        m.at(t=[0.0, 0.1], theta="30 rpm*t")
+    with pytest.raises(mechc.UsageError, match="formula of time"):
+        m.at(theta=0.3, rates={"theta": "1 rad/s + 1 rad/s^2*t"})
+    assert m.at(theta="30 deg")["crank.phi"] == pytest.approx(np.radians(30), abs=1e-15)
+
+
+def test_odd_arrays_and_lists(four_bar):
+    m, _ = four_bar
+    with pytest.raises(mechc.UsageError, match="33 dimensions"):
+        m.at(theta=np.zeros((1,) * 33))
+    assert m.at(theta=np.zeros((1,) * 32)).q.shape == (1,) * 32 + (9,)
+    assert same_bits(np.array([m.at(theta=0.3, by="theta")["crank.phi.by.theta"]]), np.array([1.0]))

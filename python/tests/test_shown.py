@@ -103,6 +103,32 @@ def test_jacobians_are_those_of_the_command():
         f([0.01])
 
 
+def test_a_gradient_belongs_to_who_gets_it():
+    f = mechc.load(CRANK).objective("peak", by=["rod_length"], results=PEAK)
+    _, gradient = f(f.x0)
+    kept = gradient.copy()
+    gradient *= -0.1
+    assert same_bits(f.gradient(f.x0), kept)
+
+
+def test_what_has_no_derivative_or_no_value_is_said():
+    f = mechc.load(ROOT / "examples/shaper_torque.mech").objective("most", by=["crank_length"])
+    assert np.isfinite(f.value(f.x0))
+    with pytest.raises(mechc.AnalysisError, match="`most` has no derivative by `crank_length`"):
+        f(f.x0)
+    nothing = {"odd": "at(travel, 0 s) / (at(travel, 0 s) - at(travel, 0 s))"}
+    with pytest.raises(mechc.AnalysisError, match="`odd` has no value"):
+        mechc.load(CRANK).objective("odd", by=["rod_length"], results=nothing)([0.15])
+    assert mechc.load(CRANK).objective("odd", by=["rod_length"], results=nothing, failed=7.0)([0.15])[0] == 7.0
+
+
+def test_residuals_of_a_mechanism_with_results():
+    m = mechc.load(ROOT / "examples/jansen_leg.mech")
+    assert m.results
+    f = m.residuals(["foot.x"], [0.0, 0.0], by=["la"], at=[0.0, 0.1])
+    assert f(f.x0).shape == (2,) and np.isfinite(f.jacobian(f.x0)).all()
+
+
 def test_residuals_have_exact_derivatives():
     m = mechc.load(CRANK)
     f = m.residuals(["travel", "lean"], np.zeros((3, 2)), by=["rod_length", "crank_length"], at=[0.0, 0.01, 0.02])

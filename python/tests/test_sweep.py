@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pandas as pd
 import polars as pl
@@ -129,3 +131,34 @@ def test_what_cannot_vary_is_told():
     for vary in ({"bse": [0.1]}, {"base": []}, {"base": [float("nan")]}, {}, None, {"base": mechc.between("1 mm", "2 mm")}, {3: [1]}):
         with pytest.raises(mechc.UsageError):
             m.sweep(vary=vary)
+
+
+def test_a_stream_that_several_threads_read_is_read_once():
+    sweep = mechc.load(HOEKEN).sweep({"base": mechc.between("60 mm", "100 mm")}, samples=600, rows=True, columns="t", jobs=1)
+    reader = pa.RecordBatchReader.from_stream(sweep)
+
+    def read(_):
+        return [list(batch["variant"].to_numpy()) for batch in reader]
+
+    with ThreadPoolExecutor(4) as threads:
+        found = [number for batches in threads.map(read, range(4)) for batch in batches for number in batch]
+    rows = mechc.load(HOEKEN).run(columns="t").rows
+    assert sorted(found) == [number for number in range(600) for _ in range(rows)]
+
+
+def test_what_is_missing_is_null_in_polars():
+    sweep = mechc.load(HOEKEN).sweep({"base": [0.06, 0.2]}, results=FLAT)
+    frames = [sweep.to_polars(), sweep.read().to_polars(), pl.DataFrame(sweep)]
+    assert [frame["stopped"].null_count() for frame in frames] == [frames[2]["stopped"].null_count()] * 3
+    assert frames[2]["stopped"].null_count() > 0
+
+
+def test_what_is_told_of_a_mechanism_is_nobodys_to_change():
+    m = mechc.load(HOEKEN)
+    known = dict(m.params)
+    m.params["base"] = 999.0
+    m.columns.clear()
+    m.units["base"] = "ft"
+    assert m.params == known and "t" in m.columns and m.units["base"] == "m"
+    with pytest.raises(AttributeError):
+        m.params = {}
