@@ -298,7 +298,7 @@ fn bifurcations_that_are_passed_on_the_way_are_told() {
     assert_eq!(told.len(), wanted.len(), "{told:?}");
     for ((message, part), (place, at)) in told.iter().zip(wanted) {
         let begins = "W0602 on the way to the inputs that are given two branches of the motion meet at `turn` = ";
-        let number = message.strip_prefix(begins).and_then(|rest| rest.split(';').next()).expect("a place");
+        let number = message.strip_prefix(begins).and_then(|rest| rest.split(" rad;").next()).expect("a place");
         assert!((number.parse::<f64>().expect("a number") - place).abs() < 1e-5, "{message}");
         assert!((part - at).abs() < 1e-6, "{part}");
     }

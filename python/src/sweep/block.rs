@@ -25,7 +25,7 @@ impl Block {
     /// What a sweep has of them, in its order of columns.
     pub fn of(swept: Swept, units: Option<&[mechc::ColumnUnit]>) -> Block {
         let numbers = swept.first..swept.first + swept.len() as u64;
-        let Swept { first, statuses, stopped, params, results, lengths, columns: rows } = swept;
+        let Swept { first, statuses, stopped, params, results, lengths, columns: rows, abreast: _ } = swept;
         let mut columns = Vec::with_capacity(params.len() + results.len() + rows.len() + 3);
         let Some(units) = units else {
             columns.push(Numbers::Whole(numbers.collect()));

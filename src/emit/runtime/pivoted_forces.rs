@@ -15,7 +15,9 @@ pub fn forces_with_pivoting<M: Pivoting + Forced>(
 ) -> Result<(), Fault> {
     *at = solve_with_pivoting(m, &from.q, from.t, &from.sides)?;
     let slopes = m.phi_q(&at.q, from.t, &from.sides);
-    let multipliers = Elimination::<M>::new().multipliers(m, &slopes, [&at.q, &at.qd, &at.qdd], from.t, &from.sides);
+    let (mut elimination, orders) = (Elimination::<M>::new(), [&at.q, &at.qd, &at.qdd]);
+    let qddd = elimination.third_derivatives(m, &slopes, orders, from.t, &from.sides);
+    let multipliers = elimination.multipliers(m, &slopes, [&at.q, &at.qd, &at.qdd, &qddd], from.t, &from.sides);
     *forces = without_signs_of_zero(exerted(&at.q, &multipliers));
     Ok(())
 }

@@ -58,7 +58,14 @@ impl Writer<'_> {
         let is_public = given == Given::None;
         let name = if is_public { "needed".to_owned() } else { self.on_sides("needed") };
         let wanted = Wanted::of(&name, NEEDED, &self.unit.program.outputs.forces, "N");
-        self.equations.function(&Wanted { is_public, orders: 3, given, ..wanted }, page);
+        let orders = if self.forces_hold_jerk() { 4 } else { 3 };
+        self.equations.function(&Wanted { is_public, orders, given, ..wanted }, page);
+    }
+
+    /// Whether loads hold third derivatives of the coordinates.
+    fn forces_hold_jerk(&self) -> bool {
+        let (system, is_third) = (self.unit.system, |of: Dependence| of.highest_order() == Some(3));
+        system.needed_forces().iter().any(|&of| is_third(system.graph().dependence(of)))
     }
 
     /// What multipliers exert; nothing where no columns are made of that.
@@ -159,6 +166,9 @@ impl Writer<'_> {
         }
         let head = Head { kind: "fn", name: "transposed", arguments: &[], result: "Option<&'static Transposed>" };
         page.function(&head, |page| page.line("Some(&ACROSS)"));
-        self.right_side(page, "needed", &[("[q, qd, qdd]", "[&Q; 3]")], &["q", "qd", "qdd"], "Q");
+        let own = ["q", "qd", "qdd", "qddd"];
+        let (orders, own) =
+            if self.forces_hold_jerk() { ("[q, qd, qdd, qddd]", &own[..]) } else { ("[q, qd, qdd, _]", &own[..3]) };
+        self.right_side(page, "needed", &[(orders, "[&Q; 4]")], own, "Q");
     }
 }
