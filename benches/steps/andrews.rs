@@ -2859,7 +2859,7 @@ pub trait Pivoting: Solved {
     }
 
     /// What the multipliers have to hold, by coordinate.
-    fn needed(&self, _orders: [&Self::Q; 3], _t: f64, _sides: &Self::Sides) -> Self::Q {
+    fn needed(&self, _orders: [&Self::Q; 4], _t: f64, _sides: &Self::Sides) -> Self::Q {
         Self::Q::ZERO
     }
 
@@ -2889,13 +2889,13 @@ pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Side
     let (qd, pivot) = elimination.solve(&slopes, &m.nu(&at.q, t, sides));
     let (qdd, _) = elimination.solve(&slopes, &m.gamma(&at.q, &qd, t, sides));
     let orders = [&at.q, &qd, &qdd];
-    let qddd = if M::HAS_JERK { elimination.solve(&slopes, &m.jerk(orders, t, sides)).0 } else { M::Q::ZERO };
+    let qddd = elimination.third_derivatives(m, &slopes, orders, t, sides);
     let rights = m.rights(&at.q, t, sides);
     for (slopes_by, right) in at.along.slopes_mut().iter_mut().zip(rights.as_ref()) {
         *slopes_by = without_signs_of_zero(elimination.solve(&slopes, right).0);
     }
     let varied = vary(m, &mut elimination, &slopes, orders, t, sides);
-    let multipliers = elimination.multipliers(m, &slopes, orders, t, sides);
+    let multipliers = elimination.multipliers(m, &slopes, [&at.q, &qd, &qdd, &qddd], t, sides);
     at.measures = m.measured([&at.q, &qd, &qdd, &qddd], &varied, &multipliers, t);
     (at.qd, at.qdd) = (without_signs_of_zero(qd), without_signs_of_zero(qdd));
     at.holds = is_next_to_nothing::<M>(&m.phi(&at.q, t, sides), &slopes, &at.q);
@@ -2984,8 +2984,20 @@ impl<M: Pivoting> Elimination<M> {
         (x, pivot)
     }
 
+    /// The third derivatives of the coordinates; 0 where nobody asks for them.
+    pub fn third_derivatives(
+        &mut self,
+        m: &M,
+        slopes: &M::Entries,
+        orders: [&M::Q; 3],
+        t: f64,
+        sides: &M::Sides,
+    ) -> M::Q {
+        if M::HAS_JERK { self.solve(slopes, &m.jerk(orders, t, sides)).0 } else { M::Q::ZERO }
+    }
+
     /// The multipliers of a state; 0 where nobody asks for forces.
-    pub fn multipliers(&mut self, m: &M, slopes: &M::Entries, orders: [&M::Q; 3], t: f64, sides: &M::Sides) -> M::Q {
+    pub fn multipliers(&mut self, m: &M, slopes: &M::Entries, orders: [&M::Q; 4], t: f64, sides: &M::Sides) -> M::Q {
         let mut multipliers = M::Q::ZERO;
         let Some(Transposed { blocks, places }) = M::transposed() else { return multipliers };
         let mut across = *slopes;

@@ -643,7 +643,7 @@ impl Pivoting for Model {
         Some(&ACROSS)
     }
 
-    fn needed(&self, [q, qd, qdd]: [&Q; 3], t: f64, _sides: &Sides) -> Q {
+    fn needed(&self, [q, qd, qdd, _]: [&Q; 4], t: f64, _sides: &Sides) -> Q {
         needed(q, qd, qdd, t, &self.params)
     }
 
