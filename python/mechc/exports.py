@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 
 from mechc.errors import FileError
@@ -39,6 +40,18 @@ def write(path: Path, text: str) -> Path:
     except OSError as error:
         raise _cannot(path, error.strerror or str(error)) from error
     return path
+
+
+def refuse_what_was_read(path: Path, sources: Iterable[str | os.PathLike[str]]) -> None:
+    """Refuses to write over one of the files that a mechanism was read from."""
+    for source in sources:
+        try:
+            is_one = os.path.samefile(path, source)
+        except OSError:
+            # one of them is not there
+            continue
+        if is_one:
+            raise _cannot(path, "the mechanism was read from it", "name another file")
 
 
 def write_all(folder: Path, files: list[tuple[str, str]], mark: str) -> Path:

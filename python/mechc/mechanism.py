@@ -462,7 +462,7 @@ class Mechanism(_mechc.Mechanism):
             if ffi:
                 raise usage("functions for C are a part of a crate", "name a folder for it")
             text = self._rust(asked)
-            return text if path is None else exports.write(exports.path_of(path), text)
+            return text if path is None else self._written(path, text)
         folder = exports.path_of(path)
         files, mark = self._crate(asked, folder.resolve().name or self.name)
         return exports.write_all(folder, files, mark)
@@ -470,12 +470,12 @@ class Mechanism(_mechc.Mechanism):
     def to_latex(self, path: str | os.PathLike[str] | None = None) -> str | Path:
         """The equations typeset for a report: the text, or a file."""
         text = self._latex()
-        return text if path is None else exports.write(exports.path_of(path), text)
+        return text if path is None else self._written(path, text)
 
     def to_json(self, path: str | os.PathLike[str] | None = None) -> str | Path:
         """The constraint system as data for other programs: the text, or a file."""
         text = self._json()
-        return text if path is None else exports.write(exports.path_of(path), text)
+        return text if path is None else self._written(path, text)
 
     def view(
         self,
@@ -497,7 +497,14 @@ class Mechanism(_mechc.Mechanism):
             _VIEW, values, set=set, inputs=inputs, from_=from_, to=to, every=every, pass_bifurcations=pass_bifurcations
         )
         page, picture = self._seen(asked)
-        return exports.write(file, page if file.suffix == ".html" else picture)
+        return self._written(file, page if file.suffix == ".html" else picture)
+
+    def _written(self, path: str | os.PathLike[str], text: str) -> Path:
+        """Writes a file, which is none that it was read from."""
+        file = exports.path_of(path)
+        _, own, used, *_ = self._packed()
+        exports.refuse_what_was_read(file, [own, *used])
+        return exports.write(file, text)
 
     def _repr_html_(self) -> str | None:
         """The moving page, for notebooks."""

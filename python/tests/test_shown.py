@@ -161,3 +161,14 @@ def test_reactions_are_those_of_the_command():
     table = command("run", str(path), "--reactions").table()
     assert len(found.columns) > 5 and all(same_bits(found[name], table[name]) for name in found)
     assert not [name for name in found if name.endswith(".x")]
+
+
+def test_nothing_is_written_over_what_was_read(tmp_path):
+    own = tmp_path / "own.mech"
+    own.write_text(CRANK.read_text())
+    m = mechc.load(own)
+    for write in (m.to_latex, m.to_json):
+        with pytest.raises(mechc.FileError, match="read from it"):
+            write(own)
+    assert own.read_text() == CRANK.read_text()
+    assert m.to_latex(tmp_path / "own.tex").exists()
