@@ -426,10 +426,10 @@ fn a_load_holds_a_jerk() {
         )
     };
     for more in ["", "measure j = der(der(der(rotation(g))))", "result most = max(e)"] {
-        let rows = support::run("m", &text(more), Default::default()).expect_success();
+        let rows = support::run("m", &text(more), support::Span::default()).expect_success();
         let column = rows.columns.iter().position(|name| name == "e").expect("a column");
         for row in &rows.rows {
-            let wanted = 8.0 * (2.0 * row[0]).cos();
+            let wanted = 8.0 * sin_cos(2.0 * row[0]).1;
             assert!((row[column] - wanted).abs() < 1e-12, "{more}: {} beside {wanted}", row[column]);
         }
     }

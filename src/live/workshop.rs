@@ -427,7 +427,7 @@ impl Asked<'_> {
                 "now": now(knob),
                 "of": knob.of,
                 "text": knob.place.filter(is_here).map(|place| sources.text(place)),
-                "where": knob.stands.filter(|_| knob.place.filter(is_here).is_none()).map(place),
+                "where": knob.stands.filter(|_| knob.place.is_none_or(|place| !is_here(&place))).map(place),
             })
         });
         Value::Array(told.collect())
