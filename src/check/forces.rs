@@ -319,16 +319,8 @@ impl Checker<'_> {
 
     /// The driver that speaks of a joint.
     pub(super) fn driver_of(&self, joint: &str) -> Option<String> {
-        let speaks_of_it = |e: &Expr| {
-            let mut open = vec![e];
-            while let Some(e) = open.pop() {
-                if matches!(&e.kind, ExprKind::Name(name) if name.text == joint) {
-                    return true;
-                }
-                open.extend(e.children());
-            }
-            false
-        };
+        let is_it = |e: &Expr| matches!(&e.kind, ExprKind::Name(name) if name.text == joint);
+        let speaks_of_it = |e: &Expr| e.parts().any(is_it);
         self.items().iter().find_map(|item| match &item.kind {
             ItemKind::Equation { driver: true, name, left, right } if [left, right].into_iter().any(speaks_of_it) => {
                 Some(name.text.clone())
@@ -360,16 +352,8 @@ impl Checker<'_> {
 
     /// Whether a measure or result, of this text or of a part's, asks for an effort.
     pub(super) fn asks_for_efforts(&self) -> bool {
-        let asks = |e: &Expr| {
-            let mut open = vec![e];
-            while let Some(e) = open.pop() {
-                if matches!(&e.kind, ExprKind::Call { name, .. } if name.text == "effort") {
-                    return true;
-                }
-                open.extend(e.children());
-            }
-            false
-        };
+        let is_effort = |e: &Expr| matches!(&e.kind, ExprKind::Call { name, .. } if name.text == "effort");
+        let asks = |e: &Expr| e.parts().any(is_effort);
         let own = self.items().iter().any(|item| match &item.kind {
             ItemKind::Measure { value, .. } | ItemKind::Result { value, .. } | ItemKind::Trace { point: value, .. } => {
                 asks(value)

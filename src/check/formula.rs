@@ -692,16 +692,9 @@ impl Checker<'_> {
 
     /// Whether a formula as written holds a kinematic quantity.
     pub(super) fn holds_quantity(&self, formula: &Expr) -> bool {
-        let mut open = vec![formula];
-        while let Some(e) = open.pop() {
-            if let ExprKind::Call { name, .. } = &e.kind
-                && self.quantity_word(name).is_some()
-            {
-                return true;
-            }
-            open.extend(e.children());
-        }
-        false
+        let is_quantity =
+            |e: &Expr| matches!(&e.kind, ExprKind::Call { name, .. } if self.quantity_word(name).is_some());
+        formula.parts().any(is_quantity)
     }
 
     /// The value of a formula of constants, of whatever dimension.

@@ -56,15 +56,12 @@ fn units_in(e: &Expr) -> Vec<Span> {
 }
 
 /// The numbers in brackets anywhere in a formula.
-pub(super) fn indices(formula: &Expr) -> Vec<&Expr> {
-    let (mut found, mut open) = (Vec::new(), vec![formula]);
-    while let Some(e) = open.pop() {
-        if let ExprKind::Path(segments) = &e.kind {
-            found.extend(segments.iter().flat_map(|segment| &segment.indices));
-        }
-        open.extend(e.children());
-    }
-    found
+pub(super) fn indices<'e>(formula: &'e Expr) -> Vec<&'e Expr> {
+    let indices_of = |e: &'e Expr| match &e.kind {
+        ExprKind::Path(segments) => segments.as_slice(),
+        _ => &[],
+    };
+    formula.parts().flat_map(indices_of).flat_map(|segment| &segment.indices).collect()
 }
 
 /// The name that a declaration gives.

@@ -73,16 +73,9 @@ impl Checker<'_> {
 
     /// Whether the place of a part is said by points of bodies, which have places of their own.
     pub(super) fn is_placed_by_features(&self, part: usize) -> bool {
-        let mut open: Vec<&Expr> = self.bindings[part].at.iter().collect();
-        while let Some(e) = open.pop() {
-            if let ExprKind::Member { owner, .. } = &e.kind
-                && self.point_param(owner).is_none()
-            {
-                return true;
-            }
-            open.extend(e.children());
-        }
-        false
+        let is_feature =
+            |e: &Expr| matches!(&e.kind, ExprKind::Member { owner, .. } if self.point_param(owner).is_none());
+        self.bindings[part].at.iter().flat_map(Expr::parts).any(is_feature)
     }
 
     /// Where a part's ground is in the frame that carries it; one that has no place, which has been said, is broken.

@@ -36,12 +36,10 @@ impl Variables {
 
     /// Those that a text asks for too, which stands under a path.
     pub fn add(&mut self, tree: &Mechanism, path: &str) {
-        let mut open: Vec<&Expr> = tree.items.iter().flat_map(formulas).collect();
-        while let Some(e) = open.pop() {
+        for e in tree.items.iter().flat_map(formulas).flat_map(Expr::parts) {
             if let Some((_, by)) = as_derivative(e) {
                 self.asked.extend(named(by).map(|name| format!("{path}{name}")));
             }
-            open.extend(e.children());
         }
     }
 

@@ -167,7 +167,7 @@ impl Walk<'_> {
                 self.part(part);
             }
             for formula in formulas(item) {
-                each(formula, &mut |e| self.path(tree, e));
+                formula.parts().for_each(|e| self.path(tree, e));
             }
         }
     }
@@ -314,15 +314,6 @@ pub(super) fn of_feature(feature: &Feature) -> Vec<&Expr> {
         FeatureKind::Curve { at, estimate, .. } => std::iter::once(at).chain(estimate).collect(),
         FeatureKind::Mass { mass, at, inertia } => std::iter::once(mass).chain(at).chain(inertia).collect(),
         FeatureKind::Broken => Vec::new(),
-    }
-}
-
-/// A formula and all that it is made of.
-pub(super) fn each<'t>(formula: &'t Expr, act: &mut impl FnMut(&'t Expr)) {
-    let mut open = vec![formula];
-    while let Some(e) = open.pop() {
-        act(e);
-        open.extend(e.children());
     }
 }
 

@@ -1,11 +1,11 @@
 //! The shape of a text: what can be folded away, and what lies around a place.
 
-use super::names::{each, formulas, of_feature};
+use super::names::{formulas, of_feature};
 use super::place::Place;
 use super::snapshot::Snapshot;
 use crate::source::Span;
 use crate::stages::Parsed;
-use crate::syntax::ast::{Feature, Item, ItemKind, Mechanism, TableRows};
+use crate::syntax::ast::{Expr, Feature, Item, ItemKind, Mechanism, TableRows};
 use crate::syntax::tokens;
 use std::ops::Range;
 use std::path::Path;
@@ -136,9 +136,7 @@ fn spans_of(mechanism: &Mechanism, offset: u32, add: &mut impl FnMut(Span)) {
 }
 
 fn spans_of_item(item: &Item, add: &mut impl FnMut(Span)) {
-    for formula in formulas(item) {
-        each(formula, &mut |e| add(e.span));
-    }
+    formulas(item).into_iter().flat_map(Expr::parts).for_each(|e| add(e.span));
     match &item.kind {
         ItemKind::Joint { call_span, .. } => add(*call_span),
         ItemKind::Part(part) => {
@@ -167,9 +165,7 @@ fn spans_of_item(item: &Item, add: &mut impl FnMut(Span)) {
 
 fn spans_of_feature(feature: &Feature, add: &mut impl FnMut(Span)) {
     add(feature.span);
-    for formula in of_feature(feature) {
-        each(formula, &mut |e| add(e.span));
-    }
+    of_feature(feature).into_iter().flat_map(Expr::parts).for_each(|e| add(e.span));
 }
 
 #[cfg(test)]

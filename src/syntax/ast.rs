@@ -532,6 +532,12 @@ impl Expr {
         }
     }
 
+    /// The expression and all that it is made of, each before what it is made of.
+    #[must_use]
+    pub fn parts(&self) -> Parts<'_> {
+        Parts { open: vec![self] }
+    }
+
     /// The direct sub-expressions.
     #[must_use]
     pub fn children(&self) -> Vec<&Expr> {
@@ -552,5 +558,20 @@ impl Expr {
                 list
             }
         }
+    }
+}
+
+/// An expression and all that it is made of. It goes into whatever depth there is without recursion.
+pub struct Parts<'e> {
+    open: Vec<&'e Expr>,
+}
+
+impl<'e> Iterator for Parts<'e> {
+    type Item = &'e Expr;
+
+    fn next(&mut self) -> Option<&'e Expr> {
+        let e = self.open.pop()?;
+        self.open.extend(e.children());
+        Some(e)
     }
 }
