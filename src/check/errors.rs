@@ -453,9 +453,6 @@ pub fn input_told_twice(name: &str, places: [Span; 2]) -> Diagnostic {
 }
 
 pub fn quantity_in(place: &str, name: &str, span: Span) -> Diagnostic {
-    if QuantityWord::named(name).is_some_and(|quantity| quantity.is_force) {
-        return force_in(place, &format!("`{name}`"), span);
-    }
     Diagnostic::new(Code::E0307, format!("the kinematic quantity `{name}` may not stand in {place}"))
         .at(span, "depends on the motion")
         .help("kinematic quantities stand in constraints, drivers, loads and measures")

@@ -39,13 +39,14 @@ impl Checker<'_> {
             self.report(errors::outside_reduction(&what, e.span, text));
             return false;
         }
+        // what comes out says itself where it may not stand
+        let word = QuantityWord::named(&name.text).filter(|word| !word.is_force);
+        let Some(word) = word else { return true };
         if !context.quantities {
             self.report(errors::quantity_in(context.place, &name.text, e.span));
             return false;
         }
-        let is_of_measures =
-            QuantityWord::named(&name.text).is_some_and(|quantity| quantity.gives_way && !quantity.is_force);
-        if !context.measures && (is_of_measures || name.text == "angle" && arguments.len() == 3) {
+        if !context.measures && (word.gives_way || name.text == "angle" && arguments.len() == 3) {
             let diagnostic = errors::quantity_of_measures(context.place, &name.text, e.span);
             let diagnostic = match self.rate_of_joint(e, name, arguments, context) {
                 Some(fix) => diagnostic.instead(fix),
