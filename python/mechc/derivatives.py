@@ -172,10 +172,11 @@ class Evaluation:
 
     def __init__(self, m: Mechanism, by: Any, columns: Sequence[str], asked: dict[str, Any]) -> None:
         self.by = _names(by)
+        params = m.params
         for name in self.by:
-            if name not in m.params:
-                raise usage(f"there is no param `{name}`", meant(name, m.params) or f"the params are {', '.join(m.params)}")
-        self.x0 = np.array([m.params[name] for name in self.by])
+            if name not in params:
+                raise usage(f"there is no param `{name}`", meant(name, params) or f"the params are {', '.join(params)}")
+        self.x0 = np.array([params[name] for name in self.by])
         patterns = [*columns, *(f"{column}.by.{name}" for column in columns for name in self.by)] or ["t"]
         asked = {**asked, "by": self.by, "slopes": True, "columns": patterns}
         self._evaluator = m._evaluator(asked, self.by)

@@ -515,8 +515,8 @@ class Mechanism(_mechc.Mechanism):
 
     def __repr__(self) -> str:
         moved = len([name for name in self._columns() if name.endswith(".x")])
-        params = f", {len(self.params)} params" if self.params else ""
-        inputs = f", {len(self.inputs)} inputs" if self.inputs else ""
+        params = f", {len(self._params)} params" if self._params else ""
+        inputs = f", {len(self._inputs)} inputs" if self._inputs else ""
         return f"<Mechanism {self.name}: {moved} bodies{params}{inputs}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
