@@ -81,8 +81,8 @@ pub use output::{TableFormat, TableWriter};
 pub use source::{Encoding, FileId, Source, Sources, Span};
 pub use stages::{
     Adjustable, Adjusting, Affected, AskedTimes, Assembly, Checked, Choice, Compiled, Deviation, Formula, InputMotion,
-    Parsed, Redundant, Run, RunOptions, RustOptions, Seen, Settable, Shown, Sweep, SweepOptions, Tolerance,
-    Tolerancing, Variants, VaryOptions, Vectors, Verified, imported, seconds,
+    Parsed, Redundant, Run, RunOptions, RustOptions, Seen, Settable, Shown, Sweep, SweepOptions, SweptColumn,
+    Tolerance, Tolerancing, Variants, VaryOptions, Vectors, Verified, imported, seconds,
 };
 pub use sweep::{Levels, Method, Points, Sampling, Status, Swept, Varying};
 pub use syntax::{Comment, Trivia};

@@ -14,7 +14,7 @@ use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, readable};
 use crate::layout::ColumnUnit;
 use crate::output::{Cells, Kind, Made, Sheet, SheetColumn, SheetWriter, TableFormat};
-use crate::stages::{Checked, Choice, Compiled, Redundant, SweepOptions, Variants, VaryOptions};
+use crate::stages::{Checked, Choice, Compiled, Redundant, SweepOptions, SweptColumn, Variants, VaryOptions};
 use crate::sweep::{Method, Status, Swept};
 use std::path::Path;
 
@@ -209,26 +209,13 @@ impl Table {
 
     /// The cells of a block.
     fn cells(&self, block: Swept) -> Vec<Cells> {
-        let numbers: Vec<u64> = (block.first..).take(block.len()).collect();
-        if self.wanted.is_none() {
-            let mut cells = vec![Cells::Whole(numbers)];
-            cells.extend(block.params.into_iter().chain(block.results).map(Cells::Numbers));
-            cells.push(Cells::Words(block.statuses.into_iter().map(Status::as_str).collect()));
-            cells.push(Cells::Numbers(block.stopped));
-            return cells;
-        }
-        let of_rows = |numbers: Vec<f64>| {
-            numbers.iter().zip(&block.lengths).flat_map(|(&number, &rows)| std::iter::repeat_n(number, rows)).collect()
+        let units = self.wanted.as_ref().map(|_| self.units.as_slice());
+        let cells = |column| match column {
+            SweptColumn::Whole(numbers) => Cells::Whole(numbers),
+            SweptColumn::Numbers(numbers) => Cells::Numbers(numbers),
+            SweptColumn::Words(words) => Cells::Words(words),
         };
-        let mut cells = vec![Cells::Whole(
-            numbers.iter().zip(&block.lengths).flat_map(|(&number, &rows)| std::iter::repeat_n(number, rows)).collect(),
-        )];
-        cells.extend(block.params.into_iter().map(|column| Cells::Numbers(of_rows(column))));
-        let printed = |(unit, column): (&ColumnUnit, Vec<f64>)| {
-            Cells::Numbers(column.into_iter().map(|value| unit.printed(value)).collect())
-        };
-        cells.extend(self.units.iter().zip(block.columns).map(printed));
-        cells
+        block.tabulated(units).into_iter().map(cells).collect()
     }
 }
 
