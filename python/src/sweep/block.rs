@@ -57,7 +57,9 @@ impl Gathered {
                 (Gathering::Real(into), SweptColumn::Numbers(values)) => into.extend_from_slice(&values),
                 (Gathering::Whole(into), SweptColumn::Whole(values)) => into.extend_from_slice(&values),
                 (Gathering::Words(into), SweptColumn::Words(words)) => {
-                    words.into_iter().for_each(|word| into.append_value(word));
+                    for word in words {
+                        into.append_value(word);
+                    }
                 }
                 _ => {}
             }
