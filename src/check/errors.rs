@@ -147,7 +147,13 @@ pub fn not_a_unit(name: &Name, number: &str, is_a_name: bool) -> Diagnostic {
         .at(name.span, "only a unit may follow a number");
     if is_a_name {
         let words = format!("was `{number} * {}` meant?", name.text);
-        return diagnostic.fix(Fix::insert(name.span, "* ", words, Applies::Probably));
+        let diagnostic = diagnostic.fix(Fix::insert(name.span, "* ", words, Applies::Probably));
+        // what is a unit elsewhere, and a name here
+        return match name.text.as_str() {
+            "t" => diagnostic.help("tonnes are no unit; `1 t` is `1000 kg`"),
+            "g" => diagnostic.help("grams are no unit; `1 g` is `0.001 kg`"),
+            _ => diagnostic,
+        };
     }
     meant_unit(diagnostic, name)
 }
@@ -155,10 +161,11 @@ pub fn not_a_unit(name: &Name, number: &str, is_a_name: bool) -> Diagnostic {
 /// Which unit was meant, or all of them.
 fn meant_unit(diagnostic: Diagnostic, name: &Name) -> Diagnostic {
     let units: Vec<&str> = Unit::names().collect();
-    match (Synonym::of(Place::Unit, &name.text), meant(name, &units)) {
-        (Some(synonym), _) => diagnostic.help(synonym.say(&[])),
-        (None, Some(fix)) => diagnostic.fix(fix),
-        (None, None) => diagnostic.help(format!("the units are {}", units.join(" "))),
+    match (Synonym::of(Place::Unit, &name.text), Unit::of_multiple(&name.text), meant(name, &units)) {
+        (Some(synonym), ..) => diagnostic.help(synonym.say(&[])),
+        (None, Some(told), _) => diagnostic.help(format!("`1 {}` is written `{told}`", name.text)),
+        (None, None, Some(fix)) => diagnostic.fix(fix),
+        (None, None, None) => diagnostic.help(format!("the units are {}", units.join(" "))),
     }
 }
 

@@ -53,9 +53,10 @@ impl Checker<'_> {
             _ => return diagnostic,
         };
         let is_one = |kind: JointKind| match kind {
-            JointKind::Revolute(..) => quantity == "rotation",
-            JointKind::Translational(..) => quantity == "displacement",
-            _ => false,
+            JointKind::Revolute(..) if quantity == "rotation" => true,
+            JointKind::Translational(..) if quantity == "displacement" => true,
+            kind if quantity == "torque" => kind.plain().has_torque(),
+            _ => is_force(quantity),
         };
         let joints = self.joints.iter().flatten().map(|&id| &self.model[id]);
         let fitting = joints.filter(|joint| is_one(joint.kind) && joint.kind.frames(&self.model).contains(&body));

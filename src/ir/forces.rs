@@ -4,7 +4,7 @@
 //! kind; E. J. Haug, *Computer-Aided Kinematics and Dynamics of Mechanical Systems*, 1989, 11.3). The equations exert `Φ_qᵀ λ`
 //! on the coordinates.
 
-use super::{ConstraintSystem, DeclarationId, SparseRows};
+use super::{Condition, ConstraintSystem, DeclarationId, SparseRows};
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::source::Span;
 use rustc_hash::FxHashMap;
@@ -33,6 +33,10 @@ pub struct LoadForce {
     pub span: Span,
     /// In SI.
     pub force: ExprId,
+    /// Of one on a distance: by how much that is longer than what has no direction (m).
+    pub excess: Option<ExprId>,
+    /// What must hold for the formula to have a value.
+    pub conditions: Vec<Condition>,
 }
 
 /// What a contact presses with.
@@ -59,6 +63,14 @@ pub struct Reaction {
     pub span: Span,
 }
 
+impl LoadForce {
+    /// All formulas of it.
+    pub fn formulas(&self) -> impl Iterator<Item = ExprId> {
+        let conditions = self.conditions.iter().map(|condition| condition.positive);
+        [self.force].into_iter().chain(self.excess).chain(conditions)
+    }
+}
+
 /// What multipliers have to hold, in the words of mechanics: `Φ_qᵀ λ = M q̈ − Q`.
 #[derive(Clone, Debug)]
 pub struct Mechanics {
@@ -71,7 +83,8 @@ pub struct Mechanics {
 impl Forces {
     /// All formulas of it.
     pub fn formulas(&self) -> impl Iterator<Item = ExprId> {
-        let columns = self.reactions.iter().map(|of| of.value).chain(self.loads.iter().map(|of| of.force));
+        let loads = self.loads.iter().flat_map(LoadForce::formulas);
+        let columns = self.reactions.iter().map(|of| of.value).chain(loads);
         columns.chain(self.presses.iter().map(|of| of.force)).chain(self.needed.iter().copied())
     }
 }

@@ -5,7 +5,10 @@ use super::Lowering;
 use super::frames::Vector;
 use crate::expr::{ExprId, Symbol};
 use crate::ir::{self, ConstraintSystem, DeclarationId, Forces};
-use crate::model::{Declared, EquationForm, EquationId, Force, Frame, JointId, Load, Mass, Mechanism, Named, PartId};
+use crate::model::{
+    Declared, EquationForm, EquationId, Force, Frame, JointId, Load, Mass, Mechanism, Named, PartId, Quantity,
+};
+use crate::tolerances::loads::AIMLESS;
 
 /// What a joint exerts on one body, in the ground's frame.
 #[derive(Clone, Copy)]
@@ -67,13 +70,33 @@ impl Lowering<'_> {
 
     /// What a load is.
     fn given(&mut self, load: &Load) -> ir::LoadForce {
-        ir::LoadForce { name: load.declared.name.clone(), span: load.declared.span, force: self.value_of(load) }
+        let conditions = load.conditions.iter().filter_map(|condition| {
+            let positive = self.formula(condition.positive);
+            super::condition(condition, positive)
+        });
+        let conditions = conditions.collect();
+        let (force, excess) = (self.value_of(load), self.excess(load));
+        ir::LoadForce { name: load.declared.name.clone(), span: load.declared.span, force, excess, conditions }
+    }
+
+    /// By how much the distance that a load works on is longer than what has no direction (m).
+    fn excess(&mut self, load: &Load) -> Option<ExprId> {
+        let Quantity::Distance(p, q) = load.on else { return None };
+        let size = [p, q].map(|point| self.size(self.model[point].frame)).into_iter().fold(0.0, f64::max);
+        let distance = self.quantity(load.part, load.on);
+        let least = self.graph.constant(AIMLESS * size);
+        Some(self.graph.sub(distance, least))
     }
 
     /// The same, for those who draw it.
     fn column_of_load(&mut self, load: &Load) -> ir::Reaction {
-        let ir::LoadForce { name, span, force } = self.given(load);
-        ir::Reaction { name: format!("{name}.load"), value: force, unit: load.dimension.unit(), span }
+        let Declared { name, span } = &load.declared;
+        ir::Reaction {
+            name: format!("{name}.load"),
+            value: self.value_of(load),
+            unit: load.dimension.unit(),
+            span: *span,
+        }
     }
 
     /// A column for all that each joint exerts, as far as it is not zero by its kind, and then for what each constraint or driver supplies.
@@ -122,9 +145,13 @@ impl Lowering<'_> {
         ConstraintSystem::time_derivatives(&mut self.graph, &first, 2)[0]
     }
 
-    /// A load is not asked for but given: `−F ∂K/∂q`.
+    /// A load is not asked for but given: `−F ∂K/∂q`. Between points in one place there is no direction for it.
     fn add_load(&mut self, load: &Load, needed: &mut [ExprId]) {
-        let force = self.value_of(load);
+        let mut force = self.value_of(load);
+        if let Some(excess) = self.excess(load) {
+            let is_aimed = self.is_positive(excess);
+            force = self.only_where(Some(is_aimed), force);
+        }
         let on = self.quantity(load.part, load.on);
         let asked = self.graph.neg(force);
         self.add_work(on, asked, needed);

@@ -162,6 +162,19 @@ fn units(of: &model::Units) -> Units {
     Units { si, printed, scale }
 }
 
+/// A condition, by the formula that must be above zero; none where it is about a branch of a measure that is never taken.
+fn condition(of: &model::Condition, positive: ExprId) -> Option<Condition> {
+    let kind = match of.kind {
+        ConditionKind::Distance => ir::ConditionKind::Distance,
+        ConditionKind::Interval => ir::ConditionKind::Interval,
+        // tables keep their numbers
+        ConditionKind::Range(table) => ir::ConditionKind::Range(table),
+        ConditionKind::Samples(table) => ir::ConditionKind::Samples(table),
+        ConditionKind::Existence => return None,
+    };
+    Some(Condition { positive, kind, span: of.span, owner: of.owner.clone() })
+}
+
 /// An entry of `Φ`, and what it is measured in.
 type Entry = (ExprId, RowUnit);
 
@@ -482,20 +495,11 @@ impl Lowering<'_> {
         }
     }
 
-    fn condition(&mut self, condition: &crate::model::Condition, positive: ExprId) {
-        let kind = match condition.kind {
-            ConditionKind::Distance => ir::ConditionKind::Distance,
-            ConditionKind::Interval => ir::ConditionKind::Interval,
-            // tables keep their numbers
-            ConditionKind::Range(table) => ir::ConditionKind::Range(table),
-            ConditionKind::Samples(table) => ir::ConditionKind::Samples(table),
-            // of a measure, in a branch that is never taken
-            ConditionKind::Existence => return,
-        };
-        if !self.known_conditions.insert(positive) {
-            return;
+    fn condition(&mut self, of: &crate::model::Condition, positive: ExprId) {
+        let Some(condition) = condition(of, positive) else { return };
+        if self.known_conditions.insert(positive) {
+            self.conditions.push(condition);
         }
-        self.conditions.push(Condition { positive, kind, span: condition.span, owner: condition.owner.clone() });
     }
 
     fn measures(&mut self) -> Vec<Measure> {
@@ -522,11 +526,15 @@ impl Lowering<'_> {
         let mut all = None;
         for condition in conditions {
             let positive = self.formula(condition.positive);
-            let zero = self.graph.constant(0.0);
-            let holds = self.graph.compare(Comparison::Less, zero, positive);
+            let holds = self.is_positive(positive);
             all = Some(all.map_or(holds, |all| self.graph.and(all, holds)));
         }
         all
+    }
+
+    fn is_positive(&mut self, id: ExprId) -> ExprId {
+        let zero = self.graph.constant(0.0);
+        self.graph.compare(Comparison::Less, zero, id)
     }
 
     /// A formula where something holds, elsewhere nothing finite.

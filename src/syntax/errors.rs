@@ -389,7 +389,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::kw_axis
         | Rule::kw_circle
         | Rule::kw_curve
-        | Rule::kw_mass => "a point, axis, circle or curve",
+        | Rule::kw_mass => "a point, axis, circle, curve or mass",
         Rule::name | Rule::use_prefix | Rule::name_text | Rule::word | Rule::ground_word => "a name",
         Rule::expression_only
         | Rule::expr

@@ -50,12 +50,14 @@ impl<'a> Intent<'a> {
         let opens = |word: &str| Keyword::named(word).is_some_and(|keyword| keyword.role == Role::Opener);
         let word = |k: usize| all.get(k).map_or("", |token| token.text);
         let is_opener = |k: usize| match all[k].text {
-            "load" => word(k + 2) == ":",
+            "load" => word(k + 2) == ":" || k + 1 == all.len() && found == ":",
             "gravity" | "mass" => {
                 let is_named = || word(k + 2) == ":" && is_name(word(k + 1));
                 // what comes next is the fault itself
-                let is_last = k + 1 == all.len() && found == "=" || k + 2 == all.len() && found == ":";
-                word(k + 1).starts_with(|c: char| c == '(' || c.is_ascii_digit()) || is_named() || is_last
+                let is_last = k + 1 == all.len() && ["=", ":"].contains(&found) || k + 2 == all.len() && found == ":";
+                word(k + 1).starts_with(|c: char| ['(', '-'].contains(&c) || c.is_ascii_digit())
+                    || is_named()
+                    || is_last
             }
             other => opens(other) && word(k + 2) == "=",
         };
@@ -231,7 +233,12 @@ impl<'a> Intent<'a> {
         let is_number = number.text.starts_with(|c: char| c.is_ascii_digit());
         // an angle is no factor of a unit
         Unit::named(self.found).filter(|unit| is_number && !unit.dimension.is(Dimension::PURE))?;
-        let message = format!("a product of units is written with `*`: `{} {}*{}`", number.text, last.text, self.found);
+        let power = match self.rest.get(1..).unwrap_or_default() {
+            [sign, exponent, ..] if sign.text == "^" => format!("^{}", exponent.text),
+            _ => String::new(),
+        };
+        let unit = format!("{}*{}{power}", last.text, self.found);
+        let message = format!("a product of units is written with `*`: `{} {unit}`", number.text);
         Some(Intent::change(message, vec![self.edit(last.end()..self.at, "*")]))
     }
 

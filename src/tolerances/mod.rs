@@ -47,6 +47,12 @@ pub mod contacts {
     pub const PULLS: f64 = 1e-9;
 }
 
+/// Loads.
+pub mod loads {
+    /// A distance between two bodies that is no longer than this part of the larger of them has no direction: rounding would choose it.
+    pub const AIMLESS: f64 = 1e-6;
+}
+
 /// Equations that were left out, as they follow from the others.
 pub mod checks {
     /// One may be open by so many times its scale: lengths are written with so many digits.

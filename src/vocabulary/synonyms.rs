@@ -484,6 +484,8 @@ pub static SYNONYMS: &[Synonym] = &[
     unit(&["lb", "lbs", "pound", "pounds"], &["lbm", "lbf"], "a mass is in `lbm`, a force in `lbf`").takes_a_formula(),
     unit(&["newton", "newtons"], &["N"], "was `N` meant?"),
     unit(&["kgf", "kp"], &["N"], "kilograms are no force; `1 kgf` is `9.80665 N`").takes_a_formula(),
+    unit(&["kgm2", "kgm²", "kg·m²", "kg·m2"], &["kg", "m"], "a moment of inertia is in `kg*m^2`").takes_a_formula(),
+    unit(&["kgmm2", "kgmm²", "kg·mm²", "kg·mm2"], &["kg", "mm"], "a moment of inertia is in `kg*mm^2`").takes_a_formula(),
     unit(&["joule", "joules"], &["J"], "was `J` meant?"),
     unit(&["kj", "mj"], &["J"], "write `1000 J` for `1 kJ`").takes_a_formula(),
     unit(&["watt", "watts"], &["W"], "was `W` meant?"),

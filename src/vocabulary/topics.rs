@@ -12,7 +12,10 @@ const PAGES: [Topic; 11] = [
     Topic { names: &["samples"], page: include_str!("topics/samples.md") },
     Topic { names: &["files"], page: include_str!("topics/files.md") },
     Topic { names: &["repetition", "range", "ranges"], page: include_str!("topics/repetition.md") },
-    Topic { names: &["forces", "loads", "masses", "springs"], page: include_str!("topics/forces.md") },
+    Topic {
+        names: &["forces", "loads", "masses", "springs", "reactions", "friction", "dampers"],
+        page: include_str!("topics/forces.md"),
+    },
     Topic { names: &["by"], page: include_str!("topics/by.md") },
     Topic { names: &["names"], page: include_str!("topics/names.md") },
     Topic { names: &["sweep", "sweeps", "variants"], page: include_str!("topics/sweep.md") },

@@ -276,12 +276,36 @@ pub static UNITS: &[Unit] = &[
     dynamic("bar", &["2 bar"], "the bar, 100 kPa", [1e5, 1.0], Dimension::PRESSURE, pressed!("2 bar")),
 ];
 
+/// Prefixes of decimal multiples, and what they stand for.
+const PREFIXES: [(&str, &str); 8] = [
+    ("n", "1e-9"),
+    ("u", "1e-6"),
+    ("µ", "1e-6"),
+    ("m", "0.001"),
+    ("da", "10"),
+    ("k", "1000"),
+    ("M", "1e6"),
+    ("G", "1e9"),
+];
+
+/// The units that take them elsewhere.
+const DIVIDED: [&str; 6] = ["s", "N", "J", "W", "Pa", "Hz"];
+
 impl Unit {
     /// The unit of a name; the Greek letter mu serves for the micro sign.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Unit> {
         let name = name.replace('μ', "µ");
         UNITS.iter().find(|unit| unit.word.name == name)
+    }
+
+    /// What one of a decimal multiple is that has no name of its own here, told in a unit that has one: of `mN`, `0.001 N`.
+    #[must_use]
+    pub fn of_multiple(name: &str) -> Option<String> {
+        PREFIXES.iter().find_map(|(prefix, factor)| {
+            let unit = Unit::named(name.strip_prefix(prefix)?)?;
+            DIVIDED.contains(&unit.word.name).then(|| format!("{factor} {}", unit.word.name))
+        })
     }
 
     /// All names.

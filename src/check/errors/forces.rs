@@ -137,6 +137,9 @@ pub fn effort_of_no_equation(name: &Name, found: &str, joint: Option<&str>, driv
     let help = match (joint, driver) {
         (_, Some(driver)) => Some(format!("what drives it supplies `effort({driver})`")),
         (Some(joint), None) => Some(format!("what a joint exerts is `force_x({joint})`, `force_y({joint})`")),
+        (None, None) if found == "a load" => Some(
+            "a load gives what its formula says; an effort is what a driver or constraint has to supply".to_owned(),
+        ),
         (None, None) => None,
     };
     super::wrong_kind(name.span, "a driver or constraint", found).help_if(help)

@@ -8,13 +8,19 @@ use crate::vocabulary::{QuantityWord, Unit};
 impl Intent<'_> {
     pub(super) fn of_forces(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
         match keyword {
-            "mass" | "gravity" if self.found == "=" && self.before.len() == 1 => {
+            "mass" | "gravity" if ["=", ":"].contains(&self.found) && self.before.len() == 1 => {
                 let value = self.rest.get(1)?.start;
                 let written = format!("{keyword} {}", &self.text[value..self.end()]);
                 let edit = self.edit(last.end()..value, " ");
-                Some(Intent::change(format!("it is written without `=`: `{written}`"), vec![edit]))
+                Some(Intent::change(format!("it is written without `{}`: `{written}`", self.found), vec![edit]))
             }
             "mass" => self.of_a_mass(),
+            // `gravity 0, -9.81 m/s^2`
+            "gravity" if self.found == "," && self.is_outside_of_brackets() => {
+                let (start, end) = (self.before.get(1)?.start, self.end());
+                let message = format!("gravity is a pair in parentheses: `gravity ({})`", &self.text[start..end]);
+                Some(Intent::change(message, vec![self.edit(start..start, "("), self.edit(end..end, ")")]))
+            }
             "load" => self.of_a_load(),
             _ => None,
         }
@@ -33,15 +39,28 @@ impl Intent<'_> {
                 Some(Intent::change(message, vec![self.edit(self.at..self.at + 1, "")]))
             }
             ("at", _) => self.of_a_place_behind_an_inertia(),
-            _ => None,
+            // `mass 5 kg (0, 0)`
+            ("(", _) if self.expects(Rule::at) => {
+                let message = "the place of a mass stands behind `at`: `mass M at (x, y)`".to_owned();
+                Some(Intent::change(message, vec![self.edit(self.at..self.at, "at ")]))
+            }
+            (word, _) => {
+                let (_, keyword) = WORDS_OF_MASSES.iter().find(|(words, _)| words.contains(&word))?;
+                let message = format!("was `{keyword}` meant?");
+                Some(Intent::change(message, vec![self.edit(self.at..self.at + word.len(), keyword)]))
+            }
         }
     }
 
     /// `mass 5 kg inertia 1 kg*m^2 at (0, 0)`
     fn of_a_place_behind_an_inertia(&self) -> Option<Intended> {
         let inertia = self.before.iter().find(|token| token.text == "inertia")?;
-        let place = self.rest.iter().position(|token| token.text == ")").and_then(|end| self.rest.get(..=end))?;
-        let (place, end) = (&self.text[self.at..place.last()?.end()], place.last()?.end());
+        // a pair, or a point's name
+        let end = match self.rest.iter().position(|token| token.text == ")") {
+            Some(end) => self.rest.get(end)?.end(),
+            None => self.rest.get(1).filter(|token| is_name(token.text))?.end(),
+        };
+        let place = &self.text[self.at..end];
         let inertia_only = self.text[inertia.start..self.at].trim_end();
         let edit = self.edit(inertia.start..end, &format!("{place} {inertia_only}"));
         let message = "the place of a mass stands before its inertia: `mass M at (x, y) inertia I`".to_owned();
@@ -49,6 +68,11 @@ impl Intent<'_> {
     }
 
     fn of_a_load(&self) -> Option<Intended> {
+        // `load: 20 N on x(P)`
+        if self.found == ":" && self.before.len() == 1 {
+            let said = &self.text[self.rest.get(1)?.start..self.end()];
+            return Some(Intended::Words(format!("a load needs a name: `load NAME: {said}`")));
+        }
         let (colon, first) = self.before.iter().zip(self.before.get(1..)?).find(|(token, _)| token.text == ":")?;
         let written = self.text[colon.end()..self.at].trim();
         // `load push: x(arm.tip) = 20 N`
@@ -66,3 +90,9 @@ impl Intent<'_> {
         })
     }
 }
+
+/// What others call the place of a mass and its inertia.
+const WORDS_OF_MASSES: [(&[&str], &str); 2] = [
+    (&["center", "centre", "com", "cog", "cg", "CG", "COM", "centroid"], "at"),
+    (&["I", "J", "Ixx", "Iyy", "Izz", "izz", "IZZ", "moment", "moment_of_inertia"], "inertia"),
+];

@@ -4,16 +4,21 @@ use super::{at, ceases_to_hold, in_units, named_all, no_contact, short, with_pla
 use crate::analysis::state::{Fault, Unknown};
 use crate::diag::{Code, Diagnostic};
 use crate::expr::{Symbol, TableId};
-use crate::ir::{ConditionKind, ConstraintSystem, DeclarationId, DeclarationKind, JointKind, LoadForce, Press};
+use crate::ir::{
+    Condition, ConditionKind, ConstraintSystem, DeclarationId, DeclarationKind, JointKind, LoadForce, Press,
+};
 
 /// Columns that one message names at most.
 const MOST_COLUMNS: usize = 12;
+
+/// Why what is solved for beside the motion may have no value.
+const NO_FORCE: &str = "infinite, undefined, or too near to a singular position";
 
 /// A formula that has no value, or not one that it may have.
 pub fn no_value(system: &ConstraintSystem, fault: Fault, t: f64) -> Diagnostic {
     match fault {
         Fault::NotFinite { row } => formula_not_finite(system, &[system.rows()[row].declaration], t),
-        Fault::Condition { index } => condition(system, index, t),
+        Fault::Condition { index } => condition(system, &system.conditions()[index], t),
         Fault::Watch { index } => no_contact(system, index, t),
         Fault::Check { index } => ceases_to_hold(system, index, t),
         Fault::Singular | Fault::Uncertain | Fault::TooFar | Fault::Rim | Fault::Edge { .. } => {
@@ -30,10 +35,22 @@ pub fn formula_not_finite(system: &ConstraintSystem, declarations: &[Declaration
         .datum("t", t)
 }
 
-/// A load that has no value.
-pub fn load_not_finite(load: &LoadForce, t: f64) -> Diagnostic {
+/// A load that has no value, of which a condition may not hold.
+pub fn load_not_finite(system: &ConstraintSystem, load: &LoadForce, broken: Option<&Condition>, t: f64) -> Diagnostic {
+    if let Some(broken) = broken {
+        return condition(system, broken, t);
+    }
     Diagnostic::new(Code::E0605, format!("load `{}` is not finite at {}", load.name, at(t)))
         .at(load.span, "infinite or not a number")
+        .datum("t", t)
+}
+
+/// A warning that a load works on a distance that is nothing, at `t` (s) for the first time.
+pub fn load_without_direction(load: &LoadForce, t: f64) -> Diagnostic {
+    Diagnostic::new(Code::W0603, format!("load `{}` has no direction at {}", load.name, at(t)))
+        .at(load.span, "works on a distance that is 0 there")
+        .note("what depends on it has no value there; everything else is as good as ever")
+        .help("points that a joint holds together have no distance; a force on one of them is a load on `x(P)` and one on `y(P)`")
         .datum("t", t)
 }
 
@@ -67,21 +84,17 @@ pub fn without_value(system: &ConstraintSystem, what: Unknown, t: f64, rows: u64
             let message = format!("measure `{}` or a derivative of it has no value at {place}", measure.name);
             let symbols = system.graph().symbols(measure.value);
             let holds_forces = symbols.iter().any(|symbol| matches!(symbol, Symbol::Multiplier(_)));
-            let why = if holds_forces {
-                "infinite, undefined, or too near to a singular position"
-            } else {
-                "infinite or undefined"
-            };
+            let why = if holds_forces { NO_FORCE } else { "infinite or undefined" };
             (message, measure.span, why, "its")
         }
         Unknown::Derivative(index) => {
             let variable = &system.variables()[index];
             let message = format!("derivatives by `{}` have no value at {place}", variable.name);
-            (message, variable.span, "infinite, undefined, or too near to a singular position", "their")
+            (message, variable.span, NO_FORCE, "their")
         }
         Unknown::Forces => {
             let message = format!("reactions and efforts have no value at {place}");
-            (message, system.span(), "too near to a singular position", "their")
+            (message, system.span(), NO_FORCE, "their")
         }
     };
     Diagnostic::new(Code::W0603, message)
@@ -91,8 +104,7 @@ pub fn without_value(system: &ConstraintSystem, what: Unknown, t: f64, rows: u64
         .datum("rows", rows as usize)
 }
 
-fn condition(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
-    let condition = &system.conditions()[index];
+fn condition(system: &ConstraintSystem, condition: &Condition, t: f64) -> Diagnostic {
     let diagnostic = |code: Code, what: &str| Diagnostic::new(code, format!("{what} at {}", at(t))).datum("t", t);
     let owner = &condition.owner;
     let ends = |table: TableId| {

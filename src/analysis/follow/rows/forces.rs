@@ -5,10 +5,20 @@ use crate::analysis::follow::remarks::Remarks;
 use crate::analysis::state::{Kinematics, State};
 use crate::diag::Diagnostic;
 use crate::expr::ExprId;
-use crate::ir::ConstraintSystem;
+use crate::ir::{ConstraintSystem, LoadForce};
 use crate::layout::RowLayout;
 use crate::program::{Program, Register, Registers, Stage};
 use crate::tolerances::contacts::PULLS;
+
+/// A load, as it is watched.
+struct WatchedLoad {
+    force: Register,
+    /// By how much the distance that it works on is longer than what has no direction.
+    excess: Option<Register>,
+    /// What must be above zero, in the order of its conditions.
+    conditions: Vec<Register>,
+    is_told: bool,
+}
 
 /// What looks at the forces of rows, once more.
 pub struct ForceWatch {
@@ -20,10 +30,41 @@ pub struct ForceWatch {
     has_pulled: Vec<bool>,
     /// The side to which each presses: 1 where that is known, 0 where the first row will tell.
     sides: Vec<f64>,
-    loads: Vec<Register>,
+    loads: Vec<WatchedLoad>,
     /// Where a row has the coordinates, by their order, and how many there are.
     coordinates: [usize; 4],
     state: State,
+}
+
+impl WatchedLoad {
+    /// A load whose formulas are in the next registers.
+    fn of(load: &LoadForce, registers: &mut impl Iterator<Item = Register>) -> Option<WatchedLoad> {
+        let force = registers.next()?;
+        let excess = load.excess.and_then(|_| registers.next());
+        let conditions = registers.take(load.conditions.len()).collect();
+        Some(WatchedLoad { force, excess, conditions, is_told: false })
+    }
+
+    /// Warns once of a distance that has no direction at a time (s); a load that has no value is why there is none of anything.
+    fn look(
+        &mut self,
+        of: &LoadForce,
+        system: &ConstraintSystem,
+        registers: &Registers,
+        t: f64,
+        remarks: &mut Remarks,
+    ) -> Result<(), Box<Diagnostic>> {
+        if !registers.get(self.force).is_finite() {
+            let holds = |register: &Register| registers.get(*register) > 0.0;
+            let broken = self.conditions.iter().position(|condition| !holds(condition)).map(|k| &of.conditions[k]);
+            return Err(Box::new(errors::load_not_finite(system, of, broken, t)));
+        }
+        if !self.is_told && self.excess.is_some_and(|excess| registers.get(excess) <= 0.0) {
+            self.is_told = true;
+            remarks.push(errors::load_without_direction(of, t));
+        }
+        Ok(())
+    }
 }
 
 impl ForceWatch {
@@ -34,10 +75,12 @@ impl ForceWatch {
             return None;
         }
         let presses = system.presses().iter().map(|press| press.force);
-        let formulas: Vec<ExprId> = presses.chain(system.loads().iter().map(|load| load.force)).collect();
+        let formulas: Vec<ExprId> = presses.chain(system.loads().iter().flat_map(LoadForce::formulas)).collect();
         let counts = [system.params().len(), system.coordinates().len(), 0, system.rows().len()];
-        let (program, mut presses) = Program::of_formulas(system.graph(), counts, &formulas);
-        let loads = presses.split_off(system.presses().len());
+        let (program, registers) = Program::of_formulas(system.graph(), counts, &formulas);
+        let mut registers = registers.into_iter();
+        let presses: Vec<Register> = registers.by_ref().take(system.presses().len()).collect();
+        let loads = system.loads().iter().map_while(|load| WatchedLoad::of(load, &mut registers)).collect();
         let params = system.values_of_params();
         let registers = program.start(&params);
         let coordinates = RowLayout::new(system).coordinates.map(|first| first as usize);
@@ -56,9 +99,8 @@ impl ForceWatch {
         }
         self.compute(row);
         let system = self.kinematics.system();
-        let value = |register: &Register| self.registers.get(*register);
-        if let Some(number) = self.loads.iter().position(|load| !value(load).is_finite()) {
-            return Err(Box::new(errors::load_not_finite(&system.loads()[number], row[0])));
+        for (load, of) in self.loads.iter_mut().zip(system.loads()) {
+            load.look(of, system, &self.registers, row[0], remarks)?;
         }
         let least = PULLS * self.largest(system);
         let contacts = self.presses.iter().zip(&mut self.sides).zip(&mut self.has_pulled).zip(system.presses());
