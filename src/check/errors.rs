@@ -149,9 +149,8 @@ pub fn not_a_unit(name: &Name, number: &str, is_a_name: bool) -> Diagnostic {
         let words = format!("was `{number} * {}` meant?", name.text);
         let diagnostic = diagnostic.fix(Fix::insert(name.span, "* ", words, Applies::Probably));
         // what is a unit elsewhere, and a name here
-        return match name.text.as_str() {
-            "t" => diagnostic.help("tonnes are no unit; `1 t` is `1000 kg`"),
-            "g" => diagnostic.help("grams are no unit; `1 g` is `0.001 kg`"),
+        return match Synonym::of(Place::Unit, &name.text) {
+            Some(synonym) if name.text == "g" => diagnostic.help(synonym.say(&[])),
             _ => diagnostic,
         };
     }

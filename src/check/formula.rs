@@ -272,12 +272,12 @@ impl Checker<'_> {
         };
         let Some(unit) = Unit::named(&name.text) else {
             let is_argument = context.argument.is_some_and(|(argument, _)| argument == name.text);
-            let is_a_name = is_argument || Constant::named(&name.text).is_some() || self.entity(name).is_some();
-            self.report(errors::not_a_unit(
-                name,
-                self.sources.text(e.span).trim_end_matches(name.text.as_str()).trim_end(),
-                is_a_name,
-            ));
+            // where time has no place, `1 t` is no time
+            let is_time = name.text == "t" && !context.time;
+            let is_a_name =
+                is_argument || !is_time && Constant::named(&name.text).is_some() || self.entity(name).is_some();
+            let number = self.sources.text(e.span).trim_end_matches(name.text.as_str()).trim_end();
+            self.report(errors::not_a_unit(name, number, is_a_name));
             return None;
         };
         let si = unit.to_si(value, *power);

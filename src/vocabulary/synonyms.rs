@@ -479,7 +479,7 @@ pub static SYNONYMS: &[Synonym] = &[
     unit(&["nm"], &["N", "m"], "newton metres are `N*m`; `1 nm` is `1e-9 m`").takes_a_formula(),
     unit(&["knm"], &["kN", "m"], "kilonewton metres are `kN*m`").takes_a_formula(),
     unit(&["g", "gram", "grams", "gramme"], &["kg"], "grams are no unit; `1 g` is `0.001 kg`").takes_a_formula(),
-    unit(&["tonne", "tonnes", "ton", "tons"], &["kg"], "tonnes are no unit; `1 t` is `1000 kg`").takes_a_formula(),
+    unit(&["t", "tonne", "tonnes", "ton", "tons"], &["kg"], "tonnes are no unit; `1 t` is `1000 kg`").takes_a_formula(),
     unit(&["kilogram", "kilograms", "kilo", "kgs"], &["kg"], "was `kg` meant?"),
     unit(&["lb", "lbs", "pound", "pounds"], &["lbm", "lbf"], "a mass is in `lbm`, a force in `lbf`").takes_a_formula(),
     unit(&["newton", "newtons"], &["N"], "was `N` meant?"),
