@@ -50,7 +50,8 @@ impl<'a> Intent<'a> {
         let opens = |word: &str| Keyword::named(word).is_some_and(|keyword| keyword.role == Role::Opener);
         let word = |k: usize| all.get(k).map_or("", |token| token.text);
         let is_opener = |k: usize| match all[k].text {
-            "load" => word(k + 2) == ":" || k + 1 == all.len() && found == ":",
+            "load" if k + 1 == all.len() => found == ":",
+            "load" | "part" if word(k + 2) == ":" => true,
             "gravity" | "mass" => {
                 let is_named = || word(k + 2) == ":" && is_name(word(k + 1));
                 // what comes next is the fault itself
@@ -59,7 +60,8 @@ impl<'a> Intent<'a> {
                     || is_named()
                     || is_last
             }
-            other => opens(other) && word(k + 2) == "=",
+            // a name behind a name begins something, whatever stands behind it
+            other => opens(other) && (word(k + 2) == "=" || k + 2 == all.len() && is_name(word(k + 1))),
         };
         let is_keyword = |k: usize| begins_declaration(text, all[k]) || is_opener(k);
         let start = (0..all.len()).rev().find(|&k| is_keyword(k)).unwrap_or(0);

@@ -1,7 +1,7 @@
 //! What each lexeme of a declaration is to those around it, which decides the spaces between them.
 
 use super::lexemes::{Lexeme, Shape};
-use crate::vocabulary::{Keyword, Place, Role, Synonym, Unit, is_before_a_name};
+use crate::vocabulary::{Constant, Keyword, Place, Role, Synonym, Unit, is_before_a_name};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
@@ -303,8 +303,9 @@ impl<'a> Reading<'a> {
     /// Whether a unit stands behind a lexeme, with its power or alone.
     fn is_a_unit_behind(&self, k: usize) -> bool {
         let mut behind = self.lexemes[k + 1..self.range.end].iter().filter(|lexeme| !lexeme.is_comment());
-        // `min` is none, but meant as one
-        let names_one = |text: &str| Unit::named(text).is_some() || Synonym::of(Place::Unit, text).is_some();
+        // `min` is none, but meant as one; `t` is the time
+        let is_meant = |text: &str| Synonym::of(Place::Unit, text).is_some() && Constant::named(text).is_none();
+        let names_one = |text: &str| Unit::named(text).is_some() || is_meant(text);
         let is_unit = |lexeme: &Lexeme<'_>| names_one(lexeme.text) && !self.names.contains(lexeme.text);
         behind.next().is_some_and(is_unit)
             && match behind.next().map(|lexeme| lexeme.text) {

@@ -93,7 +93,8 @@ impl Intent<'_> {
 
     /// The form of the declaration, where a word of it is wanted and something else stands: outside of all brackets.
     pub(super) fn form(&self) -> Option<String> {
-        let keyword = Keyword::named(self.before.first()?.text).filter(|keyword| keyword.begins_declaration())?;
+        let keyword = Keyword::named(self.before.first()?.text)
+            .filter(|keyword| keyword.begins_declaration() || keyword.role == Role::Opener)?;
         let is_of_the_form = |rule: &Rule| {
             matches!(
                 rule,
