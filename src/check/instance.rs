@@ -1,7 +1,7 @@
 //! A mechanism as it is checked, with its parts.
 
 use super::mentions::name_of;
-use crate::syntax::ast::Mechanism;
+use crate::syntax::ast::{ItemKind, Mechanism};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::rc::Rc;
 
@@ -61,6 +61,11 @@ impl<'t> Instance<'t> {
     /// Whether its text declares a name, be it repeated or not.
     pub fn declares(&self, name: &str) -> bool {
         name == "ground" || self.names().any(|known| known == name)
+    }
+
+    /// Whether its text declares a part of a name.
+    pub fn is_a_part(&self, name: &str) -> bool {
+        self.mechanism.items.iter().any(|item| matches!(&item.kind, ItemKind::Part(part) if part.name.text == name))
     }
 
     /// The names that its text declares.

@@ -487,6 +487,8 @@ impl<'t, 'c> Writer<'t, 'c> {
                 [feature] if feature.indices.is_empty() => {
                     Ok(ExprKind::Member { owner, feature: feature.name.clone() })
                 }
+                // of a part that cannot be, that has been said
+                _ if part.is_a_part(&segment.name.text) => Err(Unwritten),
                 _ => {
                     self.tell(errors::path_goes_on(span));
                     Err(Unwritten)
