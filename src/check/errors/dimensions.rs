@@ -1,0 +1,139 @@
+//! What is said of dimensions, units and values.
+
+use crate::check::mends::{is_bare_number, with_factors, with_unit};
+use crate::check::rates::{Part, polar, rate_mended};
+use crate::diag::{Code, Diagnostic, readable};
+use crate::model::Dimension;
+use crate::source::Span;
+use crate::syntax::ast::Name;
+
+/// Places of one kind that are shown beside the first one, at most.
+pub(super) const MOST_PLACES: usize = 4;
+
+/// The text of a part is told where it is a bare number.
+pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time: bool) -> Diagnostic {
+    let [one, other] = [(first, texts[0]), (second, texts[1])];
+    let fix = [(one, other), (other, one)].into_iter().find_map(|((one, text), (other, other_text))| {
+        if !one.dimension.is(Dimension::PURE) {
+            return None;
+        }
+        if is_bare_number(text) {
+            return with_unit(one.span, text, &usual_unit(other.dimension));
+        }
+        let words = "a rate times a time is a pure number, as an angle is: `… * t`";
+        other.dimension.is(Dimension::RATE).then(|| with_factors(other.span, other_text, ["", " * t"], words))
+    });
+    let mended =
+        rate_mended(first.dimension, second, texts[1]).or_else(|| rate_mended(second.dimension, first, texts[0]));
+    let fix = mended.filter(|_| has_time).or(fix);
+    let polar = polar(first, second, texts).filter(|_| what.starts_with("the coordinates"));
+    // where time may not stand it is no more than an explanation
+    let is_factor = fix.as_ref().is_some_and(|fix| fix.message.ends_with("t`"));
+    let (fix, help) = if is_factor && !has_time { (None, fix.map(|fix| fix.message)) } else { (fix, None) };
+    Diagnostic::new(Code::E0401, format!("{what} {} and {}", first.dimension.in_words(), second.dimension.in_words()))
+        .at(second.span, second.dimension.in_words())
+        .also(first.span, first.dimension.in_words())
+        .fix_if(fix)
+        .help_if(help)
+        .help_if(polar)
+}
+
+/// What a quantity is usually written in.
+pub(super) fn usual_unit(dimension: Dimension) -> String {
+    if dimension.is(Dimension::LENGTH) { "mm".to_owned() } else { dimension.unit().replace("1/s", "rad/s") }
+}
+
+/// A value (SI) as a reader wants it, without the rounding of its last digits.
+pub fn told(value: f64, dimension: Dimension) -> String {
+    let (value, unit) = if dimension.is(Dimension::LENGTH) && value.abs() < 1.0 {
+        (value * 1e3, "mm".to_owned())
+    } else if dimension.is(Dimension::PURE) {
+        (value, String::new())
+    } else {
+        (value, dimension.unit())
+    };
+    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    format!("{} {unit}", readable(rounded)).trim_end().to_owned()
+}
+
+/// The text is that of the part.
+pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part, text: &str) -> Diagnostic {
+    let units = |d: Dimension| {
+        if d.is(Dimension::LENGTH) {
+            Some("`mm`, `m`")
+        } else if d.is(Dimension::TIME) {
+            Some("`s`, `ms`")
+        } else {
+            None
+        }
+    };
+    let is_angle =
+        place.contains("angle") || place.contains("`sin`") || place.contains("`cos`") || place.contains("`tan`");
+    let factors = |factors: [&str; 2], words: &str| Some(with_factors(found.span, text, factors, words));
+    let mut fix = None;
+    let help = if wanted.is(Dimension::PURE) && is_angle && found.dimension.is(Dimension::TIME) {
+        let words = "an angular speed makes an angle of a time: `1 rad/s * t`";
+        fix = factors(["1 rad/s * ", ""], words);
+        Some(words.to_owned())
+    } else if wanted.is(Dimension::PURE) && is_angle {
+        Some("units of angle: `deg`, `rad`".to_owned())
+    } else if wanted.is(Dimension::PURE) {
+        let words = format!("divide it by {} to get a pure number", one(found.dimension));
+        let unit = one(found.dimension).trim_matches('`').to_owned();
+        let unit = if unit.contains('/') { format!("({unit})") } else { unit };
+        // an exponent binds more tightly than what divides it
+        let [open, close] = if place.contains("exponent") { ["(", ")"] } else { ["", ""] };
+        fix = factors([open, &format!(" / {unit}{close}")], &words);
+        Some(words)
+    } else if place.contains("phase") {
+        Some("it is measured along the pitch circles: an angle times a radius, as `30 deg * 20 mm`".to_owned())
+    } else {
+        if found.dimension.is(Dimension::PURE) && units(wanted).is_some() {
+            fix = with_unit(found.span, text, &usual_unit(wanted));
+        }
+        units(wanted).map(|units| format!("units of {}: {units}", wanted.in_words().trim_start_matches("a ")))
+    };
+    Diagnostic::new(Code::E0402, format!("{place} must be {}, found {}", wanted.in_words(), found.dimension.in_words()))
+        .at(found.span, found.dimension.in_words())
+        .help_if(help)
+        .change(fix)
+}
+
+/// `1 s`, `1 m`, `1 m/s`.
+fn one(dimension: Dimension) -> String {
+    let unit = dimension.unit();
+    if unit.starts_with('1') { format!("`{unit}`") } else { format!("`1 {unit}`") }
+}
+
+pub fn exponent(span: Span, base: Part) -> Diagnostic {
+    Diagnostic::new(Code::E0403, format!("{} takes a constant exponent only", base.dimension.in_words()))
+        .at(span, "not constant")
+        .also(base.span, base.dimension.in_words())
+        .help("divide the base by a unit first: `(… / 1 mm)^…`")
+}
+
+pub fn not_finite(span: Span, value: f64) -> Diagnostic {
+    let what = if value.is_nan() { "not a number" } else { "infinite" };
+    Diagnostic::new(Code::E0404, format!("this constant is {what}"))
+        .at(span, what)
+        .help("look for a division by zero, a root or logarithm of what is not positive, or a number beyond 1.8e308")
+}
+
+pub fn zero_direction(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0405, "an axis needs a direction, and this one has length zero")
+        .at(span, "no direction")
+        .help("take two points that differ, or a direction: `along (1, 0)` is that of x, `along (0, 1)` that of y")
+}
+
+pub fn not_positive_length(what: &str, span: Span, value: f64) -> Diagnostic {
+    let value = told(value, Dimension::LENGTH);
+    Diagnostic::new(Code::E0406, format!("{what} must be positive, it is {value}"))
+        .at(span, value)
+        .help("a direction is given by the order of points, or by an angle; a length has no sign")
+}
+
+pub fn curve_is_a_point(name: &Name, argument: &str, at: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0411, format!("curve `{}` does not depend on its argument `{argument}`", name.text))
+        .at(at, "the same point for every value")
+        .help(format!("a circle of radius r about the origin is `(r * cos({argument}), r * sin({argument}))`"))
+}
