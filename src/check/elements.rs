@@ -211,26 +211,37 @@ impl Checker<'_> {
             return None;
         }
         // `distance` alone on the left, and no quantity on the right
-        if let Some((p, q)) = self.as_distance(left, a.id)
+        if let Some(ends) = self.as_distance(left, a.id)
             && !self.holds_quantity(right)
         {
-            let constant = self.decided(b.id, DecidedBy::Sign);
-            if let Some(value) = constant.filter(|&value| value <= 0.0) {
-                self.report(errors::not_positive_length("a distance", right.span, value));
-                return None;
-            }
-            if constant.is_none() {
-                self.model.conditions.push(Condition {
-                    positive: b.id,
-                    kind: ConditionKind::Distance,
-                    span: right.span,
-                    owner: format!("{}{}", self.path, name.text),
-                });
-            }
-            return Some((EquationForm::Distance(p, q, b.id), Dimension::LENGTH));
+            return self.distance_equation(name, ends, right, b.id);
         }
         let dim = if context.judged { alike } else { self.plain_dimension([(left, a), (right, b)], &context) };
         Some((EquationForm::Equality(a.id, b.id), dim.settled()))
+    }
+
+    /// Two points at a distance, which must be above zero.
+    fn distance_equation(
+        &mut self,
+        name: &Name,
+        (p, q): (PointId, PointId),
+        right: &Expr,
+        distance: ExprId,
+    ) -> Option<(EquationForm, Dimension)> {
+        match self.decided(distance, DecidedBy::Sign) {
+            Some(value) if value <= 0.0 => {
+                self.report(errors::not_positive_length("a distance", right.span, value));
+                return None;
+            }
+            Some(_) => {}
+            None => self.model.conditions.push(Condition {
+                positive: distance,
+                kind: ConditionKind::Distance,
+                span: right.span,
+                owner: format!("{}{}", self.path, name.text),
+            }),
+        }
+        Some((EquationForm::Distance(p, q, distance), Dimension::LENGTH))
     }
 
     /// What a plain equation is about: a side with quantities tells it, be it of lengths or angles; one of numbers and time stands for

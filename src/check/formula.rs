@@ -293,20 +293,7 @@ impl Checker<'_> {
         match alone(&name.text, argument, self.space.get(&name.text)) {
             Alone::Argument => return context.argument.map(|(_, value)| value),
             Alone::Constant(constant) => match constant.stands_for {
-                StandsFor::Time if context.time => {
-                    let id = self.time();
-                    return Some(Value { id, dim: Dim::Of(Dimension::TIME) });
-                }
-                // a parameter was meant
-                StandsFor::Time if self.is_declared_though_taken(name) => return None,
-                StandsFor::Time if context.results => {
-                    self.report(errors::outside_reduction("time `t`", name.span, "t"));
-                    return None;
-                }
-                StandsFor::Time => {
-                    self.report(errors::time_in(context.place, name.span, None));
-                    return None;
-                }
+                StandsFor::Time => return self.time_named(name, context),
                 StandsFor::Number(number) => return Some(self.pure(number)),
                 StandsFor::Ground => {}
             },
@@ -318,6 +305,28 @@ impl Checker<'_> {
             }
             Alone::Declared(_) | Alone::Unknown => {}
         }
+        self.declared_number(name, context)
+    }
+
+    /// `t`
+    fn time_named(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
+        if context.time {
+            let id = self.time();
+            return Some(Value { id, dim: Dim::Of(Dimension::TIME) });
+        }
+        // a parameter was meant
+        if !self.is_declared_though_taken(name) {
+            self.report(if context.results {
+                errors::outside_reduction("time `t`", name.span, "t")
+            } else {
+                errors::time_in(context.place, name.span, None)
+            });
+        }
+        None
+    }
+
+    /// What a declaration gives the name to, where that is a number.
+    fn declared_number(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
         match self.resolve(name).ok()?.filter(|_| context.names) {
             Some(Entity::Param(_)) if self.point_param(name).is_some() => {
                 self.report(errors::point_as_number(name));

@@ -1,7 +1,6 @@
 //! What is said of bodies as they are drawn, of times, and of units that were forgotten.
 
 use super::dimensions::{MOST_PLACES, told};
-use super::meant;
 use crate::check::mends::is_bare_number;
 use crate::diag::{Applies, Code, Diagnostic, Edit, Fix, readable};
 use crate::model::Dimension;

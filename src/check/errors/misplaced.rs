@@ -1,6 +1,6 @@
 //! What is said of words that mean something, but not where they stand.
 
-use super::{meant, some_of};
+use super::some_of;
 use crate::check::entity::Entity;
 use crate::diag::{Applies, Code, Diagnostic, Fix};
 use crate::source::Span;

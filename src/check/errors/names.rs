@@ -2,7 +2,7 @@
 
 use super::{list, meant, wrong_kind};
 use crate::check::mends::renamed;
-use crate::diag::{Applies, Code, Diagnostic, Fix, nearest};
+use crate::diag::{Applies, Code, Diagnostic, Fix};
 use crate::source::Span;
 use crate::syntax::ast::Name;
 use crate::vocabulary::{Constant, FUNCTIONS, JOINTS, JointWord, Place, QUANTITIES, QuantityWord, Synonym, Unit};

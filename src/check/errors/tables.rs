@@ -1,8 +1,8 @@
 //! What is said of tables and their columns.
 
 use super::dimensions::{told, usual_unit};
+use super::list;
 use super::names::meant_unit;
-use super::{list, meant};
 use crate::diag::{Applies, Code, Diagnostic, Fix, nearest, readable};
 use crate::model::Dimension;
 use crate::source::Span;
