@@ -409,6 +409,39 @@ fn rounding_decides_no_side() {
     assert_eq!(found, [-2.0, -2.0]);
 }
 
+/// What rests while all else moves has no friction, whatever rounding leaves of its rate.
+#[test]
+fn a_dwell_has_no_friction() {
+    let text = "mechanism dwell {
+        param R = 30 mm
+        ground { point O = (0, 0) axis way = O along (0, 1) }
+        body disc { point O = (0, 0) curve rim(u) = (R * cos(u), R * sin(u)) at 90 deg }
+        body tappet at (0, 30 mm, 0) { axis face = (0, 0) along (1, 0) axis way = (0, 0) along (0, 1) mass 1 kg }
+        joint main: revolute(ground.O, disc.O)
+        joint guide: translational(ground.way, tappet.way)
+        joint contact: flat_follower(disc.rim, tappet.face)
+        driver motor: rotation(main) = 5 rad/s * t
+        gravity (0, -9.81 m/s^2)
+        load friction: -3 N * sign(der(displacement(guide))) on displacement(guide)
+        load brake: (if der(displacement(guide)) > 0 m/s then 1 N else 0 N) on displacement(guide)
+        measure press = force_y(contact)
+        measure rate = der(displacement(guide))
+        analysis from 0 s to 1 s every 0.01 s
+    }";
+    let compiled = compiled("dwell", text);
+    let column = |name: &str| compiled.columns().iter().position(|of| of == name).expect("a column");
+    let (press, rate) = (column("press"), column("rate"));
+    let mut run = compiled.run(&mechc::Times::grid(0.0, 1.0, 0.01).expect("a grid"), &mechc::RunOptions::default());
+    let run = run.0.as_mut().expect("it assembles");
+    let mut is_rounded = false;
+    while let Some(row) = run.next_row() {
+        let row = row.expect("a row");
+        assert!((row[press] - 9.81).abs() < 1e-9, "{} N at {} s", row[press], row[0]);
+        is_rounded |= row[rate] != 0.0;
+    }
+    assert!(is_rounded, "there is rounding that could have decided");
+}
+
 /// `der` goes as deep in loads as in measures, whatever else is asked for.
 #[test]
 fn a_load_holds_a_jerk() {

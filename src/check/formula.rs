@@ -274,8 +274,11 @@ impl Checker<'_> {
             let is_argument = context.argument.is_some_and(|(argument, _)| argument == name.text);
             // where time has no place, `1 t` is no time
             let is_time = name.text == "t" && !context.time;
-            let is_a_name =
-                is_argument || !is_time && Constant::named(&name.text).is_some() || self.entity(name).is_some();
+            let is_number = matches!(
+                self.entity(name),
+                Some(Entity::Param(_) | Entity::Input(_) | Entity::Measure(_) | Entity::Result(_))
+            );
+            let is_a_name = is_argument || !is_time && Constant::named(&name.text).is_some() || is_number;
             let number = self.sources.text(e.span).trim_end_matches(name.text.as_str()).trim_end();
             self.report(errors::not_a_unit(name, number, is_a_name));
             return None;

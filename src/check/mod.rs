@@ -493,6 +493,7 @@ impl<'a> Checker<'a> {
         self.loads();
         self.analysis();
         self.results();
+        self.refuse_derivatives_of_forces();
         self.leave_what_leads();
         self.warn_of_plain_lengths();
         if self.model.bodies.is_empty() && !self.holds_broken() {

@@ -9,7 +9,8 @@ use super::mentions::formulas;
 use super::told::is_told_by;
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};
-use crate::model::{AskedInPart, Declared, Named, Variable};
+use crate::model::{AskedInPart, Declared, Load, Named, Variable};
+use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Mechanism, Name};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -26,6 +27,8 @@ pub(super) struct Variables {
     pub known: FxHashMap<String, u32>,
     /// Of the graph's named symbols that hold such derivatives: by how many variables, and how often by time.
     orders: FxHashMap<ExprId, (u8, u8)>,
+    /// The places of those of formulas that hold forces.
+    of_forces: Vec<Span>,
 }
 
 impl Variables {
@@ -141,6 +144,9 @@ impl Checker<'_> {
         let dim = Dim::Of(inner.dim.settled().over(self.model.variables[variable as usize].dimension));
         let within = self.part.filter(|_| self.is_coupled());
         let is_of_force = self.holds_force(inner.id);
+        if is_of_force {
+            self.variables.of_forces.push(e.span);
+        }
         self.model.asked_in_parts.extend(self.part.map(|part| AskedInPart { part, span: e.span, is_of_force }));
         let id = self.name_symbol(Named::By(inner.id, variable, within), rates);
         self.variables.orders.insert(id, (times + 1, rates));
@@ -176,6 +182,25 @@ impl Checker<'_> {
         }
         let parts = self.model.graph.reachable(&[id]).into_iter().filter_map(|part| self.variables.orders.get(&part));
         parts.fold((0, 0), |all, part| (all.0.max(part.0), all.1.max(part.1)))
+    }
+
+    /// Derivatives of forces go through the loads: with third time derivatives in these there are none.
+    pub(super) fn refuse_derivatives_of_forces(&mut self) {
+        let is_jerk = |&symbol: &Symbol| match symbol {
+            Symbol::Named(k) => match self.model.named[k as usize] {
+                Named::Derivative(inner) => {
+                    let is_third = self.derivative_orders.get(k as usize).is_some_and(|&order| order > MOST_RATES);
+                    is_third && self.holds_named(inner, |named| matches!(named, Named::Quantity(..)))
+                }
+                _ => false,
+            },
+            _ => false,
+        };
+        let holds_jerk = |load: &&Load| self.model.graph.symbols(load.force).iter().any(is_jerk);
+        let Some(load) = self.model.loads.iter().find(holds_jerk).map(|load| load.declared.clone()) else { return };
+        for span in std::mem::take(&mut self.variables.of_forces) {
+            self.report(errors::derivative_through_a_jerk(span, &load));
+        }
     }
 
     /// The number of what a derivative is taken by.

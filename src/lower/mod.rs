@@ -129,6 +129,8 @@ struct Lowering<'m> {
     /// By named symbol, whether it holds forces: these are named when there are rows.
     of_forces: Vec<bool>,
     has_rows: bool,
+    /// How fast everything moves, as far as it has been asked for.
+    pace: Option<later::Pace>,
     /// What joints exert, as far as it has been asked for.
     reactions: FxHashMap<JointId, forces::Reaction>,
     conditions: Vec<Condition>,
@@ -212,6 +214,7 @@ impl<'m> Lowering<'m> {
             of_equations: vec![DeclarationId::from(0); model.equations.len()],
             of_forces: forces::of_forces(model),
             has_rows: false,
+            pace: None,
             reactions: FxHashMap::default(),
             conditions: Vec::new(),
             known_conditions: FxHashSet::default(),

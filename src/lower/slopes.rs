@@ -56,9 +56,7 @@ impl Slopes<'_, '_> {
 
     /// How a formula changes with the variable at fixed time, through all reductions in it too.
     fn partial(&mut self, formula: ExprId) -> Option<ExprId> {
-        let graph = &self.lowering.graph;
-        let times = self.lowering.variations.as_ref().map_or(0, |variations| variations.times(graph, formula));
-        if graph.dependence(formula).highest_order() == Some(3) || times > 1 {
+        if !self.lowering.can_be_varied(formula) {
             return None;
         }
         let mut sum = self.lowering.derivative_by(formula, self.variable);

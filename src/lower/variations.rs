@@ -1,7 +1,7 @@
 //! Derivatives by inputs and parameters: those that measures hold, and the columns that are appended for them.
 
 use super::Lowering;
-use crate::expr::ExprId;
+use crate::expr::{Dependence, ExprId};
 use crate::ir::{Appended, Coordinate, Measure, Reaction, Variable, Variations};
 use crate::model::{Mechanism, Units, quotient};
 
@@ -28,6 +28,23 @@ impl Lowering<'_> {
             Some(variations) => variations.derivatives(&mut self.graph, &[id], variable)[0],
             None => self.graph.constant(0.0),
         }
+    }
+
+    /// Whether there are derivatives of a formula by what is not time: none of third derivatives of the coordinates, which loads may hold, and
+    /// no third ones.
+    pub(super) fn can_be_varied(&mut self, formula: ExprId) -> bool {
+        let times = self.variations.as_ref().map_or(0, |variations| variations.times(&self.graph, formula));
+        let dependence = self.graph.dependence(formula);
+        times < 2 && !is_third(dependence) && (!dependence.on(Dependence::FORCES) || !self.loads_hold_jerks())
+    }
+
+    /// Whether a load holds a third derivative of the coordinates.
+    fn loads_hold_jerks(&mut self) -> bool {
+        let model = self.model;
+        model.loads.iter().any(|load| {
+            let force = self.formula(load.force);
+            is_third(self.graph.dependence(force))
+        })
     }
 
     /// A column for each variable that was asked for and each column that can be differentiated by it.
@@ -62,15 +79,16 @@ impl Lowering<'_> {
 
     /// Forces have no time derivatives.
     fn append_of_reaction(&mut self, of: &Reaction, variable: u32) {
+        if !self.can_be_varied(of.value) {
+            return;
+        }
         let value = self.derivative_by(of.value, variable);
         self.append(&of.name, value, variable, (of.unit.clone(), [1.0; 3]));
     }
 
     /// One that needs too many derivatives is left out.
     fn append_of_measure(&mut self, (k, measure): (usize, &Measure), order: usize, value: ExprId, variable: u32) {
-        let is_last = self.graph.dependence(value).highest_order() == Some(3);
-        let times = self.variations.as_ref().map_or(0, |variations| variations.times(&self.graph, value));
-        if is_last || times > 1 {
+        if !self.can_be_varied(value) {
             return;
         }
         let holds = self.all_hold(&self.model.measures[k].conditions);
@@ -87,6 +105,10 @@ impl Lowering<'_> {
             variations.appended.push(Appended { name, value, variable, unit, scale });
         }
     }
+}
+
+fn is_third(dependence: Dependence) -> bool {
+    dependence.highest_order() == Some(3)
 }
 
 fn per_second(unit: &str, order: usize) -> String {

@@ -35,6 +35,8 @@ pub mod jumps {
     pub const LATER_AT_ONCE: f64 = 1e-12;
     /// Likewise where it comes to rest there, by what its rate changes by in this part of the span.
     pub const LATER_AT_REST: f64 = 1e-8;
+    /// What is below this part of what coordinates and their rates would make of it, if each were as fast as everything, is rounding.
+    pub const LATER_ROUNDING: f64 = 1e-12;
 }
 
 /// Contacts, and what they press with.

@@ -282,7 +282,7 @@ pub static FUNCTIONS: &[Function] = &[
             "der",
             &["der(e)", "der(e, NAME)"],
             "the time derivative of e, along the motion; or its derivative by an input or param",
-            "It stands in measures only. By time it may be nested up to the third derivative, the jerk: `der(der(der(x(P))))`. By an \
+            "It stands in measures, in results, and by time in loads. By time it may be nested up to the third derivative, the jerk: `der(der(der(x(P))))`. By an \
              input it is the velocity ratio, `der(rotation(rocker), turn)`, by a param the sensitivity, `der(x(P), crank_length)`; two \
              of these may be nested, with up to two by time. Divides the dimension by that of what it is taken by.",
             "measure speed = hypot(der(x(arm.tip)), der(y(arm.tip)))",

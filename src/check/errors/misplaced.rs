@@ -53,6 +53,7 @@ pub fn time_in(place: &str, span: Span, through: Option<(&str, Span)>) -> Diagno
     };
     match place {
         "a constraint" => diagnostic.help("an equation that holds time is a `driver`"),
+        "`gravity`" => diagnostic.help("where it changes it is a load on each body: `load pull: … on y(P)`"),
         "the second argument of `at`" => diagnostic.help("it is a constant, as `0.5 s`"),
         _ => diagnostic.help("what moves with time is prescribed by a `driver`, of a joint, a body or a point"),
     }

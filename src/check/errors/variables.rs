@@ -1,6 +1,7 @@
 //! What is said of derivatives by inputs and parameters.
 
 use crate::diag::{Code, Diagnostic};
+use crate::model::Declared;
 use crate::source::Span;
 use crate::syntax::ast::Name;
 
@@ -14,6 +15,17 @@ pub fn derivative_of_jerk(span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0310, "`der` by an input or parameter stands with more than two time derivatives")
         .at(span, "a third time derivative")
         .help("the derivative of an acceleration is the last that is computed")
+}
+
+/// Of a force, where a load holds a third time derivative.
+pub fn derivative_through_a_jerk(span: Span, load: &Declared) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0310,
+        format!("forces have no derivatives by inputs and parameters beside load `{}`", load.name),
+    )
+    .at(span, "of a force")
+    .also(load.span, "holds a third time derivative")
+    .help("the derivative of an acceleration is the last that is computed")
 }
 
 pub fn not_a_variable(span: Span, found: &str) -> Diagnostic {
