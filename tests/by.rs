@@ -67,6 +67,22 @@ fn is(outcome: &Outcome, column: &str, wanted: f64) {
     assert!((found - wanted).abs() <= EXACT * wanted.abs().max(1.0), "{column}: {found}, not {wanted}");
 }
 
+/// Derivatives of forces beside a load with a third time derivative would take the derivative of that.
+#[test]
+fn forces_beside_a_jerk_have_no_columns_of_derivatives() {
+    let text = |order: &str| {
+        arm(
+            &format!("param reach = 2 m load drag: 1 N*m * {order} on rotation(main) measure e = effort(motor)"),
+            "reach / 1 m * sin(t / 1 s)",
+        )
+    };
+    let columns = |order: &str| rows_at(&text(order), &["reach"], &[0.0, 0.5], &RunOptions::default()).columns;
+    assert!(columns("der(der(rotation(main))) * 1 s^2").contains(&"e.by.reach".to_owned()));
+    let beside = columns("der(der(der(rotation(main)))) * 1 s^3");
+    assert!(beside.contains(&"e".to_owned()) && beside.contains(&"arm.phi.dd.by.reach".to_owned()));
+    assert!(!beside.iter().any(|name| name == "e.by.reach"), "{beside:?}");
+}
+
 #[test]
 fn by_an_input_its_rates_are_held() {
     let declarations = "param reach = 2 m
