@@ -184,7 +184,12 @@ pub(crate) fn cannot_read(name: &str, error: &io::Error) -> Diagnostic {
     if name.is_empty() {
         return Diagnostic::new(Code::E0701, "cannot read a file without a name");
     }
-    Diagnostic::new(Code::E0701, format!("cannot read `{name}`: {}", reason(error)))
+    let diagnostic =
+        Diagnostic::new(Code::E0701, format!("cannot read `{name}`: {}", reason(error))).datum("file", name);
+    match error.raw_os_error() {
+        Some(number) => diagnostic.datum("errno", number),
+        None => diagnostic,
+    }
 }
 
 /// The system's words, without its number.

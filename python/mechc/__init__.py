@@ -28,6 +28,7 @@ from mechc.errors import (  # noqa: E402
     MechcError,
     MechcWarning,
     NotAssembled,
+    TooLarge,
     UsageError,
 )
 from mechc.mechanism import Mechanism, load, parse  # noqa: E402
@@ -58,6 +59,7 @@ __all__ = [
     "Sweep",
     "Swept",
     "Tolerance",
+    "TooLarge",
     "UsageError",
     "__version__",
     "between",

@@ -2,40 +2,38 @@
 
 from __future__ import annotations
 
+import functools
+import inspect
 import os
-import warnings
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, TypeVar
 
-from mechc.errors import MechcWarning
-from mechc.values import many, meant, number, table, texts, usage, whole, written
+from mechc.errors import MechcWarning, warn
+from mechc.values import many, mapping, meant, number, path_of, table, texts, usage, whole, written
 from mechc.values import varied as one_varied
 
-#: What every question may hold.
-COMMON = (
-    "set",
-    "inputs",
-    "samples",
-    "lead",
-    "results",
-    "by",
-    "slopes",
-    "reactions",
-    "from_",
-    "to",
-    "every",
-    "at",
-    "columns",
-    "tolerance",
-    "pass_bifurcations",
-    "allow_redundant",
-)
+Method = TypeVar("Method", bound=Callable[..., Any])
+
+
+def with_options(method: Method, *, like: Iterable[Callable[..., Any]] = ()) -> Method:
+    """A question to a mechanism, whose keywords are options first, its own and those of others that are like it, and then params and
+    inputs. There is one rule for all options of all questions: one that is given, and has the name of a param or an input, says so."""
+    parameters = [of for one in (method, *like) for of in list(inspect.signature(one).parameters.values())[1:]]
+    options = {of.name: None for of in parameters if of.kind is not of.VAR_KEYWORD}
+
+    @functools.wraps(method)
+    def asks(m: Any, /, *arguments: Any, **keywords: Any) -> Any:
+        params, inputs = m._param_units, m._input_units
+        warn_of_options(params, inputs, {name: value for name, value in keywords.items() if name in options})
+        refuse_unknown([name for name in keywords if name not in options], params, inputs, options)
+        return method(m, *arguments, **keywords)
+
+    return asks  # type: ignore[return-value]
 
 
 def asked(
     units_of_params: Mapping[str, str],
     units_of_inputs: Mapping[str, str],
-    options: Iterable[str],
     values: Mapping[str, Any],
     *,
     set: Mapping[str, Any] | None = None,
@@ -55,57 +53,50 @@ def asked(
     pass_bifurcations: bool = False,
     allow_redundant: bool = False,
 ) -> dict[str, Any]:
-    """The options of the command, by their names; ``values`` are the keywords that are none of ``options``."""
-    warn_of_options(units_of_params, units_of_inputs, locals(), options)
-    params, signals = split(values, units_of_params, units_of_inputs, options)
+    """The options of the command, by their names; ``values`` are the keywords that are params and inputs."""
+    params = {name: value for name, value in values.items() if name in units_of_params}
+    signals = {name: value for name, value in values.items() if name not in units_of_params}
     return {
-        "set": settings(set, params, units_of_params),
-        "inputs": settings(inputs, signals, units_of_inputs),
-        "samples": None if samples is None else _path("samples", samples),
-        "lead": _flag("lead", lead),
+        "set": settings("set", set, params, units_of_params),
+        "inputs": settings("inputs", inputs, signals, units_of_inputs),
+        "samples": None if samples is None else path_of("samples", samples),
+        "lead": flag("lead", lead),
         "results": formulas(results),
         "by": texts("by", by),
         "slopes": slopes,
-        "reactions": _flag("reactions", reactions),
+        "reactions": flag("reactions", reactions),
         "from": _time("from_", from_),
         "to": _time("to", to),
         "every": _time("every", every),
         "at": [] if at is None else [time for time in (_time("at", one) for one in many("at", at)) if time is not None],
         "columns": texts("columns", columns),
-        "tolerance": None if tolerance is None else _tolerance(tolerance),
-        "pass_bifurcations": _flag("pass_bifurcations", pass_bifurcations),
-        "allow_redundant": _flag("allow_redundant", allow_redundant),
+        "tolerance": None if tolerance is None else bound(tolerance),
+        "pass_bifurcations": flag("pass_bifurcations", pass_bifurcations),
+        "allow_redundant": flag("allow_redundant", allow_redundant),
     }
 
 
-def warn_of_options(
-    params: Mapping[str, str], inputs: Mapping[str, str], given: Mapping[str, Any], options: Iterable[str]
-) -> None:
-    """Says of options that are given that their names win over those of params and inputs."""
-    for name in options:
-        if (name in params or name in inputs) and given.get(name) not in (None, False):
-            where = f"set={{'{name}': …}}" if name in params else f"inputs={{'{name}': …}}"
-            message = (
-                f"`{name}` is taken for the option of that name; the mechanism has {'a param' if name in params else 'an input'} "
-                f"`{name}` too, which is meant by `{where}`"
-            )
-            warnings.warn(MechcWarning(message), stacklevel=5)
-
-
-def split(
-    values: Mapping[str, Any], params: Mapping[str, str], inputs: Mapping[str, str], options: Iterable[str]
-) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Keywords that are params, and those that are inputs."""
-    of_params, of_inputs = {}, {}
-    for name, value in values.items():
+def warn_of_options(params: Mapping[str, str], inputs: Mapping[str, str], given: Mapping[str, Any]) -> None:
+    """Says of options that are given that their names win over those of params and inputs, and how these are meant. A mapping is no value of
+    these, and means the option; `None` gives nothing."""
+    for name in (name for name, value in given.items() if value is not None and not isinstance(value, Mapping)):
         if name in params:
-            of_params[name] = value
+            instead = f"a param `{name}` too, which is set by `set={{'{name}': …}}`, and varied by `vary={{'{name}': …}}`"
         elif name in inputs:
-            of_inputs[name] = value
+            instead = f"an input `{name}` too, which is told by `inputs={{'{name}': …}}`"
         else:
+            continue
+        warn(MechcWarning(f"`{name}` is taken for the option of that name; the mechanism has {instead}"))
+
+
+def refuse_unknown(
+    names: Iterable[str], params: Mapping[str, str], inputs: Mapping[str, str], options: Iterable[str]
+) -> None:
+    """Refuses keywords that are neither params nor inputs."""
+    for name in names:
+        if name not in params and name not in inputs:
             known = [*params, *inputs, *options]
             raise usage(f"there is no param, input or option `{name}`", meant(name, known) or _listed(params, inputs))
-    return of_params, of_inputs
 
 
 def _listed(params: Mapping[str, str], inputs: Mapping[str, str]) -> str:
@@ -114,14 +105,10 @@ def _listed(params: Mapping[str, str], inputs: Mapping[str, str]) -> str:
     return "; ".join(told) if told else "the mechanism has neither params nor inputs"
 
 
-def settings(given: Mapping[str, Any] | None, values: Mapping[str, Any], units: Mapping[str, str]) -> list[str]:
+def settings(option: str, given: Any, values: Mapping[str, Any], units: Mapping[str, str]) -> list[str]:
     """``NAME=FORMULA`` for each; a number has the unit of what it sets."""
-    if given is not None and not isinstance(given, Mapping):
-        raise usage("`set` and `inputs` are mappings from names to values", "as in `set={'leg[1].la': '180 mm'}`")
     found = {}
-    for name, value in {**(given or {}), **values}.items():
-        if not isinstance(name, str):
-            raise usage(f"{name!r} is no name")
+    for name, value in {**({} if given is None else mapping(option, given)), **values}.items():
         plain = "".join(name.split())
         found[plain] = f"{plain}={written(name, value, unit_of(plain, units))}"
     return list(found.values())
@@ -151,25 +138,19 @@ def _time(name: str, value: Any) -> str | None:
     return value if isinstance(value, str) else repr(number(name, value))
 
 
-def _tolerance(value: Any) -> float:
+def bound(value: Any) -> float:
+    """What bounds each row of the equations."""
     found = number("tolerance", value)
     if not 0.0 < found < 1.0:
         raise usage(f"`tolerance` is {found!r}", "a number above 0 and below 1 is wanted, as in `tolerance=1e-9`")
     return found
 
 
-def _flag(name: str, value: Any) -> bool:
+def flag(name: str, value: Any) -> bool:
+    """An option that is there or not."""
     if value is True or value is False:
         return value
     raise usage(f"`{name}` is {value!r}, and `True` or `False` is wanted")
-
-
-def _path(name: str, value: Any) -> str:
-    try:
-        path = os.fspath(value)
-    except TypeError:
-        raise usage(f"`{name}` is {value!r}, and a path is wanted") from None
-    return os.fsdecode(path)
 
 
 def varied(
@@ -194,7 +175,7 @@ def varied(
         told = one_varied(name, values, unit_of(name, units))
         (lists if isinstance(told, bytes) else found).append(told)  # type: ignore[arg-type]
     if isinstance(variants, (str, os.PathLike)):
-        found.append(f"@{_path('variants', variants)}")
+        found.append(f"@{path_of('variants', variants)}")
     elif variants is not None:
         columns = _columns_of(variants)
         lists.append(table(columns, {name: unit_of(name, units) for name in columns}))
@@ -204,7 +185,7 @@ def varied(
         raise usage(f"`method` is {method!r}", "it is `'sobol'` or `'random'`")
     if until is not None and not isinstance(until, str):
         raise usage(f"`until` is {until!r}, and a condition is wanted", "as in `until='stroke > 80 mm'`")
-    if _flag("rows", rows) is False:
+    if flag("rows", rows) is False:
         if asked["at"]:
             help = "add `rows=True` for the rows at these times, or measure with `results={'NAME': 'at(…, T)'}`"
             raise usage("results are of the whole analysis, and `at` asks for single times", help)
@@ -229,14 +210,10 @@ MOST_JOBS = 1024
 
 
 def _axes(vary: Any) -> Iterable[tuple[str, Any]]:
-    if vary is None:
-        return []
-    if not isinstance(vary, Mapping):
-        raise usage("`vary` is a mapping from params to what they are", "as in `vary={'rod_length': [0.1, 0.2]}`")
-    for name in vary:
-        if not isinstance(name, str) or not name.strip():
-            raise usage(f"{name!r} is no name of a param")
-    return [("".join(name.split()), values) for name, values in vary.items()]
+    given = {} if vary is None else mapping("vary", vary)
+    if any(not name.strip() for name in given):
+        raise usage("`vary` has an empty name, and that of a param is wanted")
+    return [("".join(name.split()), values) for name, values in given.items()]
 
 
 def _columns_of(variants: Any) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mechc.errors import AnalysisError
 from mechc.tables import Run
-from mechc.values import meant, refused, texts, usage
+from mechc.values import elements, meant, refused, texts, usage
 
 if TYPE_CHECKING:
     from mechc.mechanism import Mechanism
@@ -87,7 +87,8 @@ class Objective:
     ``f(x)`` gives value and gradient, for ``scipy.optimize.minimize(f, x0, jac=True)``; ``f.value(x)`` and ``f.gradient(x)`` one of
     them. ``x`` are the params in the order of ``f.by`` (SI). Where the mechanism does not get there, or the result has no value, an
     error is raised, or with ``failed=math.inf`` that is the value, and the gradient is zero. Where it has a value and no derivative,
-    as an extremum at a jump that goes with a param, the gradient is an error; ``f.value(x)`` is for methods without gradients.
+    as an extremum at a jump that goes with a param, the gradient is an error; ``f.value(x)`` is for methods without gradients. It can be
+    pickled: the mechanism goes along, and is compiled anew where it arrives.
     """
 
     def __init__(self, evaluate: Evaluation, place: int, failed: float | None) -> None:
@@ -171,6 +172,7 @@ class Evaluation:
     derivatives one after the other."""
 
     def __init__(self, m: Mechanism, by: Any, columns: Sequence[str], asked: dict[str, Any]) -> None:
+        self._made_of = m, by, columns, asked
         self.by = _names(by)
         params = m.params
         for name in self.by:
@@ -188,9 +190,9 @@ class Evaluation:
         self._last: tuple[bytes, Any] | None = None
 
     def __call__(self, x: ArrayLike) -> Any:
-        x = np.ascontiguousarray(x, dtype=np.float64).reshape(-1)
-        if not np.isfinite(x).all():
-            raise usage("params are not finite", f"the params are {', '.join(self.by)}")
+        x = np.asarray(elements("x", x)).reshape(-1)
+        if x.size != len(self.by):
+            raise usage(f"{x.size} values are given for {len(self.by)} params", f"these are {', '.join(self.by)}, in that order")
         if self._last is not None and self._last[0] == x.tobytes():
             return self._last[1]
         values, rows = self._evaluator.evaluate(x)
@@ -207,6 +209,11 @@ class Evaluation:
         )
         self._last = x.tobytes(), found
         return found
+
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # it is compiled anew where it is unpacked
+        return Evaluation, self._made_of
 
 
 def objective(m: Mechanism, result: str, by: Any, failed: float | None, asked: dict[str, Any]) -> Objective:
@@ -227,7 +234,7 @@ def residuals(
     for name in names:
         if name not in known:
             raise usage(f"there is no column `{name}`", meant(name, known))
-    targets = np.asarray(wanted, dtype=float)
+    targets = np.asarray(elements("wanted", wanted))
     targets = targets.reshape(-1, len(names)) if targets.ndim == 1 else targets
     if targets.ndim != 2 or targets.shape[1] != len(names):
         raise usage(f"targets of shape {targets.shape} are given for {len(names)} columns", "a row for each time is wanted")

@@ -7,6 +7,7 @@ places (lines and columns count from 1), ``notes``, ``help``, ``fixes``, ``data`
 ========================  =====================================================================
 :class:`InputError`       the text has errors
 :class:`UsageError`       something was asked for that cannot be (also a :class:`ValueError`)
+:class:`TooLarge`         of these: it takes more memory than there is (also a :class:`MemoryError`)
 :class:`FileError`        a file could not be read or written (also an :class:`OSError`)
 :class:`AnalysisError`    the analysis could not be completed; ``partial`` has what there is
 :class:`LockUp`           of these: the mechanism locks up, at ``time``
@@ -17,9 +18,14 @@ places (lines and columns count from 1), ``notes``, ``help``, ``fixes``, ``data`
 
 from __future__ import annotations
 
+import errno
 import json
+import os
+import sys
 import warnings
 from typing import Any
+
+from mechc.words import in_python, told
 
 __all__ = [
     "AnalysisError",
@@ -30,6 +36,7 @@ __all__ = [
     "MechcError",
     "MechcWarning",
     "NotAssembled",
+    "TooLarge",
     "UsageError",
 ]
 
@@ -67,21 +74,43 @@ class UsageError(MechcError, ValueError):
     """Something was asked for that cannot be: an unknown param, a value that is none, options that do not go together."""
 
 
+class TooLarge(UsageError, MemoryError):
+    """What is asked for takes more memory than there is: it says how many rows, columns and bytes that are, and how to have less at once."""
+
+
 class FileError(MechcError, OSError):
-    """A file could not be read or written."""
+    """A file could not be read or written; ``filename`` is which, ``errno`` and ``strerror`` what the system says of it, if it says anything."""
+
+    def __init__(self, text: str = "", diagnostics: list[dict[str, Any]] | None = None) -> None:
+        super().__init__(text, diagnostics)
+        told = next((of["data"] for of in self.diagnostics if "file" in of.get("data", {})), {})
+        self.filename = told.get("file")
+        self.errno = told.get("errno")
+        if self.errno in errno.errorcode:
+            self.strerror = os.strerror(self.errno)
 
 
 class AnalysisError(MechcError):
     """The analysis could not be completed; what there is up to there is ``partial``."""
 
-    #: What was computed before it stopped: a :class:`mechc.Run` or :class:`mechc.At`; nothing where it did not begin.
+    #: What was computed before it stopped: a :class:`mechc.Run` or :class:`mechc.At`, or the path of a page; nothing where it did not begin.
     partial: Any = None
 
     @property
     def time(self) -> float | None:
         """When it stopped (s), where that is known."""
-        times = (of.get("data", {}).get("t") for of in self.diagnostics if of.get("severity") == "error")
-        return next(times, None)
+        return self._datum("t")
+
+    @property
+    def element(self) -> tuple[int, ...] | None:
+        """Which element it is of those that :meth:`mechc.Mechanism.at` was asked for, as their array is indexed; nothing of one alone."""
+        found = self._datum("element")
+        return None if found is None else tuple(found)
+
+    def _datum(self, name: str) -> Any:
+        """What the first error has as data."""
+        found = (of.get("data", {}).get(name) for of in self.diagnostics if of.get("severity") == "error")
+        return next(found, None)
 
 
 class LockUp(AnalysisError):
@@ -107,14 +136,31 @@ _OF_BLAME = {"input": InputError, "usage": UsageError, "analysis": AnalysisError
 _OF_CODE = {"E0601": NotAssembled, "E0602": LockUp, "E0603": Bifurcation}
 
 
+#: Calls from here are none of the user's.
+_OWN = os.path.dirname(os.path.abspath(__file__)) + os.sep
+
+
+def warn(warning: MechcWarning) -> None:
+    """Warns at the line that calls into the package, however deep within it this is called."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_OWN):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(warning, stacklevel=level)
+
+
+def _said(lines: list[str]) -> list[dict[str, Any]]:
+    """Diagnostics as data, of options in Python's words."""
+    return [told(json.loads(line)) for line in lines]
+
+
 def _raised(lines: list[str], text: str, blame: str, code: str) -> MechcError:
     """The exception for diagnostics of the library."""
     kind = _OF_CODE.get(code, _OF_BLAME.get(blame, MechcError))
-    return kind(text, [json.loads(line) for line in lines])
+    return kind(in_python(text), _said(lines))
 
 
 def _warned(lines: list[str], text: str) -> None:
     """Warns of what is said."""
-    warning = MechcWarning(text)
-    warning.diagnostics = [json.loads(line) for line in lines]
-    warnings.warn(warning, stacklevel=5)
+    warning = MechcWarning(in_python(text))
+    warning.diagnostics = _said(lines)
+    warn(warning)

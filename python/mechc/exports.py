@@ -8,8 +8,9 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
+from mechc import values
 from mechc.errors import FileError
-from mechc.values import usage
+from mechc.values import said
 
 #: Lines of a file that may hold the mark by which one that was written here is known.
 HEAD = 6
@@ -17,10 +18,7 @@ HEAD = 6
 
 def path_of(path: str | os.PathLike[str]) -> Path:
     """A path that was handed over."""
-    try:
-        return Path(os.fsdecode(os.fspath(path)))
-    except TypeError:
-        raise usage(f"{path!r} is no path") from None
+    return Path(values.path_of("path", path))
 
 
 def write(path: Path, text: str) -> Path:
@@ -38,7 +36,7 @@ def write(path: Path, text: str) -> Path:
                 os.unlink(beside)
             raise
     except OSError as error:
-        raise _cannot(path, error.strerror or str(error)) from error
+        raise _cannot(path, error.strerror or str(error), number=error.errno) from error
     return path
 
 
@@ -68,11 +66,8 @@ def write_all(folder: Path, files: list[tuple[str, str]], mark: str) -> Path:
     return folder
 
 
-def _cannot(path: Path, why: str, help: str | None = None) -> FileError:
-    message = f"cannot write `{path}`: {why}"
-    text = f"error[E0702]: {message}" + (f"\n = help: {help}" if help else "")
-    diagnostic = {"code": "E0702", "severity": "error", "message": message, "labels": [], "help": [help] if help else []}
-    return FileError(text, [diagnostic])
+def _cannot(path: Path, why: str, help: str | None = None, number: int | None = None) -> FileError:
+    return FileError(*said("E0702", f"cannot write `{path}`: {why}", help, {"file": str(path), "errno": number}))
 
 
 def _umask() -> int:

@@ -7,6 +7,7 @@ schedules or transports.
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 import pickle
@@ -16,8 +17,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from mechc._mechc import __version__
+from mechc.asking import flag, with_options
+from mechc.running import Running
 from mechc.sweep import Sweep
-from mechc.values import usage, whole
+from mechc.values import path_of, usage, whole
 
 if TYPE_CHECKING:
     import pyarrow
@@ -59,8 +62,10 @@ class Shares:
         return pyarrow.concat_tables(parquet.read_table(f"{root}/{_name(*of)}", filesystem=fs) for of in self.ranges)
 
 
+@functools.partial(with_options, like=[Running.sweep])
 def sweep(
     m: Mechanism,
+    /,
     *,
     out: str | os.PathLike[str],
     share: int = SHARE,
@@ -82,12 +87,10 @@ def sweep(
 
     whole_sweep, share = _whole(m, options), whole("share", share, 1)
     concurrency = None if concurrency is None else whole("concurrency", concurrency, 1)
-    name = os.fspath(out)
-    if not isinstance(name, str):
-        raise usage(f"`out` is {out!r}, and a folder is wanted")
+    name = path_of("out", out)
     fs, root = _opened(name)
     fs.create_dir(root, recursive=True)
-    count = len(whole_sweep)
+    count = whole_sweep.variants
     told = {
         "mechc": __version__,
         "mechanism": m.name,
@@ -104,7 +107,7 @@ def sweep(
         packed = ray.put(pickle.dumps(whole_sweep))
         context = ray.data.DataContext.get_current()
         shown = context.enable_progress_bars
-        context.enable_progress_bars = bool(progress)
+        context.enable_progress_bars = flag("progress", progress)
         try:
             rows = [{"first": first, "last": last} for first, last in missing]
             shares = ray.data.from_items(rows, override_num_blocks=len(rows))
@@ -179,7 +182,8 @@ def _whole(m: Mechanism, options: dict[str, Any]) -> Sweep:
     for name in ("jobs", "skip", "take", "until", "progress"):
         if options.get(name) is not None:
             raise usage(f"`{name}` is not for sweeps of shares", "leave it out; `share` says how many variants a task computes")
-    found = m.sweep(**options)
+    # what the caller names has been looked at
+    found: Sweep = Running.sweep.__wrapped__(m, **options)  # type: ignore[attr-defined]
     for option in found._made_of[2]["vary"]:
         if option.startswith("@"):
             raise usage("variants of a file are not there for all workers", "read it, and give `variants` as a table")

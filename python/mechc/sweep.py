@@ -44,6 +44,11 @@ class Sweep:
         return len(self._sweep)
 
     @property
+    def variants(self) -> int:
+        """How many variants it computes, be they more than ``len`` can say."""
+        return self._sweep.taken
+
+    @property
     def summary(self) -> dict[str, tuple[int, int]]:
         """Of what was read last, by status: how many variants, and the number of the first of them."""
         return dict(self._sweep.summary)
@@ -54,7 +59,8 @@ class Sweep:
         return dict(text.split("=", 1) for text in texts)
 
     def read(self) -> Swept:
-        """Computes all of it: its columns as numpy arrays."""
+        """Computes all of it: its columns as numpy arrays, of shape (rows,). What does not fit into memory is refused
+        (:class:`mechc.TooLarge`): as a stream it is read batch by batch."""
         return Swept(self._sweep._table(self._told()))
 
     def to_polars(self) -> polars.DataFrame:

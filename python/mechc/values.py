@@ -6,6 +6,7 @@ import difflib
 import math
 import numbers
 import operator
+import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Union
@@ -23,15 +24,18 @@ Value = Union[float, int, str, "np.floating[Any]", "np.integer[Any]"]
 
 def usage(message: str, help: str | None = None, kind: type[UsageError] = UsageError) -> UsageError:
     """Wrong usage, as the command says it."""
-    return kind(*_said("E0706", message, help))
+    return kind(*said("E0706", message, help))
 
 
 def refused(message: str, help: str) -> AnalysisError:
     """A number that cannot be had."""
-    return AnalysisError(*_said("N0604", message, help))
+    return AnalysisError(*said("N0604", message, help))
 
 
-def _said(code: str, message: str, help: str | None) -> tuple[str, list[dict[str, Any]]]:
+def said(
+    code: str, message: str, help: str | None = None, data: dict[str, Any] | None = None
+) -> tuple[str, list[dict[str, Any]]]:
+    """A message as the library has one: its text, and itself as data."""
     diagnostic = {
         "code": code,
         "severity": "error",
@@ -40,7 +44,7 @@ def _said(code: str, message: str, help: str | None) -> tuple[str, list[dict[str
         "notes": [],
         "help": [] if help is None else [help],
         "fixes": [],
-        "data": {},
+        "data": data or {},
     }
     text = f"error[{code}]: {message}"
     if help is not None:
@@ -87,6 +91,37 @@ def written(name: str, value: Any, unit: str) -> str:
         return value
     text = repr(number(name, value))
     return f"{text}{unit}" if unit.startswith("/") else f"{text} {unit}".rstrip()
+
+
+#: What mappings are like, by the options that take them.
+_EXAMPLES = {
+    "set": "{'leg[1].la': '180 mm'}",
+    "inputs": "{'theta': '20 deg'}",
+    "rates": "{'theta': '5 rad/s'}",
+    "accelerations": "{'theta': '2 rad/s^2'}",
+    "files": "{'leg.mech': text}",
+    "vary": "{'rod_length': [0.1, 0.2]}",
+    "tol": "{'rod_length': '0.05 mm'}",
+}
+
+
+def mapping(option: str, given: Any) -> dict[str, Any]:
+    """A mapping from names, whatever kind of one it is."""
+    if not isinstance(given, Mapping):
+        raise usage(f"`{option}` is {_shown(given)}, and a mapping is wanted", f"as in `{option}={_EXAMPLES[option]}`")
+    found = dict(given)
+    for name in found:
+        if not isinstance(name, str):
+            raise usage(f"`{option}` has {_shown(name)}, which is no name", f"as in `{option}={_EXAMPLES[option]}`")
+    return found
+
+
+def path_of(name: str, value: Any, help: str | None = None) -> str:
+    """A path: a text, bytes, or whatever stands for one."""
+    try:
+        return os.fsdecode(os.fspath(value))
+    except TypeError:
+        raise usage(f"`{name}` is {_shown(value)}, and a path is wanted", help) from None
 
 
 def many(name: str, values: Any) -> list[Any]:

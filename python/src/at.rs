@@ -1,14 +1,15 @@
 //! A mechanism at given inputs, params and times, one or many: each from its own start, so that neither order nor company change a bit.
 
+use crate::ending::away;
 use crate::errors::Said;
 use crate::mechanism::{Mechanism, Stages};
+use crate::memory::{self, Of};
 use crate::waiting::interruptible;
 pub use found::{_at_again, At, Columns};
-use mechc::{Adjustable, Adjusting, AskedTimes, Cancel, Choice, ColumnUnit, Diagnostic, InputMotion};
-use pyo3::exceptions::PyMemoryError;
+use mechc::{Adjustable, Adjusting, AskedPlace, Cancel, Choice, ColumnUnit, Diagnostic, InputMotion};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyString};
-pub use reading::{Options, at};
+pub use reading::{OPTIONS, Options, at};
 use std::borrow::Cow;
 use std::sync::{Arc, Mutex};
 
@@ -142,10 +143,13 @@ impl Operand {
     }
 }
 
-/// What became of an element.
-enum Became {
-    Row,
-    Not(Box<Diagnostic>),
+/// What became of elements: their rows one behind the other, and why some are not there.
+#[derive(Default)]
+struct Became {
+    rows: Vec<f64>,
+    statuses: Vec<Cow<'static, str>>,
+    /// The first of these, by its number.
+    first: Option<(usize, Box<Diagnostic>)>,
 }
 
 impl Question {
@@ -158,87 +162,82 @@ impl Question {
         if let Some(compiled) = mechanism.known.find(&self.kind) {
             return Ok(compiled);
         }
-        let made = interruptible(py, |cancel| Compiled::of(&mechanism.stages, &self.kind, cancel))?;
+        let (stages, kind) = (Arc::clone(&mechanism.stages), self.kind.clone());
+        let made = interruptible(py, move |cancel| Compiled::of(&stages, &kind, cancel))?;
         let compiled = Arc::new(made.map_err(|said| said.raised(py))?);
         mechanism.known.add(self.kind.clone(), &compiled);
         Ok(compiled)
     }
 
     /// Its answer.
-    fn answer(&self, py: Python<'_>, compiled: &Compiled) -> PyResult<At> {
+    fn answer(self, py: Python<'_>, compiled: Arc<Compiled>) -> PyResult<At> {
         let (elements, width) = (self.elements(), compiled.columns.names.len());
-        let too_many = |_| PyMemoryError::new_err("so many elements do not fit into memory; ask for fewer at once");
-        let mut rows = Vec::new();
-        rows.try_reserve_exact(elements.saturating_mul(width)).map_err(too_many)?;
-        let became = if elements <= AT_ONCE {
-            py.detach(|| self.all(compiled, &mut rows, &Cancel::default()))
+        let size = (elements as u64, width);
+        memory::refuse_beyond(py, size, Of::At)?;
+        let mut became = Became::default();
+        let rows = became.rows.try_reserve_exact(elements.saturating_mul(width));
+        rows.and_then(|()| became.statuses.try_reserve_exact(elements))
+            .map_err(|_| memory::too_large(py, size, Of::At))?;
+        let columns = Arc::clone(&compiled.columns);
+        let (shape, became) = if elements <= AT_ONCE {
+            let became = away(py, || self.all(&compiled, became, &Cancel::default()));
+            (self.shape, became)
         } else {
-            interruptible(py, |cancel| self.all(compiled, &mut rows, cancel))?
+            let compiled = Arc::clone(&compiled);
+            interruptible(py, move |cancel| (self.all(&compiled, became, cancel), self.shape)).map(|(a, b)| (b, a))?
         };
-        let mut statuses = Vec::with_capacity(elements);
-        let mut error = None;
-        for became in became {
-            statuses.push(match became {
-                Became::Row => Cow::Borrowed("ok"),
-                Became::Not(why) => {
-                    let code = Cow::Borrowed(why.code.as_str());
-                    error.get_or_insert_with(|| Said::of_one(*why, compiled.adjustable.compiled().sources()));
-                    code
-                }
-            });
-        }
-        Ok(At { columns: Arc::clone(&compiled.columns), rows, shape: self.shape.clone(), statuses, error })
+        let Became { rows, statuses, first } = became;
+        let sources = compiled.adjustable.compiled().sources();
+        let told = |(element, why)| Said::of_one(of_element(why, element, shape.as_deref()), sources);
+        let error = first.map(told);
+        Ok(At { columns, rows, shape, statuses, error })
     }
 
-    fn all(&self, compiled: &Compiled, rows: &mut Vec<f64>, cancel: &Cancel) -> Vec<Became> {
-        let names = &compiled.columns.names;
-        let mut became = Vec::with_capacity(self.elements());
-        for element in 0..self.elements() {
-            let before = rows.len();
-            let found = self.one(element, &compiled.adjustable, cancel, |row| {
-                // of several rows the last one is that of the time
-                rows.truncate(before);
-                rows.extend_from_slice(&row[..names.len()]);
-            });
-            became.push(match found {
-                Ok(()) => {
+    fn all(&self, compiled: &Compiled, mut became: Became, cancel: &Cancel) -> Became {
+        let width = compiled.columns.names.len();
+        let ask = |element: usize, place: &mut AskedPlace| self.write(element, place);
+        compiled.adjustable.at_each(self.elements(), ask, cancel, |found| {
+            let Became { rows, statuses, first } = &mut became;
+            match found {
+                Ok(row) => {
+                    let before = rows.len();
+                    rows.extend_from_slice(row);
                     let units = compiled.units.iter().flatten();
                     rows[before..].iter_mut().zip(units).for_each(|(value, unit)| *value = unit.printed(*value));
-                    Became::Row
+                    statuses.push(Cow::Borrowed("ok"));
                 }
                 Err(why) => {
-                    rows.truncate(before);
-                    rows.resize(before + names.len(), f64::NAN);
-                    Became::Not(why)
+                    rows.resize(rows.len() + width, f64::NAN);
+                    let element = statuses.len();
+                    statuses.push(Cow::Borrowed(why.code.as_str()));
+                    first.get_or_insert((element, why));
                 }
-            });
-            if cancel.is_cancelled() {
-                break;
             }
-        }
+        });
         became
     }
 
-    fn one(
-        &self,
-        element: usize,
-        adjustable: &Adjustable,
-        cancel: &Cancel,
-        row: impl FnMut(&[f64]),
-    ) -> Result<(), Box<Diagnostic>> {
-        let signal = |[value, rate, acceleration]: &[Operand; 3]| InputMotion {
+    /// Writes what an element asks for.
+    fn write(&self, element: usize, place: &mut AskedPlace) {
+        let motion = |[value, rate, acceleration]: &[Operand; 3]| InputMotion {
             value: value.at(element),
             rate: rate.at(element),
             acceleration: acceleration.at(element),
         };
-        let inputs: Vec<InputMotion> = self.inputs.iter().map(signal).collect();
-        let params: Vec<f64> = self.params.iter().map(|param| param.at(element)).collect();
-        let t = self.t.as_ref().map(|t| t.at(element));
-        let first = || adjustable.compiled().analysis().map_or(0.0, |[from, ..]| from);
-        let at = t.unwrap_or_else(first);
-        // inputs are what they are at that time, and not before
-        let from = (!inputs.is_empty()).then_some(at);
-        let times = AskedTimes { from, at: vec![at], ..AskedTimes::default() };
-        adjustable.follow(&inputs, &params, &times, cancel, row).map(|_| ())
+        place.t = self.t.as_ref().map(|t| t.at(element));
+        place.inputs.clear();
+        place.inputs.extend(self.inputs.iter().map(motion));
+        place.params.clear();
+        place.params.extend(self.params.iter().map(|param| param.at(element)));
     }
+}
+
+/// Why an element is not there; of several it says which one that is, as their array is indexed.
+fn of_element(why: Box<Diagnostic>, element: usize, shape: Option<&[usize]>) -> Diagnostic {
+    let Some(shape) = shape else { return *why };
+    let mut rest = element;
+    let mut place: Vec<usize> = shape.iter().rev().map(|&of| (rest % of.max(1), rest /= of.max(1)).0).collect();
+    place.reverse();
+    let index: Vec<String> = place.iter().map(usize::to_string).collect();
+    why.note(format!("it is element [{}] of those that are asked for", index.join(", "))).datum("element", place)
 }

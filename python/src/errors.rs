@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyList;
 use serde_json::Value;
+use std::borrow::Cow;
 
 /// What is said of something, ready to be told.
 #[derive(Clone, Default)]
@@ -15,12 +16,15 @@ pub struct Said {
     /// All of it, as the command prints it.
     text: String,
     /// Who is to mend it: `input`, `usage`, `analysis`, `files`; empty where nothing is wrong.
-    blame: &'static str,
+    blame: Cow<'static, str>,
     /// When the first error happens (s), and its code.
     pub stopped: Option<f64>,
     /// The code of the first error.
-    pub code: Option<&'static str>,
+    pub code: Option<Cow<'static, str>>,
 }
+
+/// What is packed of it: its lines of JSON, its text, the blame, the time, the code.
+pub type Packed = (Vec<String>, String, String, Option<f64>, Option<String>);
 
 impl Said {
     /// Diagnostics of some texts.
@@ -40,15 +44,26 @@ impl Said {
         Said {
             json,
             text: texts.join("\n"),
-            blame,
+            blame: blame.into(),
             stopped: first.and_then(|of| of.data.get("t")).and_then(Value::as_f64),
-            code: first.map(|of| of.code.as_str()),
+            code: first.map(|of| of.code.as_str().into()),
         }
     }
 
     /// The same of one.
     pub fn of_one(diagnostic: Diagnostic, sources: &Sources) -> Said {
         Said::of(&diagnostic.into(), sources)
+    }
+
+    /// What it takes to have it again.
+    pub fn packed(&self) -> Packed {
+        let code = self.code.as_deref().map(str::to_owned);
+        (self.json.clone(), self.text.clone(), self.blame.to_string(), self.stopped, code)
+    }
+
+    /// It once more, as it was packed.
+    pub fn again((json, text, blame, stopped, code): Packed) -> Said {
+        Said { json, text, blame: blame.into(), stopped, code: code.map(Cow::Owned) }
     }
 
     /// Whether nothing is said.
@@ -59,9 +74,9 @@ impl Said {
     /// The exception that tells it.
     pub fn raised(&self, py: Python<'_>) -> PyErr {
         static RAISED: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
-        let made = RAISED
-            .import(py, "mechc.errors", "_raised")
-            .and_then(|raised| raised.call1((self.list(py)?, &self.text, self.blame, self.code.unwrap_or_default())));
+        let made = RAISED.import(py, "mechc.errors", "_raised").and_then(|raised| {
+            raised.call1((self.list(py)?, &self.text, &*self.blame, self.code.as_deref().unwrap_or_default()))
+        });
         match made {
             Ok(exception) => PyErr::from_value(exception),
             Err(why) => why,

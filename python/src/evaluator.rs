@@ -1,17 +1,20 @@
 //! Results and rows as functions of params, for optimisers: compiled once, and evaluated again and again.
 
 use crate::errors::Said;
-use crate::mechanism::{Mechanism, Stages};
+use crate::mechanism::Stages;
 use crate::run::Asked;
 use crate::waiting::interruptible;
-use mechc::{Adjustable, Adjusting, AskedTimes, Cancel, ColumnUnit, RunOptions};
+use mechc::{Adjustable, Adjusting, Answers, AskedTimes, Cancel, ColumnUnit, RunOptions};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::sync::Arc;
 
 /// A mechanism of which some params are arguments.
 #[pyclass(frozen, module = "mechc._mechc")]
-pub struct Evaluator {
+pub struct Evaluator(Arc<Function>);
+
+struct Function {
     adjustable: Adjustable,
     params: usize,
     times: AskedTimes,
@@ -24,12 +27,14 @@ type Evaluated<'py> = (Vec<Option<f64>>, Bound<'py, PyAny>);
 
 impl Evaluator {
     /// Of a mechanism whose params of some names are arguments.
-    pub fn of(py: Python<'_>, mechanism: &Mechanism, asked: &Asked, params: Vec<String>) -> PyResult<Evaluator> {
-        let made = interruptible(py, |cancel| Evaluator::made(&mechanism.stages, asked, params, cancel))?;
-        made.map_err(|said| said.raised(py))
+    pub fn of(py: Python<'_>, stages: Arc<Stages>, asked: Asked, params: Vec<String>) -> PyResult<Evaluator> {
+        let made = interruptible(py, move |cancel| Function::of(&stages, &asked, params, cancel))?;
+        made.map(|function| Evaluator(Arc::new(function))).map_err(|said| said.raised(py))
     }
+}
 
-    fn made(stages: &Stages, asked: &Asked, params: Vec<String>, cancel: &Cancel) -> Result<Evaluator, Said> {
+impl Function {
+    fn of(stages: &Stages, asked: &Asked, params: Vec<String>, cancel: &Cancel) -> Result<Function, Said> {
         let ((checked, _), _) = asked.stages(stages, cancel)?;
         let RunOptions { tolerance, pass_bifurcations, .. } = asked.options(cancel);
         let (count, inputs, redundant) = (params.len(), Vec::new(), asked.redundant(stages));
@@ -42,7 +47,17 @@ impl Evaluator {
         let wanted = compiled.chosen_columns(&asked.columns).map_err(|why| Said::of_one(*why, &sources))?;
         let all = compiled.units();
         let units = wanted.iter().map(|&k| all[k].clone()).collect();
-        Ok(Evaluator { adjustable, params: count, times, wanted, units })
+        Ok(Function { adjustable, params: count, times, wanted, units })
+    }
+
+    /// Results, and the wanted columns of all rows, row by row.
+    fn at(&self, x: &[f64], cancel: &Cancel) -> Result<(Answers, Vec<f64>), Said> {
+        let mut rows = Vec::new();
+        let answers = self.adjustable.follow(&[], x, &self.times, cancel, |row| {
+            rows.extend(self.units.iter().zip(&self.wanted).map(|(unit, &k)| unit.printed(row[k])));
+        });
+        let sources = self.adjustable.compiled().sources();
+        answers.map(|answers| (answers, rows)).map_err(|why| Said::of_one(*why, sources))
     }
 }
 
@@ -51,32 +66,27 @@ impl Evaluator {
     /// The names of the columns.
     #[getter]
     fn columns(&self) -> Vec<String> {
-        let all = self.adjustable.compiled().columns();
-        self.wanted.iter().map(|&k| all[k].clone()).collect()
+        let all = self.0.adjustable.compiled().columns();
+        self.0.wanted.iter().map(|&k| all[k].clone()).collect()
     }
 
     /// The names of the results, and their units.
     #[getter]
     fn results(&self) -> Vec<(String, String)> {
-        self.adjustable.compiled().results_of_variants()
+        self.0.adjustable.compiled().results_of_variants()
     }
 
     /// The results (SI), and rows of shape (times, columns), for values of the params (SI).
     fn evaluate<'py>(&self, py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyResult<Evaluated<'py>> {
         let x = x.as_array().to_vec();
-        if x.len() != self.params {
-            let said = format!("{} values are given for {} params", x.len(), self.params);
+        if x.len() != self.0.params {
+            let said = format!("{} values are given for {} params", x.len(), self.0.params);
             return Err(PyValueError::new_err(said));
         }
-        let mut rows = Vec::new();
-        let answers = interruptible(py, |cancel| {
-            self.adjustable.follow(&[], &x, &self.times, cancel, |row| {
-                rows.extend(self.units.iter().zip(&self.wanted).map(|(unit, &k)| unit.printed(row[k])));
-            })
-        })?;
-        let sources = self.adjustable.compiled().sources();
-        let answers = answers.map_err(|why| Said::of_one(*why, sources).raised(py))?;
-        let width = self.wanted.len();
+        let function = Arc::clone(&self.0);
+        let found = interruptible(py, move |cancel| function.at(&x, cancel))?;
+        let (answers, rows) = found.map_err(|said| said.raised(py))?;
+        let width = self.0.wanted.len();
         let shape = [rows.len() / width, width];
         Ok((answers.values, PyArray1::from_vec(py, rows).reshape(shape)?.into_any()))
     }

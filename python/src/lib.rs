@@ -4,11 +4,13 @@
 //! What a user calls is in `mechc/*.py`, with its documentation.
 
 mod at;
+mod ending;
 mod errors;
 mod evaluator;
 mod exported;
 mod files;
 mod mechanism;
+mod memory;
 mod run;
 mod stream;
 mod sweep;
@@ -24,6 +26,8 @@ mod _mechc {
     #[pymodule_export]
     use super::at::{_at_again, At};
     #[pymodule_export]
+    use super::ending::_end;
+    #[pymodule_export]
     use super::evaluator::Evaluator;
     #[pymodule_export]
     use super::mechanism::Mechanism;
@@ -32,10 +36,11 @@ mod _mechc {
     #[pymodule_export]
     use super::table::{Column, Table};
 
-    use super::{Bound, PyModule, PyModuleMethods, PyResult};
+    use super::{Bound, PyAnyMethods, PyModule, PyModuleMethods, PyResult};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.py().import("atexit")?.call_method1("register", (module.getattr("_end")?,))?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

@@ -22,7 +22,7 @@ pub type Made<T> = Result<(T, Said), Said>;
 /// A mechanism with its settings.
 #[pyclass(frozen, subclass, module = "mechc._mechc")]
 pub struct Mechanism {
-    pub stages: Stages,
+    pub stages: Arc<Stages>,
     params: Vec<Settable>,
     inputs: Vec<Settable>,
     /// What was compiled for questions of `at` by now.
@@ -31,7 +31,7 @@ pub struct Mechanism {
 
 impl Mechanism {
     /// A param or input by its name, and whether it is an input.
-    pub fn settable(&self, py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<(&Settable, bool)> {
+    pub fn settable(&self, py: Python<'_>, name: &str) -> PyResult<(&Settable, bool)> {
         let found = |list: &'_ [Settable]| list.iter().position(|of| of.name == name);
         if let Some(place) = found(&self.inputs) {
             return Ok((&self.inputs[place], true));
@@ -39,18 +39,18 @@ impl Mechanism {
         if let Some(place) = found(&self.params) {
             return Ok((&self.params[place], false));
         }
-        let given = PyDict::new(py);
-        given.set_item(name, value)?;
-        let options = ["t", "set", "inputs", "rates", "accelerations", "by", "reactions", "strict"];
-        let known = (units(&self.params), units(&self.inputs));
-        py.import("mechc.asking")?.getattr("split")?.call1((given, known.0, known.1, options))?;
+        let refuse = py.import("mechc.asking")?.getattr("refuse_unknown")?;
+        refuse.call1(([name], units(&self.params), units(&self.inputs), at::OPTIONS))?;
         Err(pyo3::exceptions::PyKeyError::new_err(name.to_owned()))
     }
 
     /// Says of options that are given that their names win over those of params and inputs.
-    pub fn warn_of_options(&self, py: Python<'_>, given: &Bound<'_, PyDict>) -> PyResult<()> {
-        let warn = py.import("mechc.asking")?.getattr("warn_of_options")?;
-        warn.call1((units(&self.params), units(&self.inputs), given, given.keys()))?;
+    pub fn warn_of_options(&self, py: Python<'_>, given: BTreeMap<&str, &Bound<'_, PyAny>>) -> PyResult<()> {
+        let is_taken = |name: &&str| self.params.iter().chain(&self.inputs).any(|of| of.name == *name);
+        if given.keys().any(is_taken) {
+            let warn = py.import("mechc.asking")?.getattr("warn_of_options")?;
+            warn.call1((units(&self.params), units(&self.inputs), given))?;
+        }
         Ok(())
     }
 
@@ -142,19 +142,19 @@ impl Mechanism {
         let files = Arc::new(Files::new(files, from_disk));
         let choice = Choice { mechanism, set, ..Choice::default() };
         let redundant = if allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
-        let made = interruptible(py, |cancel| {
+        let made = interruptible(py, move |cancel| {
             let parsed = read(text.as_deref(), &path, &files).map_err(|(sources, said)| Said::of(&said, &sources))?;
             Stages::of(parsed, path, files, (choice, redundant), cancel)
         })?;
         let (stages, said) = made.map_err(|said| said.raised(py))?;
         said.warned(py)?;
         let (params, inputs) = (stages.checked.settable_params(), stages.checked.settable_inputs(&stages.compiled));
-        Ok(Mechanism { stages, params, inputs, known: Known::default() })
+        Ok(Mechanism { stages: Arc::new(stages), params, inputs, known: Known::default() })
     }
 
     /// What it takes to have it again: text, path, files, mechanism, settings, whether redundant equations are left out.
     fn _packed<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let Stages { parsed, path, files, choice, redundant, .. } = &self.stages;
+        let Stages { parsed, path, files, choice, redundant, .. } = &*self.stages;
         let known = PyDict::new(py);
         for (path, bytes) in files.known() {
             known.set_item(path, PyBytes::new(py, &bytes))?;
@@ -227,7 +227,7 @@ impl Mechanism {
 
     /// Runs it; `asked` has the options by their names.
     fn _run(&self, py: Python<'_>, asked: Asked) -> PyResult<Py<PyDict>> {
-        asked.run(py, &self.stages)
+        asked.run(py, Arc::clone(&self.stages))
     }
 
     /// Where it is at given inputs, params and times: coordinates, velocities, accelerations, measures and forces at one place.
@@ -244,30 +244,32 @@ impl Mechanism {
     /// Each element starts from the assembled start, so that neither order nor company change a bit: with inputs it is what
     /// `mechc run --input 'theta=0.3 rad' --at 0` gives. Where one does not get there an error is raised, with the answer as
     /// `partial`; with `strict=False` its values are `nan`, and `x.status` says why.
-    #[pyo3(signature = (t=None, *, set=None, inputs=None, rates=None, accelerations=None, by=None, reactions=false, tolerance=None,
-                        pass_bifurcations=false, strict=true, **values))]
+    #[pyo3(
+        signature = (t=None, *, set=None, inputs=None, rates=None, accelerations=None, by=None, reactions=None, tolerance=None,
+                     pass_bifurcations=None, strict=None, **values),
+        text_signature = "($self, t=None, *, set=None, inputs=None, rates=None, accelerations=None, by=None, reactions=False, \
+                          tolerance=None, pass_bifurcations=False, strict=True, **values)"
+    )]
     fn at<'py>(
         &self,
         py: Python<'py>,
         t: Option<Bound<'py, PyAny>>,
-        set: Option<Bound<'py, PyDict>>,
-        inputs: Option<Bound<'py, PyDict>>,
-        rates: Option<Bound<'py, PyDict>>,
-        accelerations: Option<Bound<'py, PyDict>>,
+        set: Option<Bound<'py, PyAny>>,
+        inputs: Option<Bound<'py, PyAny>>,
+        rates: Option<Bound<'py, PyAny>>,
+        accelerations: Option<Bound<'py, PyAny>>,
         by: Option<Bound<'py, PyAny>>,
-        reactions: bool,
-        tolerance: Option<f64>,
-        pass_bifurcations: bool,
-        strict: bool,
+        reactions: Option<Bound<'py, PyAny>>,
+        tolerance: Option<Bound<'py, PyAny>>,
+        pass_bifurcations: Option<Bound<'py, PyAny>>,
+        strict: Option<Bound<'py, PyAny>>,
         values: Option<Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, At>> {
-        let by = match by {
-            Some(by) => py.import("mechc.values")?.getattr("texts")?.call1(("by", by))?.extract()?,
-            None => Vec::new(),
-        };
-        let options = Options { set, inputs, rates, accelerations, by, reactions, tolerance, pass_bifurcations };
-        let found = Bound::new(py, at::at(py, self, t.as_ref(), options, values.as_ref())?)?;
-        match found.get().error(py).filter(|_| strict) {
+        let given = [t, set, inputs, rates, accelerations, by, reactions, tolerance, pass_bifurcations, strict];
+        let options = Options(given);
+        let is_strict = options.are_strict(py)?;
+        let found = Bound::new(py, at::at(py, self, &options, values.as_ref())?)?;
+        match found.get().error(py).filter(|_| is_strict) {
             None => Ok(found),
             Some(error) => {
                 error.setattr(py, "partial", &found)?;
@@ -278,41 +280,41 @@ impl Mechanism {
 
     /// Results and rows as functions of some of its params.
     fn _evaluator(&self, py: Python<'_>, asked: Asked, params: Vec<String>) -> PyResult<Evaluator> {
-        Evaluator::of(py, self, &asked, params)
+        Evaluator::of(py, Arc::clone(&self.stages), asked, params)
     }
 
     /// What tolerances make of it.
     fn _tolerance(&self, py: Python<'_>, asked: Asked, tol: Vec<String>, normal: bool, verify: bool) -> PyResult<Told> {
-        tolerance::tolerance(py, &self.stages, &asked, &tol, (normal, verify))
+        tolerance::tolerance(py, Arc::clone(&self.stages), asked, tol, (normal, verify))
     }
 
     /// A module of Rust.
     fn _rust(&self, py: Python<'_>, asked: AskedOfRust) -> PyResult<String> {
-        asked.module(py, &self.stages)
+        asked.module(py, Arc::clone(&self.stages))
     }
 
     /// A crate of Rust: its files, and the mark that each begins with.
     fn _crate(&self, py: Python<'_>, asked: AskedOfRust, name: &str) -> PyResult<exported::Crate> {
-        asked.package(py, &self.stages, name)
+        asked.package(py, Arc::clone(&self.stages), name)
     }
 
     fn _latex(&self, py: Python<'_>) -> PyResult<String> {
-        exported::latex(py, &self.stages)
+        exported::latex(py, Arc::clone(&self.stages))
     }
 
     fn _json(&self, py: Python<'_>) -> PyResult<String> {
-        exported::json(py, &self.stages)
+        exported::json(py, Arc::clone(&self.stages))
     }
 
-    /// A page and a picture of its motion, with so many rows at the most.
+    /// A page and a picture of its motion, with so many rows at the most, and why it ends before its time, if it does.
     #[pyo3(signature = (asked, most = None))]
-    fn _seen(&self, py: Python<'_>, asked: Asked, most: Option<usize>) -> PyResult<(String, String)> {
-        exported::seen(py, &self.stages, &asked, most)
+    fn _seen(&self, py: Python<'_>, asked: Asked, most: Option<usize>) -> PyResult<exported::Shown> {
+        exported::seen(py, Arc::clone(&self.stages), asked, most)
     }
 
     /// A sweep of it; `asked` and `more` have the options by their names.
     fn _sweep(&self, py: Python<'_>, asked: Asked, more: AskedOfSweep) -> PyResult<Sweep> {
-        Sweep::of(py, &self.stages, &asked, &more)
+        Sweep::of(py, Arc::clone(&self.stages), asked, more)
     }
 }
 

@@ -1,14 +1,16 @@
 //! Running a mechanism: what is asked for, and all rows as a table.
 
+use crate::ending;
 use crate::errors::Said;
 use crate::mechanism::Stages;
+use crate::memory::{self, Of};
 use crate::table::Table;
 use crate::waiting::interruptible;
 use mechc::{AskedTimes, Cancel, Checked, Choice, ColumnUnit, Compiled, Diagnostics, Redundant, Run, RunOptions};
-use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// What is asked of a run, as the options of the command are called.
 #[derive(FromPyObject, Default)]
@@ -40,14 +42,22 @@ struct Ran {
     results: Vec<(String, Option<f64>, String)>,
     /// Why the motion stopped, if it did.
     stopped: Option<Said>,
+    /// Whether no way led to what is set or told, and it was assembled from the estimates.
+    is_reassembled: bool,
     /// What is to be said beside.
     said: Vec<Said>,
 }
 
+/// What a run is that was assembled from the estimates because no way led where it should, as sweeps call it; and the code that says so.
+const REASSEMBLED: &str = "reassembled";
+const NO_WAY: &str = "E0612";
+
 /// Why there is no run.
 enum Failed {
     Said(Said),
-    Memory,
+    /// So many rows and columns do not fit.
+    Memory(u64, usize),
+    Raised(PyErr),
 }
 
 impl From<Said> for Failed {
@@ -102,18 +112,18 @@ impl Asked {
         }
     }
 
-    /// Runs it, and gives `table`, `results`, `stopped` and `messages`.
-    pub fn run(&self, py: Python<'_>, stages: &Stages) -> PyResult<Py<PyDict>> {
-        let ran = interruptible(py, |cancel| self.ran(stages, cancel))?.map_err(|why| match why {
+    /// Runs it, and gives `table`, `results`, `status`, `stopped` and `error`.
+    pub fn run(self, py: Python<'_>, stages: Arc<Stages>) -> PyResult<Py<PyDict>> {
+        let ran = interruptible(py, move |cancel| self.ran(&stages, cancel))?.map_err(|why| match why {
             Failed::Said(said) => said.raised(py),
-            Failed::Memory => {
-                PyMemoryError::new_err("the rows of this run do not fit into memory; ask for fewer columns or times")
-            }
+            Failed::Memory(rows, columns) => memory::too_large(py, (rows, columns), Of::Run),
+            Failed::Raised(why) => why,
         })?;
         let told = PyDict::new(py);
         told.set_item("table", Bound::new(py, ran.table)?)?;
         told.set_item("results", ran.results)?;
-        told.set_item("code", ran.stopped.as_ref().and_then(|said| said.code).unwrap_or("ok"))?;
+        let status = if ran.is_reassembled { REASSEMBLED } else { "ok" };
+        told.set_item("status", ran.stopped.as_ref().and_then(|said| said.code.as_deref()).unwrap_or(status))?;
         told.set_item("stopped", ran.stopped.as_ref().and_then(|said| said.stopped))?;
         told.set_item("error", ran.stopped.as_ref().map(|said| said.raised(py).into_value(py)))?;
         for said in ran.said {
@@ -133,6 +143,7 @@ impl Asked {
         let (run, more) = compiled.run(&times, &self.options(cancel));
         let Some(run) = run else { return Err(Said::of(&more, &sources).into()) };
         let mut said = vec![said];
+        let is_reassembled = more.iter().any(|of| of.code.as_str() == NO_WAY);
         said.push(Said::of(&more, &sources));
         let mut rows = Rows::of(&run, wanted)?;
         let mut run = run;
@@ -143,7 +154,7 @@ impl Asked {
         said.push(Said::of(&remarks, &sources));
         let si = compiled.results_of_variants().into_iter();
         let results = si.zip(answers.values).map(|((name, unit), value)| (name, value, unit)).collect();
-        Ok(Ran { table: rows.table(), results, stopped, said })
+        Ok(Ran { table: rows.table(), results, stopped, is_reassembled, said })
     }
 }
 
@@ -159,10 +170,16 @@ impl Rows {
     fn of(run: &Run, wanted: Vec<usize>) -> Result<Rows, Failed> {
         let names = wanted.iter().filter_map(|&k| run.columns().get(k).cloned()).collect();
         let units = wanted.iter().filter_map(|&k| run.units().get(k).cloned()).collect();
-        let rows = usize::try_from(run.times().len()).map_err(|_| Failed::Memory)?;
+        let size = (run.times().len(), wanted.len());
+        let fits = |py: Python<'_>| memory::refuse_beyond(py, size, Of::Run);
+        // at the end of the interpreter nobody is asked, and who waits may be the one that ends it
+        let fits = if ending::has_begun() { None } else { Python::try_attach(fits) };
+        fits.unwrap_or(Ok(())).map_err(Failed::Raised)?;
+        let beyond = || Failed::Memory(size.0, size.1);
+        let rows = usize::try_from(size.0).map_err(|_| beyond())?;
         let mut columns = vec![Vec::new(); wanted.len()];
         for column in &mut columns {
-            column.try_reserve_exact(rows).map_err(|_| Failed::Memory)?;
+            column.try_reserve_exact(rows).map_err(|_| beyond())?;
         }
         Ok(Rows { names, units, wanted, columns })
     }

@@ -3,6 +3,7 @@
 use crate::errors::Said;
 use crate::files::WithLists;
 use crate::mechanism::Stages;
+use crate::memory::{self, Of};
 use crate::run::Asked;
 use crate::stream;
 use crate::sweep::reader::{InTurns, Reader, Source};
@@ -39,6 +40,9 @@ pub struct AskedOfSweep {
     take: Option<u64>,
 }
 
+/// So many variants are computed side by side.
+const SIDE_BY_SIDE: u64 = 16;
+
 /// How many variants came to each end, and the first of them.
 pub type Summary = BTreeMap<&'static str, (u64, u64)>;
 
@@ -64,6 +68,8 @@ pub struct Whole {
     pub has_until: bool,
     /// The first variant, and the one behind the last.
     pub range: [u64; 2],
+    /// How many rows a variant has at the most.
+    rows: u64,
 }
 
 type Refused = (Sources, Diagnostics);
@@ -80,7 +86,7 @@ impl Whole {
         let ends = [&asked.from, &asked.to, &asked.every];
         let times = AskedTimes::of(ends, &asked.at, &mut sources).map_err(|why| Said::of(&why, &sources))?;
         let refused = |why: Box<Diagnostic>| Said::of_one(*why, &sources);
-        times.over(compiled.analysis()).and_then(|times| times.times()).map_err(refused)?;
+        let rows = times.over(compiled.analysis()).and_then(|times| times.times()).map_err(refused)?.len();
         let wanted = if more.rows { Some(compiled.chosen_columns(&asked.columns).map_err(refused)?) } else { None };
         let (heads, units) = heads(&compiled, &variants, wanted.as_deref());
         let run = asked.options(cancel);
@@ -100,7 +106,22 @@ impl Whole {
         let first = more.skip.min(count);
         let range = [first, more.take.map_or(count, |take| first.saturating_add(take).min(count))];
         let (schema, has_until) = (schema(&heads), more.until.is_some());
-        Ok((Whole { checked, compiled, variants, options, heads, schema, units, has_until, range }, said))
+        let rows = if units.is_some() { rows } else { 1 };
+        Ok((Whole { checked, compiled, variants, options, heads, schema, units, has_until, range, rows }, said))
+    }
+
+    /// Refuses variants of which not even those fit into memory that are computed side by side: their rows, and those of the threads.
+    pub fn refuse_beyond(&self, py: Python<'_>) -> PyResult<()> {
+        let threads = self.options.jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
+        let columns = self.units.as_ref().map_or(0, Vec::len);
+        let rows = self.rows.saturating_mul(2 * SIDE_BY_SIDE).saturating_mul(threads.max(1) as u64);
+        memory::refuse_beyond(py, (rows, columns), Of::Block)
+    }
+
+    /// How many rows it has at the most, and columns.
+    pub fn size(&self) -> (u64, usize) {
+        let [first, last] = self.range;
+        ((last - first).saturating_mul(self.rows), self.heads.len())
     }
 }
 
@@ -133,15 +154,16 @@ fn heads(compiled: &Compiled, variants: &Variants, wanted: Option<&[usize]>) -> 
 
 impl Sweep {
     /// A sweep of a mechanism.
-    pub fn of(py: Python<'_>, stages: &Stages, asked: &Asked, more: &AskedOfSweep) -> PyResult<Sweep> {
-        let made = interruptible(py, |cancel| Whole::of(stages, asked, more, cancel))?;
+    pub fn of(py: Python<'_>, stages: Arc<Stages>, asked: Asked, more: AskedOfSweep) -> PyResult<Sweep> {
+        let made = interruptible(py, move |cancel| Whole::of(&stages, &asked, &more, cancel))?;
         let (whole, said) = made.map_err(|said| said.raised(py))?;
         said.warned(py)?;
         Ok(Sweep { whole: Arc::new(whole), summary: Arc::default() })
     }
 
-    fn reader(&self, progress: Option<Py<PyAny>>) -> Reader {
-        Reader::new(Source { whole: Arc::clone(&self.whole), summary: Arc::clone(&self.summary) }, progress)
+    fn reader(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Reader> {
+        self.whole.refuse_beyond(py)?;
+        Ok(Reader::new(Source { whole: Arc::clone(&self.whole), summary: Arc::clone(&self.summary) }, progress))
     }
 }
 
@@ -158,9 +180,15 @@ impl Sweep {
     }
 
     /// How many variants it computes.
-    fn __len__(&self) -> usize {
+    #[getter]
+    fn taken(&self) -> u64 {
         let [first, last] = self.whole.range;
-        usize::try_from(last - first).unwrap_or(usize::MAX)
+        last - first
+    }
+
+    /// The same as far as Python can count by `len`.
+    fn __len__(&self) -> usize {
+        usize::try_from(self.taken()).unwrap_or(usize::MAX)
     }
 
     /// How many variants there are, taken or not.
@@ -188,14 +216,14 @@ impl Sweep {
     /// All of it as a table.
     #[pyo3(signature = (progress = None))]
     fn _table(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Table> {
-        let mut reader = self.reader(progress);
+        let mut reader = self.reader(py, progress)?;
         let columns = reader.all(py)?;
         Ok(Table::new(self.whole.heads.clone(), columns))
     }
 
     #[pyo3(signature = (progress = None))]
     fn _stream<'py>(&self, py: Python<'py>, progress: Option<Py<PyAny>>) -> PyResult<Bound<'py, PyCapsule>> {
-        stream::capsule(py, Box::new(InTurns::new(self.reader(progress))))
+        stream::capsule(py, Box::new(InTurns::new(self.reader(py, progress)?)))
     }
 
     fn __arrow_c_schema__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {

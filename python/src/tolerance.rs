@@ -6,6 +6,7 @@ use crate::run::Asked;
 use crate::waiting::interruptible;
 use mechc::{Affected, AskedTimes, Cancel, RunOptions, SweepOptions, Tolerance};
 use pyo3::prelude::*;
+use std::sync::Arc;
 
 /// Each tolerance: its name, its value, from and to (SI), its unit.
 type OfParam = (String, f64, [f64; 2], String);
@@ -40,12 +41,12 @@ pub type Told = (Vec<OfParam>, Vec<OfQuantity>, Tried);
 /// What tolerances make of a mechanism.
 pub fn tolerance(
     py: Python<'_>,
-    stages: &Stages,
-    asked: &Asked,
-    tol: &[String],
-    (normal, verify): (bool, bool),
+    stages: Arc<Stages>,
+    asked: Asked,
+    tol: Vec<String>,
+    are: (bool, bool),
 ) -> PyResult<Told> {
-    let told = interruptible(py, |cancel| found(stages, asked, tol, (normal, verify), cancel))?;
+    let told = interruptible(py, move |cancel| found(&stages, &asked, &tol, are, cancel))?;
     told.map_err(|said| said.raised(py))
 }
 

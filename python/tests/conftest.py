@@ -14,6 +14,24 @@ ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = sorted((ROOT / "examples").glob("*.mech"))
 
 
+#: A four-bar whose crank does not turn beyond 90 degrees: no way leads to the other side, where it can be assembled too.
+OTHER_SIDE = """mechanism other_side {
+    param turned = 60 deg
+    ground { point O = (0, 0) point Q = (80 mm, 0) }
+    body crank at (0, 0, turned) { point O = (0, 0) point C = (60 mm, 0) }
+    body coupler at (60 mm * cos(turned), 60 mm * sin(turned), 0) { point C = (0, 0) point D = (50 mm, 0) }
+    body rocker at (80 mm, 0, 90 deg) { point Q = (0, 0) point D = (50 mm, 0) }
+    joint main: revolute(ground.O, crank.O)
+    joint pin: revolute(crank.C, coupler.C)
+    joint knee: revolute(coupler.D, rocker.D)
+    joint pivot: revolute(ground.Q, rocker.Q)
+    driver motor: rotation(main) = turned + 1 deg/s * t
+    measure high = y(coupler.D)
+    analysis from 0 s to 1 s every 0.1 s
+}
+"""
+
+
 def command_path() -> Path:
     """The command of this project, as it was built last."""
     told = os.environ.get("MECHC")

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import itertools
+import pickle
 
 import numpy as np
 import pytest
@@ -163,3 +165,61 @@ def test_odd_arrays_and_lists(four_bar):
         m.at(theta=np.zeros((1,) * 33))
     assert m.at(theta=np.zeros((1,) * 32)).q.shape == (1,) * 32 + (9,)
     assert same_bits(np.array([m.at(theta=0.3, by="theta")["crank.phi.by.theta"]]), np.array([1.0]))
+
+
+def test_lanes_have_the_bits_of_the_command(four_bar):
+    """Many angles, some of which no lane gets to: each is what the command has, and what it is alone."""
+    m, path = four_bar
+    thetas = np.concatenate([np.linspace(-20, 20, 101), [0.0, -0.0, 1e-300, 1e3]])
+    rates, accelerations = np.linspace(-5, 5, len(thetas)), np.linspace(3, -3, len(thetas))
+    whole = m.at(theta=thetas, rates={"theta": rates}, accelerations={"theta": accelerations}, reactions=True)
+    assert whole.status == ["ok"] * len(thetas)
+    for k in range(0, len(thetas), 8):
+        theta, rate, acceleration = (repr(float(of[k])) for of in (thetas, rates, accelerations))
+        formula = f"theta=({theta} rad) + ({rate} rad/s) * t + 0.5 * ({acceleration} rad/s^2) * t^2"
+        ended = command("run", str(path), "--input", formula, "--from", "0", "--at", "0", "--reactions")
+        assert ended.code == 0, ended.err
+        for name, cells in ended.table().items():
+            assert same_bits(whole[name][k : k + 1], cells[-1:]), (name, theta)
+
+
+def test_lanes_and_places_alone_have_the_same_bits(four_bar):
+    m, _ = four_bar
+    random = np.random.default_rng(5)
+    arms, thetas = random.uniform(0.09, 0.11, 40), random.uniform(-9, 9, 40)
+    whole = m.at(theta=thetas, arm=arms, by=["theta", "arm"], strict=False)
+    alone = [m.at(theta=theta, arm=arm, by=["theta", "arm"], strict=False) for theta, arm in zip(thetas, arms)]
+    for name in whole:
+        assert same_bits(whole[name], np.array([one[name] for one in alone])), name
+    # a time of its own for each goes the careful way
+    times = m.at(np.full(40, 0.0), theta=thetas)
+    assert all(same_bits(times[name], m.at(theta=thetas)[name]) for name in times)
+
+
+def test_no_way_leads_there_says_where_it_ends_and_which_element_it_is(four_bar):
+    m, path = four_bar
+    with pytest.raises(mechc.AnalysisError, match="on the way to the values that are set there is a dead point") as caught:
+        m.at(0.5, arm=np.array([[0.1, 0.09, 0.02], [0.1, 0.1, 0.02]]))
+    error = caught.value
+    assert error.code == "E0612" and error.element == (0, 2)
+    assert "it is element [0, 2] of those that are asked for" in str(error)
+    labels = error.diagnostics[0]["labels"]
+    line = next(k for k, text in enumerate(FOUR_BAR.splitlines(), 1) if "param arm" in text)
+    assert labels[0]["start"]["line"] == line and "led from 0.1 m to 0.02 m, and got to 0.0" in labels[0]["text"]
+    assert str(path) in str(error) and "estimates" not in str(error)
+    with pytest.raises(mechc.AnalysisError, match="led from 0.1 m to 0.02 m") as caught:
+        m.at(0.5, arm=0.02)
+    assert caught.value.element is None and "element" not in str(caught.value)
+
+
+def test_a_pickled_answer_keeps_why_it_is_not_there(four_bar):
+    m, _ = four_bar
+    x = m.at(0.5, arm=np.array([0.1, 0.02]), strict=False)
+    for again in (pickle.loads(pickle.dumps(x)), copy.copy(x), copy.deepcopy(x)):
+        assert str(again.error) == str(x.error) and again.error.diagnostics == x.error.diagnostics
+        assert type(again.error) is type(x.error) and again.error.element == (1,) and again.status == x.status
+    with pytest.raises(mechc.AnalysisError) as caught:
+        m.at(0.5, arm=np.array([0.1, 0.02]))
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert str(again.partial.error) == str(again) == str(caught.value)
+    assert pickle.loads(pickle.dumps(m.at(0.5))).error is None

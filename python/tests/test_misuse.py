@@ -22,6 +22,9 @@ from conftest import ROOT
 import mechc
 from mechc import _mechc
 
+#: What a machine that others use too takes to wake who waits (s).
+SLACK = 0.15
+
 ROBOT = ROOT / "examples/parallel_robot.mech"
 CRANK = ROOT / "examples/slider_crank.mech"
 
@@ -139,7 +142,7 @@ def test_huge_questions_are_refused(crank):
         crank.run(to=1e9, every=1e-9)
     with pytest.raises((MemoryError, mechc.UsageError)):
         crank.at(np.broadcast_to(0.01, (1 << 20, 1 << 20)))
-    sweep = crank.sweep(vary={"rod_length": mechc.between(0.1, 0.2)}, samples=10**12)
+    sweep = crank.sweep(vary={"rod_length": mechc.between(0.1, 0.2)}, samples=10**12, yes=True)
     assert len(sweep) == 10**12
 
 
@@ -191,6 +194,13 @@ def test_pickle_of_everything(crank):
         assert again.partial.rows == error.partial.rows and str(again) == str(error)
     else:
         pytest.fail("it does not lock up")
+    f = crank.objective("peak", by=["rod_length"], results={"peak": "max(abs(der(der(travel))))"}, failed=np.inf)
+    g = crank.residuals(["travel"], [0.0, 0.1], by=["rod_length"], at=[0.0, 0.01])
+    for one in (f, g):
+        for again in (pickle.loads(pickle.dumps(one)), copy.copy(one), copy.deepcopy(one)):
+            assert type(again) is type(one) and again.by == one.by
+            assert np.array_equal(np.hstack(again(one.x0 * 1.01)), np.hstack(one(one.x0 * 1.01)))
+    assert pickle.loads(pickle.dumps(f)).value([0.01]) == np.inf
     for one in (_mechc.Table([], [], []), run._table, sweep._sweep):
         with pytest.raises(TypeError):
             pickle.dumps(one)
@@ -236,7 +246,7 @@ def run_python(code, **options):
     "work",
     [
         "m.run(to=1000, every=1e-4, columns='t')",
-        "m.sweep(vary={'rod_length': mechc.between(0.1, 0.2)}, samples=10**9, results={'top': 'max(travel)'}).read()",
+        "m.sweep(vary={'rod_length': mechc.between(0.1, 0.2)}, samples=10**7, results={'top': 'max(travel)'}).read()",
         "pa.table(m.sweep(vary={'rod_length': mechc.between(0.1, 0.2)}, samples=10**9, results={'top': 'max(travel)'}))",
         "pl.DataFrame(m.sweep(vary={'rod_length': mechc.between(0.1, 0.2)}, samples=10**9, results={'top': 'max(travel)'}))",
         "m.at(np.linspace(0, 0.04, 10**6))",
@@ -267,6 +277,55 @@ def test_ctrl_c(work):
     )
     assert "interrupted" in done.stdout and "goes on" in done.stdout, done.stdout + done.stderr
     assert float(done.stdout.split()[1]) < 30.0
+
+
+#: So many links, each with two params: forty of them, and results that depend on all.
+FORTY = """
+    links = 20
+    text = "mechanism chain { " + " ".join(f"param a{k} = 1 m param b{k} = {0.1 + 0.01 * k} rad" for k in range(links))
+    text += " ground { point P = (0, 0) } "
+    for k in range(links):
+        text += f"body l{k} at ({k} m, 0, 0) {{ point A = (0, 0) point B = (a{k}, 0) }} "
+        before = "ground.P" if k == 0 else f"l{k - 1}.B"
+        text += f"joint j{k}: revolute({before}, l{k}.A) driver d{k}: rotation(j{k}) = b{k} * sin({k + 1} rad/s * t) "
+    text += f"measure reach = x(l{links - 1}.B) result most = max(abs(der(der(reach)))) analysis from 0 s to 100 s every 1 ms }}"
+    m = mechc.parse(text)
+    by = [f"{of}{k}" for k in range(links) for of in "ab"]
+"""
+
+
+@pytest.mark.parametrize("pressed_after", [0.05, 0.3, 1.0])
+@pytest.mark.parametrize("work", ["m.jacobian(by)", "m.objective('most', by)", "evaluated()"])
+def test_ctrl_c_is_answered_at_once(work, pressed_after):
+    """Whatever is under way, a proof or a motion: a tenth of a second, and what a busy machine takes to wake who waits."""
+    done = run_python(
+        f"""
+import os, signal, threading, time
+import numpy as np
+import mechc
+{textwrap.dedent(FORTY)}
+def evaluated():
+    while True:
+        f(f.x0 * np.random.uniform(0.99, 1.01, len(by)))
+if "evaluated" in {work!r}:
+    f = m.objective('most', by, to=0.5, every=0.1)
+pressed = []
+def press():
+    pressed.append(time.monotonic())
+    os.kill(os.getpid(), signal.SIGINT)
+threading.Timer({pressed_after}, press).start()
+try:
+    while True:
+        {work}
+except KeyboardInterrupt:
+    print("answered", time.monotonic() - pressed[0])
+print(m.at(0.0)["reach"])
+"""
+    )
+    told = done.stdout.split()
+    assert told and told[0] == "answered", done.stdout + done.stderr
+    assert float(told[1]) < 0.1 + SLACK, told
+    assert float(told[2]) == 20.0
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="it cannot fork")
@@ -321,18 +380,23 @@ def test_a_signal_handler_that_raises():
     assert "raised" in done.stdout, done.stdout + done.stderr
 
 
-def test_the_end_of_the_interpreter():
+@pytest.mark.parametrize("which", range(4))
+def test_the_end_of_the_interpreter(which):
+    """While other threads compute."""
     done = run_python(
         """
-        import threading
+        import threading, time
         import pyarrow as pa
         import mechc
         m = mechc.load("examples/slider_crank.mech")
-        sweep = m.sweep(vary={"rod_length": mechc.between(0.1, 0.2)}, samples=10**9, results={"top": "max(travel)"})
+        sweep = m.sweep(vary={"rod_length": mechc.between(0.1, 0.2)}, samples=10**7, results={"top": "max(travel)"})
         kept = pa.RecordBatchReader.from_stream(sweep)
         stream = sweep.__arrow_c_stream__()
-        threading.Thread(target=sweep.read, daemon=True).start()
+        work = [sweep.read, lambda: pa.table(sweep), lambda: m.run(to=1000, every=1e-4, columns="t"), lambda: [m.at(0.01) for _ in range(10**7)]]
+        for one in work[WHICH:WHICH + 1] * 2:
+            threading.Thread(target=one, daemon=True).start()
+        time.sleep(0.3)
         print("ends")
-        """
+        """.replace("WHICH", str(which))
     )
     assert done.stdout.strip() == "ends" and done.returncode == 0, (done.returncode, done.stderr)

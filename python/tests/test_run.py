@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
+import pickle
+import warnings
 
 import numpy as np
 import pytest
-from conftest import EXAMPLES, ROOT, command, same_bits
+from conftest import EXAMPLES, OTHER_SIDE, ROOT, command, same_bits
 
 import mechc
 
@@ -108,13 +112,37 @@ def test_errors_say_who_is_to_mend_what():
         m.run()["travl"]
 
 
-def test_an_options_name_wins_and_says_so():
-    text = (ROOT / "examples/slider_crank.mech").read_text().replace("rod_length", "every")
-    m = mechc.parse(text)
-    with pytest.warns(mechc.MechcWarning, match="taken for the option"):
-        run = m.run(every="1 ms")
-    assert run.rows == 41
-    assert m.run(set={"every": "180 mm"}).rows == 81
+def test_files_that_are_not_there_say_which_and_why(tmp_path):
+    m, missing = mechc.load(ROOT / "examples/slider_crank.mech"), tmp_path / "nowhere.mech"
+    asks = [
+        (lambda: mechc.load(missing), errno.ENOENT, missing),
+        (lambda: mechc.load(tmp_path), errno.EISDIR, tmp_path),
+        (lambda: m.sweep(variants=missing), errno.ENOENT, missing),
+        (lambda: m.to_latex(tmp_path), errno.EISDIR, tmp_path),
+    ]
+    for ask, number, name in asks:
+        with pytest.raises(OSError) as caught:
+            ask()
+        for error in (caught.value, pickle.loads(pickle.dumps(caught.value))):
+            assert isinstance(error, mechc.FileError)
+            assert (error.errno, error.filename, error.strerror) == (number, str(name), os.strerror(number))
+
+
+def test_what_no_way_leads_to_is_reassembled_and_says_so():
+    m = mechc.parse(OTHER_SIDE)
+    sweep = m.sweep({"turned": [1.0, 5.2]}, results={"most": "max(high)"})
+    found = sweep.read()
+    assert list(found["status"]) == ["ok", "reassembled"]
+    for variant, status in enumerate(found["status"]):
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            run = m.run(lead=True, set=sweep.settings(variant), results={"most": "max(high)"})
+        assert run.status == status and run.error is None and run.results["most"] == found["most"][variant]
+        assert pickle.loads(pickle.dumps(run)).status == status
+        assert [one for one in told if "E0612" in str(one.message)] == (told[:1] if status == "reassembled" else [])
+    # `at` is asked for a place on the branch
+    with pytest.raises(mechc.AnalysisError, match="E0612"):
+        m.at(turned=5.2)
 
 
 def test_texts_with_files():

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import html
 import json
 import re
+import warnings
 
 import numpy as np
 import pytest
@@ -172,3 +174,44 @@ def test_nothing_is_written_over_what_was_read(tmp_path):
             write(own)
     assert own.read_text() == CRANK.read_text()
     assert m.to_latex(tmp_path / "own.tex").exists()
+
+
+STOPPED = """mechanism stopped {
+    ground { point O = (0, 0) point Q = (80 mm, 0) }
+    body crank at (0, 0, 90 deg) { point O = (0, 0) point C = (40 mm, 0) }
+    body coupler at (0, 40 mm, 36 deg) { point C = (0, 0) point D = (LENGTH, 0) }
+    body rocker at (80 mm, 0, 91 deg) { point Q = (0, 0) point D = (50 mm, 0) }
+    joint main: revolute(ground.O, crank.O)
+    joint pin: revolute(crank.C, coupler.C)
+    joint knee: revolute(coupler.D, rocker.D)
+    joint pivot: revolute(ground.Q, rocker.Q)
+    driver motor: rotation(main) = 90 deg + 60 rpm * t
+    measure turn = angle(rocker) / 1 deg
+    analysis from 0 s to 2 s every 10 ms
+}
+"""
+
+
+@pytest.mark.parametrize("length, kind, code", [("60 mm", mechc.LockUp, "E0602"), ("400 mm", mechc.NotAssembled, "E0601")])
+def test_a_page_tells_why_it_ends_as_the_command_does(tmp_path, length, kind, code):
+    source = tmp_path / "stopped.mech"
+    source.write_text(STOPPED.replace("LENGTH", length))
+    m = mechc.load(source)
+    ended = command("view", str(source), "-o", str(tmp_path / "wanted.html"))
+    for name in ("a.html", "a.svg"):
+        with pytest.raises(kind) as caught:
+            m.view(tmp_path / name)
+        assert ended.code == 3 and str(caught.value).splitlines()[0] == ended.err.splitlines()[0]
+        assert caught.value.code == code and caught.value.partial == tmp_path / name and caught.value.partial.exists()
+        with pytest.warns(mechc.MechcWarning, match=code) as told:
+            assert m.view(tmp_path / name, strict=False).exists()
+        assert told[0].filename == __file__ and told[0].message.diagnostics[0]["code"] == code
+    assert (tmp_path / "a.html").read_text() == (tmp_path / "wanted.html").read_text()
+    text = m._repr_html_()
+    assert "<pre>error[" + code in text and str(caught.value).splitlines()[0] in html.unescape(text)
+
+
+def test_a_page_of_a_whole_motion_tells_nothing():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert "<pre>" not in mechc.load(CRANK)._repr_html_()

@@ -1,15 +1,16 @@
 //! A mechanism that is compiled once for all values of some of its inputs and params: for who asks again and again, as an optimiser or a
 //! controller does. What it gives depends on what it is asked alone, not on what it was asked before.
 
+use super::beside::Beside;
 use super::over::{FromOwn, Reached};
 use super::varied::unusable;
 use super::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Variants};
-use crate::analysis::{Answers, Asked};
+use crate::analysis::{Answers, Asked, Times};
 use crate::cancel::Cancel;
 use crate::check::{SetInputs, Surroundings};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::source::Sources;
-use crate::sweep::{Levels, Points, Varying};
+use crate::sweep::{LANES, Levels, Points, Varying};
 use std::sync::Arc;
 
 /// What is to be adjusted, and how it is followed then.
@@ -44,6 +45,17 @@ pub struct InputMotion {
     pub rate: f64,
     /// By time, twice.
     pub acceleration: f64,
+}
+
+/// A place that is asked for.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct AskedPlace {
+    /// When (s); at the first time of the analysis where nothing is said.
+    pub t: Option<f64>,
+    /// What inputs are there, at that time.
+    pub inputs: Vec<InputMotion>,
+    /// What params are there (SI).
+    pub params: Vec<f64>,
 }
 
 /// A mechanism whose inputs and params can be adjusted.
@@ -81,7 +93,23 @@ struct Shared {
     /// The params, where there are any.
     params: Option<Variants>,
     adjusting: Adjusting,
+    /// How many columns it has.
+    columns: usize,
+    /// What places share that are looked at side by side.
+    beside: Beside,
 }
+
+/// What is asked for, in values of all params of the model (SI).
+pub(super) struct Aim {
+    pub values: Vec<f64>,
+    pub times: Times,
+}
+
+/// What is asked for, or why that cannot be.
+pub(super) type Aimed = Result<Aim, Box<Diagnostic>>;
+
+/// What the last params lead to, if that was asked for just before: these, and the values of all.
+type Before = Option<(Vec<f64>, Values)>;
 
 impl Checked {
     /// The same with inputs and params that can be adjusted; it is sound.
@@ -122,11 +150,22 @@ impl Checked {
             });
         }
         let own = model.params.iter().map(|param| param.value).collect();
+        let beside = Beside::of(model.led.iter().filter_map(|led| led.param).collect());
         let params = self.params_to_adjust(&adjusting.params)?;
         let (led, redundant) = (checked.clone(), adjusting.redundant);
         let from_own = FromOwn::new(move |options| led.stands(redundant, options));
-        let adjusting = adjusting.clone();
-        Ok(Adjustable(Arc::new(Shared { checked, compiled, from_own, own, inputs, params, adjusting })))
+        let (adjusting, columns) = (adjusting.clone(), compiled.columns().len());
+        Ok(Adjustable(Arc::new(Shared {
+            checked,
+            compiled,
+            from_own,
+            own,
+            inputs,
+            params,
+            adjusting,
+            columns,
+            beside,
+        })))
     }
 
     /// The params of some names, each of which takes a number in SI.
@@ -165,32 +204,45 @@ impl Adjustable {
         params: &[f64],
         times: &AskedTimes,
         cancel: &Cancel,
-        mut row: impl FnMut(&[f64]),
+        row: impl FnMut(&[f64]),
     ) -> Result<Answers, Box<Diagnostic>> {
-        let options = self.0.options(cancel);
-        let (mut values, analysis) = self.0.values(params)?;
-        let times = &times.over(analysis)?.times()?;
-        for (&first, &InputMotion { value, rate, acceleration }) in self.0.inputs.iter().zip(inputs) {
-            values[first..first + 4].copy_from_slice(&[value, times.from(), rate, acceleration]);
+        let (values, analysis) = self.0.values(params)?;
+        let aim = self.0.aim(values, times.over(analysis)?.times()?, inputs);
+        self.0.follow(&aim, cancel, row)
+    }
+
+    /// Where it is at each of so many places, which `ask` writes: the row of each, in SI and the order of its columns, goes to `found` in
+    /// their order, with the bits that [`Adjustable::follow`] gives it alone; or why it does not get there. Places of which nothing is in
+    /// doubt are looked at side by side. It ends when it is cancelled.
+    pub fn at_each(
+        &self,
+        count: usize,
+        mut ask: impl FnMut(usize, &mut AskedPlace),
+        cancel: &Cancel,
+        mut found: impl FnMut(Result<&[f64], Box<Diagnostic>>),
+    ) {
+        let (mut place, mut before, mut row) = (AskedPlace::default(), None, Vec::new());
+        let (shared, options) = (&*self.0, self.0.options(cancel));
+        for first in (0..count).step_by(LANES) {
+            let mut aim = |number| {
+                ask(number, &mut place);
+                shared.aim_at(&place, &mut before)
+            };
+            let aims: Vec<Aimed> = (first..count.min(first + LANES)).map(&mut aim).collect();
+            let side = shared.beside.follow(&aims, (&shared.from_own, shared.columns), &options);
+            for (lane, aim) in aims.into_iter().enumerate() {
+                let is_known = side.as_ref().is_some_and(|side| side.write_row(lane, &mut row));
+                let alone = |aim: Aim| if is_known { Ok(()) } else { shared.last_row(&aim, cancel, &mut row) };
+                let is_there = aim.and_then(alone);
+                if cancel.is_cancelled() {
+                    return;
+                }
+                found(is_there.map(|()| &row[..shared.columns]));
+            }
+            if let Some(side) = side {
+                shared.beside.give_back(side);
+            }
         }
-        let mut started = match self.0.from_own.lead_values(&values, times, &options) {
-            Reached::There(started) => *started?,
-            Reached::Refused(said) => return Err(first_error(said)),
-            Reached::Nowhere => return Err(Box::new(Diagnostic::new(Code::E0612, "no way leads to what is given"))),
-        };
-        // what a run tells of its start looks at the same factors
-        let _ = started.conditioning();
-        let has_results = !self.0.compiled.system().results().outcomes.is_empty();
-        let interval = times.interval().filter(|_| has_results);
-        let asked = interval.map(|interval| started.asked(interval, options.pass_bifurcations, cancel));
-        let mut motion = started.into_motion(times);
-        if options.pass_bifurcations {
-            motion.pass_bifurcations();
-        }
-        while let Some(found) = motion.next_row() {
-            row(found?);
-        }
-        Ok(asked.and_then(Asked::answer).unwrap_or_default())
     }
 }
 
@@ -203,6 +255,62 @@ impl Shared {
         RunOptions { tolerance, pass_bifurcations, cancel: cancel.clone(), ..RunOptions::default() }
     }
 
+    /// What inputs make of values, set at the first of some times.
+    fn aim(&self, mut values: Vec<f64>, times: Times, inputs: &[InputMotion]) -> Aim {
+        for (&first, &InputMotion { value, rate, acceleration }) in self.inputs.iter().zip(inputs) {
+            values[first..first + 4].copy_from_slice(&[value, times.from(), rate, acceleration]);
+        }
+        Aim { values, times }
+    }
+
+    /// What a place asks for.
+    fn aim_at(&self, place: &AskedPlace, before: &mut Before) -> Aimed {
+        let is_it =
+            |params: &[f64]| params.iter().map(|of| of.to_bits()).eq(place.params.iter().map(|of| of.to_bits()));
+        let known = match before.take().filter(|(params, _)| is_it(params)) {
+            Some(known) => known,
+            None => (place.params.clone(), self.values(&place.params)?),
+        };
+        let (values, analysis) = &before.insert(known).1;
+        let at = place.t.unwrap_or_else(|| analysis.map_or(0.0, |[from, ..]| from));
+        // inputs are what they are at that time, and not before
+        let from = (!place.inputs.is_empty()).then_some(at);
+        let times = AskedTimes { from, at: vec![at], ..AskedTimes::default() }.over(*analysis)?.times()?;
+        Ok(self.aim(values.clone(), times, &place.inputs))
+    }
+
+    /// Of several rows the last one, which is that of the time.
+    fn last_row(&self, aim: &Aim, cancel: &Cancel, row: &mut Vec<f64>) -> Result<(), Box<Diagnostic>> {
+        row.resize(self.columns, f64::NAN);
+        let keep = |found: &[f64]| {
+            row.clear();
+            row.extend_from_slice(found);
+        };
+        self.follow(aim, cancel, keep).map(|_| ())
+    }
+
+    fn follow(&self, aim: &Aim, cancel: &Cancel, mut row: impl FnMut(&[f64])) -> Result<Answers, Box<Diagnostic>> {
+        let (options, Aim { values, times }) = (self.options(cancel), aim);
+        let mut started = match self.from_own.lead_values(values, times, &options) {
+            Reached::There(started) => *started?,
+            Reached::Refused(said) => return Err(first_error(said)),
+            Reached::Nowhere(why) => return Err(lost(why)),
+        };
+        // what a run tells of its start looks at the same factors
+        let _ = started.conditioning();
+        let has_results = !self.compiled.system().results().outcomes.is_empty();
+        let interval = times.interval().filter(|_| has_results);
+        let asked = interval.map(|interval| started.asked(interval, options.pass_bifurcations, cancel));
+        let mut motion = started.into_motion(times);
+        if options.pass_bifurcations {
+            motion.pass_bifurcations();
+        }
+        while let Some(found) = motion.next_row() {
+            row(found?);
+        }
+        Ok(asked.and_then(Asked::answer).unwrap_or_default())
+    }
+
     /// The values of all params of the model, with its own inputs, and first time, last time and step of its analysis (s).
     fn values(&self, params: &[f64]) -> Result<Values, Box<Diagnostic>> {
         let Some(variants) = &self.params else { return Ok((self.own.clone(), self.compiled.analysis())) };
@@ -210,6 +318,17 @@ impl Shared {
         let model = model.ok_or_else(|| first_error(said))?;
         let analysis = model.analysis.map(|of| [of.from, of.to, of.every]);
         Ok((model.params.iter().map(|param| param.value).collect(), analysis))
+    }
+}
+
+/// That no way leads there. Nothing else is tried then.
+fn lost(why: Option<Box<Diagnostic>>) -> Box<Diagnostic> {
+    match why {
+        Some(why) => Box::new(Diagnostic { notes: Vec::new(), ..*why }),
+        None => Box::new(Diagnostic::new(
+            Code::E0612,
+            "it does not stand with its own values, and so no way leads to others",
+        )),
     }
 }
 

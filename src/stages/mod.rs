@@ -11,6 +11,7 @@ mod adjustable;
 mod again;
 mod angles;
 mod asked;
+mod beside;
 mod checked;
 mod chosen;
 mod compiled;
@@ -44,7 +45,7 @@ mod varied;
 mod vary;
 
 pub use crate::math::Vectors;
-pub use adjustable::{Adjustable, Adjusting, InputMotion};
+pub use adjustable::{Adjustable, Adjusting, AskedPlace, InputMotion};
 pub use checked::{Checked, Choice};
 pub use compiled::{Compiled, Redundant};
 pub use constant::seconds;

@@ -23,8 +23,8 @@ pub(super) enum Reached {
     There(Result<Box<Started>, Box<Diagnostic>>),
     /// Results refuse the times before anything is led.
     Refused(Diagnostics),
-    /// Nowhere.
-    Nowhere,
+    /// Nowhere; with where the way ends, if it is known that one begins.
+    Nowhere(Option<Box<Diagnostic>>),
 }
 
 /// A mechanism with its own values: compiled, and where it stands at its own first time.
@@ -61,10 +61,10 @@ impl FromOwn {
         self.over(options).map_or_else(Default::default, |over| over.lead(system, horizon, &options.cancel))
     }
 
-    /// The same of the values of all params, without a word of the way; with what results may ask of the times.
+    /// The same of the values of all params, without a word of a way that leads there; with what results may ask of the times.
     pub fn lead_values(&self, values: &[f64], times: &Times, options: &RunOptions) -> Reached {
         let lead = |over: Arc<Over>| over.lead_values(values, times, &options.cancel);
-        self.over(options).map_or(Reached::Nowhere, lead)
+        self.over(options).map_or(Reached::Nowhere(None), lead)
     }
 
     /// What variants share that go side by side, which differ in some of its params, by their numbers; nothing where they had better go alone.
@@ -132,18 +132,22 @@ impl Over {
         }
     }
 
-    /// The same of the values of all params, without a word of the way.
+    /// The same of the values of all params, without a word of a way that leads there.
     fn lead_values(&self, values: &[f64], times: &Times, cancel: &Cancel) -> Reached {
-        let Some(base) = self.base(values, times.from(), cancel) else { return Reached::Nowhere };
+        let Some(base) = self.base(values, times.from(), cancel) else { return Reached::Nowhere(None) };
         let variant = base.variant(values);
         let refused = times.interval().map(|interval| analysis::refused_results(variant.system(), interval));
         if let Some(refused) = refused.filter(Diagnostics::has_errors) {
             return Reached::Refused(refused);
         }
-        match base.alone(variant, Horizon::of(times), cancel) {
+        match base.alone(Arc::clone(&variant), Horizon::of(times), cancel) {
             Ok(arrived) => Reached::There(Ok(Box::new(arrived.started))),
             Err(Lost::There(why)) => Reached::There(Err(why)),
-            Err(Lost::OnItsWay(..)) => Reached::Nowhere,
+            Err(Lost::OnItsWay(..)) if cancel.is_cancelled() => Reached::Nowhere(None),
+            Err(Lost::OnItsWay(part, why)) => {
+                let (lines, ends) = (self.lines(variant.system(), values), [self.options.t, times.from()]);
+                Reached::Nowhere(Some(Box::new(not_led(None, &lines, ends, self.own.model.declared.span, part, &why))))
+            }
         }
     }
 

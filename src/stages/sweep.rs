@@ -289,7 +289,7 @@ impl Sweeping {
         match family.from_own.lead_values(&values, &times, &options) {
             Reached::There(started) => self.follow(*started?, (&times, &options), &family.places, variant),
             Reached::Refused(said) => Err(first_error(&said)),
-            Reached::Nowhere => {
+            Reached::Nowhere(_) => {
                 variant.status = Status::Reassembled;
                 self.run_by_all_stages(params, variant)
             }

@@ -1,6 +1,6 @@
 //! What was found: columns by their names, numbers or arrays of the elements' shape.
 
-use crate::errors::Said;
+use crate::errors::{Packed, Said};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
@@ -104,7 +104,8 @@ impl At {
     }
 
     /// Columns of some names side by side: an array of shape (columns,), of many elements of shape (…, columns).
-    fn stacked<'py>(&self, py: Python<'py>, names: Vec<String>) -> PyResult<Bound<'py, PyAny>> {
+    fn stacked<'py>(&self, py: Python<'py>, names: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let names: Vec<String> = py.import("mechc.values")?.getattr("texts")?.call1(("names", names))?.extract()?;
         let place = |name: &String| {
             let known = self.columns.places.get(name).copied();
             known.ok_or_else(|| PyKeyError::new_err(format!("there is no column `{name}`")))
@@ -147,12 +148,13 @@ impl At {
         format!("<At: {elements} of {} columns{lost}>", self.columns.names.len())
     }
 
-    /// As what it is packed: its columns by their names, with shape and statuses.
+    /// As what it is packed: its columns by their names, with shape, statuses and why one of them is not there.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let again = py.import("mechc._mechc")?.getattr("_at_again")?;
         let rows = PyArray1::from_slice(py, &self.rows);
         let Columns { names, units, coordinates, .. } = &*self.columns;
-        let packed = (names, units, coordinates.to_vec(), rows, &self.shape, &self.statuses);
+        let error = self.error.as_ref().map(Said::packed);
+        let packed = (names, units, coordinates.to_vec(), rows, &self.shape, &self.statuses, error);
         Ok((again, packed.into_pyobject(py)?))
     }
 }
@@ -179,8 +181,10 @@ impl At {
         }
     }
 }
+
 /// An answer once more, as it was packed.
 #[pyfunction]
+#[pyo3(signature = (names, units, coordinates, rows, shape, statuses, error = None))]
 pub fn _at_again(
     names: Vec<String>,
     units: Vec<String>,
@@ -188,6 +192,7 @@ pub fn _at_again(
     rows: PyReadonlyArray1<'_, f64>,
     shape: Option<Vec<usize>>,
     statuses: Vec<String>,
+    error: Option<Packed>,
 ) -> PyResult<At> {
     let refused = || PyValueError::new_err("this is no packed answer of `at`");
     let coordinates: [Vec<usize>; 3] = coordinates.try_into().map_err(|_| refused())?;
@@ -202,5 +207,5 @@ pub fn _at_again(
         return Err(refused());
     }
     let statuses = statuses.into_iter().map(Cow::Owned).collect();
-    Ok(At { columns: Columns::new(names, units, coordinates), rows, shape, statuses, error: None })
+    Ok(At { columns: Columns::new(names, units, coordinates), rows, shape, statuses, error: error.map(Said::again) })
 }

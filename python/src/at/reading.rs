@@ -9,46 +9,72 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
 
-/// Options beside values, as they are called in Python.
-pub struct Options<'py> {
-    pub set: Option<Bound<'py, PyDict>>,
-    pub inputs: Option<Bound<'py, PyDict>>,
-    pub rates: Option<Bound<'py, PyDict>>,
-    pub accelerations: Option<Bound<'py, PyDict>>,
-    pub by: Vec<String>,
-    pub reactions: bool,
-    pub tolerance: Option<f64>,
-    pub pass_bifurcations: bool,
-}
+/// What is no value, as it is called in Python.
+pub const OPTIONS: [&str; 10] =
+    ["t", "set", "inputs", "rates", "accelerations", "by", "reactions", "tolerance", "pass_bifurcations", "strict"];
 
-impl Options<'_> {
-    fn are_usual(&self) -> bool {
-        let Options { set, inputs, rates, accelerations, by, reactions, tolerance, pass_bifurcations } = self;
-        let is_nothing_given = [set, inputs, rates, accelerations].iter().all(|given| given.is_none());
-        is_nothing_given && by.is_empty() && !reactions && tolerance.is_none() && !pass_bifurcations
-    }
+/// Options beside values, in the order of [`OPTIONS`]: nothing where one is not given.
+pub struct Options<'py>(pub [Option<Bound<'py, PyAny>>; 10]);
+
+/// What they say.
+#[derive(Default)]
+struct Read<'py> {
+    set: Option<Bound<'py, PyDict>>,
+    inputs: Option<Bound<'py, PyDict>>,
+    rates: Option<Bound<'py, PyDict>>,
+    accelerations: Option<Bound<'py, PyDict>>,
+    by: Vec<String>,
+    reactions: bool,
+    tolerance: Option<f64>,
+    pass_bifurcations: bool,
 }
 
 impl<'py> Options<'py> {
-    /// Those that are given, by their names.
-    fn given(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let given = PyDict::new(py);
-        let Options { set, inputs, rates, accelerations, by, reactions, tolerance, pass_bifurcations } = self;
-        let are_given = [
-            ("set", set.is_some()),
-            ("inputs", inputs.is_some()),
-            ("rates", rates.is_some()),
-            ("accelerations", accelerations.is_some()),
-            ("by", !by.is_empty()),
-            ("reactions", *reactions),
-            ("tolerance", tolerance.is_some()),
-            ("pass_bifurcations", *pass_bifurcations),
-        ];
-        for (name, _) in are_given.into_iter().filter(|(_, is_given)| *is_given) {
-            given.set_item(name, true)?;
-        }
-        Ok(given)
+    fn are_usual(&self) -> bool {
+        self.0.iter().all(Option::is_none)
     }
+
+    /// Those that are given, by their names.
+    fn given(&self) -> impl Iterator<Item = (&'static str, &Bound<'py, PyAny>)> {
+        OPTIONS.iter().zip(&self.0).filter_map(|(name, given)| Some((*name, given.as_ref()?)))
+    }
+
+    fn read(&self, py: Python<'py>) -> PyResult<Read<'py>> {
+        let [_, set, inputs, rates, accelerations, by, reactions, tolerance, pass_bifurcations, _] = &self.0;
+        let values = py.import("mechc.values")?;
+        let mapping = |name: &str, given: &Option<Bound<'py, PyAny>>| {
+            let read =
+                |given| -> PyResult<_> { Ok(values.getattr("mapping")?.call1((name, given))?.cast_into::<PyDict>()?) };
+            given.as_ref().map(read).transpose()
+        };
+        let flag = |name: &str, given: &Option<Bound<'py, PyAny>>| match given {
+            Some(given) => read_flag(py, name, given),
+            None => Ok(false),
+        };
+        let by = by.as_ref().map(|by| values.getattr("texts")?.call1(("by", by))?.extract());
+        let bound = |given| py.import("mechc.asking")?.getattr("bound")?.call1((given,))?.extract();
+        Ok(Read {
+            set: mapping("set", set)?,
+            inputs: mapping("inputs", inputs)?,
+            rates: mapping("rates", rates)?,
+            accelerations: mapping("accelerations", accelerations)?,
+            by: by.transpose()?.unwrap_or_default(),
+            reactions: flag("reactions", reactions)?,
+            tolerance: tolerance.as_ref().map(bound).transpose()?,
+            pass_bifurcations: flag("pass_bifurcations", pass_bifurcations)?,
+        })
+    }
+
+    /// Whether who does not get there is an error.
+    pub fn are_strict(&self, py: Python<'py>) -> PyResult<bool> {
+        let [.., strict] = &self.0;
+        strict.as_ref().map_or(Ok(true), |given| read_flag(py, "strict", given))
+    }
+}
+
+/// An option that is there or not.
+fn read_flag(py: Python<'_>, name: &str, given: &Bound<'_, PyAny>) -> PyResult<bool> {
+    py.import("mechc.asking")?.getattr("flag")?.call1((name, given))?.extract()
 }
 
 /// A value that was read, and not yet laid out by elements.
@@ -61,41 +87,24 @@ enum Value<'py> {
 pub fn at<'py>(
     py: Python<'py>,
     mechanism: &Mechanism,
-    t: Option<&Bound<'py, PyAny>>,
-    options: Options<'py>,
+    options: &Options<'py>,
     values: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<At> {
-    if let (None, Some(values), true) = (t, values, options.are_usual())
+    if let (Some(values), true) = (values, options.are_usual())
         && let Some((compiled, inputs)) = mechanism.known.find_plain(values)
     {
         let question = Question { kind: Kind::default(), t: None, inputs, params: Vec::new(), shape: None };
-        return question.answer(py, &compiled);
+        return question.answer(py, compiled);
     }
-    if !options.are_usual() {
-        mechanism.warn_of_options(py, &options.given(py)?)?;
-    }
-    let (mut inputs, mut params) = (Vec::new(), Vec::new());
-    for given in [options.set.as_ref(), options.inputs.as_ref(), values].into_iter().flatten() {
-        for (name, value) in given.iter() {
-            let name: String = name.extract()?;
-            let (of, is_input) = mechanism.settable(py, &name, &value)?;
-            let read = read(py, &name, &value, &of.unit)?;
-            let into = if is_input { &mut inputs } else { &mut params };
-            into.push((name, read));
-        }
-    }
-    for named in [&mut inputs, &mut params] {
-        named.sort_by(|(a, _), (b, _)| a.cmp(b));
-        if let Some(twice) = named.windows(2).find(|pair| pair[0].0 == pair[1].0) {
-            return Err(usage(py, &format!("`{}` is given twice", twice[0].0), "say it once")?);
-        }
-    }
+    mechanism.warn_of_options(py, options.given().collect())?;
+    let (read_options, t) = (options.read(py)?, options.0[0].as_ref());
+    let [inputs, params] = named(py, mechanism, &read_options, values)?;
     let mut all: Vec<Value<'py>> = Vec::with_capacity(1 + 3 * inputs.len() + params.len());
     all.push(t.map_or(Ok(Value::One(0.0)), |t| read(py, "t", t, "s"))?);
     let mut names = Vec::with_capacity(inputs.len());
     for (name, value) in inputs {
         all.push(value);
-        for (motion, order) in [(&options.rates, 1), (&options.accelerations, 2)] {
+        for (motion, order) in [(&read_options.rates, 1), (&read_options.accelerations, 2)] {
             all.push(match motion.as_ref().map(|of| of.get_item(&name)).transpose()?.flatten() {
                 None => Value::One(0.0),
                 Some(value) => read(py, &name, &value, &mechanism.unit_of_rate(&name, order))?,
@@ -103,7 +112,7 @@ pub fn at<'py>(
         }
         names.push(name);
     }
-    refuse_rates_of_others(py, &options, &names)?;
+    refuse_rates_of_others(py, &read_options, &names)?;
     let (param_names, values): (Vec<String>, Vec<Value<'py>>) = params.into_iter().unzip();
     all.extend(values);
     let (shape, laid_out) = laid_out(py, all)?;
@@ -117,18 +126,44 @@ pub fn at<'py>(
         kind: Kind {
             inputs: names,
             params: param_names,
-            by: options.by,
-            reactions: options.reactions,
-            tolerance: options.tolerance.map(f64::to_bits),
-            pass_bifurcations: options.pass_bifurcations,
+            by: read_options.by,
+            reactions: read_options.reactions,
+            tolerance: read_options.tolerance.map(f64::to_bits),
+            pass_bifurcations: read_options.pass_bifurcations,
         },
         shape,
     };
-    question.answer(py, &*question.compiled(py, mechanism)?)
+    let compiled = question.compiled(py, mechanism)?;
+    question.answer(py, compiled)
+}
+
+/// Inputs and params that are given, in the order of their names.
+fn named<'py>(
+    py: Python<'py>,
+    mechanism: &Mechanism,
+    options: &Read<'py>,
+    values: Option<&Bound<'py, PyDict>>,
+) -> PyResult<[Vec<(String, Value<'py>)>; 2]> {
+    let mut found = [Vec::new(), Vec::new()];
+    for given in [options.set.as_ref(), options.inputs.as_ref(), values].into_iter().flatten() {
+        for (name, value) in given.iter() {
+            let name: String = name.extract()?;
+            let (of, is_input) = mechanism.settable(py, &name)?;
+            let read = read(py, &name, &value, &of.unit)?;
+            found[usize::from(!is_input)].push((name, read));
+        }
+    }
+    for named in &mut found {
+        named.sort_by(|(a, _), (b, _)| a.cmp(b));
+        if let Some(twice) = named.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+            return Err(usage(py, &format!("`{}` is given twice", twice[0].0), "say it once")?);
+        }
+    }
+    Ok(found)
 }
 
 /// Rates are of inputs that are given.
-fn refuse_rates_of_others(py: Python<'_>, options: &Options<'_>, inputs: &[String]) -> PyResult<()> {
+fn refuse_rates_of_others(py: Python<'_>, options: &Read<'_>, inputs: &[String]) -> PyResult<()> {
     for (motion, what) in [(&options.rates, "rates"), (&options.accelerations, "accelerations")] {
         for name in motion.iter().flat_map(|of| of.keys().iter().collect::<Vec<_>>()) {
             let name: String = name.extract()?;

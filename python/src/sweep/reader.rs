@@ -5,6 +5,8 @@
 
 use super::block::{Block, Gathered};
 use super::{Summary, Whole};
+use crate::ending::{away, stay_away_at_the_end};
+use crate::memory::{self, Of};
 use crate::table::{Values, batch};
 use crate::waiting::LOOK;
 use arrow_array::{RecordBatch, RecordBatchReader};
@@ -103,9 +105,21 @@ impl Reader {
 
     /// All that is left, as columns.
     pub fn all(&mut self, py: Python<'_>) -> PyResult<Vec<Values>> {
-        let mut gathered = Gathered::new(&self.source.whole);
-        while let Some(block) = py.detach(|| self.block())? {
-            gathered.add(block);
+        let (mut gathered, whole) = (Gathered::new(&self.source.whole), Arc::clone(&self.source.whole));
+        let (most, columns) = whole.size();
+        // one that may end early has as many rows as it comes to
+        if !whole.has_until {
+            memory::refuse_beyond(py, (most, columns), Of::Sweep)?;
+            gathered.reserve(most).map_err(|_| memory::too_large(py, (most, columns), Of::Sweep))?;
+        }
+        let mut looked_at = 0;
+        while let Some(block) = away(py, || self.block())? {
+            gathered.add(block).map_err(|_| memory::too_large(py, (gathered.rows as u64, columns), Of::Sweep))?;
+            if whole.has_until && gathered.rows > 2 * looked_at {
+                // as much again is to fit
+                looked_at = gathered.rows;
+                memory::refuse_beyond(py, (looked_at as u64, columns), Of::Sweep)?;
+            }
         }
         Ok(gathered.values())
     }
@@ -163,6 +177,7 @@ impl Reader {
         if !self.may_ask() {
             return Ok(());
         }
+        stay_away_at_the_end();
         let signal = Python::try_attach(|py| py.check_signals().err()).flatten();
         match signal {
             None => Ok(()),
@@ -181,6 +196,7 @@ impl Reader {
         self.told = Instant::now();
         let (done, all) = (self.next - first, last - first);
         let progress = &self.progress;
+        stay_away_at_the_end();
         let told = Python::try_attach(|py| {
             py.check_signals()?;
             progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (done, all)).map(|_| ()))
@@ -204,7 +220,13 @@ impl Reader {
         let width = self.source.whole.heads.len();
         while gathered.rows < ROWS && gathered.rows * width < NUMBERS {
             match self.block() {
-                Ok(Some(block)) => gathered.add(block),
+                Ok(Some(block)) => {
+                    if gathered.add(block).is_err() {
+                        let size = (gathered.rows as u64, width);
+                        stay_away_at_the_end();
+                        return Python::try_attach(|py| Err(memory::too_large(py, size, Of::Block)));
+                    }
+                }
                 Ok(None) => break,
                 Err(why) => return Some(Err(why)),
             }
@@ -240,7 +262,8 @@ impl Iterator for InTurns {
                 Ok(reader) => break reader,
                 Err(TryLockError::Poisoned(poisoned)) => break poisoned.into_inner(),
                 Err(TryLockError::WouldBlock) => {
-                    Python::try_attach(|py| py.detach(|| thread::sleep(TURN)));
+                    stay_away_at_the_end();
+                    Python::try_attach(|py| away(py, || thread::sleep(TURN)));
                 }
             }
         };
@@ -262,6 +285,7 @@ impl Drop for Reader {
 
 /// Who reads a stream is told in words; a signal is raised once more, for the interpreter to tell it itself.
 fn told(why: PyErr) -> ArrowError {
+    stay_away_at_the_end();
     let text = Python::try_attach(|py| {
         if why.is_instance_of::<pyo3::exceptions::PyKeyboardInterrupt>(py) {
             let again = py.import("_thread").and_then(|thread| thread.call_method0("interrupt_main"));

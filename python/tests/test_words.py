@@ -1,0 +1,76 @@
+"""Messages speak of options as Python has them."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import pytest
+from conftest import ROOT
+
+import mechc
+from mechc import words
+
+CRANK = ROOT / "examples/slider_crank.mech"
+
+#: What only the command has.
+OF_THE_COMMAND = {"with"}
+
+
+def spans():
+    """All that the library's messages say of options, but for the command's own files, and the pages of the language."""
+    folders = [folder for folder in (ROOT / "src").iterdir() if folder.is_dir() and folder.name not in ("cli", "vocabulary", "lsp", "ide")]
+    for path in (path for folder in folders for path in folder.rglob("*.rs")):
+        code = "\n".join(line for line in path.read_text().splitlines() if not line.lstrip().startswith("//"))
+        yield from (found[1] for found in re.finditer(r"`(--[a-z][^`\n]*)`", code))
+
+
+def test_every_option_that_messages_speak_of_has_words_here():
+    found = sorted(set(spans()))
+    assert len(found) > 25
+    for span in found:
+        told = words.in_python(f"write `{span}` there")
+        assert "--" not in told, told
+        options = re.findall(r"--([a-z-]+)", span)
+        known = {*words.FLAGS, *words.VALUES, *words.MAPPINGS, *OF_THE_COMMAND}
+        assert set(options) <= known, span
+
+
+@pytest.mark.parametrize(
+    "command, python",
+    [
+        ("`--lead`", "`lead=True`"),
+        ("`--pass-bifurcations`", "`pass_bifurcations=True`"),
+        ("`--set reach=60mm`", "`set={'reach': '60mm'}`"),
+        ("`--set 'A=(12mm,0)'`", "`set={'A': '(12mm,0)'}`"),
+        ("leave `--set` out", "leave `set={…}` out"),
+        ("`--vary rod=100mm..200mm:50`", "`vary={'rod': mechc.between('100mm', '200mm', 50)}`"),
+        ("`--vary speed=60rpm,90rpm`", "`vary={'speed': ['60rpm', '90rpm']}`"),
+        ("`--vary @variants.csv`", "`variants='variants.csv'`"),
+        ("`--sample 1000`", "`samples=1000`"),
+        ("`--tol rod=-0.1mm..0mm`", "`tol={'rod': ('-0.1mm', '0mm')}`"),
+        ("`--result 'stroke = max(x(P)) - min(x(P))'`", "`results={'stroke': 'max(x(P)) - min(x(P))'}`"),
+        ("`--from T --to T --every H`, or `--at T`", "`from_=T, to=T, every=H`, or `at=T`"),
+        ("`--skip K --take N`", "`skip=K, take=N`"),
+        ("`--mechanism NAME`", "`mechanism='NAME'`"),
+        ("12 │ // see `--lead`", "12 │ // see `--lead`"),
+        ("a -- b", "a -- b"),
+    ],
+)
+def test_words(command, python):
+    assert words.in_python(command) == python
+
+
+def test_messages_and_their_data_have_them():
+    m = mechc.load(CRANK)
+    asks = [
+        (lambda: m.sweep({"rod_length": mechc.between(0.1, 0.2)}), "samples=1000"),
+        (lambda: m.run(columns="zz.*"), "columns='rod.*'"),
+        (lambda: mechc.parse(m.text.partition("    analysis")[0] + "}").run(), "every=H"),
+        (lambda: m.run(set={"rod_length": "(1 m"}), "set rod_length:1"),
+    ]
+    for ask, wanted in asks:
+        with pytest.raises(mechc.MechcError) as caught:
+            ask()
+        assert wanted in str(caught.value) and "--" not in str(caught.value), str(caught.value)
+        assert "--" not in json.dumps(caught.value.diagnostics)
