@@ -1,7 +1,7 @@
 //! What results ask of variants that go side by side.
 
 use super::each::{Each, LANES};
-use crate::analysis::{Quantities, Quantity, Sample, Started, Times, moved};
+use crate::analysis::{Sampled, SmoothFormula, SmoothFormulas, Started, Times, moved};
 use crate::expr::ExprId;
 use crate::ir::{ConstraintSystem, ReductionKind};
 use crate::program::{LaneMachine, LaneValues, Op, Register};
@@ -15,7 +15,7 @@ pub(super) struct Asked {
     /// For the coordinates that formulas hold.
     pub solver: Solver,
     determined: Arc<Determined>,
-    quantities: Quantities,
+    quantities: SmoothFormulas,
     /// By quantity, by what it is computed from: the column of that.
     columns: Vec<Vec<u32>>,
     /// What is looked for along the motion, each once.
@@ -57,9 +57,9 @@ impl Asked {
         is_kept: &dyn Fn(u32) -> bool,
     ) -> Option<Asked> {
         let interval = times.interval().filter(|[from, to]| from < to)?;
-        let quantities = Quantities::of(determined.system())?;
+        let quantities = SmoothFormulas::of(determined.system())?;
         let layout = *started.solver()?.layout();
-        let columns = |quantity: &Quantity| -> Vec<u32> {
+        let columns = |quantity: &SmoothFormula| -> Vec<u32> {
             quantity.inputs().iter().map(|&(_, k, order)| layout.coordinate(k, order)).collect()
         };
         let columns: Vec<Vec<u32>> = quantities.each().iter().map(columns).collect();
@@ -100,7 +100,7 @@ impl Asked {
 
     /// A formula of parameters for one variant (SI).
     pub fn value(&self, formula: ExprId, params: &[Each], lane: usize) -> f64 {
-        Quantities::value(self.system(), formula, |k| params[k as usize].0[lane], &[])
+        SmoothFormulas::value(self.system(), formula, |k| params[k as usize].0[lane], &[])
     }
 
     /// How many results there are.
@@ -114,7 +114,7 @@ impl Asked {
         let reductions: Vec<f64> = self.reductions.iter().map(number).collect();
         for (outcome, result) in self.system().results().outcomes.iter().zip(results) {
             let of = |k: u32| params[k as usize].0[lane];
-            let value = Quantities::value(self.system(), outcome.value, of, &reductions);
+            let value = SmoothFormulas::value(self.system(), outcome.value, of, &reductions);
             // −0 would surprise a reader
             *result = if value.is_finite() { value + 0.0 } else { f64::NAN };
         }
@@ -170,17 +170,17 @@ impl Asked {
     }
 
     /// The same of one variant, as turns are settled by it.
-    pub fn sample(&self, quantity: usize, registers: &[Each], lane: usize) -> Sample {
+    pub fn sample(&self, quantity: usize, registers: &[Each], lane: usize) -> Sampled {
         let roots = self.quantities.each()[quantity].roots();
         let value = |order: usize| roots.get(order).map_or(f64::NAN, |&root| registers[root as usize].0[lane]);
-        Sample { value: value(0), first: value(1), second: value(2) }
+        Sampled { value: value(0), first: value(1), second: value(2) }
     }
 }
 
 /// Runs operations of a quantity.
 #[inline(always)]
 #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
-fn run(quantity: &Quantity, operations: &[Op], registers: &mut [Each]) {
+fn run(quantity: &SmoothFormula, operations: &[Op], registers: &mut [Each]) {
     let (program, scalars) = quantity.program();
     let mut machine = LaneMachine { v: registers, program, scalars };
     operations.iter().for_each(|op| op.run(&mut machine));

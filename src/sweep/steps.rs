@@ -16,7 +16,7 @@ pub(super) struct Steps {
     pub times: Vec<f64>,
     /// Tear by tear, at each step.
     tears: Vec<[Each; 3]>,
-    /// Quantity by quantity, at each step.
+    /// SmoothFormula by quantity, at each step.
     towers: Vec<[Each; 3]>,
     /// By quantity: the size of the largest numbers that a value was a sum of.
     weights: Vec<Each>,

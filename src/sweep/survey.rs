@@ -1,5 +1,5 @@
 //! The results of variants that go side by side. Their motion is gone through in steps, which tell where extrema are; an extremum that is beyond
-//! doubt is settled on a grid of times (`analysis::Turn`), and computed there as it is alone.
+//! doubt is settled on a grid of times (`analysis::Settling`), and computed there as it is alone.
 
 use super::asked::{Asked, Wanted, What};
 use super::course::{Course, Place, Tower};
@@ -7,7 +7,7 @@ use super::each::{Each, LANES, ZERO};
 use super::steps::Steps;
 use super::together::Together;
 use super::walk::{Solving, Walk};
-use crate::analysis::{MOST_LOOKS, Sample, Turn, Turning};
+use crate::analysis::{MOST_LOOKS, Sampled, Settling, Turning};
 use crate::cancel::Cancel;
 use crate::solver::{Abreast, Guesses};
 use crate::tolerances::solving::course::MOST_STEPS;
@@ -108,7 +108,7 @@ impl Survey {
     ) {
         let (_, asked) = of;
         let wanted = asked.wanted[number];
-        let mut turns: [Option<Turn>; LANES] = [None; LANES];
+        let mut turns: [Option<Settling>; LANES] = [None; LANES];
         let mut times = [asked.interval[0]; LANES];
         for lane in 0..LANES {
             let place = if open[lane] { self.place(asked, wanted, params, lane) } else { None };
@@ -117,7 +117,7 @@ impl Survey {
                 Some(Place::End(t)) => times[lane] = t,
                 Some(Place::Turn(t)) => {
                     turns[lane] =
-                        Turn::near(t, asked.interval[1] - asked.interval[0], asked.knows_bends(wanted.quantity));
+                        Settling::near(t, asked.interval[1] - asked.interval[0], asked.knows_bends(wanted.quantity));
                     open[lane] = turns[lane].is_some();
                 }
             }
@@ -148,14 +148,14 @@ impl Survey {
         &mut self,
         of: (&Together, &Asked),
         loaded: &[Each],
-        (number, mut times, mut turns): (usize, [f64; LANES], [Option<Turn>; LANES]),
+        (number, mut times, mut turns): (usize, [f64; LANES], [Option<Settling>; LANES]),
         open: &mut [bool; LANES],
     ) {
         let quantity = of.1.wanted[number].quantity;
         let mut is_left = *open;
         while is_left.contains(&true) {
-            let looks = turns.iter().flatten().map(Turn::looks).max().unwrap_or(1);
-            let mut samples = [[Sample::NOTHING; MOST_LOOKS]; LANES];
+            let looks = turns.iter().flatten().map(Settling::looks).max().unwrap_or(1);
+            let mut samples = [[Sampled::NOTHING; MOST_LOOKS]; LANES];
             for look in 0..looks {
                 for (t, turn) in times.iter_mut().zip(&turns) {
                     *t = turn.map_or(*t, |turn| turn.time(look));

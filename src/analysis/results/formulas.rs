@@ -2,9 +2,9 @@
 
 use super::loads::{Hidden, Loads};
 use super::places::Places;
-use super::quantity::{Quantity, moved};
+use super::quantity::{SmoothFormula, moved};
 use super::smooth::Smooth;
-use super::turn::Sample;
+use super::turn::Sampled;
 use crate::analysis::state::State;
 use crate::expr::{Dependence, ExprId, Graph, Symbol};
 use crate::ir::ConstraintSystem;
@@ -101,7 +101,7 @@ pub(super) struct Point {
     moving: Vec<[f64; 4]>,
     /// The loads, of a formula that holds forces.
     loads: Vec<f64>,
-    pub sample: Sample,
+    pub sample: Sampled,
 }
 
 /// What lies between two points.
@@ -218,17 +218,17 @@ impl Formula {
     }
 
     /// The same for variants side by side; none where it is anything else.
-    pub fn into_quantity(self) -> Option<Quantity> {
+    pub fn into_quantity(self) -> Option<SmoothFormula> {
         let coordinates = self.coordinates;
         let (true, [Moving::Coordinate(k)]) = (self.is_smooth(), &self.moving[..]) else { return None };
         if *k < coordinates {
-            return Some(Quantity::new((self.program, self.registers), self.roots, coordinates));
+            return Some(SmoothFormula::new((self.program, self.registers), self.roots, coordinates));
         }
         let own = self.moving[0].registers(&self.program.inputs);
         let order = own.iter().position(|register| *register == self.roots.first().copied())?;
         let (of, tower) = self.smooth.into_tower(k - coordinates);
         let roots: Option<Vec<Register>> = (0..self.roots.len()).map(|k| *tower.get(order + k)?).collect();
-        Some(Quantity::new(of, roots?, coordinates))
+        Some(SmoothFormula::new(of, roots?, coordinates))
     }
 
     /// At a state of the stretch that was entered.
@@ -253,7 +253,7 @@ impl Formula {
         let moving: Vec<[f64; 4]> = self.moving.iter().map(tower).collect();
         self.run(state.t, &moving);
         let value = |order: usize| self.roots.get(order).map_or(f64::NAN, |&root| self.registers.get(root));
-        let sample = Sample { value: value(0), first: value(1), second: value(2) };
+        let sample = Sampled { value: value(0), first: value(1), second: value(2) };
         let loads = self.loads_at(state.t, &moving);
         Rc::new(Point { state, moving, loads, sample })
     }

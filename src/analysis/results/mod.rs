@@ -35,13 +35,13 @@ use crate::tolerances::results::stretches::CHUNK;
 use certain::Near;
 use formulas::Formula;
 use places::Places;
-pub use quantities::Quantities;
-pub use quantity::{Quantity, moved};
+pub use quantities::SmoothFormulas;
+pub use quantity::{SmoothFormula, moved};
 use reduced::Reduced;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 use survey::Trouble;
-pub use turn::{MOST_LOOKS, Sample, Turn, Turning};
+pub use turn::{MOST_LOOKS, Sampled, Settling, Turning};
 
 /// What is wrong with the results that an analysis from one time to another (s) is asked for.
 #[must_use]

@@ -1,22 +1,22 @@
 //! What results ask of the motion, for variants that go side by side: smooth formulas, of which extrema and values at some times are wanted.
 
 use super::formulas::Formula;
-use super::quantity::Quantity;
+use super::quantity::SmoothFormula;
 use super::{formulas, needed, value_of};
 use crate::expr::ExprId;
 use crate::ir::{ConstraintSystem, ReductionKind};
 
 /// What all results of a mechanism ask of it.
-pub struct Quantities {
-    each: Vec<Quantity>,
+pub struct SmoothFormulas {
+    each: Vec<SmoothFormula>,
     /// By reduction: which of these it is of, and which number of it.
     reductions: Vec<(usize, ReductionKind)>,
 }
 
-impl Quantities {
+impl SmoothFormulas {
     /// Of a system whose equations are smooth; none where results ask for anything else.
     #[must_use]
-    pub fn of(system: &ConstraintSystem) -> Option<Quantities> {
+    pub fn of(system: &ConstraintSystem) -> Option<SmoothFormulas> {
         let results = system.results();
         let is_plain = |kind: ReductionKind, of: ExprId| {
             let at = match kind {
@@ -32,14 +32,14 @@ impl Quantities {
         }
         let of: Vec<ExprId> = all.iter().map(|reduction| reduction.of).collect();
         let (formulas, formula_of) = formulas(system, &of, |_| f64::NAN, 0);
-        let each: Option<Vec<Quantity>> = formulas.into_iter().map(Formula::into_quantity).collect();
+        let each: Option<Vec<SmoothFormula>> = formulas.into_iter().map(Formula::into_quantity).collect();
         let reductions = formula_of.into_iter().zip(all).map(|(of, reduction)| (of, reduction.kind)).collect();
-        Some(Quantities { each: each?, reductions })
+        Some(SmoothFormulas { each: each?, reductions })
     }
 
     /// The formulas.
     #[must_use]
-    pub fn each(&self) -> &[Quantity] {
+    pub fn each(&self) -> &[SmoothFormula] {
         &self.each
     }
 

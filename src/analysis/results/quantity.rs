@@ -4,7 +4,7 @@ use crate::program::{Op, Program, Register, Registers, Stage};
 use crate::tolerances::results::formulas::MOVED;
 
 /// A formula along the motion, and its time derivatives.
-pub struct Quantity {
+pub struct SmoothFormula {
     program: Program,
     registers: Registers,
     /// Its value and time derivatives, as many as there are: two at least.
@@ -13,13 +13,13 @@ pub struct Quantity {
     inputs: Vec<(Register, u32, usize)>,
 }
 
-impl Quantity {
+impl SmoothFormula {
     /// Of a program that leaves a value and its derivatives in some registers.
     pub(super) fn new(
         (program, registers): (Program, Registers),
         roots: Vec<Register>,
         coordinates: usize,
-    ) -> Quantity {
+    ) -> SmoothFormula {
         let operations = program.stage(Stage::Measures);
         let read: Vec<Register> = operations.iter().flat_map(|&op| program.reads(op)).chain(roots.clone()).collect();
         let mut inputs = Vec::new();
@@ -27,7 +27,7 @@ impl Quantity {
             let own = (0..coordinates as Register).map(|k| (first + k, k, order));
             inputs.extend(own.filter(|(register, ..)| read.contains(register)));
         }
-        Quantity { program, registers, roots, inputs }
+        SmoothFormula { program, registers, roots, inputs }
     }
 
     /// The program that it is computed by, and the program's registers.

@@ -6,7 +6,7 @@
 
 use super::formulas::{Cell, Point};
 use super::survey::{Scale, Survey};
-use super::turn::{MOST_LOOKS, Sample, Turn, Turning};
+use super::turn::{MOST_LOOKS, Sampled, Settling, Turning};
 use crate::analysis::state::State;
 use crate::math::between;
 use crate::program::Range;
@@ -229,8 +229,8 @@ impl Survey<'_> {
         if !self.formula.is_smooth() {
             return None;
         }
-        let mut turn = Turn::near(t, span, self.formula.derivatives() == 2)?;
-        let mut samples = [Sample::NOTHING; MOST_LOOKS];
+        let mut turn = Settling::near(t, span, self.formula.derivatives() == 2)?;
+        let mut samples = [Sampled::NOTHING; MOST_LOOKS];
         loop {
             for look in 0..turn.looks() {
                 let t = turn.time(look);

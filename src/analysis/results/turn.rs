@@ -7,7 +7,7 @@ use crate::tolerances::results::turns::{APART, BORDER, CELL, FARTHEST, ITERATION
 
 /// A formula at a time: its value and time derivatives; those that it has not are no numbers.
 #[derive(Clone, Copy, Debug)]
-pub struct Sample {
+pub struct Sampled {
     /// The value.
     pub value: f64,
     /// Its first time derivative (1/s).
@@ -16,9 +16,9 @@ pub struct Sample {
     pub second: f64,
 }
 
-impl Sample {
+impl Sampled {
     /// Of a formula of which nothing is known.
-    pub const NOTHING: Sample = Sample { value: f64::NAN, first: f64::NAN, second: f64::NAN };
+    pub const NOTHING: Sampled = Sampled { value: f64::NAN, first: f64::NAN, second: f64::NAN };
 }
 
 /// The most times at which a formula has to be looked at to settle a turn.
@@ -26,7 +26,7 @@ pub const MOST_LOOKS: usize = 3;
 
 /// A turn on its way to where it settles.
 #[derive(Clone, Copy, Debug)]
-pub struct Turn {
+pub struct Settling {
     /// The grid point (s).
     t: f64,
     /// Where it began (s), and the width of a cell (s).
@@ -51,16 +51,16 @@ pub enum Turning {
     Lost,
 }
 
-impl Turn {
+impl Settling {
     /// Near a time (s) of an analysis of so long a span (s), of a formula whose slope is known, and perhaps its second derivative; none where
     /// times are too late for the grid.
     #[must_use]
-    pub fn near(t: f64, span: f64, knows_bends: bool) -> Option<Turn> {
+    pub fn near(t: f64, span: f64, knows_bends: bool) -> Option<Settling> {
         let cell = CELL * power_of_two_below(span);
         let is_fine = span > 0.0 && t.abs() <= MOST_CELLS * cell;
         let begun = on_grid(t, cell);
         let (bound, left) = (bound_at_first(BORDER), ITERATIONS);
-        is_fine.then_some(Turn { t: begun, begun, cell, bound, left, knows_bends })
+        is_fine.then_some(Settling { t: begun, begun, cell, bound, left, knows_bends })
     }
 
     /// How many times there are at which the formula has to be looked at.
@@ -80,8 +80,8 @@ impl Turn {
     }
 
     /// Goes on by what the formula is at these times.
-    pub fn go_on(&mut self, samples: &[Sample]) -> Turning {
-        let Sample { value, first, second } = self.at_point(samples);
+    pub fn go_on(&mut self, samples: &[Sampled]) -> Turning {
+        let Sampled { value, first, second } = self.at_point(samples);
         let off = -first / second;
         let (beyond, from_begin) = (off.abs() / self.cell, (self.t + off - self.begun).abs() / self.cell);
         if !(off.is_finite() && from_begin <= FARTHEST) || self.left == 0 {
@@ -97,11 +97,11 @@ impl Turn {
     }
 
     /// The formula at the grid point; its second derivative, where that is not known, by how the slope goes on to both sides.
-    fn at_point(&self, samples: &[Sample]) -> Sample {
+    fn at_point(&self, samples: &[Sampled]) -> Sampled {
         match *samples {
             [at] => at,
-            [at, before, behind] => Sample { second: (behind.first - before.first) / (2.0 * APART * self.cell), ..at },
-            _ => Sample::NOTHING,
+            [at, before, behind] => Sampled { second: (behind.first - before.first) / (2.0 * APART * self.cell), ..at },
+            _ => Sampled::NOTHING,
         }
     }
 }
