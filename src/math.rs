@@ -29,12 +29,18 @@ mod without_branches {
     include!("math/without_branches.rs");
 }
 
-pub use curve::{about, along, farthest, parabola, predicted, quintic, value_and_slopes};
+pub use curve::{about, along, between, farthest, parabola, predicted, quintic, value_and_slopes};
 pub use neighbours::bisect;
 pub use search::{GOLDEN, GoldenSection, Halving, boundary};
 pub use sin_cos::{A_MILLION, sin_cos};
 pub use sin_cos_of_each::sin_cos_of_each;
 pub use vectors::Vectors;
+
+/// The largest power of two that is not above a positive number.
+#[must_use]
+pub fn power_of_two_below(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000)
+}
 
 /// Sine.
 #[must_use]

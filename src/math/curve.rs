@@ -57,3 +57,18 @@ pub fn about(curve: &[f64; 6], place: f64) -> [f64; 6] {
 pub fn farthest(higher: &[f64], reach: f64) -> f64 {
     higher.iter().rev().fold(0.0, |sum, c| (sum + c.abs()) * reach)
 }
+
+/// What a quantity can be between two values that are `h` apart, its slope being in a range; in order.
+#[must_use]
+pub fn between(a: f64, b: f64, [least, most]: [f64; 2], h: f64) -> [f64; 2] {
+    let (low, high) = (a.min(b), a.max(b));
+    if least >= 0.0 || most <= 0.0 {
+        return [low, high];
+    }
+    if !(least.is_finite() && most.is_finite()) {
+        return [f64::NEG_INFINITY, f64::INFINITY];
+    }
+    let up = ((b - a - least * h) / (most - least)).clamp(0.0, h);
+    let down = ((b - a - most * h) / (least - most)).clamp(0.0, h);
+    [low.min(a + least * down), high.max(a + most * up)]
+}

@@ -11,6 +11,7 @@ use super::{Component, Instruction, MOST_OPERATIONS, Pivot, Purpose, Segment, So
 use crate::expr::Symbol;
 use crate::ir::ConstraintSystem;
 use crate::layout::RowLayout;
+use crate::math::power_of_two_below;
 use crate::program::{Program, Register};
 use crate::structure::{Block, Determined};
 use crate::tolerances::solving::build::CELL;
@@ -410,9 +411,4 @@ impl<'s, V: Values> Builder<'s, V> {
     pub(super) fn is_for_code(&self) -> bool {
         self.purpose == Purpose::Code
     }
-}
-
-/// The largest power of two that is not above a positive number.
-fn power_of_two_below(x: f64) -> f64 {
-    f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000)
 }

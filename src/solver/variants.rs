@@ -1,4 +1,4 @@
-//! Running a solver for several variants of a mechanism at once, each with parameters of its own, at one time.
+//! Running a solver for several variants of a mechanism at once, each with parameters and a time of its own.
 
 use super::lanes::{Around, Lanes};
 use super::{Pivot, Solver};
@@ -31,8 +31,8 @@ struct Out<const W: usize> {
 /// What variants are solved with.
 #[derive(Clone, Copy, Debug)]
 pub struct Guesses<'g, const W: usize> {
-    /// The time (s).
-    pub t: f64,
+    /// The times (s).
+    pub times: [f64; W],
     /// By tear: where Newton begins.
     pub tears: &'g [LaneValues<W>],
     /// The program's registers, as far as they depend on parameters alone.
@@ -101,7 +101,7 @@ impl<const W: usize> Abreast<W> {
     }
 }
 
-/// Several variants at one time.
+/// Several variants.
 struct OfVariants<'r, const W: usize> {
     guesses: &'r Guesses<'r, W>,
     pivots: &'r [Pivot],
@@ -117,7 +117,7 @@ impl<const W: usize> Around<W> for OfVariants<'_, W> {
 
     #[inline(always)]
     fn times(&self) -> [f64; W] {
-        [self.guesses.t; W]
+        self.guesses.times
     }
 
     #[inline(always)]

@@ -8,7 +8,7 @@ use crate::cancel::Cancel;
 use crate::expr::Symbol;
 use crate::model::{DecidedBy, Mechanism};
 use crate::program::{LaneMachine, LaneValues, Program, Register, Registers, Stage};
-use crate::sweep::{Each, LANES, Team, Together};
+use crate::sweep::{Each, LANES, Team, Together, WantedOfEach};
 use std::array::from_fn;
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -47,7 +47,7 @@ impl Abreast {
         own: &Checked,
         (variants, first): (&Variants, u64),
         families: &Families,
-        (asked, columns): (&AskedTimes, &[usize]),
+        (asked, columns, results): (&AskedTimes, Option<&[usize]>, bool),
         options: &RunOptions,
     ) -> Option<Abreast> {
         let family = families.only().filter(|_| !own.is_told())?;
@@ -77,7 +77,7 @@ impl Abreast {
         let led: BTreeSet<u32> = places.iter().flatten().map(|&at| at as u32).collect();
         let led: Vec<u32> = led.into_iter().collect();
         let decided = Decided::of(&model, &led, &values);
-        let together = family.from_own.together(&led, (&times, columns), options)?;
+        let together = family.from_own.together(&led, &WantedOfEach { rows: (&times, columns), results }, options)?;
         let (together, idle) = (Arc::new(together), Mutex::default());
         Some(Abreast { together, idle, values, places, decided })
     }
@@ -102,7 +102,7 @@ impl Abreast {
     }
 
     /// Follows as many variants as there are lanes, or fewer, by the values of the params that vary, one variant behind the other; says which
-    /// have all their rows. One of whose values the text's check decides anything else goes alone.
+    /// have all their rows, or all their results where no rows are wanted. One of whose values the text's check decides anything else goes alone.
     pub fn follow(&self, side: &mut Side, varying: &[f64], cancel: &Cancel) -> [bool; LANES] {
         let width = self.places.len();
         let count = varying.len() / width.max(1);

@@ -11,7 +11,7 @@ use crate::ir::ConstraintSystem;
 use crate::lower::Clock;
 use crate::model::{self, Mechanism};
 use crate::program::Program;
-use crate::sweep::{Arrived, Base, Lost, Together, Whole};
+use crate::sweep::{Arrived, Base, Lost, Together, WantedOfEach, Whole};
 use std::sync::{Arc, OnceLock};
 
 /// Where a mechanism begins that was led there, or why it cannot; nothing where no way leads there. With what is to be said of the way.
@@ -68,9 +68,9 @@ impl FromOwn {
     }
 
     /// What variants share that go side by side, which differ in some of its params, by their numbers; nothing where they had better go alone.
-    pub fn together(&self, params: &[u32], wanted: (&Times, &[usize]), options: &RunOptions) -> Option<Together> {
+    pub fn together(&self, params: &[u32], wanted: &WantedOfEach<'_>, options: &RunOptions) -> Option<Together> {
         let over = self.over(options)?;
-        let base = over.base(&over.values, wanted.0.from(), &options.cancel)?;
+        let base = over.base(&over.values, wanted.rows.0.from(), &options.cancel)?;
         Together::of(base, &over.own.started, params, wanted, options.vectors)
     }
 

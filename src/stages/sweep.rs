@@ -189,30 +189,15 @@ impl Sweeping {
             if self.options.cancel.is_cancelled() {
                 return None;
             }
-            let of = |lanes: std::ops::Range<usize>| &params[lanes.start * width..lanes.end * width];
-            if let Some((team, done)) = done.filter(|(_, done)| self.results == 0 && done[lane]) {
-                let end = (lane..count).find(|&lane| !done[lane]).unwrap_or(count);
-                let columns = (0..).map(|place| team.column(place, lane..end));
-                block.push_abreast((end - lane, team.rows()), of(lane..end), columns);
+            let is_whole = |&lane: &usize| done.is_some_and(|(team, done)| done[lane] && self.has_all(team, lane));
+            let end = (lane..count).find(|lane| !is_whole(lane)).unwrap_or(count);
+            if let Some((team, _)) = done.filter(|_| end > lane) {
+                push_run(block, &params[lane * width..end * width], team, lane..end);
                 lane = end;
                 continue;
             }
-            let alone = lane..lane + 1;
-            // what has all its rows wants its results alone
-            let beside = done.filter(|(_, done)| done[lane]);
-            let beside = beside.and_then(|(team, _)| Some((team, self.results_of(of(alone.clone()))?)));
-            let found = if let Some((team, mut results)) = beside {
-                let found = self.until.map(|until| results.remove(until));
-                let columns = (0..).map(|place| team.column(place, alone.clone()));
-                block.push_abreast((1, team.rows()), of(alone.clone()), columns);
-                block.push_results(&results);
-                found
-            } else {
-                let mut variant = self.variant(of(alone.clone()));
-                let found = self.until.map(|until| variant.results.remove(until));
-                block.push(of(alone), &variant);
-                found
-            };
+            let beside = done.filter(|(_, done)| done[lane]).map(|(team, _)| (team, lane));
+            let found = self.push_one(block, &params[lane * width..(lane + 1) * width], beside);
             // who cancelled wants no more, and of this one not all may be there
             if self.options.cancel.is_cancelled() {
                 return None;
@@ -223,6 +208,35 @@ impl Sweeping {
             lane += 1;
         }
         Some(false)
+    }
+
+    /// Whether all that is wanted of a variant that went side by side is there, and none is looked for.
+    fn has_all(&self, team: &Team, lane: usize) -> bool {
+        self.results == 0 || self.until.is_none() && team.results(lane).is_some()
+    }
+
+    /// Adds a variant, by its params: what has all its rows, side by side, wants its results alone, unless they are known too. Gives the result that
+    /// tells whether it is looked for.
+    fn push_one(&self, block: &mut Swept, params: &[f64], beside: Option<(&Team, usize)>) -> Option<f64> {
+        let beside = beside.and_then(|(team, lane)| match team.results(lane) {
+            Some(results) => Some((team, lane, results.to_vec(), true)),
+            None => Some((team, lane, self.results_of(params)?, false)),
+        });
+        let Some((team, lane, mut results, is_known)) = beside else {
+            let mut variant = self.variant(params);
+            let found = self.until.map(|until| variant.results.remove(until));
+            block.push(params, &variant);
+            return found;
+        };
+        let found = self.until.map(|until| results.remove(until));
+        let columns = (0..).map(|place| team.column(place, lane..lane + 1));
+        block.push_abreast((1, team.rows()), params, columns);
+        if is_known {
+            block.push_results_abreast(&results);
+        } else {
+            block.push_results(&results);
+        }
+        found
     }
 
     /// The results of a variant which is known to have all its rows; nothing where they cannot be had without these.
@@ -254,8 +268,8 @@ impl Sweeping {
     /// What variants share that go side by side; nothing where they go alone.
     fn abreast(&self) -> Option<&Abreast> {
         let new = || {
-            let columns = self.options.columns.as_deref().unwrap_or_default();
-            let (variants, wanted) = ((&self.variants, self.first), (&self.options.times, columns));
+            let columns = self.options.columns.as_deref();
+            let (variants, wanted) = ((&self.variants, self.first), (&self.options.times, columns, self.results > 0));
             Abreast::of(&self.own, variants, &self.families, wanted, &self.run_options())
         };
         self.abreast.get_or_init(new).as_ref()
@@ -355,6 +369,13 @@ impl Sweeping {
             }
         }
     }
+}
+
+/// Adds variants that went side by side, of which all is there.
+fn push_run(block: &mut Swept, params: &[f64], team: &Team, lanes: std::ops::Range<usize>) {
+    let columns = (0..).map(|place| team.column(place, lanes.clone()));
+    block.push_abreast((lanes.len(), team.rows()), params, columns);
+    lanes.filter_map(|lane| team.results(lane)).for_each(|results| block.push_results_abreast(results));
 }
 
 fn write_results(values: &[Option<f64>], places: &Places, results: &mut [f64]) {

@@ -63,6 +63,8 @@ pub struct Swept {
     pub columns: Vec<Vec<f64>>,
     /// How many of them went side by side: which way a variant went changes no bit of it.
     pub abreast: usize,
+    /// Of how many of them results were found so too.
+    pub answered: usize,
 }
 
 impl Swept {
@@ -92,6 +94,12 @@ impl Swept {
             column.extend_from_slice(more);
         }
         self.abreast += count;
+    }
+
+    /// Adds the results of the next one of the variants that have run side by side.
+    pub fn push_results_abreast(&mut self, results: &[f64]) {
+        self.push_results(results);
+        self.answered += 1;
     }
 
     /// Adds the results of the variant that was added last.

@@ -2,6 +2,7 @@
 //! position is near. What is not plain is left to the careful way, which knows all cases.
 
 use super::Base;
+use super::asked::Asked;
 use super::each::{Each, LANES};
 use super::judge::{Stand, Tracked, nearness};
 use crate::analysis::{Started, Times};
@@ -22,9 +23,12 @@ pub struct Together {
     /// The mechanism's own values, and the parameters that may have others, by their numbers.
     pub(super) own: Vec<f64>,
     led: Vec<u32>,
-    /// For steps between output times, and for rows.
+    /// For steps between output times.
     pub(super) steps: Solver,
-    pub(super) rows: Solver,
+    /// The rows that are wanted; none where nobody asks for any.
+    pub(super) rows: Option<Rows>,
+    /// What results ask; none where there are none, or where they had better be found alone.
+    pub(super) asked: Option<Asked>,
     /// The coordinates that steps are judged by.
     pub(super) tracked: Vec<Tracked>,
     /// By tear: its place among these.
@@ -40,50 +44,63 @@ pub struct Together {
     pub(super) nearness: f64,
     /// That where it stands with its own values.
     own_nearness: f64,
-    pub(super) times: Times,
-    /// The columns of rows that are wanted.
-    pub(super) wanted: Vec<u32>,
+    /// The first time (s).
+    pub(super) from: f64,
     pub(super) vectors: Vectors,
 }
 
+/// Rows that are wanted.
+pub(super) struct Rows {
+    pub solver: Solver,
+    pub times: Times,
+    /// The columns.
+    pub wanted: Vec<u32>,
+}
+
+/// What is wanted of variants.
+pub struct WantedOfEach<'w> {
+    /// The times of rows, and their columns; nothing where results alone are wanted.
+    pub rows: (&'w Times, Option<&'w [usize]>),
+    /// Whether there are results.
+    pub results: bool,
+}
+
 impl Together {
-    /// Of a mechanism that stands with its own values, for variants of some of its params, by their numbers, and some columns of their rows at
-    /// some times; nothing where they had better go alone.
+    /// Of a mechanism that stands with its own values, for variants of some of its params, by their numbers, of which something is wanted; nothing
+    /// where they had better go alone.
     #[must_use]
     pub fn of(
         base: &Base,
         started: &Started,
         params: &[u32],
-        (times, columns): (&Times, &[usize]),
+        wanted: &WantedOfEach<'_>,
         vectors: Vectors,
     ) -> Option<Together> {
         let mut started = started.clone();
+        let (times, columns) = wanted.rows;
         if times.is_empty() || !started.is_plain() || !base.leads_plainly(params) {
             return None;
         }
         let ((determined, program), own) = base.stands();
-        let layout = *started.solver()?.layout();
-        let system = determined.system();
-        let is_tear = |k: usize| started.solver().is_some_and(|solver| solver.tears().contains(&(k as u32)));
-        let judged = |k: &usize| is_tear(*k) || system.coordinates()[*k].kind != CoordinateKind::Length;
-        let judged: Vec<usize> = (0..system.coordinates().len()).filter(judged).collect();
-        let tracked: Vec<Tracked> = judged
-            .iter()
-            .map(|&k| Tracked {
-                columns: [0, 1, 2].map(|order| layout.coordinate(k as u32, order)),
-                per_scale: 1.0 / system.coordinates()[k].scale,
-            })
-            .collect();
-        let wanted: Vec<u32> = columns.iter().map(|&column| column as u32).collect();
+        let judged = judged(&started);
+        let tracked = tracked(&started, &judged)?;
         let is_tracked = |column: u32| tracked.iter().any(|of| of.columns.contains(&column));
+        let asked = if wanted.results { Asked::of(determined, &mut started, times, &is_tracked) } else { None };
+        let columns: Vec<u32> = columns.into_iter().flatten().map(|&column| column as u32).collect();
+        let rows = if asked.is_some() && wanted.rows.1.is_none() {
+            None
+        } else {
+            let solver = started.solver_of_variants(&|column| is_tracked(column) || columns.contains(&column))?;
+            Some(Rows { solver, times: times.clone(), wanted: columns })
+        };
         let steps = started.solver_of_variants(&is_tracked)?;
-        let rows = started.solver_of_variants(&|column| is_tracked(column) || wanted.contains(&column))?;
-        let tears = rows.tears().iter().map(|&tear| judged.iter().position(|&k| k == tear as usize));
+        let tears = steps.tears().iter().map(|&tear| judged.iter().position(|&k| k == tear as usize));
         let tears = tears.collect::<Option<Vec<usize>>>()?;
+        let solvers = [Some(&steps), rows.as_ref().map(|rows| &rows.solver), asked.as_ref().map(|asked| &asked.solver)];
+        let loaded: Vec<Register> = solvers.into_iter().flatten().flat_map(Solver::loads).collect();
         let bounds = started.bounds();
         let bounds =
             [RESIDUAL_OF_STEP, CERTAIN_RESIDUAL].map(|part| bounds.iter().map(|bound| 1.0 / (part * bound)).collect());
-        let loaded: Vec<Register> = steps.loads().chain(rows.loads()).collect();
         let mut together = Together {
             prologue: prologue(program, &loaded),
             program: Arc::clone(program),
@@ -92,6 +109,7 @@ impl Together {
             led: params.to_vec(),
             steps,
             rows,
+            asked,
             tracked,
             tears,
             bounds,
@@ -100,8 +118,7 @@ impl Together {
             slopes: Vec::new(),
             nearness: 1.0,
             own_nearness: 1.0,
-            times: times.clone(),
-            wanted,
+            from: times.from(),
             vectors,
         };
         together.look_at_own(&mut started)?;
@@ -140,7 +157,7 @@ impl Together {
         self.load(loaded, params);
         let tears: Vec<Each> = self.tears.iter().map(|&tear| LaneValues([self.q[tear]; LANES])).collect();
         let [bounds, _] = &self.bounds;
-        let guesses = Guesses { t: self.times.from(), tears: &tears, loaded, bounds, nearly: NEARLY };
+        let guesses = Guesses { times: [self.from; LANES], tears: &tears, loaded, bounds, nearly: NEARLY };
         abreast.run(&self.steps, (&self.program, &self.scalars), &guesses);
         let mut doubts = [0.0; LANES];
         abreast.write_doubts(&mut doubts);
@@ -149,7 +166,7 @@ impl Together {
 
     /// Where all variants come from.
     pub(super) fn stand(&self) -> Stand {
-        Stand::of(self.times.from(), &self.q, &self.determinants, self.own_nearness)
+        Stand::of(self.from, &self.q, &self.determinants, self.own_nearness)
     }
 
     /// Where tears are, by how they change with parameters where it stands with its own values.
@@ -166,7 +183,7 @@ impl Together {
     /// How many rows each variant has.
     #[must_use]
     pub fn rows(&self) -> usize {
-        self.times.len() as usize
+        self.rows.as_ref().map_or(0, |rows| rows.times.len() as usize)
     }
 
     /// Registers for one of its solvers.
@@ -190,6 +207,24 @@ impl Together {
         let mut machine = LaneMachine { v: registers, program: &self.program, scalars: &self.scalars };
         self.prologue.iter().for_each(|op| op.run(&mut machine));
     }
+}
+
+/// The coordinates that steps are judged by: all angles, and what Newton solves for.
+fn judged(started: &Started) -> Vec<usize> {
+    let coordinates = started.system().coordinates();
+    let is_tear = |k: usize| started.solver().is_some_and(|solver| solver.tears().contains(&(k as u32)));
+    let is_judged = |&k: &usize| is_tear(k) || coordinates[k].kind != CoordinateKind::Length;
+    (0..coordinates.len()).filter(is_judged).collect()
+}
+
+/// The same with their columns.
+fn tracked(started: &Started, judged: &[usize]) -> Option<Vec<Tracked>> {
+    let layout = *started.solver()?.layout();
+    let tracked = |&k: &usize| Tracked {
+        columns: [0, 1, 2].map(|order| layout.coordinate(k as u32, order)),
+        per_scale: 1.0 / started.system().coordinates()[k].scale,
+    };
+    Some(judged.iter().map(tracked).collect())
 }
 
 /// The operations of parameters alone that lead to some registers.

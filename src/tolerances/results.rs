@@ -61,6 +61,22 @@ pub mod search {
     pub const BESIDE: f64 = 1e-7;
 }
 
+/// Turns that are settled (`analysis/results/turn.rs`).
+pub mod turns {
+    /// The width of a cell of times, as a part of the span or of the power of two below it.
+    pub const CELL: f64 = 1.0 / 16_777_216.0;
+    /// Times that are farther from 0 than so many cells have no grid.
+    pub const MOST_CELLS: f64 = 1_125_899_906_842_624.0;
+    /// A correction that is no farther from half a cell than this, in cells, leads to the border of two: rounding makes less of corrections.
+    pub const BORDER: f64 = 1.0 / 4_096.0;
+    /// Corrections at most, two of which may be at a border.
+    pub const ITERATIONS: u32 = 8;
+    /// How many cells from where it begins a turn may settle.
+    pub const FARTHEST: f64 = 4_096.0;
+    /// How many cells to both sides slopes tell the second derivative of a formula of which it is not known.
+    pub const APART: f64 = 64.0;
+}
+
 /// What is looked at as a coordinate is (`analysis/results/smooth.rs`).
 pub mod smooth {
     /// Of no more factors than this.

@@ -76,6 +76,28 @@ pub mod variants {
     pub const PARTS_OF_WAY: [u32; 4] = [1, 2, 4, 8];
 }
 
+/// The course of a formula of a variant (`sweep/course.rs`, `sweep/steps.rs`, `sweep/survey.rs`).
+pub mod course {
+    /// How much farther than the quintic in the middle of a cell a second derivative may be from the straight line between its ends: so much as
+    /// results of a variant alone allow of a half of a cell.
+    pub const SAFETY: f64 = 6.0;
+    /// An extremum is beyond doubt the largest one, if all others are below it by this part of the range.
+    pub const MARGIN: f64 = 1e-5;
+    /// An end is an extremum, if the slope there would change the formula over the analysis by this part of its range.
+    pub const STEEP: f64 = 1e-3;
+    /// A turn is no nearer to an end than this part of the span.
+    pub const AWAY: f64 = 1e-4;
+    /// The size of the numbers that a value is a sum of is no more than so many times the range, or what the second derivative makes of the span:
+    /// else rounding moves the time of an extremum.
+    pub const CERTAIN: f64 = 250.0;
+    /// Corrections of a time on the curve between two steps.
+    pub const ITERATIONS: usize = 3;
+    /// How the size of these numbers is looked at, in so many ways.
+    pub const WAYS: u32 = 3;
+    /// Steps at the most.
+    pub const MOST_STEPS: usize = 4_096;
+}
+
 /// Blocks that are pivoted (`solver/pivoting.rs`).
 pub mod pivoting {
     /// Larger blocks are not solved this way.

@@ -92,6 +92,7 @@ pub fn join(all: &mut Swept, block: Swept) {
     all.stopped.extend(block.stopped);
     all.lengths.extend(block.lengths);
     all.abreast += block.abreast;
+    all.answered += block.answered;
     for (all, more) in
         [(&mut all.params, block.params), (&mut all.results, block.results), (&mut all.columns, block.columns)]
     {

@@ -2,10 +2,13 @@
 
 use super::loads::{Hidden, Loads};
 use super::places::Places;
+use super::quantity::{SmoothFormula, moved};
 use super::smooth::Smooth;
+use super::turn::Sampled;
 use crate::analysis::state::State;
 use crate::expr::{Dependence, ExprId, Graph, Symbol};
 use crate::ir::ConstraintSystem;
+use crate::math::between;
 use crate::program::{Inputs, Program, Range, Ranges, Register, Registers, Stage};
 use crate::tolerances::results::formulas::{MOVED, SAFETY, WAYS};
 use crate::tolerances::results::loads::UNTOLD;
@@ -91,14 +94,6 @@ impl Moving {
     }
 }
 
-/// A formula at a time: its value and time derivatives; those that it has not are no numbers.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sample {
-    pub value: f64,
-    pub first: f64,
-    pub second: f64,
-}
-
 /// A formula at a state.
 pub(super) struct Point {
     pub state: State,
@@ -106,7 +101,7 @@ pub(super) struct Point {
     moving: Vec<[f64; 4]>,
     /// The loads, of a formula that holds forces.
     loads: Vec<f64>,
-    pub sample: Sample,
+    pub sample: Sampled,
 }
 
 /// What lies between two points.
@@ -215,6 +210,27 @@ impl Formula {
         self.holds_rates
     }
 
+    /// Whether it is nothing but what is smooth, with a slope: so that its extrema can be settled.
+    pub fn is_smooth(&self) -> bool {
+        let [Moving::Coordinate(_)] = self.moving[..] else { return false };
+        let own = self.moving[0].registers(&self.program.inputs);
+        self.derivatives() > 0 && self.roots.iter().all(|&root| own.contains(&Some(root)))
+    }
+
+    /// The same for variants side by side; none where it is anything else.
+    pub fn into_quantity(self) -> Option<SmoothFormula> {
+        let coordinates = self.coordinates;
+        let (true, [Moving::Coordinate(k)]) = (self.is_smooth(), &self.moving[..]) else { return None };
+        if *k < coordinates {
+            return Some(SmoothFormula::new((self.program, self.registers), self.roots, coordinates));
+        }
+        let own = self.moving[0].registers(&self.program.inputs);
+        let order = own.iter().position(|register| *register == self.roots.first().copied())?;
+        let (of, tower) = self.smooth.into_tower(k - coordinates);
+        let roots: Option<Vec<Register>> = (0..self.roots.len()).map(|k| *tower.get(order + k)?).collect();
+        Some(SmoothFormula::new(of, roots?, coordinates))
+    }
+
     /// At a state of the stretch that was entered.
     pub fn at(&mut self, state: State, places: &mut Places) -> Rc<Point> {
         if self.is_varied() {
@@ -237,7 +253,7 @@ impl Formula {
         let moving: Vec<[f64; 4]> = self.moving.iter().map(tower).collect();
         self.run(state.t, &moving);
         let value = |order: usize| self.roots.get(order).map_or(f64::NAN, |&root| self.registers.get(root));
-        let sample = Sample { value: value(0), first: value(1), second: value(2) };
+        let sample = Sampled { value: value(0), first: value(1), second: value(2) };
         let loads = self.loads_at(state.t, &moving);
         Rc::new(Point { state, moving, loads, sample })
     }
@@ -277,11 +293,7 @@ impl Formula {
     pub fn weight(&mut self, point: &Point) -> f64 {
         let mut weight = point.sample.value.abs();
         for way in 0..WAYS {
-            let moved = |k: usize| {
-                // up and down without a pattern that a formula could have
-                let is_up = (k as u32 + 1).wrapping_mul(0x9E37_79B9 ^ way.wrapping_mul(0x85EB_CA6B)) >> 31 == 0;
-                if is_up { 1.0 + MOVED } else { 1.0 - MOVED }
-            };
+            let moved = |k: usize| moved(k, way);
             self.smooth.look(&point.state, moved);
             let tower = |(moving, tower): (&Moving, &[f64; 4])| match *moving {
                 Moving::Coordinate(k) if k >= self.coordinates => self.smooth.tower(k - self.coordinates),
@@ -395,18 +407,4 @@ fn with_derivatives(graph: &mut Graph, value: ExprId, has_jerk: bool) -> Vec<Exp
 fn around(a: f64, b: f64, bend: f64) -> [f64; 2] {
     let beyond = SAFETY * bend;
     [a.min(b) - beyond, a.max(b) + beyond]
-}
-
-/// What a quantity can be between two values a time `h` (s) apart, its slope being in a range.
-pub(super) fn between(a: f64, b: f64, [least, most]: [f64; 2], h: f64) -> [f64; 2] {
-    let (low, high) = (a.min(b), a.max(b));
-    if least >= 0.0 || most <= 0.0 {
-        return [low, high];
-    }
-    if !(least.is_finite() && most.is_finite()) {
-        return [f64::NEG_INFINITY, f64::INFINITY];
-    }
-    let up = ((b - a - least * h) / (most - least)).clamp(0.0, h);
-    let down = ((b - a - most * h) / (least - most)).clamp(0.0, h);
-    [low.min(a + least * down), high.max(a + most * up)]
 }

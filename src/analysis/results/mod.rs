@@ -13,10 +13,13 @@ mod formulas;
 mod loads;
 mod places;
 mod quadrature;
+mod quantities;
+mod quantity;
 mod reduced;
 mod search;
 mod smooth;
 mod survey;
+mod turn;
 mod varying;
 
 use crate::analysis::assemble::Started;
@@ -24,7 +27,7 @@ use crate::analysis::follow::Follower;
 use crate::analysis::state::{Kinematics, State, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::expr::{ExprId, Graph, Symbol};
+use crate::expr::{ExprId, Graph, Node, Symbol};
 use crate::ir::{ConstraintSystem, Reduction, ReductionKind};
 use crate::solver::Solver;
 use crate::structure::Determined;
@@ -32,10 +35,13 @@ use crate::tolerances::results::stretches::CHUNK;
 use certain::Near;
 use formulas::Formula;
 use places::Places;
+pub use quantities::SmoothFormulas;
+pub use quantity::{SmoothFormula, moved};
 use reduced::Reduced;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 use survey::Trouble;
+pub use turn::{MOST_LOOKS, Sampled, Settling, Turning};
 
 /// What is wrong with the results that an analysis from one time to another (s) is asked for.
 #[must_use]
@@ -154,7 +160,10 @@ impl Analysis {
         let system = determined.system();
         let asked: Vec<(usize, Reduction)> = level.iter().map(|&k| (k, system.results().reductions[k])).collect();
         let mut places = Places::new(self.asked.kinematics.clone(), self.asked.solver.clone());
-        let (mut all, formula_of) = self.formulas(&asked, places.variations());
+        let of: Vec<ExprId> = asked.iter().map(|(_, reduction)| reduction.of).collect();
+        let known = |k: usize| self.found[k].and_then(Result::ok).unwrap_or(0.0);
+        let (all, formula_of) = formulas(system, &of, known, places.variations());
+        let mut all: Vec<Reduced> = all.into_iter().map(Reduced::new).collect();
         let at = |reduction: &Reduction| match reduction.kind {
             ReductionKind::At(at) => self.value(at),
             _ => f64::NAN,
@@ -170,32 +179,6 @@ impl Analysis {
             self.found[*k] = Some(self.asked.certain(&all[of], (reduction.kind, at), &near));
         }
         Ok(())
-    }
-
-    /// The formulas of some reductions, each once, and which is whose.
-    fn formulas(&self, asked: &[(usize, Reduction)], variations: usize) -> (Vec<Reduced>, Vec<usize>) {
-        let system = self.system();
-        let (mut graph, mut known) = (Graph::new(), FxHashMap::default());
-        graph.import_tables(system.graph(), &mut known, Graph::symbol);
-        let mut formula_of: Vec<usize> = Vec::new();
-        let mut ids: Vec<ExprId> = Vec::new();
-        for (_, reduction) in asked {
-            graph.import(system.graph(), &[reduction.of], &mut known, |graph, symbol| match symbol {
-                Symbol::Named(k) => graph.constant(self.found[k as usize].and_then(Result::ok).unwrap_or(0.0)),
-                other => graph.symbol(other),
-            });
-            let id = known[&reduction.of];
-            let at = ids.iter().position(|&other| other == id).unwrap_or_else(|| {
-                ids.push(id);
-                ids.len() - 1
-            });
-            formula_of.push(at);
-        }
-        let given: Vec<ExprId> = system.loads().iter().map(|load| load.force).collect();
-        graph.import(system.graph(), &given, &mut known, Graph::symbol);
-        let loads: Vec<ExprId> = given.iter().map(|load| known[load]).collect();
-        let formula = |id: ExprId| Formula::new(&mut graph, id, &loads, system, variations);
-        (ids.into_iter().map(formula).map(Reduced::new).collect(), formula_of)
     }
 
     /// Looks at formulas along the whole motion.
@@ -244,12 +227,8 @@ impl Analysis {
     /// The value of a formula of parameters and of reductions that are known; no number where one has none.
     fn value(&self, formula: ExprId) -> f64 {
         let system = self.system();
-        system.graph().value(formula, |symbol| match symbol {
-            Symbol::Param(k) => system.params()[k as usize].value,
-            Symbol::Shift(_) => 0.0,
-            Symbol::Named(k) => self.found[k as usize].and_then(Result::ok).unwrap_or(f64::NAN),
-            _ => f64::NAN,
-        })
+        let found = |k: usize| self.found[k].and_then(Result::ok).unwrap_or(f64::NAN);
+        value_of(system.graph(), formula, |k| system.params()[k as usize].value, found)
     }
 
     fn answers(&self) -> Answers {
@@ -268,6 +247,52 @@ impl Analysis {
             answers.notes.push(errors::result_without_value(outcome, trouble));
         }
         answers
+    }
+}
+
+/// The formulas of some reductions, each once, and which is whose; with the reductions that they hold, as far as these are known, and over so
+/// many variations.
+fn formulas(
+    system: &ConstraintSystem,
+    asked: &[ExprId],
+    found: impl Fn(usize) -> f64,
+    variations: usize,
+) -> (Vec<Formula>, Vec<usize>) {
+    let (mut graph, mut known) = (Graph::new(), FxHashMap::default());
+    graph.import_tables(system.graph(), &mut known, Graph::symbol);
+    let mut formula_of: Vec<usize> = Vec::new();
+    let mut ids: Vec<ExprId> = Vec::new();
+    for of in asked {
+        graph.import(system.graph(), &[*of], &mut known, |graph, symbol| match symbol {
+            Symbol::Named(k) => graph.constant(found(k as usize)),
+            other => graph.symbol(other),
+        });
+        let id = known[of];
+        let at = ids.iter().position(|&other| other == id).unwrap_or_else(|| {
+            ids.push(id);
+            ids.len() - 1
+        });
+        formula_of.push(at);
+    }
+    let given: Vec<ExprId> = system.loads().iter().map(|load| load.force).collect();
+    graph.import(system.graph(), &given, &mut known, Graph::symbol);
+    let loads: Vec<ExprId> = given.iter().map(|load| known[load]).collect();
+    let formula = |id: ExprId| Formula::new(&mut graph, id, &loads, system, variations);
+    (ids.into_iter().map(formula).collect(), formula_of)
+}
+
+/// The value of a formula of parameters and of reductions that are found; no number where one has none.
+fn value_of(graph: &Graph, formula: ExprId, params: impl Fn(u32) -> f64, found: impl Fn(usize) -> f64) -> f64 {
+    let value = |symbol| match symbol {
+        Symbol::Param(k) => params(k),
+        Symbol::Shift(_) => 0.0,
+        Symbol::Named(k) => found(k as usize),
+        _ => f64::NAN,
+    };
+    match graph.node(formula) {
+        // most results are a reduction and nothing else
+        Node::Symbol(symbol) => value(symbol),
+        _ => graph.value(formula, value),
     }
 }
 

@@ -22,6 +22,8 @@ pub(super) struct Places {
     /// What time alone asks of the equations.
     signals: Ranges,
     signal_count: usize,
+    /// Whether the equations are such that states can be settled.
+    is_plain: bool,
     /// What finds derivatives by inputs and parameters, where results hold any.
     varying: Option<Varying>,
 }
@@ -46,6 +48,7 @@ impl Places {
             signals,
             signal_count: registers.len(),
             solver,
+            is_plain: kinematics.is_plain(),
             varying: Varying::of(&kinematics),
             kinematics,
         }
@@ -126,21 +129,8 @@ impl Places {
             let on_bridge = bridge.best_state_at(t);
             return self.solve_from(on_bridge.clone(), Some(SOLVABLE)).or(Some(on_bridge));
         }
-        if !self.has_bounds {
-            self.kinematics.restore(&stretch.from);
-            self.kinematics.write_bounds(&mut self.bounds);
-            self.has_bounds = true;
-        }
-        if let Some((solver, lanes)) = &mut self.solver {
-            let batch =
-                Batch { times: [t], from: a.t, length: h, curve: &self.curve, bends: &[], bounds: &self.bounds };
-            let (program, registers) = self.kinematics.program();
-            let [holds] = lanes.run(solver, program, registers, &batch, &mut self.row);
-            let layout = solver.layout();
-            let is_finite = layout.position(&self.row).iter().all(|x| x.is_finite());
-            if holds && is_finite {
-                return Some(state_of_row(layout, &self.row, a, t));
-            }
+        if let Some(state) = self.solve_by_lanes(stretch, a, (t, h)) {
+            return Some(state);
         }
         let mut state = a.clone();
         state.t = t;
@@ -148,6 +138,36 @@ impl Places {
             *q = along(curve, (t - a.t) / h);
         }
         self.solve_from(state, None)
+    }
+
+    /// The state at a time (s) that is a little beside that of a state of the stretch, as rows have it: its bits depend on the time alone, and
+    /// not on the way that led there. None where the equations are not smooth everywhere, or where it cannot be had.
+    pub fn settled(&mut self, stretch: &Stretch, near: &State, t: f64) -> Option<State> {
+        if !self.is_plain || stretch.bridge.is_some() {
+            return None;
+        }
+        // the curve is a parabola, so that its length says nothing
+        let h = 1.0;
+        for (k, curve) in self.curve.iter_mut().enumerate() {
+            *curve = [near.q[k], near.qd[k] * h, 0.5 * near.qdd[k] * h * h, 0.0, 0.0, 0.0];
+        }
+        self.solve_by_lanes(stretch, near, (t, h))
+    }
+
+    /// The state at a time (s) of the stretch, from the curve that leads on from one in a time `h` (s); none where it does not hold.
+    fn solve_by_lanes(&mut self, stretch: &Stretch, from: &State, (t, h): (f64, f64)) -> Option<State> {
+        if !self.has_bounds {
+            self.kinematics.restore(&stretch.from);
+            self.kinematics.write_bounds(&mut self.bounds);
+            self.has_bounds = true;
+        }
+        let (solver, lanes) = self.solver.as_mut()?;
+        let batch = Batch { times: [t], from: from.t, length: h, curve: &self.curve, bends: &[], bounds: &self.bounds };
+        let (program, registers) = self.kinematics.program();
+        let [holds] = lanes.run(solver, program, registers, &batch, &mut self.row);
+        let layout = solver.layout();
+        let is_finite = layout.position(&self.row).iter().all(|x| x.is_finite());
+        (holds && is_finite).then(|| state_of_row(layout, &self.row, from, t))
     }
 
     /// Newton from a position; none where it does not arrive, or is nearer to a singular position than a limit.

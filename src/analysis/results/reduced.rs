@@ -141,7 +141,7 @@ impl Reduced {
         match kind {
             ReductionKind::Extreme { largest, when } => {
                 let extreme = self.extremes[usize::from(largest)].as_ref();
-                extreme.map_or(f64::NAN, |extreme| if when { extreme.time(scale) } else { extreme.value() })
+                extreme.map_or(f64::NAN, |extreme| if when { extreme.time(scale) } else { extreme.value(scale) })
             }
             ReductionKind::Integral => self.integral.unwrap_or(f64::NAN),
             ReductionKind::Mean if span > 0.0 => self.integral.map_or(f64::NAN, |integral| integral / span),
@@ -160,15 +160,21 @@ impl Reduced {
                 continue;
             }
             let state = if t <= stretch.from.t {
-                Some(stretch.from.clone())
+                Some(self.end(&stretch.from, t, stretch, places))
             } else if t >= stretch.to.t {
-                Some(stretch.to.clone())
+                Some(self.end(&stretch.to, t, stretch, places))
             } else {
                 places.solve(stretch, [&stretch.from, &stretch.to], t)
             };
             // of an edge the later side counts, which comes later
             self.times[k].1 = state.map_or(f64::NAN, |state| self.formula.at(state, places).sample.value);
         }
+    }
+
+    /// An end of a stretch, or a time (s) that is as good as that, with the bits that rows have there where nothing is in doubt.
+    fn end(&self, state: &State, t: f64, stretch: &Stretch, places: &mut Places) -> State {
+        let settled = self.formula.is_smooth().then(|| places.settled(stretch, state, t));
+        settled.flatten().unwrap_or_else(|| state.clone())
     }
 
     /// Looks at some stretches.
@@ -194,7 +200,12 @@ impl Reduced {
             return None;
         }
         let is_integrated = self.integral.is_some();
-        let [from, to] = [&stretch.from, &stretch.to].map(|state| self.formula.at(state.clone(), places));
+        let is_edge = [stretch.begins_at_edge, stretch.ends_at_edge];
+        let ends = [(&stretch.from, is_edge[0]), (&stretch.to, is_edge[1])];
+        let [from, to] = ends.map(|(state, is_edge)| {
+            let state = if is_edge { self.end(state, state.t, stretch, places) } else { state.clone() };
+            self.formula.at(state, places)
+        });
         // but for edges, a stretch begins where the one before has ended
         for point in stretch.begins_at_edge.then_some(&from).into_iter().chain([&to]) {
             self.weight = self.weight.max(self.formula.weight(point));

@@ -4,8 +4,11 @@
 //! where it cannot hold as large a value as is known, or where the formula rises or falls all the way; it is cut in two until that, or until the
 //! slope passes zero in it just once, at a place that is then solved for.
 
-use super::formulas::{Cell, Point, between};
+use super::formulas::{Cell, Point};
 use super::survey::{Scale, Survey};
+use super::turn::{MOST_LOOKS, Sampled, Settling, Turning};
+use crate::analysis::state::State;
+use crate::math::between;
 use crate::program::Range;
 use crate::tolerances::results::search::{BESIDE, CERTAIN, CLOSER, FARTHEST, FINEST, GAP, GAP_OF_VALUES, ITERATIONS};
 use std::rc::Rc;
@@ -89,9 +92,10 @@ impl Extreme {
         [&cell.a, &cell.b].map(|point| self.sign * point.sample.value)
     }
 
-    /// The largest value.
-    pub fn value(&self) -> f64 {
-        self.sign * self.best
+    /// The largest value: that of an extremum, an edge or an end, unless more was seen than can be of it.
+    pub fn value(&self, scale: Scale) -> f64 {
+        let is_of_extremum = self.best <= self.largest + scale.gap(GAP);
+        self.sign * if is_of_extremum { self.largest } else { self.best }
     }
 
     /// Its first time (s).
@@ -215,7 +219,35 @@ impl Survey<'_> {
         // its time is where the slope turns, whatever the last digits of the values say
         let is_inside = guess > low.state.t && guess < high.state.t;
         let turn = if is_inside { guess } else { high.state.t };
-        extreme.add(Extremum { t: turn, value: sign * top.sample.value, kind: Kind::Turn }, scale);
+        let [t, value] = self.settled_turn(&top.state, turn, scale.span).unwrap_or([turn, top.sample.value]);
+        extreme.add(Extremum { t, value: sign * value, kind: Kind::Turn }, scale);
+    }
+
+    /// The time (s) and the value of a turn that is near a state and a time, as they are whichever way led there; none where it does not settle, or
+    /// beyond an edge.
+    fn settled_turn(&mut self, near: &State, t: f64, span: f64) -> Option<[f64; 2]> {
+        if !self.formula.is_smooth() {
+            return None;
+        }
+        let mut turn = Settling::near(t, span, self.formula.derivatives() == 2)?;
+        let mut samples = [Sampled::NOTHING; MOST_LOOKS];
+        loop {
+            for look in 0..turn.looks() {
+                let t = turn.time(look);
+                let is_before = self.stretch.begins_at_edge && t < self.stretch.from.t;
+                let is_behind = self.stretch.ends_at_edge && t > self.stretch.to.t;
+                if is_before || is_behind {
+                    return None;
+                }
+                let state = self.places.settled(self.stretch, near, t)?;
+                samples[look] = self.formula.at(state, self.places).sample;
+            }
+            match turn.go_on(&samples[..turn.looks()]) {
+                Turning::On => {}
+                Turning::Settled(found) => return Some(found),
+                Turning::Lost => return None,
+            }
+        }
     }
 
     /// Whether a cell whose values are no larger than `upper` holds hardly more than the larger of its ends, which is noted then with the

@@ -100,6 +100,12 @@ impl Smooth {
         self.towers[k].map(|register| register.map_or(0.0, |register| self.registers.get(register)))
     }
 
+    /// What computes them, and where that leaves one of them with its time derivatives, by their orders.
+    pub fn into_tower(self, k: usize) -> ((Program, Registers), [Option<Register>; 4]) {
+        let tower = self.towers[k];
+        ((self.program, self.registers), tower)
+    }
+
     /// Whether a body turns too far between two states for them to tell what its sine is between.
     pub fn turns_far(&self, [a, b]: [&State; 2]) -> bool {
         let turned = |&k: &usize| {

@@ -1,0 +1,153 @@
+//! Where along its course a smooth formula has its largest value, as far as that is beyond doubt.
+//!
+//! The course is known at steps, with its slope and its second derivative. In a cell between two of them the second derivative stays near the
+//! straight line between its ends, as far as the quintic through both tells; so it is known where the slope may pass zero.
+
+use crate::math::{along, between, quintic, value_and_slopes};
+use crate::tolerances::solving::course::{AWAY, CERTAIN, ITERATIONS, MARGIN, SAFETY, STEEP};
+
+/// Value, slope and second derivative at a time.
+pub(super) type Tower = [f64; 3];
+
+/// The course of a formula of one variant.
+pub(super) struct Course<'c> {
+    /// The times of steps (s), two at least, and what the formula is there.
+    pub times: &'c [f64],
+    pub towers: &'c [Tower],
+    /// The size of the numbers that values are sums of, in units of the nearness to a singular position: what rounding of values goes by.
+    pub weight: f64,
+}
+
+/// Where an extremum is.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Place {
+    /// At the first or the last time (s).
+    End(f64),
+    /// About a time (s) between.
+    Turn(f64),
+}
+
+/// What a cell may hold.
+enum Cell {
+    /// Nothing that is larger than both its ends.
+    Nothing,
+    /// One extremum, more or less at a time (s), with a value that may be off by so much, and a second derivative.
+    Turn { t: f64, value: f64, off: f64, bend: f64 },
+    /// Values up to this one.
+    Unknown(f64),
+}
+
+/// The largest of what has been looked at.
+struct Best {
+    place: Option<Place>,
+    value: f64,
+    off: f64,
+    /// What no other one is above.
+    others: f64,
+}
+
+impl Best {
+    fn take(&mut self, value: f64, off: f64, place: Option<Place>) {
+        if value > self.value {
+            self.others = self.others.max(self.value + self.off);
+            (self.value, self.off, self.place) = (value, off, place);
+        } else {
+            self.others = self.others.max(value + off);
+        }
+    }
+}
+
+impl Course<'_> {
+    /// Where the largest value is, or the least; nothing where that is in doubt.
+    pub fn extreme(&self, largest: bool) -> Option<Place> {
+        let sign = if largest { 1.0 } else { -1.0 };
+        let values = || self.towers.iter().map(|[value, ..]| sign * value);
+        let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+        let (range, last) = (high - low, self.times.len() - 1);
+        let span = self.times[last] - self.times[0];
+        let mut best = Best { place: None, value: f64::NEG_INFINITY, off: 0.0, others: f64::NEG_INFINITY };
+        for (end, inward) in [(0, -1.0), (last, 1.0)] {
+            let [value, slope, _] = self.towers[end].map(|value| sign * value);
+            let is_steep = inward * slope * span >= STEEP * range && self.weight <= CERTAIN * range;
+            best.take(value, 0.0, is_steep.then_some(Place::End(self.times[end])));
+        }
+        for (t, ends) in self.times.windows(2).zip(self.towers.windows(2)) {
+            let ends = [ends[0], ends[1]].map(|tower| tower.map(|value| sign * value));
+            match look_into(ends, [t[0], t[1]]) {
+                Cell::Nothing => {}
+                Cell::Unknown(most) => best.take(most, 0.0, None),
+                Cell::Turn { t, value, off, bend } => {
+                    let is_within = f64::min(t - self.times[0], self.times[last] - t) >= AWAY * span;
+                    let is_certain = self.weight <= CERTAIN * f64::min(range, -bend * span * span);
+                    best.take(value, off, (is_within && is_certain).then_some(Place::Turn(t)));
+                }
+            }
+        }
+        let is_alone = best.value - best.off - best.others >= MARGIN * range;
+        let is_finite = self.towers.as_flattened().iter().all(|value| value.is_finite());
+        best.place.filter(|_| range > 0.0 && is_alone && is_finite)
+    }
+}
+
+/// What there may be between two steps, above both of them.
+fn look_into([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Cell {
+    let h = to - from;
+    let ([v, s, c], [w, r, d]) = (a, b);
+    let bend = SAFETY * ((r - s) / h - 0.5 * (c + d)).abs();
+    let bends = [c.min(d) - bend, c.max(d) + bend];
+    let slopes = between(s, r, bends, h);
+    let is_monotone = slopes[0] > 0.0 || slopes[1] < 0.0;
+    if is_monotone || bends[0] > 0.0 {
+        return Cell::Nothing;
+    }
+    let most = between(v, w, slopes, h)[1];
+    if bends[1] >= 0.0 || !most.is_finite() {
+        return Cell::Unknown(most);
+    }
+    if !(s > 0.0 && r <= 0.0) {
+        return Cell::Nothing;
+    }
+    // how far both slopes lead elsewhere than the values: the quintic between is much nearer than that
+    let off = (w - v - 0.5 * h * (s + r) - h * h / 12.0 * (c - d)).abs();
+    let curve = quintic(a, b, h);
+    let mut x = s / (s - r);
+    for _ in 0..ITERATIONS {
+        let [_, slope, bend] = value_and_slopes(&curve, x);
+        x = (x - slope / bend).clamp(0.0, 1.0);
+    }
+    let [_, _, bend] = value_and_slopes(&curve, x);
+    Cell::Turn { t: from + x * h, value: along(&curve, x), off, bend: bend / (h * h) }
+}
+
+/// Finds the second derivatives of a formula at steps from its values and slopes there: at each from the cubics of both cells beside it, of which
+/// each is off by what the fourth derivative makes of it.
+pub(super) fn find_bends(times: &[f64], towers: &mut [Tower]) {
+    let last = times.len() - 1;
+    let h = |k: usize| times[k + 1] - times[k];
+    for k in 0..=last {
+        let third = |cell: usize, towers: &[Tower]| {
+            let ([v, s, _], [w, r, _]) = (towers[cell], towers[cell + 1]);
+            (12.0 * (v - w) / h(cell) + 6.0 * (s + r)) / (h(cell) * h(cell))
+        };
+        let behind = |towers: &[Tower]| {
+            let ([v, s, _], [w, r, _]) = (towers[k], towers[k + 1]);
+            6.0 * (w - v) / (h(k) * h(k)) - (4.0 * s + 2.0 * r) / h(k)
+        };
+        let before = |towers: &[Tower]| {
+            let ([v, s, _], [w, r, _]) = (towers[k - 1], towers[k]);
+            (2.0 * s + 4.0 * r) / h(k - 1) - 6.0 * (w - v) / (h(k - 1) * h(k - 1))
+        };
+        let fourth = |cell: usize, towers: &[Tower]| {
+            2.0 * (third(cell + 1, towers) - third(cell, towers)) / (h(cell) + h(cell + 1))
+        };
+        towers[k][2] = match k {
+            _ if last < 2 => f64::NAN,
+            0 => behind(towers) + h(0) * h(0) / 12.0 * fourth(0, towers),
+            _ if k == last => before(towers) + h(k - 1) * h(k - 1) / 12.0 * fourth(k - 2, towers),
+            _ => {
+                let off = (h(k - 1) * h(k - 1) + h(k) * h(k)) / 24.0 * fourth(k - 1, towers);
+                0.5 * (before(towers) + behind(towers)) + off
+            }
+        };
+    }
+}

@@ -1,0 +1,98 @@
+//! The motion of variants that go side by side, step by step, with the course of what results ask of it.
+
+use super::asked::Asked;
+use super::course::{Tower, find_bends};
+use super::each::{Each, LANES, ZERO};
+use super::together::Together;
+use super::walk::Walk;
+use crate::math::{along, quintic};
+use crate::solver::Abreast;
+use crate::tolerances::solving::course::WAYS;
+
+/// The motion, step by step.
+#[derive(Default)]
+pub(super) struct Steps {
+    /// Their times (s).
+    pub times: Vec<f64>,
+    /// Tear by tear, at each step.
+    tears: Vec<[Each; 3]>,
+    /// SmoothFormula by quantity, at each step.
+    towers: Vec<[Each; 3]>,
+    /// By quantity: the size of the largest numbers that a value was a sum of.
+    weights: Vec<Each>,
+    /// How near to a singular position each came.
+    nearest: [f64; LANES],
+}
+
+impl Steps {
+    /// Forgets all.
+    pub fn clear(&mut self, quantities: usize) {
+        self.times.clear();
+        self.tears.clear();
+        self.towers.clear();
+        self.weights.clear();
+        self.weights.resize(quantities, ZERO);
+        self.nearest = [f64::INFINITY; LANES];
+    }
+
+    /// Takes note of where variants are.
+    pub fn take(
+        &mut self,
+        (of, asked): (&Together, &Asked),
+        walk: &Walk,
+        from: &Abreast<LANES>,
+        registers: &mut [Vec<Each>],
+    ) {
+        let way = self.times.len() as u32 % WAYS;
+        self.times.push(walk.now.t);
+        self.tears.extend(of.tears.iter().map(|&tear| walk.now.tracked[tear]));
+        for (least, near) in self.nearest.iter_mut().zip(walk.now.nearness.0) {
+            *least = least.min(near);
+        }
+        let Steps { towers, weights, .. } = self;
+        of.vectors.run(
+            #[inline(always)]
+            || {
+                for (quantity, (registers, weight)) in registers.iter_mut().zip(weights).enumerate() {
+                    let moved = asked.moved(quantity, registers, from, way);
+                    asked.look(quantity, registers, from);
+                    let tower = asked.tower(quantity, registers);
+                    for ((weight, value), moved) in weight.0.iter_mut().zip(tower[0].0).zip(moved.0) {
+                        *weight = weight.max(value.abs()).max((moved - value).abs() * asked.per_moved());
+                    }
+                    towers.push(tower);
+                }
+            },
+        );
+    }
+
+    /// Where Newton begins at a time of each (s): on the quintics of its tears.
+    pub fn write_guesses(&self, times: &[f64; LANES], guesses: &mut [Each]) {
+        let count = guesses.len();
+        for (lane, &t) in times.iter().enumerate() {
+            let step = self.before(t);
+            let (from, h) = (self.times[step], self.times[step + 1] - self.times[step]);
+            for (tear, guess) in guesses.iter_mut().enumerate() {
+                let ends = [step, step + 1].map(|step| self.tears[step * count + tear].map(|each| each.0[lane]));
+                guess.0[lane] = along(&quintic(ends[0], ends[1], h), (t - from) / h);
+            }
+        }
+    }
+
+    /// The number of the last step that is not later than a time (s), but for the last of all.
+    fn before(&self, t: f64) -> usize {
+        self.times.partition_point(|&step| step <= t).clamp(1, self.times.len() - 1) - 1
+    }
+
+    /// The course of a quantity of one variant; gives the size of the numbers that its values are sums of, in units of the nearness to a singular
+    /// position.
+    pub fn write_course(&self, quantity: usize, lane: usize, knows_bends: bool, course: &mut Vec<Tower>) -> f64 {
+        let of = |tower: &[Each; 3]| [tower[0].0[lane], tower[1].0[lane], tower[2].0[lane]];
+        course.clear();
+        course.extend(self.towers.iter().skip(quantity).step_by(self.weights.len()).map(of));
+        if !knows_bends {
+            find_bends(&self.times, course);
+        }
+        self.weights[quantity].0[lane] / self.nearest[lane]
+    }
+}

@@ -1,0 +1,205 @@
+//! The results of variants that go side by side. Their motion is gone through in steps, which tell where extrema are; an extremum that is beyond
+//! doubt is settled on a grid of times (`analysis::Settling`), and computed there as it is alone.
+
+use super::asked::{Asked, Wanted, What};
+use super::course::{Course, Place, Tower};
+use super::each::{Each, LANES, ZERO};
+use super::steps::Steps;
+use super::together::Together;
+use super::walk::{Solving, Walk};
+use crate::analysis::{MOST_LOOKS, Sampled, Settling, Turning};
+use crate::cancel::Cancel;
+use crate::solver::{Abreast, Guesses};
+use crate::tolerances::solving::course::MOST_STEPS;
+use crate::tolerances::solving::variants::{NEAREST, PART_OF_DISTANCE};
+
+/// What is found of variants.
+pub(super) struct Survey {
+    abreast: Abreast<LANES>,
+    /// By quantity: its program's registers.
+    registers: Vec<Vec<Each>>,
+    steps: Steps,
+    guesses: Vec<Each>,
+    /// What the course of a quantity is, of one variant.
+    course: Vec<Tower>,
+    /// By what is looked for, by variant: time (s) and value.
+    found: Vec<[[f64; 2]; LANES]>,
+    /// By variant: its results.
+    results: Vec<f64>,
+    /// Those that have them.
+    pub answered: [bool; LANES],
+}
+
+impl Survey {
+    /// For what results ask of a mechanism.
+    pub fn new(together: &Together, asked: &Asked) -> Survey {
+        Survey {
+            abreast: together.abreast(&asked.solver),
+            registers: (0..asked.count()).map(|quantity| asked.registers(quantity)).collect(),
+            steps: Steps::default(),
+            guesses: vec![ZERO; together.tears.len()],
+            course: Vec::new(),
+            found: vec![[[f64::NAN; 2]; LANES]; asked.wanted.len()],
+            results: vec![f64::NAN; LANES * asked.results()],
+            answered: [false; LANES],
+        }
+    }
+
+    /// The results of a variant; nothing where they are not known.
+    pub fn results(&self, variant: usize) -> Option<&[f64]> {
+        let count = self.results.len() / LANES;
+        self.answered[variant].then(|| &self.results[variant * count..(variant + 1) * count])
+    }
+
+    /// Finds the results of some variants, by the values of all their parameters (SI), as far as they are beyond doubt.
+    pub fn answer(
+        &mut self,
+        of: (&Together, &Asked),
+        walk: &mut Walk,
+        (params, those): (&[Each], [bool; LANES]),
+        cancel: &Cancel,
+    ) {
+        let (_, asked) = of;
+        self.answered = [false; LANES];
+        self.go(of, walk, (params, those));
+        let mut open = walk.goes;
+        for number in 0..asked.wanted.len() {
+            if !open.contains(&true) || cancel.is_cancelled() {
+                return;
+            }
+            self.find(of, (&walk.registers, params), number, &mut open);
+        }
+        let count = asked.results();
+        for lane in (0..LANES).filter(|&lane| open[lane]) {
+            let found: Vec<[f64; 2]> = self.found.iter().map(|each| each[lane]).collect();
+            let results = &mut self.results[lane * count..(lane + 1) * count];
+            asked.write_results(&found, (params, lane), results);
+        }
+        self.answered = open;
+    }
+
+    /// Goes through the motion.
+    fn go(&mut self, of: (&Together, &Asked), walk: &mut Walk, which: (&[Each], [bool; LANES])) {
+        let (together, asked) = of;
+        let Survey { abreast, registers, steps, .. } = self;
+        let [from, to] = asked.interval;
+        steps.clear(registers.len());
+        for (quantity, registers) in registers.iter_mut().enumerate() {
+            asked.load(quantity, registers, which.0);
+        }
+        let mut solving = Solving { solver: &asked.solver, abreast, is_exact: false };
+        walk.begin(together, which, to - from, &mut solving);
+        steps.take(of, walk, solving.abreast, registers);
+        walk.go_to(together, to, (&mut solving, true), |walk, abreast| {
+            steps.take(of, walk, abreast, registers);
+        });
+        if steps.times.len() > MOST_STEPS {
+            walk.goes = [false; LANES];
+        }
+    }
+
+    /// Finds something of those that are open, by its number; those of which it is in doubt are closed.
+    fn find(
+        &mut self,
+        of: (&Together, &Asked),
+        (loaded, params): (&[Each], &[Each]),
+        number: usize,
+        open: &mut [bool; LANES],
+    ) {
+        let (_, asked) = of;
+        let wanted = asked.wanted[number];
+        let mut turns: [Option<Settling>; LANES] = [None; LANES];
+        let mut times = [asked.interval[0]; LANES];
+        for lane in 0..LANES {
+            let place = if open[lane] { self.place(asked, wanted, params, lane) } else { None };
+            match place {
+                None => open[lane] = false,
+                Some(Place::End(t)) => times[lane] = t,
+                Some(Place::Turn(t)) => {
+                    turns[lane] =
+                        Settling::near(t, asked.interval[1] - asked.interval[0], asked.knows_bends(wanted.quantity));
+                    open[lane] = turns[lane].is_some();
+                }
+            }
+        }
+        self.settle(of, loaded, (number, times, turns), open);
+    }
+
+    /// Where something is of one variant; nothing where that is in doubt.
+    fn place(&mut self, asked: &Asked, wanted: Wanted, params: &[Each], lane: usize) -> Option<Place> {
+        let [from, to] = asked.interval;
+        match wanted.what {
+            What::First => Some(Place::End(from)),
+            What::Last => Some(Place::End(to)),
+            What::At(at) => {
+                let t = asked.value(at, params, lane);
+                (from <= t && t <= to).then_some(Place::End(t))
+            }
+            What::Extreme { largest } => {
+                let Survey { steps, course, .. } = self;
+                let weight = steps.write_course(wanted.quantity, lane, asked.knows_bends(wanted.quantity), course);
+                Course { times: &steps.times, towers: course, weight }.extreme(largest)
+            }
+        }
+    }
+
+    /// Goes on with turns until they are settled, and computes what is looked for, by its number, there; that of the others at their times (s).
+    fn settle(
+        &mut self,
+        of: (&Together, &Asked),
+        loaded: &[Each],
+        (number, mut times, mut turns): (usize, [f64; LANES], [Option<Settling>; LANES]),
+        open: &mut [bool; LANES],
+    ) {
+        let quantity = of.1.wanted[number].quantity;
+        let mut is_left = *open;
+        while is_left.contains(&true) {
+            let looks = turns.iter().flatten().map(Settling::looks).max().unwrap_or(1);
+            let mut samples = [[Sampled::NOTHING; MOST_LOOKS]; LANES];
+            for look in 0..looks {
+                for (t, turn) in times.iter_mut().zip(&turns) {
+                    *t = turn.map_or(*t, |turn| turn.time(look));
+                }
+                self.solve(of, loaded, &times, open);
+                of.1.look(quantity, &mut self.registers[quantity], &self.abreast);
+                for (lane, samples) in samples.iter_mut().enumerate() {
+                    samples[look] = of.1.sample(quantity, &self.registers[quantity], lane);
+                }
+            }
+            for lane in 0..LANES {
+                is_left[lane] &= open[lane];
+                let turning = match &mut turns[lane] {
+                    _ if !is_left[lane] => continue,
+                    Some(turn) => turn.go_on(&samples[lane][..looks]),
+                    None => Turning::Settled([times[lane], samples[lane][0].value]),
+                };
+                match turning {
+                    Turning::On => {}
+                    Turning::Settled(found) => (self.found[number][lane], is_left[lane]) = (found, false),
+                    Turning::Lost => (open[lane], is_left[lane]) = (false, false),
+                }
+            }
+        }
+    }
+
+    /// Solves at a time of each (s), between its steps; those of which that is in doubt are closed.
+    fn solve(
+        &mut self,
+        (of, asked): (&Together, &Asked),
+        loaded: &[Each],
+        times: &[f64; LANES],
+        open: &mut [bool; LANES],
+    ) {
+        let Survey { abreast, steps, guesses, .. } = self;
+        steps.write_guesses(times, guesses);
+        let guesses = Guesses { times: *times, tears: guesses, loaded, bounds: &of.bounds[1], nearly: 0.0 };
+        abreast.run(&asked.solver, (&of.program, &of.scalars), &guesses);
+        let mut doubts = [0.0; LANES];
+        abreast.write_doubts(&mut doubts);
+        for (lane, open) in open.iter_mut().enumerate() {
+            // between its steps a variant is far from singular positions
+            let is_near = abreast.first_corrections()[lane] <= PART_OF_DISTANCE * NEAREST;
+            *open &= doubts[lane] == 0.0 && is_near;
+        }
+    }
+}
