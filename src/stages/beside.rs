@@ -6,7 +6,7 @@ use super::options::RunOptions;
 use super::over::FromOwn;
 use crate::analysis::Times;
 use crate::program::LaneValues;
-use crate::sweep::{Each, LANES, Team, Together};
+use crate::sweep::{Each, LANES, Team, Together, WantedOfEach};
 use std::array::from_fn;
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
@@ -69,7 +69,8 @@ impl Beside {
                 return None;
             }
             let all: Vec<usize> = (0..columns).collect();
-            let together = from_own.together(&self.led, (times, &all), options).map(Arc::new);
+            let wanted = WantedOfEach { rows: (times, Some(&all)), results: false };
+            let together = from_own.together(&self.led, &wanted, options).map(Arc::new);
             // what was given up says nothing
             if options.cancel.is_cancelled() {
                 return None;
