@@ -1,10 +1,10 @@
 //! Places of a mechanism that are looked at side by side, a lane for each: its inputs and params differ, and the time is the same. As in a sweep
 //! (`abreast.rs`), what is in doubt is left to the careful way.
 
-use super::adjustable::{Aim, Aimed};
 use super::options::RunOptions;
 use super::over::FromOwn;
 use crate::analysis::Times;
+use crate::diag::Diagnostic;
 use crate::program::LaneValues;
 use crate::sweep::{Each, LANES, Team, Together, WantedOfEach};
 use std::array::from_fn;
@@ -12,6 +12,15 @@ use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
 /// So many at a time that nobody has asked for before are worth what it takes to lay it out.
 const MANY: usize = LANES / 2;
+
+/// What is asked for, in values of all params of the model (SI).
+pub(super) struct Aim {
+    pub values: Vec<f64>,
+    pub times: Times,
+}
+
+/// What is asked for, or why that cannot be.
+pub(super) type Aimed = Result<Aim, Box<Diagnostic>>;
 
 /// What such places share.
 pub(super) struct Beside {
