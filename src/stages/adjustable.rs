@@ -1,7 +1,7 @@
 //! A mechanism that is compiled once for all values of some of its inputs and params: for who asks again and again, as an optimiser or a
 //! controller does. What it gives depends on what it is asked alone, not on what it was asked before.
 
-use super::beside::Beside;
+use super::beside::{Aim, Aimed, Beside};
 use super::over::{FromOwn, Reached};
 use super::varied::unusable;
 use super::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Variants};
@@ -100,15 +100,6 @@ struct Shared {
     /// What places share that are looked at side by side.
     beside: Beside,
 }
-
-/// What is asked for, in values of all params of the model (SI).
-pub(super) struct Aim {
-    pub values: Vec<f64>,
-    pub times: Times,
-}
-
-/// What is asked for, or why that cannot be.
-pub(super) type Aimed = Result<Aim, Box<Diagnostic>>;
 
 /// What the last params lead to, if that was asked for just before: these, and the values of all.
 type Before = Option<(Vec<f64>, Values)>;

@@ -1,14 +1,23 @@
 //! Places of a mechanism that are looked at side by side, a lane for each: its inputs and params differ, and the time is the same. As in a sweep
 //! (`abreast.rs`), what is in doubt is left to the careful way.
 
-use super::adjustable::{Aim, Aimed};
 use super::options::RunOptions;
 use super::over::FromOwn;
 use crate::analysis::Times;
+use crate::diag::Diagnostic;
 use crate::program::LaneValues;
 use crate::sweep::{Each, LANES, Team, Together};
 use std::array::from_fn;
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+
+/// What is asked for, in values of all params of the model (SI).
+pub(super) struct Aim {
+    pub values: Vec<f64>,
+    pub times: Times,
+}
+
+/// What is asked for, or why that cannot be.
+pub(super) type Aimed = Result<Aim, Box<Diagnostic>>;
 
 /// So many at a time that nobody has asked for before are worth what it takes to lay it out.
 const MANY: usize = LANES / 2;
