@@ -26,6 +26,8 @@ const AT_ONCE: usize = 32;
 #[derive(Clone, PartialEq, Default)]
 pub struct Kind {
     inputs: Vec<String>,
+    /// Whether accelerations of inputs are told.
+    bend: bool,
     params: Vec<String>,
     by: Vec<String>,
     reactions: bool,
@@ -82,8 +84,8 @@ impl Known {
 impl Kind {
     /// Whether nothing is asked for but where inputs lead.
     fn is_plain(&self) -> bool {
-        let Kind { params, by, reactions, tolerance, pass_bifurcations, .. } = self;
-        params.is_empty() && by.is_empty() && !reactions && tolerance.is_none() && !pass_bifurcations
+        let Kind { bend, params, by, reactions, tolerance, pass_bifurcations, .. } = self;
+        !bend && params.is_empty() && by.is_empty() && !reactions && tolerance.is_none() && !pass_bifurcations
     }
 }
 
@@ -99,6 +101,7 @@ impl Compiled {
         let usual = Adjusting::default();
         let adjusting = Adjusting {
             inputs: kind.inputs.clone(),
+            bend: kind.bend,
             params: kind.params.clone(),
             redundant: stages.redundant,
             tolerance: kind.tolerance.map_or(usual.tolerance, f64::from_bits),

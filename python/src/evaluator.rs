@@ -2,6 +2,7 @@
 
 use crate::errors::Said;
 use crate::mechanism::Stages;
+use crate::memory::{self, Of};
 use crate::run::Asked;
 use crate::waiting::interruptible;
 use mechc::{Adjustable, Adjusting, Answers, AskedTimes, Cancel, ColumnUnit, RunOptions};
@@ -29,7 +30,9 @@ impl Evaluator {
     /// Of a mechanism whose params of some names are arguments.
     pub fn of(py: Python<'_>, stages: Arc<Stages>, asked: Asked, params: Vec<String>) -> PyResult<Evaluator> {
         let made = interruptible(py, move |cancel| Function::of(&stages, &asked, params, cancel))?;
-        made.map(|function| Evaluator(Arc::new(function))).map_err(|said| said.raised(py))
+        let function = made.map_err(|said| said.raised(py))?;
+        memory::refuse_beyond(py, (function.rows(), function.wanted.len()), Of::Run)?;
+        Ok(Evaluator(Arc::new(function)))
     }
 }
 
@@ -38,7 +41,7 @@ impl Function {
         let ((checked, _), _) = asked.stages(stages, cancel)?;
         let RunOptions { tolerance, pass_bifurcations, .. } = asked.options(cancel);
         let (count, inputs, redundant) = (params.len(), Vec::new(), asked.redundant(stages));
-        let adjusting = Adjusting { inputs, params, redundant, tolerance, pass_bifurcations };
+        let adjusting = Adjusting { inputs, bend: false, params, redundant, tolerance, pass_bifurcations };
         let adjustable = checked.adjustable(&adjusting, cancel).map_err(|(sources, said)| Said::of(&said, &sources))?;
         let compiled = adjustable.compiled();
         let mut sources = compiled.sources().clone();
@@ -48,6 +51,12 @@ impl Function {
         let all = compiled.units();
         let units = wanted.iter().map(|&k| all[k].clone()).collect();
         Ok(Function { adjustable, params: count, times, wanted, units })
+    }
+
+    /// How many rows there are for its own params; none where that cannot be said, which is told when it is evaluated.
+    fn rows(&self) -> u64 {
+        let times = self.times.over(self.adjustable.compiled().analysis()).and_then(|times| times.times());
+        times.map_or(0, |times| times.len())
     }
 
     /// Results, and the wanted columns of all rows, row by row.

@@ -243,7 +243,8 @@ impl Mechanism {
     ///
     /// Each element starts from the assembled start, so that neither order nor company change a bit: with inputs it is what
     /// `mechc run --input 'theta=0.3 rad' --at 0` gives. Where one does not get there an error is raised, with the answer as
-    /// `partial`; with `strict=False` its values are `nan`, and `x.status` says why.
+    /// `partial` and its index as `element`; with `strict=False` its values are `nan`, and `x.status` says why. A sweep, and `run`, assemble
+    /// where no way leads from the text's estimates instead (`reassembled`).
     #[pyo3(
         signature = (t=None, *, set=None, inputs=None, rates=None, accelerations=None, by=None, reactions=None, tolerance=None,
                      pass_bifurcations=None, strict=None, **values),

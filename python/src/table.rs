@@ -55,11 +55,11 @@ impl Values {
         }
     }
 
-    /// As Arrow has them: what is no number has no value there.
-    fn array(&self) -> ArrayRef {
+    /// As Arrow has them: what is no number has no value there. It is looked for where it is not known that there is none.
+    fn array(&self, may_have_gaps: bool) -> ArrayRef {
         match self {
             Values::Numbers(values) => {
-                let nulls = if values.iter().all(|value| value.is_finite()) {
+                let nulls = if !may_have_gaps || values.iter().all(|value| value.is_finite()) {
                     None
                 } else {
                     Some(values.iter().map(|value| value.is_finite()).collect::<NullBuffer>())
@@ -90,9 +90,10 @@ pub fn schema(heads: &[Head]) -> SchemaRef {
     Arc::new(Schema::new(heads.iter().map(field).collect::<Vec<_>>()))
 }
 
-/// Rows as a batch of Arrow.
-pub fn batch(schema: &SchemaRef, columns: &[Values]) -> Result<RecordBatch, arrow_schema::ArrowError> {
-    RecordBatch::try_new(Arc::clone(schema), columns.iter().map(Values::array).collect())
+/// Rows as a batch of Arrow, with columns in some of which numbers may be missing.
+pub fn batch(schema: &SchemaRef, columns: &[Values], gaps: &[bool]) -> Result<RecordBatch, arrow_schema::ArrowError> {
+    let arrays = columns.iter().zip(gaps).map(|(values, &may_have_gaps)| values.array(may_have_gaps));
+    RecordBatch::try_new(Arc::clone(schema), arrays.collect())
 }
 
 /// A column as numpy takes it, without a copy: `numpy.asarray(column)`; it cannot be written to.
@@ -208,7 +209,7 @@ impl Table {
         // who asks for another schema gets this one, as the interface allows
         let _ = requested_schema;
         let schema = schema(&self.heads);
-        let batch = batch(&schema, &self.columns).map_err(stream::failed)?;
+        let batch = batch(&schema, &self.columns, &vec![true; self.columns.len()]).map_err(stream::failed)?;
         stream::capsule(py, Box::new(RecordBatchIterator::new([Ok(batch)], schema)))
     }
 }

@@ -37,6 +37,11 @@ def test_a_run_beyond_memory(crank):
         crank.run(to=1000, every=1e-9)
 
 
+def test_a_function_beyond_memory(crank):
+    with pytest.raises(mechc.TooLarge, match="of 1 columns take .* TB"):
+        crank.objective("top", by=["rod_length"], results=TOP, to=1000, every=1e-10)
+
+
 def test_variants_whose_rows_alone_are_beyond_memory(crank):
     sweep = crank.sweep({"rod_length": [0.15]}, rows=True, to=1000, every=1e-9)
     with pytest.raises(mechc.TooLarge, match="side by side"):

@@ -16,7 +16,7 @@ TYPED = {node.name: node for node in STUB.body if isinstance(node, ast.ClassDef)
 FUNCTIONS = {node.name: node for node in STUB.body if isinstance(node, ast.FunctionDef)}
 
 #: What Python itself gives every class.
-OF_ALL = set(dir(object)) | {"__module__", "__doc__"}
+OF_ALL = set(dir(object)) | {"__module__", "__doc__", "__slotnames__"}
 
 
 def members(kind):

@@ -18,6 +18,8 @@ use std::sync::Arc;
 pub struct Adjusting {
     /// Inputs, by their names.
     pub inputs: Vec<String>,
+    /// Whether inputs may have accelerations; else they have none, whatever is asked, and places may be looked at side by side.
+    pub bend: bool,
     /// Params, by their names.
     pub params: Vec<String>,
     /// What becomes of equations that follow from others.
@@ -31,8 +33,8 @@ pub struct Adjusting {
 impl Default for Adjusting {
     fn default() -> Adjusting {
         let RunOptions { tolerance, pass_bifurcations, .. } = RunOptions::default();
-        let (inputs, params, redundant) = Default::default();
-        Adjusting { inputs, params, redundant, tolerance, pass_bifurcations }
+        let (inputs, bend, params, redundant) = Default::default();
+        Adjusting { inputs, bend, params, redundant, tolerance, pass_bifurcations }
     }
 }
 
@@ -110,7 +112,8 @@ impl Checked {
     pub fn adjustable(&self, adjusting: &Adjusting, cancel: &Cancel) -> Result<Adjustable, (Sources, Diagnostics)> {
         let own = |why: Diagnostic| (self.sources().clone(), Diagnostics::from(why));
         let t = self.model().and_then(|model| model.analysis).map_or(0.0, |analysis| analysis.from);
-        let (set_inputs, open) = (SetInputs { t, names: adjusting.inputs.clone() }, adjusting.params.clone());
+        let set_inputs = SetInputs { t, names: adjusting.inputs.clone(), bend: adjusting.bend };
+        let open = adjusting.params.clone();
         let surroundings = Surroundings { set_inputs: Some(set_inputs), open, ..(*self.surroundings).clone() };
         let Some(number) = self.number else { return Err((self.sources().clone(), self.diagnostics().clone())) };
         let checked =
@@ -146,17 +149,8 @@ impl Checked {
         let (led, redundant) = (checked.clone(), adjusting.redundant);
         let from_own = FromOwn::new(move |options| led.stands(redundant, options));
         let (adjusting, columns) = (adjusting.clone(), compiled.columns().len());
-        Ok(Adjustable(Arc::new(Shared {
-            checked,
-            compiled,
-            from_own,
-            own,
-            inputs,
-            params,
-            adjusting,
-            columns,
-            beside,
-        })))
+        let shared = Shared { checked, compiled, from_own, own, inputs, params, adjusting, columns, beside };
+        Ok(Adjustable(Arc::new(shared)))
     }
 
     /// The params of some names, each of which takes a number in SI.
@@ -249,7 +243,9 @@ impl Shared {
     /// What inputs make of values, set at the first of some times.
     fn aim(&self, mut values: Vec<f64>, times: Times, inputs: &[InputMotion]) -> Aim {
         for (&first, &InputMotion { value, rate, acceleration }) in self.inputs.iter().zip(inputs) {
-            values[first..first + 4].copy_from_slice(&[value, times.from(), rate, acceleration]);
+            let of_input = [value, times.from(), rate, acceleration];
+            let count = if self.adjusting.bend { 4 } else { 3 };
+            values[first..first + count].copy_from_slice(&of_input[..count]);
         }
         Aim { values, times }
     }

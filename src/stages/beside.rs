@@ -10,6 +10,15 @@ use crate::sweep::{Each, LANES, Team, Together, WantedOfEach};
 use std::array::from_fn;
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
+/// What is asked for, in values of all params of the model (SI).
+pub(super) struct Aim {
+    pub values: Vec<f64>,
+    pub times: Times,
+}
+
+/// What is asked for, or why that cannot be.
+pub(super) type Aimed = Result<Aim, Box<Diagnostic>>;
+
 /// So many at a time that nobody has asked for before are worth what it takes to lay it out.
 const MANY: usize = LANES / 2;
 

@@ -99,20 +99,8 @@ pub fn at<'py>(
     mechanism.warn_of_options(py, options.given().collect())?;
     let (read_options, t) = (options.read(py)?, options.0[0].as_ref());
     let [inputs, params] = named(py, mechanism, &read_options, values)?;
-    let mut all: Vec<Value<'py>> = Vec::with_capacity(1 + 3 * inputs.len() + params.len());
-    all.push(t.map_or(Ok(Value::One(0.0)), |t| read(py, "t", t, "s"))?);
-    let mut names = Vec::with_capacity(inputs.len());
-    for (name, value) in inputs {
-        all.push(value);
-        for (motion, order) in [(&read_options.rates, 1), (&read_options.accelerations, 2)] {
-            all.push(match motion.as_ref().map(|of| of.get_item(&name)).transpose()?.flatten() {
-                None => Value::One(0.0),
-                Some(value) => read(py, &name, &value, &mechanism.unit_of_rate(&name, order))?,
-            });
-        }
-        names.push(name);
-    }
-    refuse_rates_of_others(py, &read_options, &names)?;
+    let mut all = vec![t.map_or(Ok(Value::One(0.0)), |t| read(py, "t", t, "s"))?];
+    let names = add_motions(py, mechanism, &read_options, inputs, &mut all)?;
     let (param_names, values): (Vec<String>, Vec<Value<'py>>) = params.into_iter().unzip();
     all.extend(values);
     let (shape, laid_out) = laid_out(py, all)?;
@@ -125,6 +113,7 @@ pub fn at<'py>(
         params: param_names.iter().map(|_| next()).collect(),
         kind: Kind {
             inputs: names,
+            bend: read_options.accelerations.is_some(),
             params: param_names,
             by: read_options.by,
             reactions: read_options.reactions,
@@ -135,6 +124,29 @@ pub fn at<'py>(
     };
     let compiled = question.compiled(py, mechanism)?;
     question.answer(py, compiled)
+}
+
+/// Adds inputs with their rates and accelerations, and gives their names.
+fn add_motions<'py>(
+    py: Python<'py>,
+    mechanism: &Mechanism,
+    options: &Read<'py>,
+    inputs: Vec<(String, Value<'py>)>,
+    all: &mut Vec<Value<'py>>,
+) -> PyResult<Vec<String>> {
+    let mut names = Vec::with_capacity(inputs.len());
+    for (name, value) in inputs {
+        all.push(value);
+        for (motion, order) in [(&options.rates, 1), (&options.accelerations, 2)] {
+            all.push(match motion.as_ref().map(|of| of.get_item(&name)).transpose()?.flatten() {
+                None => Value::One(0.0),
+                Some(value) => read(py, &name, &value, &mechanism.unit_of_rate(&name, order))?,
+            });
+        }
+        names.push(name);
+    }
+    refuse_rates_of_others(py, options, &names)?;
+    Ok(names)
 }
 
 /// Inputs and params that are given, in the order of their names.

@@ -11,8 +11,8 @@ use std::collections::TryReserveError;
 pub struct Block {
     pub first: u64,
     pub statuses: Vec<Status>,
-    /// The columns of the table.
-    pub columns: Vec<SweptColumn>,
+    /// The columns of the table, each with whether a number of it is missing.
+    pub columns: Vec<(SweptColumn, bool)>,
     pub rows: usize,
 }
 
@@ -21,13 +21,21 @@ impl Block {
     pub fn of(swept: Swept, units: Option<&[ColumnUnit]>) -> Block {
         let (first, statuses) = (swept.first, swept.statuses.clone());
         let rows = if units.is_some() { swept.lengths.iter().sum() } else { swept.len() };
-        Block { first, statuses, columns: swept.tabulated(units), rows }
+        // on the threads that compute, where the numbers are at hand
+        let columns = swept.tabulated(units).into_iter().map(|column| {
+            let has_gaps =
+                matches!(&column, SweptColumn::Numbers(values) if !values.iter().all(|value| value.is_finite()));
+            (column, has_gaps)
+        });
+        Block { first, statuses, columns: columns.collect(), rows }
     }
 }
 
 /// Blocks that are put together.
 pub struct Gathered {
     columns: Vec<Gathering>,
+    /// By column: whether a number of it is missing.
+    pub gaps: Vec<bool>,
     pub rows: usize,
 }
 
@@ -60,7 +68,7 @@ impl Gathered {
             Kind::Whole => Gathering::Whole(Vec::new()),
             Kind::Words => Gathering::Words(Words::default()),
         });
-        Gathered { columns: columns.collect(), rows: 0 }
+        Gathered { columns: columns.collect(), gaps: vec![false; whole.heads.len()], rows: 0 }
     }
 
     /// Makes room for so many rows.
@@ -79,7 +87,8 @@ impl Gathered {
     /// Adds a block behind the others.
     pub fn add(&mut self, block: Block) -> Result<(), Full> {
         self.rows += block.rows;
-        for (into, column) in self.columns.iter_mut().zip(block.columns) {
+        for ((into, gaps), (column, has_gaps)) in self.columns.iter_mut().zip(&mut self.gaps).zip(block.columns) {
+            *gaps |= has_gaps;
             match (into, column) {
                 (Gathering::Real(into), SweptColumn::Numbers(values)) => append(into, values)?,
                 (Gathering::Whole(into), SweptColumn::Whole(values)) => append(into, values)?,

@@ -19,9 +19,10 @@ use std::sync::{Arc, Mutex, PoisonError, TryLockError};
 use std::thread::{self, JoinHandle, ThreadId};
 use std::time::{Duration, Instant};
 
-/// A batch has at least so many rows, or numbers, if that many come; few large batches are read faster than many small ones.
+/// A batch has at least so many rows, or numbers, if that many come: few large batches are read faster than many small ones, and a block that is
+/// large by itself needs no copy.
 const ROWS: usize = 1 << 16;
-const NUMBERS: usize = 1 << 20;
+const NUMBERS: usize = 1 << 17;
 
 /// Who waits for another one that reads looks again after this.
 const TURN: Duration = Duration::from_millis(1);
@@ -234,7 +235,8 @@ impl Reader {
         if gathered.rows == 0 {
             return None;
         }
-        let made = batch(&self.source.whole.schema, &gathered.values());
+        let gaps = std::mem::take(&mut gathered.gaps);
+        let made = batch(&self.source.whole.schema, &gathered.values(), &gaps);
         Some(made.map_err(|why| PyRuntimeError::new_err(why.to_string())))
     }
 }
