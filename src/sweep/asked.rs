@@ -1,13 +1,15 @@
 //! What results ask of variants that go side by side.
 
-use super::each::{Each, LANES};
+use super::each::{Each, LANES, ZERO};
 use crate::analysis::{Sampled, SmoothFormula, SmoothFormulas, Started, Times, moved};
 use crate::expr::ExprId;
 use crate::ir::{ConstraintSystem, ReductionKind};
+use crate::math::Vectors;
 use crate::program::{LaneMachine, LaneValues, Op, Register};
 use crate::solver::{Abreast, Solver};
 use crate::structure::Determined;
 use crate::tolerances::results::formulas::MOVED;
+use std::array::from_fn;
 use std::sync::Arc;
 
 /// What results ask.
@@ -24,6 +26,7 @@ pub(super) struct Asked {
     reductions: Vec<(usize, bool)>,
     /// The first and the last time (s).
     pub interval: [f64; 2],
+    vectors: Vectors,
 }
 
 /// Something that is looked for along the motion.
@@ -54,7 +57,7 @@ impl Asked {
         determined: &Arc<Determined>,
         started: &mut Started,
         times: &Times,
-        is_kept: &dyn Fn(u32) -> bool,
+        (is_kept, vectors): (&dyn Fn(u32) -> bool, Vectors),
     ) -> Option<Asked> {
         let interval = times.interval().filter(|[from, to]| from < to)?;
         let quantities = SmoothFormulas::of(determined.system())?;
@@ -81,7 +84,16 @@ impl Asked {
                 wanted.push(this);
             }
         }
-        Some(Asked { solver, determined: Arc::clone(determined), quantities, columns, wanted, reductions, interval })
+        Some(Asked {
+            solver,
+            determined: Arc::clone(determined),
+            quantities,
+            columns,
+            wanted,
+            reductions,
+            interval,
+            vectors,
+        })
     }
 
     fn system(&self) -> &ConstraintSystem {
@@ -131,42 +143,50 @@ impl Asked {
         let quantity = &self.quantities.each()[quantity];
         let first = quantity.program().0.inputs.params as usize;
         registers[first..first + params.len()].copy_from_slice(params);
-        run(quantity, quantity.operations()[0], registers);
+        self.run(quantity, quantity.operations()[0], registers);
     }
 
     /// Computes a quantity from the coordinates that were solved for.
-    #[inline(always)]
-    #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
     pub fn look(&self, number: usize, registers: &mut [Each], from: &Abreast<LANES>) {
         let quantity = &self.quantities.each()[number];
         for (&(register, ..), &column) in quantity.inputs().iter().zip(&self.columns[number]) {
             registers[register as usize] = *from.column(column);
         }
-        run(quantity, quantity.operations()[1], registers);
+        self.run(quantity, quantity.operations()[1], registers);
     }
 
-    /// The value of a quantity that was looked at, where all coordinates are moved a little in one of some ways.
-    pub fn moved(&self, number: usize, registers: &mut [Each], from: &Abreast<LANES>, way: u32) -> Each {
+    /// The size of the numbers that a value of a quantity is a sum of: by moving all coordinates a little, in one of some ways.
+    pub fn weight(
+        &self,
+        (number, value): (usize, &Each),
+        registers: &mut [Each],
+        from: &Abreast<LANES>,
+        way: usize,
+    ) -> Each {
         let quantity = &self.quantities.each()[number];
         for (&(register, k, _), &column) in quantity.inputs().iter().zip(&self.columns[number]) {
-            let factor = moved(k as usize, way);
+            let factor = moved(k as usize, way as u32);
             registers[register as usize].0 = from.column(column).0.map(|value| value * factor);
         }
-        run(quantity, quantity.operations()[1], registers);
-        registers[quantity.roots()[0] as usize]
+        self.run(quantity, quantity.operations()[1], registers);
+        let there = &registers[quantity.roots()[0] as usize];
+        LaneValues(from_fn(|lane| (there.0[lane] - value.0[lane]).abs() / MOVED))
     }
 
-    /// How much of a change that makes the size of the numbers that the value is a sum of.
-    pub fn per_moved(&self) -> f64 {
-        1.0 / MOVED
+    /// Runs operations of a quantity.
+    fn run(&self, quantity: &SmoothFormula, operations: &[Op], registers: &mut [Each]) {
+        let (program, scalars) = quantity.program();
+        let mut machine = LaneMachine { v: registers, program, scalars };
+        self.vectors.run(
+            #[inline(always)]
+            || operations.iter().for_each(|op| op.run(&mut machine)),
+        );
     }
 
     /// Value and derivatives of a quantity that was looked at; 0 where the second one is not known.
-    #[inline(always)]
-    #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
     pub fn tower(&self, quantity: usize, registers: &[Each]) -> [Each; 3] {
         let roots = self.quantities.each()[quantity].roots();
-        [0, 1, 2].map(|order| roots.get(order).map_or(super::each::ZERO, |&root| registers[root as usize]))
+        [0, 1, 2].map(|order| roots.get(order).map_or(ZERO, |&root| registers[root as usize]))
     }
 
     /// The same of one variant, as turns are settled by it.
@@ -175,13 +195,4 @@ impl Asked {
         let value = |order: usize| roots.get(order).map_or(f64::NAN, |&root| registers[root as usize].0[lane]);
         Sampled { value: value(0), first: value(1), second: value(2) }
     }
-}
-
-/// Runs operations of a quantity.
-#[inline(always)]
-#[allow(clippy::inline_always)] // it is compiled for several kinds of processors
-fn run(quantity: &SmoothFormula, operations: &[Op], registers: &mut [Each]) {
-    let (program, scalars) = quantity.program();
-    let mut machine = LaneMachine { v: registers, program, scalars };
-    operations.iter().for_each(|op| op.run(&mut machine));
 }

@@ -7,7 +7,7 @@ use super::together::Together;
 use super::walk::Walk;
 use crate::math::{along, quintic};
 use crate::solver::Abreast;
-use crate::tolerances::solving::course::WAYS;
+use crate::tolerances::solving::course::{EVERY, WAYS};
 
 /// The motion, step by step.
 #[derive(Default)]
@@ -16,9 +16,9 @@ pub(super) struct Steps {
     pub times: Vec<f64>,
     /// Tear by tear, at each step.
     tears: Vec<[Each; 3]>,
-    /// SmoothFormula by quantity, at each step.
+    /// Formula by formula, at each step.
     towers: Vec<[Each; 3]>,
-    /// By quantity: the size of the largest numbers that a value was a sum of.
+    /// By formula: the size of the largest numbers that a value was a sum of.
     weights: Vec<Each>,
     /// How near to a singular position each came.
     nearest: [f64; LANES],
@@ -43,27 +43,23 @@ impl Steps {
         from: &Abreast<LANES>,
         registers: &mut [Vec<Each>],
     ) {
-        let way = self.times.len() as u32 % WAYS;
+        let number = self.times.len();
         self.times.push(walk.now.t);
         self.tears.extend(of.tears.iter().map(|&tear| walk.now.tracked[tear]));
         for (least, near) in self.nearest.iter_mut().zip(walk.now.nearness.0) {
             *least = least.min(near);
         }
-        let Steps { towers, weights, .. } = self;
-        of.vectors.run(
-            #[inline(always)]
-            || {
-                for (quantity, (registers, weight)) in registers.iter_mut().zip(weights).enumerate() {
-                    let moved = asked.moved(quantity, registers, from, way);
-                    asked.look(quantity, registers, from);
-                    let tower = asked.tower(quantity, registers);
-                    for ((weight, value), moved) in weight.0.iter_mut().zip(tower[0].0).zip(moved.0) {
-                        *weight = weight.max(value.abs()).max((moved - value).abs() * asked.per_moved());
-                    }
-                    towers.push(tower);
-                }
-            },
-        );
+        for (quantity, registers) in registers.iter_mut().enumerate() {
+            asked.look(quantity, registers, from);
+            let tower = asked.tower(quantity, registers);
+            let weight = &mut self.weights[quantity].0;
+            weight.iter_mut().zip(tower[0].0).for_each(|(weight, value)| *weight = weight.max(value.abs()));
+            if number.is_multiple_of(EVERY) {
+                let more = asked.weight((quantity, &tower[0]), registers, from, number / EVERY % WAYS);
+                weight.iter_mut().zip(more.0).for_each(|(weight, more)| *weight = weight.max(more));
+            }
+            self.towers.push(tower);
+        }
     }
 
     /// Where Newton begins at a time of each (s): on the quintics of its tears.

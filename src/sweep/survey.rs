@@ -1,6 +1,9 @@
 //! The results of variants that go side by side. Their motion is gone through in steps, which tell where extrema are; an extremum that is beyond
 //! doubt is settled on a grid of times (`analysis::Settling`), and computed there as it is alone.
 
+// what is done in every lane reads best with the lane's number
+#![allow(clippy::needless_range_loop)]
+
 use super::asked::{Asked, Wanted, What};
 use super::course::{Course, Place, Tower};
 use super::each::{Each, LANES, ZERO};
@@ -28,6 +31,23 @@ pub(super) struct Survey {
     results: Vec<f64>,
     /// Those that have them.
     pub answered: [bool; LANES],
+}
+
+/// Something that is looked for, by its number, on its way to where it is.
+struct Looking {
+    number: usize,
+    /// By variant: the time that is looked at (s).
+    times: [f64; LANES],
+    /// By variant: the turn that it is, if it is one.
+    turns: [Option<Settling>; LANES],
+}
+
+impl Looking {
+    /// Goes on with a variant, by what the formula is at its time, or at the times of its turn.
+    fn go_on(&mut self, lane: usize, samples: &[Sampled]) -> Turning {
+        let at = Turning::Settled([self.times[lane], samples[0].value]);
+        self.turns[lane].as_mut().map_or(at, |turn| turn.go_on(samples))
+    }
 }
 
 impl Survey {
@@ -107,22 +127,20 @@ impl Survey {
         open: &mut [bool; LANES],
     ) {
         let (_, asked) = of;
-        let wanted = asked.wanted[number];
-        let mut turns: [Option<Settling>; LANES] = [None; LANES];
-        let mut times = [asked.interval[0]; LANES];
+        let (wanted, [from, to]) = (asked.wanted[number], asked.interval);
+        let mut looking = Looking { number, times: [from; LANES], turns: [None; LANES] };
         for lane in 0..LANES {
             let place = if open[lane] { self.place(asked, wanted, params, lane) } else { None };
             match place {
                 None => open[lane] = false,
-                Some(Place::End(t)) => times[lane] = t,
+                Some(Place::End(t)) => looking.times[lane] = t,
                 Some(Place::Turn(t)) => {
-                    turns[lane] =
-                        Settling::near(t, asked.interval[1] - asked.interval[0], asked.knows_bends(wanted.quantity));
-                    open[lane] = turns[lane].is_some();
+                    looking.turns[lane] = Settling::near(t, to - from, asked.knows_bends(wanted.quantity));
+                    open[lane] = looking.turns[lane].is_some();
                 }
             }
         }
-        self.settle(of, loaded, (number, times, turns), open);
+        self.settle(of, loaded, looking, open);
     }
 
     /// Where something is of one variant; nothing where that is in doubt.
@@ -143,24 +161,18 @@ impl Survey {
         }
     }
 
-    /// Goes on with turns until they are settled, and computes what is looked for, by its number, there; that of the others at their times (s).
-    fn settle(
-        &mut self,
-        of: (&Together, &Asked),
-        loaded: &[Each],
-        (number, mut times, mut turns): (usize, [f64; LANES], [Option<Settling>; LANES]),
-        open: &mut [bool; LANES],
-    ) {
-        let quantity = of.1.wanted[number].quantity;
+    /// Goes on with turns until they are settled, and computes what is looked for there, and at the times of the others.
+    fn settle(&mut self, of: (&Together, &Asked), loaded: &[Each], mut looking: Looking, open: &mut [bool; LANES]) {
+        let quantity = of.1.wanted[looking.number].quantity;
         let mut is_left = *open;
         while is_left.contains(&true) {
-            let looks = turns.iter().flatten().map(Settling::looks).max().unwrap_or(1);
+            let looks = looking.turns.iter().flatten().map(Settling::looks).max().unwrap_or(1);
             let mut samples = [[Sampled::NOTHING; MOST_LOOKS]; LANES];
             for look in 0..looks {
-                for (t, turn) in times.iter_mut().zip(&turns) {
+                for (t, turn) in looking.times.iter_mut().zip(&looking.turns) {
                     *t = turn.map_or(*t, |turn| turn.time(look));
                 }
-                self.solve(of, loaded, &times, open);
+                self.solve(of, loaded, &looking.times, open);
                 of.1.look(quantity, &mut self.registers[quantity], &self.abreast);
                 for (lane, samples) in samples.iter_mut().enumerate() {
                     samples[look] = of.1.sample(quantity, &self.registers[quantity], lane);
@@ -168,15 +180,15 @@ impl Survey {
             }
             for lane in 0..LANES {
                 is_left[lane] &= open[lane];
-                let turning = match &mut turns[lane] {
-                    _ if !is_left[lane] => continue,
-                    Some(turn) => turn.go_on(&samples[lane][..looks]),
-                    None => Turning::Settled([times[lane], samples[lane][0].value]),
-                };
-                match turning {
-                    Turning::On => {}
-                    Turning::Settled(found) => (self.found[number][lane], is_left[lane]) = (found, false),
-                    Turning::Lost => (open[lane], is_left[lane]) = (false, false),
+                if is_left[lane] {
+                    match looking.go_on(lane, &samples[lane][..looks]) {
+                        Turning::On => {}
+                        Turning::Settled(found) => {
+                            self.found[looking.number][lane] = found;
+                            is_left[lane] = false;
+                        }
+                        Turning::Lost => (open[lane], is_left[lane]) = (false, false),
+                    }
                 }
             }
         }

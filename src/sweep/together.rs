@@ -57,6 +57,15 @@ pub(super) struct Rows {
     pub wanted: Vec<u32>,
 }
 
+impl Rows {
+    /// Of some times, with some columns beside those that steps are judged by.
+    fn of(started: &mut Started, times: &Times, columns: &[usize], is_tracked: &dyn Fn(u32) -> bool) -> Option<Rows> {
+        let wanted: Vec<u32> = columns.iter().map(|&column| column as u32).collect();
+        let solver = started.solver_of_variants(&|column| is_tracked(column) || wanted.contains(&column))?;
+        Some(Rows { solver, times: times.clone(), wanted })
+    }
+}
+
 /// What is wanted of variants.
 pub struct WantedOfEach<'w> {
     /// The times of rows, and their columns; nothing where results alone are wanted.
@@ -85,13 +94,12 @@ impl Together {
         let judged = judged(&started);
         let tracked = tracked(&started, &judged)?;
         let is_tracked = |column: u32| tracked.iter().any(|of| of.columns.contains(&column));
-        let asked = if wanted.results { Asked::of(determined, &mut started, times, &is_tracked) } else { None };
-        let columns: Vec<u32> = columns.into_iter().flatten().map(|&column| column as u32).collect();
-        let rows = if asked.is_some() && wanted.rows.1.is_none() {
-            None
-        } else {
-            let solver = started.solver_of_variants(&|column| is_tracked(column) || columns.contains(&column))?;
-            Some(Rows { solver, times: times.clone(), wanted: columns })
+        let asked =
+            if wanted.results { Asked::of(determined, &mut started, times, (&is_tracked, vectors)) } else { None };
+        // who has all results has got through the motion
+        let rows = match (columns, &asked) {
+            (None, Some(_)) => None,
+            _ => Some(Rows::of(&mut started, times, columns.unwrap_or_default(), &is_tracked)?),
         };
         let steps = started.solver_of_variants(&is_tracked)?;
         let tears = steps.tears().iter().map(|&tear| judged.iter().position(|&k| k == tear as usize));
@@ -99,8 +107,7 @@ impl Together {
         let solvers = [Some(&steps), rows.as_ref().map(|rows| &rows.solver), asked.as_ref().map(|asked| &asked.solver)];
         let loaded: Vec<Register> = solvers.into_iter().flatten().flat_map(Solver::loads).collect();
         let bounds = started.bounds();
-        let bounds =
-            [RESIDUAL_OF_STEP, CERTAIN_RESIDUAL].map(|part| bounds.iter().map(|bound| 1.0 / (part * bound)).collect());
+        let per_bound = |part: f64| bounds.iter().map(|bound| 1.0 / (part * bound)).collect();
         let mut together = Together {
             prologue: prologue(program, &loaded),
             program: Arc::clone(program),
@@ -112,7 +119,7 @@ impl Together {
             asked,
             tracked,
             tears,
-            bounds,
+            bounds: [RESIDUAL_OF_STEP, CERTAIN_RESIDUAL].map(per_bound),
             q: judged.iter().map(|&k| started.q()[k]).collect(),
             determinants: Vec::new(),
             slopes: Vec::new(),

@@ -215,10 +215,9 @@ impl Walk {
     /// Solves at a time, in some way if one is asked for, and gives what is in doubt of each variant: after a step, if it was one of time.
     fn try_at(&mut self, of: &Together, t: f64, h: Option<f64>, solving: Option<&mut Solving<'_>>) -> Doubts {
         let Walk { registers, steps, guesses, now, next, .. } = self;
-        let (solver, abreast, is_exact) = match solving {
-            Some(Solving { solver, abreast, is_exact }) => (*solver, &mut **abreast, *is_exact),
-            None => (&of.steps, steps, false),
-        };
+        let step = (&of.steps, steps, false);
+        let (solver, abreast, is_exact) =
+            solving.map_or(step, |solving| (solving.solver, &mut *solving.abreast, solving.is_exact));
         let [of_steps, of_rows] = &of.bounds;
         let (bounds, nearly) = if is_exact { (of_rows, 0.0) } else { (of_steps, NEARLY) };
         let guesses = Guesses { times: [t; LANES], tears: guesses, loaded: registers, bounds, nearly };

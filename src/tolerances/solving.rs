@@ -65,7 +65,7 @@ pub mod variants {
     /// A determinant grows or falls within a step by no more than this factor.
     pub const LARGEST_CHANGE: f64 = 2.0;
     /// Steps over the whole span at least.
-    pub const FEWEST_STEPS: f64 = 20.0;
+    pub const FEWEST_STEPS: f64 = 16.0;
     /// How far parameters are changed, as a part of themselves, to learn how the mechanism moves with them.
     pub const BESIDE: f64 = 1e-6;
     /// How often one variant may ask all that go with it for shorter steps.
@@ -92,8 +92,10 @@ pub mod course {
     pub const CERTAIN: f64 = 250.0;
     /// Corrections of a time on the curve between two steps.
     pub const ITERATIONS: usize = 3;
-    /// How the size of these numbers is looked at, in so many ways.
-    pub const WAYS: u32 = 3;
+    /// How the size of these numbers is looked at: in so many ways.
+    pub const WAYS: usize = 3;
+    /// At every one of so many steps.
+    pub const EVERY: usize = 4;
     /// Steps at the most.
     pub const MOST_STEPS: usize = 4_096;
 }

@@ -232,7 +232,7 @@ impl Survey<'_> {
         let mut turn = Settling::near(t, span, self.formula.derivatives() == 2)?;
         let mut samples = [Sampled::NOTHING; MOST_LOOKS];
         loop {
-            for look in 0..turn.looks() {
+            for (look, sample) in samples.iter_mut().enumerate().take(turn.looks()) {
                 let t = turn.time(look);
                 let is_before = self.stretch.begins_at_edge && t < self.stretch.from.t;
                 let is_behind = self.stretch.ends_at_edge && t > self.stretch.to.t;
@@ -240,7 +240,7 @@ impl Survey<'_> {
                     return None;
                 }
                 let state = self.places.settled(self.stretch, near, t)?;
-                samples[look] = self.formula.at(state, self.places).sample;
+                *sample = self.formula.at(state, self.places).sample;
             }
             match turn.go_on(&samples[..turn.looks()]) {
                 Turning::On => {}
