@@ -22,15 +22,6 @@ pub(super) type Aimed = Result<Aim, Box<Diagnostic>>;
 /// So many at a time that nobody has asked for before are worth what it takes to lay it out.
 const MANY: usize = LANES / 2;
 
-/// What is asked for, in values of all params of the model (SI).
-pub(super) struct Aim {
-    pub values: Vec<f64>,
-    pub times: Times,
-}
-
-/// What is asked for, or why that cannot be.
-pub(super) type Aimed = Result<Aim, Box<Diagnostic>>;
-
 /// What such places share.
 pub(super) struct Beside {
     /// The params that may be led, by their numbers.
