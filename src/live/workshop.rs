@@ -420,10 +420,12 @@ impl Asked<'_> {
             "version": self.version,
             "knobs": self.told(knobs),
             "cranks": solved.cranks().iter().map(|crank| json!({
-                "frame": crank.body + 1, "pivot": crank.pivot, "input": crank.input,
+                "frame": crank.body + 1, "pivot": crank.pivot,
+                "input": crank.input.as_ref().map(|led| &led.name), "rate": crank.input.as_ref().map(|led| led.rate),
             })).collect::<Vec<_>>(),
             "jogs": jogs.iter().map(|jog| json!({
-                "name": jog.name, "unit": jog.unit, "formula": jog.formula,
+                "name": jog.name, "unit": jog.written, "formula": jog.formula,
+                "si": size_of_unit(&jog.written), "dimension": jog.dimension,
             })).collect::<Vec<_>>(),
         });
         Some((data, columns))
