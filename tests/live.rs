@@ -446,6 +446,74 @@ fn the_owner_of_a_file_stays() {
 
 #[cfg(unix)]
 #[test]
+fn the_mode_of_a_file_stays_whatever_the_mask() {
+    use std::os::unix::fs::PermissionsExt;
+    for (mask, mode) in [("022", 0o664), ("077", 0o644), ("077", 0o2775), ("022", 0o600), ("000", 0o640)] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("disc.mech");
+        fs::write(&file, TEXT).expect("it is written");
+        fs::set_permissions(&file, fs::Permissions::from_mode(mode)).expect("a mode");
+        let mut command = Command::new("sh");
+        let script = format!("umask {mask}; exec \"$0\" view \"$1\"");
+        command.args(["-c", &script, env!("CARGO_BIN_EXE_mechc")]).arg(&file);
+        let served = Served::started(command, folder);
+        let answer = served.asked_well("/write", WRITE);
+        assert!(answer.contains(r#"{"written":true}"#), "{answer}");
+        let found = fs::metadata(served.file()).expect("it is there").permissions().mode() & 0o7777;
+        assert_eq!(found, mode, "mask {mask}: {found:o} in the place of {mode:o}");
+    }
+}
+
+/// What is said beside the address of a file with a name, by a command with options and a browser that ends with a code.
+#[cfg(unix)]
+fn said_of(name: &str, options: &[&str], code: u8, wanted: &str) -> String {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().expect("a folder");
+    let (file, opener) = (folder.path().join(name), folder.path().join("xdg-open"));
+    fs::write(&file, TEXT).expect("it is written");
+    fs::write(&opener, format!("#!/bin/sh\nexit {code}\n")).expect("it is written");
+    fs::set_permissions(&opener, fs::Permissions::from_mode(0o755)).expect("it can run");
+    let path = format!("{}:{}", folder.path().display(), std::env::var("PATH").unwrap_or_default());
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mechc"));
+    command.arg("view").arg(&file).args(options).env("PATH", path).stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut process = command.spawn().expect("it starts");
+    let mut said = String::new();
+    for line in BufReader::new(process.stderr.take().expect("its messages")).lines() {
+        said += &line.expect("a text");
+        said += "\n";
+        if said.contains(wanted) {
+            break;
+        }
+    }
+    let _ = process.kill();
+    let _ = process.wait();
+    said
+}
+
+#[cfg(unix)]
+#[test]
+fn a_browser_that_does_not_open_is_told() {
+    let said = said_of("disc.mech", &["--open"], 3, "browser");
+    assert!(said.contains("the browser does not open: `xdg-open` ended with exit status: 3"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_name_gives_no_orders_to_a_terminal() {
+    let said = said_of("a\u{1b}[31mb.mech", &[], 0, "Ctrl-C");
+    assert!(!said.contains('\u{1b}') && said.contains("a\u{fffd}[31mb.mech"), "{said:?}");
+}
+
+#[test]
+fn what_a_live_page_refuses_is_not_advised() {
+    let served = Served::with(&TEXT.replace("    analysis from 0 s to 1 s every 10 ms\n", ""), &[]);
+    let answer = served.asked_well("/motion", r#"{"page":"test"}"#);
+    assert!(answer.contains("E0705") && answer.contains("--from T"), "{answer}");
+    assert!(!answer.contains("--at"), "{answer}");
+}
+
+#[cfg(unix)]
+#[test]
 fn the_file_that_leads_a_browser_to_the_page_is_gone_once_it_came() {
     use std::os::unix::fs::PermissionsExt;
     let folder = tempfile::tempdir().expect("a folder");

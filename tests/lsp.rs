@@ -283,3 +283,39 @@ fn counted(uri: &str, text: &str, path: &std::path::Path) -> Vec<(String, String
     assert_eq!(shown.len(), systems.len(), "{uri}");
     shown.into_iter().zip(systems).collect()
 }
+
+#[cfg(unix)]
+#[test]
+fn it_ends_with_the_client_that_began_it_though_the_pipe_stays_open() {
+    use std::io::Read;
+    use std::process::{Command, Stdio};
+    use std::sync::mpsc::channel;
+    use std::time::Duration;
+    let folder = tempfile::tempdir().expect("a folder");
+    // an editor that dies without a word; what the server reads from is open for writing in the server itself
+    let editor = r#"mkfifo in; exec 3<>in; "$0" lsp <&3 &
+        body='{"jsonrpc":"2.0","id":1,"method":"initialize","params":{"processId":'$$',"capabilities":{}}}'
+        printf 'Content-Length: %d\r\n\r\n%s' ${#body} "$body" >&3; wait"#;
+    let mut command = Command::new("sh");
+    command.args(["-c", editor, env!("CARGO_BIN_EXE_mechc")]).current_dir(folder.path()).stdout(Stdio::piped());
+    let mut process = command.spawn().expect("it starts");
+    let mut output = process.stdout.take().expect("it is piped");
+    let (tell, told) = channel();
+    std::thread::spawn(move || {
+        let mut bytes = [0; 4096];
+        while let Ok(count @ 1..) = output.read(&mut bytes) {
+            let _ = tell.send(String::from_utf8_lossy(&bytes[..count]).into_owned());
+        }
+    });
+    let mut heard = String::new();
+    while !heard.contains("serverInfo") {
+        heard += &told.recv_timeout(Duration::from_secs(20)).expect("an answer");
+    }
+    assert!(
+        told.recv_timeout(Duration::from_secs(2)).is_err_and(|why| why == std::sync::mpsc::RecvTimeoutError::Timeout)
+    );
+    process.kill().expect("it is there");
+    process.wait().expect("it ends");
+    let ended = told.recv_timeout(Duration::from_secs(15));
+    assert_eq!(ended, Err(std::sync::mpsc::RecvTimeoutError::Disconnected), "the server is there still");
+}

@@ -141,11 +141,30 @@ end
 function steps.view()
   local opened
   vim.ui.open = function(path) opened = path end
+  wait('the server', client)
   vim.cmd('MechView')
   wait('the page', function() return opened end)
   local leads = table.concat(vim.fn.readfile(opened))
-  assert(leads:find('url=http://127%.0%.0%.1:%d+/#%x+'), leads)
+  local origin, token = leads:match('url=(http://127%.0%.0%.1:%d+)/#(%x+)')
+  assert(origin, leads)
   vim.cmd('doautocmd CursorMoved')
+  -- a click in the page leads to its declaration
+  vim.api.nvim_win_set_cursor(0, { 1, 0 })
+  local text = table.concat(vim.api.nvim_buf_get_lines(0, 0, -1, false), '\n')
+  local at = text:find('body', 1, true) - 1
+  local line = select(2, text:sub(1, at):gsub('\n', '')) + 1
+  vim.fn.system({ 'curl', '-s', '-H', 'Origin: ' .. origin, '-H', 'X-Mechc-Token: ' .. token, '-d', ('{"at":%d}'):format(at), origin .. '/show' })
+  wait('the place that was clicked', function() return vim.api.nvim_win_get_cursor(0)[1] == line end)
+  -- where no server is there is no page, and nothing that tells one of the cursor
+  vim.cmd('new')
+  local told
+  local notify = vim.notify
+  vim.notify = function(words) told = words end
+  vim.cmd('MechView')
+  vim.notify = notify
+  assert(told and told:find('no server', 1, true), tostring(told))
+  assert(vim.fn.exists('#mechc_view_' .. vim.api.nvim_get_current_buf()) == 0, 'the cursor is told')
+  vim.cmd('bwipeout!')
 end
 
 function steps.save()

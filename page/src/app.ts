@@ -146,6 +146,7 @@ export class App implements Deeds {
         const { rows } = document.table;
         this.document = document;
         this.standing = undefined;
+        this.plots.stand(undefined);
         this.isGlimpse = false;
         this.moment = document.motion.moment();
         // what is broken has no time of its own, and takes none away
@@ -191,6 +192,7 @@ export class App implements Deeds {
     /** Shows where inputs that are moved by hand have brought everything; time stands still. */
     stand(at: Document | undefined): void {
         this.standing = at;
+        this.plots.stand(at);
         this.draw();
     }
 
@@ -205,12 +207,14 @@ export class App implements Deeds {
         return this.inputs.get(name)?.[table?.nearest(this.time) ?? 0] ?? NaN;
     }
 
-    /** An editor's cursor is at a place of the file (UTF-16): what is declared there is lit. */
-    point(at: number | null): void {
-        const declarations = this.document?.scene.declarations ?? [];
+    /** An editor's cursor is at a place of the file, or of one that it uses (UTF-16): what is declared there is lit. */
+    point(at: number | null, file: string | null): void {
+        const { scene, page } = this.document ?? {};
+        const declarations = scene?.declarations ?? [];
+        const here = file === null ? 0 : (page?.texts.findIndex(({ name }) => name === file) ?? -1);
         let inner: number | undefined;
         declarations.forEach(([, , text, from, to], number) => {
-            if (at === null || text !== 0 || at < from || at > to || to <= from) return;
+            if (at === null || text !== here || at < from || at > to || to <= from) return;
             const [, , , begin, end] = inner === undefined ? [0, 0, 0, -Infinity, Infinity] : declarations[inner]!;
             if (to - from < end - begin) inner = number;
         });
@@ -276,6 +280,7 @@ export class App implements Deeds {
 
     private goOn(): void {
         this.standing = undefined;
+        this.plots.stand(undefined);
         this.following?.timeMoves();
     }
 

@@ -375,39 +375,36 @@ impl Destination {
         if !folder.is_dir() {
             return Err(io::Error::other(format!("there is no folder `{}`", folder.display())));
         }
-        #[cfg(unix)]
-        let mode = {
-            use std::os::unix::fs::PermissionsExt;
-            // as the file has it; a new one as files are made, less what the user's mask takes away
-            fs::metadata(&path).map_or(0o666, |found| found.permissions().mode() & 0o777)
-        };
         let mut builder = tempfile::Builder::new();
         builder.prefix(".mechc-");
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
+            // a new one is as files are made, and both less what the user's mask takes away: never open to more than the old one is
+            let mode = fs::metadata(&path).map_or(0o666, |found| found.permissions().mode() & 0o777);
             builder.permissions(fs::Permissions::from_mode(mode));
         }
         let mut unfinished = interrupts::unfinished();
         let temporary = builder.tempfile_in(folder)?;
         unfinished.push(temporary.path().to_owned());
         #[cfg(unix)]
-        keep_owner(&path, temporary.path());
+        keep_rights(&path, temporary.as_file())?;
         Ok(Destination::File { temporary, path })
     }
 }
 
-/// Gives a file that will be in the place of another one the owner and the group of that one, where this process may.
+/// Gives a file that will be in the place of another one the owner and the group of that one, where this process may, and its mode.
 #[cfg(unix)]
-fn keep_owner(of: &Path, to: &Path) {
-    use std::os::unix::fs::{MetadataExt, chown};
-    let (Ok(old), Ok(new)) = (fs::metadata(of), fs::metadata(to)) else { return };
-    if old.gid() != new.gid() {
-        let _ = chown(to, None, Some(old.gid()));
-    }
-    if old.uid() != new.uid() {
-        let _ = chown(to, Some(old.uid()), None);
-    }
+fn keep_rights(of: &Path, to: &File) -> io::Result<()> {
+    use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
+    let (Ok(old), new) = (fs::metadata(of), to.metadata()?) else { return Ok(()) };
+    let has_group = old.gid() == new.gid() || fchown(to, None, Some(old.gid())).is_ok();
+    let has_owner = old.uid() == new.uid() || fchown(to, Some(old.uid()), None).is_ok();
+    // who runs it as its owner or in its group is somebody else, where those are others
+    let kept = if has_owner && has_group { 0o7777 } else { 0o777 };
+    let [mode, made] = [old.permissions().mode() & kept, to.metadata()?.permissions().mode() & 0o7777];
+    // what the user's mask took is given back; a disk that has one mode for all files has nothing to give
+    if mode == made { Ok(()) } else { to.set_permissions(fs::Permissions::from_mode(mode)) }
 }
 
 /// The file that a chain of links ends at: a link stays a link, what it points to is replaced.

@@ -6,7 +6,6 @@ use super::http::{Connection, Fault, Kind, Patient, head_of};
 use super::workshop::Workshop;
 use crate::cancel::Cancel;
 use crate::view::page as html;
-use serde_json::json;
 use std::io::{self, Read, Write};
 use std::net::{Ipv4Addr, Ipv6Addr, Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
@@ -289,7 +288,7 @@ fn tell(stream: &mut TcpStream, shared: &Shared) -> Result<(), Fault> {
     while !shared.has_ended.load(Ordering::Acquire) {
         let news = shared.workshop.news(told.as_ref(), PULSE);
         let line = match &news {
-            Some(news) => json!({ "version": news.version, "at": news.at }).to_string(),
+            Some(news) => news.told().to_string(),
             None => String::new(),
         };
         stream.write_all(format!("{line}\n").as_bytes())?;

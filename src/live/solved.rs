@@ -56,7 +56,8 @@ impl Solved {
     }
 
     pub fn cranks(&self) -> Vec<Crank> {
-        self.compiled.as_ref().map(Compiled::cranks).unwrap_or_default()
+        let from = self.times.as_ref().map_or(0.0, Times::from);
+        self.compiled.as_ref().map(|compiled| compiled.cranks(from)).unwrap_or_default()
     }
 
     /// The inputs, with what they are at some times (s).

@@ -43,6 +43,7 @@ pub struct Workshop {
 struct Now {
     texts: Arc<Texts>,
     at: Option<u32>,
+    file: Option<String>,
 }
 
 /// Params with what they are set to.
@@ -53,8 +54,18 @@ type Settings = Vec<(String, String)>;
 pub struct News {
     /// Of the texts.
     pub version: u64,
-    /// Where an editor's cursor is in the file (UTF-16), if there is one.
+    /// Where an editor's cursor is (UTF-16), if there is one,
     pub at: Option<u32>,
+    /// and in which file, by the name that it has in messages; nothing for the page's own.
+    pub file: Option<String>,
+}
+
+impl News {
+    /// As a page is told them.
+    #[must_use]
+    pub fn told(&self) -> Value {
+        json!({ "version": self.version, "at": self.at, "file": self.file })
+    }
 }
 
 /// The texts of a version, and what has been made of them.
@@ -144,7 +155,7 @@ impl Workshop {
             redundant,
             pass_bifurcations,
             host,
-            now: Mutex::new(Now { texts, at: None }),
+            now: Mutex::new(Now { texts, at: None, file: None }),
             has_changed: Condvar::new(),
             looking: Mutex::default(),
             waiting: Mutex::default(),
@@ -179,16 +190,27 @@ impl Workshop {
         true
     }
 
-    /// Tells all pages where an editor's cursor is in the file (UTF-16).
-    pub fn point(&self, at: Option<u32>) {
-        lock(&self.now).at = at;
-        self.has_changed.notify_all();
+    /// Tells all pages where an editor's cursor is in a file (UTF-16). One that is not looked at has no place in the page.
+    pub fn point(&self, path: &Path, at: u32) {
+        let world = self.host.world();
+        let is_it = |file: &Path| file == path || world.identity(file) == world.identity(path);
+        let place = if is_it(&self.path) {
+            (Some(at), None)
+        } else {
+            let used = self.files().into_iter().find(|file| is_it(file));
+            (used.as_ref().map(|_| at), used.map(|file| world.shown(&file)))
+        };
+        let mut now = lock(&self.now);
+        if (now.at, &now.file) != (place.0, &place.1) {
+            (now.at, now.file) = place;
+            self.has_changed.notify_all();
+        }
     }
 
     /// What is new to who was told that before; nothing if that takes too long.
     #[must_use]
     pub fn news(&self, told: Option<&News>, at_most: Duration) -> Option<News> {
-        let news = |now: &Now| News { version: now.texts.version, at: now.at };
+        let news = |now: &Now| News { version: now.texts.version, at: now.at, file: now.file.clone() };
         let is_old = |now: &mut Now| Some(&news(now)) == told;
         let waited = self.has_changed.wait_timeout_while(lock(&self.now), at_most, is_old);
         let (now, time) = waited.unwrap_or_else(PoisonError::into_inner);
@@ -398,10 +420,12 @@ impl Asked<'_> {
             "version": self.version,
             "knobs": self.told(knobs),
             "cranks": solved.cranks().iter().map(|crank| json!({
-                "frame": crank.body + 1, "pivot": crank.pivot, "input": crank.input,
+                "frame": crank.body + 1, "pivot": crank.pivot,
+                "input": crank.input.as_ref().map(|led| &led.name), "rate": crank.input.as_ref().map(|led| led.rate),
             })).collect::<Vec<_>>(),
             "jogs": jogs.iter().map(|jog| json!({
-                "name": jog.name, "unit": jog.unit, "formula": jog.formula,
+                "name": jog.name, "unit": jog.written, "formula": jog.formula,
+                "si": size_of_unit(&jog.written), "dimension": jog.dimension,
             })).collect::<Vec<_>>(),
         });
         Some((data, columns))

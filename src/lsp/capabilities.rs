@@ -41,6 +41,8 @@ pub(super) enum Ability {
     Snippets,
     /// It can be asked to tell which files have changed.
     WatchedFiles,
+    /// An edit may say of which version of a text it is.
+    VersionedEdits,
 }
 
 /// Where a client says it.
@@ -49,6 +51,7 @@ const ABILITIES: &[(Ability, &str)] = &[
     (Ability::Links, "/capabilities/textDocument/definition/linkSupport"),
     (Ability::Snippets, "/capabilities/textDocument/completion/completionItem/snippetSupport"),
     (Ability::WatchedFiles, "/capabilities/workspace/didChangeWatchedFiles/dynamicRegistration"),
+    (Ability::VersionedEdits, "/capabilities/workspace/workspaceEdit/documentChanges"),
 ];
 
 impl Client {

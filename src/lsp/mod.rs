@@ -13,9 +13,11 @@ mod answers;
 mod capabilities;
 mod convert;
 mod documents;
+mod edits;
 mod legend;
 mod lines;
 mod log;
+mod parent;
 mod pool;
 mod server;
 mod stages;
@@ -40,6 +42,9 @@ pub fn methods() -> impl Iterator<Item = &'static str> {
 pub fn serve_pipe(world: Arc<dyn World>, log: Log) -> Ended {
     let (connection, transport) = transport::standard();
     let ended = serve(connection, world, log);
-    transport.finish();
+    // who waits at a pipe that stays open does not come to an end, and what is written there nobody reads
+    if ended != Ended::Left {
+        transport.finish();
+    }
     ended
 }

@@ -6,9 +6,10 @@ use super::convert::{self, Texts};
 use super::documents::{Document, Documents};
 use super::lines::Position;
 use super::log::Log;
+use super::parent::{self, Parent};
 use super::pool::{Kind, Pool, caught};
 use super::stages::{Found, Shown};
-use super::views::{Event, Meant, Views};
+use super::views::{Event, Meant, Views, Written};
 use crate::cancel::Cancel;
 use crate::ide::{self, DiagnosticStage, Snapshot};
 use crate::world::World;
@@ -45,6 +46,8 @@ pub enum Ended {
     Well,
     /// The client was gone before it had said so.
     Early,
+    /// The client's process is gone, though its end of the pipe is not.
+    Left,
     /// There was no session: nobody spoke the protocol.
     Unbegun,
 }
@@ -77,6 +80,8 @@ pub fn serve(connection: Connection, world: Arc<dyn World>, log: Log) -> Ended {
         pulls: Vec::new(),
         next_id: 0,
         folders: Vec::new(),
+        edits: HashMap::new(),
+        parent: None,
     };
     server.run(&receiver, &tasks, &events)
 }
@@ -122,14 +127,14 @@ struct Pull {
     known: Option<String>,
 }
 
-struct Server {
-    client: Client,
+pub(super) struct Server {
+    pub(super) client: Client,
     state: State,
     sender: Sender<Message>,
     done: Sender<Task>,
     pool: Pool,
     log: Log,
-    documents: Documents,
+    pub(super) documents: Documents,
     snapshot: Snapshot,
     shown: BTreeMap<Arc<Path>, Shown>,
     /// The text that was opened or edited last.
@@ -150,6 +155,10 @@ struct Server {
     next_id: i32,
     /// What the client has open.
     folders: Vec<PathBuf>,
+    /// The edits that the client has not yet answered, and who waits for that.
+    pub(super) edits: HashMap<RequestId, Sender<Written>>,
+    /// The process of the client, where that is the one that began this one.
+    parent: Option<Parent>,
 }
 
 impl Server {
@@ -162,7 +171,7 @@ impl Server {
                         self.log.message('<', &message);
                         match message {
                             Message::Request(request) => self.request(request),
-                            Message::Response(_) => {}
+                            Message::Response(response) => self.edited(response),
                             Message::Notification(notification) if notification.method == "exit" => {
                                 return if self.state == State::ShutDown { Ended::Well } else { self.ended_early() };
                             }
@@ -173,6 +182,9 @@ impl Server {
                 recv(tasks) -> task => task.map_or((), |task| self.task(task)),
                 recv(events) -> event => event.map_or((), |event| self.event(event)),
                 default(self.patience()) => {}
+            }
+            if self.parent.as_ref().is_some_and(Parent::is_gone) {
+                return Ended::Left;
             }
             self.end_long_motions();
             self.begin_due_motions();
@@ -205,6 +217,7 @@ impl Server {
             (State::New, "initialize") => {
                 self.client = Client::of(&params);
                 self.folders = capabilities::folders(&params);
+                self.parent = Parent::of(&params);
                 self.state = State::Running;
                 self.answer(id, capabilities::of_server(&self.client));
             }
@@ -258,7 +271,7 @@ impl Server {
         let document = self.documents.get(&path)?;
         let at = document.offset(position(params.get("position")?)?, self.client.encoding) as usize;
         let before = document.text().get(..at)?;
-        self.views.point(&path, Some(before.encode_utf16().count() as u32));
+        self.views.point(&path, before.encode_utf16().count() as u32);
         Some(())
     }
 
@@ -270,24 +283,12 @@ impl Server {
     }
 
     /// The text of a file: what the client has open, or what is on the disk.
-    fn text_of(&self, path: &Path) -> Option<Document> {
+    pub(super) fn text_of(&self, path: &Path) -> Option<Document> {
         if let Some(document) = self.documents.get(path) {
             return Some(Document::clone(document));
         }
         let contents = self.snapshot.buffers().read(path).ok()?;
         Some(Document::new(super::uri::uri_of(path), 0, std::str::from_utf8(&contents.bytes).ok()?))
-    }
-
-    /// Has the client change what differs between a text and another one.
-    fn write(&mut self, path: &Path, text: &str) {
-        let Some(document) = &self.text_of(path) else { return };
-        // it stands before a file, and the client's places do not count it
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let (range, new) = super::views::difference(document.text(), text);
-        let [start, end] = [range.start, range.end].map(|at| self.range_end(document, at));
-        let edit = json!({ "range": { "start": start, "end": end }, "newText": new });
-        let uri = document.uri.clone();
-        self.ask_with("workspace/applyEdit", json!({ "label": "mechc view", "edit": { "changes": { uri: [edit] } } }));
     }
 
     /// Has the client show a place of a file (UTF-16).
@@ -305,7 +306,7 @@ impl Server {
         self.ask_with("window/showDocument", json!({ "uri": uri, "takeFocus": false, "selection": selection }));
     }
 
-    fn range_end(&self, document: &Document, at: u32) -> Value {
+    pub(super) fn range_end(&self, document: &Document, at: u32) -> Value {
         let (line, character) = document.position(at, self.client.encoding);
         json!({ "line": line, "character": character })
     }
@@ -536,7 +537,8 @@ impl Server {
     fn patience(&self) -> Duration {
         let now = Instant::now();
         let next = self.due.iter().map(|(_, from)| from.saturating_duration_since(now)).min();
-        next.unwrap_or(IDLE).min(if self.motions.is_empty() { IDLE } else { TICK })
+        let next = next.unwrap_or(IDLE).min(if self.motions.is_empty() { IDLE } else { TICK });
+        if self.parent.is_some() { next.min(parent::TICK) } else { next }
     }
 
     fn begin_due_motions(&mut self) {
@@ -579,7 +581,7 @@ impl Server {
     fn event(&mut self, event: Event) {
         match event {
             Event::Tell(method, params) => self.send(Notification { method: method.to_owned(), params }),
-            Event::Write(path, text) => self.write(&path, &text),
+            Event::Write(writing) => self.write(writing),
             Event::Show(path, at) => self.show(&path, at),
         }
     }
@@ -718,9 +720,11 @@ impl Server {
         self.ask_with(method, Value::Null);
     }
 
-    fn ask_with(&mut self, method: &str, params: Value) {
+    pub(super) fn ask_with(&mut self, method: &str, params: Value) -> RequestId {
         self.next_id += 1;
-        self.send(Request { id: self.next_id.into(), method: method.to_owned(), params });
+        let id = RequestId::from(self.next_id);
+        self.send(Request { id: id.clone(), method: method.to_owned(), params });
+        id
     }
 }
 

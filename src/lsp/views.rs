@@ -10,7 +10,7 @@ use crate::live::{Host, Question, Server, Serving, Workshop, Write};
 use crate::source::Sources;
 use crate::stages::{Choice, Compiled, Redundant};
 use crate::world::World;
-use crossbeam_channel::{Receiver, Sender, bounded};
+use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded};
 use serde_json::{Value, json};
 use std::ops::Range;
 use std::path::Path;
@@ -23,16 +23,30 @@ use std::time::Duration;
 const DELAY: Duration = Duration::from_millis(120);
 /// How often it is looked whether a page is still there, of one that nothing is told.
 const PULSE: Duration = Duration::from_secs(2);
+/// A client that has not said by then whether it has edited a text does not say it: its user may be asked first.
+const EDITED: Duration = Duration::from_secs(60);
 
 /// What pages have for the client.
 pub(super) enum Event {
     /// It is told something.
     Tell(&'static str, Value),
     /// A text is to stand in the place of that of a file.
-    Write(Arc<Path>, String),
+    Write(Writing),
     /// A place of a file (UTF-16) is to be shown.
     Show(Arc<Path>, u32),
 }
+
+/// A text that is to stand in the place of another one.
+pub(super) struct Writing {
+    pub path: Arc<Path>,
+    /// The one that the page shows: another one is not edited.
+    pub before: String,
+    pub text: String,
+    pub done: Sender<Written>,
+}
+
+/// What came of it: whether that text was still the one, or why the client did not edit it.
+pub(super) type Written = Result<bool, String>;
 
 /// The pages of a session.
 pub(super) struct Views {
@@ -107,7 +121,8 @@ impl Views {
             while let Some(workshop) = weak.upgrade() {
                 let news = workshop.news(told.as_ref(), PULSE);
                 if let Some(news) = &news {
-                    let params = json!({ "uri": uri, "version": news.version, "at": news.at });
+                    let mut params = news.told();
+                    params["uri"] = json!(uri);
                     if told_of.send(Event::Tell("mechc/view/news", params)).is_err() {
                         return;
                     }
@@ -151,9 +166,10 @@ impl Views {
     }
 
     /// The cursor is at a place of a file (UTF-16).
-    pub fn point(&self, path: &Path, at: Option<u32>) {
-        for view in lock(&self.shared.open).iter().filter(|view| *view.path == *path) {
-            view.workshop.point(at);
+    pub fn point(&self, path: &Path, at: u32) {
+        let open: Vec<Arc<View>> = lock(&self.shared.open).clone();
+        for view in open {
+            view.workshop.point(path, at);
         }
     }
 
@@ -220,11 +236,20 @@ impl Host for Editor {
 
     /// The editor changes its text, which its user saves.
     fn write(&self, text: &str, is_due: &dyn Fn() -> bool) -> Result<bool, String> {
+        // what is typed from here on makes it another text than this one, which is looked at again where the client's edits come in
+        let before = self.world().read(&self.path).map_err(|why| why.to_string())?;
+        let before = String::from_utf8_lossy(&before.bytes).into_owned();
         if !is_due() {
             return Ok(false);
         }
-        let event = Event::Write(Arc::clone(&self.path), text.to_owned());
-        self.shared.tell.send(event).map(|()| true).map_err(|_| "the editor is gone".to_owned())
+        let (done, written) = bounded(1);
+        let writing = Writing { path: Arc::clone(&self.path), before, text: text.to_owned(), done };
+        let gone = || "the editor is gone".to_owned();
+        self.shared.tell.send(Event::Write(writing)).map_err(|_| gone())?;
+        written.recv_timeout(EDITED).map_err(|why| match why {
+            RecvTimeoutError::Timeout => "nothing was written: the editor does not say whether it did".to_owned(),
+            RecvTimeoutError::Disconnected => gone(),
+        })?
     }
 
     fn show(&self, at: u32) {

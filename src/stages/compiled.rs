@@ -107,6 +107,11 @@ impl Compiled {
         compiled.map(Some).ok_or(said)
     }
 
+    /// Its equations with its inputs as signals, where it has any.
+    pub(super) fn with_signals(&self) -> Option<ConstraintSystem> {
+        self.again.as_ref().filter(|_| !self.system().inputs().is_empty())?.with_signals().ok()
+    }
+
     /// The same mechanism, whose equations are differentiated by its parameters too.
     pub(super) fn by_params(&self) -> Result<Compiled, Diagnostics> {
         let mut system = self.system().clone();

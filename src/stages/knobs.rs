@@ -2,15 +2,16 @@
 
 use super::angles::Angles;
 use super::known::item_named;
-use super::varied::{number_and_unit, si_unit, written};
+use super::varied::{is_of_angles, number_and_unit, si_unit, written};
 use super::{Checked, Compiled, Formula};
 use crate::check::{Amount, usual_unit_of_length};
 use crate::expr::{ExprId, Symbol};
-use crate::ir::{BodyId, ConstraintSystem, Declaration, Input};
+use crate::ir::{ConstraintSystem, Input};
 use crate::model::Dimension;
 use crate::source::{Sources, Span};
 use crate::sweep::rounded;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind};
+use crate::vocabulary::Unit;
 use rustc_hash::FxHashMap;
 
 /// A param, or a coordinate of one that is a point, as an option sets it.
@@ -45,21 +46,14 @@ pub struct Jog {
     pub name: String,
     /// Its SI unit; empty for a pure number.
     pub unit: String,
+    /// The unit in which its formula writes what is of its kind; else its SI unit.
+    pub written: String,
+    /// Its dimension as an SI unit, in which angles are pure numbers.
+    pub dimension: String,
     /// What it is at some times (SI).
     pub values: Vec<f64>,
     /// The formula, as it is written.
     pub formula: String,
-}
-
-/// A body that a driver turns by its angle alone.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Crank {
-    /// Its number among the bodies.
-    pub body: usize,
-    /// Around which of its points, where it is joined to the ground (m).
-    pub pivot: [f64; 2],
-    /// The input that its driver speaks of; nothing where time alone turns it.
-    pub input: Option<String>,
 }
 
 impl Checked {
@@ -243,6 +237,18 @@ fn unit_of_named(
     named.filter(|_| !dimension.is_empty() || is_angle).map(|knob| knob.unit.clone())
 }
 
+/// The unit of a formula's first number that has one of the kind of an SI unit.
+fn unit_of_literals(formula: &Expr, si: &str) -> Option<String> {
+    let is_of_kind = |unit: &Unit| match si {
+        "rad" => is_of_angles(unit.word.name),
+        si => si.strip_prefix('1').unwrap_or(si) == si_unit(unit.dimension, false) && !is_of_angles(unit.word.name),
+    };
+    if let ExprKind::Literal { unit: Some((name, 1)), .. } = &formula.kind {
+        return Unit::named(&name.text).filter(|unit| is_of_kind(unit)).map(|unit| unit.word.name.to_owned());
+    }
+    formula.children().into_iter().find_map(|part| unit_of_literals(part, si))
+}
+
 /// A value (SI) in a unit.
 fn in_unit(si: f64, unit: &str) -> f64 {
     rounded(si / size_of_unit(unit))
@@ -279,41 +285,37 @@ impl Checked {
             let items =
                 self.library().files().iter().flat_map(|file| &file.read.tree.mechanisms).flat_map(|m| &m.items);
             let mut inputs = items.filter_map(|item| match &item.kind {
-                ItemKind::Input { name, value } if name.span == span => Some(self.sources().text(value.span)),
+                ItemKind::Input { name, value } if name.span == span => Some(value),
                 _ => None,
             });
-            inputs.next().unwrap_or_default()
+            inputs.next()
         };
-        let jog = |input: &Input| Jog {
-            name: input.name.clone(),
-            unit: match input.unit.as_str() {
+        let jog = |input: &Input| {
+            let unit = match input.unit.as_str() {
                 "1" if angles.has(input.span) || compiled.turns(input) => "rad".to_owned(),
                 "1" => String::new(),
                 unit => unit.to_owned(),
-            },
-            values: times.iter().map(|&t| at_time(system, input.formulas[0], t)).collect(),
-            formula: formula(input.span).to_owned(),
+            };
+            let formula = formula(input.span);
+            let text = formula.map_or("", |formula| self.sources().text(formula.span));
+            let whole = number_and_unit(text).map(|(_, unit)| unit.to_owned()).filter(|unit| !unit.is_empty());
+            let written = whole.or_else(|| unit_of_literals(formula?, &unit));
+            // as it stands behind a number
+            let si = unit.strip_prefix('1').unwrap_or(&unit);
+            Jog {
+                name: input.name.clone(),
+                written: written.unwrap_or_else(|| si.to_owned()),
+                dimension: if si == "rad" { String::new() } else { si.to_owned() },
+                unit,
+                values: times.iter().map(|&t| at_time(system, input.formulas[0], t)).collect(),
+                formula: text.to_owned(),
+            }
         };
         system.inputs().iter().map(jog).collect()
     }
 }
 
 impl Compiled {
-    /// The bodies that can be turned by hand.
-    #[must_use]
-    pub fn cranks(&self) -> Vec<Crank> {
-        let system = self.system();
-        let crank = |row: usize| {
-            let [(column, _)] = system.phi_q().row(row) else { return None };
-            let body = system.body_of(*column as usize)?;
-            let [_, _, phi] = system.pose_of(body);
-            let input = system.inputs().iter().find(|input| self.speaks_of(row, input)).map(|input| input.name.clone());
-            let pivot = system.declarations().iter().find_map(|joint| self.pivot(joint, body))?;
-            (phi == *column as usize).then_some(Crank { body: body.index(), pivot, input })
-        };
-        (0..system.rows().len()).filter(|&row| system.is_driver(row)).filter_map(crank).collect()
-    }
-
     /// Whether a driver turns something by an input.
     fn turns(&self, input: &Input) -> bool {
         let system = self.system();
@@ -331,22 +333,10 @@ impl Compiled {
         let is_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '[' | ']');
         written.is_some_and(|written| written.split(|c| !is_name(c)).any(|word| word == input.name))
     }
-
-    /// Where a joint holds a body to the ground.
-    fn pivot(&self, joint: &Declaration, body: BodyId) -> Option<[f64; 2]> {
-        let system = self.system();
-        let [one, other] = joint.points.as_slice() else { return None };
-        let on_body = match [one, other].map(|point| system.points()[*point].body) {
-            [None, Some(on)] if on == body => other,
-            [Some(on), None] if on == body => one,
-            _ => return None,
-        };
-        Some(system.points()[*on_body].at.map(|id| system.value_at(id, &[])))
-    }
 }
 
 /// The value of a formula of time.
-fn at_time(system: &ConstraintSystem, formula: ExprId, t: f64) -> f64 {
+pub(super) fn at_time(system: &ConstraintSystem, formula: ExprId, t: f64) -> f64 {
     system.graph().value(formula, |symbol| match symbol {
         Symbol::Param(k) => system.params()[k as usize].value,
         Symbol::Time => t,
@@ -357,7 +347,8 @@ fn at_time(system: &ConstraintSystem, formula: ExprId, t: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::stages::{Choice, Parsed};
+    use crate::cancel::Cancel;
+    use crate::stages::{Choice, Parsed, Redundant};
     use crate::world::Memory;
 
     #[test]
@@ -438,5 +429,35 @@ mod tests {
         assert_eq!(knobs[1].formula.as_deref(), Some("length / 2"));
         let place = knobs[5].place.expect("a place");
         assert_eq!(checked.sources().text(place), "10 mm");
+    }
+
+    #[test]
+    fn inputs_are_told_in_the_unit_of_their_formula() {
+        let text = "mechanism press {
+            param speed = 60 rpm
+            input a = 60 deg + 10 deg/s * t
+            input b = 5 mm
+            input c = 0.5 + speed * t
+            input d = 2
+            input e = 30 deg/s
+            input f = 20 mm * sin(90 deg/s * t)
+            ground { point O = (0, 0) axis way = (0, 0) along (1, 0) }
+            body wheel { point O = (0, 0) }
+            body slide { point P = (0, 0) axis way = (0, 0) along (1, 0) }
+            joint axle: revolute(ground.O, wheel.O)
+            joint guide: translational(ground.way, slide.way)
+            driver motor: rotation(axle) = a + c + d * 1 rad + e * t
+            driver piston: displacement(guide) = b + f
+            analysis from 0 s to 1 s every 100 ms
+        }";
+        let checked = Parsed::of("press.mech", text).check(&Choice::default(), &Memory::default());
+        let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+        let compiled = compiled.unwrap_or_else(|| panic!("{said:?}"));
+        let jogs = checked.jogs(&compiled, &[0.0]);
+        let told: Vec<_> =
+            jogs.iter().map(|jog| (jog.name.as_str(), jog.written.as_str(), jog.dimension.as_str())).collect();
+        let wanted = [("a", "deg", ""), ("b", "mm", "m"), ("c", "rad", ""), ("e", "deg/s", "/s"), ("f", "mm", "m")];
+        let without = |(name, ..): &&(&str, &str, &str)| *name != "d";
+        assert_eq!(told.iter().filter(without).copied().collect::<Vec<_>>(), wanted);
     }
 }

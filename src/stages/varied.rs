@@ -8,6 +8,7 @@ use crate::model::{Dimension, Units};
 use crate::source::Sources;
 use crate::sweep::{evenly, rounded};
 use crate::syntax;
+use crate::vocabulary::Unit;
 use crate::world::World;
 
 /// Of so many values one can still choose with a slider.
@@ -218,19 +219,30 @@ fn same_unit(first: &str, last: &str) -> Option<([f64; 2], String)> {
     Some(([a, b], unit.to_owned()))
 }
 
-/// `40 mm`, `-1.5e3`, `90 deg/s`: what a slider can show as it was written.
+/// `40 mm`, `-1.5e3`, `90 deg/s`, `3e-4 kg*m^2`, `-(3 mm)`: what a slider can show in the unit in which it is written.
 pub(super) fn number_and_unit(text: &str) -> Option<(f64, &str)> {
+    let text = text.trim();
+    if let Some(inner) = text.strip_prefix('(').and_then(|text| text.strip_suffix(')')) {
+        return number_and_unit(inner);
+    }
+    if let Some(behind) = text.strip_prefix('-').map(str::trim_start).filter(|behind| behind.starts_with('(')) {
+        return number_and_unit(behind).map(|(value, unit)| (-value, unit));
+    }
     let ends = (1..=text.len()).rev().filter(|end| text.is_char_boundary(*end));
     // the longest beginning that is a number; words such as `inf` are none
     let is_numeric = |part: &str| part.ends_with(|c: char| c.is_ascii_digit() || c == '.');
     let (value, unit) = ends
         .map(|end| text.split_at(end))
         .find_map(|(number, unit)| Some((number.parse::<f64>().ok().filter(|_| is_numeric(number))?, unit.trim())))?;
-    let is_word = |word: &str| word.chars().all(char::is_alphabetic) && !word.is_empty();
-    let is_power = |part: &str| is_word(part.split_once('^').map_or(part, |(word, _)| word));
-    let mut parts = unit.split('/');
-    let is_unit = parts.next().is_some_and(|first| first.is_empty() || is_power(first)) && parts.all(is_power);
-    is_unit.then_some((value, unit))
+    (unit.is_empty() || is_unit(unit)).then_some((value, unit))
+}
+
+/// Units, and powers of them, with `*` and `/` between, or behind a `/`.
+fn is_unit(text: &str) -> bool {
+    text.strip_prefix('/').unwrap_or(text).split(['*', '/']).map(str::trim).all(|part| {
+        let (word, power) = part.split_once('^').unwrap_or((part, "1"));
+        Unit::named(word.trim_end()).is_some() && power.trim_start().parse::<i32>().is_ok()
+    })
 }
 
 /// The SI unit of a dimension, empty for a pure number.
@@ -388,6 +400,16 @@ mod tests {
             ("2*3mm", None),
             ("1/3", None),
             ("2 mm^2", Some((2.0, "mm^2"))),
+            ("3e-4 kg*m^2", Some((3e-4, "kg*m^2"))),
+            ("2 N*s/m", Some((2.0, "N*s/m"))),
+            ("2 N * s / m", Some((2.0, "N * s / m"))),
+            ("3/s", Some((3.0, "/s"))),
+            ("(3 mm)", Some((3.0, "mm"))),
+            ("-( 3 mm )", Some((-3.0, "mm"))),
+            ("3 mm/rod", None),
+            ("3 mm*2", None),
+            ("(3 mm) + (4 mm)", None),
+            ("2 mm^k", None),
             ("inf", None),
             ("4 mm + 1 mm", None),
         ] {

@@ -74,6 +74,12 @@ impl Client {
         self.response(id).response_result.expect_err("it is refused").code
     }
 
+    /// Answers a request of the server.
+    pub fn answer(&self, id: lsp_server::RequestId, result: Value) {
+        let response = Response { id, response_result: Ok(result) };
+        self.connection.sender.send(response.into()).expect("the server is there");
+    }
+
     pub fn notify(&self, method: &str, params: Value) {
         let notification = Notification { method: method.to_owned(), params };
         self.connection.sender.send(notification.into()).expect("the server is there");

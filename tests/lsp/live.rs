@@ -75,8 +75,10 @@ fn a_panel_whose_text_is_closed_follows_the_file() {
     let change = json!({ "name": "rod_length", "old": value_of("rod_length"), "value": 321.5 });
     let mut params = text();
     params["asked"] = json!({ "version": 2, "changes": [change], "sure": false });
-    assert_eq!(client.request("mechc/view/write", params), json!({ "written": true }));
-    client.asked("workspace/applyEdit");
+    let write = client.send_request("mechc/view/write", params);
+    let asked_for = edited(&mut client, &json!({ "applied": true }));
+    assert!(asked_for["changes"][URI].is_array(), "{asked_for}");
+    assert_eq!(result(&mut client, write), json!({ "written": true }));
     client.open(URI, &own);
     let change = edit(&mut own, "mechanism slider_crank", "mechanism another_name");
     client.change(URI, &change);
@@ -100,15 +102,97 @@ fn what_a_panel_writes_is_an_edit_of_the_text() {
     let write = json!({ "version": 1, "changes": [change], "sure": false });
     let mut params = text();
     params["asked"] = write;
-    assert_eq!(client.request("mechc/view/write", params.clone()), json!({ "written": true }));
-    let message =
-        client.wait_for(|sent| matches!(sent, Message::Request(sent) if sent.method == "workspace/applyEdit"));
-    let Message::Request(sent) = message else { panic!("it is one") };
-    let edit = &sent.params["edit"]["changes"][URI][0];
+    let write = client.send_request("mechc/view/write", params.clone());
+    let edit = edited(&mut client, &json!({ "applied": true }))["changes"][URI][0].clone();
     assert!("321.5".contains(edit["newText"].as_str().expect("a text")), "{edit}");
+    assert_eq!(result(&mut client, write), json!({ "written": true }));
     params["asked"]["version"] = json!(7);
     let refused = client.request("mechc/view/write", params);
     assert!(refused["refused"].as_str().is_some_and(|why| why.contains("another by now")), "{refused}");
+    client.end();
+}
+
+/// The edit that the client is asked for next, which it answers.
+fn edited(client: &mut Client, answer: &Value) -> Value {
+    let message =
+        client.wait_for(|sent| matches!(sent, Message::Request(sent) if sent.method == "workspace/applyEdit"));
+    let Message::Request(sent) = message else { panic!("it is one") };
+    client.answer(sent.id, answer.clone());
+    sent.params["edit"].clone()
+}
+
+fn result(client: &mut Client, request: i32) -> Value {
+    client.response(request).response_result.expect("it is answered")
+}
+
+#[test]
+fn an_edit_is_of_the_version_that_the_client_has_and_may_be_refused() {
+    let capabilities = json!({ "workspace": { "workspaceEdit": { "documentChanges": true } } });
+    let mut client = Client::new(&capabilities, Memory::default());
+    let mut own = TEXT.to_owned();
+    client.open(URI, &own);
+    let change = edit(&mut own, "mechanism slider_crank", "mechanism another_name");
+    client.change(URI, &change);
+    client.request("mechc/view/panel", text());
+    let change = json!({ "name": "rod_length", "old": value_of("rod_length"), "value": 321.5 });
+    let version = news(&mut client)["version"].clone();
+    let mut params = text();
+    params["asked"] = json!({ "version": version, "changes": [change], "sure": false });
+    for (answer, wanted) in [
+        (json!({ "applied": false, "failureReason": "a version is old" }), "did not take the edit: a version is old"),
+        (json!({ "applied": false }), "did not take the edit"),
+        (json!({ "applied": true }), "written"),
+    ] {
+        let write = client.send_request("mechc/view/write", params.clone());
+        let edit = edited(&mut client, &answer)["documentChanges"][0].clone();
+        assert_eq!(edit["textDocument"], json!({ "uri": URI, "version": 2 }));
+        assert!("321.5".contains(edit["edits"][0]["newText"].as_str().expect("a text")), "{edit}");
+        let told = result(&mut client, write);
+        let says = told["refused"].as_str().unwrap_or("written");
+        assert!(says.contains(wanted), "{told}");
+    }
+    client.end();
+}
+
+#[test]
+fn the_cursor_in_a_used_file_lights_what_is_there() {
+    const MAIN: &str = "use \"arm.mech\"
+mechanism disc {
+    part one: arm()
+    driver motor: rotation(one.axle) = 1 rad/s * t
+    analysis from 0 s to 1 s every 100 ms
+}
+";
+    const ARM: &str = "mechanism arm {
+    ground { point O = (0, 0) }
+    body bar { point O = (0, 0) point P = (20 mm, 0) }
+    joint axle: revolute(ground.O, bar.O)
+}
+";
+    let [uri, used, other] = ["disc", "arm", "other"].map(|name| format!("file:///work/{name}.mech"));
+    let mut client = pushed_to();
+    for (uri, text) in [(&used, ARM), (&other, ARM), (&uri, MAIN)] {
+        client.open(uri, text);
+    }
+    let page = json!({ "textDocument": { "uri": uri } });
+    client.request("mechc/view/panel", page.clone());
+    assert_eq!(news(&mut client)["version"], 1);
+    let mut ask = page;
+    ask["asked"] = json!({ "page": "panel" });
+    client.request("mechc/view/ask", ask);
+    let mut pointed = |uri: &str, text: &str, what: &str| {
+        let place = json!({ "textDocument": { "uri": uri }, "position": position(text, what) });
+        client.notify("mechc/cursor", place);
+        let news = news(&mut client);
+        (news["at"].clone(), news["file"].clone())
+    };
+    let at = |text: &str, what: &str| json!(text.find(what).expect("it is there"));
+    assert_eq!(pointed(&uri, MAIN, "motor"), (at(MAIN, "motor"), Value::Null));
+    let (place, file) = pointed(&used, ARM, "bar");
+    assert_eq!(place, at(ARM, "bar"));
+    assert!(file.as_str().is_some_and(|name| name.ends_with("arm.mech")), "{file}");
+    // what the page does not show is not lit, nor what was lit before
+    assert_eq!(pointed(&other, ARM, "bar"), (Value::Null, Value::Null));
     client.end();
 }
 

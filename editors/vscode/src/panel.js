@@ -63,10 +63,10 @@ class Panel {
     }
   }
 
-  /** @param {number} version @param {number | null} at */
-  tell(version, at) {
+  /** @param {number} version @param {number | null} at @param {string | null} file in which that is, if not in its own */
+  tell(version, at, file = null) {
     this.version = version;
-    this.post({ kind: 'news', version, at });
+    this.post({ kind: 'news', version, at, file });
   }
 
   /** @param {object} message */
@@ -118,9 +118,9 @@ class Panels {
 
   /** A server has begun: it knows of no page yet. @param {Client} client */
   began(client) {
-    client.onNotification('mechc/view/news', (/** @type {{ uri: string, version: number, at: number | null }} */ { uri, version, at }) => {
+    client.onNotification('mechc/view/news', (/** @type {{ uri: string, version: number, at: number | null, file: string | null }} */ { uri, version, at, file }) => {
       for (const panel of this.of(uri)) {
-        panel.tell(version, at);
+        panel.tell(version, at, file);
       }
     });
     for (const panel of this.open) {
@@ -132,6 +132,11 @@ class Panels {
   point({ document, selection }) {
     for (const panel of this.of(document.uri.toString())) {
       panel.tell(panel.version, document.offsetAt(selection.active));
+    }
+    // which pages show a text that they use, the server knows
+    if (document.languageId === 'mech' && this.open.length > this.of(document.uri.toString()).length) {
+      const { line, character } = selection.active;
+      void this.client()?.sendNotification('mechc/cursor', { textDocument: { uri: document.uri.toString() }, position: { line, character } }).catch(() => undefined);
     }
   }
 

@@ -34,8 +34,11 @@ export interface Knob {
 /** An input. */
 export interface Jog {
     name: string;
-    /** Its SI unit; empty for a pure number. */
+    /** In which its formula writes it; empty for a pure number. */
     unit: string;
+    /** One of that unit in SI, and the SI unit of its dimension. */
+    si: number;
+    dimension: string;
     formula: string;
 }
 
@@ -45,6 +48,8 @@ export interface Crank {
     /** Around which place of it (m). */
     pivot: [number, number];
     input: string | null;
+    /** How its angle changes with the input at the first time [rad per SI unit of the input]; nothing without one. */
+    rate: number | null;
 }
 
 export interface Told {

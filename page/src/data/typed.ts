@@ -27,7 +27,7 @@ const NUMBER = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;
 /** What was typed, in the unit that is wanted; or why it cannot be, in words. */
 export function typedIn(typed: string, { unit, si, dimension }: Measured): number | string {
     const text = typed.trim().replace(/\u2212/g, "-").replace(/^([+-]?\d+),(\d+)/, "$1.$2");
-    const wanted = unit === "" ? "a number is wanted" : `a number is wanted, in ${unit} or with another unit behind it`;
+    const wanted = unit === "" ? "a number is wanted" : `a number of “${unit}” is wanted, or one with another unit behind it`;
     const [, number, behind] = NUMBER.exec(text) ?? [];
     const value = Number(number);
     if (number === undefined || !Number.isFinite(value)) return `“${typed.trim()}” is no number; ${wanted}`;

@@ -4,11 +4,14 @@ import type { Document } from "../data/document.ts";
 import type { Knob, Told } from "../data/live.ts";
 import { unitOfLength } from "../data/lengths.ts";
 import { OF_A_FRAME, placeOf, type Moment, type Pair } from "../motion/motion.ts";
+import { Leash } from "./leash.ts";
 
 /** Something in the hand. */
 export interface Hold {
     /** The hand is at another place (m), in a picture whose pixels are so large (m). */
     move(to: Pair, pixel: number): void;
+    /** It opens. */
+    end?(): void;
 }
 
 /** What the picture asks of a hand. */
@@ -27,6 +30,9 @@ interface Deeds {
     seek(time: number): void;
 }
 
+/** A coordinate of a point that is no part's. */
+const OWN = /^[^.]+\.x$/;
+
 /** A point of the drawing is where it is drawn to this part of the picture. */
 const NEAR = 1e-3;
 
@@ -34,6 +40,8 @@ export class Hand implements Grasp {
     private told: Told | undefined;
     private document: Document | undefined;
     private drawn: { name: string; at: Pair; units: [string, string] }[] = [];
+    /** A crank that is held, by its input. */
+    private held: { frame: number; input: string; leash: Leash; isLetGo: boolean } | undefined;
 
     constructor(private readonly deeds: Deeds) {}
 
@@ -67,17 +75,35 @@ export class Hand implements Grasp {
         const angle = ([x, y]: Pair) => Math.atan2(y - pivot[1], x - pivot[0]);
         let before = angle(at);
         let turned = 0;
-        const { input } = crank;
-        const begin = input === null ? moment.frames[OF_A_FRAME * frame + 2]! : this.deeds.value(input);
+        const { input, rate } = crank;
+        const begin = moment.frames[OF_A_FRAME * frame + 2]!;
+        const from = moment.time;
+        const leash = input !== null && rate !== null ? new Leash({ angle: begin, input: this.deeds.value(input) }, rate) : undefined;
+        const held = leash && { frame, input: input!, leash, isLetGo: false };
+        this.held = held;
         return {
             move: (to) => {
                 const now = angle(to);
                 turned += Math.atan2(Math.sin(now - before), Math.cos(now - before));
                 before = now;
-                if (input !== null) this.deeds.crank(input, begin + turned);
-                else this.seek(frame, begin + turned, moment.time);
+                if (leash) this.deeds.crank(input!, leash.pull(begin + turned));
+                else this.seek(frame, begin + turned, from);
+            },
+            end: () => {
+                // it still gets to where the hand was
+                if (held) held.isLetGo = true;
+                if (!leash?.isWaiting && this.held === held) this.held = undefined;
             },
         };
+    }
+
+    /** Where the program has brought everything for what inputs were asked to be, last or before; a crank that is not yet at the hand is led on. */
+    stood(moment: Moment, reached: ReadonlyMap<string, number>, isLast: boolean): void {
+        if (!this.held) return;
+        const { frame, input, leash, isLetGo } = this.held;
+        const next = leash.answer({ angle: moment.frames[OF_A_FRAME * frame + 2]!, input: reached.get(input) ?? NaN }, isLast);
+        if (next !== undefined) this.deeds.crank(input, next);
+        else if (isLetGo && isLast) this.held = undefined;
     }
 
     /** To the time near to another one at which a body has an angle. */
@@ -99,7 +125,7 @@ export class Hand implements Grasp {
     }
 }
 
-/** The params that are points, where something is drawn there at first; where nothing moves, those of before, so that none leaves a hand. */
+/** The params of the mechanism itself that are points (those of its parts are in frames that stand elsewhere), where something is drawn there at first; where nothing moves, those of before, so that none leaves a hand. */
 function drawnPoints(
     { knobs = [] }: Told,
     { motion, scene, table }: Document,
@@ -114,7 +140,7 @@ function drawnPoints(
     const ofAll = new Set(knobs.map(({ of }) => of));
     return knobs.flatMap((knob) => {
         const other = known.get(`${knob.name.slice(0, -1)}y`);
-        if (!knob.name.endsWith(".x") || !other || knob.formula !== null || other.formula !== null || ofAll.has(knob.name)) return [];
+        if (!OWN.test(knob.name) || !other || knob.formula !== null || other.formula !== null || ofAll.has(knob.name)) return [];
         const units: [string, string] = [knob.unit || other.unit || "m", other.unit || knob.unit || "m"];
         const now = ({ name, value }: Knob) => set.get(name) ?? value;
         const at = [now(knob) * unitOfLength(units[0]), now(other) * unitOfLength(units[1])] as Pair;

@@ -77,8 +77,8 @@ export class Live {
         );
     }
 
-    private hear({ version, at }: News): void {
-        this.app?.point(at);
+    private hear({ version, at, file }: News): void {
+        this.app?.point(at, file ?? null);
         if (version === this.newest) return;
         this.newest = version;
         void this.change();
@@ -354,6 +354,7 @@ export class Live {
         if (there) {
             this.app?.stand(there);
             this.stood = reached;
+            this.hand.stood(there.motion.atRow(0, there.motion.moment()), new Map(reached), !this.hasChanged);
         }
         // who has gone on meanwhile is not called back
         if (this.hasChanged) return;

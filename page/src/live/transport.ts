@@ -6,6 +6,8 @@ import { nameOf, shared } from "./shared.ts";
 export interface News {
     version: number;
     at: number | null;
+    /** In which file it is, where that is not the page's own. */
+    file?: string | null;
 }
 
 /** Values for params: what stands in their places, and what is to stand there, in the unit of the param. */
@@ -123,7 +125,7 @@ declare global {
 }
 
 type Heard =
-    | { kind: "news"; version: number; at: number | null }
+    | ({ kind: "news" } & News)
     | { kind: "state"; state: State }
     | { kind: "answer"; id: number; data: unknown }
     | { kind: "failed"; id: number; why: string };

@@ -5,7 +5,7 @@ import type { Jog, Knob } from "../data/live.ts";
 import { typedIn } from "../data/typed.ts";
 import { html } from "../elements.ts";
 import type { Moment, Pair } from "../motion/motion.ts";
-import { set as setUnit, short } from "../numbers.ts";
+import { set as setUnit, short, siUnit, six, withUnit } from "../numbers.ts";
 import type { Pane } from "./pane.ts";
 
 export interface Deeds {
@@ -45,6 +45,9 @@ const TURNS = 2;
 /** Params from here on are folded away at first. */
 const MANY = 6;
 
+/** A param or an input, as it is shown. */
+type Turned = Pick<Knob, "name" | "unit" | "si" | "dimension" | "formula">;
+
 interface Row {
     slider: HTMLInputElement;
     field: HTMLInputElement;
@@ -52,6 +55,10 @@ interface Row {
     range: Range;
     /** What it is as long as nobody sets it; nothing of an input, which time moves. */
     own: number | undefined;
+    /** What is shown, of which a slider has only steps. */
+    value: number;
+    /** Whether somebody is writing in the field: until what is written is taken, nothing else is shown there. */
+    isEdited: boolean;
 }
 
 /** From where to where a slider goes, in which steps. */
@@ -72,6 +79,8 @@ export class Knobs implements Pane {
     private set: ReadonlyMap<string, number> = new Map();
     private reach: Reach = { inputs: new Map(), extent: [[0, 0], [0, 0]] };
     private isSet = "";
+    /** What one of an input's unit is in SI. */
+    private sizes: ReadonlyMap<string, number> = new Map();
 
     constructor(private readonly does: Deeds) {
         const button = (shows: string, title: string, click: () => void) => {
@@ -101,9 +110,10 @@ export class Knobs implements Pane {
             this.setting.replaceChildren(...this.rowsOf(knobs, reach));
             const sliders = jogs.map((jog) => {
                 const range = rangeOfInput(jog, reach);
-                return this.row({ ...jog, si: 1, dimension: dimensionOf(jog.unit) }, range[0], range);
+                return this.row(jog, range[0], range, (value) => this.does.set(jog.name, value * jog.si));
             });
             this.turning.replaceChildren(...(jogs.length > 0 ? [...sliders, this.time] : []));
+            this.sizes = new Map(jogs.map(({ name, si }) => [name, si]));
             if (wasEmpty) this.folded.open = knobs.filter(({ of }) => of === null).length < MANY;
             this.folded.hidden = knobs.length === 0;
         }
@@ -117,7 +127,7 @@ export class Knobs implements Pane {
     at(set: ReadonlyMap<string, number>, moved: ReadonlyMap<string, number>): void {
         this.set = set;
         for (const [name, row] of this.rows) {
-            const value = set.get(name) ?? moved.get(name) ?? row.own ?? this.does.value(name);
+            const value = set.get(name) ?? row.own ?? this.inUnit(name, moved.get(name) ?? this.does.value(name));
             show(row, value);
             row.label.classList.toggle("changed", set.has(name) || moved.has(name));
         }
@@ -127,6 +137,11 @@ export class Knobs implements Pane {
         // what was said of other settings
         if (isSet !== this.isSet) this.told.textContent = "";
         this.isSet = isSet;
+    }
+
+    /** An input's value (SI) in the unit in which it is shown. */
+    private inUnit(name: string, value: number): number {
+        return value / (this.sizes.get(name) ?? 1);
     }
 
     /** Sliders that a number made longer are as long as they were. */
@@ -141,7 +156,7 @@ export class Knobs implements Pane {
     draw(_: Moment): void {
         for (const jog of this.jogs) {
             const row = this.rows.get(jog.name)!;
-            if (!row.label.classList.contains("changed")) show(row, this.does.value(jog.name));
+            if (!row.label.classList.contains("changed")) show(row, this.inUnit(jog.name, this.does.value(jog.name)));
         }
     }
 
@@ -157,7 +172,7 @@ export class Knobs implements Pane {
         });
     }
 
-    private row(of: { name: string; unit: string; si: number; dimension: string; formula: string | null }, value: number, range: Range): HTMLElement {
+    private row(of: Turned, value: number, range: Range, take = (value: number) => this.does.set(of.name, value)): HTMLElement {
         const { name, unit, formula } = of;
         const [from, to, by] = range;
         const slider = html("input", { type: "range", min: from, max: to, step: by, value, "data-param": name, "aria-label": name });
@@ -170,14 +185,22 @@ export class Knobs implements Pane {
             field,
             html("span", { class: "unit" }, setUnit(unit)),
         );
-        const row: Row = { slider, field, label, range, own: undefined };
+        const row: Row = { slider, field, label, range, own: undefined, value, isEdited: false };
         this.rows.set(name, row);
-        slider.addEventListener("input", () => this.does.set(name, Number(slider.value)));
+        slider.addEventListener("input", () => take(Number(slider.value)));
+        field.addEventListener("input", () => (row.isEdited = true));
+        field.addEventListener("pointerenter", () => (field.title = of.si === 1 ? "" : inSi(row.value, of)));
         field.addEventListener("change", () => {
             const typed = typedIn(field.value, of);
+            row.isEdited = false;
             this.does.say(typeof typed === "string" ? `${name}: ${typed}` : "");
             field.value = typeof typed === "number" ? short(typed) : slider.getAttribute("aria-valuetext")!;
-            if (typeof typed === "number") this.does.set(name, typed);
+            if (typeof typed === "number") take(typed);
+        });
+        // what was written and taken back is no change
+        field.addEventListener("blur", () => {
+            row.isEdited = false;
+            field.value = slider.getAttribute("aria-valuetext")!;
         });
         show(row, value);
         return label;
@@ -215,18 +238,20 @@ export class Knobs implements Pane {
 }
 
 /** A number that its slider may not reach moves the slider's end. */
-function show({ slider, field }: Row, value: number): void {
+function show(row: Row, value: number): void {
     if (!Number.isFinite(value)) return;
+    const { slider, field, isEdited } = row;
+    row.value = value;
     if (value < Number(slider.min)) slider.min = String(value);
     if (value > Number(slider.max)) slider.max = String(value);
     slider.value = String(value);
-    if (document.activeElement !== field) field.value = short(value);
+    if (!isEdited) field.value = short(value);
     slider.setAttribute("aria-valuetext", short(value));
 }
 
-/** The dimension of what is in an SI unit; angles are pure numbers. */
-function dimensionOf(unit: string): string {
-    return unit === "rad" ? "" : unit;
+/** A value in its unit, as it is in SI. */
+function inSi(value: number, { unit, si }: Turned): string {
+    return `${withUnit(six(value * si), siUnit(unit))} (SI)`;
 }
 
 /** From where to where a param goes. */
@@ -241,8 +266,8 @@ function rangeOf({ name, value, unit, si, whole }: Knob, { extent: [[left, botto
 }
 
 /** From where to where an input goes: as far as time moves it, and on; what swings goes as far again to both sides. */
-function rangeOfInput({ name, unit }: Jog, { inputs, extent: [[left, bottom], [right, top]] }: Reach): Range {
-    const values = inputs.get(name)?.filter(Number.isFinite) ?? [];
+function rangeOfInput({ name, unit, si, dimension }: Jog, { inputs, extent: [[left, bottom], [right, top]] }: Reach): Range {
+    const values = (inputs.get(name)?.filter(Number.isFinite) ?? new Float64Array(0)).map((value) => value / si);
     const [least, most] = values.length > 0 ? [Math.min(...values), Math.max(...values)] : [0, 0];
     const isOneWay = [1, -1].some((way) => values.every((value, k) => k === 0 || way * (value - values[k - 1]!) >= 0));
     if (TURN[unit] && isOneWay) {
@@ -250,7 +275,7 @@ function rangeOfInput({ name, unit }: Jog, { inputs, extent: [[left, bottom], [r
         return ended(Math.min(least, -turns), Math.max(most, turns), FINE_STEPS);
     }
     if (TURN[unit]) return ended(2 * least - most, 2 * most - least, FINE_STEPS);
-    const usual = unit === "m" ? AROUND * Math.max(right - left, top - bottom) : AROUND * Math.abs(most);
+    const usual = dimension === "m" ? (AROUND * Math.max(right - left, top - bottom)) / si : AROUND * Math.abs(most);
     const beyond = AROUND * (most - least) || usual || 1;
     return ended(least - beyond, most + beyond, FINE_STEPS);
 }

@@ -225,8 +225,12 @@ export class Picture implements Pane {
         // a page that scrolls under a finger would take from it what it holds
         over.addEventListener("touchmove", (event) => hold && event.preventDefault(), { passive: false });
         over.addEventListener("pointerleave", () => this.pointNowhere());
-        over.addEventListener("pointerup", () => (hold = undefined));
-        over.addEventListener("pointercancel", () => (hold = undefined));
+        const letGo = () => {
+            hold?.end?.();
+            hold = undefined;
+        };
+        over.addEventListener("pointerup", letGo);
+        over.addEventListener("pointercancel", letGo);
         over.addEventListener("click", (event) => {
             from = undefined;
             if (moved <= CLICK) this.choose(this.pixelOf(event), event);

@@ -24,6 +24,7 @@ export class Plots implements Pane {
     private document: Document | undefined;
     private wishes: Wishes | undefined;
     private moment: Moment | undefined;
+    private standing: Document | undefined;
     private readonly empty = html("p", { class: "empty" });
     /** Whether there was a motion yet, whose measures are plotted. */
     private hasBegun = false;
@@ -54,6 +55,7 @@ export class Plots implements Pane {
         if (!same) {
             this.plots.push(plot);
             this.list.append(plot.element);
+            plot.standing = this.standing;
             if (this.document && this.wishes) plot.show(this.document, this.wishes);
             if (this.moment) plot.draw(this.moment);
             this.tellEmpty();
@@ -76,6 +78,12 @@ export class Plots implements Pane {
         const moves = (this.document?.table.rows ?? 0) > 1;
         this.empty.textContent = moves ? "There is no plot: + adds one, of any column." : "There is no motion, and so there is nothing to plot.";
         this.empty.hidden = this.plots.length > 0;
+    }
+
+    /** Where inputs that are moved by hand have brought everything, which is none of the rows. */
+    stand(at: Document | undefined): void {
+        this.standing = at;
+        for (const plot of this.plots) plot.standing = at;
     }
 
     draw(moment: Moment): void {
@@ -126,6 +134,8 @@ class Plot {
     private wishes: Wishes | undefined;
     private series: [Series, Series] | undefined;
     private moment: Moment | undefined;
+    /** What is shown of now, where that is no row of the motion. */
+    standing: Document | undefined;
 
     constructor(
         public x: string,
@@ -150,7 +160,7 @@ class Plot {
             });
         };
         this.value.addEventListener("pointerenter", () => {
-            if (this.series && this.moment) this.value.title = this.series[1].si(this.moment);
+            if (this.moment) this.value.title = this.now()?.[1].si(this.moment) ?? "";
         });
         all(this.chooseX);
         all(this.chooseY);
@@ -167,9 +177,14 @@ class Plot {
         else this.make();
     }
 
-    private named(): [Series, Series] | undefined {
-        const [x, y] = [this.x, this.y].map((name) => seriesOf(this.document!, this.wishes!, name));
+    private named(document = this.document!): [Series, Series] | undefined {
+        const [x, y] = [this.x, this.y].map((name) => seriesOf(document, this.wishes!, name));
         return x && y && [x, y];
+    }
+
+    /** The series of what is shown of now. */
+    private now(): [Series, Series] | undefined {
+        return this.standing && this.wishes ? this.named(this.standing) : this.series;
     }
 
     /** Other numbers in the same chart. */
@@ -214,11 +229,12 @@ class Plot {
 
     draw(moment: Moment): void {
         this.moment = moment;
-        if (!this.series || !this.chart) return;
-        const [x, y] = this.series.map((series) => series.at(moment)) as Pair;
-        this.value.textContent = withUnit(six(y), this.series[1].unit);
+        const now = this.now();
+        if (!now || !this.chart) return;
+        const [x, y] = now.map((series) => series.at(moment)) as Pair;
+        this.value.textContent = withUnit(six(y), now[1].unit);
         // nobody hovers over what is not under the pointer
-        if (this.value.matches(":hover")) this.value.title = this.series[1].si(moment);
+        if (this.value.matches(":hover")) this.value.title = now[1].si(moment);
         const [left, top] = [this.chart.valToPos(x, "x"), this.chart.valToPos(y, "y")];
         this.line.style.transform = `translateX(${left}px)`;
         this.line.hidden = !Number.isFinite(left) || this.x !== "t";

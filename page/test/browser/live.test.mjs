@@ -320,6 +320,122 @@ test("a crank is taken by the hand, and a point of the drawing", async () => {
     });
 });
 
+/** Presses the mouse on a pin and goes around another one, to an angle against the horizontal (rad); the mouse stays down. */
+async function turned(page, [pivot, tip], from, to, steps = 24) {
+    const pins = await page.evaluate(() => mechc.pins());
+    const [centre, pin] = [pivot, tip].map((name) => pins.find(({ point }) => point === name));
+    const radius = Math.hypot(pin.x - centre.x, pin.y - centre.y);
+    await page.mouse.move(pin.x, pin.y);
+    await page.mouse.down();
+    for (let step = 1; step <= steps; step++) {
+        const angle = from + ((to - from) * step) / steps;
+        await page.mouse.move(centre.x + radius * Math.cos(angle), centre.y - radius * Math.sin(angle));
+        await page.waitForTimeout(10);
+    }
+}
+
+test("a crank is where the hand is, however an input turns it", async () => {
+    const degrees = Math.PI / 180;
+    for (const [what, to] of [
+        [["rotation(main) = turn", "rotation(main) = 2 * turn - 30 deg"], 110],
+        [["rotation(main) = turn", "rotation(main) = 60 deg - turn"], 110],
+        [["rotation(main) = turn", "rotation(main) = 90 deg * sin(turn) - 15 deg"], 60],
+        [["revolute(ground.O, crank.O)", "revolute(crank.O, ground.O)", "rotation(main) = turn", "rotation(main) = turn - 60 deg"], -40],
+    ]) {
+        let text = CRANK;
+        for (let k = 0; k < what.length; k += 2) text = text.replace(what[k], what[k + 1]);
+        await following(text, async ({ page }) => {
+            await page.evaluate(() => mechc.seek(0));
+            await turned(page, ["ground.O", "crank.A"], 30 * degrees, to * degrees);
+            await page.mouse.up();
+            await page
+                .waitForFunction((wanted) => Math.abs(mechc.row()[mechc.columns.indexOf("crank.phi")] - wanted) < 0.02, to * degrees, { timeout: 15_000 })
+                .catch(async () => assert.fail(`${what.at(-1)}: ${(await page.evaluate(() => mechc.row()[mechc.columns.indexOf("crank.phi")])) / degrees} deg and not ${to}`));
+        });
+    }
+});
+
+test("plots and fields are of where an input was moved to, in the unit of its formula", async () => {
+    await following(CRANK, async ({ page }) => {
+        await page.evaluate(() => mechc.seek(0.25));
+        const plotted = () => page.textContent('.plot[data-column="lift"] .value');
+        const before = await plotted();
+        await page.evaluate(() => mechc.set("turn", 0.9));
+        const lift = await page.evaluate(() => mechc.row()[mechc.columns.indexOf("lift")]);
+        const shown = parseFloat((await plotted()).replace("\u2212", "-"));
+        assert.notEqual(await plotted(), before);
+        assert.ok(Math.abs(shown - lift) < 1e-3 || Math.abs(shown - lift * 1000) < 1e-3, `${shown} and ${lift}`);
+        const knob = page.locator(".knob", { has: page.locator('[data-param="turn"]') });
+        assert.equal(await knob.locator(".unit").textContent(), "deg");
+        const field = knob.locator("input[type=text]");
+        assert.ok(Math.abs(Number(await field.inputValue()) - (0.9 * 180) / Math.PI) < 1e-3);
+        await field.hover();
+        assert.match(await field.getAttribute("title"), /^0\.900000 rad \(SI\)$/);
+        await page.click(".time-again");
+        await page.waitForFunction((before) => document.querySelector('.plot[data-column="lift"] .value').textContent === before, before);
+    });
+});
+
+test("a number beyond a dead point gives way to where it got to, in the field that has the focus", async () => {
+    await following(ROCKING, async ({ page }) => {
+        await page.evaluate(() => mechc.seek(0));
+        const field = page.locator(".knob", { has: page.locator('[data-param="turn"]') }).locator("input[type=text]");
+        await field.fill("170");
+        await page.evaluate(() => mechc.set("rod", 90.5));
+        assert.equal(await field.inputValue(), "170", "what is being written is overwritten");
+        await page.evaluate(() => mechc.set("rod", 90));
+        await field.press("Enter");
+        await page.waitForSelector(".stopped:not([hidden])");
+        await until(page, () => Math.abs(Number(document.activeElement.value) - 104.1) < 0.5);
+    });
+});
+
+test("handles are those of the mechanism's own points", async () => {
+    const text = `mechanism pair {
+    param O = (10 mm, 0)
+    input turn = 30 deg
+    ground { point O = O }
+    part one: arm() at (60 mm, 20 mm, 90 deg)
+    body bar at (10 mm, 0, 30 deg) { point O = (0, 0)  point P = (40 mm, 0) }
+    joint main: revolute(ground.O, bar.O)
+    driver motor: rotation(main) = turn
+    driver other: rotation(one.axle) = 1 rev/s * t
+    analysis from 0 s to 1 s every 100 ms
+}
+mechanism arm {
+    param P = (20 mm, 0)
+    ground { point O = (0, 0) }
+    body bar { point O = (0, 0)  point P = P }
+    joint axle: revolute(ground.O, bar.O)
+}
+`;
+    await following(text, async ({ page }) => {
+        assert.deepEqual(await page.locator("[data-handle]").evaluateAll((all) => all.map((one) => one.dataset.handle)), ["O"]);
+        assert.ok(await page.locator('[data-param="one.P.x"]').count());
+    });
+});
+
+test("messages are whole, one below the other, and touch no edge", async () => {
+    const server = await served("mechanism");
+    const { browser } = await import("./browser.mjs");
+    const context = await (await browser()).newContext({ viewport: { width: 1280, height: 900 } });
+    const page = await context.newPage();
+    await page.goto(server.url);
+    await page.waitForSelector(".broken:not([hidden])");
+    const { left, right } = await page.evaluate(() => document.querySelector(".broken").getBoundingClientRect().toJSON());
+    assert.ok(left >= 8 && right <= 1280 - 8, `${left} to ${right}`);
+    server.save(ROCKING);
+    await page.waitForFunction(() => document.querySelector(".time")?.textContent);
+    await page.evaluate(() => mechc.pause());
+    await page.evaluate(() => mechc.seek(0).then(() => mechc.set("turn", 3)));
+    server.save(ROCKING.replace(linkage, "joint right: revolute(coupler.B, rocker.Z)"));
+    await page.waitForFunction(() => [".broken", ".stopped"].every((what) => !document.querySelector(what).hidden));
+    const heights = await page.evaluate(() => [".broken", ".stopped"].map((what) => [document.querySelector(what).clientHeight, document.querySelector(what).scrollHeight]));
+    for (const [height, whole] of heights) assert.ok(height > 30 && height >= whole - 1, JSON.stringify(heights));
+    await context.close();
+    await server.end();
+});
+
 test("a finger turns a crank, and the page does not scroll away under it", async () => {
     const server = await served(CRANK);
     const { page, faults, close } = await looked(server.url, { viewport: { width: 700, height: 500 }, hasTouch: true });

@@ -13,6 +13,7 @@ test("what is typed is taken in any unit of the dimension, and nothing else", ()
         assert.equal(typedIn(typed, MM), number, typed);
     }
     for (const typed of ["", "mm", "0x60", "1 000", "Infinity", "1e400", "95 deg", "95 s", "95 ells", "\uff11\uff10"]) assert.equal(typeof typedIn(typed, MM), "string", typed);
+    assert.match(typedIn("many", { unit: "in", si: 0.0254, dimension: "m" }), /a number of “in” is wanted/);
     assert.equal(typedIn("180 deg", { unit: "rad", si: 1, dimension: "" }), 3.14159265358979);
     assert.equal(typedIn("120 rpm", { unit: "deg/s", si: Math.PI / 180, dimension: "/s" }), 720);
     assert.equal(typedIn("12 kN/m", { unit: "kN/m", si: 1000, dimension: "N/m" }), 12);

@@ -10,7 +10,7 @@ use crate::cli::files::{self, Disk, Output};
 use crate::cli::report::Reporter;
 use crate::cli::times;
 use crate::cli::{input, interrupts};
-use crate::diag::Diagnostics;
+use crate::diag::{Code, Diagnostics};
 use crate::live::{Host, Server, Workshop};
 use crate::source::Sources;
 use crate::stages::{Choice, Compiled, Parsed, Redundant};
@@ -94,6 +94,8 @@ fn refuse_wrong_options(
 
 /// What is said beside the address.
 fn told(file: &str, port: u16) -> String {
+    // what a name holds for a terminal to obey is only shown to be there
+    let file = file.replace(char::is_control, "\u{fffd}");
     let mut told = format!("the page follows {file}; Ctrl-C ends it\n");
     // the last words are the address and the port at which this machine was reached
     let ssh = std::env::var("SSH_CONNECTION").unwrap_or_default();
@@ -119,13 +121,27 @@ impl Host for Desk {
     fn times(&self, compiled: &Compiled, sources: &mut Sources) -> Result<Times, Diagnostics> {
         let times =
             times::asked((&self.interval, &[]), compiled.analysis(), sources).and_then(|asked| Ok(asked.grid()?));
-        times.map_err(said)
+        times.map_err(|why| advised(&said(why)))
     }
 
     fn write(&self, text: &str, is_due: &dyn Fn() -> bool) -> Result<bool, String> {
         let written = Output::replace_if(&self.file, text, is_due);
         written.map_err(|why| said(why).iter().map(|said| said.message.clone()).collect::<Vec<_>>().join("; "))
     }
+}
+
+/// Of times that nobody has said: `--at` is for what is written.
+fn advised(said: &Diagnostics) -> Diagnostics {
+    let mut advised = Diagnostics::default();
+    for one in said.iter() {
+        let mut one = one.clone();
+        if one.code == Code::E0705 {
+            let with = "start `mechc view` with `--from T --to T --every H`";
+            one.help = vec![format!("add `analysis from 0 s to 1 s every 10 ms` to the file,\nor {with}")];
+        }
+        advised.push(one);
+    }
+    advised
 }
 
 fn said(why: Failure) -> Diagnostics {
@@ -158,11 +174,19 @@ fn open(url: &str, is_seen: Arc<AtomicBool>) {
         let mut child = command.spawn()?;
         thread::Builder::new().name("browser".to_owned()).spawn(move || {
             let began = Instant::now();
+            let mut ended = None;
             while !is_seen.load(Ordering::Acquire) && began.elapsed() < READ {
+                ended = child.try_wait().ok().flatten();
+                if ended.is_some_and(|status| !status.success()) {
+                    break;
+                }
                 thread::sleep(LOOK);
             }
             drop(file);
-            let _ = child.wait();
+            let ended = ended.or_else(|| child.wait().ok());
+            if let Some(status) = ended.filter(|status| !status.success() && !is_seen.load(Ordering::Acquire)) {
+                Reporter::say(&format!("the browser does not open: `{}` ended with {status}\n", opener[0]));
+            }
         })
     })();
     if let Err(error) = opened {

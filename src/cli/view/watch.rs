@@ -18,7 +18,14 @@ const SETTLE: Duration = Duration::from_millis(8);
 pub(super) struct Watch {
     watcher: Option<RecommendedWatcher>,
     told: Receiver<()>,
-    folders: Vec<PathBuf>,
+    folders: Vec<Watched>,
+}
+
+/// A folder that is watched.
+struct Watched {
+    path: PathBuf,
+    /// What was at that path then.
+    identity: Option<Identity>,
 }
 
 impl Watch {
@@ -55,25 +62,43 @@ impl Watch {
         wanted.sort();
         wanted.dedup();
         self.folders.retain(|folder| {
-            // one that is gone may come back as another
-            let stays = wanted.contains(folder) && folder.is_dir();
+            // one that is gone may come back as another, or another one be in its place by now
+            let stays =
+                wanted.contains(&folder.path) && folder.path.is_dir() && folder.identity == identity_of(&folder.path);
             if !stays {
-                let _ = watcher.unwatch(folder);
+                let _ = watcher.unwatch(&folder.path);
             }
             stays
         });
         let mut all = true;
-        for folder in wanted {
-            if self.folders.contains(&folder) {
+        for path in wanted {
+            if self.folders.iter().any(|folder| folder.path == path) {
                 continue;
             }
-            match watcher.watch(&folder, RecursiveMode::NonRecursive) {
-                Ok(()) => self.folders.push(folder),
+            // before it is watched: what takes its place meanwhile is seen the next time
+            let identity = identity_of(&path);
+            match watcher.watch(&path, RecursiveMode::NonRecursive) {
+                Ok(()) => self.folders.push(Watched { path, identity }),
                 Err(_) => all = false,
             }
         }
         all
     }
+}
+
+/// The number of a folder on a disk, and the number of that.
+type Identity = (u64, u64);
+
+/// What is at a path, behind links, where the system numbers it.
+#[cfg(unix)]
+fn identity_of(path: &Path) -> Option<Identity> {
+    use std::os::unix::fs::MetadataExt;
+    path.metadata().ok().map(|found| (found.dev(), found.ino()))
+}
+
+#[cfg(not(unix))]
+fn identity_of(_: &Path) -> Option<Identity> {
+    None
 }
 
 /// Whether somebody has only looked at a file, as who looks whether it has changed does.
@@ -118,5 +143,40 @@ mod tests {
         let began = Instant::now();
         watch.wait(std::slice::from_ref(&file));
         assert!(began.elapsed() >= SELDOM, "{:?}", began.elapsed());
+    }
+
+    /// What is told of a save in a folder, within the time that is nobody's patience.
+    #[cfg(unix)]
+    fn is_told_soon(watch: &mut Watch, file: &std::path::PathBuf) {
+        // of what has been done until now
+        watch.wait(std::slice::from_ref(file));
+        while watch.told.try_recv().is_ok() {}
+        fs::write(file, "another").expect("it is written");
+        let began = Instant::now();
+        watch.wait(std::slice::from_ref(file));
+        assert!(began.elapsed() < SELDOM / 2, "{:?}", began.elapsed());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_folder_that_another_one_replaces_is_watched_anew() {
+        let all = tempfile::tempdir().expect("a folder");
+        let [now, next, before, link] = ["now", "next", "before", "link"].map(|name| all.path().join(name));
+        for folder in [&now, &next] {
+            fs::create_dir(folder).and_then(|()| fs::write(folder.join("a.mech"), "1")).expect("it is made");
+        }
+        let mut watch = Watch::new();
+        let file = now.join("a.mech");
+        is_told_soon(&mut watch, &file);
+        fs::rename(&now, &before).and_then(|()| fs::rename(&next, &now)).expect("they are moved");
+        is_told_soon(&mut watch, &file);
+        // and a link that leads elsewhere
+        let point = |to| std::os::unix::fs::symlink(to, &link).expect("a link");
+        point(&now);
+        let file = link.join("a.mech");
+        is_told_soon(&mut watch, &file);
+        fs::remove_file(&link).expect("it is gone");
+        point(&before);
+        is_told_soon(&mut watch, &file);
     }
 }
