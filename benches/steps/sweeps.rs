@@ -6,9 +6,7 @@ use mechc::{Checked, Choice, Compiled, Memory, Parsed, SweepOptions, VaryOptions
 use std::f64::consts::PI;
 use std::hint::black_box;
 
-/// Variants that are enough to time one, where each is followed alone; what they share is made once and included.
-const ALONE: u32 = 400;
-/// The same where they go side by side.
+/// Variants that are enough to time one, side by side; what they share is made once and included.
 const ABREAST: u32 = 20_000;
 
 /// The four-bar of the closed form, whose coupler and rocker may have other lengths.
@@ -80,7 +78,7 @@ pub fn sweeps(floor: f64) {
     println!("  (a) rows: 360 times, 27 numbers            {row:>9.0} ns a row {:>7.2} x", row / floor);
     let two = Subject::new(200, "").per_variant(Some(&[4, 5]), ABREAST, 1);
     println!("  (b) two columns of position, 200 times     {:>9.1} s for 1,000,000", two * 1e-3);
-    let result = Subject::new(360, "result farthest = max(x(coupler.C))").per_variant(None, ALONE, 1);
+    let result = Subject::new(360, "result farthest = max(x(coupler.C))").per_variant(None, ABREAST, 1);
     println!("  (c) the largest of a coordinate in a turn  {:>9.1} us a variant", result * 1e-3);
     let three = Subject::new(3, "").per_variant(Some(&all), ABREAST, 1);
     println!("  (d) three times, leading over included     {:>9.1} us a variant", three * 1e-3);
