@@ -1,6 +1,8 @@
 //! The process of the client: when it is gone nobody speaks any more, whoever else may hold the pipe open.
 
 use serde_json::Value;
+#[cfg(unix)]
+use std::os::unix::process::parent_id;
 use std::time::Duration;
 
 /// So often it is looked whether it is still there.
@@ -13,21 +15,17 @@ impl Parent {
     /// By the params of `initialize`; nothing where something else stands between the two.
     pub fn of(params: &Value) -> Option<Parent> {
         let told = params.get("processId").and_then(Value::as_u64).and_then(|id| u32::try_from(id).ok())?;
-        (parent_id() == Some(told)).then_some(Parent(told))
+        (told > 0 && parent_id() == told).then_some(Parent(told))
     }
 
     /// Whether it has ended: then this process has another parent.
     pub fn is_gone(&self) -> bool {
-        parent_id() != Some(self.0)
+        parent_id() != self.0
     }
 }
 
-#[cfg(unix)]
-fn parent_id() -> Option<u32> {
-    Some(std::os::unix::process::parent_id())
-}
-
+/// Where nobody tells of parents there is none to be seen.
 #[cfg(not(unix))]
-fn parent_id() -> Option<u32> {
-    None
+fn parent_id() -> u32 {
+    0
 }
