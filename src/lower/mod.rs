@@ -129,6 +129,8 @@ struct Lowering<'m> {
     /// By named symbol, whether it holds forces: these are named when there are rows.
     of_forces: Vec<bool>,
     has_rows: bool,
+    /// Whether loads hold third derivatives of the coordinates, once that has been asked.
+    loads_hold_jerks: Option<bool>,
     /// How fast everything moves, as far as it has been asked for.
     pace: Option<later::Pace>,
     /// What joints exert, as far as it has been asked for.
@@ -214,6 +216,7 @@ impl<'m> Lowering<'m> {
             of_equations: vec![DeclarationId::from(0); model.equations.len()],
             of_forces: forces::of_forces(model),
             has_rows: false,
+            loads_hold_jerks: None,
             pace: None,
             reactions: FxHashMap::default(),
             conditions: Vec::new(),

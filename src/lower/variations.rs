@@ -38,13 +38,17 @@ impl Lowering<'_> {
         times < 2 && !is_third(dependence) && (!dependence.on(Dependence::FORCES) || !self.loads_hold_jerks())
     }
 
-    /// Whether a load holds a third derivative of the coordinates.
+    /// Whether a load holds a third derivative of the coordinates; all loads are looked at once, and not for each column.
     fn loads_hold_jerks(&mut self) -> bool {
+        if let Some(known) = self.loads_hold_jerks {
+            return known;
+        }
         let model = self.model;
-        model.loads.iter().any(|load| {
+        let found = model.loads.iter().any(|load| {
             let force = self.formula(load.force);
             is_third(self.graph.dependence(force))
-        })
+        });
+        *self.loads_hold_jerks.insert(found)
     }
 
     /// A column for each variable that was asked for and each column that can be differentiated by it.
