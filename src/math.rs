@@ -5,6 +5,7 @@
 //! elsewhere (`clippy.toml`). Angles are in radians. Beside them stand what several rooms do with numbers alone: curves between the
 //! ends of a step, searches in an interval, linear equations in blocks.
 
+mod ahead;
 /// Linear equations in blocks, with partial pivoting.
 pub mod blocks;
 mod curve;
@@ -29,6 +30,7 @@ mod without_branches {
     include!("math/without_branches.rs");
 }
 
+pub use ahead::weigh;
 pub use curve::{about, along, between, farthest, parabola, predicted, quintic, value_and_slopes};
 pub use neighbours::bisect;
 pub use search::{GOLDEN, GoldenSection, Halving, boundary};

@@ -16,6 +16,8 @@ use std::fs;
 use support::{compile_number, compiled, files, mechanisms, stem};
 
 const LANES: usize = 16;
+/// And lanes that are gone through together.
+const PART: usize = 8;
 
 /// All that this processor has; says which it has not.
 fn units() -> Vec<(&'static str, Vectors)> {
@@ -187,7 +189,7 @@ fn carry_out(
     program: &Program,
     scalars: &mechc::rooms::program::Registers,
 ) {
-    let mut lanes = LaneMachine { v, program, scalars };
+    let mut lanes = LaneMachine::<LANES, PART>::new(v, LANES / PART, (program, scalars));
     vectors.run(
         #[inline(always)]
         || op.run(&mut lanes),

@@ -30,6 +30,7 @@ pub use explain::errors::length as length_in_words;
 pub use explain::{FreeMotion, determine, free_motions};
 pub use follow::{Follower, LeadOptions, Way, before_ways, lead, lead_again};
 pub use results::{
-    Answers, Asked, MOST_LOOKS, Sampled, Settling, SmoothFormula, SmoothFormulas, Turning, moved, refused_results,
+    Answers, Asked, Computed, MOST_LOOKS, Sampled, Settling, SmoothFormula, SmoothFormulas, Turning, moved,
+    refused_results,
 };
 pub use state::{Horizon, Times};

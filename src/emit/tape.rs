@@ -398,7 +398,7 @@ mod tests {
                     a = (n % 4) as f64; // a piece that there is
                 }
                 let mut lanes = [a, b, c, -7.0, -8.0].map(|value| LaneValues([value]));
-                op.run(&mut LaneMachine { v: &mut lanes, program: &program, scalars: &scalars });
+                op.run(&mut LaneMachine::<1, 1>::new(&mut lanes, 1, (&program, &scalars)));
                 let mut v = [a, b, c, -7.0, -8.0];
                 run::<Named>(&tape.words, &[], &[&[]; 10], &mut v, &mut [0.0; 0]);
                 for (written, LaneValues([own])) in v.into_iter().zip(lanes) {

@@ -10,129 +10,169 @@ use std::array::from_fn;
 #[repr(align(64))]
 pub struct LaneValues<const W: usize>(pub [f64; W]);
 
-/// Registers that hold a number for each lane.
-pub struct LaneMachine<'n, const W: usize> {
+#[allow(clippy::inline_always)] // as all that is done in lanes
+impl<const W: usize> LaneValues<W> {
+    /// Some of them next to each other, `P` in a part.
+    #[inline(always)]
+    #[must_use]
+    pub fn part<const P: usize>(&self, part: usize) -> &[f64; P] {
+        &self.0.as_chunks().0[part]
+    }
+
+    /// The same, to be written.
+    #[inline(always)]
+    #[must_use]
+    pub fn part_mut<const P: usize>(&mut self, part: usize) -> &mut [f64; P] {
+        &mut self.0.as_chunks_mut().0[part]
+    }
+}
+
+/// Registers that hold a number for each lane, which are gone through in parts of `P` lanes: as many as a processor's vector registers hold a
+/// few times over, so that what an operation reads stays in these.
+pub struct LaneMachine<'n, const W: usize, const P: usize> {
     /// What stands in them.
     pub v: &'n mut [LaneValues<W>],
+    /// How many parts there are that somebody asks for, and which of them is gone through.
+    parts: usize,
+    part: usize,
     /// Tables, and what they hold.
     pub program: &'n Program,
     /// The program's own registers.
     pub scalars: &'n Registers,
 }
 
+impl<'n, const W: usize, const P: usize> LaneMachine<'n, W, P> {
+    /// For registers of which so many parts are gone through.
+    #[inline]
+    #[must_use]
+    pub fn new(v: &'n mut [LaneValues<W>], parts: usize, (program, scalars): (&'n Program, &'n Registers)) -> Self {
+        LaneMachine { v, parts, part: 0, program, scalars }
+    }
+}
+
 #[allow(clippy::inline_always)] // each is an arm of a loop that is compiled for several kinds of processors
-impl<const W: usize> Machine for LaneMachine<'_, W> {
-    type Value = [f64; W];
+impl<const W: usize, const P: usize> Machine for LaneMachine<'_, W, P> {
+    type Value = [f64; P];
 
     #[inline(always)]
-    fn read(&mut self, register: Register) -> [f64; W] {
-        self.v[register as usize].0
+    fn parts(&self) -> usize {
+        self.parts
     }
 
     #[inline(always)]
-    fn write(&mut self, register: Register, value: [f64; W]) {
-        self.v[register as usize].0 = value;
+    fn go_to(&mut self, part: usize) {
+        self.part = part;
     }
 
     #[inline(always)]
-    fn add(&mut self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+    fn read(&mut self, register: Register) -> [f64; P] {
+        *self.v[register as usize].part(self.part)
+    }
+
+    #[inline(always)]
+    fn write(&mut self, register: Register, value: [f64; P]) {
+        *self.v[register as usize].part_mut(self.part) = value;
+    }
+
+    #[inline(always)]
+    fn add(&mut self, a: [f64; P], b: [f64; P]) -> [f64; P] {
         from_fn(|k| a[k] + b[k])
     }
 
     #[inline(always)]
-    fn sub(&mut self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+    fn sub(&mut self, a: [f64; P], b: [f64; P]) -> [f64; P] {
         from_fn(|k| a[k] - b[k])
     }
 
     #[inline(always)]
-    fn mul(&mut self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+    fn mul(&mut self, a: [f64; P], b: [f64; P]) -> [f64; P] {
         from_fn(|k| a[k] * b[k])
     }
 
     #[inline(always)]
-    fn div(&mut self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+    fn div(&mut self, a: [f64; P], b: [f64; P]) -> [f64; P] {
         from_fn(|k| a[k] / b[k])
     }
 
     // in one go, so that no lane's product is put away
 
     #[inline(always)]
-    fn mul_add(&mut self, a: [f64; W], b: [f64; W], c: [f64; W]) -> [f64; W] {
+    fn mul_add(&mut self, a: [f64; P], b: [f64; P], c: [f64; P]) -> [f64; P] {
         from_fn(|k| a[k] * b[k] + c[k])
     }
 
     #[inline(always)]
-    fn mul_less(&mut self, a: [f64; W], b: [f64; W], c: [f64; W]) -> [f64; W] {
+    fn mul_less(&mut self, a: [f64; P], b: [f64; P], c: [f64; P]) -> [f64; P] {
         from_fn(|k| a[k] * b[k] - c[k])
     }
 
     #[inline(always)]
-    fn less_mul(&mut self, a: [f64; W], b: [f64; W], c: [f64; W]) -> [f64; W] {
+    fn less_mul(&mut self, a: [f64; P], b: [f64; P], c: [f64; P]) -> [f64; P] {
         from_fn(|k| c[k] - a[k] * b[k])
     }
 
     #[inline(always)]
-    fn neg(&mut self, a: [f64; W]) -> [f64; W] {
+    fn neg(&mut self, a: [f64; P]) -> [f64; P] {
         a.map(|a| -a)
     }
 
     #[inline(always)]
-    fn recip(&mut self, a: [f64; W]) -> [f64; W] {
+    fn recip(&mut self, a: [f64; P]) -> [f64; P] {
         a.map(|a| 1.0 / a)
     }
 
     #[inline(always)]
-    fn sin_cos(&mut self, a: [f64; W]) -> [[f64; W]; 2] {
+    fn sin_cos(&mut self, a: [f64; P]) -> [[f64; P]; 2] {
         math::sin_cos_of_each(&a).into()
     }
 
     #[inline(always)]
-    fn unary(&mut self, function: Unary, a: [f64; W]) -> [f64; W] {
+    fn unary(&mut self, function: Unary, a: [f64; P]) -> [f64; P] {
         a.map(|a| unary_value(function, a))
     }
 
     #[inline(always)]
-    fn binary(&mut self, function: Binary, a: [f64; W], b: [f64; W]) -> [f64; W] {
+    fn binary(&mut self, function: Binary, a: [f64; P], b: [f64; P]) -> [f64; P] {
         from_fn(|k| binary_value(function, a[k], b[k]))
     }
 
     #[inline(always)]
-    fn compare(&mut self, comparison: Comparison, a: [f64; W], b: [f64; W]) -> [f64; W] {
+    fn compare(&mut self, comparison: Comparison, a: [f64; P], b: [f64; P]) -> [f64; P] {
         from_fn(|k| compare(comparison, a[k], b[k]))
     }
 
     #[inline(always)]
-    fn and(&mut self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+    fn and(&mut self, a: [f64; P], b: [f64; P]) -> [f64; P] {
         from_fn(|k| truth::and(a[k], b[k]))
     }
 
     #[inline(always)]
-    fn or(&mut self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+    fn or(&mut self, a: [f64; P], b: [f64; P]) -> [f64; P] {
         from_fn(|k| truth::or(a[k], b[k]))
     }
 
     #[inline(always)]
-    fn not(&mut self, a: [f64; W]) -> [f64; W] {
+    fn not(&mut self, a: [f64; P]) -> [f64; P] {
         a.map(truth::not)
     }
 
     #[inline(always)]
-    fn select(&mut self, condition: [f64; W], a: [f64; W], b: [f64; W]) -> [f64; W] {
+    fn select(&mut self, condition: [f64; P], a: [f64; P], b: [f64; P]) -> [f64; P] {
         from_fn(|k| truth::select(condition[k], a[k], b[k]))
     }
 
     #[inline(always)]
-    fn either(&mut self, condition: [f64; W], a: [f64; W], b: [f64; W]) -> [f64; W] {
+    fn either(&mut self, condition: [f64; P], a: [f64; P], b: [f64; P]) -> [f64; P] {
         from_fn(|k| truth::either(condition[k], a[k], b[k]))
     }
 
     #[inline(always)]
-    fn piece(&mut self, table: u32, a: [f64; W]) -> [f64; W] {
+    fn piece(&mut self, table: u32, a: [f64; P]) -> [f64; P] {
         a.map(|a| self.program.piece(table, a, self.scalars))
     }
 
     #[inline(always)]
-    fn pick(&mut self, table: u32, column: Column, piece: [f64; W]) -> [f64; W] {
+    fn pick(&mut self, table: u32, column: Column, piece: [f64; P]) -> [f64; P] {
         piece.map(|piece| self.program.pick(table, column, piece, self.scalars))
     }
 }

@@ -132,9 +132,17 @@ pub enum Op {
 /// What operations are carried out on.
 #[allow(missing_docs)] // each is what the operation of its name does
 pub trait Machine {
-    /// What stands in a register.
+    /// What stands in a register, or a part of that.
     type Value;
 
+    /// In how many parts registers are gone through.
+    #[inline]
+    fn parts(&self) -> usize {
+        1
+    }
+    /// Goes to one of them: that is read and written from then on.
+    #[inline]
+    fn go_to(&mut self, _part: usize) {}
     fn read(&mut self, register: Register) -> Self::Value;
     fn write(&mut self, register: Register, value: Self::Value);
 
@@ -186,12 +194,17 @@ impl Op {
     #[inline(always)]
     #[allow(clippy::inline_always)] // what a machine does is to become one with the choice of it
     pub fn run<M: Machine>(&self, m: &mut M) {
+        // one choice for all parts
         macro_rules! of {
-            ($to:ident = $does:ident($($operand:ident),+)) => {{
-                $(let $operand = m.read($operand);)+
-                let value = m.$does($($operand),+);
-                m.write($to, value);
-            }};
+            ($to:ident = $does:ident($($given:ident),*; $($operand:ident),+)) => {
+                for part in 0..m.parts() {
+                    m.go_to(part);
+                    $(let $operand = m.read($operand);)+
+                    let value = m.$does($($given,)* $($operand),+);
+                    m.write($to, value);
+                }
+            };
+            ($to:ident = $does:ident($($operand:ident),+)) => { of!($to = $does(; $($operand),+)) };
         }
         match *self {
             Op::Add { to, a, b } => of!(to = add(a, b)),
@@ -204,45 +217,31 @@ impl Op {
             Op::Neg { to, a } => of!(to = neg(a)),
             Op::Recip { to, a } => of!(to = recip(a)),
             Op::SinCos { sin, cos, a } => {
-                let a = m.read(a);
-                let [sine, cosine] = m.sin_cos(a);
-                m.write(sin, sine);
-                m.write(cos, cosine);
+                for part in 0..m.parts() {
+                    m.go_to(part);
+                    let a = m.read(a);
+                    let [sine, cosine] = m.sin_cos(a);
+                    m.write(sin, sine);
+                    m.write(cos, cosine);
+                }
             }
-            Op::Unary { function, to, a } => {
-                let a = m.read(a);
-                let value = m.unary(function, a);
-                m.write(to, value);
-            }
-            Op::Binary { function, to, a, b } => {
-                let [a, b] = [a, b].map(|register| m.read(register));
-                let value = m.binary(function, a, b);
-                m.write(to, value);
-            }
-            Op::Compare { comparison, to, a, b } => {
-                let [a, b] = [a, b].map(|register| m.read(register));
-                let value = m.compare(comparison, a, b);
-                m.write(to, value);
-            }
+            Op::Unary { function, to, a } => of!(to = unary(function; a)),
+            Op::Binary { function, to, a, b } => of!(to = binary(function; a, b)),
+            Op::Compare { comparison, to, a, b } => of!(to = compare(comparison; a, b)),
             Op::And { to, a, b } => of!(to = and(a, b)),
             Op::Or { to, a, b } => of!(to = or(a, b)),
             Op::Not { to, a } => of!(to = not(a)),
             Op::Select { to, condition, a, b } => of!(to = select(condition, a, b)),
             Op::Either { to, condition, a, b } => of!(to = either(condition, a, b)),
             Op::Copy { to, a } => {
-                let a = m.read(a);
-                m.write(to, a);
+                for part in 0..m.parts() {
+                    m.go_to(part);
+                    let a = m.read(a);
+                    m.write(to, a);
+                }
             }
-            Op::Piece { to, table, a } => {
-                let a = m.read(a);
-                let value = m.piece(table, a);
-                m.write(to, value);
-            }
-            Op::Pick { to, table, column, piece } => {
-                let piece = m.read(piece);
-                let value = m.pick(table, column, piece);
-                m.write(to, value);
-            }
+            Op::Piece { to, table, a } => of!(to = piece(table; a)),
+            Op::Pick { to, table, column, piece } => of!(to = pick(table, column; piece)),
         }
     }
 

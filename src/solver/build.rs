@@ -7,7 +7,7 @@ use super::order::{BlockEntry, Order};
 use super::tape::Value;
 use super::tear::{Tearing, tear};
 use super::terms::Terms;
-use super::{Component, Instruction, MOST_OPERATIONS, Pivot, Purpose, Segment, Solver, Tear, Turn, Values};
+use super::{Component, FIXED, Instruction, MOST_OPERATIONS, Pivot, Purpose, Segment, Solver, Tear, Turn, Values};
 use crate::expr::Symbol;
 use crate::ir::ConstraintSystem;
 use crate::layout::RowLayout;
@@ -51,8 +51,8 @@ pub(super) fn build(
     builder.outputs(&wanted[across]);
     all.append(builder.finish(is_kept), purpose);
     let Builder { weights, tears, pivots, turns, layout, .. } = builder;
-    let Component { instructions, segments, registers } = all;
-    Some(Solver { instructions, segments, registers, weights, tears, pivots, turns, layout })
+    let (fixed, Component { instructions, segments, registers, .. }) = (all.fixed.len(), all.joined());
+    Some(Solver { instructions, fixed, segments, registers, weights, tears, pivots, turns, layout })
 }
 
 impl Component {
@@ -61,10 +61,19 @@ impl Component {
         let from = self.instructions.len();
         let segments = other.segments.into_iter().map(|segment| segment.behind(from));
         match purpose {
-            Purpose::Lanes | Purpose::Variants => {
+            Purpose::Lanes => {
                 self.instructions.extend(other.instructions);
                 self.segments.extend(segments);
                 self.registers = self.registers.max(other.registers);
+            }
+            Purpose::Variants => {
+                let used = self.fixed_registers as Register;
+                let own = |register: Register| if register < FIXED { register } else { register + used };
+                self.fixed.extend(other.fixed.into_iter().map(|each| each.renumbered(own, own)));
+                self.instructions.extend(other.instructions.into_iter().map(|each| each.renumbered(own, own)));
+                self.segments.extend(segments.map(|segment| segment.renumbered(own)));
+                self.registers = self.registers.max(other.registers);
+                self.fixed_registers += other.fixed_registers;
             }
             Purpose::Code => {
                 let used = self.registers as Register;
@@ -73,6 +82,22 @@ impl Component {
                 self.segments.extend(segments.map(|segment| segment.renumbered(own)));
                 self.registers += other.registers;
             }
+        }
+    }
+}
+
+impl Component {
+    /// The same with what is fixed in front of all else, its registers being the first ones.
+    fn joined(self) -> Component {
+        let fixed = self.fixed_registers as Register;
+        let own = |register: Register| if register < FIXED { register + fixed } else { register - FIXED };
+        let (apart, behind) = (self.fixed.len(), self.fixed_registers);
+        let all = self.fixed.into_iter().chain(self.instructions);
+        Component {
+            instructions: all.map(|each| each.renumbered(own, own)).collect(),
+            segments: self.segments.into_iter().map(|segment| segment.renumbered(own).behind(apart)).collect(),
+            registers: self.registers + behind,
+            ..Component::default()
         }
     }
 }
@@ -156,14 +181,18 @@ impl<'s, V: Values> Builder<'s, V> {
         self.close_once();
         let tape = &mut self.terms.tape;
         let instructions = std::mem::take(&mut tape.instructions);
-        let component =
-            Component { instructions, segments: std::mem::take(&mut self.segments), registers: tape.registers() };
+        let component = Component {
+            instructions,
+            segments: std::mem::take(&mut self.segments),
+            registers: tape.registers(),
+            ..Component::default()
+        };
         let is_needed = |instruction: &Instruction| match *instruction {
             Instruction::Store { column, .. } => is_kept(column),
             Instruction::Multiplier { .. } => self.purpose == Purpose::Variants,
             _ => instruction.writes().is_empty(),
         };
-        finish(component, is_needed, self.purpose != Purpose::Code)
+        finish(component, is_needed, self.purpose)
     }
 
     /// Ends a run of instructions that are done once.

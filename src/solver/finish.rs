@@ -1,26 +1,61 @@
 //! What nothing needs is left out, products are joined with their sums, and registers are used again.
 
-use super::{Component, Instruction, Segment};
+use super::{Component, FIXED, Instruction, Purpose, Segment};
 use crate::program::{Op, Register};
 use std::ops::Range;
 
 const NONE: u32 = u32::MAX;
 
 /// A component whose registers are each written once, in fewer instructions: those that are needed for themselves, and what leads to them. Its
-/// registers may be used several times if they are shared.
+/// registers may be used several times, if that is what it is for.
 pub(super) fn finish(
     mut component: Component,
     is_needed: impl Fn(&Instruction) -> bool,
-    are_shared: bool,
+    purpose: Purpose,
 ) -> Component {
     let is_needed = needed(&component, is_needed);
     let is_joined = join(&mut component, &is_needed);
     let keep: Vec<bool> = is_needed.iter().zip(&is_joined).map(|(needed, joined)| *needed && !joined).collect();
     let mut component = compact(component, &keep);
-    if are_shared {
-        share_registers(&mut component);
+    match purpose {
+        Purpose::Code => {}
+        Purpose::Lanes => {
+            let unknown = vec![NONE; component.registers];
+            share_registers(&mut component, unknown);
+        }
+        Purpose::Variants => {
+            let (component_of_rest, own) = set_fixed_apart(component);
+            component = component_of_rest;
+            share_registers(&mut component, own);
+        }
     }
     component
+}
+
+/// Sets apart what only numbers and parameters lead to: it is computed once for these, and stays. Gives the registers that this has of its own;
+/// [`NONE`] for all others.
+fn set_fixed_apart(component: Component) -> (Component, Vec<Register>) {
+    let mut own = vec![NONE; component.registers];
+    let (mut fixed, mut count) = (Vec::new(), 0);
+    let mut keep = vec![true; component.instructions.len()];
+    for at in component.segments.iter().filter(|segment| !segment.is_loop()).flat_map(Segment::range) {
+        let instruction = component.instructions[at];
+        let is_fixed = match instruction {
+            Instruction::Number { .. } | Instruction::Load { .. } => true,
+            Instruction::Compute(_) => instruction.reads().iter().all(|&register| own[register as usize] != NONE),
+            _ => false,
+        };
+        if is_fixed {
+            keep[at] = false;
+            for &register in instruction.writes().iter() {
+                own[register as usize] = FIXED | count;
+                count += 1;
+            }
+            fixed.push(instruction.renumbered(|register| own[register as usize], |register| own[register as usize]));
+        }
+    }
+    let rest = compact(component, &keep);
+    (Component { fixed, fixed_registers: count as usize, ..rest }, own)
 }
 
 /// Which instructions are needed for themselves, or lead to some that are.
@@ -95,7 +130,7 @@ fn with_product(op: Op, product: impl Fn(Register) -> Option<(usize, [Register; 
 }
 
 fn compact(component: Component, keep: &[bool]) -> Component {
-    let Component { instructions, segments, registers } = component;
+    let Component { instructions, segments, registers, .. } = component;
     let mut component = Component { registers, ..Component::default() };
     for segment in segments {
         let from = component.instructions.len();
@@ -110,11 +145,11 @@ fn compact(component: Component, keep: &[bool]) -> Component {
     component
 }
 
-/// Gives registers out anew, each to several values one after the other.
-fn share_registers(component: &mut Component) {
+/// Gives registers out anew, each to several values one after the other. Some have their place already, which they share with none.
+fn share_registers(component: &mut Component, mut place: Vec<Register>) {
     let registers = component.registers;
     let Life { last_use, outlives } = Life::new(component);
-    let mut place = vec![NONE; registers];
+    let is_fixed: Vec<bool> = place.iter().map(|&place| place != NONE).collect();
     let (mut free, mut next): (Vec<Register>, Register) = (Vec::new(), 0);
     // those that live to the end of a loop, by where it ends
     let mut ends: Vec<Vec<Register>> = Vec::new();
@@ -126,7 +161,10 @@ fn share_registers(component: &mut Component) {
         .inspect(|_| ends.push(Vec::new()))
         .collect();
     for register in 0..registers {
-        if outlives[register] != NONE && last_use[register] < loops[outlives[register] as usize].end as u32 {
+        if !is_fixed[register]
+            && outlives[register] != NONE
+            && last_use[register] < loops[outlives[register] as usize].end as u32
+        {
             ends[outlives[register] as usize].push(register as Register);
         }
     }
@@ -142,7 +180,7 @@ fn share_registers(component: &mut Component) {
         let dies = |register: Register| {
             let k = register as usize;
             let in_loop = outlives[k] != NONE && last_use[k] < loops[outlives[k] as usize].end as u32;
-            last_use[k] == at as u32 && !in_loop
+            last_use[k] == at as u32 && !in_loop && !is_fixed[k]
         };
         for (k, &register) in reads.iter().enumerate() {
             if dies(register) && !reads[..k].contains(&register) {

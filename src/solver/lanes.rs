@@ -5,45 +5,62 @@ use super::curve::Bend;
 use super::{Instruction, LARGEST_MULTIPLIER, Solver, Tear, from_bits};
 use crate::math::grid::{bound_at_first, going_on, next_point, on_grid};
 use crate::math::{self, Vectors};
-use crate::program::{LaneMachine, LaneValues, Machine, Op, Program, Register, Registers};
+use crate::program::{LaneMachine, LaneValues, Machine, Program, Register, Registers};
 use crate::tolerances::solving::lanes::{BORDER, ITERATIONS, LARGEST_CORRECTION};
 use std::array::from_fn;
 use std::ops::Range;
+
+/// Lanes that are gone through together: as many as the widest vector registers hold.
+pub const PART: usize = 8;
 
 /// Registers for `W` times.
 #[derive(Clone, Debug)]
 pub struct Lanes<const W: usize> {
     vectors: Vectors,
     values: Vec<LaneValues<W>>,
-    /// The largest multiplier of each lane, and the largest part of its bound that a residual takes.
-    multiplier: [f64; W],
-    residual: [f64; W],
-    /// The largest correction of each lane, scaled.
-    farthest: [f64; W],
-    /// With which largest correction Newton ends in each lane, in cells.
-    bound: [f64; W],
-    /// The largest first correction of each lane, scaled.
-    first_correction: [f64; W],
-    /// By lane: 0 if all that was stored is finite, else not a number.
-    finite: [f64; W],
+    watched: Watched<W>,
 }
 
-/// What a run reads beside its registers, and where it leaves its results.
-pub(super) trait Around<const W: usize> {
+/// What is seen of each lane in a run.
+#[derive(Clone, Debug)]
+struct Watched<const W: usize> {
+    /// The largest multiplier, and the largest part of its bound that a residual takes.
+    multiplier: LaneValues<W>,
+    residual: LaneValues<W>,
+    /// The largest correction, and the largest first one, scaled.
+    farthest: LaneValues<W>,
+    first_correction: LaneValues<W>,
+    /// With which largest correction Newton ends, in cells.
+    bound: LaneValues<W>,
+    /// 0 if all that was stored is finite, else not a number.
+    finite: LaneValues<W>,
+}
+
+impl<const W: usize> Watched<W> {
+    const NOTHING: Watched<W> = {
+        let zero = LaneValues([0.0; W]);
+        Watched { multiplier: zero, residual: zero, farthest: zero, first_correction: zero, bound: zero, finite: zero }
+    };
+}
+
+/// What a run reads beside its registers, and where it leaves its results: part by part of its lanes, `P` in each.
+pub(super) trait Around<const P: usize> {
+    /// How many parts there are.
+    fn parts(&self) -> usize;
     /// The value of one of the program's registers.
-    fn loaded(&self, from: Register) -> [f64; W];
+    fn loaded(&self, from: Register, part: usize) -> [f64; P];
     /// The times (s).
-    fn times(&self) -> [f64; W];
+    fn times(&self, part: usize) -> [f64; P];
     /// Where Newton begins with a tear.
-    fn guess(&self, tear: u32) -> [f64; W];
+    fn guess(&self, tear: u32, part: usize) -> [f64; P];
     /// What has been left in a column.
-    fn stored(&self, column: u32) -> [f64; W];
+    fn stored(&self, column: u32, part: usize) -> [f64; P];
     /// Leaves a result in a column.
-    fn store(&mut self, column: u32, values: &[f64; W]);
+    fn store(&mut self, column: u32, part: usize, values: &[f64; P]);
     /// One over what may be left of a row of `Φ`.
     fn bound(&self, row: u32) -> f64;
     /// Takes note of one over a pivot.
-    fn note(&mut self, pivot: u32, inverse: &[f64; W]);
+    fn note(&mut self, pivot: u32, part: usize, inverse: &[f64; P]);
     /// With corrections of up to so many cells Newton ends, where nobody asks for bits; 0 where only the grid point next to the solution will do.
     fn nearly(&self) -> f64;
 }
@@ -69,30 +86,19 @@ impl<const W: usize> Lanes<W> {
     /// Registers for a solver, which is run with some vector instructions.
     #[must_use]
     pub fn new(solver: &Solver, vectors: Vectors) -> Lanes<W> {
-        let values = vec![LaneValues([0.0; W]); solver.registers];
-        let zero = [0.0; W];
-        Lanes {
-            vectors,
-            values,
-            multiplier: zero,
-            residual: zero,
-            farthest: zero,
-            bound: zero,
-            first_correction: zero,
-            finite: zero,
-        }
+        Lanes { vectors, values: vec![LaneValues([0.0; W]); solver.registers], watched: Watched::NOTHING }
     }
 
     /// How far the curve was from the solution in the last run: the largest first correction, scaled; not a number if one is not.
     #[must_use]
     pub fn first_correction(&self) -> f64 {
-        self.first_correction.iter().copied().fold(0.0, math::max)
+        self.first_corrections().iter().copied().fold(0.0, math::max)
     }
 
     /// Whether all numbers of a lane's row are finite.
     #[must_use]
     pub fn is_finite(&self, lane: usize) -> bool {
-        self.finite[lane] == 0.0
+        self.watched.finite.0[lane] == 0.0
     }
 
     /// Solves at the times of a batch and writes a row for each, one behind the other; says which of them hold: their Newton
@@ -110,18 +116,42 @@ impl<const W: usize> Lanes<W> {
         for (row, t) in rows.chunks_exact_mut(solver.layout.stride).zip(batch.times) {
             row[0] = t;
         }
-        self.solve(solver, (program, scalars), OfTimes { solver, scalars, batch, rows });
-        from_fn(|k| !is_lost(self.farthest[k]) && self.multiplier[k] <= LARGEST_MULTIPLIER && self.residual[k] <= 1.0)
+        let around = OfTimes { solver, scalars, batch, rows };
+        if W < PART {
+            self.solve::<1>(solver, (program, scalars), around);
+        } else {
+            self.solve::<PART>(solver, (program, scalars), around);
+        }
+        let Watched { farthest, multiplier, residual, .. } = &self.watched;
+        from_fn(|k| !is_lost(farthest.0[k]) && multiplier.0[k] <= LARGEST_MULTIPLIER && residual.0[k] <= 1.0)
     }
 
-    /// Solves in all lanes.
-    pub(super) fn solve(&mut self, solver: &Solver, of: (&Program, &Registers), around: impl Around<W>) {
-        (self.multiplier, self.residual, self.farthest) = ([0.0; W], [0.0; W], [0.0; W]);
-        (self.first_correction, self.finite) = ([0.0; W], [0.0; W]);
+    /// Computes what depends on numbers and parameters alone: it stays until they are others.
+    pub(super) fn prepare<const P: usize>(
+        &mut self,
+        solver: &Solver,
+        of: (&Program, &Registers),
+        around: impl Around<P>,
+    ) {
+        let vectors = self.vectors;
+        let mut run = Run { lanes: self, solver, of, around };
+        vectors.run(
+            #[inline(always)]
+            || run.instructions(0..solver.fixed),
+        );
+    }
+
+    /// Solves in the lanes of the parts that there are, of `P` lanes each.
+    pub(super) fn solve<const P: usize>(
+        &mut self,
+        solver: &Solver,
+        of: (&Program, &Registers),
+        around: impl Around<P>,
+    ) {
+        self.watched = Watched::NOTHING;
         // one lane has nothing to do at once
         let vectors = if W == 1 { Vectors::BASE } else { self.vectors };
-        let (program, scalars) = of;
-        let mut run = Run { lanes: self, solver, program, scalars, around };
+        let mut run = Run { lanes: self, solver, of, around };
         vectors.run(
             #[inline(always)]
             || run.segments(),
@@ -134,16 +164,17 @@ impl<const W: usize> Lanes<W> {
     #[allow(clippy::inline_always, clippy::needless_range_loop)] // compiled for several kinds of processors; by lane it vectorises best
     pub(super) fn write_doubts(&self, part: f64, doubts: &mut [f64; W]) {
         let largest = part * LARGEST_MULTIPLIER;
+        let Watched { farthest, residual, multiplier, finite, .. } = &self.watched;
         for k in 0..W {
-            let is_settled = self.farthest[k] <= LARGEST_CORRECTION && self.residual[k] <= 1.0;
-            let is_certain = self.multiplier[k] <= largest && self.finite[k] == 0.0;
+            let is_settled = farthest.0[k] <= LARGEST_CORRECTION && residual.0[k] <= 1.0;
+            let is_certain = multiplier.0[k] <= largest && finite.0[k] == 0.0;
             doubts[k] += if is_settled & is_certain { 0.0 } else { 1.0 };
         }
     }
 
     /// How far the guess of each lane was from its solution, scaled.
     pub(super) fn first_corrections(&self) -> &[f64; W] {
-        &self.first_correction
+        &self.watched.first_correction.0
     }
 }
 
@@ -156,25 +187,31 @@ struct OfTimes<'r, const W: usize> {
 }
 
 #[allow(clippy::inline_always)] // as all that `Lanes::solve` does
-impl<const W: usize> Around<W> for OfTimes<'_, W> {
+impl<const W: usize, const P: usize> Around<P> for OfTimes<'_, W> {
     #[inline(always)]
-    fn loaded(&self, from: Register) -> [f64; W] {
-        [self.scalars.get(from); W]
+    fn parts(&self) -> usize {
+        W / P
     }
 
     #[inline(always)]
-    fn times(&self) -> [f64; W] {
-        self.batch.times
+    fn loaded(&self, from: Register, _: usize) -> [f64; P] {
+        [self.scalars.get(from); P]
     }
 
     #[inline(always)]
-    fn guess(&self, tear: u32) -> [f64; W] {
-        self.batch.on_curve(self.solver, tear)
+    fn times(&self, part: usize) -> [f64; P] {
+        self.batch.times.as_chunks().0[part]
     }
 
     #[inline(always)]
-    fn stored(&self, column: u32) -> [f64; W] {
-        let (mut at, stride, mut values) = (column as usize, self.solver.layout.stride, [0.0; W]);
+    fn guess(&self, tear: u32, part: usize) -> [f64; P] {
+        self.batch.on_curve(self.solver, tear, part)
+    }
+
+    #[inline(always)]
+    fn stored(&self, column: u32, part: usize) -> [f64; P] {
+        let stride = self.solver.layout.stride;
+        let (mut at, mut values) = (column as usize + part * P * stride, [0.0; P]);
         for value in &mut values {
             *value = self.rows[at];
             at += stride;
@@ -183,8 +220,9 @@ impl<const W: usize> Around<W> for OfTimes<'_, W> {
     }
 
     #[inline(always)]
-    fn store(&mut self, column: u32, values: &[f64; W]) {
-        let (mut at, stride) = (column as usize, self.solver.layout.stride);
+    fn store(&mut self, column: u32, part: usize, values: &[f64; P]) {
+        let stride = self.solver.layout.stride;
+        let mut at = column as usize + part * P * stride;
         for value in values {
             self.rows[at] = *value;
             at += stride;
@@ -197,7 +235,7 @@ impl<const W: usize> Around<W> for OfTimes<'_, W> {
     }
 
     #[inline(always)]
-    fn note(&mut self, _: u32, _: &[f64; W]) {}
+    fn note(&mut self, _: u32, _: usize, _: &[f64; P]) {}
 
     #[inline(always)]
     fn nearly(&self) -> f64 {
@@ -205,17 +243,16 @@ impl<const W: usize> Around<W> for OfTimes<'_, W> {
     }
 }
 
-struct Run<'r, A, const W: usize> {
+struct Run<'r, A, const W: usize, const P: usize> {
     lanes: &'r mut Lanes<W>,
     solver: &'r Solver,
-    program: &'r Program,
-    scalars: &'r Registers,
+    of: (&'r Program, &'r Registers),
     around: A,
 }
 
 // All of it becomes part of `Lanes::solve`, once for each kind of vector instructions.
 #[allow(clippy::inline_always)]
-impl<A: Around<W>, const W: usize> Run<'_, A, W> {
+impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
     #[inline(always)]
     fn segments(&mut self) {
         for segment in &self.solver.segments {
@@ -236,31 +273,44 @@ impl<A: Around<W>, const W: usize> Run<'_, A, W> {
     #[inline(always)]
     fn begin(&mut self, tears: &[Tear]) {
         let nearly = self.around.nearly();
-        self.lanes.bound = [if nearly > 0.0 { nearly } else { bound_at_first(BORDER) }; W];
+        self.lanes.watched.bound = LaneValues([if nearly > 0.0 { nearly } else { bound_at_first(BORDER) }; W]);
         for tear in tears {
-            self.lanes.values[tear.x as usize].0.iter_mut().for_each(|x| *x = on_grid(*x, tear.cell));
+            let x = &mut self.lanes.values[tear.x as usize];
+            for part in 0..self.around.parts() {
+                x.part_mut::<P>(part).iter_mut().for_each(|x| *x = on_grid(*x, tear.cell));
+            }
         }
     }
 
-    /// Goes on to the next grid points in the lanes that have not settled (`math/grid.rs`); says whether there are none. A lane that has
-    /// settled stays where it is, whatever the others do.
+    /// Goes on to the next grid points in the lanes that have not settled; says whether there are none.
     #[inline(always)]
     fn go_on(&mut self, tears: &[Tear], iteration: usize) -> bool {
+        let mut have_settled = true;
+        for part in 0..self.around.parts() {
+            have_settled &= self.go_on_in(part, tears, iteration);
+        }
+        have_settled
+    }
+
+    /// The same in a part of the lanes (`math/grid.rs`). A lane that has settled stays where it is, whatever the others do.
+    #[inline(always)]
+    fn go_on_in(&mut self, part: usize, tears: &[Tear], iteration: usize) -> bool {
         let nearly = self.around.nearly();
-        let Lanes { values, bound, farthest, first_correction, .. } = &mut *self.lanes;
-        let (mut largest, mut far) = ([0.0; W], [0.0; W]);
+        let Lanes { values, watched, .. } = &mut *self.lanes;
+        let (mut largest, mut far) = ([0.0; P], [0.0; P]);
         for tear in tears {
-            let delta = &values[tear.delta as usize].0;
+            let delta = values[tear.delta as usize].part(part);
             keep_largest(&mut largest, delta, 1.0 / tear.cell);
             keep_largest(&mut far, delta, 1.0 / tear.scale);
         }
+        let (farthest, bound) = (watched.farthest.part_mut(part), watched.bound.part_mut::<P>(part));
         keep_largest(farthest, &far, 1.0);
         if iteration == 0 {
-            keep_largest(first_correction, &far, 1.0);
+            keep_largest(watched.first_correction.part_mut(part), &far, 1.0);
         }
         // by lane: the cells, in cells, among whose points coordinates next to a border go on; 0 where all stay
-        let (mut cells, mut open) = ([0.0; W], 0.0);
-        for k in 0..W {
+        let (mut cells, mut open) = ([0.0; P], 0.0);
+        for k in 0..P {
             let stays = largest[k] <= bound[k] || is_lost(farthest[k]);
             let (next, width) = going_on(largest[k], bound[k], BORDER);
             let next = if nearly > 0.0 { nearly } else { next };
@@ -272,9 +322,9 @@ impl<A: Around<W>, const W: usize> Run<'_, A, W> {
             return true;
         }
         for tear in tears {
-            let delta = values[tear.delta as usize].0;
-            let x = &mut values[tear.x as usize].0;
-            for k in 0..W {
+            let delta = *values[tear.delta as usize].part::<P>(part);
+            let x = values[tear.x as usize].part_mut::<P>(part);
+            for k in 0..P {
                 let next = next_point(x[k], delta[k], tear.cell, cells[k], BORDER);
                 x[k] = if cells[k] > 0.0 { next } else { x[k] };
             }
@@ -292,47 +342,59 @@ impl<A: Around<W>, const W: usize> Run<'_, A, W> {
     #[inline(always)]
     fn end(&mut self, tears: &[Tear]) {
         for tear in tears {
-            let delta = self.lanes.values[tear.delta as usize].0;
-            for (x, delta) in self.lanes.values[tear.x as usize].0.iter_mut().zip(delta) {
-                *x += delta;
+            for part in 0..self.around.parts() {
+                let delta = *self.lanes.values[tear.delta as usize].part::<P>(part);
+                let x = self.lanes.values[tear.x as usize].part_mut::<P>(part);
+                x.iter_mut().zip(delta).for_each(|(x, delta)| *x += delta);
             }
         }
     }
 
     #[inline(always)]
     fn instructions(&mut self, range: Range<usize>) {
-        let Lanes { values, multiplier, residual, finite, .. } = &mut *self.lanes;
+        let Lanes { values, watched, .. } = &mut *self.lanes;
         let around = &mut self.around;
-        let mut machine = LaneMachine { v: values.as_mut_slice(), program: self.program, scalars: self.scalars };
+        let parts = around.parts();
+        let mut machine = LaneMachine::<W, P>::new(values, parts, self.of);
         for instruction in &self.solver.instructions[range] {
             // most are operations: one choice of many, and not two
             if let Instruction::Compute(op) = instruction {
                 op.run(&mut machine);
                 continue;
             }
+            macro_rules! by_part {
+                ($part:ident, $does:expr) => {
+                    for $part in 0..parts {
+                        machine.go_to($part);
+                        $does;
+                    }
+                };
+            }
             match *instruction {
                 Instruction::Compute(_) => {}
-                Instruction::Pivot { a, pivot } => around.note(pivot, &machine.v[a as usize].0),
-                Instruction::Number { to, bits } => machine.write(to, [from_bits(bits); W]),
-                Instruction::Load { to, from } => machine.write(to, around.loaded(from)),
-                Instruction::Time { to } => machine.write(to, around.times()),
-                Instruction::Column { to, column } => machine.write(to, around.stored(column)),
-                Instruction::Store { column, a } => {
+                Instruction::Pivot { a, pivot } => by_part!(part, around.note(pivot, part, &machine.read(a))),
+                Instruction::Number { to, bits } => by_part!(part, machine.write(to, [from_bits(bits); P])),
+                Instruction::Load { to, from } => by_part!(part, machine.write(to, around.loaded(from, part))),
+                Instruction::Time { to } => by_part!(part, machine.write(to, around.times(part))),
+                Instruction::Column { to, column } => by_part!(part, machine.write(to, around.stored(column, part))),
+                Instruction::Store { column, a } => by_part!(part, {
                     // −0 would surprise a reader; lanes together first, then one by one to their rows
-                    let values = machine.v[a as usize].0.map(|value| value + 0.0);
-                    for (finite, value) in finite.iter_mut().zip(values) {
+                    let values = machine.read(a).map(|value| value + 0.0);
+                    for (finite, value) in watched.finite.part_mut::<P>(part).iter_mut().zip(values) {
                         *finite += 0.0 * value;
                     }
-                    around.store(column, &values);
-                }
-                Instruction::Curve { to, tear } => machine.write(to, around.guess(tear)),
-                Instruction::Multiplier { to, a, b, weight } => {
-                    Op::Mul { to, a, b }.run(&mut machine);
-                    keep_largest(multiplier, &machine.v[to as usize].0, self.solver.weights[weight as usize]);
-                }
-                Instruction::Residual { a, row } => {
-                    keep_largest(residual, &machine.v[a as usize].0, around.bound(row));
-                }
+                    around.store(column, part, &values);
+                }),
+                Instruction::Curve { to, tear } => by_part!(part, machine.write(to, around.guess(tear, part))),
+                Instruction::Multiplier { to, a, b, weight } => by_part!(part, {
+                    let (a, b) = (machine.read(a), machine.read(b));
+                    let product = machine.mul(a, b);
+                    machine.write(to, product);
+                    keep_largest(watched.multiplier.part_mut(part), &product, self.solver.weights[weight as usize]);
+                }),
+                Instruction::Residual { a, row } => by_part!(part, {
+                    keep_largest(watched.residual.part_mut(part), &machine.read(a), around.bound(row));
+                }),
             }
         }
     }
@@ -342,11 +404,11 @@ impl<const W: usize> Batch<'_, W> {
     /// Where Newton begins with a tear: on the curve of the step.
     #[inline(always)]
     #[allow(clippy::inline_always)] // as all that `Lanes::solve` does
-    fn on_curve(&self, solver: &Solver, tear: u32) -> [f64; W] {
+    fn on_curve<const P: usize>(&self, solver: &Solver, tear: u32, part: usize) -> [f64; P] {
         let curve = &self.curve[solver.tears[tear as usize] as usize];
         let bend = self.bends.get(tear as usize).unwrap_or(&Bend::NONE);
         let per_second = 1.0 / self.length;
-        self.times.map(|t| bend.on_curve(curve, (t - self.from) * per_second))
+        self.times.as_chunks().0[part].map(|t| bend.on_curve(curve, (t - self.from) * per_second))
     }
 }
 

@@ -36,7 +36,7 @@ mod variants;
 use crate::tolerances::solving::solver::{LARGEST_MULTIPLIER, MOST_OPERATIONS};
 pub use curve::Bend;
 pub use instruction::{Instruction, from_bits};
-pub use lanes::{Batch, Lanes};
+pub use lanes::{Batch, Lanes, PART};
 pub use order::{BlockEntry, Order};
 pub use pivoting::{BlockTables, Equations, Pivoting};
 pub use variants::{Abreast, Guesses};
@@ -51,6 +51,8 @@ use std::ops::Range;
 pub struct Solver {
     /// Those of all components one behind the other: they are read in a row, time and again.
     instructions: Vec<Instruction>,
+    /// So many of them, the first ones, are run once for numbers and parameters; none where nothing is set apart.
+    fixed: usize,
     /// What there is to run, component by component, and last the measures that join components, from what these have stored.
     segments: Vec<Segment>,
     registers: usize,
@@ -81,9 +83,15 @@ pub struct Turn {
     pub is_negative: bool,
 }
 
+/// Of a register, while a solver is laid out: that what it holds is fixed.
+const FIXED: Register = 1 << 31;
+
 /// Blocks that depend on each other, in an order of solution, as operations.
 #[derive(Clone, Debug, Default)]
 struct Component {
+    /// What only numbers and parameters lead to, where that is set apart, and how many registers it has of its own, each of them [`FIXED`].
+    fixed: Vec<Instruction>,
+    fixed_registers: usize,
     instructions: Vec<Instruction>,
     segments: Vec<Segment>,
     registers: usize,

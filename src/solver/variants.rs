@@ -1,6 +1,6 @@
 //! Running a solver for several variants of a mechanism at once, each with parameters and a time of its own.
 
-use super::lanes::{Around, Lanes};
+use super::lanes::{Around, Lanes, PART};
 use super::{Pivot, Solver};
 use crate::math::{Vectors, max};
 use crate::program::{LaneValues, Program, Register, Registers};
@@ -21,11 +21,15 @@ pub struct Abreast<const W: usize> {
 struct Out<const W: usize> {
     /// By column of a row: where it is among those that are kept.
     places: Vec<u32>,
+    /// By column that is kept, by row of those that are kept.
     kept: Vec<LaneValues<W>>,
+    /// How many rows are kept, and which of them is written and read.
+    rows: usize,
+    row: usize,
     /// By turn of the solver: one over the block's determinant, but for its sign where pivots are positive.
     determinants: Vec<LaneValues<W>>,
     /// One over the smallest pivot, scaled.
-    steepest: [f64; W],
+    steepest: LaneValues<W>,
 }
 
 /// What variants are solved with.
@@ -39,14 +43,16 @@ pub struct Guesses<'g, const W: usize> {
     pub loaded: &'g [LaneValues<W>],
     /// By row of `Φ`: one over what may be left of it.
     pub bounds: &'g [f64],
+    /// In so many parts of the lanes somebody goes, the first ones.
+    pub parts: usize,
     /// With corrections of up to so many cells Newton ends; 0 where rows are wanted, whose bits must not depend on the guesses.
     pub nearly: f64,
 }
 
 impl<const W: usize> Abreast<W> {
-    /// For a solver that is laid out for variants, which keeps some columns.
+    /// For a solver that is laid out for variants, which keeps some columns of so many rows.
     #[must_use]
-    pub fn new(solver: &Solver, is_kept: impl Fn(u32) -> bool, vectors: Vectors) -> Abreast<W> {
+    pub fn new(solver: &Solver, (is_kept, rows): (impl Fn(u32) -> bool, usize), vectors: Vectors) -> Abreast<W> {
         let (mut places, mut count) = (vec![NOWHERE; solver.layout.stride], 0);
         for (column, place) in places.iter_mut().enumerate() {
             if is_kept(column as u32) {
@@ -55,16 +61,26 @@ impl<const W: usize> Abreast<W> {
             }
         }
         let zero = LaneValues([0.0; W]);
-        let (kept, determinants) = (vec![zero; count as usize], vec![zero; solver.turns.len()]);
-        Abreast { lanes: Lanes::new(solver, vectors), out: Out { places, kept, determinants, steepest: [0.0; W] } }
+        let (kept, determinants) = (vec![zero; count as usize * rows], vec![zero; solver.turns.len()]);
+        Abreast {
+            lanes: Lanes::new(solver, vectors),
+            out: Out { places, kept, rows, row: 0, determinants, steepest: zero },
+        }
     }
 
-    /// Solves for all variants.
+    /// Takes over what depends on parameters alone, of the program's registers, in so many parts of the lanes: it stays until this is called again.
+    pub fn load(&mut self, solver: &Solver, of: (&Program, &Registers), loaded: &[LaneValues<W>], parts: usize) {
+        let guesses = Guesses { times: [0.0; W], tears: &[], loaded, bounds: &[], parts, nearly: 0.0 };
+        let around = OfVariants { guesses: &guesses, pivots: &solver.pivots, out: &mut self.out };
+        self.lanes.prepare::<PART>(solver, of, around);
+    }
+
+    /// Solves for all variants, once what depends on their parameters is loaded.
     pub fn run(&mut self, solver: &Solver, of: (&Program, &Registers), guesses: &Guesses<'_, W>) {
         let out = &mut self.out;
         out.determinants.fill(LaneValues([1.0; W]));
-        out.steepest = [0.0; W];
-        self.lanes.solve(solver, of, OfVariants { guesses, pivots: &solver.pivots, out });
+        out.steepest = LaneValues([0.0; W]);
+        self.lanes.solve::<PART>(solver, of, OfVariants { guesses, pivots: &solver.pivots, out });
     }
 
     /// Adds to each lane that does not hold beyond doubt: its Newton has settled, every equation is met, no pivot was too small, and all that
@@ -84,7 +100,7 @@ impl<const W: usize> Abreast<W> {
     /// One over the smallest pivot of a lane, scaled.
     #[must_use]
     pub fn steepest(&self) -> &[f64; W] {
-        &self.out.steepest
+        &self.out.steepest.0
     }
 
     /// By turn of the solver: one over the block's determinant, but for a sign that stays.
@@ -93,11 +109,30 @@ impl<const W: usize> Abreast<W> {
         &self.out.determinants
     }
 
+    /// Goes to one of the rows that are kept: that is written and read from then on.
+    pub fn turn_to(&mut self, row: usize) {
+        self.out.row = row;
+    }
+
     /// What is in a column that is kept.
     #[must_use]
     #[inline]
     pub fn column(&self, column: u32) -> &LaneValues<W> {
-        &self.out.kept[self.out.places[column as usize] as usize]
+        &self.out.kept[self.out.place(column)]
+    }
+
+    /// What is in a column of all rows that are kept.
+    #[must_use]
+    pub fn rows(&self, column: u32) -> &[LaneValues<W>] {
+        let first = self.out.places[column as usize] as usize * self.out.rows;
+        &self.out.kept[first..first + self.out.rows]
+    }
+}
+
+impl<const W: usize> Out<W> {
+    #[inline]
+    fn place(&self, column: u32) -> usize {
+        self.places[column as usize] as usize * self.rows + self.row
     }
 }
 
@@ -109,30 +144,36 @@ struct OfVariants<'r, const W: usize> {
 }
 
 #[allow(clippy::inline_always)] // as all that `Lanes::solve` does
-impl<const W: usize> Around<W> for OfVariants<'_, W> {
+impl<const W: usize> Around<PART> for OfVariants<'_, W> {
     #[inline(always)]
-    fn loaded(&self, from: Register) -> [f64; W] {
-        self.guesses.loaded[from as usize].0
+    fn parts(&self) -> usize {
+        self.guesses.parts
     }
 
     #[inline(always)]
-    fn times(&self) -> [f64; W] {
-        self.guesses.times
+    fn loaded(&self, from: Register, part: usize) -> [f64; PART] {
+        *self.guesses.loaded[from as usize].part(part)
     }
 
     #[inline(always)]
-    fn guess(&self, tear: u32) -> [f64; W] {
-        self.guesses.tears[tear as usize].0
+    fn times(&self, part: usize) -> [f64; PART] {
+        self.guesses.times.as_chunks().0[part]
     }
 
     #[inline(always)]
-    fn stored(&self, column: u32) -> [f64; W] {
-        self.out.kept[self.out.places[column as usize] as usize].0
+    fn guess(&self, tear: u32, part: usize) -> [f64; PART] {
+        *self.guesses.tears[tear as usize].part(part)
     }
 
     #[inline(always)]
-    fn store(&mut self, column: u32, values: &[f64; W]) {
-        self.out.kept[self.out.places[column as usize] as usize].0 = *values;
+    fn stored(&self, column: u32, part: usize) -> [f64; PART] {
+        *self.out.kept[self.out.place(column)].part(part)
+    }
+
+    #[inline(always)]
+    fn store(&mut self, column: u32, part: usize, values: &[f64; PART]) {
+        let place = self.out.place(column);
+        *self.out.kept[place].part_mut(part) = *values;
     }
 
     #[inline(always)]
@@ -146,10 +187,11 @@ impl<const W: usize> Around<W> for OfVariants<'_, W> {
     }
 
     #[inline(always)]
-    fn note(&mut self, pivot: u32, inverse: &[f64; W]) {
+    fn note(&mut self, pivot: u32, part: usize, inverse: &[f64; PART]) {
         let Pivot { turn, weight } = self.pivots[pivot as usize];
-        let (of_turn, steepest) = (&mut self.out.determinants[turn as usize].0, &mut self.out.steepest);
-        for k in 0..W {
+        let of_turn = self.out.determinants[turn as usize].part_mut::<PART>(part);
+        let steepest = self.out.steepest.part_mut::<PART>(part);
+        for k in 0..PART {
             of_turn[k] *= inverse[k];
             steepest[k] = max(steepest[k], inverse[k].abs() * weight);
         }

@@ -8,7 +8,7 @@ use crate::cancel::Cancel;
 use crate::expr::Symbol;
 use crate::model::{DecidedBy, Mechanism};
 use crate::program::{LaneMachine, LaneValues, Program, Register, Registers, Stage};
-use crate::sweep::{Each, LANES, Team, Together, WantedOfEach};
+use crate::sweep::{Each, LANES, PART, Room, Team, Together, WantedOfEach};
 use std::array::from_fn;
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -101,9 +101,9 @@ impl Abreast {
         self.together.rows()
     }
 
-    /// Follows as many variants as there are lanes, or fewer, by the values of the params that vary, one variant behind the other; says which
+    /// Follows as many variants as there are lanes, or fewer, by the values of the params that vary, one variant behind the other; writes their rows, and says which
     /// have all their rows, or all their results where no rows are wanted. One of whose values the text's check decides anything else goes alone.
-    pub fn follow(&self, side: &mut Side, varying: &[f64], cancel: &Cancel) -> [bool; LANES] {
+    pub fn follow(&self, side: &mut Side, varying: &[f64], room: Room<'_>, cancel: &Cancel) -> [bool; LANES] {
         let width = self.places.len();
         let count = varying.len() / width.max(1);
         for (k, places) in self.places.iter().enumerate() {
@@ -118,7 +118,7 @@ impl Abreast {
         for (those, varying) in those.iter_mut().zip(varying.chunks_exact(width)) {
             *those &= varying.iter().all(|value| value.is_finite() && *value != 0.0);
         }
-        side.team.follow(&side.params, those, cancel)
+        side.team.follow(&side.params, those, room, cancel)
     }
 }
 
@@ -163,7 +163,7 @@ impl Decided {
         let Decided { program, registers: scalars, all } = self;
         let first = program.inputs.params as usize;
         registers[first..first + params.len()].copy_from_slice(params);
-        let mut machine = LaneMachine { v: registers, program, scalars };
+        let mut machine = LaneMachine::<LANES, PART>::new(registers, LANES / PART, (program, scalars));
         let stages = [Stage::Prologue, Stage::Measures];
         stages.into_iter().flat_map(|stage| program.stage(stage)).for_each(|op| op.run(&mut machine));
         from_fn(|lane| {

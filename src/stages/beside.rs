@@ -6,7 +6,7 @@ use super::over::FromOwn;
 use crate::analysis::Times;
 use crate::diag::Diagnostic;
 use crate::program::LaneValues;
-use crate::sweep::{Each, LANES, Team, Together, WantedOfEach};
+use crate::sweep::{Each, LANES, Room, Team, Together, WantedOfEach};
 use std::array::from_fn;
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
@@ -43,7 +43,8 @@ pub(super) struct SideBySide {
     of: Arc<Together>,
     team: Team,
     params: Vec<Each>,
-    columns: usize,
+    /// By column, place by place.
+    columns: Vec<Vec<f64>>,
     /// Those of which nothing is in doubt.
     done: [bool; LANES],
 }
@@ -64,7 +65,9 @@ impl Beside {
         for (place, param) in side.params.iter_mut().enumerate() {
             param.0 = lanes.map(|of| of.unwrap_or(aim).values[place]);
         }
-        side.done = side.team.follow(&side.params, lanes.map(|of| of.is_some()), &options.cancel);
+        side.columns.iter_mut().for_each(|column| column.resize(aims.len().min(LANES), 0.0));
+        let room = Room { columns: &mut side.columns, before: 0, rows: 1 };
+        side.done = side.team.follow(&side.params, lanes.map(|of| of.is_some()), room, &options.cancel);
         Some(side)
     }
 
@@ -88,7 +91,13 @@ impl Beside {
         }
         let known = known.as_mut()?;
         let of = Arc::clone(known.together.as_ref()?);
-        let new = || SideBySide { team: Team::new(&of), of, params: Vec::new(), columns, done: [false; LANES] };
+        let new = || SideBySide {
+            team: Team::new(&of),
+            of,
+            params: Vec::new(),
+            columns: vec![Vec::new(); columns],
+            done: [false; LANES],
+        };
         Some(known.idle.pop().unwrap_or_else(new))
     }
 
@@ -116,7 +125,7 @@ impl SideBySide {
     pub fn write_row(&self, lane: usize, row: &mut Vec<f64>) -> bool {
         if self.done[lane] {
             row.clear();
-            row.extend((0..self.columns).map(|column| self.team.column(column, lane..lane + 1)[0]));
+            row.extend(self.columns.iter().map(|column| column[lane]));
         }
         self.done[lane]
     }

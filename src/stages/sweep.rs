@@ -1,6 +1,6 @@
 //! Many variants of one mechanism, each led over to its params along the branch.
 
-use super::abreast::Abreast;
+use super::abreast::{Abreast, Side};
 use super::checked::UNTIL;
 use super::families::{Families, Places};
 use super::over::Reached;
@@ -17,7 +17,7 @@ const NUMBERS: u64 = 1 << 18;
 /// Variants of a piece at the most, so that the first come soon.
 const MOST: u64 = 256;
 /// And at least: so many are computed side by side.
-const LEAST: u64 = 16;
+const LEAST: u64 = LANES as u64;
 
 /// How a sweep is made.
 #[derive(Clone, Debug)]
@@ -143,6 +143,29 @@ struct Sweeping {
     abreast: OnceLock<Option<Abreast>>,
 }
 
+/// Variants that went side by side.
+struct Done<'d> {
+    team: &'d Team,
+    /// Which of them have all their rows, or all their results where no rows are wanted.
+    lanes: [bool; LANES],
+    /// How many rows each has.
+    rows: usize,
+    /// By column: what was written of all of them, row after row; nothing where all that is wanted of all is there, and stands in the block.
+    aside: Option<Vec<Vec<f64>>>,
+}
+
+impl<'d> Done<'d> {
+    /// Follows variants, by their params.
+    fn of(of: &Abreast, side: &'d mut Side, block: &mut Swept, params: &[f64], sweeping: &Sweeping) -> Done<'d> {
+        let (count, rows) = (params.len() / sweeping.width(), of.rows());
+        let before = block.columns.first().map_or(0, Vec::len);
+        let lanes = of.follow(side, params, block.room(count, rows), &sweeping.options.cancel);
+        let team = &side.team;
+        let is_whole = (0..count).all(|lane| lanes[lane] && sweeping.has_all(team, lane));
+        Done { team, lanes, rows, aside: (!is_whole).then(|| block.take_room(before)) }
+    }
+}
+
 impl Sweeping {
     /// Some variants, up to the one that is looked for, and whether it is among them; nothing when it was cancelled.
     fn block(&self, variants: std::ops::Range<u64>) -> Option<(Swept, bool)> {
@@ -160,11 +183,8 @@ impl Sweeping {
                 self.variants.points().values(number, params);
             }
             let (params, side) = (&params[..count * width], side.as_mut());
-            let done = abreast.zip(side).map(|(abreast, side)| {
-                let done = abreast.follow(side, params, &self.options.cancel);
-                (&side.team, done)
-            });
-            found = self.push_all(&mut block, params, done);
+            let done = abreast.zip(side).map(|(abreast, side)| Done::of(abreast, side, &mut block, params, self));
+            found = self.push_all(&mut block, params, done.as_ref());
             if found != Some(false) {
                 break;
             }
@@ -182,22 +202,19 @@ impl Sweeping {
 
     /// Adds variants, some of which went side by side, by their params; says whether the one that is looked for is among them, up to which they
     /// are added; nothing when it was cancelled.
-    fn push_all(&self, block: &mut Swept, params: &[f64], done: Option<(&Team, [bool; LANES])>) -> Option<bool> {
+    fn push_all(&self, block: &mut Swept, params: &[f64], done: Option<&Done<'_>>) -> Option<bool> {
         let width = self.width();
-        let (count, mut lane) = (params.len() / width, 0);
-        while lane < count {
+        let count = params.len() / width;
+        if let Some(done) = done.filter(|done| done.aside.is_none()) {
+            block.push_abreast((count, done.rows), params);
+            (0..count).filter_map(|lane| done.team.results(lane)).for_each(|known| block.push_results_abreast(known));
+            return Some(false);
+        }
+        for (lane, params) in params.chunks_exact(width).enumerate() {
             if self.options.cancel.is_cancelled() {
                 return None;
             }
-            let is_whole = |&lane: &usize| done.is_some_and(|(team, done)| done[lane] && self.has_all(team, lane));
-            let end = (lane..count).find(|lane| !is_whole(lane)).unwrap_or(count);
-            if let Some((team, _)) = done.filter(|_| end > lane) {
-                push_run(block, &params[lane * width..end * width], team, lane..end);
-                lane = end;
-                continue;
-            }
-            let beside = done.filter(|(_, done)| done[lane]).map(|(team, _)| (team, lane));
-            let found = self.push_one(block, &params[lane * width..(lane + 1) * width], beside);
+            let found = self.push_one(block, params, done.filter(|done| done.lanes[lane]).map(|done| (done, lane)));
             // who cancelled wants no more, and of this one not all may be there
             if self.options.cancel.is_cancelled() {
                 return None;
@@ -205,7 +222,6 @@ impl Sweeping {
             if found == Some(1.0) {
                 return Some(true);
             }
-            lane += 1;
         }
         Some(false)
     }
@@ -217,20 +233,22 @@ impl Sweeping {
 
     /// Adds a variant, by its params: what has all its rows, side by side, wants its results alone, unless they are known too. Gives the result that
     /// tells whether it is looked for.
-    fn push_one(&self, block: &mut Swept, params: &[f64], beside: Option<(&Team, usize)>) -> Option<f64> {
-        let beside = beside.and_then(|(team, lane)| match team.results(lane) {
-            Some(results) => Some((team, lane, results.to_vec(), true)),
-            None => Some((team, lane, self.results_of(params)?, false)),
+    fn push_one(&self, block: &mut Swept, params: &[f64], beside: Option<(&Done<'_>, usize)>) -> Option<f64> {
+        let beside = beside.and_then(|(done, lane)| match done.team.results(lane) {
+            Some(results) => Some((done, lane, results.to_vec(), true)),
+            None => Some((done, lane, self.results_of(params)?, false)),
         });
-        let Some((team, lane, mut results, is_known)) = beside else {
+        let Some((done, lane, mut results, is_known)) = beside else {
             let mut variant = self.variant(params);
             let found = self.until.map(|until| variant.results.remove(until));
             block.push(params, &variant);
             return found;
         };
         let found = self.until.map(|until| results.remove(until));
-        let columns = (0..).map(|place| team.column(place, lane..lane + 1));
-        block.push_abreast((1, team.rows()), params, columns);
+        for (column, from) in block.columns.iter_mut().zip(done.aside.iter().flatten()) {
+            column.extend_from_slice(&from[lane * done.rows..(lane + 1) * done.rows]);
+        }
+        block.push_abreast((1, done.rows), params);
         if is_known {
             block.push_results_abreast(&results);
         } else {
@@ -369,13 +387,6 @@ impl Sweeping {
             }
         }
     }
-}
-
-/// Adds variants that went side by side, of which all is there.
-fn push_run(block: &mut Swept, params: &[f64], team: &Team, lanes: std::ops::Range<usize>) {
-    let columns = (0..).map(|place| team.column(place, lanes.clone()));
-    block.push_abreast((lanes.len(), team.rows()), params, columns);
-    lanes.filter_map(|lane| team.results(lane)).for_each(|results| block.push_results_abreast(results));
 }
 
 fn write_results(values: &[Option<f64>], places: &Places, results: &mut [f64]) {

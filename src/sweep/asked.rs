@@ -1,14 +1,16 @@
 //! What results ask of variants that go side by side.
 
-use super::each::{Each, LANES, ZERO};
-use crate::analysis::{Sampled, SmoothFormula, SmoothFormulas, Started, Times, moved};
+use super::each::{Each, LANES, PART, ZERO};
+use crate::analysis::{Computed, Sampled, SmoothFormula, SmoothFormulas, Started, Times, moved};
 use crate::expr::ExprId;
 use crate::ir::{ConstraintSystem, ReductionKind};
-use crate::math::Vectors;
+use crate::math::{Vectors, hypot};
 use crate::program::{LaneMachine, LaneValues, Op, Register};
 use crate::solver::{Abreast, Solver};
 use crate::structure::Determined;
 use crate::tolerances::results::formulas::MOVED;
+use crate::tolerances::solving::course::FEWEST_STEPS_OF_LENGTHS;
+use crate::tolerances::solving::variants::FEWEST_STEPS;
 use std::array::from_fn;
 use std::sync::Arc;
 
@@ -18,8 +20,8 @@ pub(super) struct Asked {
     pub solver: Solver,
     determined: Arc<Determined>,
     quantities: SmoothFormulas,
-    /// By quantity, by what it is computed from: the column of that.
-    columns: Vec<Vec<u32>>,
+    /// By quantity, by stage, by what that is computed from: the column of that.
+    columns: Vec<Vec<Vec<u32>>>,
     /// What is looked for along the motion, each once.
     pub wanted: Vec<Wanted>,
     /// By reduction: which of these it is, and whether the time of that.
@@ -62,12 +64,13 @@ impl Asked {
         let interval = times.interval().filter(|[from, to]| from < to)?;
         let quantities = SmoothFormulas::of(determined.system())?;
         let layout = *started.solver()?.layout();
-        let columns = |quantity: &SmoothFormula| -> Vec<u32> {
-            quantity.inputs().iter().map(|&(_, k, order)| layout.coordinate(k, order)).collect()
+        let of_stage = |stage: &Computed| -> Vec<u32> {
+            stage.inputs().iter().map(|&(_, k, order)| layout.coordinate(k, order)).collect()
         };
-        let columns: Vec<Vec<u32>> = quantities.each().iter().map(columns).collect();
-        let solver = started
-            .solver_of_variants(&|column| is_kept(column) || columns.iter().flatten().any(|&of| of == column))?;
+        let columns = |quantity: &SmoothFormula| quantity.stages().iter().map(of_stage).collect();
+        let columns: Vec<Vec<Vec<u32>>> = quantities.each().iter().map(columns).collect();
+        let all: Vec<u32> = columns.iter().flatten().flatten().copied().collect();
+        let solver = started.solver_of_variants(&|column| is_kept(column) || all.contains(&column))?;
         let (mut wanted, mut reductions) = (Vec::new(), Vec::new());
         for &(quantity, kind) in quantities.reductions() {
             let (what, when) = match kind {
@@ -132,67 +135,97 @@ impl Asked {
         }
     }
 
-    /// Registers for a quantity.
-    pub fn registers(&self, quantity: usize) -> Vec<Each> {
-        let (program, registers) = self.quantities.each()[quantity].program();
-        (0..program.registers() as Register).map(|register| LaneValues([registers.get(register); LANES])).collect()
+    /// Registers for a quantity, by stage.
+    pub fn registers(&self, quantity: usize) -> Vec<Vec<Each>> {
+        let of_stage = |stage: &Computed| {
+            let (program, registers) = stage.program();
+            (0..program.registers() as Register).map(|register| LaneValues([registers.get(register); LANES])).collect()
+        };
+        self.quantities.each()[quantity].stages().iter().map(of_stage).collect()
     }
 
     /// Computes what of a quantity depends on parameters alone.
-    pub fn load(&self, quantity: usize, registers: &mut [Each], params: &[Each]) {
-        let quantity = &self.quantities.each()[quantity];
-        let first = quantity.program().0.inputs.params as usize;
-        registers[first..first + params.len()].copy_from_slice(params);
-        self.run(quantity, quantity.operations()[0], registers);
+    pub fn load(&self, quantity: usize, registers: &mut [Vec<Each>], params: &[Each]) {
+        for (stage, registers) in self.quantities.each()[quantity].stages().iter().zip(registers) {
+            let first = stage.program().0.inputs.params as usize;
+            registers[first..first + params.len()].copy_from_slice(params);
+            self.run(stage, stage.operations()[0], registers);
+        }
     }
 
     /// Computes a quantity from the coordinates that were solved for.
-    pub fn look(&self, number: usize, registers: &mut [Each], from: &Abreast<LANES>) {
-        let quantity = &self.quantities.each()[number];
-        for (&(register, ..), &column) in quantity.inputs().iter().zip(&self.columns[number]) {
-            registers[register as usize] = *from.column(column);
-        }
-        self.run(quantity, quantity.operations()[1], registers);
+    pub fn look(&self, number: usize, registers: &mut [Vec<Each>], from: &Abreast<LANES>) {
+        self.compute(number, registers, |_, column| *from.column(column));
     }
 
     /// The size of the numbers that a value of a quantity is a sum of: by moving all coordinates a little, in one of some ways.
     pub fn weight(
         &self,
         (number, value): (usize, &Each),
-        registers: &mut [Each],
+        registers: &mut [Vec<Each>],
         from: &Abreast<LANES>,
         way: usize,
     ) -> Each {
-        let quantity = &self.quantities.each()[number];
-        for (&(register, k, _), &column) in quantity.inputs().iter().zip(&self.columns[number]) {
+        self.compute(number, registers, |k, column| {
             let factor = moved(k as usize, way as u32);
-            registers[register as usize].0 = from.column(column).0.map(|value| value * factor);
-        }
-        self.run(quantity, quantity.operations()[1], registers);
-        let there = &registers[quantity.roots()[0] as usize];
+            LaneValues(from.column(column).0.map(|value| value * factor))
+        });
+        let [there, ..] = self.tower(number, registers);
         LaneValues(from_fn(|lane| (there.0[lane] - value.0[lane]).abs() / MOVED))
     }
 
-    /// Runs operations of a quantity.
-    fn run(&self, quantity: &SmoothFormula, operations: &[Op], registers: &mut [Each]) {
-        let (program, scalars) = quantity.program();
-        let mut machine = LaneMachine { v: registers, program, scalars };
+    /// Computes a quantity from what its coordinates are, by their numbers and columns.
+    fn compute(&self, number: usize, registers: &mut [Vec<Each>], of: impl Fn(u32, u32) -> Each) {
+        for (k, stage) in self.quantities.each()[number].stages().iter().enumerate() {
+            let (before, own) = registers.split_at_mut(k);
+            for (&(register, coordinate, _), &column) in stage.inputs().iter().zip(&self.columns[number][k]) {
+                own[0][register as usize] = of(coordinate, column);
+            }
+            for &(register, from) in stage.taken() {
+                own[0][register as usize] = before[k - 1][from as usize];
+            }
+            self.run(stage, stage.operations()[1], &mut own[0]);
+        }
+    }
+
+    /// Runs operations of a stage.
+    fn run(&self, stage: &Computed, operations: &[Op], registers: &mut [Each]) {
+        let (program, scalars) = stage.program();
+        let mut machine = LaneMachine::<LANES, PART>::new(registers, LANES / PART, (program, scalars));
         self.vectors.run(
             #[inline(always)]
             || operations.iter().for_each(|op| op.run(&mut machine)),
         );
     }
 
+    /// Of a quantity that is a length and was looked at: how fast it may change (1/s), wherever what it is the length of goes.
+    pub fn fastest(&self, quantity: usize, registers: &[Vec<Each>]) -> Option<Each> {
+        let (lengths, own) = (self.quantities.each()[quantity].length()?, registers.last()?);
+        let [length, rate] = lengths.map(|of| of.map(|register| &own[register as usize].0));
+        let [value, ..] = self.tower(quantity, registers);
+        Some(LaneValues(from_fn(|k| {
+            let factor = value.0[k].abs() / hypot(length[0][k], length[1][k]);
+            factor * hypot(rate[0][k], rate[1][k])
+        })))
+    }
+
+    /// How long steps may be (s).
+    pub fn longest_step(&self) -> f64 {
+        let [from, to] = self.interval;
+        let has_lengths = self.quantities.each().iter().any(|quantity| quantity.length().is_some());
+        (to - from) / if has_lengths { FEWEST_STEPS_OF_LENGTHS } else { FEWEST_STEPS }
+    }
+
     /// Value and derivatives of a quantity that was looked at; 0 where the second one is not known.
-    pub fn tower(&self, quantity: usize, registers: &[Each]) -> [Each; 3] {
-        let roots = self.quantities.each()[quantity].roots();
-        [0, 1, 2].map(|order| roots.get(order).map_or(ZERO, |&root| registers[root as usize]))
+    pub fn tower(&self, quantity: usize, registers: &[Vec<Each>]) -> [Each; 3] {
+        let (roots, last) = (self.quantities.each()[quantity].roots(), registers.len() - 1);
+        [0, 1, 2].map(|order| roots.get(order).map_or(ZERO, |&root| registers[last][root as usize]))
     }
 
     /// The same of one variant, as turns are settled by it.
-    pub fn sample(&self, quantity: usize, registers: &[Each], lane: usize) -> Sampled {
-        let roots = self.quantities.each()[quantity].roots();
-        let value = |order: usize| roots.get(order).map_or(f64::NAN, |&root| registers[root as usize].0[lane]);
+    pub fn sample(&self, quantity: usize, registers: &[Vec<Each>], lane: usize) -> Sampled {
+        let (roots, last) = (self.quantities.each()[quantity].roots(), registers.len() - 1);
+        let value = |order: usize| roots.get(order).map_or(f64::NAN, |&root| registers[last][root as usize].0[lane]);
         Sampled { value: value(0), first: value(1), second: value(2) }
     }
 }

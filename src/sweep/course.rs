@@ -3,8 +3,8 @@
 //! The course is known at steps, with its slope and its second derivative. In a cell between two of them the second derivative stays near the
 //! straight line between its ends, as far as the quintic through both tells; so it is known where the slope may pass zero.
 
-use crate::math::{along, between, quintic, value_and_slopes};
-use crate::tolerances::solving::course::{AWAY, CERTAIN, ITERATIONS, MARGIN, SAFETY, STEEP};
+use crate::math::{along, between, max, quintic, value_and_slopes};
+use crate::tolerances::solving::course::{AWAY, CERTAIN, ITERATIONS, MARGIN, SAFETY, STEEP, STEPS_TO_KINK};
 
 /// Value, slope and second derivative at a time.
 pub(super) type Tower = [f64; 3];
@@ -14,6 +14,8 @@ pub(super) struct Course<'c> {
     /// The times of steps (s), two at least, and what the formula is there.
     pub times: &'c [f64],
     pub towers: &'c [Tower],
+    /// Of a length, how fast it may change there (1/s); 0 of all else.
+    pub fastest: &'c [f64],
     /// The size of the numbers that values are sums of, in units of the nearness to a singular position: what rounding of values goes by.
     pub weight: f64,
 }
@@ -71,9 +73,10 @@ impl Course<'_> {
             let is_steep = inward * slope * span >= STEEP * range && self.weight <= CERTAIN * range;
             best.take(value, 0.0, is_steep.then_some(Place::End(self.times[end])));
         }
-        for (t, ends) in self.times.windows(2).zip(self.towers.windows(2)) {
+        for ((t, ends), fastest) in self.times.windows(2).zip(self.towers.windows(2)).zip(self.fastest.windows(2)) {
             let ends = [ends[0], ends[1]].map(|tower| tower.map(|value| sign * value));
-            match look_into(ends, [t[0], t[1]]) {
+            let found = kink(ends, 2.0 * (t[1] - t[0]) * max(fastest[0], fastest[1]));
+            match found.unwrap_or_else(|| look_into(ends, [t[0], t[1]])) {
                 Cell::Nothing => {}
                 Cell::Unknown(most) => best.take(most, 0.0, None),
                 Cell::Turn { t, value, off, bend } => {
@@ -87,6 +90,14 @@ impl Course<'_> {
         let is_finite = self.towers.as_flattened().iter().all(|value| value.is_finite());
         best.place.filter(|_| range > 0.0 && is_alone && is_finite)
     }
+}
+
+/// What there may be between two steps of a length that comes too near to zero, where it has a kink; `way` is how far it may go.
+fn kink([a, b]: [Tower; 2], way: f64) -> Option<Cell> {
+    let least = f64::min(a[0].abs(), b[0].abs());
+    let is_far = way == 0.0 || STEPS_TO_KINK * way <= 2.0 * least;
+    let most = a[0].max(b[0]) + way;
+    (!is_far).then(|| Cell::Unknown(if most.is_finite() { most } else { f64::INFINITY }))
 }
 
 /// What there may be between two steps, above both of them.

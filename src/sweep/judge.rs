@@ -61,9 +61,8 @@ impl Stand {
             }
         }
         self.determinants.copy_from_slice(from.determinants());
-        for (near, steepest) in self.nearness.0.iter_mut().zip(from.steepest()) {
-            *near = nearness(unit, *steepest);
-        }
+        let steepest = *from.steepest();
+        self.nearness.0 = steepest.map(|steepest| nearness(unit, steepest));
     }
 
     /// Takes over where one variant stands.

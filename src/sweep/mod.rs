@@ -17,8 +17,9 @@ mod together;
 mod walk;
 
 pub use base::{Arrived, Base, Lost, Whole};
-pub use each::{Each, LANES};
+pub use each::{Each, LANES, PART};
 pub use points::{Levels, MOST_OF_SOBOL, Method, Points, Sampling, Varying, evenly, rounded};
 pub use swept::{OneVariant, Status, Swept};
+pub use table::Room;
 pub use team::Team;
 pub use together::{Together, WantedOfEach};

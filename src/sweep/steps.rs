@@ -22,6 +22,8 @@ pub(super) struct Steps {
     weights: Vec<Each>,
     /// How near to a singular position each came.
     nearest: [f64; LANES],
+    /// Formula by formula, at each step: of a length, how fast it may change (1/s); 0 of others.
+    fastest: Vec<Each>,
 }
 
 impl Steps {
@@ -33,6 +35,7 @@ impl Steps {
         self.weights.clear();
         self.weights.resize(quantities, ZERO);
         self.nearest = [f64::INFINITY; LANES];
+        self.fastest.clear();
     }
 
     /// Takes note of where variants are.
@@ -41,7 +44,7 @@ impl Steps {
         (of, asked): (&Together, &Asked),
         walk: &Walk,
         from: &Abreast<LANES>,
-        registers: &mut [Vec<Each>],
+        registers: &mut [Vec<Vec<Each>>],
     ) {
         let number = self.times.len();
         self.times.push(walk.now.t);
@@ -52,6 +55,7 @@ impl Steps {
         for (quantity, registers) in registers.iter_mut().enumerate() {
             asked.look(quantity, registers, from);
             let tower = asked.tower(quantity, registers);
+            self.fastest.push(asked.fastest(quantity, registers).unwrap_or(ZERO));
             let weight = &mut self.weights[quantity].0;
             weight.iter_mut().zip(tower[0].0).for_each(|(weight, value)| *weight = weight.max(value.abs()));
             if number.is_multiple_of(EVERY) {
@@ -82,13 +86,22 @@ impl Steps {
 
     /// The course of a quantity of one variant; gives the size of the numbers that its values are sums of, in units of the nearness to a singular
     /// position.
-    pub fn write_course(&self, quantity: usize, lane: usize, knows_bends: bool, course: &mut Vec<Tower>) -> f64 {
+    pub fn write_course(
+        &self,
+        quantity: usize,
+        lane: usize,
+        knows_bends: bool,
+        course: &mut Vec<Tower>,
+        fastest: &mut Vec<f64>,
+    ) -> f64 {
         let of = |tower: &[Each; 3]| [tower[0].0[lane], tower[1].0[lane], tower[2].0[lane]];
         course.clear();
         course.extend(self.towers.iter().skip(quantity).step_by(self.weights.len()).map(of));
         if !knows_bends {
             find_bends(&self.times, course);
         }
+        fastest.clear();
+        fastest.extend(self.fastest.iter().skip(quantity).step_by(self.weights.len()).map(|each| each.0[lane]));
         self.weights[quantity].0[lane] / self.nearest[lane]
     }
 }

@@ -6,7 +6,7 @@
 
 use super::asked::{Asked, Wanted, What};
 use super::course::{Course, Place, Tower};
-use super::each::{Each, LANES, ZERO};
+use super::each::{Each, LANES, ZERO, parts_of};
 use super::steps::Steps;
 use super::together::Together;
 use super::walk::{Solving, Walk};
@@ -19,12 +19,13 @@ use crate::tolerances::solving::variants::{NEAREST, PART_OF_DISTANCE};
 /// What is found of variants.
 pub(super) struct Survey {
     abreast: Abreast<LANES>,
-    /// By quantity: its program's registers.
-    registers: Vec<Vec<Each>>,
+    /// By quantity, by stage: its program's registers.
+    registers: Vec<Vec<Vec<Each>>>,
     steps: Steps,
     guesses: Vec<Each>,
     /// What the course of a quantity is, of one variant.
     course: Vec<Tower>,
+    fastest: Vec<f64>,
     /// By what is looked for, by variant: time (s) and value.
     found: Vec<[[f64; 2]; LANES]>,
     /// By variant: its results.
@@ -54,11 +55,12 @@ impl Survey {
     /// For what results ask of a mechanism.
     pub fn new(together: &Together, asked: &Asked) -> Survey {
         Survey {
-            abreast: together.abreast(&asked.solver),
+            abreast: together.abreast(&asked.solver, 1),
             registers: (0..asked.count()).map(|quantity| asked.registers(quantity)).collect(),
             steps: Steps::default(),
             guesses: vec![ZERO; together.tears.len()],
             course: Vec::new(),
+            fastest: Vec::new(),
             found: vec![[[f64::NAN; 2]; LANES]; asked.wanted.len()],
             results: vec![f64::NAN; LANES * asked.results()],
             answered: [false; LANES],
@@ -102,13 +104,13 @@ impl Survey {
     fn go(&mut self, of: (&Together, &Asked), walk: &mut Walk, which: (&[Each], [bool; LANES])) {
         let (together, asked) = of;
         let Survey { abreast, registers, steps, .. } = self;
-        let [from, to] = asked.interval;
+        let [_, to] = asked.interval;
         steps.clear(registers.len());
         for (quantity, registers) in registers.iter_mut().enumerate() {
             asked.load(quantity, registers, which.0);
         }
         let mut solving = Solving { solver: &asked.solver, abreast, is_exact: false };
-        walk.begin(together, which, to - from, &mut solving);
+        walk.begin(together, which, asked.longest_step(), &mut solving);
         steps.take(of, walk, solving.abreast, registers);
         walk.go_to(together, to, (&mut solving, true), |walk, abreast| {
             steps.take(of, walk, abreast, registers);
@@ -154,9 +156,10 @@ impl Survey {
                 (from <= t && t <= to).then_some(Place::End(t))
             }
             What::Extreme { largest } => {
-                let Survey { steps, course, .. } = self;
-                let weight = steps.write_course(wanted.quantity, lane, asked.knows_bends(wanted.quantity), course);
-                Course { times: &steps.times, towers: course, weight }.extreme(largest)
+                let Survey { steps, course, fastest, .. } = self;
+                let weight =
+                    steps.write_course(wanted.quantity, lane, asked.knows_bends(wanted.quantity), course, fastest);
+                Course { times: &steps.times, towers: course, fastest, weight }.extreme(largest)
             }
         }
     }
@@ -204,7 +207,14 @@ impl Survey {
     ) {
         let Survey { abreast, steps, guesses, .. } = self;
         steps.write_guesses(times, guesses);
-        let guesses = Guesses { times: *times, tears: guesses, loaded, bounds: &of.bounds[1], nearly: 0.0 };
+        let guesses = Guesses {
+            times: *times,
+            tears: guesses,
+            loaded,
+            bounds: &of.bounds[1],
+            parts: parts_of(open),
+            nearly: 0.0,
+        };
         abreast.run(&asked.solver, (&of.program, &of.scalars), &guesses);
         let mut doubts = [0.0; LANES];
         abreast.write_doubts(&mut doubts);

@@ -1,5 +1,6 @@
 //! What comes out of a sweep: variants in a row, by columns.
 
+use super::table::Room;
 use crate::diag::Code;
 
 /// What became of a variant.
@@ -75,23 +76,27 @@ impl Swept {
         Swept { first, params: of(params), results: of(results), columns: of(columns), ..Swept::default() }
     }
 
-    /// Adds the next variants, so many, which have run side by side, each with so many rows: what their params are, one variant behind the
-    /// other, and by column their rows.
-    pub fn push_abreast<'c>(
-        &mut self,
-        (count, rows): (usize, usize),
-        params: &[f64],
-        columns: impl Iterator<Item = &'c [f64]>,
-    ) {
+    /// Makes room for the rows of the next variants, so many, which are to run side by side, each with so many rows.
+    pub fn room(&mut self, variants: usize, rows: usize) -> Room<'_> {
+        let before = self.columns.first().map_or(0, Vec::len);
+        self.columns.iter_mut().for_each(|column| column.resize(before + variants * rows, 0.0));
+        Room { columns: &mut self.columns, before, rows }
+    }
+
+    /// Takes out what was written where room was made, by column; so many numbers were there before.
+    pub fn take_room(&mut self, before: usize) -> Vec<Vec<f64>> {
+        self.columns.iter_mut().map(|column| column.split_off(before)).collect()
+    }
+
+    /// Adds the next variants, so many, which have run side by side, each with so many rows, which are there already: what their params are, one
+    /// variant behind the other.
+    pub fn push_abreast(&mut self, (count, rows): (usize, usize), params: &[f64]) {
         self.statuses.resize(self.statuses.len() + count, Status::Ok);
         self.stopped.resize(self.stopped.len() + count, f64::NAN);
         self.lengths.resize(self.lengths.len() + count, if self.columns.is_empty() { 0 } else { rows });
         let width = self.params.len();
         for (k, column) in self.params.iter_mut().enumerate() {
             column.extend(params.iter().skip(k).step_by(width));
-        }
-        for (column, more) in self.columns.iter_mut().zip(columns) {
-            column.extend_from_slice(more);
         }
         self.abreast += count;
     }

@@ -2,10 +2,11 @@
 
 use super::each::{Each, LANES};
 use super::survey::Survey;
-use super::table::Table;
+use super::table::{Room, Table};
 use super::together::Together;
 use super::walk::{Solving, Walk};
 use crate::cancel::Cancel;
+use crate::tolerances::solving::variants::FEWEST_STEPS;
 use std::sync::Arc;
 
 /// Variants that go side by side.
@@ -28,21 +29,28 @@ impl Team {
         }
     }
 
-    /// Follows some of as many variants as there are lanes, by the values of all their parameters (SI); says which have all their rows, or all
-    /// their results where no rows are wanted.
-    pub fn follow(&mut self, params: &[Each], those: [bool; LANES], cancel: &Cancel) -> [bool; LANES] {
+    /// Follows some of as many variants as there are lanes, by the values of all their parameters (SI), and writes their rows, if any are wanted;
+    /// says which have all of them, or all their results where no rows are wanted.
+    pub fn follow(
+        &mut self,
+        params: &[Each],
+        those: [bool; LANES],
+        mut room: Room<'_>,
+        cancel: &Cancel,
+    ) -> [bool; LANES] {
         let mut done = those;
         if let (Some(rows), Some(table)) = (&self.together.rows, &mut self.table) {
             let (of, walk) = (&*self.together, &mut self.walk);
-            let mut solving = Solving { solver: &rows.solver, abreast: &mut table.abreast, is_exact: true };
-            walk.begin(of, (params, those), rows.times.span(), &mut solving);
+            table.turn_to(0);
+            let longest = rows.times.span() / FEWEST_STEPS;
+            walk.begin(of, (params, those), longest, &mut Solving::of_rows(rows, table));
             for number in 0..rows.times.len() {
                 if !walk.goes.contains(&true) || cancel.is_cancelled() {
                     return [false; LANES];
                 }
-                let mut solving = Solving { solver: &rows.solver, abreast: &mut table.abreast, is_exact: true };
-                walk.go_to(of, rows.times.at(number), (&mut solving, false), |_, _| {});
-                table.take(rows, number);
+                table.turn_to(number);
+                walk.go_to(of, rows.times.at(number), (&mut Solving::of_rows(rows, table), false), |_, _| {});
+                table.put(rows, number, &mut room);
             }
             done = walk.goes;
         }
@@ -53,18 +61,6 @@ impl Team {
             }
         }
         done
-    }
-
-    /// How many rows each variant has.
-    #[must_use]
-    pub fn rows(&self) -> usize {
-        self.together.rows()
-    }
-
-    /// The rows of some variants, which stand next to each other, in a wanted column, by its place among these.
-    #[must_use]
-    pub fn column(&self, place: usize, variants: std::ops::Range<usize>) -> &[f64] {
-        self.table.as_ref().map_or(&[], |table| table.column(place, variants))
     }
 
     /// The results of a variant; nothing where they are not known.

@@ -3,7 +3,7 @@
 
 use super::Base;
 use super::asked::Asked;
-use super::each::{Each, LANES};
+use super::each::{Each, LANES, PART};
 use super::judge::{Stand, Tracked, nearness};
 use crate::analysis::{Started, Times};
 use crate::ir::CoordinateKind;
@@ -135,7 +135,7 @@ impl Together {
     /// Learns what the solver's pivots tell of nearness to a singular position where it stands with its own values, and how it moves with
     /// parameters there.
     fn look_at_own(&mut self, started: &mut Started) -> Option<()> {
-        let (mut abreast, mut loaded) = (self.abreast(&self.steps), self.registers());
+        let (mut abreast, mut loaded) = (self.abreast(&self.steps, 1), self.registers());
         let own: Vec<Each> = self.own.iter().map(|&value| LaneValues([value; LANES])).collect();
         self.solve(&mut abreast, &mut loaded, &own)?;
         self.determinants = abreast.determinants().iter().map(|of| of.0[0]).collect();
@@ -161,10 +161,11 @@ impl Together {
 
     /// Solves beside where it stands with its own values, with others; nothing where that does not hold.
     fn solve(&self, abreast: &mut Abreast<LANES>, loaded: &mut [Each], params: &[Each]) -> Option<()> {
-        self.load(loaded, params);
+        self.load(loaded, params, 1);
+        abreast.load(&self.steps, (&self.program, &self.scalars), loaded, 1);
         let tears: Vec<Each> = self.tears.iter().map(|&tear| LaneValues([self.q[tear]; LANES])).collect();
         let [bounds, _] = &self.bounds;
-        let guesses = Guesses { times: [self.from; LANES], tears: &tears, loaded, bounds, nearly: NEARLY };
+        let guesses = Guesses { times: [self.from; LANES], tears: &tears, loaded, bounds, parts: 1, nearly: NEARLY };
         abreast.run(&self.steps, (&self.program, &self.scalars), &guesses);
         let mut doubts = [0.0; LANES];
         abreast.write_doubts(&mut doubts);
@@ -172,8 +173,8 @@ impl Together {
     }
 
     /// Where all variants come from.
-    pub(super) fn stand(&self) -> Stand {
-        Stand::of(self.from, &self.q, &self.determinants, self.own_nearness)
+    pub(super) fn stand(&self) -> Box<Stand> {
+        Box::new(Stand::of(self.from, &self.q, &self.determinants, self.own_nearness))
     }
 
     /// Where tears are, by how they change with parameters where it stands with its own values.
@@ -193,9 +194,9 @@ impl Together {
         self.rows.as_ref().map_or(0, |rows| rows.times.len() as usize)
     }
 
-    /// Registers for one of its solvers.
-    pub(super) fn abreast(&self, solver: &Solver) -> Abreast<LANES> {
-        Abreast::new(solver, solver.keeps(), self.vectors)
+    /// Registers for one of its solvers, which keeps so many rows.
+    pub(super) fn abreast(&self, solver: &Solver, rows: usize) -> Abreast<LANES> {
+        Abreast::new(solver, (solver.keeps(), rows), self.vectors)
     }
 
     /// The program's registers, a lane for each variant.
@@ -207,11 +208,11 @@ impl Together {
         registers
     }
 
-    /// Computes what depends on parameters alone.
-    pub(super) fn load(&self, registers: &mut [Each], params: &[Each]) {
+    /// Computes what depends on parameters alone, of so many parts of the lanes.
+    pub(super) fn load(&self, registers: &mut [Each], params: &[Each], parts: usize) {
         let first = self.program.inputs.params as usize;
         registers[first..first + params.len()].copy_from_slice(params);
-        let mut machine = LaneMachine { v: registers, program: &self.program, scalars: &self.scalars };
+        let mut machine = LaneMachine::<LANES, PART>::new(registers, parts, (&self.program, &self.scalars));
         self.prologue.iter().for_each(|op| op.run(&mut machine));
     }
 }

@@ -2,15 +2,19 @@
 //! there from time to time. Newton goes from grid point to grid point (`math/grid.rs`), so that what is solved for exactly has the bits that it has
 //! alone, as long as the branch is the same. A step is taken where that is beyond doubt; a variant in doubt leaves.
 
-use super::each::{Each, LANES, ZERO};
+use super::each::{Each, LANES, ZERO, parts_of};
 use super::judge::{self, Doubts, Stand};
-use super::together::Together;
-use crate::math::hermite::bend_ahead;
+use super::table::Table;
+use super::together::{Rows, Together};
+use crate::math::weigh;
 use crate::program::LaneValues;
 use crate::solver::{Abreast, Guesses, Solver};
-use crate::tolerances::solving::variants::{CALM_STEPS, FEWEST_STEPS, NEARLY, PARTS_OF_WAY, PATIENCE};
+use crate::tolerances::solving::variants::{ALIKE, CALM_STEPS, NEARLY, PARTS_OF_WAY, PATIENCE};
 use crate::tolerances::steps::march::CRUMB;
 use std::array::from_fn;
+
+/// A motion is led on from so many places.
+const PLACES: usize = 3;
 
 /// Variants on their way.
 pub(super) struct Walk {
@@ -18,19 +22,47 @@ pub(super) struct Walk {
     pub registers: Vec<Each>,
     params: Vec<Each>,
     steps: Abreast<LANES>,
-    /// Where they are, where they were before, and where they are to be.
-    pub now: Stand,
-    before: Stand,
-    next: Stand,
+    /// Where they are, where they were before and before that, and where they are to be.
+    pub now: Box<Stand>,
+    before: Box<Stand>,
+    earlier: Box<Stand>,
+    next: Box<Stand>,
+    /// How many of these places lie on the motion, with where they are.
+    passed: usize,
+    ahead: Ahead,
     guesses: Vec<Each>,
     /// How long steps may be (s), the longest that they may ever be, and how many of that length have been taken.
     length: f64,
     longest: f64,
     taken: u32,
-    /// Those that go on.
+    /// Those that go on, and in how many parts of the lanes, the first ones, there are any.
     pub goes: [bool; LANES],
+    pub parts: usize,
     /// How often each may still ask for shorter steps.
     patience: [u32; LANES],
+}
+
+/// How what is known at the last places leads on.
+#[derive(Default)]
+struct Ahead {
+    /// The step's length, and how long ago the places before were (s).
+    spans: [f64; PLACES],
+    /// By place: what value, velocity and acceleration weigh.
+    weights: [[f64; 3]; PLACES],
+}
+
+impl Ahead {
+    /// Leads on by a step from so many places, which were some time ago (s).
+    fn lead_on(&mut self, passed: usize, spans: [f64; PLACES]) {
+        let is_alike = |(span, before): (&f64, &f64)| (span - before).abs() <= ALIKE * before;
+        // what a guess is off so much is far below a cell of the grid
+        if spans.iter().zip(&self.spans).all(is_alike) {
+            return;
+        }
+        let [h, back, further] = spans;
+        (self.spans, self.weights) = (spans, [[0.0; 3]; PLACES]);
+        weigh(&[0.0, -back, -further][..passed], h, &mut self.weights);
+    }
 }
 
 /// What solves for a place.
@@ -41,37 +73,53 @@ pub(super) struct Solving<'s> {
     pub is_exact: bool,
 }
 
+impl<'s> Solving<'s> {
+    /// For rows that are wanted, to the bit.
+    pub fn of_rows(rows: &'s Rows, table: &'s mut Table) -> Solving<'s> {
+        Solving { solver: &rows.solver, abreast: &mut table.abreast, is_exact: true }
+    }
+}
+
 impl Walk {
     /// Of a mechanism.
     pub fn new(together: &Together) -> Walk {
         Walk {
             registers: together.registers(),
             params: together.own.iter().map(|&value| LaneValues([value; LANES])).collect(),
-            steps: together.abreast(&together.steps),
+            steps: together.abreast(&together.steps, 1),
             now: together.stand(),
             before: together.stand(),
+            earlier: together.stand(),
             next: together.stand(),
+            passed: 0,
+            ahead: Ahead::default(),
             guesses: vec![ZERO; together.tears.len()],
             length: 0.0,
             longest: 0.0,
             taken: 0,
             goes: [false; LANES],
+            parts: 0,
             patience: [0; LANES],
         }
     }
 
-    /// Goes to where some of the variants begin that have such parameters (SI), of a motion over a span (s), and solves for that place.
+    /// Goes to where some of the variants begin that have such parameters (SI), of a motion in steps that are no longer (s), and solves for that
+    /// place.
     pub fn begin(
         &mut self,
         of: &Together,
         (params, those): (&[Each], [bool; LANES]),
-        span: f64,
+        longest: f64,
         solving: &mut Solving<'_>,
     ) {
         (self.goes, self.patience) = (those, [PATIENCE; LANES]);
-        (self.longest, self.taken) = (span / FEWEST_STEPS, 0);
+        self.parts = parts_of(&those);
+        (self.longest, self.taken) = (longest, 0);
         self.length = self.longest;
         self.goes = self.lead(of, params);
+        solving.abreast.load(solving.solver, (&of.program, &of.scalars), &self.registers, self.parts);
+        // what may have got lost on the way is behind them
+        (self.before, self.earlier) = (self.now.clone(), self.now.clone());
         for (guess, &tear) in self.guesses.iter_mut().zip(&of.tears) {
             *guess = self.now.tracked[tear][0];
         }
@@ -80,8 +128,7 @@ impl Walk {
             self.goes[k] &= doubts == 0.0;
         }
         self.advance();
-        // no step came before
-        self.before.t = f64::NAN;
+        self.passed = 1;
     }
 
     /// Leads all variants to their parameters, in as few parts of the way as each needs; says which get there.
@@ -129,7 +176,8 @@ impl Walk {
         for ((param, target), &own) in self.params.iter_mut().zip(targets).zip(&of.own) {
             param.0 = if part < 1.0 { target.0.map(|target| own + part * (target - own)) } else { target.0 };
         }
-        of.load(&mut self.registers, &self.params);
+        of.load(&mut self.registers, &self.params, self.parts);
+        self.steps.load(&of.steps, (&of.program, &of.scalars), &self.registers, self.parts);
     }
 
     /// Goes on to a time (s), in as many steps as that takes, where it is solved for in some way; on the way by that too, if it is wanted
@@ -184,28 +232,23 @@ impl Walk {
         is_taken
     }
 
-    /// Where Newton begins after a step of length `h`: on the curve that the last step leads on, which is linear in what both its ends are.
+    /// Where Newton begins after a step of length `h`: on the curve through the last places, which is linear in what these are.
     fn guess(&mut self, of: &Together, h: f64) {
-        let back = self.now.t - self.before.t;
-        let share = |of: usize, is_before: bool| {
-            let unit: [f64; 3] = from_fn(|k| if k == of { 1.0 } else { 0.0 });
-            let ends = if is_before { [[0.0; 3], unit] } else { [unit, [0.0; 3]] };
-            // no step came before
-            if back > 0.0 { bend_ahead(ends[0], ends[1], back, h / back) } else { 0.0 }
-        };
-        let straight = [1.0, h, 0.5 * h * h];
-        let now_share: [f64; 3] = from_fn(|of| straight[of] + share(of, false));
-        let before_share: [f64; 3] = from_fn(|of| share(of, true));
-        let Walk { now, before, guesses, .. } = self;
+        let Walk { now, before, earlier, passed, ahead, guesses, .. } = self;
+        let spans = [h, now.t - before.t, now.t - earlier.t];
+        // a place that was not passed is as good as none
+        ahead.lead_on(*passed, from_fn(|k| if k < *passed { spans[k] } else { 0.0 }));
+        let ([x, v, a], [y, w, b], [z, u, c]) = ahead.weights.into();
         of.vectors.run(
             #[inline(always)]
             || {
                 for (guess, &tear) in guesses.iter_mut().zip(&of.tears) {
-                    let ([x, v, a], [y, w, b]) = (&now.tracked[tear], &before.tracked[tear]);
+                    let [now, before, earlier] = [&*now, &*before, &*earlier].map(|stand| &stand.tracked[tear]);
                     for k in 0..LANES {
-                        let ahead = now_share[0] * x.0[k] + now_share[1] * v.0[k] + now_share[2] * a.0[k];
-                        let bend = before_share[0] * y.0[k] + before_share[1] * w.0[k] + before_share[2] * b.0[k];
-                        guess.0[k] = ahead + bend;
+                        let last = x * now[0].0[k] + v * now[1].0[k] + a * now[2].0[k];
+                        let before = y * before[0].0[k] + w * before[1].0[k] + b * before[2].0[k];
+                        let earlier = z * earlier[0].0[k] + u * earlier[1].0[k] + c * earlier[2].0[k];
+                        guess.0[k] = last + (before + earlier);
                     }
                 }
             },
@@ -214,13 +257,14 @@ impl Walk {
 
     /// Solves at a time, in some way if one is asked for, and gives what is in doubt of each variant: after a step, if it was one of time.
     fn try_at(&mut self, of: &Together, t: f64, h: Option<f64>, solving: Option<&mut Solving<'_>>) -> Doubts {
-        let Walk { registers, steps, guesses, now, next, .. } = self;
+        let Walk { registers, steps, guesses, now, next, parts, .. } = self;
         let step = (&of.steps, steps, false);
         let (solver, abreast, is_exact) =
             solving.map_or(step, |solving| (solving.solver, &mut *solving.abreast, solving.is_exact));
         let [of_steps, of_rows] = &of.bounds;
         let (bounds, nearly) = if is_exact { (of_rows, 0.0) } else { (of_steps, NEARLY) };
-        let guesses = Guesses { times: [t; LANES], tears: guesses, loaded: registers, bounds, nearly };
+        let parts = *parts;
+        let guesses = Guesses { times: [t; LANES], tears: guesses, loaded: registers, bounds, parts, nearly };
         abreast.run(solver, (&of.program, &of.scalars), &guesses);
         let mut doubts = Doubts([0.0; LANES]);
         of.vectors.run(
@@ -236,7 +280,9 @@ impl Walk {
 
     /// Goes to where they were to be.
     fn advance(&mut self) {
+        std::mem::swap(&mut self.earlier, &mut self.before);
         std::mem::swap(&mut self.before, &mut self.now);
         std::mem::swap(&mut self.now, &mut self.next);
+        self.passed = (self.passed + 1).min(PLACES);
     }
 }

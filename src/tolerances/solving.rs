@@ -66,6 +66,8 @@ pub mod variants {
     pub const LARGEST_CHANGE: f64 = 2.0;
     /// Steps over the whole span at least.
     pub const FEWEST_STEPS: f64 = 16.0;
+    /// Steps are of one length that differ by no more than this part.
+    pub const ALIKE: f64 = 1e-9;
     /// How far parameters are changed, as a part of themselves, to learn how the mechanism moves with them.
     pub const BESIDE: f64 = 1e-6;
     /// How often one variant may ask all that go with it for shorter steps.
@@ -92,6 +94,10 @@ pub mod course {
     pub const CERTAIN: f64 = 250.0;
     /// Corrections of a time on the curve between two steps.
     pub const ITERATIONS: usize = 3;
+    /// A length is smooth along steps of which so many at least are between it and zero, as fast as what it is the length of goes.
+    pub const STEPS_TO_KINK: f64 = 2.0;
+    /// Steps over the whole span at least, where lengths are asked for.
+    pub const FEWEST_STEPS_OF_LENGTHS: f64 = 64.0;
     /// How the size of these numbers is looked at: in so many ways.
     pub const WAYS: usize = 3;
     /// At every one of so many steps.

@@ -2,12 +2,12 @@
 
 use super::loads::{Hidden, Loads};
 use super::places::Places;
-use super::quantity::{SmoothFormula, moved};
+use super::quantity::{Computed, SmoothFormula, moved};
 use super::smooth::Smooth;
 use super::turn::Sampled;
 use crate::analysis::state::State;
-use crate::expr::{Dependence, ExprId, Graph, Symbol};
-use crate::ir::ConstraintSystem;
+use crate::expr::{Binary, Dependence, ExprId, Graph, Node, Symbol};
+use crate::ir::{ConstraintSystem, CoordinateKind};
 use crate::math::between;
 use crate::program::{Inputs, Program, Range, Ranges, Register, Registers, Stage};
 use crate::tolerances::results::formulas::{MOVED, SAFETY, WAYS};
@@ -30,6 +30,8 @@ pub(super) struct Formula {
     smooth: Smooth,
     coordinates: usize,
     has_jerk: bool,
+    /// Of the length of what has two coordinates, that are smooth, but for a factor: these, by their numbers, and how often they are differentiated.
+    length: Option<[(u32, u8); 2]>,
     holds_rates: bool,
     holds_forces: bool,
     /// Of one that holds forces, what it can be in the cell that is looked at, as its values tell.
@@ -163,6 +165,7 @@ impl Formula {
             dependence.highest_order() > Some(0) || dependence.highest_varied_order().is_some() || holds_forces;
         let loads = if holds_forces { loads } else { &[] };
         let (mut graph, found, smooth) = Smooth::out_of(graph, (value, loads), system);
+        let length = length(&graph, found[0], system);
         let mut formulas = with_derivatives(&mut graph, found[0], has_jerk);
         let own = formulas.len();
         formulas.extend_from_slice(&found[1..]);
@@ -187,6 +190,7 @@ impl Formula {
             smooth,
             coordinates,
             has_jerk,
+            length,
             holds_rates,
             holds_forces,
             seen: [f64::NEG_INFINITY, f64::INFINITY],
@@ -210,25 +214,34 @@ impl Formula {
         self.holds_rates
     }
 
-    /// Whether it is nothing but what is smooth, with a slope: so that its extrema can be settled.
-    pub fn is_smooth(&self) -> bool {
+    /// Whether it is nothing but what is smooth, or a length of that, with a slope: so that its extrema can be settled.
+    pub fn settles(&self) -> bool {
+        self.derivatives() > 0 && (self.is_smooth() || self.length.is_some())
+    }
+
+    /// Whether it is nothing but what is smooth.
+    fn is_smooth(&self) -> bool {
         let [Moving::Coordinate(_)] = self.moving[..] else { return false };
         let own = self.moving[0].registers(&self.program.inputs);
-        self.derivatives() > 0 && self.roots.iter().all(|&root| own.contains(&Some(root)))
+        self.roots.iter().all(|&root| own.contains(&Some(root)))
     }
 
     /// The same for variants side by side; none where it is anything else.
     pub fn into_quantity(self) -> Option<SmoothFormula> {
-        let coordinates = self.coordinates;
-        let (true, [Moving::Coordinate(k)]) = (self.is_smooth(), &self.moving[..]) else { return None };
-        if *k < coordinates {
-            return Some(SmoothFormula::new((self.program, self.registers), self.roots, coordinates));
+        if !self.settles() {
+            return None;
         }
-        let own = self.moving[0].registers(&self.program.inputs);
-        let order = own.iter().position(|register| *register == self.roots.first().copied())?;
-        let (of, tower) = self.smooth.into_tower(k - coordinates);
-        let roots: Option<Vec<Register>> = (0..self.roots.len()).map(|k| *tower.get(order + k)?).collect();
-        Some(SmoothFormula::new(of, roots?, coordinates))
+        let inputs = self.program.inputs;
+        let at = |more: u8, (k, order): (u32, u8)| inputs.coordinates[usize::from(order + more)] + k;
+        let length = self.length.map(|of| [of.map(|of| at(0, of)), of.map(|of| at(1, of))]);
+        let (own, roots) = (Computed::new(self.program, self.registers, self.coordinates), self.roots);
+        if self.smooth.count() == 0 {
+            return Some(SmoothFormula::new(vec![own], roots, length));
+        }
+        let ((program, registers), towers) = self.smooth.into_towers();
+        let own = own.behind(&towers, (self.coordinates, &roots))?;
+        let smooth = Computed::new(program, registers, self.coordinates);
+        Some(SmoothFormula::new(vec![smooth, own], roots, length))
     }
 
     /// At a state of the stretch that was entered.
@@ -381,6 +394,26 @@ impl Formula {
         let own = [off(&|point: &Point| point.sample.value), 0.0];
         let loads = (0..self.loads.count()).map(|k| [off(&|point: &Point| point.loads[k]), 0.0]);
         self.moving.iter().enumerate().map(of).chain([own]).chain(loads).collect()
+    }
+}
+
+/// Of a formula that is the length of what has two coordinates, but for a factor that rests: these, if they move as smoothly as those of the
+/// system, by their numbers, and how often they are differentiated.
+fn length(graph: &Graph, formula: ExprId, system: &ConstraintSystem) -> Option<[(u32, u8); 2]> {
+    let smooth = |id: ExprId| match graph.node(id) {
+        Node::Symbol(Symbol::Coordinate { index, order }) => {
+            let own = system.coordinates().get(index as usize);
+            own.is_none_or(|of| of.kind != CoordinateKind::Argument).then_some((index, order))
+        }
+        _ => None,
+    };
+    let rests = |id: ExprId| graph.dependence(id).is_constant();
+    match graph.node(formula) {
+        Node::Binary(Binary::Hypot, a, b) => Some([smooth(a)?, smooth(b)?]),
+        Node::Neg(a) => length(graph, a, system),
+        Node::Mul(a, b) | Node::Div(b, a) if rests(a) => length(graph, b, system),
+        Node::Mul(a, b) if rests(b) => length(graph, a, system),
+        _ => None,
     }
 }
 

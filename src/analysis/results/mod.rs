@@ -36,7 +36,7 @@ use certain::Near;
 use formulas::Formula;
 use places::Places;
 pub use quantities::SmoothFormulas;
-pub use quantity::{SmoothFormula, moved};
+pub use quantity::{Computed, SmoothFormula, moved};
 use reduced::Reduced;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;

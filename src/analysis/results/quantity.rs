@@ -5,29 +5,66 @@ use crate::tolerances::results::formulas::MOVED;
 
 /// A formula along the motion, and its time derivatives.
 pub struct SmoothFormula {
-    program: Program,
-    registers: Registers,
-    /// Its value and time derivatives, as many as there are: two at least.
+    /// What is computed one after the other: what of it is smooth, and what follows from that.
+    stages: Vec<Computed>,
+    /// Where the last of these leaves its value and time derivatives, as many as there are: two at least.
     roots: Vec<Register>,
-    /// What it is computed from: where a coordinate, differentiated so many times by time, is to stand.
-    inputs: Vec<(Register, u32, usize)>,
+    /// Of a length: where the last stage finds what it is the length of, and both rates of that.
+    length: Option<[[Register; 2]; 2]>,
 }
 
-impl SmoothFormula {
-    /// Of a program that leaves a value and its derivatives in some registers.
-    pub(super) fn new(
-        (program, registers): (Program, Registers),
-        roots: Vec<Register>,
-        coordinates: usize,
-    ) -> SmoothFormula {
-        let operations = program.stage(Stage::Measures);
-        let read: Vec<Register> = operations.iter().flat_map(|&op| program.reads(op)).chain(roots.clone()).collect();
+/// Something that is computed from coordinates, and from what was computed before.
+pub struct Computed {
+    program: Program,
+    registers: Registers,
+    /// Where a coordinate, differentiated so many times by time, is to stand.
+    inputs: Vec<(Register, u32, usize)>,
+    /// Where that is to stand which was left in a register of what was computed before.
+    taken: Vec<(Register, Register)>,
+}
+
+impl Computed {
+    /// By a program over so many coordinates, and perhaps more.
+    pub(super) fn new(program: Program, registers: Registers, coordinates: usize) -> Computed {
         let mut inputs = Vec::new();
         for (order, first) in program.inputs.coordinates.into_iter().enumerate() {
-            let own = (0..coordinates as Register).map(|k| (first + k, k, order));
-            inputs.extend(own.filter(|(register, ..)| read.contains(register)));
+            inputs.extend((0..coordinates as Register).map(|k| (first + k, k, order)));
         }
-        SmoothFormula { program, registers, roots, inputs }
+        Computed { program, registers, inputs, taken: Vec::new() }
+    }
+
+    /// The same with what was computed before as further coordinates, by where that is left with its time derivatives; none where one is missing.
+    pub(super) fn behind(
+        mut self,
+        before: &[[Option<Register>; 4]],
+        (coordinates, wanted): (usize, &[Register]),
+    ) -> Option<Computed> {
+        let is_read = self.is_read(wanted);
+        for (order, first) in self.program.inputs.coordinates.into_iter().enumerate() {
+            for (k, tower) in before.iter().enumerate() {
+                let register = first + (coordinates + k) as Register;
+                if is_read[register as usize] {
+                    self.taken.push((register, tower[order]?));
+                }
+            }
+        }
+        Some(self)
+    }
+
+    /// By register: whether its operations read it, or somebody wants it.
+    fn is_read(&self, wanted: &[Register]) -> Vec<bool> {
+        let mut is_read = vec![false; self.program.registers()];
+        wanted.iter().for_each(|&register| is_read[register as usize] = true);
+        for &op in self.operations()[1] {
+            self.program.reads(op).for_each(|register| is_read[register as usize] = true);
+        }
+        is_read
+    }
+
+    /// Leaves out the inputs that nothing reads.
+    fn need(&mut self, wanted: &[Register]) {
+        let is_read = self.is_read(wanted);
+        self.inputs.retain(|(register, ..)| is_read[*register as usize]);
     }
 
     /// The program that it is computed by, and the program's registers.
@@ -42,16 +79,53 @@ impl SmoothFormula {
         [Stage::Prologue, Stage::Measures].map(|stage| self.program.stage(stage))
     }
 
-    /// Where its value and its time derivatives are left, as many as there are.
+    /// Where a coordinate is to stand, by its number, differentiated so many times by time.
+    #[must_use]
+    pub fn inputs(&self) -> &[(Register, u32, usize)] {
+        &self.inputs
+    }
+
+    /// Where that is to stand which was left in a register of what was computed before.
+    #[must_use]
+    pub fn taken(&self) -> &[(Register, Register)] {
+        &self.taken
+    }
+}
+
+impl SmoothFormula {
+    /// Of what is computed one after the other, the last of which leaves a value and its derivatives in some registers.
+    pub(super) fn new(
+        mut stages: Vec<Computed>,
+        roots: Vec<Register>,
+        length: Option<[[Register; 2]; 2]>,
+    ) -> SmoothFormula {
+        let count = stages.len();
+        for k in 0..count {
+            let wanted = match stages.get(k + 1) {
+                Some(next) => next.taken.iter().map(|&(_, from)| from).collect(),
+                None => roots.clone(),
+            };
+            stages[k].need(&wanted);
+        }
+        SmoothFormula { stages, roots, length }
+    }
+
+    /// What is computed one after the other.
+    #[must_use]
+    pub fn stages(&self) -> &[Computed] {
+        &self.stages
+    }
+
+    /// Where the last of these leaves its value and its time derivatives, as many as there are.
     #[must_use]
     pub fn roots(&self) -> &[Register] {
         &self.roots
     }
 
-    /// Where what it is computed from is to stand: a coordinate, by its number, differentiated so many times by time.
+    /// Of a length, which has a kink where it is zero: where the last stage finds what it is the length of, and both rates of that.
     #[must_use]
-    pub fn inputs(&self) -> &[(Register, u32, usize)] {
-        &self.inputs
+    pub fn length(&self) -> Option<[[Register; 2]; 2]> {
+        self.length
     }
 }
 

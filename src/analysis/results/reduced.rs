@@ -173,7 +173,7 @@ impl Reduced {
 
     /// An end of a stretch, or a time (s) that is as good as that, with the bits that rows have there where nothing is in doubt.
     fn end(&self, state: &State, t: f64, stretch: &Stretch, places: &mut Places) -> State {
-        let settled = self.formula.is_smooth().then(|| places.settled(stretch, state, t));
+        let settled = self.formula.settles().then(|| places.settled(stretch, state, t));
         settled.flatten().unwrap_or_else(|| state.clone())
     }
 

@@ -226,7 +226,7 @@ impl Survey<'_> {
     /// The time (s) and the value of a turn that is near a state and a time, as they are whichever way led there; none where it does not settle, or
     /// beyond an edge.
     fn settled_turn(&mut self, near: &State, t: f64, span: f64) -> Option<[f64; 2]> {
-        if !self.formula.is_smooth() {
+        if !self.formula.settles() {
             return None;
         }
         let mut turn = Settling::near(t, span, self.formula.derivatives() == 2)?;

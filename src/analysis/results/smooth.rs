@@ -100,10 +100,9 @@ impl Smooth {
         self.towers[k].map(|register| register.map_or(0.0, |register| self.registers.get(register)))
     }
 
-    /// What computes them, and where that leaves one of them with its time derivatives, by their orders.
-    pub fn into_tower(self, k: usize) -> ((Program, Registers), [Option<Register>; 4]) {
-        let tower = self.towers[k];
-        ((self.program, self.registers), tower)
+    /// What computes them, and where that leaves each with its time derivatives, by their orders.
+    pub fn into_towers(self) -> ((Program, Registers), Vec<[Option<Register>; 4]>) {
+        ((self.program, self.registers), self.towers)
     }
 
     /// Whether a body turns too far between two states for them to tell what its sine is between.

@@ -1,0 +1,55 @@
+//! What is known of a motion at several times, led on to another one.
+
+/// How much value, slope and second derivative at each of some times (s), which all differ, weigh at another time: on the curve of least degree
+/// through all of them (C. Hermite, Sur la formule d'interpolation de Lagrange, 1878).
+///
+/// With `d` the time since a node, and `L` its Lagrange polynomial, of which `s` and `r` are the first and the second derivative there, they weigh
+/// `L³ (1 − 3 s d + (6 s² − 3/2 r) d²)`, `L³ (d − 3 s d²)` and `L³ d² / 2`.
+pub fn weigh(nodes: &[f64], t: f64, weights: &mut [[f64; 3]]) {
+    for (k, (&node, weights)) in nodes.iter().zip(weights).enumerate() {
+        let d = t - node;
+        let (mut lagrange, mut s, mut squares) = (1.0, 0.0, 0.0);
+        for (_, &other) in nodes.iter().enumerate().filter(|&(other, _)| other != k) {
+            let per = 1.0 / (node - other);
+            lagrange *= (t - other) * per;
+            s += per;
+            squares += per * per;
+        }
+        let (r, cube) = (s * s - squares, lagrange * lagrange * lagrange);
+        let bend = 6.0 * s * s - 1.5 * r;
+        *weights = [cube * (1.0 + d * (d * bend - 3.0 * s)), cube * d * (1.0 - 3.0 * s * d), 0.5 * cube * d * d];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::weigh;
+
+    /// A polynomial of the highest degree that so many nodes fix, with its derivatives.
+    fn polynomial(degree: i32, t: f64) -> [f64; 3] {
+        let mut towers = [0.0; 3];
+        for k in 0..=degree {
+            let (c, n) = (1.0 / f64::from(k + 2), f64::from(k));
+            towers[0] += c * t.powi(k);
+            towers[1] += if k > 0 { c * n * t.powi(k - 1) } else { 0.0 };
+            towers[2] += if k > 1 { c * n * (n - 1.0) * t.powi(k - 2) } else { 0.0 };
+        }
+        towers
+    }
+
+    #[test]
+    fn a_curve_that_the_nodes_fix_is_led_on_as_it_is() {
+        for (nodes, t) in
+            [(&[0.3][..], 0.7), (&[0.0, -0.4], 0.3), (&[0.1, -0.2, -0.45], 0.32), (&[0.0, -1.0, 0.5], -0.7)]
+        {
+            let degree = 3 * nodes.len() as i32 - 1;
+            let mut weights = [[0.0; 3]; 3];
+            weigh(nodes, t, &mut weights);
+            let known = nodes.iter().map(|&node| polynomial(degree, node));
+            let led_on: f64 =
+                known.zip(weights).map(|(of, by)| of.into_iter().zip(by).map(|(x, w)| x * w).sum::<f64>()).sum();
+            let there = polynomial(degree, t)[0];
+            assert!((led_on - there).abs() <= 1e-12 * there.abs().max(1.0), "{nodes:?}: {led_on} and {there}");
+        }
+    }
+}
