@@ -4,7 +4,7 @@
 
 mod support;
 
-use mechc::rooms::math::sin_cos;
+use mechc::rooms::math::{hypot, sin_cos};
 use mechc::{Answers, RunOptions, Times};
 use std::f64::consts::{PI, TAU};
 use support::compiled;
@@ -202,6 +202,43 @@ fn peaks_that_no_step_shows_are_found() {
             (1.0, 1e-13),
         ],
     );
+}
+
+/// A driven body is where it was after a whole turn, and so is all that hangs on it: steps of whole turns would see nothing move.
+#[test]
+fn bodies_that_turn_many_times_hide_nothing() {
+    for turns in [1.0, 42.63, 60.0, 64.0, 128.0] {
+        let text = format!(
+            "mechanism m {{
+                ground {{ point O = (0, 0) }}
+                body k {{ point O = (0, 0) point A = (20 mm, 0) }}
+                body n {{ point A = (0, 0) point B = (50 mm, 0) }}
+                joint one: revolute(ground.O, k.O)
+                joint two: revolute(k.A, n.A)
+                driver fast: angle(k) = {turns} rev/s * t
+                driver slow: angle(n) = 0.25 rev/s * t
+                result low = min(x(n.B))
+                result high = max(y(n.B))
+                result near = min(hypot(x(n.B) - 40 mm, y(n.B) - 1 mm))
+                result mean_x = mean(x(n.B))
+            }}"
+        );
+        let mut wanted = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY];
+        for k in 0..=400_000 {
+            let t = f64::from(k) / 400_000.0;
+            let x = 0.02 * cos(TAU * turns * t) + 0.05 * cos(0.25 * TAU * t);
+            let y = 0.02 * sin(TAU * turns * t) + 0.05 * sin(0.25 * TAU * t);
+            let near = hypot(x - 0.04, y - 0.001);
+            wanted = [wanted[0].min(x), wanted[1].max(y), wanted[2].min(near)];
+        }
+        let found = values(&text, 1.0);
+        for (found, wanted) in found.iter().zip(wanted) {
+            assert!((found - wanted).abs() < 1e-4, "{turns} turns: {found} instead of {wanted}");
+        }
+        assert!(found[0] <= wanted[0] && found[1] >= wanted[1] && found[2] <= wanted[2], "{turns} turns: {found:?}");
+        let mean = 0.02 * sin(TAU * turns) / (TAU * turns) + 0.05 / (0.25 * TAU);
+        assert!((found[3] - mean).abs() < 1e-9, "{turns} turns: {} instead of {mean}", found[3]);
+    }
 }
 
 fn newton(mut t: f64, slope: impl Fn(f64) -> (f64, f64)) -> f64 {

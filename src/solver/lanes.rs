@@ -116,12 +116,8 @@ impl<const W: usize> Lanes<W> {
         for (row, t) in rows.chunks_exact_mut(solver.layout.stride).zip(batch.times) {
             row[0] = t;
         }
-        let around = OfTimes { solver, scalars, batch, rows };
-        if W < PART {
-            self.solve::<1>(solver, (program, scalars), around);
-        } else {
-            self.solve::<PART>(solver, (program, scalars), around);
-        }
+        // all at once: there is work for all of them
+        self.solve::<W>(solver, (program, scalars), OfTimes { solver, scalars, batch, rows });
         let Watched { farthest, multiplier, residual, .. } = &self.watched;
         from_fn(|k| !is_lost(farthest.0[k]) && multiplier.0[k] <= LARGEST_MULTIPLIER && residual.0[k] <= 1.0)
     }

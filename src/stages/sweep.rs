@@ -9,15 +9,15 @@ use crate::analysis::{Asked, Started, Times};
 use crate::cancel::Cancel;
 use crate::crew::{Crew, usual_jobs};
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::sweep::{LANES, OneVariant, Status, Swept, Team};
+use crate::sweep::{LANES, OneVariant, PART, Status, Swept, Team};
 use std::sync::{Arc, OnceLock};
 
 /// Numbers that a piece of work holds, more or less: 2 MB.
 const NUMBERS: u64 = 1 << 18;
 /// Variants of a piece at the most, so that the first come soon.
 const MOST: u64 = 256;
-/// And at least: so many are computed side by side.
-const LEAST: u64 = LANES as u64;
+/// All lanes are used as long as a piece holds no more numbers than this: 32 MB.
+const MOST_NUMBERS: u64 = 1 << 22;
 
 /// How a sweep is made.
 #[derive(Clone, Debug)]
@@ -51,6 +51,14 @@ impl Default for SweepOptions {
         let (columns, jobs, skip, take) = (None, None, 0, None);
         SweepOptions { times, columns, redundant, tolerance, pass_bifurcations, jobs, skip, take, vectors, cancel }
     }
+}
+
+/// How many variants a piece of work holds, of each of which there are so many numbers.
+fn variants_of_a_piece(numbers: u64) -> u64 {
+    let lanes = LANES as u64;
+    let all = (NUMBERS / numbers / lanes * lanes).clamp(lanes, MOST);
+    let fewer = [all, PART as u64].into_iter().find(|variants| variants * numbers <= MOST_NUMBERS);
+    fewer.unwrap_or(1)
 }
 
 /// A sweep in progress: what was made of its blocks, in the order of the variants.
@@ -88,7 +96,7 @@ impl Checked {
             Some(columns) => times.len() * columns.len() as u64,
             None => compiled.results().len() as u64 + 1,
         };
-        let size = (NUMBERS / numbers.max(1) / LEAST * LEAST).clamp(LEAST, MOST);
+        let size = variants_of_a_piece(numbers.max(1));
         let end = variants.points().count();
         let first = options.skip.min(end);
         let last = options.take.map_or(end, |take| first.saturating_add(take).min(end));
@@ -404,4 +412,20 @@ fn first_error(said: &Diagnostics) -> Box<Diagnostic> {
     let error = said.iter().find(|said| said.is_error() && said.code != Code::E0612).cloned();
     // what was cancelled says nothing, and nobody looks at it
     Box::new(error.unwrap_or_else(|| Diagnostic::new(Code::E0601, "it was not made")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LANES, MOST, MOST_NUMBERS, variants_of_a_piece};
+
+    #[test]
+    fn pieces_fill_lanes_and_little_memory() {
+        for numbers in [1, 2, 400, 9_720, 131_072, 131_073, 500_000, 600_000, 1 << 40] {
+            let variants = variants_of_a_piece(numbers);
+            assert!(variants == 1 || variants * numbers <= MOST_NUMBERS, "{variants} of {numbers}");
+            assert!((1..=MOST).contains(&variants), "{variants} of {numbers}");
+            let could_be_more = LANES as u64 * numbers <= MOST_NUMBERS;
+            assert!(!could_be_more || variants.is_multiple_of(LANES as u64), "{variants} of {numbers}");
+        }
+    }
 }

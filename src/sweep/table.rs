@@ -48,10 +48,7 @@ impl Table {
             let to = &mut to[room.before..];
             if column == 0 {
                 for to in to.chunks_exact_mut(room.rows) {
-                    to[first..]
-                        .iter_mut()
-                        .zip(number + 1 - count as u64..=number)
-                        .for_each(|(to, k)| *to = of.times.at(k));
+                    (first..=last).for_each(|row| to[row] = of.times.at(row as u64));
                 }
                 continue;
             }

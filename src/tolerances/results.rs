@@ -83,6 +83,8 @@ pub mod smooth {
     pub const MOST_FACTORS: u32 = 6;
     /// A cell in which a body turns farther than this (rad) says nothing of the sine of the turn.
     pub const WIDEST_TURN: f64 = 0.25;
+    /// A cell in which any body turns farther than this (rad) says nothing of where places are within.
+    pub const WIDEST_OF_ALL: f64 = 0.5;
 }
 
 /// Exploring (`analysis/results/reduced.rs`).

@@ -7,7 +7,7 @@ use crate::analysis::state::State;
 use crate::expr::{ExprId, Graph, Node, Symbol, Unary};
 use crate::ir::{ConstraintSystem, CoordinateKind};
 use crate::program::{Program, Register, Registers, Stage};
-use crate::tolerances::results::smooth::{MOST_FACTORS, WIDEST_TURN};
+use crate::tolerances::results::smooth::{MOST_FACTORS, WIDEST_OF_ALL, WIDEST_TURN};
 use rustc_hash::FxHashMap;
 
 /// Of what kind a formula is.
@@ -35,8 +35,9 @@ pub(super) struct Smooth {
     towers: Vec<[Option<Register>; 4]>,
     /// The coordinates that they hold.
     coordinates: Vec<usize>,
-    /// Those that are turns.
+    /// Those that are turns, and all turns that there are.
     turns: Vec<usize>,
+    all_turns: Vec<usize>,
 }
 
 impl Smooth {
@@ -76,7 +77,8 @@ impl Smooth {
         coordinates.dedup();
         let is_turn = |&k: &usize| system.coordinates()[k].kind == CoordinateKind::Angle;
         let turns = coordinates.iter().copied().filter(is_turn).collect();
-        Smooth { program, registers, towers, coordinates, turns }
+        let all_turns = (0..system.coordinates().len()).filter(is_turn).collect();
+        Smooth { program, registers, towers, coordinates, turns, all_turns }
     }
 
     /// How many there are.
@@ -105,13 +107,15 @@ impl Smooth {
         ((self.program, self.registers), self.towers)
     }
 
-    /// Whether a body turns too far between two states for them to tell what its sine is between.
+    /// Whether a body turns too far between two states for them to tell what its sine is between, or any body what a place is that goes about
+    /// with it: a driven one is where it was after a whole turn, and nothing else tells of that.
     pub fn turns_far(&self, [a, b]: [&State; 2]) -> bool {
         let turned = |&k: &usize| {
             let fastest = f64::max(a.qd[k].abs(), b.qd[k].abs());
             f64::max((b.q[k] - a.q[k]).abs(), fastest * (b.t - a.t))
         };
-        self.turns.iter().any(|k| turned(k) > WIDEST_TURN)
+        let are_far = |turns: &[usize], widest: f64| turns.iter().any(|k| turned(k) > widest);
+        are_far(&self.turns, WIDEST_TURN) || are_far(&self.all_turns, WIDEST_OF_ALL)
     }
 }
 
