@@ -25,16 +25,15 @@ pub fn weigh(nodes: &[f64], t: f64, weights: &mut [[f64; 3]]) {
 mod tests {
     use super::weigh;
 
-    /// A polynomial of the highest degree that so many nodes fix, with its derivatives.
-    fn polynomial(degree: i32, t: f64) -> [f64; 3] {
-        let mut towers = [0.0; 3];
-        for k in 0..=degree {
-            let (c, n) = (1.0 / f64::from(k + 2), f64::from(k));
-            towers[0] += c * t.powi(k);
-            towers[1] += if k > 0 { c * n * t.powi(k - 1) } else { 0.0 };
-            towers[2] += if k > 1 { c * n * (n - 1.0) * t.powi(k - 2) } else { 0.0 };
+    /// A polynomial of some degree, with its derivatives.
+    fn polynomial(degree: u32, t: f64) -> [f64; 3] {
+        let [mut value, mut slope, mut half_bend] = [0.0; 3];
+        for k in (0..=degree).rev() {
+            half_bend = half_bend * t + slope;
+            slope = slope * t + value;
+            value = value * t + 1.0 / f64::from(k + 2);
         }
-        towers
+        [value, slope, 2.0 * half_bend]
     }
 
     #[test]
@@ -42,7 +41,7 @@ mod tests {
         for (nodes, t) in
             [(&[0.3][..], 0.7), (&[0.0, -0.4], 0.3), (&[0.1, -0.2, -0.45], 0.32), (&[0.0, -1.0, 0.5], -0.7)]
         {
-            let degree = 3 * nodes.len() as i32 - 1;
+            let degree = 3 * nodes.len() as u32 - 1;
             let mut weights = [[0.0; 3]; 3];
             weigh(nodes, t, &mut weights);
             let known = nodes.iter().map(|&node| polynomial(degree, node));

@@ -54,7 +54,9 @@ impl Computed {
     /// By register: whether its operations read it, or somebody wants it.
     fn is_read(&self, wanted: &[Register]) -> Vec<bool> {
         let mut is_read = vec![false; self.program.registers()];
-        wanted.iter().for_each(|&register| is_read[register as usize] = true);
+        for &register in wanted {
+            is_read[register as usize] = true;
+        }
         for &op in self.operations()[1] {
             self.program.reads(op).for_each(|register| is_read[register as usize] = true);
         }
