@@ -404,15 +404,12 @@ fn all_rows(path: &Path) -> Vec<String> {
 
 /// Interrupts a sweep of so many variants somewhere between, and gives the number that it tells to go on with.
 fn interrupted_within(path: &Path, arguments: &[&str], count: usize) -> String {
-    // how soon it has something depends on the machine, and whether this process is awake when it has
-    for wait in [100, 300, 1000, 3000, 9000, 30, 10, 100] {
+    // how soon it has something depends on the machine
+    for wait in [100, 300, 1000, 3000, 9000] {
         let child = begun(path, arguments, Duration::from_millis(wait));
         signal(&child, "-2");
         let ended = child.wait_with_output().expect("it ends");
         let told = said(&ended);
-        if ended.status.success() {
-            continue;
-        }
         assert_eq!(ended.status.code(), Some(130), "{told}");
         let skip = told.split("--skip ").nth(1).and_then(|rest| rest.split('`').next()).expect("how to go on");
         let done: usize = skip.parse().expect("a number");
@@ -422,7 +419,7 @@ fn interrupted_within(path: &Path, arguments: &[&str], count: usize) -> String {
             return skip.to_owned();
         }
     }
-    panic!("it was never interrupted between");
+    panic!("nothing was written in nine seconds");
 }
 
 #[test]

@@ -31,14 +31,14 @@ impl<const W: usize> LaneValues<W> {
 /// few times over, so that what an operation reads stays in these.
 pub struct LaneMachine<'n, const W: usize, const P: usize> {
     /// What stands in them.
-    pub v: &'n mut [LaneValues<W>],
+    v: &'n mut [LaneValues<W>],
     /// How many parts there are that somebody asks for, and which of them is gone through.
     parts: usize,
     part: usize,
     /// Tables, and what they hold.
-    pub program: &'n Program,
+    program: &'n Program,
     /// The program's own registers.
-    pub scalars: &'n Registers,
+    scalars: &'n Registers,
 }
 
 impl<'n, const W: usize, const P: usize> LaneMachine<'n, W, P> {

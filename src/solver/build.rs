@@ -89,6 +89,10 @@ impl Component {
 impl Component {
     /// The same with what is fixed in front of all else, its registers being the first ones.
     fn joined(self) -> Component {
+        // nothing is renumbered for nothing: there may be millions
+        if self.fixed.is_empty() {
+            return self;
+        }
         let fixed = self.fixed_registers as Register;
         let own = |register: Register| if register < FIXED { register + fixed } else { register - FIXED };
         let (apart, behind) = (self.fixed.len(), self.fixed_registers);

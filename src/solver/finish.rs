@@ -24,8 +24,8 @@ pub(super) fn finish(
             share_registers(&mut component, unknown);
         }
         Purpose::Variants => {
-            let (component_of_rest, own) = set_fixed_apart(component);
-            component = component_of_rest;
+            let (rest, own) = set_fixed_apart(component);
+            component = rest;
             share_registers(&mut component, own);
         }
     }

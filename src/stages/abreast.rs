@@ -101,8 +101,9 @@ impl Abreast {
         self.together.rows()
     }
 
-    /// Follows as many variants as there are lanes, or fewer, by the values of the params that vary, one variant behind the other; writes their rows, and says which
-    /// have all their rows, or all their results where no rows are wanted. One of whose values the text's check decides anything else goes alone.
+    /// Follows as many variants as there are lanes, or fewer, by the values of the params that vary, one variant behind the other; writes their
+    /// rows, and says which have all of them, or all their results where no rows are wanted. One of whose values the text's check decides anything
+    /// else goes alone.
     pub fn follow(&self, side: &mut Side, varying: &[f64], room: Room<'_>, cancel: &Cancel) -> [bool; LANES] {
         let width = self.places.len();
         let count = varying.len() / width.max(1);
