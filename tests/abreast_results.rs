@@ -195,12 +195,66 @@ fn lengths_are_those_alone_also_beside_zero() {
     assert_eq!(complete, 6);
 }
 
+/// Distances, magnitudes, and lengths of which one leg rests, are lengths too; with what goes through zero, and what may.
+#[test]
+fn distances_and_magnitudes_are_found_side_by_side() {
+    let kinds = [
+        "far = max(distance(coupler.pen, ground.O))",
+        "near = min(distance(coupler.pen, ground.O))",
+        "when = argmax(distance(rocker.D, ground.O) / base)",
+        "pace = max(speed(coupler.pen))",
+        "wide = max(abs(x(coupler.pen)))",
+        "hardest = max(abs(der(der(x(coupler.D)))))",
+        "reach = max(hypot(x(coupler.D), 1))",
+        "root = min(sqrt(x(coupler.D)^2 + 4 * y(coupler.D)^2 + 0.1))",
+    ];
+    let mut all = 0;
+    for kind in kinds {
+        let subject = of(FOUR_BAR, &[kind]);
+        let (abreast, complete) = compare(&subject, &sampled(&["rod=3.4..3.6", "lever=2.9..3.1"], 12));
+        assert!(abreast >= 10 && complete == 12, "{kind}: {abreast} of {complete}");
+        let ranges = ["rod=2.5..4.5", "lever=2..3.5", "pen_x=-1..3", "start=0..6", "speed=-2..2"];
+        let (abreast, complete) = compare(&subject, &sampled(&ranges, 24));
+        assert!(abreast <= complete, "{kind}: {abreast} of {complete}");
+        all += abreast;
+    }
+    assert!(all > 40, "{all} went side by side");
+}
+
+/// What rests has its largest value and its least one at both ends, and nothing tells it from one that moves a little but how much.
+#[test]
+fn what_rests_is_found_side_by_side() {
+    let kinds = [
+        "pace = max(speed(crank.C))",
+        "slowest = min(speed(crank.C))",
+        "radius = max(distance(crank.C, crank.A))",
+        "when = argmin(distance(crank.C, ground.A))",
+        "square = max(x(crank.C)^2 + y(crank.C)^2)",
+    ];
+    for kind in kinds {
+        let (abreast, complete) = compare(&of(FOUR_BAR, &[kind]), &sampled(&["rod=3.4..3.6", "arm=0.8..1.1"], 12));
+        assert!(abreast >= 10 && complete == 12, "{kind}: {abreast} of {complete}");
+    }
+    // the closing of a loop leaves more than rounding, so that it may be alone
+    let (_, complete) =
+        compare(&of(FOUR_BAR, &["long = max(distance(coupler.C, rocker.D))"]), &sampled(&["rod=3.4..3.6"], 6));
+    assert_eq!(complete, 6);
+    // nearly at rest, about a centre that is nearly its own
+    let kinds = [
+        "far = max(hypot(x(crank.C) - base * pen_x, y(crank.C)))",
+        "when = argmax(hypot(x(crank.C) - pen_x, y(crank.C)))",
+    ];
+    let (_, complete) =
+        compare(&of(FOUR_BAR, &kinds), &vary(&["pen_x=0,1e-17,1e-16,3e-16,1e-15,1e-14,1e-12,1e-9,1e-6"]));
+    assert_eq!(complete, 9);
+}
+
 /// What is not smooth, is nested, or is an integral goes alone; beside rows as without them.
 #[test]
 fn other_results_go_alone() {
     let asked = sampled(&["rod=3.4..3.6", "lever=2.9..3.1"], 6);
     for other in [
-        "far = max(abs(x(coupler.pen)))",
+        "far = max(abs(x(coupler.pen)) + y(coupler.pen))",
         "slope = max(x(coupler.pen) / y(coupler.pen))",
         "mean_height = mean(y(coupler.pen))",
         "off = max(x(coupler.pen) + t)",

@@ -695,6 +695,19 @@ fn a_speed_that_comes_to_rest_has_its_mean_and_its_least_value() {
 }
 
 #[test]
+fn lengths_that_rest_have_values() {
+    let results = "result a = max(speed(crank.B)) result b = min(speed(crank.B)) result c = max(distance(crank.B, ground.A))
+    result d = min(speed(crank.A)) result e = max(distance(crank.A, ground.A)) result f = max(distance(crank.B, coupler.B))
+    result g = max(hypot(x(crank.B), y(crank.B))) result h = argmax(speed(crank.B)) result i = mean(speed(crank.B))
+    result j = max(distance(coupler.B, rocker.C))";
+    let speed = 0.03 * TAU;
+    let wanted = [speed, speed, 0.03, 0.0, 0.0, 0.0, 0.03, 0.0, speed, 0.07];
+    for (found, wanted) in values(&four_bar(results), 1.0).into_iter().zip(wanted) {
+        assert!((found - wanted).abs() < 1e-12, "{found} instead of {wanted}");
+    }
+}
+
+#[test]
 fn a_long_analysis_is_as_good_as_a_short_one() {
     let text = four_bar(
         "result a = max(rotation(pivot)) - min(rotation(pivot)) result b = argmax(y(coupler.P)) result c = mean(y(coupler.P))",

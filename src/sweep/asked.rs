@@ -4,7 +4,7 @@ use super::each::{Each, LANES, PART, ZERO};
 use crate::analysis::{Computed, Sampled, SmoothFormula, SmoothFormulas, Started, Times, moved};
 use crate::expr::ExprId;
 use crate::ir::{ConstraintSystem, ReductionKind};
-use crate::math::{Vectors, hypot};
+use crate::math::Vectors;
 use crate::program::{LaneMachine, LaneValues, Op, Register};
 use crate::solver::{Abreast, Solver};
 use crate::structure::Determined;
@@ -113,6 +113,11 @@ impl Asked {
         self.quantities.each()[quantity].roots().len() > 2
     }
 
+    /// Whether a quantity is a length.
+    pub fn is_length(&self, quantity: usize) -> bool {
+        self.quantities.each()[quantity].is_length()
+    }
+
     /// A formula of parameters for one variant (SI).
     pub fn value(&self, formula: ExprId, params: &[Each], lane: usize) -> f64 {
         SmoothFormulas::value(self.system(), formula, |k| params[k as usize].0[lane], &[])
@@ -198,21 +203,10 @@ impl Asked {
         );
     }
 
-    /// Of a quantity that is a length and was looked at: how fast it may change (1/s), wherever what it is the length of goes.
-    pub fn fastest(&self, quantity: usize, registers: &[Vec<Each>]) -> Option<Each> {
-        let (lengths, own) = (self.quantities.each()[quantity].length()?, registers.last()?);
-        let [length, rate] = lengths.map(|of| of.map(|register| &own[register as usize].0));
-        let [value, ..] = self.tower(quantity, registers);
-        Some(LaneValues(from_fn(|k| {
-            let factor = value.0[k].abs() / hypot(length[0][k], length[1][k]);
-            factor * hypot(rate[0][k], rate[1][k])
-        })))
-    }
-
     /// How long steps may be (s).
     pub fn longest_step(&self) -> f64 {
         let [from, to] = self.interval;
-        let has_lengths = self.quantities.each().iter().any(|quantity| quantity.length().is_some());
+        let has_lengths = self.quantities.each().iter().any(SmoothFormula::is_length);
         (to - from) / if has_lengths { FEWEST_STEPS_OF_LENGTHS } else { FEWEST_STEPS }
     }
 

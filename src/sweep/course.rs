@@ -3,8 +3,8 @@
 //! The course is known at steps, with its slope and its second derivative. In a cell between two of them the second derivative stays near the
 //! straight line between its ends, as far as the quintic through both tells; so it is known where the slope may pass zero.
 
-use crate::math::{along, between, max, quintic, value_and_slopes};
-use crate::tolerances::solving::course::{AWAY, CERTAIN, ITERATIONS, MARGIN, SAFETY, STEEP, STEPS_TO_KINK};
+use crate::math::{along, between, quintic, value_and_slopes};
+use crate::tolerances::solving::course::{AWAY, CERTAIN, ITERATIONS, MARGIN, RESTS, SAFETY, STEEP, STEPS_TO_KINK};
 
 /// Value, slope and second derivative at a time.
 pub(super) type Tower = [f64; 3];
@@ -14,10 +14,11 @@ pub(super) struct Course<'c> {
     /// The times of steps (s), two at least, and what the formula is there.
     pub times: &'c [f64],
     pub towers: &'c [Tower],
-    /// Of a length, how fast it may change there (1/s); 0 of all else.
-    pub fastest: &'c [f64],
-    /// The size of the numbers that values are sums of, in units of the nearness to a singular position: what rounding of values goes by.
+    /// Whether it is a length, with a kink where it is zero.
+    pub is_length: bool,
+    /// The size of the numbers that values are sums of, and how near to a singular position they come: what rounding of values goes by.
     pub weight: f64,
+    pub nearness: f64,
 }
 
 /// Where an extremum is.
@@ -27,6 +28,8 @@ pub(super) enum Place {
     End(f64),
     /// About a time (s) between.
     Turn(f64),
+    /// Everywhere: it rests.
+    Rest,
 }
 
 /// What a cell may hold.
@@ -62,26 +65,29 @@ impl Best {
 impl Course<'_> {
     /// Where the largest value is, or the least; nothing where that is in doubt.
     pub fn extreme(&self, largest: bool) -> Option<Place> {
+        if self.rests() {
+            return Some(Place::Rest);
+        }
         let sign = if largest { 1.0 } else { -1.0 };
         let values = || self.towers.iter().map(|[value, ..]| sign * value);
         let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
         let (range, last) = (high - low, self.times.len() - 1);
-        let span = self.times[last] - self.times[0];
+        let (span, weight) = (self.times[last] - self.times[0], self.weight / self.nearness);
         let mut best = Best { place: None, value: f64::NEG_INFINITY, off: 0.0, others: f64::NEG_INFINITY };
         for (end, inward) in [(0, -1.0), (last, 1.0)] {
             let [value, slope, _] = self.towers[end].map(|value| sign * value);
-            let is_steep = inward * slope * span >= STEEP * range && self.weight <= CERTAIN * range;
+            let is_steep = inward * slope * span >= STEEP * range && weight <= CERTAIN * range;
             best.take(value, 0.0, is_steep.then_some(Place::End(self.times[end])));
         }
-        for ((t, ends), fastest) in self.times.windows(2).zip(self.towers.windows(2)).zip(self.fastest.windows(2)) {
-            let ends = [ends[0], ends[1]].map(|tower| tower.map(|value| sign * value));
-            let found = kink(ends, 2.0 * (t[1] - t[0]) * max(fastest[0], fastest[1]));
-            match found.unwrap_or_else(|| look_into(ends, [t[0], t[1]])) {
+        for (ends, times) in self.cells() {
+            let ends = ends.map(|tower| tower.map(|value| sign * value));
+            let kink = if self.is_length { kink(ends, times) } else { None };
+            match kink.unwrap_or_else(|| look_into(ends, times)) {
                 Cell::Nothing => {}
                 Cell::Unknown(most) => best.take(most, 0.0, None),
                 Cell::Turn { t, value, off, bend } => {
                     let is_within = f64::min(t - self.times[0], self.times[last] - t) >= AWAY * span;
-                    let is_certain = self.weight <= CERTAIN * f64::min(range, -bend * span * span);
+                    let is_certain = weight <= CERTAIN * f64::min(range, -bend * span * span);
                     best.take(value, off, (is_within && is_certain).then_some(Place::Turn(t)));
                 }
             }
@@ -90,28 +96,59 @@ impl Course<'_> {
         let is_finite = self.towers.as_flattened().iter().all(|value| value.is_finite());
         best.place.filter(|_| range > 0.0 && is_alone && is_finite)
     }
+
+    /// From step to step: what it is at both, and their times (s).
+    fn cells(&self) -> impl Iterator<Item = ([Tower; 2], [f64; 2])> {
+        let times = self.times.windows(2).map(|pair| [pair[0], pair[1]]);
+        self.towers.windows(2).map(|pair| [pair[0], pair[1]]).zip(times)
+    }
+
+    /// Whether it is where it was all the time, but for rounding.
+    fn rests(&self) -> bool {
+        let (begun, little) = (self.towers[0][0], RESTS * self.weight);
+        let is_there = |value: f64| (value - begun).abs() <= little;
+        self.cells().all(|(ends, times)| Limits::of(ends, times).values.into_iter().all(is_there))
+    }
 }
 
-/// What there may be between two steps of a length that comes too near to zero, where it has a kink; `way` is how far it may go.
-fn kink([a, b]: [Tower; 2], way: f64) -> Option<Cell> {
+/// What there may be between two steps of a length that comes too near to zero, where it has a kink. Its square has none: where that is near zero
+/// its second derivative tells how fast what it is the length of goes.
+fn kink([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Option<Cell> {
+    let h = to - from;
+    let fastest = (b[0] * b[1] - a[0] * a[1]) / h;
+    let way = 2.0 * h * fastest.max(a[1] * a[1]).max(b[1] * b[1]).sqrt();
     let least = f64::min(a[0].abs(), b[0].abs());
     let is_far = way == 0.0 || STEPS_TO_KINK * way <= 2.0 * least;
     let most = a[0].max(b[0]) + way;
     (!is_far).then(|| Cell::Unknown(if most.is_finite() { most } else { f64::INFINITY }))
 }
 
+/// What a formula may be between two steps.
+struct Limits {
+    bends: [f64; 2],
+    slopes: [f64; 2],
+    values: [f64; 2],
+}
+
+impl Limits {
+    fn of([[v, s, c], [w, r, d]]: [Tower; 2], [from, to]: [f64; 2]) -> Limits {
+        let h = to - from;
+        let bend = SAFETY * ((r - s) / h - 0.5 * (c + d)).abs();
+        let bends = [c.min(d) - bend, c.max(d) + bend];
+        let slopes = between(s, r, bends, h);
+        Limits { bends, slopes, values: between(v, w, slopes, h) }
+    }
+}
+
 /// What there may be between two steps, above both of them.
 fn look_into([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Cell {
     let h = to - from;
     let ([v, s, c], [w, r, d]) = (a, b);
-    let bend = SAFETY * ((r - s) / h - 0.5 * (c + d)).abs();
-    let bends = [c.min(d) - bend, c.max(d) + bend];
-    let slopes = between(s, r, bends, h);
+    let Limits { bends, slopes, values: [_, most] } = Limits::of([a, b], [from, to]);
     let is_monotone = slopes[0] > 0.0 || slopes[1] < 0.0;
     if is_monotone || bends[0] > 0.0 {
         return Cell::Nothing;
     }
-    let most = between(v, w, slopes, h)[1];
     if bends[1] >= 0.0 || !most.is_finite() {
         return Cell::Unknown(most);
     }

@@ -22,8 +22,6 @@ pub(super) struct Steps {
     weights: Vec<Each>,
     /// How near to a singular position each came.
     nearest: [f64; LANES],
-    /// Formula by formula, at each step: of a length, how fast it may change (1/s); 0 of others.
-    fastest: Vec<Each>,
 }
 
 impl Steps {
@@ -35,7 +33,6 @@ impl Steps {
         self.weights.clear();
         self.weights.resize(quantities, ZERO);
         self.nearest = [f64::INFINITY; LANES];
-        self.fastest.clear();
     }
 
     /// Takes note of where variants are.
@@ -55,7 +52,6 @@ impl Steps {
         for (quantity, registers) in registers.iter_mut().enumerate() {
             asked.look(quantity, registers, from);
             let tower = asked.tower(quantity, registers);
-            self.fastest.push(asked.fastest(quantity, registers).unwrap_or(ZERO));
             let weight = &mut self.weights[quantity].0;
             weight.iter_mut().zip(tower[0].0).for_each(|(weight, value)| *weight = weight.max(value.abs()));
             if number.is_multiple_of(EVERY) {
@@ -84,24 +80,15 @@ impl Steps {
         self.times.partition_point(|&step| step <= t).clamp(1, self.times.len() - 1) - 1
     }
 
-    /// The course of a quantity of one variant; gives the size of the numbers that its values are sums of, in units of the nearness to a singular
-    /// position.
-    pub fn write_course(
-        &self,
-        quantity: usize,
-        lane: usize,
-        knows_bends: bool,
-        course: &mut Vec<Tower>,
-        fastest: &mut Vec<f64>,
-    ) -> f64 {
+    /// The course of a quantity of one variant; gives the size of the numbers that its values are sums of, and how near to a singular position they
+    /// come.
+    pub fn write_course(&self, quantity: usize, lane: usize, knows_bends: bool, course: &mut Vec<Tower>) -> [f64; 2] {
         let of = |tower: &[Each; 3]| [tower[0].0[lane], tower[1].0[lane], tower[2].0[lane]];
         course.clear();
         course.extend(self.towers.iter().skip(quantity).step_by(self.weights.len()).map(of));
         if !knows_bends {
             find_bends(&self.times, course);
         }
-        fastest.clear();
-        fastest.extend(self.fastest.iter().skip(quantity).step_by(self.weights.len()).map(|each| each.0[lane]));
-        self.weights[quantity].0[lane] / self.nearest[lane]
+        [self.weights[quantity].0[lane], self.nearest[lane]]
     }
 }

@@ -15,6 +15,7 @@ use crate::cancel::Cancel;
 use crate::solver::{Abreast, Guesses};
 use crate::tolerances::solving::course::MOST_STEPS;
 use crate::tolerances::solving::variants::{NEAREST, PART_OF_DISTANCE};
+use std::array::from_fn;
 
 /// What is found of variants.
 pub(super) struct Survey {
@@ -25,7 +26,6 @@ pub(super) struct Survey {
     guesses: Vec<Each>,
     /// What the course of a quantity is, of one variant.
     course: Vec<Tower>,
-    fastest: Vec<f64>,
     /// By what is looked for, by variant: time (s) and value.
     found: Vec<[[f64; 2]; LANES]>,
     /// By variant: its results.
@@ -60,7 +60,6 @@ impl Survey {
             steps: Steps::default(),
             guesses: vec![ZERO; together.tears.len()],
             course: Vec::new(),
-            fastest: Vec::new(),
             found: vec![[[f64::NAN; 2]; LANES]; asked.wanted.len()],
             results: vec![f64::NAN; LANES * asked.results()],
             answered: [false; LANES],
@@ -131,11 +130,13 @@ impl Survey {
         let (_, asked) = of;
         let (wanted, [from, to]) = (asked.wanted[number], asked.interval);
         let mut looking = Looking { number, times: [from; LANES], turns: [None; LANES] };
+        let mut rest = [false; LANES];
         for lane in 0..LANES {
             let place = if open[lane] { self.place(asked, wanted, params, lane) } else { None };
             match place {
                 None => open[lane] = false,
                 Some(Place::End(t)) => looking.times[lane] = t,
+                Some(Place::Rest) => rest[lane] = true,
                 Some(Place::Turn(t)) => {
                     looking.turns[lane] = Settling::near(t, to - from, asked.knows_bends(wanted.quantity));
                     open[lane] = looking.turns[lane].is_some();
@@ -143,6 +144,32 @@ impl Survey {
             }
         }
         self.settle(of, loaded, looking, open);
+        if let What::Extreme { largest } = wanted.what
+            && rest.contains(&true)
+        {
+            self.settle_rest(of, loaded, (number, largest), rest, open);
+        }
+    }
+
+    /// Goes on with what rests, in some variants, and was computed at the first time: of both ends the larger value is it, or the smaller one.
+    fn settle_rest(
+        &mut self,
+        of: (&Together, &Asked),
+        loaded: &[Each],
+        (number, largest): (usize, bool),
+        rest: [bool; LANES],
+        open: &mut [bool; LANES],
+    ) {
+        let begun = self.found[number];
+        let [_, to] = of.1.interval;
+        let mut those = from_fn(|lane| rest[lane] && open[lane]);
+        self.settle(of, loaded, Looking { number, times: [to; LANES], turns: [None; LANES] }, &mut those);
+        for lane in (0..LANES).filter(|&lane| rest[lane]) {
+            let ([t, begun], [_, ended]) = (begun[lane], self.found[number][lane]);
+            let is_other = if largest { ended > begun } else { ended < begun };
+            self.found[number][lane] = [t, if is_other { ended } else { begun }];
+            open[lane] = those[lane];
+        }
     }
 
     /// Where something is of one variant; nothing where that is in doubt.
@@ -156,10 +183,10 @@ impl Survey {
                 (from <= t && t <= to).then_some(Place::End(t))
             }
             What::Extreme { largest } => {
-                let Survey { steps, course, fastest, .. } = self;
-                let weight =
-                    steps.write_course(wanted.quantity, lane, asked.knows_bends(wanted.quantity), course, fastest);
-                Course { times: &steps.times, towers: course, fastest, weight }.extreme(largest)
+                let Survey { steps, course, .. } = self;
+                let (quantity, is_length) = (wanted.quantity, asked.is_length(wanted.quantity));
+                let [weight, nearness] = steps.write_course(quantity, lane, asked.knows_bends(quantity), course);
+                Course { times: &steps.times, towers: course, is_length, weight, nearness }.extreme(largest)
             }
         }
     }

@@ -39,6 +39,8 @@ pub mod survey {
     pub const ALIKE: f64 = 1e-9;
     /// What rounding makes of a value.
     pub const ROUNDING: f64 = 32.0 * f64::EPSILON;
+    /// What is as little as this is nothing: rounding makes as much of the root of the least square.
+    pub const NOTHING: f64 = 1e-150;
 }
 
 /// Extremes (`analysis/results/search.rs`).

@@ -6,7 +6,7 @@ use super::quantity::{Computed, SmoothFormula, moved};
 use super::smooth::Smooth;
 use super::turn::Sampled;
 use crate::analysis::state::State;
-use crate::expr::{Binary, Dependence, ExprId, Graph, Node, Symbol};
+use crate::expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};
 use crate::ir::{ConstraintSystem, CoordinateKind};
 use crate::math::between;
 use crate::program::{Inputs, Program, Range, Ranges, Register, Registers, Stage};
@@ -30,8 +30,7 @@ pub(super) struct Formula {
     smooth: Smooth,
     coordinates: usize,
     has_jerk: bool,
-    /// Of the length of what has two coordinates, that are smooth, but for a factor: these, by their numbers, and how often they are differentiated.
-    length: Option<[(u32, u8); 2]>,
+    shape: Shape,
     holds_rates: bool,
     holds_forces: bool,
     /// Of one that holds forces, what it can be in the cell that is looked at, as its values tell.
@@ -39,6 +38,16 @@ pub(super) struct Formula {
     /// Of one that holds forces, the loads that these may come from, and what they may do in the cell that is looked at.
     loads: Loads,
     hidden: Hidden,
+}
+
+/// Of what shape a formula is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Shape {
+    /// Nothing but what is smooth.
+    Smooth,
+    /// The length of something smooth, or a root of it, but for a factor that rests.
+    Length,
+    Other,
 }
 
 /// What changes with the motion.
@@ -165,7 +174,7 @@ impl Formula {
             dependence.highest_order() > Some(0) || dependence.highest_varied_order().is_some() || holds_forces;
         let loads = if holds_forces { loads } else { &[] };
         let (mut graph, found, smooth) = Smooth::out_of(graph, (value, loads), system);
-        let length = length(&graph, found[0], system);
+        let shape = shape(&graph, found[0], system);
         let mut formulas = with_derivatives(&mut graph, found[0], has_jerk);
         let own = formulas.len();
         formulas.extend_from_slice(&found[1..]);
@@ -190,7 +199,7 @@ impl Formula {
             smooth,
             coordinates,
             has_jerk,
-            length,
+            shape,
             holds_rates,
             holds_forces,
             seen: [f64::NEG_INFINITY, f64::INFINITY],
@@ -216,14 +225,7 @@ impl Formula {
 
     /// Whether it is nothing but what is smooth, or a length of that, with a slope: so that its extrema can be settled.
     pub fn settles(&self) -> bool {
-        self.derivatives() > 0 && (self.is_smooth() || self.length.is_some())
-    }
-
-    /// Whether it is nothing but what is smooth.
-    fn is_smooth(&self) -> bool {
-        let [Moving::Coordinate(_)] = self.moving[..] else { return false };
-        let own = self.moving[0].registers(&self.program.inputs);
-        self.roots.iter().all(|&root| own.contains(&Some(root)))
+        self.derivatives() > 0 && self.shape != Shape::Other
     }
 
     /// The same for variants side by side; none where it is anything else.
@@ -231,17 +233,15 @@ impl Formula {
         if !self.settles() {
             return None;
         }
-        let inputs = self.program.inputs;
-        let at = |more: u8, (k, order): (u32, u8)| inputs.coordinates[usize::from(order + more)] + k;
-        let length = self.length.map(|of| [of.map(|of| at(0, of)), of.map(|of| at(1, of))]);
+        let is_length = self.shape == Shape::Length;
         let (own, roots) = (Computed::new(self.program, self.registers, self.coordinates), self.roots);
         if self.smooth.count() == 0 {
-            return Some(SmoothFormula::new(vec![own], roots, length));
+            return Some(SmoothFormula::new(vec![own], roots, is_length));
         }
         let ((program, registers), towers) = self.smooth.into_towers();
         let own = own.behind(&towers, (self.coordinates, &roots))?;
         let smooth = Computed::new(program, registers, self.coordinates);
-        Some(SmoothFormula::new(vec![smooth, own], roots, length))
+        Some(SmoothFormula::new(vec![smooth, own], roots, is_length))
     }
 
     /// At a state of the stretch that was entered.
@@ -323,6 +323,14 @@ impl Formula {
         weight
     }
 
+    /// Of what moves and is never below zero: at which order it stands.
+    fn order_of_square(&self, of: Moving) -> Option<usize> {
+        match of {
+            Moving::Coordinate(k) if k >= self.coordinates => self.smooth.square(k - self.coordinates),
+            _ => None,
+        }
+    }
+
     fn is_varied(&self) -> bool {
         self.moving.iter().any(|moving| matches!(moving, Moving::Varied { .. } | Moving::VariedMultiplier { .. }))
     }
@@ -346,7 +354,11 @@ impl Formula {
             let second = around(a[2], b[2], bends[0]);
             let first = between(a[1], b[1], second, h);
             let place = between(a[0], b[0], first, h);
-            for (register, range) in registers.into_iter().zip([place, first, second, third]) {
+            let mut ranges = [place, first, second, third];
+            if let Some(order) = self.order_of_square(*of) {
+                ranges[order][0] = ranges[order][0].max(0.0);
+            }
+            for (register, range) in registers.into_iter().zip(ranges) {
                 if let Some(register) = register {
                     self.ranges.set(register, range);
                     self.loads.set(register, range);
@@ -397,23 +409,30 @@ impl Formula {
     }
 }
 
-/// Of a formula that is the length of what has two coordinates, but for a factor that rests: these, if they move as smoothly as those of the
-/// system, by their numbers, and how often they are differentiated.
-fn length(graph: &Graph, formula: ExprId, system: &ConstraintSystem) -> Option<[(u32, u8); 2]> {
-    let smooth = |id: ExprId| match graph.node(id) {
-        Node::Symbol(Symbol::Coordinate { index, order }) => {
-            let own = system.coordinates().get(index as usize);
-            own.is_none_or(|of| of.kind != CoordinateKind::Argument).then_some((index, order))
-        }
+/// Of what shape a formula over coordinates of a system is, behind which further smooth ones stand.
+fn shape(graph: &Graph, formula: ExprId, system: &ConstraintSystem) -> Shape {
+    let moving = |id: ExprId| match graph.node(id) {
+        Node::Symbol(Symbol::Coordinate { index, .. }) => Some(index as usize),
         _ => None,
+    };
+    let is_own = |k: &usize| *k < system.coordinates().len();
+    let is_smooth = |k: usize| !is_own(&k) || system.coordinates()[k].kind != CoordinateKind::Argument;
+    let length_if = |is_one: bool| if is_one { Shape::Length } else { Shape::Other };
+    let of_factor = |other: ExprId| match shape(graph, other, system) {
+        // a factor stands within what is smooth
+        Shape::Smooth => Shape::Other,
+        shape => shape,
     };
     let rests = |id: ExprId| graph.dependence(id).is_constant();
     match graph.node(formula) {
-        Node::Binary(Binary::Hypot, a, b) => Some([smooth(a)?, smooth(b)?]),
-        Node::Neg(a) => length(graph, a, system),
-        Node::Mul(a, b) | Node::Div(b, a) if rests(a) => length(graph, b, system),
-        Node::Mul(a, b) if rests(b) => length(graph, a, system),
-        _ => None,
+        _ if moving(formula).is_some_and(is_smooth) => Shape::Smooth,
+        // its square is smooth, be it of a length or not
+        Node::Unary(Unary::Sqrt, a) => length_if(moving(a).is_some_and(|k| !is_own(&k))),
+        Node::Unary(Unary::Abs, a) => length_if(moving(a).is_some_and(is_smooth)),
+        Node::Neg(a) => of_factor(a),
+        Node::Mul(a, b) | Node::Div(b, a) if rests(a) => of_factor(b),
+        Node::Mul(a, b) if rests(b) => of_factor(a),
+        _ => Shape::Other,
     }
 }
 

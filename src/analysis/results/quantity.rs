@@ -9,8 +9,7 @@ pub struct SmoothFormula {
     stages: Vec<Computed>,
     /// Where the last of these leaves its value and time derivatives, as many as there are: two at least.
     roots: Vec<Register>,
-    /// Of a length: where the last stage finds what it is the length of, and both rates of that.
-    length: Option<[[Register; 2]; 2]>,
+    is_length: bool,
 }
 
 /// Something that is computed from coordinates, and from what was computed before.
@@ -96,11 +95,7 @@ impl Computed {
 
 impl SmoothFormula {
     /// Of what is computed one after the other, the last of which leaves a value and its derivatives in some registers.
-    pub(super) fn new(
-        mut stages: Vec<Computed>,
-        roots: Vec<Register>,
-        length: Option<[[Register; 2]; 2]>,
-    ) -> SmoothFormula {
+    pub(super) fn new(mut stages: Vec<Computed>, roots: Vec<Register>, is_length: bool) -> SmoothFormula {
         let count = stages.len();
         for k in 0..count {
             let wanted = match stages.get(k + 1) {
@@ -109,7 +104,7 @@ impl SmoothFormula {
             };
             stages[k].need(&wanted);
         }
-        SmoothFormula { stages, roots, length }
+        SmoothFormula { stages, roots, is_length }
     }
 
     /// What is computed one after the other.
@@ -124,10 +119,10 @@ impl SmoothFormula {
         &self.roots
     }
 
-    /// Of a length, which has a kink where it is zero: where the last stage finds what it is the length of, and both rates of that.
+    /// Whether it is a length, which has a kink where it is zero.
     #[must_use]
-    pub fn length(&self) -> Option<[[Register; 2]; 2]> {
-        self.length
+    pub fn is_length(&self) -> bool {
+        self.is_length
     }
 }
 

@@ -4,7 +4,7 @@
 //! a cell says little of what it can be. So it is looked at as the coordinates are, by its own time derivatives at the ends of the cell.
 
 use crate::analysis::state::State;
-use crate::expr::{ExprId, Graph, Node, Symbol, Unary};
+use crate::expr::{Binary, ExprId, Graph, Node, Symbol, Unary};
 use crate::ir::{ConstraintSystem, CoordinateKind};
 use crate::program::{Program, Register, Registers, Stage};
 use crate::tolerances::results::smooth::{MOST_FACTORS, WIDEST_OF_ALL, WIDEST_TURN};
@@ -27,12 +27,25 @@ enum Kind {
     Other,
 }
 
+/// Something smooth within a formula.
+struct Found {
+    /// What of the formula it stands for.
+    of: ExprId,
+    /// It, or the square of what it stands for: a length goes to zero with a kink, its square does not.
+    value: ExprId,
+    is_square: bool,
+    /// The highest time derivative of a coordinate in it.
+    order: u8,
+}
+
 /// What is smooth of a formula, with its time derivatives.
 pub(super) struct Smooth {
     program: Program,
     registers: Registers,
     /// Of each, where its value and its time derivatives are: at the order that its value has as a coordinate, and behind it.
     towers: Vec<[Option<Register>; 4]>,
+    /// Of each that is a square, the order at which it stands.
+    squares: Vec<Option<usize>>,
     /// The coordinates that they hold.
     coordinates: Vec<usize>,
     /// Those that are turns, and all turns that there are.
@@ -49,22 +62,28 @@ impl Smooth {
         system: &ConstraintSystem,
     ) -> (Graph, Vec<ExprId>, Smooth) {
         let kinds = kinds(graph, value, system);
-        let found = largest(graph, value, &kinds);
+        let found = largest(graph, value, system, &kinds);
         let (mut own, mut known) = (Graph::new(), FxHashMap::default());
         own.import_tables(graph, &mut known, Graph::symbol);
         let mut towers = Vec::with_capacity(found.len());
         let first = system.coordinates().len();
-        for (k, &(id, order)) in found.iter().enumerate() {
-            known.insert(id, own.symbol(Symbol::Coordinate { index: (first + k) as u32, order }));
-            towers.push(tower(graph, id, order, system.jerk().is_some()));
+        for (k, &Found { of, value, is_square, order }) in found.iter().enumerate() {
+            let stands = own.symbol(Symbol::Coordinate { index: (first + k) as u32, order });
+            known.insert(of, if is_square { own.unary(Unary::Sqrt, stands) } else { stands });
+            towers.push(tower(graph, value, order, system.jerk().is_some()));
         }
+        let squares = found.iter().map(|found| found.is_square.then_some(usize::from(found.order))).collect();
         let wanted = [&[value], others].concat();
         own.import(graph, &wanted, &mut known, Graph::symbol);
-        let found = wanted.iter().map(|id| known[id]).collect();
-        (own, found, Smooth::new(graph, &towers, system))
+        let formulas = wanted.iter().map(|id| known[id]).collect();
+        (own, formulas, Smooth::new(graph, (&towers, squares), system))
     }
 
-    fn new(graph: &Graph, towers: &[[Option<ExprId>; 4]], system: &ConstraintSystem) -> Smooth {
+    fn new(
+        graph: &Graph,
+        (towers, squares): (&[[Option<ExprId>; 4]], Vec<Option<usize>>),
+        system: &ConstraintSystem,
+    ) -> Smooth {
         let formulas: Vec<ExprId> = towers.iter().flatten().flatten().copied().collect();
         let (program, roots) =
             Program::of_formulas(graph, [system.params().len(), system.coordinates().len(), 0, 0], &formulas);
@@ -78,12 +97,17 @@ impl Smooth {
         let is_turn = |&k: &usize| system.coordinates()[k].kind == CoordinateKind::Angle;
         let turns = coordinates.iter().copied().filter(is_turn).collect();
         let all_turns = (0..system.coordinates().len()).filter(is_turn).collect();
-        Smooth { program, registers, towers, coordinates, turns, all_turns }
+        Smooth { program, registers, towers, squares, coordinates, turns, all_turns }
     }
 
     /// How many there are.
     pub fn count(&self) -> usize {
         self.towers.len()
+    }
+
+    /// Of one that is a square, and so is never below zero: the order at which it stands.
+    pub fn square(&self, k: usize) -> Option<usize> {
+        self.squares[k]
     }
 
     /// Computes all of them at a state whose coordinates are taken times a factor.
@@ -185,8 +209,8 @@ impl Kind {
     }
 }
 
-/// The largest formulas within a formula that are smooth, and that are more than a coordinate; each with its order.
-fn largest(graph: &Graph, value: ExprId, kinds: &FxHashMap<ExprId, Kind>) -> Vec<(ExprId, u8)> {
+/// The largest formulas within a formula that are smooth, and that are more than a coordinate.
+fn largest(graph: &mut Graph, value: ExprId, system: &ConstraintSystem, kinds: &FxHashMap<ExprId, Kind>) -> Vec<Found> {
     let (mut found, mut open) = (Vec::new(), vec![value]);
     let mut seen = rustc_hash::FxHashSet::default();
     while let Some(id) = open.pop() {
@@ -194,15 +218,53 @@ fn largest(graph: &Graph, value: ExprId, kinds: &FxHashMap<ExprId, Kind>) -> Vec
         if !seen.insert(id) || matches!(node, Node::Symbol(_)) {
             continue;
         }
+        let whole = |order: u8| Found { of: id, value: id, is_square: false, order };
         match kinds[&id] {
             Kind::Constant => {}
-            Kind::Turn => found.push((id, 0)),
-            Kind::Smooth { order, .. } => found.push((id, order)),
-            Kind::Other => open.extend_from_slice(node.children().as_slice()),
+            Kind::Turn => found.push(whole(0)),
+            Kind::Smooth { order, .. } => found.push(whole(order)),
+            Kind::Other => match square(graph, node, system, kinds) {
+                Some((value, order)) => found.push(Found { value, is_square: true, ..whole(order) }),
+                None => open.extend_from_slice(node.children().as_slice()),
+            },
         }
     }
-    found.sort_unstable();
+    found.sort_unstable_by_key(|found| found.of);
     found
+}
+
+/// The square of a length, if it is as smooth as coordinates are, and its order.
+fn square(
+    graph: &mut Graph,
+    length: Node,
+    system: &ConstraintSystem,
+    kinds: &FxHashMap<ExprId, Kind>,
+) -> Option<(ExprId, u8)> {
+    let (value, kind) = match length {
+        Node::Unary(Unary::Sqrt, a) if is_sum_of_squares(graph, a) => (a, kinds[&a]),
+        Node::Binary(Binary::Hypot, a, b) => {
+            let of = |x: ExprId| kind_of(Node::Power(x, 2), system, |child| kinds[&child]);
+            let kind = of(a).plus(of(b));
+            let [a, b] = [a, b].map(|leg| graph.power(leg, 2));
+            (graph.add(a, b), kind)
+        }
+        _ => return None,
+    };
+    match kind {
+        Kind::Smooth { order, .. } => Some((value, order)),
+        _ => None,
+    }
+}
+
+/// Whether a formula is a sum of squares, as it is written.
+fn is_sum_of_squares(graph: &Graph, formula: ExprId) -> bool {
+    match graph.node(formula) {
+        Node::Add(a, b) => is_sum_of_squares(graph, a) && is_sum_of_squares(graph, b),
+        Node::Mul(a, b) => a == b,
+        Node::Power(_, n) => n % 2 == 0,
+        Node::Const(_) => graph.as_const(formula).is_some_and(|value| value >= 0.0),
+        _ => false,
+    }
 }
 
 /// A formula and its time derivatives, by their orders, as many as there are.

@@ -5,7 +5,7 @@ use super::places::Places;
 use crate::analysis::follow::Stretch;
 use crate::analysis::state::State;
 use crate::program::Range;
-use crate::tolerances::results::survey::{ALIKE, MOST_CELLS, OPAQUE, ROUNDING, SHORTEST, SOLVED};
+use crate::tolerances::results::survey::{ALIKE, MOST_CELLS, NOTHING, OPAQUE, ROUNDING, SHORTEST, SOLVED};
 
 use std::rc::Rc;
 
@@ -32,7 +32,7 @@ impl Scale {
 
     /// A part of the range, but no less than what rounding makes of a value.
     pub fn gap(self, part: f64) -> f64 {
-        f64::max(part * self.range, ROUNDING * self.weight)
+        f64::max(part * self.range, ROUNDING * self.weight).max(NOTHING)
     }
 }
 
