@@ -94,7 +94,7 @@ pub mod course {
     pub const CERTAIN: f64 = 250.0;
     /// A formula rests, if all along its course it is no farther from where it begins than this part of the size of these numbers: a quarter of what
     /// is the same alone (`results::survey::ROUNDING`).
-    pub const RESTS: f64 = 8.0 * f64::EPSILON;
+    pub const RESTS: f64 = 0.25 * crate::tolerances::results::survey::ROUNDING;
     /// Corrections of a time on the curve between two steps.
     pub const ITERATIONS: usize = 3;
     /// A length is smooth along steps of which so many at least are between it and zero, as fast as what it is the length of goes.

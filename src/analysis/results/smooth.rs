@@ -62,7 +62,7 @@ impl Smooth {
         system: &ConstraintSystem,
     ) -> (Graph, Vec<ExprId>, Smooth) {
         let kinds = kinds(graph, value, system);
-        let found = largest(graph, value, system, &kinds);
+        let found = largest(graph, value, &kinds);
         let (mut own, mut known) = (Graph::new(), FxHashMap::default());
         own.import_tables(graph, &mut known, Graph::symbol);
         let mut towers = Vec::with_capacity(found.len());
@@ -210,7 +210,7 @@ impl Kind {
 }
 
 /// The largest formulas within a formula that are smooth, and that are more than a coordinate.
-fn largest(graph: &mut Graph, value: ExprId, system: &ConstraintSystem, kinds: &FxHashMap<ExprId, Kind>) -> Vec<Found> {
+fn largest(graph: &mut Graph, value: ExprId, kinds: &FxHashMap<ExprId, Kind>) -> Vec<Found> {
     let (mut found, mut open) = (Vec::new(), vec![value]);
     let mut seen = rustc_hash::FxHashSet::default();
     while let Some(id) = open.pop() {
@@ -223,7 +223,7 @@ fn largest(graph: &mut Graph, value: ExprId, system: &ConstraintSystem, kinds: &
             Kind::Constant => {}
             Kind::Turn => found.push(whole(0)),
             Kind::Smooth { order, .. } => found.push(whole(order)),
-            Kind::Other => match square(graph, node, system, kinds) {
+            Kind::Other => match square(graph, node, kinds) {
                 Some((value, order)) => found.push(Found { value, is_square: true, ..whole(order) }),
                 None => open.extend_from_slice(node.children().as_slice()),
             },
@@ -234,17 +234,12 @@ fn largest(graph: &mut Graph, value: ExprId, system: &ConstraintSystem, kinds: &
 }
 
 /// The square of a length, if it is as smooth as coordinates are, and its order.
-fn square(
-    graph: &mut Graph,
-    length: Node,
-    system: &ConstraintSystem,
-    kinds: &FxHashMap<ExprId, Kind>,
-) -> Option<(ExprId, u8)> {
+fn square(graph: &mut Graph, length: Node, kinds: &FxHashMap<ExprId, Kind>) -> Option<(ExprId, u8)> {
     let (value, kind) = match length {
         Node::Unary(Unary::Sqrt, a) if is_sum_of_squares(graph, a) => (a, kinds[&a]),
         Node::Binary(Binary::Hypot, a, b) => {
-            let of = |x: ExprId| kind_of(Node::Power(x, 2), system, |child| kinds[&child]);
-            let kind = of(a).plus(of(b));
+            let squared = |leg: ExprId| kinds[&leg].times(kinds[&leg]);
+            let kind = squared(a).plus(squared(b));
             let [a, b] = [a, b].map(|leg| graph.power(leg, 2));
             (graph.add(a, b), kind)
         }
