@@ -357,6 +357,12 @@ mod tests {
             Op::MulAdd { to, a, b, c },
             Op::MulLess { to, a, b, c },
             Op::LessMul { to, a, b, c },
+            Op::ProductOfThree { to, a, b, c },
+            Op::SumOfProducts { to, a, b, c, d: a },
+            Op::DifferenceOfProducts { to, a, b, c, d: a },
+            Op::SumOfProductsTimes { to, a, b, c, d: a, e: b },
+            Op::DifferenceOfProductsTimes { to, a, b, c, d: a, e: c },
+            Op::Turn { to_sin: to, to_cos: 4, sin: a, cos: b, half: c, delta: b },
             Op::Neg { to, a },
             Op::Recip { to, a },
             Op::SinCos { sin: to, cos: 4, a },
@@ -481,7 +487,7 @@ mod tests {
             codes::PIVOT,
         ];
         let all: BTreeSet<u32> = own.chain(joining).collect();
-        assert_eq!(all, (0..=codes::PICK).collect(), "and nothing else is there");
+        assert_eq!(all, (0..=codes::TURN).collect(), "and nothing else is there");
         let text = include_str!("../program/codes.rs");
         assert_eq!(text.matches("pub const ").count(), all.len());
     }

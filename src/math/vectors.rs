@@ -1,6 +1,8 @@
 //! Which vector instructions a loop is made of, chosen by what the processor has when it runs: its bits are the same with all of them, for each
 //! lane has the operations that it would have alone, and a product and a sum are never fused. The only file that knows pulp.
 
+use std::array::from_fn;
+
 /// The vector instructions of a processor.
 #[derive(Clone, Copy, Debug)]
 pub struct Vectors(Unit);
@@ -55,8 +57,136 @@ impl Vectors {
     }
 }
 
+/// As many numbers as the widest vector registers hold.
+pub const WIDE: usize = 8;
+
+/// So many rows of so many numbers.
+type Tile = [[f64; WIDE]; WIDE];
+
+impl Vectors {
+    /// Turns rows to columns: number `k` of `from[row]` is left in the `k`th stretch of `to`, each of which is `length` long, at `first + row`.
+    ///
+    /// There are to be as many stretches as a row has numbers, or fewer.
+    pub fn turn<const W: usize>(self, from: [&[f64; W]; WIDE], to: &mut [f64], (first, length): (usize, usize)) {
+        match self.0 {
+            Unit::Base => turn_tiles(from, to, (first, length), turned),
+            #[cfg(all(feature = "vectors", target_arch = "x86_64"))]
+            Unit::Avx2(unit) => unit.vectorize(
+                #[inline(always)]
+                || turn_tiles(from, to, (first, length), |tile| turned_by_fours(unit, tile)),
+            ),
+            #[cfg(all(feature = "vectors", target_arch = "x86_64"))]
+            Unit::Avx512(unit) => unit.vectorize(
+                #[inline(always)]
+                || turn_tiles(from, to, (first, length), |tile| turned_at_once(unit, tile)),
+            ),
+        }
+    }
+}
+
+#[inline(always)]
+#[allow(clippy::inline_always)] // it is compiled for several kinds of processors, as what follows is
+fn turn_tiles<const W: usize>(
+    from: [&[f64; W]; WIDE],
+    to: &mut [f64],
+    (first, length): (usize, usize),
+    turned: impl Fn(&Tile) -> Tile,
+) {
+    for (part, to) in to.chunks_mut(length * WIDE).enumerate() {
+        let tile = turned(&from.map(|row| row.as_chunks().0[part]));
+        for (column, to) in tile.iter().zip(to.chunks_exact_mut(length)) {
+            to[first..first + WIDE].copy_from_slice(column);
+        }
+    }
+}
+
+/// Number by number.
+fn turned(tile: &Tile) -> Tile {
+    from_fn(|column| from_fn(|row| tile[row][column]))
+}
+
+/// Four by four: the halves of each tile change places, then pairs within these, then single numbers.
+#[cfg(all(feature = "vectors", target_arch = "x86_64"))]
+#[inline(always)]
+#[allow(clippy::inline_always)]
+fn turned_by_fours(unit: pulp::x86::V3, tile: &Tile) -> Tile {
+    use std::arch::x86_64::__m256d;
+    let avx = unit.avx;
+    let rows: [[__m256d; 2]; WIDE] = (*tile).map(pulp::cast);
+    let quarter = |top: usize, half: usize| -> [__m256d; 4] {
+        let [a, b, c, d] = from_fn(|k| rows[top + k][half]);
+        let [even, odd] = [avx._mm256_unpacklo_pd(a, b), avx._mm256_unpackhi_pd(a, b)];
+        let [even_below, odd_below] = [avx._mm256_unpacklo_pd(c, d), avx._mm256_unpackhi_pd(c, d)];
+        [
+            avx._mm256_permute2f128_pd::<0x20>(even, even_below),
+            avx._mm256_permute2f128_pd::<0x20>(odd, odd_below),
+            avx._mm256_permute2f128_pd::<0x31>(even, even_below),
+            avx._mm256_permute2f128_pd::<0x31>(odd, odd_below),
+        ]
+    };
+    let [left, right] = [0, 1].map(|half| [quarter(0, half), quarter(4, half)]);
+    from_fn(|column| {
+        let [top, bottom] = if column < 4 { left } else { right };
+        pulp::cast([top[column % 4], bottom[column % 4]])
+    })
+}
+
+/// All eight rows: single numbers change places, then pairs, then fours.
+#[cfg(all(feature = "vectors", target_arch = "x86_64"))]
+#[inline(always)]
+#[allow(clippy::inline_always)]
+fn turned_at_once(unit: pulp::x86::V4, tile: &Tile) -> Tile {
+    use std::arch::x86_64::__m512d;
+    let avx = unit.avx512f;
+    let rows: [__m512d; WIDE] = (*tile).map(pulp::cast);
+    // of two rows the even columns, then the odd ones
+    let of_two: [__m512d; WIDE] = from_fn(|k| match k % 2 {
+        0 => avx._mm512_unpacklo_pd(rows[k], rows[k + 1]),
+        _ => avx._mm512_unpackhi_pd(rows[k - 1], rows[k]),
+    });
+    // the even pairs of two registers, or the odd ones
+    let pairs = |is_odd: bool, a: __m512d, b: __m512d| {
+        if is_odd {
+            avx._mm512_shuffle_f64x2::<0b11_01_11_01>(a, b)
+        } else {
+            avx._mm512_shuffle_f64x2::<0b10_00_10_00>(a, b)
+        }
+    };
+    // of four rows the columns 0 and 4, 1 and 5, 2 and 6, 3 and 7
+    let of_four: [__m512d; WIDE] = from_fn(|k| {
+        let [rows, column] = [k / 4 * 4, k % 4];
+        pairs(column >= 2, of_two[rows + column % 2], of_two[rows + 2 + column % 2])
+    });
+    from_fn(|column| pulp::cast(pairs(column >= 4, of_four[column % 4], of_four[4 + column % 4])))
+}
+
 impl Default for Vectors {
     fn default() -> Vectors {
         Vectors::widest()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Vectors, WIDE};
+    use std::array::from_fn;
+
+    #[test]
+    fn rows_are_turned_to_columns_with_all_instructions() {
+        const COLUMNS: usize = 16;
+        let rows: [[f64; COLUMNS]; WIDE] = from_fn(|row| from_fn(|column| (100 * row + column) as f64));
+        let (first, length) = (3, 13);
+        for vectors in Vectors::NAMES.into_iter().filter_map(Vectors::named) {
+            // all stretches, and fewer than there are columns
+            for count in [COLUMNS, 11] {
+                let mut to = vec![-1.0; count * length];
+                vectors.turn(rows.each_ref(), &mut to, (first, length));
+                for (at, &value) in to.iter().enumerate() {
+                    let (column, row) = (at / length, (at % length).checked_sub(first).filter(|row| *row < WIDE));
+                    let wanted = row.map_or(-1.0, |row| rows[row][column]);
+                    assert_eq!(value.to_bits(), wanted.to_bits(), "{vectors:?} {count} {at}");
+                }
+            }
+        }
     }
 }

@@ -48,6 +48,17 @@ impl<'n, const W: usize, const P: usize> LaneMachine<'n, W, P> {
     pub fn new(v: &'n mut [LaneValues<W>], parts: usize, (program, scalars): (&'n Program, &'n Registers)) -> Self {
         LaneMachine { v, parts, part: 0, program, scalars }
     }
+
+    /// Whether all lanes of a register hold the same bits, and there are several parts of them.
+    #[inline(always)]
+    #[allow(clippy::inline_always)] // as all that is done in lanes
+    fn is_alike(&self, register: Register) -> bool {
+        let values = &self.v[register as usize];
+        let first = values.0[0].to_bits();
+        let differs =
+            |part: usize| values.part::<P>(part).iter().fold(0, |other, value| other | (value.to_bits() ^ first));
+        self.parts > 1 && (0..self.parts).all(|part| differs(part) == 0)
+    }
 }
 
 #[allow(clippy::inline_always)] // each is an arm of a loop that is compiled for several kinds of processors
@@ -112,6 +123,27 @@ impl<const W: usize, const P: usize> Machine for LaneMachine<'_, W, P> {
     }
 
     #[inline(always)]
+    fn product_of_three(&mut self, a: [f64; P], b: [f64; P], c: [f64; P]) -> [f64; P] {
+        from_fn(|k| a[k] * b[k] * c[k])
+    }
+
+    #[inline(always)]
+    fn sum_of_products(&mut self, [a, b]: [[f64; P]; 2], [c, d]: [[f64; P]; 2]) -> [f64; P] {
+        from_fn(|k| a[k] * b[k] + c[k] * d[k])
+    }
+
+    #[inline(always)]
+    fn difference_of_products(&mut self, [a, b]: [[f64; P]; 2], [c, d]: [[f64; P]; 2]) -> [f64; P] {
+        from_fn(|k| a[k] * b[k] - c[k] * d[k])
+    }
+
+    #[inline(always)]
+    fn turn(&mut self, [sin, cos]: [[f64; P]; 2], half: [f64; P], delta: [f64; P]) -> [[f64; P]; 2] {
+        let to_sin = from_fn(|k| sin[k] + delta[k] * (cos[k] - half[k] * sin[k]));
+        [to_sin, from_fn(|k| cos[k] - delta[k] * (sin[k] + half[k] * cos[k]))]
+    }
+
+    #[inline(always)]
     fn neg(&mut self, a: [f64; P]) -> [f64; P] {
         a.map(|a| -a)
     }
@@ -124,6 +156,26 @@ impl<const W: usize, const P: usize> Machine for LaneMachine<'_, W, P> {
     #[inline(always)]
     fn sin_cos(&mut self, a: [f64; P]) -> [[f64; P]; 2] {
         math::sin_cos_of_each(&a).into()
+    }
+
+    /// Where all lanes ask for the same, one part is enough: variants that go side by side have one time.
+    #[inline(always)]
+    fn sin_cos_in(&mut self, [sin, cos]: [Register; 2], a: Register) {
+        let evaluated = if self.is_alike(a) { 1 } else { self.parts };
+        for part in 0..self.parts {
+            self.go_to(part);
+            if part < evaluated {
+                let angle = self.read(a);
+                let [sine, cosine] = self.sin_cos(angle);
+                self.write(sin, sine);
+                self.write(cos, cosine);
+            } else {
+                for to in [sin, cos] {
+                    let first = *self.v[to as usize].part(0);
+                    self.write(to, first);
+                }
+            }
+        }
     }
 
     #[inline(always)]

@@ -52,6 +52,56 @@ pub enum Op {
         b: Register,
         c: Register,
     },
+    /// `a b c`, from left to right, each product rounded.
+    ProductOfThree {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+    },
+    /// `a b + c d`, each rounded.
+    SumOfProducts {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+        d: Register,
+    },
+    /// `a b − c d`, each rounded.
+    DifferenceOfProducts {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+        d: Register,
+    },
+    /// `(a b + c d) e`, each rounded.
+    SumOfProductsTimes {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+        d: Register,
+        e: Register,
+    },
+    /// `(a b − c d) e`, each rounded.
+    DifferenceOfProductsTimes {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+        d: Register,
+        e: Register,
+    },
+    /// Sine and cosine of an angle after a small turn `delta`, by those before it and half of it: three terms of Taylor's series.
+    Turn {
+        to_sin: Register,
+        to_cos: Register,
+        sin: Register,
+        cos: Register,
+        half: Register,
+        delta: Register,
+    },
     Neg {
         to: Register,
         a: Register,
@@ -133,7 +183,7 @@ pub enum Op {
 #[allow(missing_docs)] // each is what the operation of its name does
 pub trait Machine {
     /// What stands in a register, or a part of that.
-    type Value;
+    type Value: Clone;
 
     /// In how many parts registers are gone through.
     #[inline]
@@ -168,10 +218,48 @@ pub trait Machine {
         let product = self.mul(a, b);
         self.sub(c, product)
     }
+    /// `a b c`, each product rounded.
+    #[inline]
+    fn product_of_three(&mut self, a: Self::Value, b: Self::Value, c: Self::Value) -> Self::Value {
+        let product = self.mul(a, b);
+        self.mul(product, c)
+    }
+    /// `a b + c d`, each rounded.
+    #[inline]
+    fn sum_of_products(&mut self, [a, b]: [Self::Value; 2], [c, d]: [Self::Value; 2]) -> Self::Value {
+        let product = self.mul(c, d);
+        self.mul_add(a, b, product)
+    }
+    /// `a b − c d`, each rounded.
+    #[inline]
+    fn difference_of_products(&mut self, [a, b]: [Self::Value; 2], [c, d]: [Self::Value; 2]) -> Self::Value {
+        let product = self.mul(c, d);
+        self.mul_less(a, b, product)
+    }
+    /// Sine and cosine of an angle after a turn `delta`, by those before it and half of it.
+    #[inline]
+    fn turn(&mut self, [sin, cos]: [Self::Value; 2], half: Self::Value, delta: Self::Value) -> [Self::Value; 2] {
+        let slope = self.less_mul(half.clone(), sin.clone(), cos.clone());
+        let to_sin = self.mul_add(delta.clone(), slope, sin.clone());
+        let slope = self.mul_add(half, cos.clone(), sin);
+        [to_sin, self.less_mul(delta, slope, cos)]
+    }
     fn neg(&mut self, a: Self::Value) -> Self::Value;
     fn recip(&mut self, a: Self::Value) -> Self::Value;
     /// Sine and cosine.
     fn sin_cos(&mut self, a: Self::Value) -> [Self::Value; 2];
+    /// The same from a register to two others, in all parts.
+    #[inline(always)]
+    #[allow(clippy::inline_always)] // as what is done with a value
+    fn sin_cos_in(&mut self, [sin, cos]: [Register; 2], a: Register) {
+        for part in 0..self.parts() {
+            self.go_to(part);
+            let a = self.read(a);
+            let [sine, cosine] = self.sin_cos(a);
+            self.write(sin, sine);
+            self.write(cos, cosine);
+        }
+    }
     fn unary(&mut self, function: Unary, a: Self::Value) -> Self::Value;
     fn binary(&mut self, function: Binary, a: Self::Value, b: Self::Value) -> Self::Value;
     /// 1 where it holds, else 0.
@@ -196,13 +284,16 @@ impl Op {
     pub fn run<M: Machine>(&self, m: &mut M) {
         // one choice for all parts
         macro_rules! of {
-            ($to:ident = $does:ident($($given:ident),*; $($operand:ident),+)) => {
+            ($to:ident = |$($operand:ident),+| $does:expr) => {
                 for part in 0..m.parts() {
                     m.go_to(part);
                     $(let $operand = m.read($operand);)+
-                    let value = m.$does($($given,)* $($operand),+);
+                    let value = $does;
                     m.write($to, value);
                 }
+            };
+            ($to:ident = $does:ident($($given:ident),*; $($operand:ident),+)) => {
+                of!($to = |$($operand),+| m.$does($($given,)* $($operand),+))
             };
             ($to:ident = $does:ident($($operand:ident),+)) => { of!($to = $does(; $($operand),+)) };
         }
@@ -214,17 +305,33 @@ impl Op {
             Op::MulAdd { to, a, b, c } => of!(to = mul_add(a, b, c)),
             Op::MulLess { to, a, b, c } => of!(to = mul_less(a, b, c)),
             Op::LessMul { to, a, b, c } => of!(to = less_mul(a, b, c)),
-            Op::Neg { to, a } => of!(to = neg(a)),
-            Op::Recip { to, a } => of!(to = recip(a)),
-            Op::SinCos { sin, cos, a } => {
+            Op::ProductOfThree { to, a, b, c } => of!(to = product_of_three(a, b, c)),
+            Op::SumOfProducts { to, a, b, c, d } => {
+                of!(to = |a, b, c, d| m.sum_of_products([a, b], [c, d]));
+            }
+            Op::DifferenceOfProducts { to, a, b, c, d } => {
+                of!(to = |a, b, c, d| m.difference_of_products([a, b], [c, d]));
+            }
+            Op::SumOfProductsTimes { to, a, b, c, d, e } => of!(to = |a, b, c, d, e| {
+                let sum = m.sum_of_products([a, b], [c, d]);
+                m.mul(sum, e)
+            }),
+            Op::DifferenceOfProductsTimes { to, a, b, c, d, e } => of!(to = |a, b, c, d, e| {
+                let difference = m.difference_of_products([a, b], [c, d]);
+                m.mul(difference, e)
+            }),
+            Op::Turn { to_sin, to_cos, sin, cos, half, delta } => {
                 for part in 0..m.parts() {
                     m.go_to(part);
-                    let a = m.read(a);
-                    let [sine, cosine] = m.sin_cos(a);
-                    m.write(sin, sine);
-                    m.write(cos, cosine);
+                    let [sin, cos, half, delta] = [sin, cos, half, delta].map(|register| m.read(register));
+                    let [sin, cos] = m.turn([sin, cos], half, delta);
+                    m.write(to_sin, sin);
+                    m.write(to_cos, cos);
                 }
             }
+            Op::Neg { to, a } => of!(to = neg(a)),
+            Op::Recip { to, a } => of!(to = recip(a)),
+            Op::SinCos { sin, cos, a } => m.sin_cos_in([sin, cos], a),
             Op::Unary { function, to, a } => of!(to = unary(function; a)),
             Op::Binary { function, to, a, b } => of!(to = binary(function; a, b)),
             Op::Compare { comparison, to, a, b } => of!(to = compare(comparison; a, b)),
@@ -277,10 +384,23 @@ impl Op {
             Op::MulAdd { to, a, b, c }
             | Op::MulLess { to, a, b, c }
             | Op::LessMul { to, a, b, c }
+            | Op::ProductOfThree { to, a, b, c }
             | Op::Select { to, condition: a, a: b, b: c }
             | Op::Either { to, condition: a, a: b, b: c } => {
                 (*a, *b, *c) = (read(*a), read(*b), read(*c));
                 *to = write(*to);
+            }
+            Op::SumOfProducts { to, a, b, c, d } | Op::DifferenceOfProducts { to, a, b, c, d } => {
+                (*a, *b, *c, *d) = (read(*a), read(*b), read(*c), read(*d));
+                *to = write(*to);
+            }
+            Op::SumOfProductsTimes { to, a, b, c, d, e } | Op::DifferenceOfProductsTimes { to, a, b, c, d, e } => {
+                (*a, *b, *c, *d, *e) = (read(*a), read(*b), read(*c), read(*d), read(*e));
+                *to = write(*to);
+            }
+            Op::Turn { to_sin, to_cos, sin, cos, half, delta } => {
+                (*sin, *cos, *half, *delta) = (read(*sin), read(*cos), read(*half), read(*delta));
+                (*to_sin, *to_cos) = (write(*to_sin), write(*to_cos));
             }
             Op::SinCos { sin, cos, a } => {
                 *a = read(*a);
@@ -292,7 +412,7 @@ impl Op {
 
     /// The registers that it reads, tables' columns not counted.
     #[must_use]
-    pub fn reads(self) -> Few<3> {
+    pub fn reads(self) -> Few<5> {
         let mut reads = Few::default();
         let _ = self.renumbered(|register| reads.note(register), |register| register);
         reads
@@ -344,6 +464,12 @@ impl Op {
             Op::MulAdd { .. } => codes::MUL_ADD,
             Op::MulLess { .. } => codes::MUL_LESS,
             Op::LessMul { .. } => codes::LESS_MUL,
+            Op::ProductOfThree { .. } => codes::PRODUCT_OF_THREE,
+            Op::SumOfProducts { .. } => codes::SUM_OF_PRODUCTS,
+            Op::DifferenceOfProducts { .. } => codes::DIFFERENCE_OF_PRODUCTS,
+            Op::SumOfProductsTimes { .. } => codes::SUM_OF_PRODUCTS_TIMES,
+            Op::DifferenceOfProductsTimes { .. } => codes::DIFFERENCE_OF_PRODUCTS_TIMES,
+            Op::Turn { .. } => codes::TURN,
             Op::Neg { .. } => codes::NEG,
             Op::Recip { .. } => codes::RECIP,
             Op::SinCos { .. } => codes::SIN_COS,

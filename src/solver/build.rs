@@ -168,7 +168,7 @@ impl<'s, V: Values> Builder<'s, V> {
             groups,
             purpose,
             layout,
-            terms: Terms::new(system, program, layout),
+            terms: Terms::new(system, program, layout, purpose != Purpose::Code),
             place_of_column,
             measures_before: before.collect(),
             segments: Vec::new(),
@@ -294,7 +294,7 @@ impl<'s, V: Values> Builder<'s, V> {
         for (&place, &x) in tearing.tears.iter().zip(&guesses) {
             let scale = self.system.coordinates()[block.columns[place as usize] as usize].scale;
             let delta = self.terms.tape.register(corrections[place as usize]);
-            tears.push(Tear { x, delta, scale, cell: cell(scale) });
+            tears.push(Tear::new(x, delta, scale));
         }
         self.terms.leave_loop(&tears);
         self.close_once();

@@ -1,5 +1,6 @@
 //! What nothing needs is left out, products are joined with their sums, and registers are used again.
 
+use super::fusion::fuse;
 use super::{Component, FIXED, Instruction, Purpose, Segment};
 use crate::program::{Op, Register};
 use std::ops::Range;
@@ -20,6 +21,7 @@ pub(super) fn finish(
     match purpose {
         Purpose::Code => {}
         Purpose::Lanes => {
+            component = fused(component);
             let unknown = vec![NONE; component.registers];
             share_registers(&mut component, unknown);
         }
@@ -32,8 +34,14 @@ pub(super) fn finish(
     component
 }
 
-/// Sets apart what only numbers and parameters lead to: it is computed once for these, and stays. Gives the registers that this has of its own;
-/// [`NONE`] for all others.
+/// The same with what can be done in one go.
+fn fused(mut component: Component) -> Component {
+    let keep = fuse(&mut component);
+    compact(component, &keep)
+}
+
+/// Sets apart what only numbers and parameters lead to: it is computed once for these, and stays. What is left is done in as few goes as can be.
+/// Gives the registers that what stays has of its own; [`NONE`] for all others.
 fn set_fixed_apart(component: Component) -> (Component, Vec<Register>) {
     let mut own = vec![NONE; component.registers];
     let (mut fixed, mut count) = (Vec::new(), 0);
@@ -42,7 +50,9 @@ fn set_fixed_apart(component: Component) -> (Component, Vec<Register>) {
         let instruction = component.instructions[at];
         let is_fixed = match instruction {
             Instruction::Number { .. } | Instruction::Load { .. } => true,
-            Instruction::Compute(_) => instruction.reads().iter().all(|&register| own[register as usize] != NONE),
+            Instruction::Compute(_) | Instruction::Store { .. } => {
+                instruction.reads().iter().all(|&register| own[register as usize] != NONE)
+            }
             _ => false,
         };
         if is_fixed {
@@ -54,7 +64,7 @@ fn set_fixed_apart(component: Component) -> (Component, Vec<Register>) {
             fixed.push(instruction.renumbered(|register| own[register as usize], |register| own[register as usize]));
         }
     }
-    let rest = compact(component, &keep);
+    let rest = fused(compact(component, &keep));
     (Component { fixed, fixed_registers: count as usize, ..rest }, own)
 }
 

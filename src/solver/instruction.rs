@@ -72,7 +72,7 @@ impl Instruction {
 
     /// The registers that it reads.
     #[must_use]
-    pub fn reads(self) -> Few<3> {
+    pub fn reads(self) -> Few<5> {
         let mut reads = Few::default();
         let _ = self.renumbered(|register| reads.note(register), |register| register);
         reads

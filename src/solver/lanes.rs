@@ -4,14 +4,14 @@
 use super::curve::Bend;
 use super::{Instruction, LARGEST_MULTIPLIER, Solver, Tear, from_bits};
 use crate::math::grid::{bound_at_first, going_on, next_point, on_grid};
-use crate::math::{self, Vectors};
+use crate::math::{self, Vectors, WIDE};
 use crate::program::{LaneMachine, LaneValues, Machine, Program, Register, Registers};
 use crate::tolerances::solving::lanes::{BORDER, ITERATIONS, LARGEST_CORRECTION};
 use std::array::from_fn;
 use std::ops::Range;
 
 /// Lanes that are gone through together: as many as the widest vector registers hold.
-pub const PART: usize = 8;
+pub const PART: usize = WIDE;
 
 /// Registers for `W` times.
 #[derive(Clone, Debug)]
@@ -19,6 +19,8 @@ pub struct Lanes<const W: usize> {
     vectors: Vectors,
     values: Vec<LaneValues<W>>,
     watched: Watched<W>,
+    /// What is seen of what depends on numbers and parameters alone.
+    of_fixed: Watched<W>,
 }
 
 /// What is seen of each lane in a run.
@@ -55,8 +57,8 @@ pub(super) trait Around<const P: usize> {
     fn guess(&self, tear: u32, part: usize) -> [f64; P];
     /// What has been left in a column.
     fn stored(&self, column: u32, part: usize) -> [f64; P];
-    /// Leaves a result in a column.
-    fn store(&mut self, column: u32, part: usize, values: &[f64; P]);
+    /// Leaves a result in a column, told part by part.
+    fn store(&mut self, column: u32, values: impl FnMut(usize) -> [f64; P]);
     /// One over what may be left of a row of `Φ`.
     fn bound(&self, row: u32) -> f64;
     /// Takes note of one over a pivot.
@@ -86,7 +88,12 @@ impl<const W: usize> Lanes<W> {
     /// Registers for a solver, which is run with some vector instructions.
     #[must_use]
     pub fn new(solver: &Solver, vectors: Vectors) -> Lanes<W> {
-        Lanes { vectors, values: vec![LaneValues([0.0; W]); solver.registers], watched: Watched::NOTHING }
+        Lanes {
+            vectors,
+            values: vec![LaneValues([0.0; W]); solver.registers],
+            watched: Watched::NOTHING,
+            of_fixed: Watched::NOTHING,
+        }
     }
 
     /// How far the curve was from the solution in the last run: the largest first correction, scaled; not a number if one is not.
@@ -122,19 +129,21 @@ impl<const W: usize> Lanes<W> {
         from_fn(|k| !is_lost(farthest.0[k]) && multiplier.0[k] <= LARGEST_MULTIPLIER && residual.0[k] <= 1.0)
     }
 
-    /// Computes what depends on numbers and parameters alone: it stays until they are others.
+    /// Computes what depends on numbers and parameters alone, and leaves what results of it: it stays until they are others.
     pub(super) fn prepare<const P: usize>(
         &mut self,
         solver: &Solver,
         of: (&Program, &Registers),
         around: impl Around<P>,
     ) {
+        self.watched = Watched::NOTHING;
         let vectors = self.vectors;
         let mut run = Run { lanes: self, solver, of, around };
         vectors.run(
             #[inline(always)]
             || run.instructions(0..solver.fixed),
         );
+        self.of_fixed = self.watched.clone();
     }
 
     /// Solves in the lanes of the parts that there are, of `P` lanes each.
@@ -144,7 +153,7 @@ impl<const W: usize> Lanes<W> {
         of: (&Program, &Registers),
         around: impl Around<P>,
     ) {
-        self.watched = Watched::NOTHING;
+        self.watched = self.of_fixed.clone();
         // one lane has nothing to do at once
         let vectors = if W == 1 { Vectors::BASE } else { self.vectors };
         let mut run = Run { lanes: self, solver, of, around };
@@ -216,12 +225,13 @@ impl<const W: usize, const P: usize> Around<P> for OfTimes<'_, W> {
     }
 
     #[inline(always)]
-    fn store(&mut self, column: u32, part: usize, values: &[f64; P]) {
-        let stride = self.solver.layout.stride;
-        let mut at = column as usize + part * P * stride;
-        for value in values {
-            self.rows[at] = *value;
-            at += stride;
+    fn store(&mut self, column: u32, mut values: impl FnMut(usize) -> [f64; P]) {
+        let (mut at, stride) = (column as usize, self.solver.layout.stride);
+        for part in 0..W / P {
+            for value in values(part) {
+                self.rows[at] = value;
+                at += stride;
+            }
         }
     }
 
@@ -296,25 +306,31 @@ impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
         let (mut largest, mut far) = ([0.0; P], [0.0; P]);
         for tear in tears {
             let delta = values[tear.delta as usize].part(part);
-            keep_largest(&mut largest, delta, 1.0 / tear.cell);
-            keep_largest(&mut far, delta, 1.0 / tear.scale);
+            keep_largest(&mut largest, delta, tear.per_cell);
+            keep_largest(&mut far, delta, tear.per_scale);
         }
-        let (farthest, bound) = (watched.farthest.part_mut(part), watched.bound.part_mut::<P>(part));
-        keep_largest(farthest, &far, 1.0);
+        let mut farthest = *watched.farthest.part(part);
+        keep_largest(&mut farthest, &far, 1.0);
         if iteration == 0 {
             keep_largest(watched.first_correction.part_mut(part), &far, 1.0);
         }
         // by lane: the cells, in cells, among whose points coordinates next to a border go on; 0 where all stay
-        let (mut cells, mut open) = ([0.0; P], 0.0);
+        let (mut cells, mut bound) = ([0.0; P], *watched.bound.part::<P>(part));
         for k in 0..P {
-            let stays = largest[k] <= bound[k] || is_lost(farthest[k]);
+            let stays = (largest[k] <= bound[k]) | is_lost(farthest[k]);
             let (next, width) = going_on(largest[k], bound[k], BORDER);
             let next = if nearly > 0.0 { nearly } else { next };
             bound[k] = if stays { f64::INFINITY } else { next };
             cells[k] = if stays { 0.0 } else { width };
-            open += cells[k];
         }
-        if open == 0.0 {
+        *watched.bound.part_mut(part) = bound;
+        // lanes that have not settled after so many iterations never will
+        let settles = if iteration + 1 == ITERATIONS { f64::INFINITY } else { 0.0 };
+        for k in 0..P {
+            farthest[k] = if cells[k] > 0.0 { math::max(farthest[k], settles) } else { farthest[k] };
+        }
+        *watched.farthest.part_mut(part) = farthest;
+        if cells.iter().fold(0, |open, cells| open | cells.to_bits()) == 0 {
             return true;
         }
         for tear in tears {
@@ -323,12 +339,6 @@ impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
             for k in 0..P {
                 let next = next_point(x[k], delta[k], tear.cell, cells[k], BORDER);
                 x[k] = if cells[k] > 0.0 { next } else { x[k] };
-            }
-        }
-        if iteration + 1 == ITERATIONS {
-            // lanes that have not settled never will
-            for (farthest, cells) in farthest.iter_mut().zip(cells) {
-                *farthest = if cells > 0.0 { f64::INFINITY } else { *farthest };
             }
         }
         false
@@ -373,13 +383,14 @@ impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
                 Instruction::Load { to, from } => by_part!(part, machine.write(to, around.loaded(from, part))),
                 Instruction::Time { to } => by_part!(part, machine.write(to, around.times(part))),
                 Instruction::Column { to, column } => by_part!(part, machine.write(to, around.stored(column, part))),
-                Instruction::Store { column, a } => by_part!(part, {
-                    // −0 would surprise a reader; lanes together first, then one by one to their rows
+                Instruction::Store { column, a } => around.store(column, |part| {
+                    machine.go_to(part);
+                    // −0 would surprise a reader
                     let values = machine.read(a).map(|value| value + 0.0);
                     for (finite, value) in watched.finite.part_mut::<P>(part).iter_mut().zip(values) {
                         *finite += 0.0 * value;
                     }
-                    around.store(column, part, &values);
+                    values
                 }),
                 Instruction::Curve { to, tear } => by_part!(part, machine.write(to, around.guess(tear, part))),
                 Instruction::Multiplier { to, a, b, weight } => by_part!(part, {

@@ -22,6 +22,7 @@ mod elimination;
 mod finish;
 mod folding;
 mod forces;
+mod fusion;
 mod groups;
 mod instruction;
 mod lanes;
@@ -167,6 +168,18 @@ pub struct Tear {
     pub scale: f64,
     /// The width of a cell of its grid.
     pub cell: f64,
+    /// One over the one.
+    pub per_scale: f64,
+    /// One over the other.
+    pub per_cell: f64,
+}
+
+impl Tear {
+    /// Of a coordinate that is judged against a scale (m, or 1 rad).
+    fn new(x: Register, delta: Register, scale: f64) -> Tear {
+        let cell = build::cell(scale);
+        Tear { x, delta, scale, cell, per_scale: 1.0 / scale, per_cell: 1.0 / cell }
+    }
 }
 
 /// What a solver is laid out for.

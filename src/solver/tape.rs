@@ -136,18 +136,31 @@ impl Tape {
         self.push(|to| Instruction::Compute(op(to)))
     }
 
+    /// Adds an operation that writes two registers of its own.
+    fn compute_two(&mut self, op: impl FnOnce([Register; 2]) -> Op) -> [Value; 2] {
+        let first = self.ages.len() as Register;
+        let to = [first, first + 1];
+        let instruction = Instruction::Compute(op(to));
+        let age = self.age_of(instruction);
+        self.ages.extend([age, age]);
+        self.place(instruction, age);
+        to.map(|at| Value::Of { at, negative: false })
+    }
+
     pub fn sin_cos(&mut self, a: Value) -> [Value; 2] {
         if let Value::Number(x) = a {
             let (sin, cos) = math::sin_cos(x);
             return [Value::Number(sin), Value::Number(cos)];
         }
         let a = self.register(a);
-        let sin = self.ages.len() as Register;
-        let instruction = Instruction::Compute(Op::SinCos { sin, cos: sin + 1, a });
-        let age = self.age_of(instruction);
-        self.ages.extend([age, age]);
-        self.place(instruction, age);
-        [sin, sin + 1].map(|at| Value::Of { at, negative: false })
+        self.compute_two(|[sin, cos]| Op::SinCos { sin, cos, a })
+    }
+
+    /// Sine and cosine of an angle after a small turn, by those before it.
+    pub fn turn(&mut self, [sin, cos]: [Register; 2], delta: Register) -> [Value; 2] {
+        let half = self.mul(Value::Number(0.5), Value::Of { at: delta, negative: false });
+        let half = self.register(half);
+        self.compute_two(|[to_sin, to_cos]| Op::Turn { to_sin, to_cos, sin, cos, half, delta })
     }
 
     /// The register of a value, its sign being made right.

@@ -32,6 +32,8 @@ pub(super) struct Terms<'s> {
     is_passing: Vec<bool>,
     /// Of the block's tears that have one: sine and cosine at the grid point, and from there on the correction.
     pairs: Vec<Pair>,
+    /// Whether these are turned by an instruction of their own.
+    turns_at_once: bool,
 }
 
 /// A tear with its sine and cosine where Newton has evaluated them last.
@@ -44,7 +46,7 @@ struct Pair {
 }
 
 impl<'s> Terms<'s> {
-    pub fn new(system: &ConstraintSystem, program: &'s Program, layout: RowLayout) -> Terms<'s> {
+    pub fn new(system: &ConstraintSystem, program: &'s Program, layout: RowLayout, turns_at_once: bool) -> Terms<'s> {
         let variations = system.variations().len() as u32;
         let has_forces = !program.outputs.forces.is_empty();
         let last_multipliers = if has_forces { variations + 1 } else { 0 };
@@ -64,6 +66,7 @@ impl<'s> Terms<'s> {
             passing: Vec::new(),
             is_passing: vec![false; program.registers()],
             pairs: Vec::new(),
+            turns_at_once,
         }
     }
 
@@ -224,8 +227,13 @@ impl<'s> Terms<'s> {
         let x = self.known[a as usize].1;
         let of = |at: Register| Value::Of { at, negative: false };
         let pair = self.pairs.iter().find(|pair| x == of(pair.x))?;
-        let (sin, cos, delta) = (of(pair.sin), of(pair.cos), of(pair.delta?));
+        let delta = pair.delta?;
         let tape = &mut self.tape;
+        if self.turns_at_once {
+            let [sin, cos] = tape.turn([pair.sin, pair.cos], delta);
+            return Some([Some((to_sin, sin)), Some((to_cos, cos))]);
+        }
+        let (sin, cos, delta) = (of(pair.sin), of(pair.cos), of(delta));
         let half = tape.mul(Value::Number(0.5), delta);
         let bend = tape.mul(half, sin);
         let slope = tape.sub(cos, bend);

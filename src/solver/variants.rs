@@ -23,8 +23,9 @@ struct Out<const W: usize> {
     places: Vec<u32>,
     /// By column that is kept, by row of those that are kept.
     kept: Vec<LaneValues<W>>,
-    /// How many rows are kept, and which of them is written and read.
+    /// How many rows are kept, how far apart columns are, and which of the rows is written and read.
     rows: usize,
+    pitch: usize,
     row: usize,
     /// By turn of the solver: one over the block's determinant, but for its sign where pivots are positive.
     determinants: Vec<LaneValues<W>>,
@@ -61,18 +62,25 @@ impl<const W: usize> Abreast<W> {
             }
         }
         let zero = LaneValues([0.0; W]);
-        let (kept, determinants) = (vec![zero; count as usize * rows], vec![zero; solver.turns.len()]);
+        // an odd number of rows apart: else all columns of a row would want the same few places of the processor's memory
+        let pitch = rows | 1;
+        let (kept, determinants) = (vec![zero; count as usize * pitch], vec![zero; solver.turns.len()]);
         Abreast {
             lanes: Lanes::new(solver, vectors),
-            out: Out { places, kept, rows, row: 0, determinants, steepest: zero },
+            out: Out { places, kept, rows, pitch, row: 0, determinants, steepest: zero },
         }
     }
 
-    /// Takes over what depends on parameters alone, of the program's registers, in so many parts of the lanes: it stays until this is called again.
+    /// Takes over what depends on parameters alone, of the program's registers, in so many parts of the lanes, and leaves in all rows that are kept
+    /// what is so itself: it stays until this is called again.
     pub fn load(&mut self, solver: &Solver, of: (&Program, &Registers), loaded: &[LaneValues<W>], parts: usize) {
         let guesses = Guesses { times: [0.0; W], tears: &[], loaded, bounds: &[], parts, nearly: 0.0 };
-        let around = OfVariants { guesses: &guesses, pivots: &solver.pivots, out: &mut self.out };
-        self.lanes.prepare::<PART>(solver, of, around);
+        for row in 0..self.out.rows {
+            self.out.row = row;
+            let around = OfVariants { guesses: &guesses, pivots: &solver.pivots, out: &mut self.out };
+            self.lanes.prepare::<PART>(solver, of, around);
+        }
+        self.out.row = 0;
     }
 
     /// Solves for all variants, once what depends on their parameters is loaded.
@@ -124,7 +132,7 @@ impl<const W: usize> Abreast<W> {
     /// What is in a column of all rows that are kept.
     #[must_use]
     pub fn rows(&self, column: u32) -> &[LaneValues<W>] {
-        let first = self.out.places[column as usize] as usize * self.out.rows;
+        let first = self.out.places[column as usize] as usize * self.out.pitch;
         &self.out.kept[first..first + self.out.rows]
     }
 }
@@ -132,7 +140,7 @@ impl<const W: usize> Abreast<W> {
 impl<const W: usize> Out<W> {
     #[inline]
     fn place(&self, column: u32) -> usize {
-        self.places[column as usize] as usize * self.rows + self.row
+        self.places[column as usize] as usize * self.pitch + self.row
     }
 }
 
@@ -171,9 +179,12 @@ impl<const W: usize> Around<PART> for OfVariants<'_, W> {
     }
 
     #[inline(always)]
-    fn store(&mut self, column: u32, part: usize, values: &[f64; PART]) {
-        let place = self.out.place(column);
-        *self.out.kept[place].part_mut(part) = *values;
+    fn store(&mut self, column: u32, mut values: impl FnMut(usize) -> [f64; PART]) {
+        let (place, parts) = (self.out.place(column), self.guesses.parts);
+        let kept = &mut self.out.kept[place];
+        for part in 0..parts {
+            *kept.part_mut(part) = values(part);
+        }
     }
 
     #[inline(always)]
@@ -189,11 +200,14 @@ impl<const W: usize> Around<PART> for OfVariants<'_, W> {
     #[inline(always)]
     fn note(&mut self, pivot: u32, part: usize, inverse: &[f64; PART]) {
         let Pivot { turn, weight } = self.pivots[pivot as usize];
-        let of_turn = self.out.determinants[turn as usize].part_mut::<PART>(part);
-        let steepest = self.out.steepest.part_mut::<PART>(part);
+        let of_turn = &mut self.out.determinants[turn as usize];
+        let mut determinants = *of_turn.part::<PART>(part);
+        let mut steepest = *self.out.steepest.part::<PART>(part);
         for k in 0..PART {
-            of_turn[k] *= inverse[k];
+            determinants[k] *= inverse[k];
             steepest[k] = max(steepest[k], inverse[k].abs() * weight);
         }
+        *of_turn.part_mut(part) = determinants;
+        *self.out.steepest.part_mut(part) = steepest;
     }
 }

@@ -1,14 +1,13 @@
 //! The rows of variants that go side by side, column by column.
 
-use super::each::{LANES, PART};
+use super::each::LANES;
 use super::together::{Rows, Together};
-use crate::math::Vectors;
+use crate::math::{Vectors, WIDE};
 use crate::program::LaneValues;
 use crate::solver::Abreast;
-use std::array::from_fn;
 
-/// Rows that are put into columns together: as many as are a line of memory, and as many as lanes are a part.
-const TILE: usize = PART;
+/// Rows that are put into columns together.
+const TILE: usize = WIDE;
 
 /// Rows that are wanted, and what solves for them.
 pub(super) struct Table {
@@ -53,31 +52,12 @@ impl Table {
                 continue;
             }
             let from = &self.abreast.rows(column)[..count];
-            self.vectors.run(
-                #[inline(always)]
-                || put_column(from, to, (first, room.rows)),
-            );
-        }
-    }
-}
-
-/// Puts rows of a column where they belong of each variant, from one of them on.
-#[inline(always)]
-#[allow(clippy::inline_always, clippy::needless_range_loop)] // it is compiled for several kinds of processors, and vectorises best so
-fn put_column(from: &[LaneValues<LANES>], to: &mut [f64], (first, rows): (usize, usize)) {
-    for (part, to) in to.chunks_mut(rows * PART).enumerate() {
-        let variants = to.chunks_exact_mut(rows).enumerate();
-        if let Ok(tile) = <&[LaneValues<LANES>; TILE]>::try_from(from) {
-            let tile: [&[f64; PART]; TILE] = from_fn(|row| tile[row].part(part));
-            for (lane, to) in variants {
-                let to = &mut to[first..first + TILE];
-                for row in 0..TILE {
-                    to[row] = tile[row][lane];
+            if let Ok(tile) = <&[LaneValues<LANES>; TILE]>::try_from(from) {
+                self.vectors.turn(tile.each_ref().map(|row| &row.0), to, (first, room.rows));
+            } else {
+                for (lane, to) in to.chunks_exact_mut(room.rows).enumerate() {
+                    to[first..].iter_mut().zip(from).for_each(|(to, row)| *to = row.0[lane]);
                 }
-            }
-        } else {
-            for (lane, to) in variants {
-                to[first..].iter_mut().zip(from).for_each(|(to, row)| *to = row.0[part * PART + lane]);
             }
         }
     }

@@ -124,6 +124,16 @@ impl<R: Results> Work<'_, R> {
             codes::MUL_ADD => (of(1) * of(2) + of(3), 4),
             codes::MUL_LESS => (of(1) * of(2) - of(3), 4),
             codes::LESS_MUL => (of(3) - of(1) * of(2), 4),
+            codes::PRODUCT_OF_THREE => (of(1) * of(2) * of(3), 4),
+            codes::SUM_OF_PRODUCTS => (of(1) * of(2) + of(3) * of(4), 5),
+            codes::DIFFERENCE_OF_PRODUCTS => (of(1) * of(2) - of(3) * of(4), 5),
+            codes::SUM_OF_PRODUCTS_TIMES => ((of(1) * of(2) + of(3) * of(4)) * of(5), 6),
+            codes::DIFFERENCE_OF_PRODUCTS_TIMES => ((of(1) * of(2) - of(3) * of(4)) * of(5), 6),
+            codes::TURN => {
+                let (sin, cos, half, delta) = (of(2), of(3), of(4), of(5));
+                self.put(words, 1, cos - delta * (sin + half * cos));
+                (sin + delta * (cos - half * sin), 6)
+            }
             codes::NEG => (-of(1), 2),
             codes::RECIP => (1.0 / of(1), 2),
             codes::SIN_COS => {
