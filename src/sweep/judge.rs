@@ -3,7 +3,7 @@
 // what is done in every lane reads best, and vectorises best, with the lane's number
 #![allow(clippy::needless_range_loop)]
 
-use super::each::{Each, LANES, ZERO};
+use super::each::{Each, LANES, PART, ZERO};
 use crate::math::max;
 use crate::program::LaneValues;
 use crate::solver::Abreast;
@@ -37,7 +37,16 @@ pub(super) fn nearness(unit: f64, steepest: f64) -> f64 {
 }
 
 /// By variant: how much is in doubt; nothing where it is 0.
-pub(super) struct Doubts(pub [f64; LANES]);
+pub(super) struct Doubts(pub Each);
+
+impl Doubts {
+    /// The lanes in which there are some: mostly none.
+    pub fn lanes(&self) -> impl Iterator<Item = usize> {
+        // all are looked at together first
+        let is_any = self.0.0.iter().fold(0, |any, doubts| any | doubts.to_bits()) != 0;
+        (0..if is_any { LANES } else { 0 }).filter(|&k| self.0.0[k] != 0.0)
+    }
+}
 
 impl Stand {
     /// All at one place, at rest.
@@ -61,8 +70,9 @@ impl Stand {
             }
         }
         self.determinants.copy_from_slice(from.determinants());
-        let steepest = *from.steepest();
-        self.nearness.0 = steepest.map(|steepest| nearness(unit, steepest));
+        for (to, &steepest) in self.nearness.0.iter_mut().zip(from.steepest()) {
+            *to = nearness(unit, steepest);
+        }
     }
 
     /// Takes over where one variant stands.
@@ -90,28 +100,31 @@ pub(super) fn of_step(
     (h, first_corrections): (Option<f64>, &[f64; LANES]),
     doubts: &mut Doubts,
 ) {
-    let (mut motion, mut gap) = ([0.0; LANES], [0.0; LANES]);
-    for ((now, next), of) in now.tracked.iter().zip(&next.tracked).zip(tracked) {
-        let ([x, v, a], [y, w, b]) = (now, next);
-        for k in 0..LANES {
-            motion[k] = max(motion[k], (y.0[k] - x.0[k]).abs() * of.per_scale);
-        }
-        if let Some(h) = h {
-            let (half, twelfth) = (0.5 * h, h * h * (1.0 / 12.0));
-            for k in 0..LANES {
-                let way = half * (v.0[k] + w.0[k]) + twelfth * (a.0[k] - b.0[k]);
-                gap[k] = max(gap[k], (y.0[k] - x.0[k] - way).abs() * of.per_scale);
+    for part in 0..LANES / PART {
+        let (mut motion, mut gap) = ([0.0; PART], [0.0; PART]);
+        for ((now, next), of) in now.tracked.iter().zip(&next.tracked).zip(tracked) {
+            let [[x, v, a], [y, w, b]] = [now, next].map(|at| at.each_ref().map(|each| each.part::<PART>(part)));
+            for k in 0..PART {
+                motion[k] = max(motion[k], (y[k] - x[k]).abs() * of.per_scale);
+            }
+            if let Some(h) = h {
+                let (half, twelfth) = (0.5 * h, h * h * (1.0 / 12.0));
+                for k in 0..PART {
+                    let way = half * (v[k] + w[k]) + twelfth * (a[k] - b[k]);
+                    gap[k] = max(gap[k], (y[k] - x[k] - way).abs() * of.per_scale);
+                }
             }
         }
+        let [from, to] = [now, next].map(|at| at.nearness.part::<PART>(part));
+        let (corrections, doubts) = (&first_corrections.as_chunks::<PART>().0[part], doubts.0.part_mut::<PART>(part));
+        for k in 0..PART {
+            let (least, most) = if from[k] < to[k] { (from[k], to[k]) } else { (to[k], from[k]) };
+            let is_clear = least >= NEAREST && corrections[k] <= PART_OF_DISTANCE * least;
+            let is_short = motion[k] <= LARGEST_MOTION && motion[k] <= most && gap[k] <= LARGEST_GAP;
+            doubts[k] += if is_clear & is_short { 0.0 } else { 1.0 };
+        }
     }
-    let doubts = &mut doubts.0;
-    for k in 0..LANES {
-        let (from, to) = (now.nearness.0[k], next.nearness.0[k]);
-        let (least, most) = if from < to { (from, to) } else { (to, from) };
-        let is_clear = least >= NEAREST && first_corrections[k] <= PART_OF_DISTANCE * least;
-        let is_short = motion[k] <= LARGEST_MOTION && motion[k] <= most && gap[k] <= LARGEST_GAP;
-        doubts[k] += if is_clear & is_short { 0.0 } else { 1.0 };
-    }
+    let doubts = &mut doubts.0.0;
     for (now, next) in now.determinants.iter().zip(&next.determinants) {
         for k in 0..LANES {
             // both are of one sign, and neither is more than so many times the other

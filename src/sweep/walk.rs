@@ -124,7 +124,7 @@ impl Walk {
             *guess = self.now.tracked[tear][0];
         }
         let doubts = self.try_at(of, of.from, None, Some(solving));
-        for (k, doubts) in doubts.0.into_iter().enumerate() {
+        for (k, doubts) in doubts.0.0.into_iter().enumerate() {
             self.goes[k] &= doubts == 0.0;
         }
         self.advance();
@@ -165,7 +165,7 @@ impl Walk {
                 }
             }
             let doubts = self.try_at(of, of.from, None, None);
-            open.iter_mut().zip(doubts.0).for_each(|(open, doubts)| *open &= doubts == 0.0);
+            open.iter_mut().zip(doubts.0.0).for_each(|(open, doubts)| *open &= doubts == 0.0);
             self.advance();
         }
         open
@@ -218,7 +218,7 @@ impl Walk {
         self.guess(of, h);
         let doubts = self.try_at(of, t, Some(h), solving);
         let mut is_taken = true;
-        for k in (0..LANES).filter(|&k| doubts.0[k] != 0.0) {
+        for k in doubts.lanes() {
             if self.goes[k] && self.patience[k] > 0 {
                 self.patience[k] -= 1;
                 is_taken = false;
@@ -266,12 +266,12 @@ impl Walk {
         let parts = *parts;
         let guesses = Guesses { times: [t; LANES], tears: guesses, loaded: registers, bounds, parts, nearly };
         abreast.run(solver, (&of.program, &of.scalars), &guesses);
-        let mut doubts = Doubts([0.0; LANES]);
+        let mut doubts = Doubts(ZERO);
         of.vectors.run(
             #[inline(always)]
             || {
                 next.take(&of.tracked, of.nearness, t, abreast);
-                abreast.write_doubts(&mut doubts.0);
+                abreast.write_doubts(&mut doubts.0.0);
                 judge::of_step(&of.tracked, [now, next], (h, abreast.first_corrections()), &mut doubts);
             },
         );
