@@ -1,5 +1,6 @@
 //! Which vector instructions a loop is made of, chosen by what the processor has when it runs: its bits are the same with all of them, for each
-//! lane has the operations that it would have alone, and a product and a sum are never fused. The only file that knows pulp.
+//! lane has the operations that it would have alone, and a product and a sum are never fused. With them rows become columns, too.
+//! The only file that knows pulp.
 
 use std::array::from_fn;
 
