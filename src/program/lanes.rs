@@ -49,7 +49,7 @@ impl<'n, const W: usize, const P: usize> LaneMachine<'n, W, P> {
         LaneMachine { v, parts, part: 0, program, scalars }
     }
 
-    /// Whether all lanes of a register hold the same bits, and there are several parts of them.
+    /// Whether all lanes of a register hold the same bits.
     #[inline(always)]
     #[allow(clippy::inline_always)] // as all that is done in lanes
     fn is_alike(&self, register: Register) -> bool {
@@ -57,7 +57,7 @@ impl<'n, const W: usize, const P: usize> LaneMachine<'n, W, P> {
         let first = values.0[0].to_bits();
         let differs =
             |part: usize| values.part::<P>(part).iter().fold(0, |other, value| other | (value.to_bits() ^ first));
-        self.parts > 1 && (0..self.parts).all(|part| differs(part) == 0)
+        (0..self.parts).all(|part| differs(part) == 0)
     }
 }
 
@@ -161,7 +161,7 @@ impl<const W: usize, const P: usize> Machine for LaneMachine<'_, W, P> {
     /// Where all lanes ask for the same, one part is enough: variants that go side by side have one time.
     #[inline(always)]
     fn sin_cos_in(&mut self, [sin, cos]: [Register; 2], a: Register) {
-        let evaluated = if self.is_alike(a) { 1 } else { self.parts };
+        let evaluated = if self.parts > 1 && self.is_alike(a) { 1 } else { self.parts };
         for part in 0..self.parts {
             self.go_to(part);
             if part < evaluated {

@@ -311,6 +311,7 @@ impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
         }
         let mut farthest = *watched.farthest.part(part);
         keep_largest(&mut farthest, &far, 1.0);
+        *watched.farthest.part_mut(part) = farthest;
         if iteration == 0 {
             keep_largest(watched.first_correction.part_mut(part), &far, 1.0);
         }
@@ -324,12 +325,6 @@ impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
             cells[k] = if stays { 0.0 } else { width };
         }
         *watched.bound.part_mut(part) = bound;
-        // lanes that have not settled after so many iterations never will
-        let settles = if iteration + 1 == ITERATIONS { f64::INFINITY } else { 0.0 };
-        for k in 0..P {
-            farthest[k] = if cells[k] > 0.0 { math::max(farthest[k], settles) } else { farthest[k] };
-        }
-        *watched.farthest.part_mut(part) = farthest;
         if cells.iter().fold(0, |open, cells| open | cells.to_bits()) == 0 {
             return true;
         }
@@ -339,6 +334,12 @@ impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
             for k in 0..P {
                 let next = next_point(x[k], delta[k], tear.cell, cells[k], BORDER);
                 x[k] = if cells[k] > 0.0 { next } else { x[k] };
+            }
+        }
+        if iteration + 1 == ITERATIONS {
+            // lanes that have not settled never will
+            for (farthest, cells) in watched.farthest.part_mut::<P>(part).iter_mut().zip(cells) {
+                *farthest = if cells > 0.0 { f64::INFINITY } else { *farthest };
             }
         }
         false

@@ -168,9 +168,9 @@ pub struct Tear {
     pub scale: f64,
     /// The width of a cell of its grid.
     pub cell: f64,
-    /// One over the one.
+    /// One over [`Tear::scale`].
     pub per_scale: f64,
-    /// One over the other.
+    /// One over [`Tear::cell`].
     pub per_cell: f64,
 }
 
@@ -281,6 +281,14 @@ impl Solver {
     pub fn loads(&self) -> impl Iterator<Item = Register> {
         self.instructions.iter().filter_map(|instruction| match *instruction {
             Instruction::Load { from, .. } => Some(from),
+            _ => None,
+        })
+    }
+
+    /// The columns in which they leave what only numbers and parameters lead to.
+    fn fixed_columns(&self) -> impl Iterator<Item = u32> {
+        self.instructions[..self.fixed].iter().filter_map(|instruction| match *instruction {
+            Instruction::Store { column, .. } => Some(column),
             _ => None,
         })
     }

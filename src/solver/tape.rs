@@ -137,7 +137,7 @@ impl Tape {
     }
 
     /// Adds an operation that writes two registers of its own.
-    fn compute_two(&mut self, op: impl FnOnce([Register; 2]) -> Op) -> [Value; 2] {
+    pub fn compute_two(&mut self, op: impl FnOnce([Register; 2]) -> Op) -> [Value; 2] {
         let first = self.ages.len() as Register;
         let to = [first, first + 1];
         let instruction = Instruction::Compute(op(to));
@@ -154,13 +154,6 @@ impl Tape {
         }
         let a = self.register(a);
         self.compute_two(|[sin, cos]| Op::SinCos { sin, cos, a })
-    }
-
-    /// Sine and cosine of an angle after a small turn, by those before it.
-    pub fn turn(&mut self, [sin, cos]: [Register; 2], delta: Register) -> [Value; 2] {
-        let half = self.mul(Value::Number(0.5), Value::Of { at: delta, negative: false });
-        let half = self.register(half);
-        self.compute_two(|[to_sin, to_cos]| Op::Turn { to_sin, to_cos, sin, cos, half, delta })
     }
 
     /// The register of a value, its sign being made right.

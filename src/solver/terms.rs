@@ -228,21 +228,15 @@ impl<'s> Terms<'s> {
         let of = |at: Register| Value::Of { at, negative: false };
         let pair = self.pairs.iter().find(|pair| x == of(pair.x))?;
         let delta = pair.delta?;
-        let tape = &mut self.tape;
-        if self.turns_at_once {
-            let [sin, cos] = tape.turn([pair.sin, pair.cos], delta);
-            return Some([Some((to_sin, sin)), Some((to_cos, cos))]);
+        let half = self.tape.mul(Value::Number(0.5), of(delta));
+        let half = self.tape.register(half);
+        let (sin, cos) = (pair.sin, pair.cos);
+        let turn = |[to_sin, to_cos]: [Register; 2]| Op::Turn { to_sin, to_cos, sin, cos, half, delta };
+        if !self.turns_at_once {
+            return Some(folded(&mut self.tape, turn([to_sin, to_cos]), of));
         }
-        let (sin, cos, delta) = (of(pair.sin), of(pair.cos), of(delta));
-        let half = tape.mul(Value::Number(0.5), delta);
-        let bend = tape.mul(half, sin);
-        let slope = tape.sub(cos, bend);
-        let way = tape.mul(delta, slope);
-        let turned_sin = tape.add(sin, way);
-        let bend = tape.mul(half, cos);
-        let slope = tape.add(sin, bend);
-        let way = tape.mul(delta, slope);
-        Some([Some((to_sin, turned_sin)), Some((to_cos, tape.sub(cos, way)))])
+        let [sin, cos] = self.tape.compute_two(turn);
+        Some([Some((to_sin, sin)), Some((to_cos, cos))])
     }
 
     /// From now on sines and cosines of tears are those of the grid point, turned by the correction.

@@ -5,6 +5,7 @@ use super::{Pivot, Solver};
 use crate::math::{Vectors, max};
 use crate::program::{LaneValues, Program, Register, Registers};
 use crate::tolerances::solving::variants::CERTAIN_MULTIPLIER;
+use std::ops::Range;
 
 /// No column is left there.
 const NOWHERE: u32 = u32::MAX;
@@ -75,12 +76,12 @@ impl<const W: usize> Abreast<W> {
     /// what is so itself: it stays until this is called again.
     pub fn load(&mut self, solver: &Solver, of: (&Program, &Registers), loaded: &[LaneValues<W>], parts: usize) {
         let guesses = Guesses { times: [0.0; W], tears: &[], loaded, bounds: &[], parts, nearly: 0.0 };
-        for row in 0..self.out.rows {
-            self.out.row = row;
-            let around = OfVariants { guesses: &guesses, pivots: &solver.pivots, out: &mut self.out };
-            self.lanes.prepare::<PART>(solver, of, around);
+        let around = OfVariants { guesses: &guesses, pivots: &solver.pivots, out: &mut self.out };
+        self.lanes.prepare::<PART>(solver, of, around);
+        for column in solver.fixed_columns() {
+            let (value, all) = (*self.column(column), self.out.all(column));
+            self.out.kept[all].fill(value);
         }
-        self.out.row = 0;
     }
 
     /// Solves for all variants, once what depends on their parameters is loaded.
@@ -132,15 +133,21 @@ impl<const W: usize> Abreast<W> {
     /// What is in a column of all rows that are kept.
     #[must_use]
     pub fn rows(&self, column: u32) -> &[LaneValues<W>] {
-        let first = self.out.places[column as usize] as usize * self.out.pitch;
-        &self.out.kept[first..first + self.out.rows]
+        &self.out.kept[self.out.all(column)]
     }
 }
 
 impl<const W: usize> Out<W> {
     #[inline]
     fn place(&self, column: u32) -> usize {
-        self.places[column as usize] as usize * self.pitch + self.row
+        self.all(column).start + self.row
+    }
+
+    /// The places of all rows.
+    #[inline]
+    fn all(&self, column: u32) -> Range<usize> {
+        let first = self.places[column as usize] as usize * self.pitch;
+        first..first + self.rows
     }
 }
 

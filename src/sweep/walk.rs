@@ -124,9 +124,7 @@ impl Walk {
             *guess = self.now.tracked[tear][0];
         }
         let doubts = self.try_at(of, of.from, None, Some(solving));
-        for (k, doubts) in doubts.0.0.into_iter().enumerate() {
-            self.goes[k] &= doubts == 0.0;
-        }
+        doubts.lanes().for_each(|k| self.goes[k] = false);
         self.advance();
         self.passed = 1;
     }
@@ -165,7 +163,7 @@ impl Walk {
                 }
             }
             let doubts = self.try_at(of, of.from, None, None);
-            open.iter_mut().zip(doubts.0.0).for_each(|(open, doubts)| *open &= doubts == 0.0);
+            doubts.lanes().for_each(|k| open[k] = false);
             self.advance();
         }
         open
