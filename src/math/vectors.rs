@@ -106,30 +106,34 @@ fn turned(tile: &Tile) -> Tile {
     from_fn(|column| from_fn(|row| tile[row][column]))
 }
 
-/// Four by four: the halves of each tile change places, then pairs within these, then single numbers.
+/// Four by four: pairs of single numbers change places, then pairs of these.
 #[cfg(all(feature = "vectors", target_arch = "x86_64"))]
 #[inline(always)]
 #[allow(clippy::inline_always)]
 fn turned_by_fours(unit: pulp::x86::V3, tile: &Tile) -> Tile {
     use std::arch::x86_64::__m256d;
     let avx = unit.avx;
-    let rows: [[__m256d; 2]; WIDE] = (*tile).map(pulp::cast);
-    let quarter = |top: usize, half: usize| -> [__m256d; 4] {
-        let [a, b, c, d] = from_fn(|k| rows[top + k][half]);
+    let mut columns = [[0.0; WIDE]; WIDE];
+    for [top, left] in [[0, 0], [0, 4], [4, 0], [4, 4]] {
+        let mut rows: [__m256d; 4] = pulp::cast([[0.0_f64; 4]; 4]);
+        for (row, from) in rows.iter_mut().zip(&tile[top..]) {
+            let [first, second] = pulp::cast::<[f64; WIDE], [__m256d; 2]>(*from);
+            *row = if left == 0 { first } else { second };
+        }
+        let [a, b, c, d] = rows;
         let [even, odd] = [avx._mm256_unpacklo_pd(a, b), avx._mm256_unpackhi_pd(a, b)];
         let [even_below, odd_below] = [avx._mm256_unpacklo_pd(c, d), avx._mm256_unpackhi_pd(c, d)];
-        [
+        let turned: [[f64; 4]; 4] = pulp::cast([
             avx._mm256_permute2f128_pd::<0x20>(even, even_below),
             avx._mm256_permute2f128_pd::<0x20>(odd, odd_below),
             avx._mm256_permute2f128_pd::<0x31>(even, even_below),
             avx._mm256_permute2f128_pd::<0x31>(odd, odd_below),
-        ]
-    };
-    let [left, right] = [0, 1].map(|half| [quarter(0, half), quarter(4, half)]);
-    from_fn(|column| {
-        let [top, bottom] = if column < 4 { left } else { right };
-        pulp::cast([top[column % 4], bottom[column % 4]])
-    })
+        ]);
+        for (to, column) in columns[left..].iter_mut().zip(turned) {
+            to[top..top + 4].copy_from_slice(&column);
+        }
+    }
+    columns
 }
 
 /// All eight rows: single numbers change places, then pairs, then fours.
