@@ -45,13 +45,13 @@ impl Checker<'_> {
     /// What `owner.feature` stands for, if it is declared.
     fn feature_of(&self, e: &Expr) -> Option<Feature> {
         let ExprKind::Member { owner, feature } = &e.kind else { return None };
-        self.features.get(&self.frame_of(owner)?)?.get(&feature.text)
+        self.common.features.get(&self.frame_of(owner)?)?.get(&feature.text)
     }
 
     /// The body of a name, or the ground, of which nothing is said.
     pub(super) fn frame_of(&self, owner: &Name) -> Option<Frame> {
         match self.entity(owner) {
-            _ if owner.text == "ground" => Some(self.ground),
+            _ if owner.text == "ground" => Some(self.address.ground),
             Some(Entity::Body(k)) => Some(*self.bodies.get(k)?),
             _ => None,
         }

@@ -30,13 +30,20 @@ pub(super) struct BoundParam<'a> {
     pub span: Option<Span>,
 }
 
+/// What is said of the params and inputs of a text where it is used.
+#[derive(Default)]
+pub(super) struct BoundOutside<'a> {
+    pub params: Vec<BoundParam<'a>>,
+    pub inputs: Vec<&'a str>,
+}
+
 impl<'a> Checker<'a> {
     /// Params, functions, tables and inputs of a part, with what is said of its params.
     pub(super) fn definitions_of_part(&mut self, part: usize) {
         let bound = self.params_bound(part);
         let samples = self.samples.clone();
         self.in_part(part, |child| {
-            child.bound_params = bound;
+            child.bound.params = bound;
             child.samples = samples;
             child.definitions();
         });
@@ -152,13 +159,13 @@ impl<'a> Checker<'a> {
 
     /// What is said of a param where its mechanism is used.
     pub(super) fn bound_param(&self, name: &Name) -> Option<&BoundParam<'a>> {
-        self.bound_params.iter().find(|bound| bound.name == name.text)
+        self.bound.params.iter().find(|bound| bound.name == name.text)
     }
 
     /// A point with what is said of it, or of its coordinates, where its mechanism is used.
     pub(super) fn point_as_bound(&mut self, name: &Name, mut point: Drawn) -> Option<Drawn> {
-        for k in 0..self.bound_params.len() {
-            let BoundParam { name: bound_name, bound, span } = self.bound_params[k];
+        for k in 0..self.bound.params.len() {
+            let BoundParam { name: bound_name, bound, span } = self.bound.params[k];
             if bound_name != name.text {
                 continue;
             }
@@ -198,7 +205,7 @@ impl<'a> Checker<'a> {
             }
             Bound::Coordinate(axis, value, _) => vec![(format!("{}.{}", bound.name, ["x", "y"][axis]), value.id)],
         };
-        self.bound_params.iter().flat_map(numbers).collect()
+        self.bound.params.iter().flat_map(numbers).collect()
     }
 
     /// Params that are known as numbers (SI), as if they were bound: those of a part that stands alone.
@@ -217,7 +224,7 @@ impl<'a> Checker<'a> {
                 },
                 None => BoundParam { name, bound, span: None },
             };
-            self.bound_params.push(param);
+            self.bound.params.push(param);
         }
     }
 }

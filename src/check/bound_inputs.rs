@@ -45,7 +45,8 @@ impl<'a> Checker<'a> {
         for (part, child) in self.parts.iter().enumerate() {
             for binding in &self.bindings[part].bindings {
                 let Some(Entity::Input(input)) = child.space.get(&binding.name.text) else { continue };
-                let name = Name { text: format!("{}{}", child.path, binding.name.text), span: binding.name.span };
+                let name =
+                    Name { text: format!("{}{}", child.address.path, binding.name.text), span: binding.name.span };
                 bound.push(BoundInput { around: around.clone(), part, input, binding, name });
             }
             around.push(part);
@@ -80,7 +81,7 @@ impl<'a> Checker<'a> {
                 |name| self.hidden.contains(name),
                 |name, _| match self.entity(name) {
                     _ if argument == Some(name.text.as_str()) => {}
-                    Some(Entity::Input(_)) => found.push((format!("{}{}", self.path, name.text), name.span)),
+                    Some(Entity::Input(_)) => found.push((format!("{}{}", self.address.path, name.text), name.span)),
                     Some(Entity::Function(k)) if seen.insert(k) => {
                         let function = self.functions.get(k).filter(|function| function.time.is_some());
                         open.extend(function.map(|function| (function.value, Some(function.argument.text.as_str()))));
@@ -125,12 +126,12 @@ impl<'a> Checker<'a> {
 
     /// Those of a part, and those of parts within it that nobody binds by their paths there.
     fn tell_inputs(&mut self, part: usize) {
-        let Some(id) = self.parts[part].part else { return };
+        let Some(id) = self.parts[part].address.part else { return };
         let child = &self.parts[part];
         let own = child.inputs.iter().filter_map(|input| Some((input.name.text.clone(), input.value?.id)));
         let mut inputs: Vec<_> = own.collect();
         let deeper = self.model.inputs.iter().filter_map(|input| {
-            let name = input.declared.name.strip_prefix(child.path.as_str())?;
+            let name = input.declared.name.strip_prefix(child.address.path.as_str())?;
             name.contains('.').then(|| (name.to_owned(), input.value))
         });
         inputs.extend(deeper);
@@ -149,7 +150,7 @@ impl<'a> Checker<'a> {
         };
         let conditions = self.model.conditions.len();
         let value = self.formula(&binding.value, &context)?;
-        let owner = format!("{}{}", self.path, self.bindings[part].name.text);
+        let owner = format!("{}{}", self.address.path, self.bindings[part].name.text);
         for condition in &mut self.model.conditions[conditions..] {
             condition.owner.clone_from(&owner);
         }

@@ -28,7 +28,8 @@ impl Checker<'_> {
             return None;
         }
         // a function's formula is looked over on its own
-        if let ("sin" | "cos" | "tan", [argument], true) = (name.text.as_str(), arguments, self.caller.is_none()) {
+        if let ("sin" | "cos" | "tan", [argument], true) = (name.text.as_str(), arguments, self.calls.caller.is_none())
+        {
             self.warn_of_degrees(argument);
         }
         if let (Group::Derivative, [argument]) = (function.group, arguments) {
@@ -121,7 +122,7 @@ impl Checker<'_> {
         let dim = self.all_alike(name, &[v0, v1], context)?;
         let (start, end) = (self.constant_value(u0.1.id), self.constant_value(u1.1.id));
         match (start, end) {
-            (Some(start), Some(end)) if end <= start && !self.untaken => {
+            (Some(start), Some(end)) if end <= start && !self.branch.is_untaken => {
                 self.report(errors::empty_interval(name, u1.0, [start, end], argument.settled()));
                 return None;
             }
@@ -130,7 +131,7 @@ impl Checker<'_> {
             _ => {
                 let length = self.model.graph.sub(u1.1.id, u0.1.id);
                 let one = self.model.graph.constant(1.0);
-                let positive = self.guard.map_or(length, |guard| self.model.graph.select(guard, length, one));
+                let positive = self.branch.guard.map_or(length, |guard| self.model.graph.select(guard, length, one));
                 let owner = context.place.to_owned();
                 self.model.conditions.push(Condition { positive, kind: ConditionKind::Interval, span: u1.0, owner });
             }

@@ -4,13 +4,15 @@
 //! too far down is put off: the formulas around it are given up, the call is expanded on its own, from the ground, and
 //! then the formulas are read once more, in which it is known by now. No platform's stack decides what is read.
 
+use super::branches::Branch;
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
 use super::{Checker, errors};
 use crate::expr::ExprId;
+use crate::model::Condition;
 use crate::source::Span;
 use crate::syntax::ast::{Expr, Name};
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Parts that one formula may have, written out.
 const LARGEST: usize = 1_000_000;
@@ -27,10 +29,8 @@ pub(super) struct Call {
     entity: Entity,
     argument: Option<(ExprId, Option<[u64; 3]>)>,
     judged: bool,
-    /// Less is said in a branch that is never taken.
-    untaken: bool,
-    /// What must be positive must be so only where its branch counts.
-    guard: Option<ExprId>,
+    /// Less is said in a branch that is never taken, and what must be positive must be so only where its branch counts.
+    branch: Branch,
 }
 
 /// A call that was met too far down, with all that its expansion needs.
@@ -41,9 +41,17 @@ struct PutOff<'a> {
     caller: Option<Span>,
 }
 
-/// The calls of one formula.
+/// The calls that are known, and those of the formula that is being read.
 #[derive(Default)]
 pub(super) struct Calls<'a> {
+    /// Expansions already made.
+    pub known: FxHashMap<Call, Option<Value>>,
+    /// What those ask to be positive, where they do.
+    pub conditions: FxHashMap<Call, Vec<Condition>>,
+    /// Where the outermost of the formulas being expanded was called.
+    pub caller: Option<Span>,
+    /// Parts of the formula visited.
+    pub visited: usize,
     /// How many levels of formulas are open.
     levels: usize,
     /// Calls that wait for their turn, the last one first.
@@ -134,8 +142,7 @@ impl<'a> Checker<'a> {
             entity: Entity::Function(at),
             argument: Some((argument.id, bits)),
             judged: context.judged,
-            untaken: self.untaken,
-            guard: self.guard,
+            branch: self.branch,
         };
         let inner = Context {
             time: true,
@@ -152,11 +159,11 @@ impl<'a> Checker<'a> {
     /// Another measure's formula, as if it stood there.
     pub(super) fn measure_value(&mut self, at: usize, span: Span, context: &Context<'_>) -> Option<Value> {
         if let Some(&(part, Entity::Measure(inside))) = self.imported.get(&Entity::Measure(at)) {
-            let (untaken, guard, caller) = (self.untaken, self.guard, self.caller.or(Some(span)));
+            let (branch, caller) = (self.branch, self.calls.caller.or(Some(span)));
             return self.in_part(part, |child| {
-                (child.untaken, child.guard, child.caller) = (untaken, guard, caller);
+                (child.branch, child.calls.caller) = (branch, caller);
                 let value = child.measure_value(inside, span, context);
-                (child.untaken, child.guard, child.caller) = (false, None, None);
+                (child.branch, child.calls.caller) = (Branch::default(), None);
                 value
             });
         }
@@ -164,13 +171,7 @@ impl<'a> Checker<'a> {
             return None;
         }
         let formula = self.measures[at].value;
-        let call = Call {
-            entity: Entity::Measure(at),
-            argument: None,
-            judged: context.judged,
-            untaken: self.untaken,
-            guard: self.guard,
-        };
+        let call = Call { entity: Entity::Measure(at), argument: None, judged: context.judged, branch: self.branch };
         self.expand(call, formula, None, span, context)
     }
 
@@ -182,14 +183,14 @@ impl<'a> Checker<'a> {
         span: Span,
         context: &Context<'_>,
     ) -> Option<Value> {
-        if let Some(&known) = self.known_calls.get(&call) {
+        if let Some(&known) = self.calls.known.get(&call) {
             // who calls it asks for what it asks for
-            if let Some(conditions) = self.conditions_of_calls.get(&call) {
+            if let Some(conditions) = self.calls.conditions.get(&call) {
                 self.model.conditions.extend_from_slice(conditions);
             }
             return known;
         }
-        let caller = self.caller.or(Some(span));
+        let caller = self.calls.caller.or(Some(span));
         if self.calls.given_up.contains(&call) {
             self.calls.is_given_up = true;
             return None;
@@ -201,9 +202,9 @@ impl<'a> Checker<'a> {
             self.calls.is_given_up = true;
             return None;
         }
-        let outer = std::mem::replace(&mut self.caller, caller);
+        let outer = std::mem::replace(&mut self.calls.caller, caller);
         let value = self.expansion(call, formula, &context.at(context.place, argument));
-        self.caller = outer;
+        self.calls.caller = outer;
         value
     }
 
@@ -212,16 +213,16 @@ impl<'a> Checker<'a> {
         let outer = std::mem::replace(&mut self.calls.is_given_up, false);
         // what is called knows nothing of the body in which it is called
         let scope = std::mem::take(&mut self.scope);
-        let (complete, visited) = (self.calls.complete, self.visited);
+        let (complete, visited) = (self.calls.complete, self.calls.visited);
         let first = self.model.conditions.len();
         let value = self.number(formula, context);
         self.scope = scope;
         if self.calls.is_given_up {
             self.calls.given_up.insert(call);
         } else {
-            self.calls.complete = complete + (self.visited - visited);
+            self.calls.complete = complete + (self.calls.visited - visited);
             self.keep_conditions(call, first);
-            self.known_calls.insert(call, value);
+            self.calls.known.insert(call, value);
         }
         self.calls.is_given_up |= outer;
         value
@@ -234,7 +235,7 @@ impl<'a> Checker<'a> {
         conditions.retain(|condition| seen.insert(condition.positive));
         self.model.conditions.extend_from_slice(&conditions);
         if !conditions.is_empty() {
-            self.conditions_of_calls.insert(call, conditions);
+            self.calls.conditions.insert(call, conditions);
         }
     }
 
@@ -250,7 +251,7 @@ impl<'a> Checker<'a> {
             self.calls.levels -= 1;
             return value;
         }
-        let (before, conditions) = (self.visited, self.model.conditions.len());
+        let (before, conditions) = (self.calls.visited, self.model.conditions.len());
         (self.calls.complete, self.calls.read, self.calls.is_too_large) = (0, 0, false);
         let mut value = self.reading(before, &mut read);
         while self.calls.is_given_up && !self.calls.is_too_large {
@@ -266,12 +267,12 @@ impl<'a> Checker<'a> {
 
     /// Counts a part of a formula, and refuses the formula where it has too many.
     pub(super) fn count_part(&mut self, span: Span) -> Option<()> {
-        self.visited += 1;
-        if self.calls.is_too_large || self.visited <= LARGEST && self.calls.read <= MOST_READ * LARGEST {
+        self.calls.visited += 1;
+        if self.calls.is_too_large || self.calls.visited <= LARGEST && self.calls.read <= MOST_READ * LARGEST {
             return (!self.calls.is_too_large).then_some(());
         }
         self.calls.is_too_large = true;
-        self.diagnostics.push(errors::too_large(self.caller.unwrap_or(span)));
+        self.diagnostics.push(errors::too_large(self.calls.caller.unwrap_or(span)));
         None
     }
 
@@ -282,34 +283,34 @@ impl<'a> Checker<'a> {
 
     /// Reads something from the ground.
     fn reading<T>(&mut self, before: usize, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
-        self.visited = before + self.calls.complete;
+        self.calls.visited = before + self.calls.complete;
         self.calls.given_up.clear();
         self.calls.is_given_up = false;
         self.calls.levels = 1;
         let value = read(self);
         self.calls.levels = 0;
-        self.calls.read += self.visited - before - self.calls.complete;
+        self.calls.read += self.calls.visited - before - self.calls.complete;
         value
     }
 
     /// Expands all calls that wait, and those that these wait for.
     fn make_up(&mut self, before: usize, place: &str) {
-        let outer = (self.untaken, self.guard, self.caller);
+        let outer = (self.branch, self.calls.caller);
         while let Some(PutOff { call, formula, context, caller }) = self.calls.waiting.pop() {
-            if self.known_calls.contains_key(&call) {
+            if self.calls.known.contains_key(&call) {
                 continue;
             }
             if self.calls.is_too_large {
                 break;
             }
-            (self.untaken, self.guard, self.caller) = (call.untaken, call.guard, caller);
+            (self.branch, self.calls.caller) = (call.branch, caller);
             let at = self.calls.waiting.len();
             self.reading(before, |checker| checker.expansion(call, formula, &context.at(place, context.argument)));
             if self.calls.is_given_up {
                 self.calls.waiting.insert(at, PutOff { call, formula, context, caller });
             }
         }
-        (self.untaken, self.guard, self.caller) = outer;
+        (self.branch, self.calls.caller) = outer;
     }
 
     /// What was read again, or is called twice, has asked for the same again.

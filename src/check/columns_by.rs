@@ -19,7 +19,7 @@ pub(super) struct Bound {
 impl Checker<'_> {
     /// Looks the names of `--by` up, in the order given; what is named twice counts once.
     pub(super) fn look_over_by(&mut self) {
-        for told in self.by {
+        for told in &self.around.by {
             if let Some((path, params)) = self.part_told(told) {
                 self.report(errors::column_by_part(&path, &params));
                 continue;
@@ -42,7 +42,7 @@ impl Checker<'_> {
 
     /// One of that name; the coordinates of a point; or all copies of a repeated input.
     fn variables_named(&self, told: &str) -> Vec<u32> {
-        let known = |name: String| self.variables.known.get(&name).copied();
+        let known = |name: String| self.common.variables.known.get(&name).copied();
         if let Some(one) = known(told.to_owned()) {
             return vec![one];
         }
@@ -55,7 +55,7 @@ impl Checker<'_> {
             is_told_by(name, told) || whole.is_some_and(|whole| is_told_by(whole, told))
         };
         let mut copies: Vec<u32> =
-            self.variables.known.iter().filter(|(name, _)| is_told(name)).map(|(_, number)| *number).collect();
+            self.common.variables.known.iter().filter(|(name, _)| is_told(name)).map(|(_, number)| *number).collect();
         copies.sort_unstable();
         copies
     }
@@ -88,11 +88,11 @@ impl Checker<'_> {
     /// A part that a name is told of, itself or with all copies, and what of it derivatives are taken by.
     fn part_told(&self, told: &str) -> Option<(String, Vec<String>)> {
         for child in &self.parts {
-            let path = child.path.strip_suffix('.')?;
+            let path = child.address.path.strip_suffix('.')?;
             if is_told_by(path, told) {
                 let known = child.settable_names(settable).into_iter().map(|(name, _)| name);
                 let numbers = known.filter(|name| !child.deciding.contains(name));
-                let free = numbers.flat_map(|name| self.free_of(format!("{}{name}", child.path)));
+                let free = numbers.flat_map(|name| self.free_of(format!("{}{name}", child.address.path)));
                 return Some((path.to_owned(), free.collect()));
             }
             if let Some(found) = child.part_told(told) {
@@ -118,7 +118,7 @@ impl Checker<'_> {
     pub(super) fn binding_of(&self, told: &str) -> Option<Bound> {
         for (child, part) in self.parts.iter().zip(&self.bindings) {
             for binding in &part.bindings {
-                let name = format!("{}{}", child.path, binding.name.text);
+                let name = format!("{}{}", child.address.path, binding.name.text);
                 let axes = ["x", "y"]
                     .into_iter()
                     .filter(|axis| binding.coordinate.as_ref().is_none_or(|bound| bound.text == *axis));
@@ -143,7 +143,7 @@ impl Checker<'_> {
             formula,
             |name| self.hidden.contains(name),
             |name, _| {
-                let path = format!("{}{}", self.path, name.text);
+                let path = format!("{}{}", self.address.path, name.text);
                 if matches!(self.entity(name), Some(Entity::Param(_) | Entity::Input(_))) && !found.contains(&path) {
                     found.push(path);
                 }

@@ -11,32 +11,63 @@ use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name, WrittenUnit};
 use crate::vocabulary::QuantityWord;
 
+/// What is known of a measure before its turn.
+pub(super) struct MeasureState<'a> {
+    name: &'a Name,
+    pub value: &'a Expr,
+    /// In what it is printed, if that is said.
+    unit: Option<&'a WrittenUnit>,
+    pub dimensional: bool,
+    pub sound: bool,
+    /// How often an angle is a factor of it.
+    pub angle: i32,
+    /// Whether it holds a number that may stand for anything.
+    pub holds_plain_number: bool,
+    /// Its value, from its turn until it is listed, with what that asks at every time.
+    made: Option<(Value, Vec<Condition>)>,
+}
+
+impl<'a> MeasureState<'a> {
+    pub fn of(name: &'a Name, value: &'a Expr, unit: Option<&'a WrittenUnit>) -> MeasureState<'a> {
+        MeasureState {
+            name,
+            value,
+            unit,
+            dimensional: false,
+            sound: false,
+            angle: 0,
+            holds_plain_number: false,
+            made: None,
+        }
+    }
+}
+
 impl Checker<'_> {
     /// The values of measures, those of parts first, then in the order in which they need each other.
     pub(super) fn measure_values(&mut self) {
         self.in_parts(Checker::measure_values);
-        let mut values = vec![(None, Vec::new()); self.measures.len()];
         for k in std::mem::take(&mut self.measure_order) {
             let conditions = self.model.conditions.len();
             let formula = self.measures[k].value;
             let value = self.formula(formula, &measure_context(self.measures[k].dimensional));
             let owner = self.declared(self.measures[k].name).name;
-            values[k] = (value, self.asked_at_times(conditions, &owner));
+            let conditions = self.asked_at_times(conditions, &owner);
+            self.measures[k].made = value.map(|value| (value, conditions));
             self.measures[k].sound = value.is_some();
             self.measures[k].angle = self.angle_power(formula);
             self.measures[k].holds_plain_number = self.holds_plain_number(formula);
         }
-        self.measure_values = values;
     }
 
     /// Lists the measures, and the traces among them, in the order of the text, those of parts where these are declared.
     pub(super) fn list_measures(&mut self) {
-        let mut measures = std::mem::take(&mut self.measure_values).into_iter().enumerate();
+        let mut measures = 0..self.measures.len();
         let mut parts = 0..self.parts.len();
         for item in self.items() {
             match &item.kind {
                 ItemKind::Measure { name, .. } => {
-                    let Some((k, (Some(value), conditions))) = measures.next() else { continue };
+                    let Some(k) = measures.next() else { continue };
+                    let Some((value, conditions)) = self.measures[k].made.take() else { continue };
                     if let Some(units) = self.units_of_measure(k, value) {
                         let declared = self.declared(name);
                         self.model.measures.push(Measure { declared, value: value.id, conditions, units });
@@ -71,7 +102,7 @@ impl Checker<'_> {
             _ => self.point(point).map(|point| {
                 fixed = Some(point);
                 [Quantity::X(None, point), Quantity::Y(None, point)]
-                    .map(|quantity| self.name_symbol(Named::Quantity(self.part, quantity), 0))
+                    .map(|quantity| self.name_symbol(Named::Quantity(self.address.part, quantity), 0))
             }),
         };
         let coordinates = coordinates.filter(|pair: &[ExprId; 2]| {
@@ -85,9 +116,9 @@ impl Checker<'_> {
         let units = self.units(point, Some(Dimension::LENGTH), 0, unit);
         if let (Some(coordinates), Some(units)) = (coordinates, units) {
             let (declared, measure) = (self.declared(name), self.model.measures.len());
-            self.model.traces.push(Trace { declared, part: self.part, point: fixed, measure });
+            self.model.traces.push(Trace { declared, part: self.address.part, point: fixed, measure });
             for (part, value) in ["x", "y"].into_iter().zip(coordinates) {
-                let declared = Declared { name: format!("{}{}.{part}", self.path, name.text), span: name.span };
+                let declared = Declared { name: format!("{}{}.{part}", self.address.path, name.text), span: name.span };
                 let (conditions, units) = (asked.clone(), units.clone());
                 self.model.measures.push(Measure { declared, value, conditions, units });
             }
@@ -156,7 +187,7 @@ impl Checker<'_> {
             EquationForm::Distance(_, _, distance) => [distance, distance],
         };
         let on_time = |id: ExprId| self.model.graph.dependence(id).on(Dependence::TIME);
-        let has_bound_inputs = !self.bound_inputs.is_empty();
+        let has_bound_inputs = !self.bound.inputs.is_empty();
         !has_bound_inputs || sides.into_iter().any(on_time) || self.quantities_in(sides).len() <= 1
     }
 
@@ -184,7 +215,7 @@ impl Checker<'_> {
         let conditions = self.model.conditions.len();
         let (a, b) = (self.formula(left, &context), self.formula(right, &context));
         for condition in &mut self.model.conditions[conditions..] {
-            condition.owner = format!("{}{}", self.path, name.text);
+            condition.owner = format!("{}{}", self.address.path, name.text);
         }
         let (a, b) = match (a, b) {
             (Some(a), Some(b)) => (a, b),
@@ -238,7 +269,7 @@ impl Checker<'_> {
                 positive: distance,
                 kind: ConditionKind::Distance,
                 span: right.span,
-                owner: format!("{}{}", self.path, name.text),
+                owner: format!("{}{}", self.address.path, name.text),
             }),
         }
         Some((EquationForm::Distance(p, q, distance), Dimension::LENGTH))

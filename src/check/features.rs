@@ -69,11 +69,11 @@ impl<'a> Checker<'a> {
 
     /// Bodies, and the grounds of parts, in the order of the text.
     pub(super) fn add_frames(&mut self) {
-        self.features.insert(self.ground, Space::new());
+        self.common.features.insert(self.address.ground, Space::new());
         let mut parts = 0..;
         for item in self.items() {
             match &item.kind {
-                ItemKind::Ground { features } => self.frames.push((self.ground, features)),
+                ItemKind::Ground { features } => self.frames.push((self.address.ground, features)),
                 ItemKind::Body { name, features, .. } => {
                     let frame = self.add_body(item, name);
                     self.frames.push((frame, features));
@@ -112,10 +112,10 @@ impl<'a> Checker<'a> {
             ItemKind::Body { pose, .. } => pose.as_ref().map(DrawnPose::span),
             _ => None,
         };
-        let (declared, part) = (self.declared(name), self.part);
+        let (declared, part) = (self.declared(name), self.address.part);
         let id = self.model.add_body(Body { part, declared, docs: item.docs.clone(), pose: [zero; 3], pose_span });
         self.bodies.push(Frame::Body(id));
-        self.features.insert(Frame::Body(id), Space::new());
+        self.common.features.insert(Frame::Body(id), Space::new());
         Frame::Body(id)
     }
 
@@ -128,14 +128,15 @@ impl<'a> Checker<'a> {
                 FeatureKind::Curve { .. } => Feature::Curve(None),
                 FeatureKind::Mass { .. } => continue,
                 FeatureKind::Broken if feature.name.text.is_empty() => {
-                    if let Some(space) = self.features.get_mut(&frame) {
+                    if let Some(space) = self.common.features.get_mut(&frame) {
                         space.declare_nameless();
                     }
                     continue;
                 }
                 FeatureKind::Broken => Feature::Broken,
             };
-            let first = self.features.get_mut(&frame).and_then(|space| space.declare(&feature.name, entity).err());
+            let first =
+                self.common.features.get_mut(&frame).and_then(|space| space.declare(&feature.name, entity).err());
             if let Some(first) = first {
                 self.report(errors::declared_twice(&feature.name, first));
             }
@@ -160,7 +161,7 @@ impl<'a> Checker<'a> {
             let point = drawn.map(|Drawn { at, dimensional }| {
                 let point = Point { frame, name: Some(name.text.clone()), span: name.span, at };
                 let id = self.model.add_point(point);
-                self.dimensional_points.extend(dimensional.then_some(id));
+                self.common.dimensional_points.extend(dimensional.then_some(id));
                 id
             });
             self.settle(frame, name, Feature::Point(point));
@@ -223,7 +224,7 @@ impl<'a> Checker<'a> {
 
     /// Fills in what a feature's name stands for, unless the name was taken.
     pub(super) fn settle(&mut self, frame: Frame, name: &Name, feature: Feature) {
-        if let Some(space) = self.features.get_mut(&frame)
+        if let Some(space) = self.common.features.get_mut(&frame)
             && space.span(&name.text) == Some(name.span)
         {
             space.replace(&name.text, feature);
@@ -331,7 +332,7 @@ impl<'a> Checker<'a> {
 
     /// `arm.tip` in the braces of `arm`
     fn is_own_feature(&self, frame: Frame, owner: &Name, feature: &Name) -> bool {
-        let is_there = || self.features.get(&frame).is_some_and(|space| space.get(&feature.text).is_some());
+        let is_there = || self.common.features.get(&frame).is_some_and(|space| space.get(&feature.text).is_some());
         self.frame_name(frame) == owner.text && is_there()
     }
 
@@ -343,7 +344,7 @@ impl<'a> Checker<'a> {
     /// A point of a body or of the ground, or a global one as a formula of points.
     pub(super) fn point(&mut self, e: &Expr) -> Option<PointId> {
         match &e.kind {
-            ExprKind::Tuple(_) => self.unnamed_point(self.ground, e),
+            ExprKind::Tuple(_) => self.unnamed_point(self.address.ground, e),
             ExprKind::Member { owner, feature }
                 if coordinate(feature).is_some() && self.point_param(owner).is_some() =>
             {
@@ -354,7 +355,7 @@ impl<'a> Checker<'a> {
                 let frame = self.body(owner)?;
                 self.point_named(frame, feature)
             }
-            _ if self.is_point(e) => self.unnamed_point(self.ground, e),
+            _ if self.is_point(e) => self.unnamed_point(self.address.ground, e),
             ExprKind::Name(name) => {
                 self.bare_name(name, "point");
                 None
@@ -414,10 +415,10 @@ impl<'a> Checker<'a> {
         }
         let wanted = if what == "axis" { "an axis".to_owned() } else { format!("a {what}") };
         let beside = self.owners_beside(name.span);
-        let owners: Vec<String> = std::iter::once(self.ground)
+        let owners: Vec<String> = std::iter::once(self.address.ground)
             .chain(self.bodies.iter().copied())
             .filter(|&frame| !beside.contains(&self.frame_name(frame)))
-            .filter(|frame| self.features.get(frame).is_some_and(|space| space.get(&name.text).is_some()))
+            .filter(|frame| self.common.features.get(frame).is_some_and(|space| space.get(&name.text).is_some()))
             .map(|frame| format!("`{}.{}`", self.frame_name(frame), name.text))
             .collect();
         let help = match (owners.is_empty(), entity) {
@@ -442,7 +443,7 @@ impl<'a> Checker<'a> {
         what: &str,
         wanted: impl Fn(Feature) -> bool,
     ) -> Option<Feature> {
-        let space = self.features.get(&frame)?;
+        let space = self.common.features.get(&frame)?;
         match space.get(&name.text) {
             Some(Feature::Broken) => return None,
             None if space.is_incomplete() => return None,
@@ -457,7 +458,7 @@ impl<'a> Checker<'a> {
 
     /// What `owner.feature` is, for a message.
     pub(super) fn describe_member(&self, owner: &Name, feature: &Name) -> String {
-        let space = self.frame_of(owner).and_then(|frame| self.features.get(&frame));
+        let space = self.frame_of(owner).and_then(|frame| self.common.features.get(&frame));
         let found = space.and_then(|space| space.get(&feature.text));
         found.map_or("a feature of a body", Feature::noun).to_owned()
     }

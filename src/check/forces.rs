@@ -160,7 +160,7 @@ impl Checker<'_> {
         let dimension = Dimension::ENERGY.over(quantity.dimension());
         self.is_a_force_on(name, [force, on], value, quantity, judged)?;
         let written = force.span.to(on.span);
-        Some(Load { declared, part: self.part, force: value.id, conditions, on: quantity, dimension, written })
+        Some(Load { declared, part: self.address.part, force: value.id, conditions, on: quantity, dimension, written })
     }
 
     /// What a load works on: one quantity of positions.
@@ -213,7 +213,7 @@ impl Checker<'_> {
             },
             ExprKind::Member { owner, feature } => {
                 let Some(Entity::Body(k)) = self.entity(owner) else { return None };
-                let space = self.features.get(self.bodies.get(k)?)?;
+                let space = self.common.features.get(self.bodies.get(k)?)?;
                 let is_point = matches!(space.get(&feature.text), Some(Feature::Point(_)));
                 let both = || ["x", "y"].map(|axis| format!("{axis}({}.{})", owner.text, feature.text)).to_vec();
                 is_point.then(both)
@@ -277,7 +277,7 @@ impl Checker<'_> {
         };
         let dimension = self.model.dimension_of_force(force);
         // it holds accelerations
-        let id = self.name_symbol(Named::Force(self.part, force), 2);
+        let id = self.name_symbol(Named::Force(self.address.part, force), 2);
         Some(Value { id, dim: Dim::Of(dimension) })
     }
 

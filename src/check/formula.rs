@@ -6,13 +6,13 @@
 use super::Checker;
 use super::entity::Entity;
 use super::errors;
-use super::kinds::{self, Wanted, coordinate};
+use super::kinds::Wanted;
 use super::meaning::{Alone, alone};
 use super::rates::Part;
-use crate::expr::{Comparison, Dependence, ExprId, Symbol};
+use crate::expr::{Dependence, ExprId, Symbol};
 use crate::model::{DecidedBy, Dimension, Named};
 use crate::source::Span;
-use crate::syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, ItemKind, Name, PathSegment, Sign};
+use crate::syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name, PathSegment, Sign};
 use crate::vocabulary::{Constant, QuantityWord, StandsFor, Unit, is_called};
 
 /// The dimension of a formula.
@@ -50,7 +50,7 @@ pub(super) struct Value {
 }
 
 impl Value {
-    fn has_a_dimension(self) -> bool {
+    pub fn has_a_dimension(self) -> bool {
         matches!(self.dim, Dim::Of(dimension) if !dimension.is(Dimension::PURE))
     }
 }
@@ -109,101 +109,9 @@ impl<'c> Context<'c> {
 }
 
 impl Checker<'_> {
-    /// Whether a formula holds a unit of length, time or rate, or something that does.
-    pub(super) fn is_dimensional(&self, formula: &Expr) -> bool {
-        self.is_dimensional_over(None, formula)
-    }
-
-    /// The same of the formula of a function or curve, over its argument.
-    pub(super) fn is_dimensional_over(&self, argument: Option<&str>, formula: &Expr) -> bool {
-        self.holds_dimension(argument, formula, Wanted::Number)
-    }
-
-    /// The same of a formula of numbers or of points.
-    pub(super) fn holds_dimension(&self, argument: Option<&str>, formula: &Expr, wanted: Wanted) -> bool {
-        let mut open = vec![(formula, wanted, wanted != Wanted::Number)];
-        while let Some((e, wanted, with_points)) = open.pop() {
-            let holds = match &e.kind {
-                ExprKind::Literal { unit: Some((name, _)), .. } => {
-                    Unit::named(&name.text).is_some_and(|unit| !unit.dimension.is(Dimension::PURE))
-                }
-                ExprKind::Name(name) if argument == Some(name.text.as_str()) => false,
-                ExprKind::Name(name) if self.own_point(name, wanted).is_some() => {
-                    self.is_dimensional_point(name, wanted)
-                }
-                ExprKind::Name(name) => self.is_dimensional_name(name),
-                ExprKind::Member { owner, feature } if coordinate(feature).is_some() => {
-                    self.is_dimensional_point(owner, Wanted::Point)
-                }
-                ExprKind::Call { name, arguments } if self.reduction_word(name, arguments.len()).is_some() => false,
-                ExprKind::Call { name, .. }
-                    if !self.is_of_language(&name.text) && self.quantity_word(name).is_none() =>
-                {
-                    self.is_dimensional_name(name)
-                }
-                // a literal point says nothing about the formula of a number around it
-                ExprKind::Tuple(_) if !with_points => continue,
-                _ => false,
-            };
-            if holds {
-                return true;
-            }
-            // but all about the length between it and another one
-            let with_points = match &e.kind {
-                ExprKind::Call { name, .. } if self.is_of_language(&name.text) => match name.text.as_str() {
-                    "length" => true,
-                    "direction" => false,
-                    _ => with_points,
-                },
-                _ => with_points,
-            };
-            let inside = kinds::inside(e, wanted, |name| self.hidden.contains(name));
-            open.extend(inside.into_iter().map(|(e, wanted)| (e, wanted, with_points)));
-        }
-        false
-    }
-
-    fn is_dimensional_name(&self, name: &Name) -> bool {
-        if let Some(unit) = self.unit_alone(name) {
-            return !unit.dimension.is(Dimension::PURE);
-        }
-        match self.entity(name) {
-            Some(Entity::Param(k)) => {
-                self.params[k].is_some_and(Value::has_a_dimension)
-                    || self.drawn[k].is_some_and(|drawn| drawn.dimensional)
-            }
-            Some(Entity::Function(k)) => self.functions[k].dimensional,
-            Some(Entity::Table(k)) => self.tables[k].dimensional,
-            Some(Entity::Input(k)) => self.input_known(k).is_some_and(Value::has_a_dimension),
-            Some(Entity::Measure(k)) => self.measure_known(k).is_some_and(|measure| measure.dimensional),
-            Some(Entity::Result(k)) => self.result_known(k).is_some_and(|result| result.dimensional),
-            _ => false,
-        }
-    }
-
-    /// The unit of a name that stands alone, and not behind a number.
-    fn unit_alone(&self, name: &Name) -> Option<&'static Unit> {
-        Unit::named(&name.text).filter(|_| self.space.get(&name.text).is_none())
-    }
-
-    /// A literal zero, alone but for its sign, also through a param that is nothing else.
-    pub(super) fn is_zero(&self, formula: &Expr) -> bool {
-        match &formula.bare().kind {
-            ExprKind::Literal { value, unit: None } => *value == 0.0,
-            ExprKind::Negate(e) => self.is_zero(e),
-            ExprKind::Name(name) => match self.entity(name) {
-                Some(Entity::Param(k)) => {
-                    matches!(self.params[k], Some(Value { dim: Dim::Any, .. }))
-                }
-                _ => false,
-            },
-            _ => false,
-        }
-    }
-
     /// A formula of its own: counts its parts anew.
     pub(super) fn formula(&mut self, e: &Expr, context: &Context<'_>) -> Option<Value> {
-        self.visited = 0;
+        self.calls.visited = 0;
         self.number(e, context)
     }
 
@@ -253,7 +161,7 @@ impl Checker<'_> {
     /// Refuses a constant that is not finite, where it arises.
     pub(super) fn finite(&mut self, span: Span, value: Value) -> Option<Value> {
         match self.decided(value.id, DecidedBy::Finite) {
-            Some(number) if !number.is_finite() && !self.untaken => {
+            Some(number) if !number.is_finite() && !self.branch.is_untaken => {
                 self.report(errors::not_finite(span, number));
                 None
             }
@@ -335,7 +243,7 @@ impl Checker<'_> {
                 self.report(errors::point_as_number(name));
                 None
             }
-            Some(Entity::Param(k)) => self.params[k],
+            Some(Entity::Param(k)) => self.params[k].value,
             Some(Entity::Input(k)) if context.inputs => self.input_known(k),
             Some(Entity::Input(_)) if context.results => {
                 self.report(errors::outside_reduction(&format!("the input `{}`", name.text), name.span, &name.text));
@@ -463,38 +371,6 @@ impl Checker<'_> {
         Value { id: self.model.graph.constant(value), dim: Dim::PURE }
     }
 
-    /// Both dimensions, which must be alike where dimensions count.
-    pub(super) fn alike(&mut self, what: &str, a: (Span, Dim), b: (Span, Dim), context: &Context<'_>) -> Option<Dim> {
-        match (a.1, b.1) {
-            (Dim::Of(x), Dim::Of(y)) if context.judged && !x.is(y) => {
-                let [x, y] = [(a.0, x), (b.0, y)].map(|(span, dimension)| Part { span, dimension });
-                let texts = [a.0, b.0].map(|span| self.sources.text(span));
-                self.report(errors::unlike(what, x, y, texts, context.time));
-                None
-            }
-            (Dim::Any, other) | (other, _) => Some(other),
-        }
-    }
-
-    /// Demands a dimension where dimensions count.
-    pub(super) fn demand(
-        &mut self,
-        place: &str,
-        wanted: Dimension,
-        span: Span,
-        found: Dim,
-        context: &Context<'_>,
-    ) -> Option<()> {
-        match found {
-            Dim::Of(dimension) if context.judged && !dimension.is(wanted) => {
-                let text = self.sources.text(span);
-                self.report(errors::wrong_dimension(place, wanted, Part { span, dimension }, text));
-                None
-            }
-            _ => Some(()),
-        }
-    }
-
     fn sum(&mut self, first: &Expr, rest: &[(Sign, Expr)], context: &Context<'_>) -> Option<Value> {
         let mut sum = self.number(first, context);
         let mut span = first.span;
@@ -559,96 +435,6 @@ impl Checker<'_> {
         Some(Value { id, dim })
     }
 
-    fn choice(&mut self, arms: &[(Expr, Expr)], otherwise: &Expr, context: &Context<'_>) -> Option<Value> {
-        let (outer, outer_guard) = (self.untaken, self.guard);
-        let mut decided = false;
-        let mut parts = Vec::new();
-        for (condition, value) in arms {
-            let condition = self.condition(condition, context);
-            if condition.is_none() && self.waits() {
-                // which branches count is not known yet
-                (self.untaken, self.guard) = (outer, outer_guard);
-                return None;
-            }
-            let truth = condition.and_then(|id| self.constant_value(id));
-            self.untaken = outer || decided || truth == Some(0.0);
-            let before = self.guard;
-            self.guard_with(before, condition);
-            parts.push((condition, value.span, self.number(value, context)));
-            let opposite = condition.map(|id| self.model.graph.not(id));
-            self.guard_with(before, opposite);
-            decided |= truth == Some(1.0);
-        }
-        self.untaken = outer || decided;
-        let last = self.number(otherwise, context);
-        (self.untaken, self.guard) = (outer, outer_guard);
-        let mut choice = last?;
-        let mut span = otherwise.span;
-        for (condition, value_span, value) in parts.into_iter().rev() {
-            let (condition, value) = (condition?, value?);
-            let dim =
-                self.alike("the branches of this `if` are", (value_span, value.dim), (span, choice.dim), context)?;
-            choice = Value { id: self.model.graph.select(condition, value.id, choice.id), dim };
-            span = value_span;
-        }
-        Some(Value { dim: Dim::Of(choice.dim.settled()), ..choice })
-    }
-
-    /// What is read next counts only where a condition holds too.
-    fn guard_with(&mut self, outer: Option<ExprId>, condition: Option<ExprId>) {
-        self.guard = match (outer, condition) {
-            (Some(outer), Some(condition)) => Some(self.model.graph.and(outer, condition)),
-            (one, other) => one.or(other),
-        };
-    }
-
-    fn condition(&mut self, e: &Expr, context: &Context<'_>) -> Option<ExprId> {
-        self.level(context, |checker| checker.condition_here(e, context))
-    }
-
-    fn condition_here(&mut self, e: &Expr, context: &Context<'_>) -> Option<ExprId> {
-        match &e.kind {
-            ExprKind::Paren(inner) => self.condition(inner, context),
-            ExprKind::Not(inner) => {
-                let inner = self.condition(inner, context)?;
-                Some(self.model.graph.not(inner))
-            }
-            ExprKind::And(list) | ExprKind::Or(list) => {
-                let ids: Vec<Option<ExprId>> = list.iter().map(|part| self.condition(part, context)).collect();
-                let mut ids = ids.into_iter();
-                let mut all = ids.next()??;
-                for id in ids {
-                    all = match e.kind {
-                        ExprKind::And(_) => self.model.graph.and(all, id?),
-                        _ => self.model.graph.or(all, id?),
-                    };
-                }
-                Some(all)
-            }
-            ExprKind::Compare(a, comparison, b) => {
-                let (left, right) = (self.number(a, context), self.number(b, context));
-                let (left, right) = (left?, right?);
-                self.alike("this compares", (a.span, left.dim), (b.span, right.dim), context)?;
-                let (x, y, graph) = (left.id, right.id, &mut self.model.graph);
-                Some(match comparison {
-                    ComparisonSign::Less => graph.compare(Comparison::Less, x, y),
-                    ComparisonSign::LessEqual => graph.compare(Comparison::LessEqual, x, y),
-                    ComparisonSign::Greater => graph.compare(Comparison::Less, y, x),
-                    ComparisonSign::GreaterEqual => graph.compare(Comparison::LessEqual, y, x),
-                    ComparisonSign::Equal => graph.compare(Comparison::Equal, x, y),
-                    ComparisonSign::NotEqual => {
-                        let equal = graph.compare(Comparison::Equal, x, y);
-                        graph.not(equal)
-                    }
-                })
-            }
-            _ => {
-                self.report(errors::number_as_condition(e.span));
-                None
-            }
-        }
-    }
-
     /// How many time derivatives a formula holds.
     pub(super) fn derivative_order(&self, id: ExprId) -> u8 {
         if !self.model.graph.dependence(id).on(Dependence::NAMED) {
@@ -659,7 +445,7 @@ impl Checker<'_> {
             .symbols(id)
             .into_iter()
             .filter_map(|symbol| match symbol {
-                Symbol::Named(k) => self.derivative_orders.get(k as usize).copied(),
+                Symbol::Named(k) => self.common.derivative_orders.get(k as usize).copied(),
                 _ => None,
             })
             .max()

@@ -1,9 +1,11 @@
 //! Names of parts in the mechanism around them: what its formulas name by paths is brought over when it is known.
 
+use super::Checker;
+use super::elements::MeasureState;
 use super::entity::Entity;
 use super::formula::Value;
+use super::params::ParamState;
 use super::results::ResultState;
-use super::{Checker, MeasureState};
 use crate::model::{Declared, Frame};
 use crate::syntax::ast::Name;
 
@@ -19,13 +21,13 @@ pub(super) struct Import {
 impl<'a> Checker<'a> {
     /// Its name as the whole mechanism has it.
     pub(super) fn declared(&self, name: &Name) -> Declared {
-        Declared { name: format!("{}{}", self.path, name.text), span: name.span }
+        Declared { name: format!("{}{}", self.address.path, name.text), span: name.span }
     }
 
     /// A frame's name as this text has it.
     pub(super) fn frame_name(&self, frame: Frame) -> &str {
         let name = self.model.frame_name(frame);
-        name.strip_prefix(self.path.as_str()).unwrap_or(name)
+        name.strip_prefix(self.address.path.as_str()).unwrap_or(name)
     }
 
     /// What a path stands for, `leg[0].foot`; makes its name known here.
@@ -70,12 +72,7 @@ impl<'a> Checker<'a> {
         let child = &self.parts[part];
         for import in &self.imports[part] {
             let (Entity::Param(k), Entity::Param(m)) = (import.entity, import.inside) else { continue };
-            set(&mut self.params, k, child.params.get(m).copied(), None);
-            set(&mut self.drawn, k, child.drawn.get(m).copied(), None);
-            set(&mut self.param_angles, k, child.param_angles.get(m).copied(), 0);
-            if let Some(&formula) = child.param_formulas.get(m) {
-                set(&mut self.param_formulas, k, Some(formula), formula);
-            }
+            set(&mut self.params, k, child.params.get(m).copied(), ParamState::default());
         }
     }
 
@@ -86,7 +83,7 @@ impl<'a> Checker<'a> {
                 let (Entity::Body(k), inside) = (import.entity, import.inside) else { continue };
                 let frame = match inside {
                     Entity::Body(m) => child.bodies.get(m).copied(),
-                    _ => Some(child.ground),
+                    _ => Some(child.address.ground),
                 };
                 set(&mut self.bodies, k, frame, Frame::Ground);
             }

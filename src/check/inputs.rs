@@ -29,17 +29,25 @@ impl Given {
     }
 }
 
+/// What is known of an input.
+pub(super) struct InputState<'a> {
+    pub name: &'a Name,
+    pub formula: &'a Expr,
+    /// `None` before its turn, and where it is broken.
+    pub value: Option<Value>,
+}
+
 impl Checker<'_> {
     /// Says which of the values set from outside are of no parameter, or of one that a part's user has bound.
     pub(super) fn look_over_settings(&mut self) {
-        if self.settings.is_empty() {
+        if self.around.settings.is_empty() {
             return;
         }
         let params = self.settable_names(|item| match item {
             ItemKind::Param { name, .. } => Some(name),
             _ => None,
         });
-        for setting in self.settings {
+        for setting in &self.around.settings {
             let (path, span) = (&setting.path, setting.value.span);
             let owner = path.rsplit_once('.').filter(|(_, axis)| ["x", "y"].contains(&axis.trim()));
             let is_it = |full: &str| is_told_by(full, path) || owner.is_some_and(|(owner, _)| is_told_by(full, owner));
@@ -49,7 +57,7 @@ impl Checker<'_> {
 
     /// Says which of the formulas given are of no input, or of one that another one is of too.
     pub(super) fn look_over_given(&mut self) {
-        let given = self.given;
+        let given = &self.around.given;
         if given.formulas.is_empty() {
             return;
         }
@@ -100,7 +108,7 @@ impl Checker<'_> {
 
     /// The samples given, if they can be used.
     pub(super) fn samples_given(&mut self) -> Option<Samples> {
-        let file = self.given.samples?;
+        let file = self.around.given.samples?;
         let sources = self.sources;
         let headed = self.or_reported(samples::header(sources.get(file), file))?;
         let inputs = self.all_inputs();
@@ -128,7 +136,7 @@ impl Checker<'_> {
         if !self.look_over_name(Settable::Column, &path, head.span, inputs, |full| full == path) {
             return false;
         }
-        let twice = self.given.formulas.iter().find(|(told, _)| is_told_by(&path, told));
+        let twice = self.around.given.formulas.iter().find(|(told, _)| is_told_by(&path, told));
         if let Some((_, formula)) = twice {
             self.report(errors::input_told_twice(&path, [head.span, formula.span]));
         }
@@ -141,16 +149,16 @@ impl Checker<'_> {
         let before = self.model.conditions.len();
         let Some(in_file) = self.input_value(name, formula) else { return };
         let needs = Needs { before, behind_own: self.model.conditions.len() };
-        if self.bound_inputs.contains(&name.text.as_str()) {
+        if self.bound.inputs.contains(&name.text.as_str()) {
             self.inputs[k].value = Some(in_file);
             // its own formula says nothing of the motion
             self.model.conditions.truncate(before);
             return;
         }
-        let full = format!("{}{}", self.path, name.text);
+        let full = format!("{}{}", self.address.path, name.text);
         let samples = self.samples.clone();
         let column = samples.as_ref().and_then(|samples| samples.columns.iter().find(|column| column.name == full));
-        let formulas = &self.given.formulas;
+        let formulas = &self.around.given.formulas;
         let told = formulas.iter().rev().find(|(told, _)| is_told_by(&full, told)).map(|(_, formula)| formula);
         let value = match (&samples, column, told) {
             (Some(samples), Some(column), _) => self.sampled(&samples.times, column, in_file.dim),
@@ -201,7 +209,7 @@ impl Checker<'_> {
             && !wanted.is(found)
         {
             let part = Part { span: formula.span, dimension: found };
-            let place = format!("the input `{}{}`", self.path, name.text);
+            let place = format!("the input `{}{}`", self.address.path, name.text);
             self.report(errors::wrong_dimension(&place, wanted, part, self.sources.text(formula.span)));
             return None;
         }

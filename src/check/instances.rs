@@ -93,8 +93,8 @@ impl<'t> Builder<'t, '_> {
         let deciding = self.deciding(tree);
         let definitions = definitions_of(tree);
         let mut checker = Checker::new(&definitions, self.surroundings, self.sources);
-        path.clone_into(&mut checker.path);
-        checker.bound_params = bound
+        path.clone_into(&mut checker.address.path);
+        checker.bound.params = bound
             .iter()
             .map(|(name, value)| BoundParam { name, bound: checker.number_bound(*value), span: None })
             .collect();

@@ -14,7 +14,7 @@ use crate::vocabulary::{Place, QuantityWord, Synonym, Unit};
 impl Checker<'_> {
     /// A point in the place of an axis: one of the axes of its body, or one through the point.
     pub(super) fn axis_for(&self, frame: Frame, point: &Name) -> Option<Fix> {
-        let space = self.features.get(&frame)?;
+        let space = self.common.features.get(&frame)?;
         let owner = self.frame_name(frame);
         if let Some(axis) = space.names(|feature| matches!(feature, Feature::Axis(_))).next() {
             let message = format!("was `{owner}.{axis}` meant?");
@@ -48,7 +48,7 @@ impl Checker<'_> {
             return diagnostic.help(format!("what it supplies is `effort({})`", name.text));
         }
         let body = match self.entity(name) {
-            _ if name.text == "ground" => self.ground,
+            _ if name.text == "ground" => self.address.ground,
             Some(Entity::Body(k)) => self.bodies[k],
             _ => return diagnostic,
         };
@@ -115,7 +115,7 @@ impl Checker<'_> {
             Entity::Body(k) => *self.bodies.get(k)?,
             _ => return None,
         };
-        let space = self.features.get(&frame)?;
+        let space = self.common.features.get(&frame)?;
         let column = |text: String| {
             let message = format!("a column's name is no formula; it is `{text}`");
             Some(Fix::replace(span, text, message, Applies::Probably))
@@ -185,8 +185,8 @@ impl Checker<'_> {
             ExprKind::Negate(inner) => self.angle_in(inner),
             ExprKind::Name(name) => {
                 let Some(Entity::Param(k)) = self.entity(name) else { return None };
-                let declared = *self.angle_params.get(&k)?;
-                Some((name.text.as_str(), Some(declared)))
+                let written = self.params.get(k).filter(|param| param.is_in_angles)?.written?;
+                Some((name.text.as_str(), Some(written.0.span)))
             }
             ExprKind::Product(first, rest) => {
                 // an angle times a radius is the length of an arc, and few radii are whole metres
@@ -205,7 +205,7 @@ impl Checker<'_> {
     /// Remembers a parameter that is given in a unit of angle.
     pub(super) fn remember_angle(&mut self, name: &Name, value: &Expr) {
         if let (Some(Entity::Param(k)), Some(_)) = (self.entity(name), self.angle_in(value)) {
-            self.angle_params.insert(k, name.span);
+            self.params[k].is_in_angles = true;
         }
     }
 

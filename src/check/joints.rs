@@ -14,7 +14,7 @@ impl Checker<'_> {
             match &item.kind {
                 ItemKind::Joint { name, kind, arguments, call_span } => {
                     let joint = self.joint(name, kind, arguments, *call_span);
-                    let (declared, part) = (self.declared(name), self.part);
+                    let (declared, part) = (self.declared(name), self.address.part);
                     let id = joint.map(|kind| self.model.add_joint(Joint { part, declared, kind }));
                     self.set_joint(own.next().unwrap_or_default(), id);
                 }
@@ -208,7 +208,7 @@ impl Checker<'_> {
                     // one pose that is missing is the fault of all its gears
                     let frames = circles.map(|circle| self.model[self.model[circle].center].frame);
                     let without: Vec<Frame> = frames.into_iter().filter(|frame| self.has_no_pose(*frame)).collect();
-                    self.broken_poses.extend(without);
+                    self.common.broken_poses.extend(without);
                 }
                 apart
             }
@@ -245,7 +245,7 @@ impl Checker<'_> {
     fn drawn(&mut self, frame: Frame, local: [ExprId; 2], is_point: bool) -> Option<[f64; 2]> {
         let [x, y] = local.map(|id| self.constant_value(id));
         let (x, y) = (x?, y?);
-        if frame == self.ground {
+        if frame == self.address.ground {
             return Some([x, y]);
         }
         let Some(body) = self.own_body(frame) else { return self.drawn_through_parts(frame, local, is_point) };
@@ -260,7 +260,7 @@ impl Checker<'_> {
     /// The body of a frame, if it is one of this text.
     pub(super) fn own_body(&self, frame: Frame) -> Option<BodyId> {
         match frame {
-            Frame::Body(body) if self.model[body].part == self.part => Some(body),
+            Frame::Body(body) if self.model[body].part == self.address.part => Some(body),
             _ => None,
         }
     }

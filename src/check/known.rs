@@ -6,6 +6,8 @@ use super::formula::{Context, Dim};
 use super::instance::Instance;
 use super::instances::{definitions_of, instance_of};
 use super::mentions::name_of;
+use super::params::ParamState;
+use super::sites::Drawn;
 use super::{Checker, Surroundings};
 use crate::expr::{ExprId, Printer, Symbol};
 use crate::model::{CompoundUnit, Named};
@@ -203,25 +205,23 @@ fn indices(item: &Item, instance: &Instance<'_>) -> Vec<Index> {
 
 impl Checker<'_> {
     fn values_of_params(&mut self) -> Vec<Value> {
-        let formulas = std::mem::take(&mut self.param_formulas);
-        let values = formulas.iter().enumerate().filter_map(|(k, &(name, formula))| {
-            let amount = self.amount_of_param(k, formula)?;
+        let values = (0..self.params.len()).filter_map(|k| {
+            let param = self.params[k];
+            let (name, formula) = param.written?;
+            let amount = self.amount_of_param(&param, formula)?;
             Some(Value { name: Some(name.span), formula: formula.span, is_number: is_number(formula), amount })
         });
-        let values = values.collect();
-        self.param_formulas = formulas;
-        values
+        values.collect()
     }
 
-    fn amount_of_param(&mut self, k: usize, formula: &Expr) -> Option<Amount> {
-        if let Some(drawn) = &self.drawn[k] {
-            let [x, y] = drawn.at;
+    fn amount_of_param(&mut self, param: &ParamState<'_>, formula: &Expr) -> Option<Amount> {
+        if let Some(Drawn { at: [x, y], .. }) = param.drawn {
             return Some(Amount::Point([self.constant_value(x)?, self.constant_value(y)?]));
         }
-        let value = self.params[k]?;
+        let value = param.value?;
         let dimension = value.dim.settled();
         let si = self.constant_value(value.id)?;
-        let is_angle = self.param_angles[k] == 1 && (dimension.is(Dimension::PURE) || dimension.is(Dimension::RATE));
+        let is_angle = param.angle == 1 && (dimension.is(Dimension::PURE) || dimension.is(Dimension::RATE));
         let unit = unit_in(formula, dimension, |name| self.entity_named(name).is_some());
         si.is_finite().then_some(Amount::Number { si, dimension, is_angle, unit })
     }

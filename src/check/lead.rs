@@ -32,13 +32,13 @@ impl Checker<'_> {
     /// Time as formulas see it (s).
     pub(super) fn time(&mut self) -> ExprId {
         let time = self.model.graph.symbol(Symbol::Time);
-        let Some(Lead { times, .. }) = self.lead else { return time };
+        let Some(Lead { times, .. }) = &self.around.lead else { return time };
         self.along_a_line(*times)
     }
 
     /// What an input is while the mechanism is led; else what it is anyway.
     pub(super) fn led_input(&mut self, name: &Name, own: Value, told: Option<Value>, needs: &Needs) -> Option<Value> {
-        let Some(lead) = self.lead else { return told };
+        let Some(lead) = &self.around.lead else { return told };
         // they hold at both ends or not, and say nothing of the way
         let of_told = self.model.conditions.split_off(needs.behind_own);
         let of_own = self.model.conditions.split_off(needs.before);
@@ -63,11 +63,11 @@ impl Checker<'_> {
 
     /// Whether a parameter, or a coordinate of one that is a point, may be set elsewhere than it is: then it is none that follows.
     pub(super) fn is_open(&self, declared: &Declared, name: &str) -> bool {
-        if self.open.is_empty() {
+        if self.around.open.is_empty() {
             return false;
         }
-        let full = format!("{}{name}", self.path);
-        self.open.iter().any(|path| is_told_by(&full, path) || is_told_by(&declared.name, path))
+        let full = format!("{}{name}", self.address.path);
+        self.around.open.iter().any(|path| is_told_by(&full, path) || is_told_by(&declared.name, path))
     }
 
     /// Notes that the next parameter of the model may be set elsewhere than it is (SI).
@@ -78,7 +78,7 @@ impl Checker<'_> {
 
     /// Leaves of a mechanism that is led what leads it: its analysis is of another time, and forces have no part in it.
     pub(super) fn leave_what_leads(&mut self) {
-        if self.lead.is_some() {
+        if self.around.lead.is_some() {
             self.model.leave_what_leads();
         }
     }

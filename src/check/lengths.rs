@@ -72,8 +72,8 @@ impl<'a> Checker<'a> {
                 }
                 ExprKind::Name(name) => {
                     let Some(Entity::Param(k)) = self.entity(name) else { return found };
-                    let (name, formula, is_in_the_text) = self.param_as_given(k);
-                    let value = self.params[k].and_then(|value| self.number_of(value.id))?.abs();
+                    let (name, formula, is_in_the_text) = self.param_as_given(k)?;
+                    let value = self.params[k].value.and_then(|value| self.number_of(value.id))?.abs();
                     let is_number = is_in_the_text && found.is_none_or(|plain| plain.is_number);
                     found = Some(Plain { value, span: formula.span, name: Some(name), is_number });
                     e = formula;
@@ -84,10 +84,10 @@ impl<'a> Checker<'a> {
     }
 
     /// A parameter's name and formula; whether that stands in the text, or was given from outside.
-    fn param_as_given(&self, k: usize) -> (&'a str, &'a Expr, bool) {
-        let (name, value) = self.param_formulas[k];
+    fn param_as_given(&self, k: usize) -> Option<(&'a str, &'a Expr, bool)> {
+        let (name, value) = self.params[k].written?;
         let setting = self.settings_of(name).pop().map(|(_, setting)| setting);
-        (&name.text, setting.map_or(value, |setting| &setting.value), setting.is_none())
+        Some((&name.text, setting.map_or(value, |setting| &setting.value), setting.is_none()))
     }
 
     /// Warns of plain lengths that dwarf all with a unit, and would fit to them if they had that unit.

@@ -85,7 +85,7 @@ impl Checker<'_> {
             }
             ExprKind::Name(name) => match self.entity(name) {
                 Some(Entity::Param(k)) => {
-                    matches!(self.params[k], Some(value) if matches!(value.dim, Dim::Of(d) if d.is(Dimension::RATE)))
+                    matches!(self.params[k].value, Some(value) if matches!(value.dim, Dim::Of(d) if d.is(Dimension::RATE)))
                 }
                 _ => false,
             },
@@ -106,7 +106,7 @@ impl Checker<'_> {
     /// What a body has of a kind, as it is written outside.
     pub(super) fn features_of(&self, body: &Name, wanted: impl Fn(Feature) -> bool) -> Vec<String> {
         let Some(Entity::Body(k)) = self.entity(body) else { return Vec::new() };
-        let space = self.bodies.get(k).and_then(|id| self.features.get(id));
+        let space = self.bodies.get(k).and_then(|id| self.common.features.get(id));
         let names = space.into_iter().flat_map(|space| self.suggestions_in(space, &wanted));
         names.take(MOST_PLACES).map(|name| format!("`{}.{name}`", body.text)).collect()
     }
@@ -114,7 +114,7 @@ impl Checker<'_> {
     /// A feature of another kind in the place of a circle or curve: those that the body has.
     pub(super) fn profile_for(&self, e: &Expr, wanted: impl Fn(Feature) -> bool) -> Option<Fix> {
         let ExprKind::Member { owner, feature } = &e.kind else { return None };
-        let name = self.features.get(&self.frame_of(owner)?)?.names(wanted).next()?;
+        let name = self.common.features.get(&self.frame_of(owner)?)?.names(wanted).next()?;
         Some(Fix::replace(feature.span, name, format!("was `{}.{name}` meant?", owner.text), Applies::Probably))
     }
 

@@ -11,11 +11,11 @@ impl Checker<'_> {
     pub(super) fn mount_parts(&mut self) {
         for k in 0..self.parts.len() {
             let written = self.bindings[k];
-            let Some(id) = self.parts[k].part else { continue };
+            let Some(id) = self.parts[k].address.part else { continue };
             match written.on.as_ref().map(|on| self.carrier_of(on)) {
                 Some(Some(mount)) => self.model.parts[id.index()].mount = mount,
                 Some(None) => {
-                    self.broken_poses.insert(Frame::Part(id));
+                    self.common.broken_poses.insert(Frame::Part(id));
                 }
                 None => {}
             }
@@ -53,22 +53,22 @@ impl Checker<'_> {
                 .collect();
             self.report(errors::carries_itself(&parts));
             for k in circle {
-                let Some(id) = self.parts[k].part else { continue };
-                self.model.parts[id.index()].mount = self.ground;
-                self.broken_poses.insert(Frame::Part(id));
+                let Some(id) = self.parts[k].address.part else { continue };
+                self.model.parts[id.index()].mount = self.address.ground;
+                self.common.broken_poses.insert(Frame::Part(id));
             }
         }
     }
 
     fn mount_of(&self, part: usize) -> Option<Frame> {
-        Some(self.model[self.parts[part].part?].mount)
+        Some(self.model[self.parts[part].address.part?].mount)
     }
 
     /// The part of this text in which a frame is.
     pub(super) fn part_holding(&self, frame: Frame) -> Option<usize> {
         let outwards = std::iter::successors(self.model.part_of(frame), |part| self.model[*part].within);
-        let own = outwards.into_iter().find(|part| self.model[*part].within == self.part)?;
-        self.parts.iter().position(|child| child.part == Some(own))
+        let own = outwards.into_iter().find(|part| self.model[*part].within == self.address.part)?;
+        self.parts.iter().position(|child| child.address.part == Some(own))
     }
 
     /// Whether the place of a part is said by points of bodies, which have places of their own.
@@ -80,12 +80,12 @@ impl Checker<'_> {
 
     /// Where a part's ground is in the frame that carries it; one that has no place, which has been said, is broken.
     pub(super) fn place_part(&mut self, part: usize) {
-        let (Some(at), Some(id)) = (&self.bindings[part].at, self.parts[part].part) else { return };
+        let (Some(at), Some(id)) = (&self.bindings[part].at, self.parts[part].address.part) else { return };
         let site = Site::Mount(self.model[id].mount);
         match self.at_site(site, None, |checker| checker.pose_of_part(at)) {
             Some(pose) => self.model.parts[id.index()].pose = pose,
             None => {
-                self.broken_poses.insert(Frame::Part(id));
+                self.common.broken_poses.insert(Frame::Part(id));
             }
         }
     }
@@ -102,11 +102,12 @@ impl Checker<'_> {
     pub(super) fn drawn_from(&mut self, seer: Frame, frame: Frame, [x, y]: Place) -> Option<Place> {
         if frame == seer {
             // to who writes this, what is in a part that is turned over has its y turned over
-            let is_turned_over = self.model.is_mirrored(self.model.part_of(frame)) != self.model.is_mirrored(self.part);
+            let is_turned_over =
+                self.model.is_mirrored(self.model.part_of(frame)) != self.model.is_mirrored(self.address.part);
             return Some([x, if is_turned_over { self.model.graph.neg(y) } else { y }]);
         }
         let place = self.drawn_place(frame, [x, y])?;
-        if seer == self.ground {
+        if seer == self.address.ground {
             return Some(place);
         }
         if self.is_place_broken(seer) {
@@ -121,18 +122,18 @@ impl Checker<'_> {
     /// Whether a frame has no place in the drawing, as its own pose, or one of what carries it, is broken.
     pub(super) fn is_place_broken(&self, frame: Frame) -> bool {
         let carrier = |frame: &Frame| match *frame {
-            frame if frame == self.ground => None,
+            frame if frame == self.address.ground => None,
             Frame::Ground => None,
-            Frame::Body(body) => self.model[body].part.filter(|part| Some(*part) != self.part).map(Frame::Part),
+            Frame::Body(body) => self.model[body].part.filter(|part| Some(*part) != self.address.part).map(Frame::Part),
             Frame::Part(part) => Some(self.model[part].mount),
         };
-        std::iter::successors(Some(frame), carrier).any(|frame| self.broken_poses.contains(&frame))
+        std::iter::successors(Some(frame), carrier).any(|frame| self.common.broken_poses.contains(&frame))
     }
 
     /// Where a frame is drawn in that of this text.
     pub(super) fn drawn_frame(&mut self, frame: Frame) -> Placement {
         let mut graph = std::mem::replace(&mut self.model.graph, Graph::new());
-        let placement = self.model.drawn(&mut graph, &mut |_, id| id, self.part, frame);
+        let placement = self.model.drawn(&mut graph, &mut |_, id| id, self.address.part, frame);
         self.model.graph = graph;
         placement
     }
@@ -141,7 +142,7 @@ impl Checker<'_> {
     pub(super) fn moves(&self, frame: Frame) -> bool {
         let mut chain = self.model.carrier_chain(frame);
         chain.find_map(|frame| match frame {
-            _ if frame == self.ground => Some(false),
+            _ if frame == self.address.ground => Some(false),
             Frame::Body(_) => Some(true),
             Frame::Ground => Some(false),
             Frame::Part(_) => None,

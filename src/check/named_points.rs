@@ -93,7 +93,7 @@ impl<'a> Checker<'a> {
         {
             return None;
         }
-        match self.features.get(&frame)?.get(&name.text)? {
+        match self.common.features.get(&frame)?.get(&name.text)? {
             Feature::Point(Some(point)) => Some(Own::Point(point)),
             Feature::Point(None) | Feature::Broken => Some(Own::Broken),
             _ => None,
@@ -129,14 +129,14 @@ impl<'a> Checker<'a> {
             return false;
         }
         let frame = match self.entity(owner) {
-            _ if owner.text == "ground" => self.ground,
+            _ if owner.text == "ground" => self.address.ground,
             Some(Entity::Body(k)) => match self.bodies.get(k) {
                 Some(&frame) => frame,
                 None => return false,
             },
             _ => return false,
         };
-        let found = self.features.get(&frame).and_then(|space| space.get(&feature.text));
+        let found = self.common.features.get(&frame).and_then(|space| space.get(&feature.text));
         matches!(found, Some(Feature::Point(_)))
     }
 
@@ -164,9 +164,9 @@ impl<'a> Checker<'a> {
     /// What the name of a point says of the dimension of a formula.
     pub(super) fn is_dimensional_point(&self, name: &Name, wanted: Wanted) -> bool {
         match self.own_point(name, wanted) {
-            Some(Own::Point(point)) => self.dimensional_points.contains(&point),
+            Some(Own::Point(point)) => self.common.dimensional_points.contains(&point),
             Some(Own::Broken) => false,
-            None => self.point_param(name).and_then(|k| self.drawn[k]).is_some_and(|drawn| drawn.dimensional),
+            None => self.point_param(name).and_then(|k| self.params[k].drawn).is_some_and(|drawn| drawn.dimensional),
         }
     }
 
@@ -177,7 +177,7 @@ impl<'a> Checker<'a> {
             return match point {
                 Own::Broken => Found::Broken,
                 Own::Point(point) => {
-                    let (at, dimensional) = (self.model[point].at, self.dimensional_points.contains(&point));
+                    let (at, dimensional) = (self.model[point].at, self.common.dimensional_points.contains(&point));
                     Found::Point(Drawn { at, dimensional })
                 }
             };
@@ -185,7 +185,7 @@ impl<'a> Checker<'a> {
         match self.point_param(name) {
             Some(k) => {
                 self.scope.of_mechanism.get_or_insert(name.span);
-                self.drawn[k].map_or(Found::Broken, Found::Point)
+                self.params[k].drawn.map_or(Found::Broken, Found::Point)
             }
             None => Found::Nothing,
         }
@@ -194,7 +194,7 @@ impl<'a> Checker<'a> {
     /// What a name that is no point stands for in the mechanism; of what is broken, that has been said.
     fn other_than_a_point(&self, name: &Name) -> Result<Option<Entity>, Unread> {
         match self.resolve(name)? {
-            Some(Entity::Param(k)) if self.params[k].is_none() => Err(Unread),
+            Some(Entity::Param(k)) if self.params[k].value.is_none() => Err(Unread),
             known => Ok(known),
         }
     }
@@ -218,7 +218,7 @@ impl<'a> Checker<'a> {
     pub(super) fn no_point_named(&mut self, name: &Name) {
         let Ok(entity) = self.other_than_a_point(name) else { return };
         let own = match self.scope.site {
-            Site::Inside(frame) => self.features.get(&frame),
+            Site::Inside(frame) => self.common.features.get(&frame),
             _ => None,
         };
         if own.is_some_and(Space::is_incomplete) {

@@ -1,10 +1,51 @@
 //! Parts: each is checked as the mechanism that it is, by a checker of its own that shares the model with those around it.
 
+use super::features::Feature;
 use super::instance::Instance;
+use super::names::Space;
+use super::variables::Variables;
 use super::{Checker, Surroundings};
-use crate::model::{Frame, Part};
+use crate::model::{Frame, Named, NamedId, Part, PartId, PointId};
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, ItemKind};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// What a mechanism and all its parts have in common, beside the model and what is said.
+#[derive(Default)]
+pub(super) struct Common {
+    /// By what they are on: curves, points and so on, by their names.
+    pub features: FxHashMap<Frame, Space<Feature>>,
+    /// The points whose formulas hold a unit.
+    pub dimensional_points: FxHashSet<PointId>,
+    /// Bodies whose place in the drawing is not known.
+    pub broken_poses: FxHashSet<Frame>,
+    /// The graph's named symbols, and how many time derivatives each holds.
+    pub named: FxHashMap<Named, NamedId>,
+    pub derivative_orders: Vec<u8>,
+    /// Values of the graph's nodes, NaN where they are not constant.
+    pub values: Vec<f64>,
+    /// What derivatives are taken by.
+    pub variables: Variables,
+}
+
+/// Where a text stands in the whole mechanism.
+pub(super) struct Address {
+    /// What its names begin with there: `leg[2].`, or nothing.
+    pub path: String,
+    /// Of a part: what it is in the model.
+    pub part: Option<PartId>,
+    /// What its ground is there.
+    pub ground: Frame,
+    /// Of a part: its name and those of the parts around it, and where they stand.
+    pub used_at: Vec<(String, Span)>,
+}
+
+impl Default for Address {
+    /// That of the whole.
+    fn default() -> Address {
+        Address { path: String::new(), part: None, ground: Frame::Ground, used_at: Vec::new() }
+    }
+}
 
 impl<'a> Checker<'a> {
     /// A checker of a mechanism with its parts, which are all there before anything of them is read; each knows its path, and where it is
@@ -18,8 +59,8 @@ impl<'a> Checker<'a> {
     ) -> Checker<'a> {
         let mut checker = Checker::new(instance.tree(), surroundings, sources);
         checker.deciding = instance.deciding.clone();
-        path.clone_into(&mut checker.path);
-        checker.used_at = used_at.to_vec();
+        path.clone_into(&mut checker.address.path);
+        checker.address.used_at = used_at.to_vec();
         checker.collect(instance.tree());
         let mut parts = instance.parts.iter();
         for item in &instance.tree().items {
@@ -29,7 +70,7 @@ impl<'a> Checker<'a> {
             let mut used_at = used_at.to_vec();
             used_at.insert(0, (name.clone(), part.name.span));
             let mut child = Checker::of_instance(inner, surroundings, sources, &format!("{name}."), &used_at);
-            child.bound_inputs = part.bindings.iter().map(|binding| binding.name.text.as_str()).collect();
+            child.bound.inputs = part.bindings.iter().map(|binding| binding.name.text.as_str()).collect();
             // what is shared from now on is not the child's own
             checker.diagnostics.extend(std::mem::take(&mut child.diagnostics));
             checker.parts.push(child);
@@ -54,21 +95,14 @@ impl<'a> Checker<'a> {
 
     /// Gives what is shared to another checker, and takes what it has.
     fn share_with(&mut self, other: &mut Checker<'a>) {
-        use std::mem::swap;
-        swap(&mut self.diagnostics, &mut other.diagnostics);
-        swap(&mut self.model, &mut other.model);
-        swap(&mut self.features, &mut other.features);
-        swap(&mut self.named, &mut other.named);
-        swap(&mut self.derivative_orders, &mut other.derivative_orders);
-        swap(&mut self.values, &mut other.values);
-        swap(&mut self.dimensional_points, &mut other.dimensional_points);
-        swap(&mut self.broken_poses, &mut other.broken_poses);
-        swap(&mut self.variables, &mut other.variables);
+        std::mem::swap(&mut self.diagnostics, &mut other.diagnostics);
+        std::mem::swap(&mut self.model, &mut other.model);
+        std::mem::swap(&mut self.common, &mut other.common);
     }
 
     /// Takes in by what the formulas of all texts are differentiated.
     pub(super) fn ask_for_derivatives(&mut self) {
-        self.variables.add(self.tree, &self.path);
+        self.common.variables.add(self.tree, &self.address.path);
         self.in_parts(Checker::ask_for_derivatives);
     }
 
@@ -94,15 +128,15 @@ impl<'a> Checker<'a> {
             inputs: Vec::new(),
             ground_name: format!("{}.ground", declared.name),
             declared,
-            within: self.part,
-            mount: self.ground,
+            within: self.address.part,
+            mount: self.address.ground,
             pose: [zero; 3],
             is_turned_over,
-            is_mirrored: self.model.is_mirrored(self.part) != is_turned_over,
+            is_mirrored: self.model.is_mirrored(self.address.part) != is_turned_over,
         });
         self.in_part(part, |child| {
-            child.part = Some(id);
-            child.ground = Frame::Part(id);
+            child.address.part = Some(id);
+            child.address.ground = Frame::Part(id);
             child.add_frames();
         });
     }

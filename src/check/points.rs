@@ -31,7 +31,7 @@ impl Checker<'_> {
     pub(super) fn point_formula(&mut self, e: &Expr, context: &Context<'_>) -> Option<Drawn> {
         let argument = context.argument.map(|(name, _)| name);
         let dimensional = context.judged || self.holds_dimension(argument, e, Wanted::Point);
-        self.visited = 0;
+        self.calls.visited = 0;
         let at = self.point_at(e, &Context { judged: dimensional, ..*context })?;
         Some(Drawn { at, dimensional })
     }
@@ -121,7 +121,7 @@ impl Checker<'_> {
 
     /// Where a point of a frame is drawn, in the frame of this text; nothing where that is broken.
     pub(super) fn drawn_place(&mut self, frame: Frame, [x, y]: Place) -> Option<Place> {
-        if frame == self.ground {
+        if frame == self.address.ground {
             return Some([x, y]);
         }
         if self.is_place_broken(frame) {
@@ -309,7 +309,7 @@ impl Checker<'_> {
     /// The angle of the way between two points, in (−π, π].
     pub(super) fn direction_of_way(&mut self, way: Place, what: &str, span: Span) -> Option<ExprId> {
         let [dx, dy] = way.map(|id| self.decided(id, DecidedBy::Sign));
-        if dx == Some(0.0) && dy == Some(0.0) && !self.untaken {
+        if dx == Some(0.0) && dy == Some(0.0) && !self.branch.is_untaken {
             self.report(errors::points_coincide(what, span));
             return None;
         }

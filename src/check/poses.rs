@@ -44,12 +44,12 @@ impl<'a> Checker<'a> {
                 None => !self.has_unread_pose(item),
             };
             if !is_sound[k] {
-                self.broken_poses.insert(self.bodies[k]);
+                self.common.broken_poses.insert(self.bodies[k]);
             }
         }
         // those on a circle have none
         let broken = self.bodies.iter().zip(is_sound).filter(|(_, is_sound)| !is_sound);
-        self.broken_poses.extend(broken.map(|(&body, _)| body));
+        self.common.broken_poses.extend(broken.map(|(&body, _)| body));
     }
 
     /// Which bodies the pose of each one names.
@@ -72,7 +72,7 @@ impl<'a> Checker<'a> {
         let mut uses: Vec<_> = uses.collect();
         for (part, child) in self.bindings.iter().zip(&self.parts) {
             // of one whose mount is refused that is said
-            let is_mounted = child.part.is_some_and(|id| self.model[id].mount != self.ground);
+            let is_mounted = child.address.part.is_some_and(|id| self.model[id].mount != self.address.ground);
             let mount = part.on.as_ref().filter(|_| is_mounted).and_then(|on| match &on.kind {
                 ExprKind::Name(name) => position(name).map(|k| (k, name.span)),
                 _ => None,
@@ -102,7 +102,7 @@ impl<'a> Checker<'a> {
     /// Parts whose places go in a circle have none; those of bodies follow.
     fn break_places_of_parts(&mut self, parts: impl Iterator<Item = usize>) {
         for part in parts {
-            self.broken_poses.extend(self.parts[part].part.map(Frame::Part));
+            self.common.broken_poses.extend(self.parts[part].address.part.map(Frame::Part));
         }
     }
 

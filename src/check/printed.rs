@@ -73,12 +73,12 @@ impl Checker<'_> {
     /// The dimension of a plain formula, if its parts fit together as they stand.
     fn dimension_if_judged(&mut self, formula: &Expr, context: &Context<'_>) -> Option<Dim> {
         let said = std::mem::take(&mut self.diagnostics);
-        let known = std::mem::take(&mut self.known_calls);
-        let asked = std::mem::take(&mut self.conditions_of_calls);
+        let known = std::mem::take(&mut self.calls.known);
+        let asked = std::mem::take(&mut self.calls.conditions);
         let conditions = self.model.conditions.len();
         let value = self.formula(formula, &Context { judged: true, ..*context });
         self.model.conditions.truncate(conditions);
-        (self.known_calls, self.conditions_of_calls) = (known, asked);
+        (self.calls.known, self.calls.conditions) = (known, asked);
         let faults = std::mem::replace(&mut self.diagnostics, said);
         value.map(|value| value.dim).filter(|_| !faults.has_errors())
     }
@@ -91,7 +91,9 @@ impl Checker<'_> {
                 ExprKind::Literal { value, unit: None } if *value != 0.0 => return true,
                 ExprKind::Call { name, .. } if self.quantity_word(name).is_some() => {}
                 ExprKind::Name(name) | ExprKind::Call { name, .. } => match self.entity(name) {
-                    Some(Entity::Param(k)) if !self.angle_params.contains_key(&k) => return true,
+                    Some(Entity::Param(k)) if !self.params.get(k).is_some_and(|param| param.is_in_angles) => {
+                        return true;
+                    }
                     Some(Entity::Function(_) | Entity::Table(_)) => return true,
                     Some(Entity::Measure(k)) if self.measure_known(k).is_some_and(|known| known.holds_plain_number) => {
                         return true;
@@ -169,7 +171,7 @@ impl Checker<'_> {
 
     fn angle_power_of_name(&self, name: &Name) -> i32 {
         match self.entity(name) {
-            Some(Entity::Param(k)) => self.param_angles.get(k).copied().unwrap_or(0),
+            Some(Entity::Param(k)) => self.params.get(k).map_or(0, |param| param.angle),
             Some(Entity::Measure(k)) => self.measure_known(k).map_or(0, |measure| measure.angle),
             Some(Entity::Result(k)) => self.result_known(k).map_or(0, |result| result.angle),
             Some(_) => 0,

@@ -27,7 +27,7 @@ impl Checker<'_> {
         if quantity.may_not_exist() {
             self.ask_for_existence(quantity, e.span);
         }
-        let id = self.name_symbol(Named::Quantity(self.part, quantity), quantity.order());
+        let id = self.name_symbol(Named::Quantity(self.address.part, quantity), quantity.order());
         Some(Value { id, dim: Dim::Of(quantity.dimension()) })
     }
 
@@ -95,7 +95,7 @@ impl Checker<'_> {
             }
             ("curvature", [p]) => Quantity::Curvature(self.point(p)?),
             ("speed", [p]) => Quantity::Speed(self.point(p)?),
-            ("pole_x" | "pole_y", [b]) => Quantity::Pole(self.body_of(b)?, self.ground, part_of(name)),
+            ("pole_x" | "pole_y", [b]) => Quantity::Pole(self.body_of(b)?, self.address.ground, part_of(name)),
             ("pole_x" | "pole_y", [b, c]) => {
                 let (b, c) = (self.body_of(b), self.body_of(c));
                 Quantity::Pole(b?, c?, part_of(name))
@@ -116,9 +116,9 @@ impl Checker<'_> {
 
     /// Asks that a quantity exists, where the branch that it stands in counts.
     fn ask_for_existence(&mut self, quantity: Quantity, span: Span) {
-        let exists = self.name_symbol(Named::Exists(self.part, quantity), quantity.order());
+        let exists = self.name_symbol(Named::Exists(self.address.part, quantity), quantity.order());
         let one = self.model.graph.constant(1.0);
-        let positive = self.guard.map_or(exists, |guard| self.model.graph.select(guard, exists, one));
+        let positive = self.branch.guard.map_or(exists, |guard| self.model.graph.select(guard, exists, one));
         let kind = ConditionKind::Existence;
         self.model.conditions.push(Condition { positive, kind, span, owner: String::new() });
     }
@@ -217,7 +217,7 @@ impl Checker<'_> {
     /// A body of that name, or the ground.
     pub(super) fn body(&mut self, name: &Name) -> Option<Frame> {
         if name.text == "ground" {
-            return Some(self.ground);
+            return Some(self.address.ground);
         }
         match self.resolve(name).ok()? {
             Some(Entity::Body(k)) => self.bodies.get(k).copied(),

@@ -38,7 +38,7 @@ impl Checker<'_> {
     /// Results, which no row needs.
     pub(super) fn results(&mut self) {
         self.model.named_before_results = self.model.named.len();
-        if self.lead.is_none() {
+        if self.around.lead.is_none() {
             self.result_values();
             self.list_results();
         }

@@ -4,6 +4,7 @@
 use super::table_file::{between_commas, number};
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Source, Span};
+use crate::syntax::normalized;
 use crate::vocabulary::{CompoundUnit, Dimension, Unit};
 
 /// What the rows of a table are, in messages.
@@ -188,7 +189,7 @@ impl<'a> Headed<'a> {
 impl Head<'_> {
     /// The input that it is of; the numbers of a copy may be written with spaces.
     pub fn path(&self) -> String {
-        super::normalized(self.name).chars().filter(|c| !c.is_whitespace()).collect()
+        normalized(self.name).chars().filter(|c| !c.is_whitespace()).collect()
     }
 
     fn column(&self, values: Vec<f64>) -> Column {

@@ -27,7 +27,9 @@ impl Checker<'_> {
     /// the first `before` are its own.
     pub(super) fn set_input(&mut self, name: &Name, own: Value, before: usize) -> Option<Value> {
         let declared = self.declared(name);
-        let Some(SetInputs { t, bend, .. }) = self.set_inputs.filter(|set| set.names.contains(&declared.name)) else {
+        let Some(SetInputs { t, bend, .. }) =
+            self.around.set_inputs.as_ref().filter(|set| set.names.contains(&declared.name))
+        else {
             return Some(own);
         };
         let (t, bends, params) = (*t, *bend, &self.model.params);

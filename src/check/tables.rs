@@ -192,7 +192,7 @@ impl<'a> Checker<'a> {
 
     /// The text that a table names, if it could be read.
     fn file_of_table(&mut self, path: &Name) -> Option<FileId> {
-        match self.files.get(&(path.span.file, path.text.clone())) {
+        match self.around.files.get(&(path.span.file, path.text.clone())) {
             Some(Ok(file)) => Some(*file),
             Some(Err(diagnostic)) => {
                 let named = "named here";
@@ -273,7 +273,7 @@ impl<'a> Checker<'a> {
         let ends = [self.constant_value(first)?, self.constant_value(last)?];
         if let Some(value) = self.constant_value(x) {
             let slack = AT_THE_END * (ends[1] - ends[0]);
-            if !self.untaken && (value < ends[0] - slack || value > ends[1] + slack) {
+            if !self.branch.is_untaken && (value < ends[0] - slack || value > ends[1] + slack) {
                 self.report(errors::out_of_table(name, value, ends, made.columns[0].settled(), span));
                 return None;
             }
@@ -289,7 +289,7 @@ impl<'a> Checker<'a> {
         for way in ways {
             let room = self.model.graph.add(way, slack);
             let one = self.model.graph.constant(1.0);
-            let positive = self.guard.map_or(room, |guard| self.model.graph.select(guard, room, one));
+            let positive = self.branch.guard.map_or(room, |guard| self.model.graph.select(guard, room, one));
             let owner = context.place.to_owned();
             self.model.conditions.push(Condition { positive, kind: ConditionKind::Range(made.id), span, owner });
         }

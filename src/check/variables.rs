@@ -82,7 +82,7 @@ fn named(e: &Expr) -> Option<String> {
 impl Checker<'_> {
     /// A number of its own, if derivatives are taken by it.
     pub(super) fn note_param(&mut self, declared: &Declared, symbol: Symbol, dim: Dim) {
-        if self.variables.is_asked(&declared.name) {
+        if self.common.variables.is_asked(&declared.name) {
             let is_angle = self.is_angle(&declared.name);
             self.add_variable(declared.clone(), symbol, dim, is_angle);
         }
@@ -90,7 +90,7 @@ impl Checker<'_> {
 
     /// What has a formula of its own, with a shift if derivatives are taken by it.
     pub(super) fn with_shift(&mut self, declared: &Declared, value: Value) -> Value {
-        if !self.variables.is_asked(&declared.name) {
+        if !self.common.variables.is_asked(&declared.name) {
             return value;
         }
         let symbol = Symbol::Shift(self.model.variables.len() as u32);
@@ -101,9 +101,9 @@ impl Checker<'_> {
     }
 
     fn is_angle(&self, name: &str) -> bool {
-        let own = name.strip_prefix(self.path.as_str()).unwrap_or(name);
+        let own = name.strip_prefix(self.address.path.as_str()).unwrap_or(name);
         match self.space.get(own) {
-            Some(Entity::Param(k)) => self.param_angles.get(k) == Some(&1),
+            Some(Entity::Param(k)) => self.params.get(k).is_some_and(|param| param.angle == 1),
             Some(Entity::Input(k)) => self.inputs.get(k).is_some_and(|input| self.angle_power(input.formula) == 1),
             _ => false,
         }
@@ -111,7 +111,7 @@ impl Checker<'_> {
 
     fn add_variable(&mut self, declared: Declared, symbol: Symbol, dim: Dim, is_angle: bool) {
         let number = self.model.variables.len() as u32;
-        self.variables.known.insert(declared.name.clone(), number);
+        self.common.variables.known.insert(declared.name.clone(), number);
         self.model.variables.push(Variable { declared, symbol, dimension: dim.settled(), is_angle });
     }
 
@@ -142,26 +142,26 @@ impl Checker<'_> {
             return None;
         }
         let dim = Dim::Of(inner.dim.settled().over(self.model.variables[variable as usize].dimension));
-        let within = self.part.filter(|_| self.is_coupled());
+        let within = self.address.part.filter(|_| self.is_coupled());
         let is_of_force = self.holds_force(inner.id);
         if is_of_force {
-            self.variables.of_forces.push(e.span);
+            self.common.variables.of_forces.push(e.span);
         }
-        self.model.asked_in_parts.extend(self.part.map(|part| AskedInPart { part, span: e.span, is_of_force }));
+        self.model.asked_in_parts.extend(self.address.part.map(|part| AskedInPart { part, span: e.span, is_of_force }));
         let id = self.name_symbol(Named::By(inner.id, variable, within), rates);
-        self.variables.orders.insert(id, (times + 1, rates));
+        self.common.variables.orders.insert(id, (times + 1, rates));
         Some(Value { id, dim })
     }
 
     /// Whether derivatives in this text are by its own equations alone, though it moves together with what is around it.
     fn is_coupled(&self) -> bool {
-        let path = self.path.trim_end_matches('.');
-        self.coupled.iter().any(|coupled| coupled == path)
+        let path = self.address.path.trim_end_matches('.');
+        self.around.coupled.iter().any(|coupled| coupled == path)
     }
 
     /// What an input of this part is bound to, which is held where derivatives are taken by the part's own equations.
     pub(super) fn held(&mut self, value: Value) -> Value {
-        let Some(part) = self.part.filter(|_| self.is_coupled()) else { return value };
+        let Some(part) = self.address.part.filter(|_| self.is_coupled()) else { return value };
         let order = self.derivative_order(value.id);
         Value { id: self.name_symbol(Named::Held(part, value.id), order), ..value }
     }
@@ -170,17 +170,18 @@ impl Checker<'_> {
     pub(super) fn note_rate(&mut self, of: ExprId, rate: ExprId) -> bool {
         let (times, rates) = self.variation_orders(of);
         if times > 0 {
-            self.variables.orders.insert(rate, (times, rates + 1));
+            self.common.variables.orders.insert(rate, (times, rates + 1));
         }
         times == 0 || rates < MOST_RATES
     }
 
     /// By how many variables a formula is differentiated, and how often by time there.
     fn variation_orders(&self, id: ExprId) -> (u8, u8) {
-        if self.variables.orders.is_empty() {
+        if self.common.variables.orders.is_empty() {
             return (0, 0);
         }
-        let parts = self.model.graph.reachable(&[id]).into_iter().filter_map(|part| self.variables.orders.get(&part));
+        let parts =
+            self.model.graph.reachable(&[id]).into_iter().filter_map(|part| self.common.variables.orders.get(&part));
         parts.fold((0, 0), |all, part| (all.0.max(part.0), all.1.max(part.1)))
     }
 
@@ -189,7 +190,8 @@ impl Checker<'_> {
         let is_jerk = |&symbol: &Symbol| match symbol {
             Symbol::Named(k) => match self.model.named[k as usize] {
                 Named::Derivative(inner) => {
-                    let is_third = self.derivative_orders.get(k as usize).is_some_and(|&order| order > MOST_RATES);
+                    let is_third =
+                        self.common.derivative_orders.get(k as usize).is_some_and(|&order| order > MOST_RATES);
                     is_third && self.holds_named(inner, |named| matches!(named, Named::Quantity(..)))
                 }
                 _ => false,
@@ -198,22 +200,22 @@ impl Checker<'_> {
         };
         let holds_jerk = |load: &&Load| self.model.graph.symbols(load.force).iter().any(is_jerk);
         let Some(load) = self.model.loads.iter().find(holds_jerk).map(|load| load.declared.clone()) else { return };
-        for span in std::mem::take(&mut self.variables.of_forces) {
+        for span in std::mem::take(&mut self.common.variables.of_forces) {
             self.report(errors::derivative_through_a_jerk(span, &load));
         }
     }
 
     /// The number of what a derivative is taken by.
     fn variable(&mut self, by: &Expr) -> Option<u32> {
-        let own = named(by).map(|name| format!("{}{name}", self.path));
+        let own = named(by).map(|name| format!("{}{name}", self.address.path));
         let path = named(by).unwrap_or_default();
-        if let Some(bound) = self.binding_of(&format!("{}{path}", self.path)) {
-            let own = |name: &String| name.strip_prefix(self.path.as_str()).unwrap_or(name).to_owned();
+        if let Some(bound) = self.binding_of(&format!("{}{path}", self.address.path)) {
+            let own = |name: &String| name.strip_prefix(self.address.path.as_str()).unwrap_or(name).to_owned();
             let made_of: Vec<String> = bound.made_of.iter().map(own).collect();
             self.report(errors::by_bound(by.span, &path, bound.span, &made_of));
             return None;
         }
-        let known = own.and_then(|name| self.variables.known.get(&name).copied());
+        let known = own.and_then(|name| self.common.variables.known.get(&name).copied());
         if known.is_some() {
             return known;
         }
