@@ -1,6 +1,6 @@
 //! Masses, loads, and the forces that are asked for: what a mechanism's motion takes and gives.
 
-use super::{BodyId, Condition, Declared, Dimension, EquationId, JointId, Mechanism, Named, PartId, PointId, Quantity};
+use super::{BodyId, Condition, Declared, Dimension, EquationId, JointId, Mechanism, PartId, PointId, Quantity};
 use crate::expr::ExprId;
 use crate::source::Span;
 
@@ -73,12 +73,6 @@ impl Mechanism {
             Force::ReactionX(_) | Force::ReactionY(_) => Dimension::FORCE,
             Force::ReactionTorque(_) => Dimension::ENERGY,
         }
-    }
-
-    /// Whether forces are to be computed.
-    #[must_use]
-    pub fn asks_for_forces(&self) -> bool {
-        self.reactions || self.draws_forces() || self.named.iter().any(|named| matches!(named, Named::Force(..)))
     }
 
     /// Whether there are forces to draw, and they are to be drawn.

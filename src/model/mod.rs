@@ -7,6 +7,7 @@ mod equations;
 mod features;
 mod forces;
 mod joints;
+mod named;
 mod params;
 mod parts;
 mod placement;
@@ -20,10 +21,11 @@ pub use equations::{Analysis, Condition, ConditionKind, Equation, EquationForm, 
 pub use features::{Axis, Body, Circle, Curve, Frame, Point, Profile, Side};
 pub use forces::{Force, Load, Mass};
 pub use joints::{Joint, JointKind};
+pub use named::Named;
 pub use params::{Input, Led, Param, Variable};
 pub use parts::{AskedInPart, Part};
 pub use placement::Placement;
-pub use quantities::{Direction, Named, Quantity};
+pub use quantities::{Direction, Quantity};
 pub use quotients::quotient;
 pub use results::{Outcome, Reduction, ReductionKind};
 
@@ -297,5 +299,11 @@ impl Mechanism {
     #[must_use]
     pub fn is_mirrored(&self, part: Option<PartId>) -> bool {
         part.is_some_and(|part| self[part].is_mirrored)
+    }
+
+    /// Whether forces are to be computed.
+    #[must_use]
+    pub fn asks_for_forces(&self) -> bool {
+        self.reactions || self.draws_forces() || self.named.iter().any(|named| matches!(named, Named::Force(..)))
     }
 }
