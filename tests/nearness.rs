@@ -356,3 +356,38 @@ fn many_small_four_bars_far_apart_are_not_near_a_singular_position() {
     assert!(codes.is_empty(), "{}", outcome.text());
     assert_eq!(outcome.rows.len(), 7);
 }
+
+/// What rounding leaves of the slope of such an equation is none, wherever the body stands.
+#[test]
+fn an_equation_that_always_holds_fixes_nothing() {
+    const IDENTITIES: [&str; 6] = [
+        "distance(k.A, k.B) = 40 mm",
+        "x(k.A, k.B)^2 + y(k.A, k.B)^2 = (40 mm)^2",
+        "tan(angle(k)) * cos(angle(k)) = sin(angle(k))",
+        "0.1 * angle(k) + 0.2 * angle(k) = 0.3 * angle(k)",
+        "part * angle(k) + 2 * part * angle(k) = 3 * part * angle(k)",
+        // B' is where A is, but for rounding
+        "x(k.C) = 0.3 m",
+    ];
+    for identity in IDENTITIES {
+        for degrees in (0..180).step_by(7) {
+            let text = format!(
+                "mechanism held {{
+                    param part = 0.1
+                    ground {{ point A = (0.3 m, 0.1 m) }}
+                    body k at (0.3 m, 0.1 m, {degrees} deg) {{
+                        point A = (0, 0)
+                        point B = (40 mm, 0)
+                        point C = (0.1 m + 0.2 m - 0.3 m, 0)
+                    }}
+                    joint ja: revolute(ground.A, k.A)
+                    constraint d: {identity}
+                    analysis from 0 s to 1 s every 0.5 s
+                }}"
+            );
+            let (outcome, codes) = outcome(&text);
+            let is_refused = codes.iter().any(|code| ["E0503", "E0504"].contains(code));
+            assert!(is_refused, "{identity}, {degrees}: {}", outcome.text());
+        }
+    }
+}

@@ -7,6 +7,9 @@ use super::vary::VariedTables;
 use super::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, Unary};
 use rustc_hash::FxHashMap;
 
+/// A sum of numbers is what rounding leaves of them where it is no more than this part of the larger.
+const CANCELLED: f64 = 4.0 * f64::EPSILON;
+
 impl Graph {
     /// Forward: the derivatives of the roots along a direction that gives each symbol its own derivative
     /// (`None` for a symbol that does not change).
@@ -97,7 +100,7 @@ impl Graph {
                     continue;
                 };
                 let sum = match adjoints.get(&child) {
-                    Some(&already) => self.add(already, share),
+                    Some(&already) => self.sum_of_slopes(already, share),
                     None => share,
                 };
                 adjoints.insert(child, sum);
@@ -106,6 +109,16 @@ impl Graph {
         gradient.retain(|&(_, derivative)| !self.is_zero(derivative));
         gradient.sort_unstable_by_key(|&(symbol, _)| symbol);
         gradient
+    }
+
+    /// The sum of two slopes. What rounding leaves of numbers that cancel is no slope: `0.1 x + 0.2 x - 0.3 x` has none.
+    fn sum_of_slopes(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        let sum = self.add(a, b);
+        let values = [a, b, sum].map(|id| self.as_const(id));
+        match values {
+            [Some(a), Some(b), Some(sum)] if sum.abs() <= CANCELLED * f64::max(a.abs(), b.abs()) => self.constant(0.0),
+            _ => sum,
+        }
     }
 
     fn is_piecewise(&self, id: ExprId) -> bool {

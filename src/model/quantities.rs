@@ -1,7 +1,6 @@
 //! Kinematic quantities.
 
-use super::{AxisId, Dimension, Frame, JointId, PartId, PointId};
-use crate::expr::ExprId;
+use super::{AxisId, Dimension, Frame, JointId, PointId};
 
 /// A scalar function of the coordinates (`elements.md`, "Kinematic quantities").
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]

@@ -52,6 +52,9 @@ pub mod yardstick {
 pub mod kinematics {
     /// What rounding makes of a term.
     pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
+    /// What a row's slope changes it by, over the size of a coordinate, is rounding where it is no more than this part of its largest term: a
+    /// slope's own terms may be larger than those.
+    pub const NO_SLOPE: f64 = 256.0 * f64::EPSILON;
     /// Nearer to a singular position than this, derivatives by inputs and parameters are not computed: they grow there, and each order makes
     /// more of the rounding.
     pub const TRUSTED: f64 = 1e-3;

@@ -233,7 +233,7 @@ fn refuse_singular(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(),
     if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = factored {
         return Err(Box::new(errors::no_value(system, fault, t)));
     }
-    if let Some(row) = kinematics.linear().row_without_slope(WITHOUT_SLOPE) {
+    if let Some(row) = kinematics.row_without_slope(WITHOUT_SLOPE) {
         return Err(Box::new(errors::without_effect(system, row, t)));
     }
     if factored.is_ok() && kinematics.nearness(SINGULAR_START) > SINGULAR_START {

@@ -219,12 +219,16 @@ impl Yardstick {
         &mut self.beside[position]
     }
 
-    /// Takes the magnitudes of slopes where the position was set; `slope` gives those by their positions in the pattern.
-    pub fn measure(&mut self, slope: impl Fn(usize) -> f64) {
+    /// Takes the magnitudes of slopes where the position was set; `slope` gives those by their positions in the pattern, and `rounding` what
+    /// rounding makes of a row. A slope that changes the row by no more over the size of its coordinate is none.
+    pub fn measure(&mut self, slope: impl Fn(usize) -> f64, rounding: impl Fn(usize) -> f64) {
         for k in 0..self.parts.len() {
             if self.parts[k].changes || !self.is_measured {
                 for index in self.parts[k].entries.clone() {
-                    self.magnitudes[index] = self.magnitude(self.entries[index], &slope);
+                    let entry = self.entries[index];
+                    let magnitude = self.magnitude(entry, &slope);
+                    let counts = magnitude * self.size[entry.column as usize] > rounding(entry.row as usize);
+                    self.magnitudes[index] = if counts { magnitude } else { 0.0 };
                 }
                 self.equilibrate(k);
             }

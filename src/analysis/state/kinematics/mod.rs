@@ -68,6 +68,8 @@ pub struct Kinematics {
     /// Rows whose slopes are looked at beside a position, these among them.
     looked_at_beside: Vec<usize>,
     beside: Vec<f64>,
+    /// By row: the largest term of it there; 0 of those that are not looked at there.
+    terms_beside: Vec<f64>,
     doubt: Spread,
     /// Where assembly begins, if not where the file says.
     other_estimates: Option<Vec<f64>>,
@@ -95,7 +97,8 @@ impl Kinematics {
         let n = system.coordinates().len();
         let other_estimates = None;
         let holds = layout::holds(system);
-        let (beside, doubt, variations) = (vec![0.0; n], Spread::new(n), Varied::new(system, &holds));
+        let (beside, terms_beside) = (vec![0.0; n], vec![0.0; n]);
+        let (doubt, variations) = (Spread::new(n), Varied::new(system, &holds));
         Kinematics {
             determined,
             program,
@@ -107,6 +110,7 @@ impl Kinematics {
             bent,
             looked_at_beside,
             beside,
+            terms_beside,
             doubt,
             other_estimates,
             variations,

@@ -102,8 +102,12 @@ impl Kinematics {
     }
 
     pub(super) fn largest_part(&self, row: usize) -> f64 {
-        let terms = self.program.outputs.terms[row].iter().map(|&register| self.registers.get(register).abs());
-        terms.chain(self.steps(row)).fold(0.0, f64::max)
+        self.steps(row).fold(self.largest_term_of(row), f64::max)
+    }
+
+    /// The largest term of a row where the position was set.
+    pub(super) fn largest_term_of(&self, row: usize) -> f64 {
+        self.program.outputs.terms[row].iter().map(|&register| self.registers.get(register).abs()).fold(0.0, f64::max)
     }
 
     /// What each coordinate contributes to a row by its slope.

@@ -3,7 +3,7 @@
 use super::Kinematics;
 use crate::analysis::state::aslant;
 use crate::program::Stage;
-use crate::tolerances::scales::kinematics::BESIDE;
+use crate::tolerances::scales::kinematics::{BESIDE, NO_SLOPE};
 
 impl Kinematics {
     /// Measures the slopes at a position, at the time that was set, by which nearness to a singular position is judged. Those of
@@ -22,7 +22,16 @@ impl Kinematics {
         let coordinate = |column: usize| registers.get(self.program.inputs.coordinates[0] + column as u32);
         let yardstick = self.linear.yardstick();
         yardstick.turn(coordinate);
-        yardstick.measure(|position| registers.get(outputs.phi_q[position]));
+        let terms = |row: usize| outputs.terms[row].iter().map(|&term| registers.get(term).abs());
+        let rounding = |row: usize| NO_SLOPE * terms(row).fold(self.terms_beside[row], f64::max);
+        yardstick.measure(|position| registers.get(outputs.phi_q[position]), rounding);
+    }
+
+    /// A row that is factored and has no slope: its scaled one is less than this, or changes it by no more than rounding does.
+    pub fn row_without_slope(&self, least: f64) -> Option<usize> {
+        let rounding = |row: usize| NO_SLOPE * f64::max(self.largest_term_of(row), self.terms_beside[row]);
+        let is_rounding = |&row: &usize| self.slope(row) <= rounding(row);
+        self.linear.row_without_slope(least).or_else(|| (0..self.system().rows().len()).find(is_rounding))
     }
 
     fn look_beside(&mut self, q: &[f64]) {
@@ -39,7 +48,11 @@ impl Kinematics {
             self.program.run(Stage::Position, &mut self.registers);
             let is_first = way > 0.0;
             for index in 0..self.looked_at_beside.len() {
-                for position in pattern.range(self.looked_at_beside[index]) {
+                let row = self.looked_at_beside[index];
+                let known = if is_first { 0.0 } else { self.terms_beside[row] };
+                let term = self.largest_term_of(row);
+                self.terms_beside[row] = if term.is_finite() { f64::max(known, term) } else { known };
+                for position in pattern.range(row) {
                     let found = self.phi_q(position).abs();
                     let slope = self.linear.yardstick().beside(position);
                     *slope = lesser(if is_first { f64::INFINITY } else { *slope }, found);
