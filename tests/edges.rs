@@ -320,3 +320,31 @@ fn a_long_way_in_a_straight_line_takes_few_steps() {
         assert!(slide("", formula).diagnostics.is_empty(), "{formula}");
     }
 }
+
+/// At a switch the later side counts, but at the end of the analysis, whichever times are asked for.
+#[test]
+fn a_row_at_a_switch_does_not_depend_on_the_other_times() {
+    let text = "mechanism q {
+        ground { point O = (0, 0) }
+        body b { point O = (0, 0) }
+        joint J: revolute(ground.O, b.O)
+        driver D: rotation(J) = if t <= 0.5 then t else t + 5 * (t - 0.5)^2
+        analysis from 0 s to 1 s every 0.25 s
+    }";
+    let (compiled, outcome) = support::compile("text", text);
+    let compiled = compiled.unwrap_or_else(|| panic!("{}", outcome.text()));
+    for (at, to, wanted) in [
+        (vec![0.5], None, 10.0),
+        (vec![0.5, 0.6], None, 10.0),
+        (Vec::new(), None, 10.0),
+        (vec![0.5], Some(0.5), 0.0),
+        (vec![0.5], Some(3.0), 10.0),
+    ] {
+        let asked = mechc::AskedTimes { at, to, ..mechc::AskedTimes::default() };
+        let times = asked.over(compiled.analysis()).and_then(|times| times.times()).expect("times");
+        let (run, _) = compiled.run(&times, &mechc::RunOptions::default());
+        let rows: Vec<Vec<f64>> = run.expect("it runs").map(|row| row.expect("a row")).collect();
+        let row = rows.iter().find(|row| row[0] == 0.5).expect("a row");
+        assert_eq!(row[9], wanted, "{asked:?}");
+    }
+}

@@ -117,7 +117,8 @@ impl Compiled {
     /// It does not get there.
     pub fn stand(&self, t: f64, options: &RunOptions) -> Result<Stand, Diagnostics> {
         let from = self.analysis().map_or(t, |[from, ..]| from.min(t));
-        let (run, said) = self.run(&Times::listed(from, vec![t]), options);
+        let times = Times::listed(from, vec![t]).within_analysis_to(self.analysis().map(|[_, to, _]| to));
+        let (run, said) = self.run(&times, options);
         let layout = RowLayout::new(self.system());
         match run.and_then(|mut run| run.next()) {
             Some(Ok(row)) => Ok(Stand { t, q: layout.position(&row).to_vec() }),

@@ -123,7 +123,8 @@ impl Checked {
         before: &Seen,
     ) -> Option<Seen> {
         let model = self.model()?;
-        let (run, _) = compiled.run(&Times::listed(from, vec![t]), options);
+        let times = Times::listed(from, vec![t]).within_analysis_to(compiled.analysis().map(|[_, to, _]| to));
+        let (run, _) = compiled.run(&times, options);
         let row = run?.next()?.ok()?;
         let motion = Motion::of_rows(&compiled.columns_of_poses(), &before.columns, vec![row], Vec::new());
         if motion.frames() != before.motion.frames() {

@@ -84,7 +84,7 @@ impl AskedTimes {
             let said = format!("`--at` {earliest} s is before the start of the analysis at {from} s");
             return Err(Box::new(unusable(said).help("start earlier with `--from`")));
         }
-        Ok(Some(Times::listed(from, self.at.clone())))
+        Ok(Some(Times::listed(from, self.at.clone()).within_analysis_to(self.to)))
     }
 
     /// All times of the analysis.

@@ -15,7 +15,8 @@ pub struct Times {
 #[derive(Clone, PartialEq, Debug)]
 enum Kind {
     Grid { every: f64, to: f64, last: u64 },
-    Listed(Vec<f64>),
+    /// Those times, of an analysis that ends then at the earliest.
+    Listed { times: Vec<f64>, to: f64 },
 }
 
 impl Times {
@@ -40,7 +41,25 @@ impl Times {
     pub fn listed(from: f64, mut times: Vec<f64>) -> Times {
         times.sort_by(f64::total_cmp);
         times.dedup();
-        Times { from, kind: Kind::Listed(times) }
+        Times { from, kind: Kind::Listed { times, to: from } }
+    }
+
+    /// The same of an analysis that goes on to a time (s), if none of them is later.
+    #[must_use]
+    pub fn within_analysis_to(mut self, end: Option<f64>) -> Times {
+        if let (Kind::Listed { to, .. }, Some(end)) = (&mut self.kind, end) {
+            *to = to.max(end);
+        }
+        self
+    }
+
+    /// When the analysis ends (s), whose times these are, be it later than the last of them: at a switch there the earlier side counts.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        match &self.kind {
+            Kind::Grid { to, .. } => *to,
+            Kind::Listed { times, to } => times.last().map_or(*to, |last| to.max(*last)),
+        }
     }
 
     /// Where the motion begins (s).
@@ -54,7 +73,7 @@ impl Times {
     pub fn interval(&self) -> Option<[f64; 2]> {
         match &self.kind {
             Kind::Grid { to, .. } => Some([self.from, *to]),
-            Kind::Listed(_) => None,
+            Kind::Listed { .. } => None,
         }
     }
 
@@ -63,7 +82,7 @@ impl Times {
     pub fn len(&self) -> u64 {
         match &self.kind {
             Kind::Grid { last, .. } => last + 1,
-            Kind::Listed(times) => times.len() as u64,
+            Kind::Listed { times, .. } => times.len() as u64,
         }
     }
 
@@ -78,7 +97,7 @@ impl Times {
     pub fn span(&self) -> f64 {
         match &self.kind {
             Kind::Grid { to, .. } => to - self.from,
-            Kind::Listed(times) => times.last().map_or(0.0, |last| last - self.from),
+            Kind::Listed { times, .. } => times.last().map_or(0.0, |last| last - self.from),
         }
     }
 
@@ -90,7 +109,7 @@ impl Times {
                 let t = self.from + number as f64 * every;
                 if number == *last && number > 0 && (t - to).abs() <= AT_THE_LAST * every { *to } else { t }
             }
-            Kind::Listed(times) => times[number as usize],
+            Kind::Listed { times, .. } => times[number as usize],
         }
     }
 

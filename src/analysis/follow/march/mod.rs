@@ -59,7 +59,7 @@ impl Follower {
     pub fn new((mut kinematics, state, solver): (Kinematics, State, Option<Arc<Solver>>), times: Times) -> Follower {
         let last = state.t + times.span();
         let span = if times.span() > 0.0 { times.span() } else { UNTOLD_SPAN };
-        let edges = Edges::new(&mut kinematics, &state, span, last);
+        let edges = Edges::new(&mut kinematics, &state, span, times.end());
         let crossing = Crossing::new(&state, span, last);
         let forces = ForceWatch::of(&kinematics, &state);
         let step = Step::new(&kinematics, state, times.span());
