@@ -282,8 +282,12 @@ impl Sweeping<'_> {
         if let Err(error) = written {
             return Err(output.failure(&error));
         }
-        output.close()?;
         let done = summary.count();
+        // what stands under the name is better than a table of nothing
+        let is_nothing = done == 0 && interrupts::caught().is_some();
+        if !is_nothing {
+            output.close()?;
+        }
         if !reporter.is_for_programs() {
             let command = |variant| again(self.arguments).command(&self.variants.settings(variant));
             Reporter::say(&summary.text(&command));
@@ -317,7 +321,7 @@ impl Sweeping<'_> {
                 self.variants.settings(end - 1).join(", ")
             )
         } else {
-            format!("no variant was found before the last one with `{condition}`\n")
+            format!("of the variants that ran to their end none was found before the last one with `{condition}`\n")
         }
     }
 }

@@ -49,6 +49,8 @@ impl Lowering<'_> {
         operands.sort_unstable();
         operands.dedup();
         let (moves, symbol) = (self.moves_anything(variable), self.model.variables[variable as usize].symbol);
+        // what parameters alone decide does not change on the way
+        operands.retain(|&of| !self.graph.dependence(of).is_constant());
         operands.into_iter().any(|of| {
             // how reductions go is not looked at here
             self.graph.dependence(of).on(Dependence::NAMED)

@@ -114,8 +114,8 @@ impl Checked {
 
         let work = move |piece: u64| {
             let begin = first + piece * size;
-            let (block, is_found) = sweeping.block(begin..(begin + size).min(last))?;
-            Some((make(block), is_found))
+            let (block, is_end) = sweeping.block(begin..(begin + size).min(last))?;
+            Some((make(block), is_end))
         };
         Ok(Sweep { crew: Crew::new(jobs, pieces, work), has_ended: false })
     }
@@ -124,13 +124,14 @@ impl Checked {
 impl<T: Send + 'static> Iterator for Sweep<T> {
     type Item = T;
 
-    /// What was made of the next block; `None` behind the last one, behind the one with the variant that is looked for, and when it was cancelled.
+    /// What was made of the next block; `None` behind the last one, behind the one with the variant that is looked for, and when it was
+    /// cancelled: the last block holds what was done of it by then.
     fn next(&mut self) -> Option<T> {
         if self.has_ended {
             return None;
         }
-        let (made, is_found) = self.crew.next()?;
-        self.has_ended = is_found;
+        let (made, is_end) = self.crew.next()?;
+        self.has_ended = is_end;
         Some(made)
     }
 }
@@ -175,7 +176,8 @@ impl<'d> Done<'d> {
 }
 
 impl Sweeping {
-    /// Some variants, up to the one that is looked for, and whether it is among them; nothing when it was cancelled.
+    /// Some variants, up to the one that is looked for, or to where it was cancelled, and whether the sweep ends there; nothing where that is
+    /// before the first.
     fn block(&self, variants: std::ops::Range<u64>) -> Option<(Swept, bool)> {
         let (columns, width) = (self.options.columns.as_ref().map_or(0, Vec::len), self.width());
         let results = self.results - usize::from(self.until.is_some());
@@ -200,7 +202,8 @@ impl Sweeping {
         if let (Some(abreast), Some(side)) = (abreast, side) {
             abreast.give_back(side);
         }
-        found.map(|found| (block, found))
+        let is_empty = found.is_none() && block.is_empty();
+        (!is_empty).then_some((block, found != Some(false)))
     }
 
     /// How many values a variant has, one at least.
@@ -222,9 +225,11 @@ impl Sweeping {
             if self.options.cancel.is_cancelled() {
                 return None;
             }
+            let before = block.len();
             let found = self.push_one(block, params, done.filter(|done| done.lanes[lane]).map(|done| (done, lane)));
-            // who cancelled wants no more, and of this one not all may be there
             if self.options.cancel.is_cancelled() {
+                // of this one not all may be there
+                block.truncate(before);
                 return None;
             }
             if found == Some(1.0) {

@@ -130,6 +130,18 @@ impl Swept {
         }
     }
 
+    /// Keeps the first ones, so many.
+    pub fn truncate(&mut self, variants: usize) {
+        self.statuses.truncate(variants);
+        self.stopped.truncate(variants);
+        self.lengths.truncate(variants);
+        let rows = self.lengths.iter().sum();
+        self.params.iter_mut().chain(&mut self.results).for_each(|column| column.truncate(variants));
+        self.columns.iter_mut().for_each(|column| column.truncate(rows));
+        self.abreast = self.abreast.min(variants);
+        self.answered = self.answered.min(variants);
+    }
+
     /// How many variants it holds.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -145,7 +145,8 @@ impl Survey<'_> {
         }
         let range = self.range(cell);
         let upper = extreme.oriented(range)[1];
-        if extreme.is_above(upper, scale) {
+        // ranges need not show of what rests that it does
+        if extreme.is_above(upper, scale) || scale.rests() && range.is_resolved && !range.may_switch {
             return true;
         }
         match self.formula.derivatives() {

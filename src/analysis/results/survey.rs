@@ -30,6 +30,11 @@ impl Scale {
         self.gap(ALIKE)
     }
 
+    /// Whether all values that were seen are the same, but for rounding.
+    pub fn rests(self) -> bool {
+        self.range <= self.gap(0.0)
+    }
+
     /// A part of the range, but no less than what rounding makes of a value.
     pub fn gap(self, part: f64) -> f64 {
         f64::max(part * self.range, ROUNDING * self.weight).max(NOTHING)

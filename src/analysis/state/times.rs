@@ -14,9 +14,16 @@ pub struct Times {
 
 #[derive(Clone, PartialEq, Debug)]
 enum Kind {
-    Grid { every: f64, to: f64, last: u64 },
+    Grid {
+        every: f64,
+        to: f64,
+        last: u64,
+    },
     /// Those times, of an analysis that ends then at the earliest.
-    Listed { times: Vec<f64>, to: f64 },
+    Listed {
+        times: Vec<f64>,
+        to: f64,
+    },
 }
 
 impl Times {

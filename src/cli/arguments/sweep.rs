@@ -47,7 +47,7 @@ pub(in crate::cli) struct SweepArguments {
     #[arg(long, value_name = "PATTERN", requires = "rows")]
     pub columns: Vec<String>,
 
-    /// Stop at the first variant with this, a condition over results and params: `--until 'stroke > 80 mm'`
+    /// Stop at the first variant that runs to its end with this, a condition over results and params: `--until 'stroke > 80 mm'`
     #[arg(long, value_name = "CONDITION")]
     pub until: Option<String>,
 
