@@ -187,8 +187,10 @@ impl Checker<'_> {
                 Some(Entity::Param(_) | Entity::Input(_) | Entity::Measure(_) | Entity::Result(_))
             );
             let is_a_name = is_argument || !is_time && Constant::named(&name.text).is_some() || is_number;
-            let number = self.sources.text(e.span).trim_end_matches(name.text.as_str()).trim_end();
-            self.report(errors::not_a_unit(name, number, is_a_name));
+            let until_the_name = Span { end: name.span.start, ..e.span };
+            let behind_it = Span { start: name.span.end, ..e.span };
+            let [number, power] = [until_the_name, behind_it].map(|span| self.sources.text(span).trim_end());
+            self.report(errors::not_a_unit(name, [number, power], is_a_name));
             return None;
         };
         let si = unit.to_si(value, *power);
@@ -337,7 +339,7 @@ impl Checker<'_> {
             return;
         }
         if name.text == "min" {
-            self.report(errors::not_a_unit(name, "", false));
+            self.report(errors::not_a_unit(name, ["", ""], false));
             return;
         }
         let is_quantity = QuantityWord::named(&name.text).is_some();

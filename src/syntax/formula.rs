@@ -6,6 +6,7 @@
 use super::ast::{ComparisonSign, Expr, ExprKind, Factor, PathSegment, Sign};
 use super::build::{Built, Reader};
 use super::grammar::Rule;
+use super::tokens::tokens;
 use super::{DEEPEST, errors};
 use crate::source::Span;
 use pest::iterators::Pair;
@@ -96,7 +97,9 @@ fn literal(reader: &Reader<'_>, pair: Pair<'_, Rule>) -> Built<ExprKind> {
 
 /// The power of a unit, from its `^` on.
 pub(super) fn unit_power(reader: &Reader<'_>, pair: &Pair<'_, Rule>) -> Built<i32> {
-    let digits = pair.as_str().trim_start_matches('^').trim();
+    // comments may stand between
+    let digits: String =
+        tokens(pair.as_str()).into_iter().map(|token| token.text).filter(|&text| text != "^").collect();
     let whole: Option<i32> = digits.parse().ok().filter(|p: &i32| p.abs() <= 100);
     whole.ok_or_else(|| {
         let (message, label) = ("the power of a unit is between -100 and 100", "too large");

@@ -191,7 +191,8 @@ impl<'a> Intent<'a> {
     /// `angle(rod) as deg`, `displacement(guide) mm`
     fn of_a_unit_behind(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
         let is_number = last.text.starts_with(|c: char| c.is_ascii_digit());
-        if !self.expects(Rule::infix) || is_number && self.found != "in" {
+        // `2 pi t` is a product with the time
+        if !self.expects(Rule::infix) || is_number && self.found != "in" || self.found == "t" {
             return None;
         }
         let named = |k: usize| {

@@ -8,7 +8,7 @@ mod separators;
 mod uses;
 
 use super::grammar::Rule;
-use super::tokens::{Token, begins_declaration, next_token};
+use super::tokens::{Token, begins_declaration, next_token, tokens};
 use crate::diag::{Applies, Fix, nearest};
 use crate::source::{FileId, Span};
 use crate::vocabulary::{
@@ -154,6 +154,9 @@ impl Fault<'_> {
         if !self.expects(Rule::infix) || !starts_operand || self.is_on_new_line() || !connecting.is_empty() {
             return None;
         }
+        if let Some(factor) = self.of_a_number_before_a_call() {
+            return Some(factor);
+        }
         if is_one_argument_function(self.word_before()) {
             return Some(self.argument());
         }
@@ -168,19 +171,30 @@ impl Fault<'_> {
         Some(self.replaced(self.at..self.at, "* ", "a product is written with `*`", Applies::Probably))
     }
 
+    /// `3 sin(t)`, whose function was taken for a unit.
+    fn of_a_number_before_a_call(&self) -> Option<Mend> {
+        let function = self.word_before();
+        let start = self.before().len() - function.len();
+        let number = tokens(&self.text[..start]).last()?.text;
+        let is_factor = self.found == "(" && number.starts_with(|c: char| c.is_ascii_digit());
+        let words = format!("a product is written with `*`: `{number} * {function}(…)`");
+        is_factor.then(|| self.replaced(start..start, "* ", &words, Applies::Probably))
+    }
+
     /// `sin x`, a function whose argument stands behind it.
     fn argument(&self) -> Mend {
-        let words = format!("what a function is of stands in parentheses: `{}({})`", self.word_before(), self.found);
         let behind = self.behind();
         let mut rest = behind;
         let is_unit = next_token(&mut rest).is_some_and(|token| Unit::named(token).is_some());
         let is_number = self.found.starts_with(|c: char| c.is_ascii_digit());
         let end = if is_number && is_unit { self.text.len() - rest.len() } else { self.here().end };
+        let argument = &self.text[self.at..end];
+        let words = format!("what a function is of stands in parentheses: `{}({argument})`", self.word_before());
         // it goes on: a call, a member, the rest of a number
         if self.found == "(" || behind.trim_start().starts_with(['(', '.']) {
             return Mend::Words(words);
         }
-        let text = format!("({})", &self.text[self.at..end]);
+        let text = format!("({argument})");
         Mend::Fix(Fix::replace(self.span(self.before().len()..end), text, words, Applies::Probably))
     }
 

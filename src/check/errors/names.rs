@@ -25,6 +25,9 @@ pub fn unknown_number(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
         let message = format!("a product is written with `*`: `{written}`");
         return diagnostic.instead(Fix::replace(name.span, written, message, Applies::Probably));
     }
+    if let (Some(power), true) = (power_of_a_unit(&name.text), diagnostic.help.is_empty()) {
+        return diagnostic.instead(Fix::meant(name.span, &power));
+    }
     if let Some([only]) = Synonym::of(Place::Number, &name.text).map(|synonym| synonym.means) {
         return diagnostic.instead(Fix::meant(name.span, only));
     }
@@ -51,6 +54,7 @@ pub fn path_from_outside(span: Span, owner: &str, noun: &str, is_whole: bool) ->
 pub fn names_in_option(name: &Name) -> Diagnostic {
     Diagnostic::new(Code::E0706, format!("a value of the command line cannot name `{}`", name.text))
         .at(name.span, "a name of the file")
+        .fix_if(power_of_a_unit(&name.text).map(|power| Fix::meant(name.span, &power)))
         .help("write it out in numbers and units")
 }
 
@@ -60,6 +64,9 @@ pub fn names_in_formula(name: &Name) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::E0706, format!("a formula of the command line cannot name `{}`", name.text))
         .at(name.span, "not known here");
     let synonym = Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1);
+    if let Some(power) = power_of_a_unit(&name.text) {
+        return diagnostic.fix(Fix::meant(name.span, &power));
+    }
     match (nearest, synonym) {
         (_, Some(synonym)) => diagnostic.help(synonym.say(&[])),
         (Some(fix), None) => diagnostic.fix(fix),
@@ -119,12 +126,12 @@ pub fn unknown_joint(kind: &Name, arguments: &[&str]) -> Diagnostic {
     }
 }
 
-/// A word after a number that is no unit.
-pub fn not_a_unit(name: &Name, number: &str, is_a_name: bool) -> Diagnostic {
+/// A word after a number that is no unit, with that and what stands behind the word.
+pub fn not_a_unit(name: &Name, [number, power]: [&str; 2], is_a_name: bool) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text))
         .at(name.span, "only a unit may follow a number");
     if is_a_name {
-        let words = format!("was `{number} * {}` meant?", name.text);
+        let words = format!("was `{number} * {}{power}` meant?", name.text);
         let diagnostic = diagnostic.fix(Fix::insert(name.span, "* ", words, Applies::Probably));
         // what is a unit elsewhere, and a name here
         return match Synonym::of(Place::Unit, &name.text) {
@@ -135,8 +142,18 @@ pub fn not_a_unit(name: &Name, number: &str, is_a_name: bool) -> Diagnostic {
     meant_unit(diagnostic, name)
 }
 
+/// `mm2`, as it is written.
+pub(super) fn power_of_a_unit(name: &str) -> Option<String> {
+    let unit = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let power = &name[unit.len()..];
+    (!power.is_empty() && Unit::named(unit).is_some()).then(|| format!("{unit}^{power}"))
+}
+
 /// Which unit was meant, or all of them.
 pub(super) fn meant_unit(diagnostic: Diagnostic, name: &Name) -> Diagnostic {
+    if let Some(power) = power_of_a_unit(&name.text) {
+        return diagnostic.fix(Fix::meant(name.span, &power));
+    }
     let units: Vec<&str> = Unit::names().collect();
     match (Synonym::of(Place::Unit, &name.text), Unit::of_multiple(&name.text), meant(name, &units)) {
         (Some(synonym), ..) => diagnostic.help(synonym.say(&[])),

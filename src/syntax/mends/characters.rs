@@ -135,10 +135,19 @@ impl Fault<'_> {
         if self.behind().starts_with(|c: char| c.is_alphanumeric() || c == '_') {
             return Mend::Words(words);
         }
+        if self.behind().trim_start().starts_with('^') {
+            let words = format!("degrees are written `deg`; the power of an angle is `({word} deg)^…`");
+            return Mend::Words(words);
+        }
         if word.parse::<f64>().is_ok() {
             return self.replaced(self.before().len()..self.here().end, " deg", &words, Applies::Always);
         }
         self.replaced(self.here(), " * deg", "degrees are written `deg`", Applies::Probably)
+    }
+
+    /// Whether the number before is all of a param so far.
+    fn is_all_of_a_param(&self) -> bool {
+        matches!(tokens(self.before()).as_slice(), [.., keyword, _, equals, _] if (keyword.text, equals.text) == ("param", "="))
     }
 
     fn is_head_of_fn(&self) -> bool {
@@ -156,9 +165,10 @@ impl Fault<'_> {
         }
         match (self.found, is_number(digits)) {
             (",", true) => {
-                // `1,000` may be a thousand
-                let is_group = digits.len() == 3 && whole != "0";
-                let applies = if is_group { Applies::Probably } else { Applies::Always };
+                // `1,000` may be a thousand, and a param may be a point
+                let is_group = digits.len() == 3;
+                let is_in_doubt = whole != "0" && (is_group || self.is_all_of_a_param());
+                let applies = if is_in_doubt { Applies::Probably } else { Applies::Always };
                 let words = format!("decimals are written with a point: `{whole}.{digits}`");
                 Some(self.replaced(self.before().len()..self.here().end, ".", &words, applies))
             }
