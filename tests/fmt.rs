@@ -570,3 +570,15 @@ fn permissions_and_links_stay() {
     assert_eq!(fs::metadata(at("real.mech")).unwrap().permissions().mode() & 0o777, 0o640);
     assert_eq!(fs::read_to_string(at("beyond.mech")).unwrap(), LOOSE, "one that is met in a folder is passed over");
 }
+
+/// `patch` takes a name up to a tab, and ends lines at `\n` alone.
+#[test]
+fn a_diff_is_one_that_patch_takes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("a b.mech"), "mechanism a {\r\n  param x1 = 1 // a\rb\r\n}\r").unwrap();
+    let (code, diff, _) = fmt(folder.path(), &["--check", "a b.mech"]);
+    assert_eq!(code, 1);
+    let wanted = "--- a b.mech\t\n+++ a b.mech\t\n@@ -1,3 +1,3 @@\n mechanism a {\r\n-  param x1 = 1 // a\rb\r\n-}\r\n\
+        \\ No newline at end of file\n+    param x1 = 1   // a\rb\r\n+}\r\n";
+    assert_eq!(diff, wanted);
+}

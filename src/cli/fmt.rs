@@ -68,8 +68,15 @@ fn replace(name: &str, change: &Change, reporter: &Reporter) -> Result<(), Failu
     Ok(())
 }
 
+/// What stands for a `\r`, which is a line's end for the comparison and none for `patch`: no text holds it.
+const NO_CHARACTER: &str = "\u{fdd0}";
+
 /// What would change, as `patch` takes it; nothing if nothing would.
 fn diff(change: &Change) -> String {
-    let diff = TextDiff::from_lines(&change.old, &change.new);
-    diff.unified_diff().header(&change.name, &change.name).to_string()
+    let [old, new] = [&change.old, &change.new].map(|text| text.replace('\r', NO_CHARACTER));
+    // a tab ends a name that holds spaces
+    let end = if change.name.contains(char::is_whitespace) { "\t" } else { "" };
+    let name = format!("{}{end}", change.name);
+    let diff = TextDiff::from_lines(&old, &new);
+    diff.unified_diff().header(&name, &name).to_string().replace(NO_CHARACTER, "\r")
 }

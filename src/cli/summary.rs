@@ -64,7 +64,10 @@ impl Again<'_> {
     /// The command that shows a variant in full.
     pub fn command(&self, settings: &[String]) -> String {
         let Again { input, interval, at, result, following } = self;
-        let mut words = vec!["mechc".to_owned(), "run".to_owned(), input.file.clone(), "--lead".to_owned()];
+        // no option begins with a folder
+        let is_like_an_option = input.file.starts_with('-') && input.file != "-";
+        let file = if is_like_an_option { format!("./{}", input.file) } else { input.file.clone() };
+        let mut words = vec!["mechc".to_owned(), "run".to_owned(), file, "--lead".to_owned()];
         let mut add = |option: &str, value: &str| words.extend([option.to_owned(), value.to_owned()]);
         input.mechanism.iter().for_each(|name| add("--mechanism", name));
         input.set.iter().chain(settings).for_each(|set| add("--set", set));
