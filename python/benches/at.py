@@ -50,11 +50,16 @@ def main():
     m.at(theta=0.3)
     alone = best(lambda: [m.at(theta=theta).q for theta in thetas]) / len(thetas)
     batch = best(lambda: m.at(theta=array).q) / len(thetas)
+    far = best(lambda: [m.at(theta=0.3).q for _ in range(64)]) / 64
+    spans = [(ends, best(lambda: m.at(theta=np.linspace(*ends, len(thetas))).q, rounds=3) / len(thetas)) for ends in ((0.2, 1.4), (0, 6))]
     careful = best(lambda: m.at(times, theta=array).q, rounds=3) / len(thetas)
     m.at(theta=array)
     print(f"m.at(theta=…).q, one at a time   {alone * 1e6:8.2f} µs")
     print(f"the same in a batch of {len(thetas)}      {batch * 1e6:8.2f} µs an element")
     print(f"beyond solving                   {(alone - LANES * batch) * 1e6:8.2f} µs")
+    print(f"m.at(theta=0.3).q, farther off   {far * 1e6:8.2f} µs")
+    for (low, high), took in spans:
+        print(f"a batch from {low} to {high}          {took * 1e6:8.2f} µs an element")
     print(f"the careful way                  {careful * 1e6:8.2f} µs an element")
 
 

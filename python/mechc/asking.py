@@ -68,8 +68,8 @@ def asked(
         "from": _time("from_", from_),
         "to": _time("to", to),
         "every": _time("every", every),
-        "at": [] if at is None else [time for time in (_time("at", one) for one in many("at", at)) if time is not None],
-        "columns": texts("columns", columns),
+        "at": _times(at),
+        "columns": _patterns(columns),
         "tolerance": None if tolerance is None else bound(tolerance),
         "pass_bifurcations": flag("pass_bifurcations", pass_bifurcations),
         "allow_redundant": flag("allow_redundant", allow_redundant),
@@ -136,6 +136,21 @@ def _time(name: str, value: Any) -> str | None:
     if value is None:
         return None
     return value if isinstance(value, str) else repr(number(name, value))
+
+
+def _times(at: Any) -> list[str]:
+    """Times of their own; one that chooses none is none that says nothing."""
+    found = [] if at is None else [time for time in (_time("at", one) for one in many("at", at)) if time is not None]
+    if at is not None and not found:
+        raise usage("`at` holds no time", "leave it out for all times of the analysis")
+    return found
+
+
+def _patterns(columns: Any) -> list[str]:
+    found = texts("columns", columns)
+    if columns is not None and not found:
+        raise usage("`columns` chooses no column", "leave it out for all columns")
+    return found
 
 
 def bound(value: Any) -> float:
@@ -218,8 +233,13 @@ def _axes(vary: Any) -> Iterable[tuple[str, Any]]:
 
 def _columns_of(variants: Any) -> dict[str, Any]:
     """A table of variants: a mapping to arrays, or a frame."""
+    if hasattr(variants, "collect_schema") and hasattr(variants, "collect"):
+        # a frame that is not there yet
+        variants = variants.collect()
     if isinstance(variants, Mapping):
         columns = dict(variants)
+    elif hasattr(variants, "schema") and hasattr(variants, "column"):
+        columns = {name: variants.column(name) for name in variants.schema.names}
     elif hasattr(variants, "columns") and hasattr(variants, "__getitem__"):
         columns = {name: variants[name] for name in variants.columns}
     else:

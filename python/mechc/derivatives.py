@@ -32,6 +32,7 @@ class Jacobian:
         self.by = by
         #: The names of the rows of ``results``.
         self.result_names = names
+        results.setflags(write=False)
         #: Of shape (results, params), in SI.
         self.results = results
 
@@ -72,6 +73,9 @@ def _names(by: Any) -> list[str]:
     found = ["".join(name.split()) for name in texts("by", by)]
     if not found:
         raise usage("it is not said what it is by", "as in `by=['rod_length']`")
+    twice = next((name for place, name in enumerate(found) if name in found[:place]), None)
+    if twice is not None:
+        raise usage(f"`by` names `{twice}` twice", "each derivative is there once")
     return found
 
 
@@ -97,7 +101,7 @@ class Objective:
         self._name = evaluate.results[place]
         self._failed = failed
         #: The params, in the order of ``x``.
-        self.by = evaluate.by
+        self.by = list(evaluate.by)
         #: Their values in the text (SI).
         self.x0 = evaluate.x0
 
@@ -144,7 +148,7 @@ class Residuals:
         self.columns = columns
         self._wanted = wanted
         #: The params, in the order of ``x``.
-        self.by = evaluate.by
+        self.by = list(evaluate.by)
         #: Their values in the text (SI).
         self.x0 = evaluate.x0
 
@@ -179,6 +183,7 @@ class Evaluation:
             if name not in params:
                 raise usage(f"there is no param `{name}`", meant(name, params) or f"the params are {', '.join(params)}")
         self.x0 = np.array([params[name] for name in self.by])
+        self.x0.setflags(write=False)
         patterns = [*columns, *(f"{column}.by.{name}" for column in columns for name in self.by)] or ["t"]
         asked = {**asked, "by": self.by, "slopes": True, "columns": patterns}
         self._evaluator = m._evaluator(asked, self.by)

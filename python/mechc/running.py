@@ -161,6 +161,10 @@ class Running(Described):
             asked=asked,
         )
         sweep, is_meant = Sweep(self, asked, more, progress), flag("yes", yes)
+        twice = next((name for place, name in enumerate(sweep.columns) if name in sweep.columns[:place]), None)
+        if twice is not None:
+            help = "the table has columns of its own: `variant`, `status`, `stopped`; give that param or result another name"
+            raise usage(f"two columns of the table would be called `{twice}`", help)
         if sweep.variants > MANY and not is_meant:
             help = "add `yes=True` if that is meant, or take a share with `skip=K, take=N`"
             raise usage(f"these are {sweep.variants} variants", help)
@@ -174,7 +178,7 @@ class Running(Described):
         """
         is_strict, columns = flag("strict", options.pop("strict", True)), texts("columns", options.get("columns"))
         # what the caller names has been looked at, and what is named here is none of the caller's
-        asked = {**options, "strict": False, "reactions": True, "columns": columns}
+        asked = {**options, "strict": False, "reactions": True, "columns": columns or None}
         run = Running.run.__wrapped__(self, **asked)  # type: ignore[attr-defined]
         if not columns:
             plain = {*self.columns}

@@ -58,6 +58,9 @@ def number(name: str, value: Any) -> float:
         raise usage(f"`{name}` is {value!r}, which is no number")
     if isinstance(value, np.ndarray) and value.ndim > 0:
         raise usage(f"`{name}` is an array of shape {value.shape}, and one number is wanted")
+    _refuse_masked(name, value)
+    if np.iscomplexobj(value):
+        raise usage(f"`{name}` is {_shown(value)}, and a real number is wanted")
     try:
         found = float(value)
     except (TypeError, ValueError, OverflowError):
@@ -65,6 +68,12 @@ def number(name: str, value: Any) -> float:
     if not math.isfinite(found):
         raise usage(f"`{name}` is {found}", "only finite numbers can be computed with")
     return found
+
+
+def _refuse_masked(name: str, values: Any) -> None:
+    """What is masked is no number, whatever stands below the mask."""
+    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+        raise usage(f"`{name}` has elements that are masked", "only numbers can be computed with")
 
 
 def whole(name: str, value: Any, least: int = 0) -> int:
@@ -187,7 +196,7 @@ def varied(name: str, values: Any, unit: str) -> str | bytes:
         return f"{name}={ends}" if values.count is None else f"{name}={ends}:{values.count}"
     if isinstance(values, str):
         return f"{name}={values}"
-    found = values if isinstance(values, np.ndarray) else many(name, values)
+    found = values if isinstance(values, np.ndarray) and values.ndim > 0 else many(name, values)
     if len(found) == 0:
         raise usage(f"`{name}` varies over no value", "give a list of values, or `mechc.between(A, B, N)`")
     if not isinstance(found, np.ndarray) and any(isinstance(value, str) for value in found):
@@ -199,6 +208,7 @@ def table(columns: Mapping[str, Any], units: Mapping[str, str]) -> bytes:
     """Variants as the CSV that the command reads: a column for each param, numbers in SI."""
     lists: dict[str, list[float]] = {}
     for name, values in columns.items():
+        _refuse_masked(name, values)
         array = np.asarray(values)
         if array.ndim != 1 or array.dtype.kind not in "iuf":
             listed = many(name, values)
@@ -227,6 +237,7 @@ def elements(name: str, values: Any) -> float | np.ndarray[Any, Any]:
     """Numbers for many elements, as an array; a number for what is one."""
     if isinstance(values, (bool, np.bool_)):
         return number(name, values)
+    _refuse_masked(name, values)
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):

@@ -196,3 +196,60 @@ def test_what_is_something_else_is_told_in_words(ask, words):
 def test_infinity_may_stand_for_what_failed():
     f = mechc.load(CRANK).objective("peak", by=["rod_length"], results=PEAK, failed=np.inf)
     assert f([0.01])[0] == np.inf
+
+
+@pytest.mark.parametrize("given", [{"at": []}, {"at": np.array([])}, {"columns": []}, {"columns": ()}])
+def test_a_choice_of_nothing_is_not_all(given):
+    m = mechc.load(CRANK)
+    with pytest.raises(mechc.UsageError, match="leave it out for all"):
+        m.run(**given)
+    with pytest.raises(mechc.UsageError, match="leave it out for all"):
+        m.sweep(vary={"crank_length": [0.05]}, rows=True, **given)
+
+
+@pytest.mark.parametrize("value", [1 + 1j, np.complex128(0.05), np.array(0.05 + 0j), np.ma.masked_array(0.05, mask=True)])
+def test_what_is_not_real_or_is_masked_is_no_number(value):
+    m = mechc.load(CRANK)
+    with pytest.raises(mechc.UsageError):
+        m.at(0.0, crank_length=value)
+    with pytest.raises(mechc.UsageError):
+        m.run(crank_length=value)
+
+
+def test_masked_elements_are_no_numbers():
+    m, masked = mechc.load(CRANK), np.ma.masked_array([0.05, 0.06], mask=[False, True])
+    for ask in (lambda: m.at(0.0, crank_length=masked), lambda: m.sweep(vary={"crank_length": masked}, results=PEAK)):
+        with pytest.raises(mechc.UsageError, match="masked"):
+            ask()
+    whole = np.ma.masked_array([0.05, 0.06], mask=False)
+    assert len(m.sweep(vary={"crank_length": whole}, results=PEAK)) == 2
+
+
+@pytest.mark.parametrize("name", ["variant", "status", "stopped"])
+def test_results_do_not_take_the_names_of_a_sweeps_own_columns(name):
+    with pytest.raises(mechc.UsageError, match="two columns of the table would be called"):
+        mechc.load(CRANK).sweep(vary={"crank_length": [0.05]}, results={name: "max(travel)"})
+
+
+def test_variants_may_be_any_frame():
+    import polars as pl
+    import pyarrow as pa
+
+    m, lengths = mechc.load(CRANK), {"crank_length": [0.05, 0.055]}
+    wanted = m.sweep(variants=lengths, results=PEAK).read()["peak"]
+    table = pa.table(lengths)
+    for frame in (table, table.to_batches()[0], pl.DataFrame(lengths), pl.LazyFrame(lengths)):
+        assert np.array_equal(m.sweep(variants=frame, results=PEAK).read()["peak"], wanted), type(frame)
+
+
+def test_what_derivatives_give_is_not_changed_from_outside():
+    m = mechc.load(CRANK)
+    j = m.jacobian(by=["crank_length"], results=PEAK, every="20 ms")
+    f = m.objective("peak", by=["crank_length"], results=PEAK)
+    for array in (j.results, f.x0):
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 1.0
+    f.by.append("rod_length")
+    assert np.isfinite(f.value(f.x0))
+    with pytest.raises(mechc.UsageError, match="twice"):
+        m.jacobian(by=["crank_length", "crank_length"])

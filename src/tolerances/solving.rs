@@ -75,7 +75,7 @@ pub mod variants {
     /// Behind a step that was refused so many are taken before longer ones are tried.
     pub const CALM_STEPS: u32 = 6;
     /// The way to a variant's parameters is tried in so many parts.
-    pub const PARTS_OF_WAY: [u32; 4] = [1, 2, 4, 8];
+    pub const PARTS_OF_WAY: [u32; 6] = [1, 2, 4, 8, 16, 32];
 }
 
 /// The course of a formula of a variant (`sweep/course.rs`, `sweep/steps.rs`, `sweep/survey.rs`).
