@@ -734,3 +734,52 @@ fn a_table_is_what_variants_have_that_are_spread_normally() {
     let wanted = normal["sigma"].as_f64().expect("a number");
     assert!(count == 10_000 && (sigma / wanted - 1.0).abs() < 0.03, "{sigma} instead of {wanted}");
 }
+
+/// A param that moves nothing has a derivative of nothing, whatever rounding leaves of it.
+#[test]
+fn a_param_that_moves_a_result_by_rounding_alone_does_not_move_it() {
+    let text = "mechanism two {
+        param gap = 100 mm
+        param la = 40 mm
+        ground { point O = (0, 0) }
+        body base { point O = (0, 0) point H = (gap, 0) point S = (gap, 70 mm) }
+        body arm at (gap, 0, 0) { point O = (0, 0) point tip = (la, 0) }
+        joint main: revolute(ground.O, base.O)
+        joint hinge: revolute(base.H, arm.O)
+        driver mot: rotation(main) = 30 rpm * t
+        driver sw: rotation(hinge) = 60 rpm * t
+        measure reach = distance(base.S, arm.tip)
+        result most = max(reach)
+        result least = min(reach)
+        result avg = mean(reach)
+        result far = max(x(arm.O, arm.tip))
+        analysis from 0 s to 1 s every 0.1 s
+    }";
+    let (_, affected) = subject(text, &[]).affected(&["gap=1mm", "la=0.1mm"]);
+    for of in &affected {
+        let [gap, la] = of.slopes[..] else { panic!("{} has two", of.name) };
+        assert!(gap.expect("a derivative").abs() <= 1e-12, "{}: {gap:?}", of.name);
+        assert!(la.expect("a derivative").abs() > 0.1, "{}: {la:?}", of.name);
+    }
+    let [most, far] = ["most", "far"].map(|name| affected.iter().find(|of| of.name == name).expect("a result"));
+    near(most.slopes[1].expect("a derivative"), 1.0);
+    near(far.slopes[1].expect("a derivative"), 1.0);
+}
+
+/// The direction of an axis has a length, which params alone decide: `T = 2 (1 + ph²) ẍ`.
+#[test]
+fn what_params_alone_decide_is_no_kink_on_the_way() {
+    let text = "mechanism guide {
+        param ph = 0.17
+        ground { axis w = (0, 0) along (1, ph) }
+        body S { axis w = (0, 0) along (1, 0) point Q = (0, 0) mass 2 kg }
+        joint g: translational(ground.w, S.w)
+        driver d: x(S.Q) = 0.1 * sin(6 * t)
+        measure T = effort(d)
+        result z = max(T)
+        analysis from 0 s to 1 s every 20 ms
+    }";
+    let (_, affected) = subject(text, &[]).affected(&["ph=0.001"]);
+    let z = affected.iter().find(|of| of.name == "z").expect("a result");
+    near(z.slopes[0].expect("a derivative"), 4.0 * 0.17 * 3.6);
+}
