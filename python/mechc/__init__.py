@@ -6,8 +6,8 @@
 >>> run["piston.x"]                    # a numpy array (m), without a copy
 
 Whatever is computed has the bits of the command ``mechc``. Numbers that are handed over are in SI (m, rad, s, kg, N); texts have units
-(``"180 mm"``). Mechanisms, and the arrays that they give, are immutable, may be shared by threads, and can be pickled; while something is computed no lock is held, and
-Ctrl-C ends it.
+(``"180 mm"``). Mechanisms, and the arrays that they give, are immutable, may be shared by threads, and can be pickled; while something is
+computed no lock is held, and Ctrl-C ends it.
 """
 
 import sysconfig as _sysconfig

@@ -139,7 +139,7 @@ def _time(name: str, value: Any) -> str | None:
 
 
 def _times(at: Any) -> list[str]:
-    """Times of their own; one that chooses none is none that says nothing."""
+    """Times of their own; a list of none is rather a mistake than all times."""
     found = [] if at is None else [time for time in (_time("at", one) for one in many("at", at)) if time is not None]
     if at is not None and not found:
         raise usage("`at` holds no time", "leave it out for all times of the analysis")
@@ -147,6 +147,7 @@ def _times(at: Any) -> list[str]:
 
 
 def _patterns(columns: Any) -> list[str]:
+    """Columns by patterns; a list of none is rather a mistake than all columns."""
     found = texts("columns", columns)
     if columns is not None and not found:
         raise usage("`columns` chooses no column", "leave it out for all columns")

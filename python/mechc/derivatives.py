@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mechc.errors import AnalysisError
 from mechc.tables import Run
-from mechc.values import elements, meant, refused, texts, usage
+from mechc.values import elements, first_twice, meant, refused, texts, usage
 
 if TYPE_CHECKING:
     from mechc.mechanism import Mechanism
@@ -73,7 +73,7 @@ def _names(by: Any) -> list[str]:
     found = ["".join(name.split()) for name in texts("by", by)]
     if not found:
         raise usage("it is not said what it is by", "as in `by=['rod_length']`")
-    twice = next((name for place, name in enumerate(found) if name in found[:place]), None)
+    twice = first_twice(found)
     if twice is not None:
         raise usage(f"`by` names `{twice}` twice", "each derivative is there once")
     return found

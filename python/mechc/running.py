@@ -12,7 +12,7 @@ from mechc.asking import flag, with_options
 from mechc.described import Described
 from mechc.sweep import Sweep
 from mechc.tables import Run
-from mechc.values import Value, texts, usage
+from mechc.values import Value, first_twice, texts, usage
 
 #: More variants than this are asked about, as the command does.
 MANY = 1_000_000_000
@@ -161,7 +161,7 @@ class Running(Described):
             asked=asked,
         )
         sweep, is_meant = Sweep(self, asked, more, progress), flag("yes", yes)
-        twice = next((name for place, name in enumerate(sweep.columns) if name in sweep.columns[:place]), None)
+        twice = first_twice(sweep.columns)
         if twice is not None:
             help = "the table has columns of its own: `variant`, `status`, `stopped`; give that param or result another name"
             raise usage(f"two columns of the table would be called `{twice}`", help)

@@ -157,6 +157,16 @@ def texts(name: str, values: Any) -> list[str]:
     return found
 
 
+def first_twice(names: Iterable[str]) -> str | None:
+    """The first name that stands twice."""
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            return name
+        seen.add(name)
+    return None
+
+
 def meant(name: str, known: Iterable[str]) -> str | None:
     """The name that may be meant, as a question."""
     near = difflib.get_close_matches(name, list(known), n=1)

@@ -1,6 +1,6 @@
 //! `mechc run`: the kinematic analysis, as a table.
 
-use super::arguments::{Format, RunArguments};
+use super::arguments::{Following, Format, RunArguments};
 use super::endings;
 use super::failure::{Failure, unusable};
 use super::files::Output;
@@ -31,7 +31,7 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
         results: arguments.result.clone(),
         ..input::choice(&arguments.input)
     };
-    let compiled = input::compiled_as(&parsed, &choice, arguments.allow_redundant, reporter, &mut timings)?;
+    let compiled = input::compiled_as(&parsed, &choice, arguments.following.allow_redundant, reporter, &mut timings)?;
     let compiled = ManuallyDrop::new(compiled);
     let asked = times::asked((&arguments.interval, &arguments.at), compiled.analysis(), &mut reporter.sources)?;
     let times = asked.times()?;
@@ -43,8 +43,8 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     }
     compiled.prepare();
     timings.end(Phase::Program);
-    let RunArguments { tolerance, pass_bifurcations, vectors, .. } = *arguments;
-    let vectors = vectors.unwrap_or_default();
+    let Following { tolerance, pass_bifurcations, .. } = arguments.following;
+    let vectors = arguments.vectors.unwrap_or_default();
     let options = RunOptions { tolerance, pass_bifurcations, vectors, ..RunOptions::default() };
     let (run, said) = compiled.run(&times, &options);
     let run = reporter.settle(run, said)?;

@@ -111,14 +111,18 @@ impl Compiled {
         }
     }
 
+    /// A time (s) of its analysis, followed from another one.
+    pub(super) fn one_time(&self, from: f64, t: f64) -> Times {
+        Times::listed(from, vec![t]).within_analysis_to(self.analysis().map(|[_, to, _]| to))
+    }
+
     /// Where it stands at a time (s), followed from the first time of its analysis.
     ///
     /// # Errors
     /// It does not get there.
     pub fn stand(&self, t: f64, options: &RunOptions) -> Result<Stand, Diagnostics> {
         let from = self.analysis().map_or(t, |[from, ..]| from.min(t));
-        let times = Times::listed(from, vec![t]).within_analysis_to(self.analysis().map(|[_, to, _]| to));
-        let (run, said) = self.run(&times, options);
+        let (run, said) = self.run(&self.one_time(from, t), options);
         let layout = RowLayout::new(self.system());
         match run.and_then(|mut run| run.next()) {
             Some(Ok(row)) => Ok(Stand { t, q: layout.position(&row).to_vec() }),

@@ -123,8 +123,7 @@ impl Checked {
         before: &Seen,
     ) -> Option<Seen> {
         let model = self.model()?;
-        let times = Times::listed(from, vec![t]).within_analysis_to(compiled.analysis().map(|[_, to, _]| to));
-        let (run, _) = compiled.run(&times, options);
+        let (run, _) = compiled.run(&compiled.one_time(from, t), options);
         let row = run?.next()?.ok()?;
         let motion = Motion::of_rows(&compiled.columns_of_poses(), &before.columns, vec![row], Vec::new());
         if motion.frames() != before.motion.frames() {

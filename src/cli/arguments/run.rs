@@ -1,6 +1,6 @@
 //! `run`.
 
-use super::shared::{Input, Interval, positive, vectors};
+use super::shared::{Following, Input, Interval, vectors};
 use crate::stages::Vectors;
 use clap::{Args, ValueEnum};
 
@@ -49,17 +49,8 @@ pub(in crate::cli) struct RunArguments {
     #[arg(long)]
     pub lead: bool,
 
-    /// Bounds the residual of every equation, relative to the mechanism's size
-    #[arg(long, value_name = "X", default_value = "1e-12", value_parser = positive)]
-    pub tolerance: f64,
-
-    /// Leave redundant equations out, and check them at every time
-    #[arg(long)]
-    pub allow_redundant: bool,
-
-    /// Go on beyond a bifurcation, along the branch that continues smoothly
-    #[arg(long)]
-    pub pass_bifurcations: bool,
+    #[command(flatten)]
+    pub following: Following,
 
     /// The vector instructions that rows are solved for with; the widest that the processor has if not given. For tests: the numbers are
     /// the same

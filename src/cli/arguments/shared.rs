@@ -81,7 +81,7 @@ pub(in crate::cli) struct Interval {
     pub every: Option<String>,
 }
 
-/// How variants are followed.
+/// How a motion is followed.
 #[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct Following {
     /// Bounds the residual of every equation, relative to the mechanism's size
@@ -107,7 +107,7 @@ pub(super) fn jobs(text: &str) -> Result<usize, String> {
     }
 }
 
-pub(super) fn positive(text: &str) -> Result<f64, String> {
+fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
         _ => Err("a positive number is wanted".to_owned()),

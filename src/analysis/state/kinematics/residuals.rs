@@ -2,7 +2,7 @@
 
 use super::{Kinematics, State};
 use crate::ir::{Owner, WatchKind};
-use crate::program::Register;
+use crate::program::{Program, Register, Registers};
 use crate::tolerances::checks::LARGEST_OPENING;
 use crate::tolerances::scales::kinematics::ROUNDING;
 
@@ -107,7 +107,7 @@ impl Kinematics {
 
     /// The largest term of a row where the position was set.
     pub(super) fn largest_term_of(&self, row: usize) -> f64 {
-        self.program.outputs.terms[row].iter().map(|&register| self.registers.get(register).abs()).fold(0.0, f64::max)
+        largest_term(&self.program, &self.registers, row)
     }
 
     /// What each coordinate contributes to a row by its slope.
@@ -140,4 +140,9 @@ impl Kinematics {
         let pattern = self.system().phi_q();
         pattern.range(row).zip(pattern.row(row)).map(|(at, &(column, _))| self.phi_q(at) * x[column as usize]).sum()
     }
+}
+
+/// The largest term of a row of a program that has been run.
+pub(super) fn largest_term(program: &Program, registers: &Registers, row: usize) -> f64 {
+    program.outputs.terms[row].iter().map(|&register| registers.get(register).abs()).fold(0.0, f64::max)
 }

@@ -1,6 +1,7 @@
 //! Slopes beside a position, by which nearness to a singular position is judged.
 
 use super::Kinematics;
+use super::residuals::largest_term;
 use crate::analysis::state::aslant;
 use crate::program::Stage;
 use crate::tolerances::scales::kinematics::{BESIDE, NO_SLOPE};
@@ -18,19 +19,18 @@ impl Kinematics {
             self.look_beside(q);
         }
         self.evaluate(q);
-        let (registers, outputs) = (&self.registers, &self.program.outputs);
-        let coordinate = |column: usize| registers.get(self.program.inputs.coordinates[0] + column as u32);
+        let (registers, program) = (&self.registers, &*self.program);
+        let coordinate = |column: usize| registers.get(program.inputs.coordinates[0] + column as u32);
         let yardstick = self.linear.yardstick();
         yardstick.turn(coordinate);
-        let terms = |row: usize| outputs.terms[row].iter().map(|&term| registers.get(term).abs());
-        let rounding = |row: usize| NO_SLOPE * terms(row).fold(self.terms_beside[row], f64::max);
-        yardstick.measure(|position| registers.get(outputs.phi_q[position]), rounding);
+        let rounding = |row: usize| NO_SLOPE * f64::max(largest_term(program, registers, row), self.terms_beside[row]);
+        yardstick.measure(|position| registers.get(program.outputs.phi_q[position]), rounding);
     }
 
     /// A row that is factored and has no slope: its scaled one is less than this, or changes it by no more than rounding does.
     pub fn row_without_slope(&self, least: f64) -> Option<usize> {
-        let rounding = |row: usize| NO_SLOPE * f64::max(self.largest_term_of(row), self.terms_beside[row]);
-        let is_rounding = |&row: &usize| self.slope(row) <= rounding(row);
+        let term = |row: usize| f64::max(self.largest_term_of(row), self.terms_beside[row]);
+        let is_rounding = |&row: &usize| self.slope(row) <= NO_SLOPE * term(row);
         self.linear.row_without_slope(least).or_else(|| (0..self.system().rows().len()).find(is_rounding))
     }
 
