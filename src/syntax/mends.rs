@@ -9,7 +9,7 @@ mod uses;
 
 use super::grammar::Rule;
 use super::tokens::{Token, begins_declaration, next_token, tokens};
-use crate::diag::{Applies, Fix, nearest};
+use crate::diag::{Applies, Edit, Fix, nearest};
 use crate::source::{FileId, Span};
 use crate::vocabulary::{
     KEYWORDS, Keyword, Place, Role, Synonym, Unit, is_declaration, is_feature, is_one_argument_function,
@@ -168,7 +168,27 @@ impl Fault<'_> {
         if is_listed {
             return Some(Mend::words("a `,` is missing, or an operator: a product is written with `*`"));
         }
-        Some(self.replaced(self.at..self.at, "* ", "a product is written with `*`", Applies::Probably))
+        Some(self.of_a_number_before_a_factor().unwrap_or_else(|| {
+            self.replaced(self.at..self.at, "* ", "a product is written with `*`", Applies::Probably)
+        }))
+    }
+
+    /// `2 pi t`, whose `pi` was taken for a unit: both products are mended at once.
+    fn of_a_number_before_a_factor(&self) -> Option<Mend> {
+        let (factor, found) = (self.word_before(), self.found);
+        let start = self.before().len() - factor.len();
+        let number = tokens(&self.text[..start]).last()?.text;
+        let is_factor = number.starts_with(|c: char| c.is_ascii_digit())
+            && factor.starts_with(char::is_alphabetic)
+            && Unit::named(factor).is_none();
+        is_factor.then(|| {
+            let insert = |at| Edit { span: self.span(at..at), text: "* ".to_owned() };
+            Mend::Fix(Fix {
+                message: format!("a product is written with `*`: `{number} * {factor} * {found}`"),
+                edits: vec![insert(start), insert(self.at)],
+                applies: Applies::Probably,
+            })
+        })
     }
 
     /// `3 sin(t)`, whose function was taken for a unit.
