@@ -44,8 +44,10 @@ pub mod freedom {
 
 /// Loops that cannot be closed (`analysis/explain/open_loop.rs`).
 pub mod open_loop {
-    /// Larger systems are looked at block by block.
+    /// So many equations are looked at together at most.
     pub const LARGEST: usize = 600;
+    /// A force takes part in a link's balance from this part of the largest of all on.
+    pub const PULLS: f64 = 0.1;
     /// An equation is part of the loop if its share of the residual is above this part of the largest.
     pub const TAKES_PART: f64 = 0.01;
     /// How much lighter one joint is made than the others, so that the loop opens there.

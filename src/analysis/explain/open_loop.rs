@@ -10,7 +10,9 @@ use crate::analysis::state::Linear;
 use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, PointId};
 use crate::math;
 use crate::structure::{Determined, Subsystem};
-use crate::tolerances::determinacy::open_loop::{ALONG, CLOSED, FAR, IN_LENGTH, LARGEST, LIGHT, TAKES_PART, WIDE};
+use crate::tolerances::determinacy::open_loop::{
+    ALONG, CLOSED, FAR, IN_LENGTH, LARGEST, LIGHT, PULLS, TAKES_PART, WIDE,
+};
 
 /// A loop that does not close.
 pub struct OpenLoop {
@@ -64,22 +66,48 @@ fn told(determined: &Determined, q: &[f64], t: f64) -> Option<(OpenLoop, Vec<f64
     let mut evaluator = Evaluator::new(determined.system());
     evaluator.q.copy_from_slice(q);
     let part = open_part(&mut evaluator, determined, t)?;
-    let open = open_loop(&mut evaluator, &part, t)?;
+    evaluator.q.copy_from_slice(q);
+    let open = open_loop(&mut evaluator, &part.equations, t)?;
+    // what hangs on the loop is shown where it would be then
+    for block in &determined.blocks()[part.blocks..] {
+        if block.rows.len() <= LARGEST {
+            evaluator.assemble(&block.rows, &block.columns, None, t);
+        }
+    }
     Some((open, evaluator.q))
 }
 
-/// All equations, or the first block that stays open.
-fn open_part(evaluator: &mut Evaluator<'_>, determined: &Determined, t: f64) -> Option<Subsystem> {
-    let system = determined.system();
-    let n = system.rows().len();
-    if n <= LARGEST {
-        return Some(Subsystem { rows: (0..n as u32).collect(), columns: (0..n as u32).collect() });
+/// The equations that are looked at together, and how many of the blocks need not be looked at beside them.
+struct OpenPart {
+    equations: Subsystem,
+    blocks: usize,
+}
+
+/// The first block that stays open, and what comes before it, unless that is large; all, where each block closes by itself.
+fn open_part(evaluator: &mut Evaluator<'_>, determined: &Determined, t: f64) -> Option<OpenPart> {
+    let blocks = determined.blocks();
+    let mut before = Subsystem { rows: Vec::new(), columns: Vec::new() };
+    for (k, block) in blocks.iter().enumerate().filter(|(_, block)| block.rows.len() <= LARGEST) {
+        before.rows.extend(&block.rows);
+        before.columns.extend(&block.columns);
+        let is_open = evaluator
+            .assemble(&block.rows, &block.columns, None, t)
+            .is_none_or(|linear| linear.residual.iter().any(|open| open.abs() > CLOSED));
+        if is_open {
+            let alone = || Subsystem { rows: block.rows.clone(), columns: block.columns.clone() };
+            let equations = if before.rows.len() <= LARGEST { in_order(before) } else { alone() };
+            return Some(OpenPart { equations, blocks: k + 1 });
+        }
     }
-    determined.blocks().iter().filter(|block| block.rows.len() <= LARGEST).find_map(|block| {
-        let linear = evaluator.linear(&block.rows, &block.columns, None, t)?;
-        let is_open = linear.residual.iter().any(|open| open.abs() > CLOSED);
-        is_open.then(|| Subsystem { rows: block.rows.clone(), columns: block.columns.clone() })
-    })
+    let is_all = before.rows.len() == determined.system().rows().len();
+    (is_all && before.rows.len() <= LARGEST).then(|| OpenPart { equations: in_order(before), blocks: blocks.len() })
+}
+
+/// In the order of the file, which is that of what is said.
+fn in_order(mut part: Subsystem) -> Subsystem {
+    part.rows.sort_unstable();
+    part.columns.sort_unstable();
+    part
 }
 
 fn open_loop(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64) -> Option<OpenLoop> {
@@ -171,30 +199,54 @@ fn links(evaluator: &Evaluator<'_>, part: &Subsystem, linear: &Linear, declarati
         links.extend(evaluator.distance(k).map(link));
     }
     let bodies = std::iter::once(None).chain(system.bodies().ids().map(Some));
-    for body in bodies {
-        let pulls: Vec<(DeclarationId, PointId, [f64; 2])> = declarations
-            .iter()
-            .filter_map(|&k| {
-                let point =
-                    *system.declarations()[k].points.iter().find(|&&point| system.points()[point].body == body)?;
-                Some((k, point, force(evaluator, part, linear, k, body)))
-            })
-            .collect();
-        let largest = pulls.iter().map(|(.., force)| math::hypot(force[0], force[1])).fold(0.0, f64::max);
-        let acting: Vec<_> =
-            pulls.iter().filter(|(.., force)| math::hypot(force[0], force[1]) > TAKES_PART * largest).collect();
-        let &[&(first, p, _), &(second, q, force)] = acting.as_slice() else {
+    let pulls: Vec<(Option<BodyId>, Vec<Pull>)> =
+        bodies.map(|body| (body, pulls(evaluator, part, linear, declarations, body))).collect();
+    let largest = pulls.iter().flat_map(|(_, own)| own).map(Pull::size).fold(0.0, f64::max);
+    for (body, own) in &pulls {
+        let acting: Vec<&Pull> = own.iter().filter(|pull| pull.size() > PULLS * largest).collect();
+        let &[first, second] = acting.as_slice() else {
             continue;
         };
-        let (from, to) = (evaluator.place_of(p), evaluator.place_of(q));
+        let (from, to) = (evaluator.place_of(first.point), evaluator.place_of(second.point));
         let way = [to[0] - from[0], to[1] - from[1]];
         let length = math::hypot(way[0], way[1]);
-        let along = (force[0] * way[0] + force[1] * way[1]) / length;
-        if length > CLOSED * system.length() && along.abs() > ALONG * largest {
-            links.push(Link { of: LinkOf::Body(body, [first, second]), length, too_short: along > 0.0 });
+        let along = (second.force[0] * way[0] + second.force[1] * way[1]) / length;
+        if length > CLOSED * system.length() && along.abs() > ALONG * f64::max(first.size(), second.size()) {
+            let ends = [first.declaration, second.declaration];
+            links.push(Link { of: LinkOf::Body(*body, ends), length, too_short: along > 0.0 });
         }
     }
     links
+}
+
+/// What a declaration pulls at a point of a body with.
+struct Pull {
+    declaration: DeclarationId,
+    point: PointId,
+    force: [f64; 2],
+}
+
+impl Pull {
+    fn size(&self) -> f64 {
+        math::hypot(self.force[0], self.force[1])
+    }
+}
+
+/// The pulls at a body or the ground.
+fn pulls(
+    evaluator: &Evaluator<'_>,
+    part: &Subsystem,
+    linear: &Linear,
+    declarations: &[DeclarationId],
+    body: Option<BodyId>,
+) -> Vec<Pull> {
+    let system = evaluator.system;
+    let of_body = |declaration: DeclarationId| {
+        let mut points = system.declarations()[declaration].points.iter().copied();
+        let point = points.find(|&point| system.points()[point].body == body)?;
+        Some(Pull { declaration, point, force: force(evaluator, part, linear, declaration, body) })
+    };
+    declarations.iter().filter_map(|&k| of_body(k)).collect()
 }
 
 /// What a declaration pulls at a body or the ground with, its residuals taken for springs.
