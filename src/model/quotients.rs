@@ -34,7 +34,7 @@ fn factors(unit: &str) -> Vec<(&str, f64)> {
             Some((name, power)) => (name, power.parse().unwrap_or(1.0)),
             None => (name.trim_matches(['(', ')']), 1.0),
         };
-        if name != "1" {
+        if !matches!(name, "" | "1") {
             match powers.iter_mut().find(|(known, _)| *known == name) {
                 Some((_, known)) => *known += sign * power,
                 None => powers.push((name, sign * power)),
@@ -65,6 +65,7 @@ mod tests {
             ("m*s", "m^2/(m*s)", "s^2"),
             ("1/(m*s)", "1/m", "1/s"),
             ("m^0.5", "m", "1/m^0.5"),
+            ("mm", "/s", "mm*s"),
         ] {
             assert_eq!(quotient(unit, other), wanted, "{unit} by {other}");
         }
