@@ -105,6 +105,11 @@ pub fn keyword_as_name(mut fault: Diagnostic, word: &str, instead: Option<&str>)
     fault
 }
 
+/// `body ground { … }`; the span is that of what stands before the word.
+pub fn ground_as_body(fault: Diagnostic, before: Span) -> Diagnostic {
+    fault.instead(Fix::replace(before, "", "the ground is no body: it is declared `ground { … }`", Applies::Always))
+}
+
 /// A name that no message could hold.
 pub fn long_name(span: Span, longest: usize) -> Diagnostic {
     Diagnostic::new(Code::E0101, format!("a name has at most {longest} characters"))
@@ -120,8 +125,8 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
     let offset = match error.location {
         pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => base + at,
     };
-    if with_mend && let Some(double) = double_equals(error, text, offset, file) {
-        return double;
+    if with_mend && let Some(other) = comparison_for_equation(error, text, offset, file) {
+        return other;
     }
     let found = found_at(text, offset);
     if let Some(bracket) = other_bracket(error, text, &found, file) {
@@ -271,18 +276,27 @@ fn partner(text: &str, at: usize) -> Option<usize> {
     None
 }
 
-/// An equation written with `==`, which the grammar took for a comparison.
-fn double_equals(error: &Error<Rule>, text: &str, offset: usize, file: FileId) -> Option<Diagnostic> {
+/// An equation written with `==`, or what only limits: the grammar took both for a comparison.
+fn comparison_for_equation(error: &Error<Rule>, text: &str, offset: usize, file: FileId) -> Option<Diagnostic> {
     if !expects(error, Rule::equals) {
         return None;
     }
     let before = tokens(&text[..offset]);
     let start = before.iter().rposition(|token| ["driver", "constraint"].contains(&token.text))?;
     // behind an `if` it may be its comparison
-    let at = before[start..].iter().take_while(|token| token.text != "if").find(|token| token.text == "==")?;
+    let at = before[start..]
+        .iter()
+        .take_while(|token| token.text != "if")
+        .find(|token| ["==", "<", ">", "<=", ">="].contains(&token.text))?;
     let span = Span { file, start: at.start as u32, end: at.end() as u32 };
-    let fix = Fix::replace(span, "=", "an equation is written with one `=`", Applies::Always);
-    Some(misplaced(span, "expected `=`, found `==`", "this compares").fix(fix))
+    let fault = misplaced(span, &format!("expected `=`, found `{}`", at.text), "this compares");
+    Some(match at.text {
+        "==" => fault.fix(Fix::replace(span, "=", "an equation is written with one `=`", Applies::Always)),
+        _ => fault.help(format!(
+            "a {} is an equation, which holds all the time; how near a limit is can be seen in a `measure`",
+            before[start].text
+        )),
+    })
 }
 
 fn expects(error: &Error<Rule>, rule: Rule) -> bool {

@@ -128,6 +128,10 @@ impl Fault<'_> {
             return Some(Mend::words("inside an operator an `if` needs parentheses"));
         }
         let connecting = self.connecting_words();
+        if connecting == ["every"] && self.found.starts_with(|c: char| c.is_ascii_digit()) {
+            let words = "`every` is how far one time is from the next: of 100 steps each is `every (B - A) / 100`";
+            return Some(Mend::words(words));
+        }
         // who writes one means it, though not here
         let is_a_keyword = Keyword::named(self.found).is_some();
         let declarations = KEYWORDS.iter().filter(|word| word.begins_declaration()).map(|word| word.word.name);

@@ -297,7 +297,7 @@ impl Reading<'_> {
         let (mut kind, ranges) = match head {
             Ok(Some(head)) => of_body(head),
             Ok(None) => ground,
-            Err(_) if rule == Rule::ground_head => ground,
+            Err(_) if rule == Rule::ground_head || self.outline.word(first + 1) == "ground" => ground,
             Err(_) => match self.names_of(first, behind_head).pop() {
                 Some(name) => of_body(Head { name, ranges: Vec::new(), pose: None }),
                 None => (ItemKind::Broken { names: Vec::new() }, Vec::new()),
@@ -518,7 +518,10 @@ impl Reading<'_> {
 
     fn tell(&mut self, mut fault: Box<Diagnostic>) {
         let at = fault_at(&fault);
-        if let Some((word, keyword)) = self.outline.word_as_name(at) {
+        if let Some(("ground", "body")) = self.outline.word_as_name(at) {
+            let body = self.outline.start(self.outline.index_at(at) - 1);
+            *fault = errors::ground_as_body(*fault, self.span(body..at));
+        } else if let Some((word, keyword)) = self.outline.word_as_name(at) {
             let is_free = |name: &str| !self.outline.has_word(name);
             let instead =
                 if self.sees_mends() { another_name(word, KindOfName::behind(keyword), is_free) } else { None };

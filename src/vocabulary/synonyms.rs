@@ -310,7 +310,7 @@ pub static SYNONYMS: &[Synonym] = &[
         "how far a translational joint has moved is `displacement({0 joint})`",
     ),
     call(
-        &["deriv", "derivative", "diff", "ddt", "d_dt", "dot", "rate"],
+        &["d", "deriv", "derivative", "diff", "ddt", "d_dt", "dot", "rate"],
         &["der"],
         "the time derivative is `der({0 e})`, in a measure",
     ),
@@ -501,6 +501,7 @@ pub static SYNONYMS: &[Synonym] = &[
     unit(&["arcmin"], &["deg"], "minutes of arc are no unit; `1 deg` is 60 of them").takes_a_formula(),
     unit(&["arcsec"], &["deg"], "seconds of arc are no unit; `1 deg` is 3600 of them").takes_a_formula(),
     // ---- names that stand for a number
+    number(&["dt"], &["der"], "the time derivative of a formula is `der(…)`, in a measure").takes_a_formula(),
     number(&["time", "zeit", "temps", "tiempo"], &["t"], "was `t` meant?"),
     number(&["π", "𝜋"], &["pi"], "was `pi` meant?"),
     number(&["τ", "two_pi", "twopi"], &["tau"], "was `tau` meant?"),

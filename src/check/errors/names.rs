@@ -28,8 +28,11 @@ pub fn unknown_number(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
     if let (Some(power), true) = (power_of_a_unit(&name.text), diagnostic.help.is_empty()) {
         return diagnostic.instead(Fix::meant(name.span, &power));
     }
-    if let Some([only]) = Synonym::of(Place::Number, &name.text).map(|synonym| synonym.means) {
-        return diagnostic.instead(Fix::meant(name.span, only));
+    if let Some(synonym) = Synonym::of(Place::Number, &name.text) {
+        return match synonym.means {
+            [only] if synonym.is_same => diagnostic.instead(Fix::meant(name.span, only)),
+            _ => diagnostic.help(synonym.say(&[])),
+        };
     }
     match Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
         Some(synonym) => match synonym.means {

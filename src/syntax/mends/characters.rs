@@ -26,6 +26,9 @@ impl Fault<'_> {
         if let Some((_, text, words)) = written.filter(|_| has_operator) {
             return Some(Mend::Fix(self.everywhere_on_the_line(text, words)));
         }
+        if let Some(mend) = self.of_another_language() {
+            return Some(mend);
+        }
         let (before, behind) = (self.before(), self.behind());
         let around = self.opened().last().map_or("", |(_, token)| *token);
         Some(match self.found {
@@ -66,6 +69,33 @@ impl Fault<'_> {
             "(" if around == "[" && before.ends_with(')') => {
                 let end = before.len();
                 self.replaced(end..end, ",", "rows are separated by commas: `(1, 2), (3, 4)`", Applies::Always)
+            }
+            _ => return None,
+        })
+    }
+
+    /// How programming languages join conditions, choose and differentiate.
+    fn of_another_language(&self) -> Option<Mend> {
+        let (has_operator, is_operand) = (self.expects(Rule::infix), OPERAND.iter().any(|rule| self.expects(*rule)));
+        let behind = self.behind();
+        let is_double = behind.starts_with(self.found);
+        let joined = |by: &str, words: &str| {
+            let range = self.at..self.here().end + 1;
+            let gap = |text: Option<char>| if text.is_some_and(char::is_whitespace) { "" } else { " " };
+            let [before, after] =
+                [self.text[..range.start].chars().next_back(), self.text[range.end..].chars().next()].map(gap);
+            self.replaced(range, &format!("{before}{by}{after}"), words, Applies::Always)
+        };
+        Some(match self.found {
+            "&" if has_operator && is_double => joined("and", "conditions are joined with `and`"),
+            "&" if has_operator => Mend::words("conditions are joined with `and`"),
+            "|" if has_operator && is_double => joined("or", "conditions are joined with `or`"),
+            "!" if is_operand => {
+                self.replaced(self.here(), "not ", "a condition is denied with `not`", Applies::Always)
+            }
+            "?" if has_operator => Mend::words("a choice is written `if CONDITION then A else B`"),
+            "." if has_operator && behind.starts_with('d') && self.before().ends_with(')') => {
+                Mend::words("a time derivative is written `der(…)`, in a measure; `der(der(…))` is the second")
             }
             _ => return None,
         })
