@@ -324,12 +324,12 @@ class Mechanism(Running):
         exports.refuse_what_was_read(file, [own, *used])
         return exports.write(file, text)
 
-    def _repr_html_(self) -> str | None:
-        """The moving page, for notebooks, with why the motion stops, if it does."""
+    def _repr_html_(self) -> str:
+        """The moving page, for notebooks, with why the motion stops, if it does; where there is no motion, why there is none."""
         try:
             return notebook.shown(self, self._asked({}))
-        except MechcError:
-            return None
+        except MechcError as error:
+            return notebook.without_motion(self, error)
 
     def __repr__(self) -> str:
         moved = len([name for name in self._columns() if name.endswith(".x")])

@@ -25,6 +25,11 @@ def shown(m: Any, asked: dict[str, Any]) -> str:
     return text if len(text.encode()) <= LARGEST else f"<pre>{html.escape(repr(m))}</pre>"
 
 
+def without_motion(m: Any, why: Exception) -> str:
+    """What it is, and why it cannot be shown."""
+    return f"<pre>{html.escape(repr(m))}\n\n{html.escape(str(why))}</pre>"
+
+
 def framed(page: str, picture: str) -> str:
     """The frame takes the page's script and nothing of the notebook's: it has an origin of its own."""
     # a picture alone would be hidden where scripts run: what is within `noscript` is shown where they do not

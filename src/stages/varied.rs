@@ -374,7 +374,7 @@ mod tests {
             (&["length=1..2mm:3"], &[], "the parameter `length` must be a length, found a pure number"),
             (&["length=1mm..2:3"], &[], "the parameter `length` must be a length, found a pure number"),
             (&["lenght=1mm..2mm:3"], &[], "mechanism `lever` has no parameter `lenght`"),
-            (&["length=1mm..speed:3"], &[], "a value of the command line cannot name `speed`"),
+            (&["length=1mm..speed:3"], &[], "a value from outside the file cannot name `speed`"),
             (&["count=1..4:4"], &[], "`count` decides what is repeated, and cannot vary on a page"),
             (&["length=1mm..2mm:3", "length = 1mm..3mm:3"], &[], "`length` is to vary twice"),
             (&["length=1mm..2mm:3"], &["length=3mm"], "`length` is set, and is to vary"),

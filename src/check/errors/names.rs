@@ -55,7 +55,7 @@ pub fn path_from_outside(span: Span, owner: &str, noun: &str, is_whole: bool) ->
 
 /// A name in the value of an option.
 pub fn names_in_option(name: &Name) -> Diagnostic {
-    Diagnostic::new(Code::E0706, format!("a value of the command line cannot name `{}`", name.text))
+    Diagnostic::new(Code::E0706, format!("a value from outside the file cannot name `{}`", name.text))
         .at(name.span, "a name of the file")
         .fix_if(power_of_a_unit(&name.text).map(|power| Fix::meant(name.span, &power)))
         .help("write it out in numbers and units")
@@ -64,7 +64,7 @@ pub fn names_in_option(name: &Name) -> Diagnostic {
 /// A name in a formula of time that stands alone.
 pub fn names_in_formula(name: &Name) -> Diagnostic {
     let nearest = meant(name, &Constant::in_formulas().collect::<Vec<_>>()).filter(|_| name.text.chars().count() > 1);
-    let diagnostic = Diagnostic::new(Code::E0706, format!("a formula of the command line cannot name `{}`", name.text))
+    let diagnostic = Diagnostic::new(Code::E0706, format!("a formula from outside the file cannot name `{}`", name.text))
         .at(name.span, "not known here");
     let synonym = Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1);
     if let Some(power) = power_of_a_unit(&name.text) {
