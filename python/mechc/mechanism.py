@@ -133,6 +133,7 @@ class Mechanism(Running):
         *,
         failed: float | None = None,
         set: Mapping[str, Value] | None = None,
+        inputs: Mapping[str, Value] | None = None,
         from_: Value | None = None,
         to: Value | None = None,
         every: Value | None = None,
@@ -150,6 +151,7 @@ class Mechanism(Running):
         asked = self._asked(
             values,
             set=set,
+            inputs=inputs,
             from_=from_,
             to=to,
             every=every,
@@ -171,6 +173,7 @@ class Mechanism(Running):
         *,
         failed: float | None = None,
         set: Mapping[str, Value] | None = None,
+        inputs: Mapping[str, Value] | None = None,
         from_: Value | None = None,
         to: Value | None = None,
         every: Value | None = None,
@@ -192,6 +195,7 @@ class Mechanism(Running):
         asked = self._asked(
             values,
             set=set,
+            inputs=inputs,
             from_=from_,
             to=to,
             every=every,

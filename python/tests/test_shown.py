@@ -133,6 +133,18 @@ def test_residuals_of_a_mechanism_with_results():
     assert f(f.x0).shape == (2,) and np.isfinite(f.jacobian(f.x0)).all()
 
 
+def test_what_is_optimised_is_told_its_inputs():
+    m = mechc.load(ROOT / "examples/parallel_robot.mech")
+    told, far = {"swing": "20 deg * sin(1 rev/s * t)"}, {"far": "max(x(platform.C))"}
+    f = m.objective("far", by=["base_radius"], results=far, inputs=told)
+    value, gradient = f(f.x0)
+    assert value == m.run(results=far, inputs=told).results["far"] != m.run(results=far).results["far"]
+    assert gradient[0] == pytest.approx((f.value(f.x0 + 1e-6) - f.value(f.x0 - 1e-6)) / 2e-6, rel=1e-7)
+    turned = m.run(at=[0.2], inputs=told)["tilt"]
+    r = m.residuals(["tilt"], turned, by=["base_radius"], at=[0.2], inputs=told)
+    assert r(r.x0) == pytest.approx([0.0], abs=1e-12)
+
+
 def test_residuals_have_exact_derivatives():
     m = mechc.load(CRANK)
     f = m.residuals(["travel", "lean"], np.zeros((3, 2)), by=["rod_length", "crank_length"], at=[0.0, 0.01, 0.02])
