@@ -64,8 +64,9 @@ pub fn names_in_option(name: &Name) -> Diagnostic {
 /// A name in a formula of time that stands alone.
 pub fn names_in_formula(name: &Name) -> Diagnostic {
     let nearest = meant(name, &Constant::in_formulas().collect::<Vec<_>>()).filter(|_| name.text.chars().count() > 1);
-    let diagnostic = Diagnostic::new(Code::E0706, format!("a formula from outside the file cannot name `{}`", name.text))
-        .at(name.span, "not known here");
+    let diagnostic =
+        Diagnostic::new(Code::E0706, format!("a formula from outside the file cannot name `{}`", name.text))
+            .at(name.span, "not known here");
     let synonym = Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1);
     if let Some(power) = power_of_a_unit(&name.text) {
         return diagnostic.fix(Fix::meant(name.span, &power));

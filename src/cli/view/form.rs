@@ -26,12 +26,12 @@ const OPTIONS: [Said; 11] = [
     ("--plots", |asked| asked.plots, &[Form::Plots]),
     ("--at", |asked| !asked.at.is_empty(), &[Form::Page, Form::Picture, Form::Dxf]),
     ("--trace", |asked| !asked.trace.is_empty(), &[Form::Page, Form::Picture, Form::Dxf]),
-    ("--vectors", |asked| asked.vectors, &[Form::Page, Form::Picture, Form::Dxf]),
-    ("--forces", |asked| asked.forces, &[Form::Page, Form::Picture, Form::Plots, Form::Dxf]),
-    ("--labels", |asked| asked.labels, &[Form::Page, Form::Picture, Form::Dxf]),
-    ("--size", |asked| asked.size.is_some(), &[Form::Page, Form::Picture, Form::Plots, Form::Dxf]),
+    ("--vectors", |asked| asked.vectors, &[Form::Page, Form::Picture]),
+    ("--forces", |asked| asked.forces, &[Form::Page, Form::Picture, Form::Plots]),
+    ("--labels", |asked| asked.labels, &[Form::Page, Form::Picture]),
+    ("--size", |asked| asked.size.is_some(), &[Form::Page, Form::Picture, Form::Plots]),
     ("--scale", |asked| asked.scale.is_some(), &[Form::Picture, Form::Dxf]),
-    ("--theme", |asked| asked.theme != ThemeChoice::Auto, &[Form::Page, Form::Picture, Form::Plots, Form::Dxf]),
+    ("--theme", |asked| asked.theme != ThemeChoice::Auto, &[Form::Page, Form::Picture, Form::Plots]),
     ("--body", |asked| asked.body.is_some(), &[Form::Picture, Form::Dxf]),
 ];
 
@@ -70,6 +70,12 @@ pub(super) fn form(output: &str, arguments: &ViewArguments) -> Result<Form, Fail
             None => Ok(Form::Page),
             Some(option) => Err(unusable(format!("`{option}` is for pictures and DXF, and `{output}` is a page"))
                 .help("name a `.svg` or `.dxf` file")
+                .into()),
+        },
+        Form::Dxf => match foreign(Form::Dxf) {
+            None => Ok(Form::Dxf),
+            Some(option) => Err(unusable(format!("`{option}` is for what is looked at, and `{output}` is to be cut"))
+                .help("leave it out, or name a `.svg` file")
                 .into()),
         },
         form => Ok(form),
