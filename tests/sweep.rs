@@ -188,6 +188,26 @@ fn tables_of_variants_are_read() {
     }
 }
 
+/// The value that is tried stands in no text; the header does.
+#[test]
+fn what_is_wrong_with_a_column_of_variants_is_said_at_its_header() {
+    let subject = subject(FOUR_BAR, Choice::default());
+    for (header, help) in [
+        ("crank_length [s]", "units of length: `mm`, `m`"),
+        ("cranklength [mm]", "was `crank_length` meant?"),
+        ("crank_length (mm)", "a unit stands in brackets behind the name: `rod [mm]`"),
+    ] {
+        let world = Memory::default().with("v.csv", format!("speed [rpm],{header}\n60,30\n"));
+        let asked = vary(&["@v.csv"]);
+        let (sources, said) =
+            subject.checked.variants(&asked, &subject.choice, &world).expect_err("that column is wrong");
+        let one = said.iter().next().expect("a word of it");
+        let span = one.labels[0].span;
+        assert_eq!((sources.get(span.file).name.as_str(), sources.text(span)), ("v.csv", header));
+        assert_eq!(one.help, [help], "{header}");
+    }
+}
+
 #[test]
 fn what_cannot_vary_is_refused() {
     let subject = subject(FOUR_BAR, Choice { set: vec!["share=1".to_owned()], ..Choice::default() });

@@ -6,7 +6,7 @@ use super::{Checked, Choice};
 use crate::check::{self, Column, Setting};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::model::Dimension;
-use crate::source::Sources;
+use crate::source::{Sources, Span};
 use crate::sweep::{Levels, MOST_OF_SOBOL, Method, Points, Sampling, Varying};
 use crate::syntax::{self, ast};
 use crate::world::{self, World};
@@ -326,14 +326,32 @@ impl Listing<'_> {
             (self.sources.clone(), said)
         })?;
         let mut params = Vec::with_capacity(columns.len());
-        for Column { name, dimension, is_of_angles, values, .. } in &columns {
+        for Column { name, span, dimension, is_of_angles, values } in &columns {
             let unit = si_unit(dimension.unwrap_or(Dimension::PURE), *is_of_angles);
-            self.reader.with(name, &written(values[0], &unit))?;
+            self.reader.with(name, &written(values[0], &unit)).map_err(|why| self.of_column(*span, why))?;
             params.push(self.add(name, unit));
         }
         let rows = columns.first().map_or(0, |column| column.values.len());
         let values = (0..rows).flat_map(|row| columns.iter().map(move |column| column.values[row])).collect();
         Ok(Varying { params, values: Levels::Listed(values) })
+    }
+
+    /// What is wrong with a column, said at its header: the value that was tried stands in no text that a user has.
+    fn of_column(&self, header: Span, (mut sources, said): (Sources, Diagnostics)) -> (Sources, Diagnostics) {
+        let table = self.sources.get(header.file);
+        let file = sources.add(table.name.clone(), table.text.clone());
+        let mut moved = Diagnostics::default();
+        for mut one in said.iter().cloned() {
+            if let Some(label) = one.labels.first_mut() {
+                label.span = Span { file, ..header };
+            }
+            one.help.extend(one.fixes.drain(..).map(|fix| fix.message));
+            if self.sources.text(header).ends_with(')') {
+                one.help = vec!["a unit stands in brackets behind the name: `rod [mm]`".to_owned()];
+            }
+            moved.push(one);
+        }
+        (sources, moved)
     }
 
     fn variants(self, points: Points) -> Found<Variants> {
