@@ -77,6 +77,30 @@ pub enum NameKind {
     Broken,
 }
 
+impl NameKind {
+    /// What a declaration is.
+    #[must_use]
+    pub fn of(item: &Item) -> NameKind {
+        match &item.kind {
+            ItemKind::Param { .. } => NameKind::Param,
+            ItemKind::Function { .. } => NameKind::Function,
+            ItemKind::Table { .. } => NameKind::Table,
+            ItemKind::Input { .. } => NameKind::Input,
+            ItemKind::Part(_) => NameKind::Part,
+            ItemKind::Ground { .. } => NameKind::Ground,
+            ItemKind::Body { .. } => NameKind::Body,
+            ItemKind::Joint { .. } => NameKind::Joint,
+            ItemKind::Equation { driver: true, .. } => NameKind::Driver,
+            ItemKind::Equation { .. } => NameKind::Constraint,
+            ItemKind::Load { .. } => NameKind::Load,
+            ItemKind::Measure { .. } => NameKind::Measure,
+            ItemKind::Trace { .. } => NameKind::Trace,
+            ItemKind::Result { .. } => NameKind::Result,
+            ItemKind::Broken { .. } | ItemKind::Gravity { .. } | ItemKind::Analysis { .. } => NameKind::Broken,
+        }
+    }
+}
+
 /// A declared name.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct DeclaredName {

@@ -290,24 +290,6 @@ mod tests {
     use std::collections::BTreeSet;
     use std::sync::{Arc, OnceLock};
 
-    const UNARY: [Unary; 16] = [
-        Unary::Sin,
-        Unary::Cos,
-        Unary::Tan,
-        Unary::Asin,
-        Unary::Acos,
-        Unary::Atan,
-        Unary::Sinh,
-        Unary::Cosh,
-        Unary::Tanh,
-        Unary::Exp,
-        Unary::Ln,
-        Unary::Log10,
-        Unary::Sqrt,
-        Unary::Abs,
-        Unary::Sign,
-        Unary::Floor,
-    ];
     const BINARY: [Binary; 6] = [Binary::Atan2, Binary::Hypot, Binary::Min, Binary::Max, Binary::Pow, Binary::Mod];
 
     /// The numbers that are named, in their order.
@@ -324,7 +306,7 @@ mod tests {
         }
 
         fn unary(number: usize, a: f64) -> f64 {
-            unary_value(UNARY[number], a)
+            unary_value(Unary::ALL[number], a)
         }
 
         fn binary(number: usize, a: f64, b: f64) -> f64 {
@@ -374,7 +356,7 @@ mod tests {
             Op::Copy { to, a },
             Op::Piece { to, table: 0, a },
         ];
-        all.extend(UNARY.map(|function| Op::Unary { function, to, a }));
+        all.extend(Unary::ALL.map(|function| Op::Unary { function, to, a }));
         all.extend(BINARY.map(|function| Op::Binary { function, to, a, b }));
         let comparisons = [Comparison::Less, Comparison::LessEqual, Comparison::Equal];
         all.extend(comparisons.map(|comparison| Op::Compare { comparison, to, a, b }));

@@ -26,7 +26,8 @@ enum Tightness {
 }
 
 impl Unary {
-    const ALL: [Unary; 16] = [
+    /// All of them.
+    pub const ALL: [Unary; 16] = [
         Unary::Sin,
         Unary::Cos,
         Unary::Tan,

@@ -5,7 +5,7 @@
 
 use super::place::{Place, Stretch};
 use super::snapshot::Snapshot;
-use crate::check::{KnownMechanism, Library, Meaning, NameKind, name_of};
+use crate::check::{KnownMechanism, Library, Meaning, name_of};
 use crate::source::{FileId, Span};
 use crate::stages::Checked;
 use crate::syntax::ast::{
@@ -244,27 +244,6 @@ pub(super) fn item_named<'t>(tree: &'t Mechanism, name: &str) -> Option<&'t Item
 fn name_span(item: &Item) -> Span {
     let ground = Span { end: item.span.start + "ground".len() as u32, ..item.span };
     name_of(item).map_or(ground, |name| name.span)
-}
-
-/// What a declaration is.
-pub(super) fn kind_of(item: &Item) -> NameKind {
-    match &item.kind {
-        ItemKind::Param { .. } => NameKind::Param,
-        ItemKind::Function { .. } => NameKind::Function,
-        ItemKind::Table { .. } => NameKind::Table,
-        ItemKind::Input { .. } => NameKind::Input,
-        ItemKind::Part(_) => NameKind::Part,
-        ItemKind::Ground { .. } => NameKind::Ground,
-        ItemKind::Body { .. } => NameKind::Body,
-        ItemKind::Joint { .. } => NameKind::Joint,
-        ItemKind::Equation { driver: true, .. } => NameKind::Driver,
-        ItemKind::Equation { .. } => NameKind::Constraint,
-        ItemKind::Load { .. } => NameKind::Load,
-        ItemKind::Measure { .. } => NameKind::Measure,
-        ItemKind::Trace { .. } => NameKind::Trace,
-        ItemKind::Result { .. } => NameKind::Result,
-        ItemKind::Broken { .. } | ItemKind::Gravity { .. } | ItemKind::Analysis { .. } => NameKind::Broken,
-    }
 }
 
 fn table_file(item: &Item) -> Option<&Name> {

@@ -186,24 +186,7 @@ pub(super) fn item_named<'t>(tree: &'t Mechanism, name: &str) -> Option<&'t Item
 }
 
 fn declaration(item: &Item) -> Declaration {
-    let kind = match &item.kind {
-        ItemKind::Param { .. } => NameKind::Param,
-        ItemKind::Function { .. } => NameKind::Function,
-        ItemKind::Table { .. } => NameKind::Table,
-        ItemKind::Input { .. } => NameKind::Input,
-        ItemKind::Part(_) => NameKind::Part,
-        ItemKind::Ground { .. } => NameKind::Ground,
-        ItemKind::Body { .. } => NameKind::Body,
-        ItemKind::Joint { .. } => NameKind::Joint,
-        ItemKind::Equation { driver: true, .. } => NameKind::Driver,
-        ItemKind::Equation { .. } => NameKind::Constraint,
-        ItemKind::Load { .. } => NameKind::Load,
-        ItemKind::Measure { .. } => NameKind::Measure,
-        ItemKind::Trace { .. } => NameKind::Trace,
-        ItemKind::Result { .. } => NameKind::Result,
-        ItemKind::Broken { .. } | ItemKind::Gravity { .. } | ItemKind::Analysis { .. } => NameKind::Broken,
-    };
-    Declaration { kind, span: item.span, docs: item.docs.clone() }
+    Declaration { kind: NameKind::of(item), span: item.span, docs: item.docs.clone() }
 }
 
 fn of_feature(feature: &Feature) -> Declaration {

@@ -5,7 +5,7 @@ use super::cursor::{Block, Cursor};
 use super::item::{CompletionItem, CompletionItemKind, Template};
 use super::wanted::Wanted;
 use crate::check::{KnownMechanism, NameKind, name_of};
-use crate::ide::names::{item_named, kind_of, known};
+use crate::ide::names::{item_named, known};
 use crate::ide::written::holds_letters;
 use crate::source::Span;
 use crate::stages::Checked;
@@ -105,7 +105,7 @@ impl Scope<'_> {
     /// A declared name with its declaration.
     fn named(&self, item: &Declaration, rank: u8) -> Option<CompletionItem> {
         let name = name_of(item).filter(|name| self.sieve.lets_pass(&name.text))?;
-        let kind = match kind_of(item) {
+        let kind = match NameKind::of(item) {
             NameKind::Function | NameKind::Table => CompletionItemKind::Function,
             NameKind::Body | NameKind::Ground | NameKind::Part => CompletionItemKind::Body,
             NameKind::Joint => CompletionItemKind::DeclaredJoint,
@@ -208,7 +208,7 @@ impl Scope<'_> {
         let has_time =
             matches!(head, "input" | "driver" | "load" | "measure" | "trace" | "result" | "constraint" | "part" | "fn");
         let has_measures = matches!(head, "measure" | "trace" | "result");
-        let rank = |item: &Declaration| match kind_of(item) {
+        let rank = |item: &Declaration| match NameKind::of(item) {
             NameKind::Param => Some(1),
             NameKind::Input => has_time.then_some(1),
             NameKind::Measure => has_measures.then_some(2),
