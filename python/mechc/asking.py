@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any, TypeVar
 
 from mechc.errors import MechcWarning, warn
-from mechc.values import many, mapping, meant, number, path_of, table, texts, usage, whole, written
+from mechc.values import many, mapping, meant, number, path_of, plain, table, texts, usage, whole, written
 from mechc.values import varied as one_varied
 
 Method = TypeVar("Method", bound=Callable[..., Any])
@@ -24,6 +24,7 @@ def with_options(method: Method, *, like: Iterable[Callable[..., Any]] = ()) -> 
     @functools.wraps(method)
     def asks(m: Any, /, *arguments: Any, **keywords: Any) -> Any:
         params, inputs = m._param_units, m._input_units
+        keywords = {name if name in options else plain(name): value for name, value in keywords.items()}
         warn_of_options(params, inputs, {name: value for name, value in keywords.items() if name in options})
         refuse_unknown([name for name in keywords if name not in options], params, inputs, options)
         return method(m, *arguments, **keywords)
@@ -109,8 +110,8 @@ def settings(option: str, given: Any, values: Mapping[str, Any], units: Mapping[
     """``NAME=FORMULA`` for each; a number has the unit of what it sets."""
     found = {}
     for name, value in {**({} if given is None else mapping(option, given)), **values}.items():
-        plain = "".join(name.split())
-        found[plain] = f"{plain}={written(name, value, unit_of(plain, units))}"
+        known = plain(name)
+        found[known] = f"{known}={written(name, value, unit_of(known, units))}"
     return list(found.values())
 
 
@@ -229,7 +230,7 @@ def _axes(vary: Any) -> Iterable[tuple[str, Any]]:
     given = {} if vary is None else mapping("vary", vary)
     if any(not name.strip() for name in given):
         raise usage("`vary` has an empty name, and that of a param is wanted")
-    return [("".join(name.split()), values) for name, values in given.items()]
+    return [(plain(name), values) for name, values in given.items()]
 
 
 def _columns_of(variants: Any) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mechc.errors import AnalysisError
 from mechc.tables import Run
-from mechc.values import elements, first_twice, meant, refused, texts, usage
+from mechc.values import elements, first_twice, meant, plain, refused, texts, usage
 
 if TYPE_CHECKING:
     from mechc.mechanism import Mechanism
@@ -42,7 +42,7 @@ class Jacobian:
             return self.results[self.result_names.index(name)]
         columns = [f"{name}.by.{by}" for by in self.by]
         if name not in self.run or any(column not in self.run for column in columns):
-            hint = meant(name, [*self.result_names, *(known for known in self.run if ".by." not in known)])
+            hint = meant(name, [*self.result_names, *(known for known in self.run if not self.run._derived(known)[1])])
             raise KeyError(f"there are no derivatives of {name!r}" + (f"; {hint}" if hint else ""))
         return np.column_stack([self.run[column] for column in columns])
 
@@ -70,7 +70,7 @@ def jacobian(m: Mechanism, by: Any, asked: dict[str, Any]) -> Jacobian:
 
 
 def _names(by: Any) -> list[str]:
-    found = ["".join(name.split()) for name in texts("by", by)]
+    found = [plain(name) for name in texts("by", by)]
     if not found:
         raise usage("it is not said what it is by", "as in `by=['rod_length']`")
     twice = first_twice(found)
@@ -81,7 +81,7 @@ def _names(by: Any) -> list[str]:
 
 def _found(run: Run) -> list[str]:
     """What derivatives are by, in the order of the columns: a name without a number is that of all copies."""
-    behind = [name.partition(".by.")[2] for name in run if ".by." in name]
+    behind = [by for _, by in map(run._derived, run) if by]
     return list(dict.fromkeys(behind))
 
 
@@ -102,7 +102,7 @@ class Objective:
         self._failed = failed
         #: The params, in the order of ``x``.
         self.by = list(evaluate.by)
-        #: Their values in the text (SI).
+        #: Their values in the text, with what was set (SI).
         self.x0 = evaluate.x0
 
     def __call__(self, x: ArrayLike) -> tuple[float, Array]:
@@ -149,7 +149,7 @@ class Residuals:
         self._wanted = wanted
         #: The params, in the order of ``x``.
         self.by = list(evaluate.by)
-        #: Their values in the text (SI).
+        #: Their values in the text, with what was set (SI).
         self.x0 = evaluate.x0
 
     def _both(self, x: ArrayLike) -> tuple[Array, Array]:
@@ -168,7 +168,8 @@ class Residuals:
 
     def jacobian(self, x: ArrayLike) -> Array:
         """The derivatives of all residuals by all params."""
-        return self._both(x)[1]
+        # who gets them may change them
+        return self._both(x)[1].copy()
 
 
 class Evaluation:
@@ -176,9 +177,9 @@ class Evaluation:
     derivatives one after the other."""
 
     def __init__(self, m: Mechanism, by: Any, columns: Sequence[str], asked: dict[str, Any]) -> None:
-        self._made_of = m, by, columns, asked
         self.by = _names(by)
-        params = m.params
+        self._made_of = m, self.by, columns, asked
+        params = _params(m, self.by, asked["set"])
         for name in self.by:
             if name not in params:
                 raise usage(f"there is no param `{name}`", meant(name, params) or f"the params are {', '.join(params)}")
@@ -221,6 +222,19 @@ class Evaluation:
         return Evaluation, self._made_of
 
 
+def _params(m: Mechanism, by: Sequence[str], set: Sequence[str]) -> Mapping[str, float]:
+    """The params of a mechanism of which some are set, and others are to be varied (SI)."""
+    names = [setting.partition("=")[0] for setting in set]
+    for name in by:
+        if name in names:
+            raise usage(f"`{name}` is set, and is one of the params that `x` holds", "leave it out of one of the two: optimisers begin where you say")
+    if not names:
+        return m.params
+    text, path, files, mechanism, own, leaves_out = m._packed()
+    kept = [setting for setting in own if setting.partition("=")[0] not in names]
+    return type(m)(text, path, files, False, mechanism, [*kept, *set], leaves_out).params
+
+
 def objective(m: Mechanism, result: str, by: Any, failed: float | None, asked: dict[str, Any]) -> Objective:
     """A result as a function of params."""
     evaluation = Evaluation(m, by, [], asked)
@@ -239,7 +253,10 @@ def residuals(
     for name in names:
         if name not in known:
             raise usage(f"there is no column `{name}`", meant(name, known))
-    targets = np.asarray(elements("wanted", wanted))
+    if not names:
+        raise usage("it is not said of which columns", "as in `m.residuals(['px', 'py'], points, by=…)`")
+    # what the caller does with theirs later is of no concern here
+    targets = np.array(elements("wanted", wanted))
     targets = targets.reshape(-1, len(names)) if targets.ndim == 1 else targets
     if targets.ndim != 2 or targets.shape[1] != len(names):
         raise usage(f"targets of shape {targets.shape} are given for {len(names)} columns", "a row for each time is wanted")

@@ -188,8 +188,9 @@ class Mechanism(Running):
         then ``scipy.optimize.least_squares(f, f.x0, jac=f.jacobian)``. ``at`` must rise. ``failed`` is
         what all residuals are where it does not get there; an error is raised where nothing is said.
         """
-        if at is not None and len(many("at", at)) > 1:
-            times = [number("at", time) for time in many("at", at)]
+        at = None if at is None else many("at", at)
+        if at is not None and len(at) > 1:
+            times = [number("at", time) for time in at]
             if any(a >= b for a, b in zip(times, times[1:])):
                 raise usage("the times of `at` do not rise", "each is to stand once, in order, as its target does")
         asked = self._asked(

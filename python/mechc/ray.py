@@ -87,7 +87,9 @@ def sweep(
 
     whole_sweep, share = _whole(m, options), whole("share", share, 1)
     concurrency = None if concurrency is None else whole("concurrency", concurrency, 1)
+    # workers may stand in other folders
     name = path_of("out", out)
+    name = name if "://" in name else os.path.abspath(name)
     fs, root = _opened(name)
     fs.create_dir(root, recursive=True)
     count = whole_sweep.variants
@@ -202,9 +204,14 @@ def _fingerprint(of: Sweep) -> dict[str, Any]:
         "text": hashlib.sha256(text.encode()).hexdigest(),
         "files": contents,
         "choice": {"mechanism": mechanism, "set": set, "allow_redundant": allow_redundant},
-        "asked": {name: value for name, value in asked.items() if value not in (None, [], False)},
-        "variants": {**{name: value for name, value in more.items() if value not in (None, [], False)}, "lists": lists},
+        "asked": _said(asked),
+        "variants": {**_said(more), "lists": lists},
     }
+
+
+def _said(options: dict[str, Any]) -> dict[str, Any]:
+    """What of options was said; a number 0 was."""
+    return {name: value for name, value in options.items() if value is not None and value is not False and value != []}
 
 
 def _tell(fs: pyarrow.fs.FileSystem, root: str, told: dict[str, Any]) -> None:

@@ -182,7 +182,7 @@ class Running(Described):
         run = Running.run.__wrapped__(self, **asked)  # type: ignore[attr-defined]
         if not columns:
             plain = {*self.columns}
-            names = [name for name in run if name == "t" or (name not in plain and ".by." not in name)]
+            names = [name for name in run if name == "t" or (name not in plain and not run._derived(name)[1])]
             run = run._with_columns(names)
         return _unless(is_strict, run)
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechc import _mechc
-from mechc.values import meant
+from mechc.values import meant, texts
 
 if TYPE_CHECKING:
     import pandas
@@ -94,9 +94,9 @@ class Rows(Mapping[str, Any]):
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         return self._table.__arrow_c_stream__(requested_schema)
 
-    def to_numpy(self, columns: list[str] | None = None) -> NDArray[np.float64]:
+    def to_numpy(self, columns: list[str] | str | None = None) -> NDArray[np.float64]:
         """Columns of numbers side by side, an array of shape (rows, columns); all of them where none are named."""
-        names = [name for name in self if self[name].dtype != object] if columns is None else columns
+        names = [name for name in self if self[name].dtype != object] if columns is None else texts("columns", columns)
         arrays = [self[name] for name in names]
         return np.column_stack(arrays) if arrays else np.empty((self.rows, 0))
 
@@ -157,6 +157,15 @@ class Run(Rows):
     def t(self) -> NDArray[np.float64]:
         """The output times (s), of shape (rows,)."""
         return self["t"]
+
+    def _derived(self, column: str) -> tuple[str, str]:
+        """Of what column this is the derivative, and by what; by nothing where it is none. A body may be called ``by`` too."""
+        at = column.find(".by.")
+        while at >= 0:
+            if column[:at] in self:
+                return column[:at], column[at + 4 :]
+            at = column.find(".by.", at + 1)
+        return column, ""
 
     @property
     def results(self) -> dict[str, float | None]:

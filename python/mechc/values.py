@@ -7,6 +7,7 @@ import math
 import numbers
 import operator
 import os
+import unicodedata
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Union
@@ -155,6 +156,11 @@ def texts(name: str, values: Any) -> list[str]:
         if not isinstance(text, str):
             raise usage(f"`{name}` has {_shown(text)}, and texts are wanted")
     return found
+
+
+def plain(name: str) -> str:
+    """A name as the language compares it: without spaces, letters with marks as one character (NFC)."""
+    return unicodedata.normalize("NFC", "".join(name.split()))
 
 
 def first_twice(names: Iterable[str]) -> str | None:

@@ -109,3 +109,15 @@ def test_what_is_not_for_shares(hoeken, tmp_path):
     for more in ({"skip": 3}, {"take": 3}, {"jobs": 2}, {"until": "flatness > 1"}):
         with pytest.raises(mechc.UsageError, match="not for sweeps of shares"):
             mechc.ray.sweep(hoeken, out=tmp_path, **OPTIONS, **more)
+
+
+@pytest.mark.timeout(280)
+def test_a_folder_is_of_one_sample_wherever_workers_stand(local_ray, hoeken, tmp_path, monkeypatch):
+    options = {**OPTIONS, "samples": 4, "share": 2}
+    monkeypatch.chdir(tmp_path)
+    unseeded = {name: value for name, value in options.items() if name != "seed"}
+    found = mechc.ray.sweep(hoeken, out="own", **unseeded)
+    assert found.folder == str(tmp_path / "own") and len(os.listdir("own")) == 3
+    # the first of Sobol's samples is another one than that without a seed
+    with pytest.raises(mechc.UsageError, match="another sweep"):
+        mechc.ray.sweep(hoeken, out="own", **{**options, "seed": 0})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import json
+import pickle
 import re
 import warnings
 
@@ -143,6 +144,73 @@ def test_what_is_optimised_is_told_its_inputs():
     turned = m.run(at=[0.2], inputs=told)["tilt"]
     r = m.residuals(["tilt"], turned, by=["base_radius"], at=[0.2], inputs=told)
     assert r(r.x0) == pytest.approx([0.0], abs=1e-12)
+
+
+LEG = """
+mechanism leg {
+    param r = 40 mm
+    param half = r / 2
+    input theta = 0.1 + 1 rad/s * t
+    ground { point O = (0, 0) }
+    body by at (0, 0, 0.1) {
+        point O = (0, 0)
+        point P = (r + half, 0)
+    }
+    joint by_hand: revolute(ground.O, by.O)
+    driver motor: rotation(by_hand) = theta
+    analysis from 0 s to 1 s every 0.5 s
+}"""
+
+LEGS = """
+use "leg.mech"
+mechanism legs {
+    param w = 1 rad/s
+    part one: leg(theta = 0.2 + w * t)
+    measure py = y(one.by.P)
+    result top = max(py)
+    analysis from 0 s to 1 s every 0.5 s
+}"""
+
+
+def test_a_body_may_be_called_as_derivatives_are():
+    def legs(name):
+        leg = LEG.replace("by.", f"{name}.").replace("body by", f"body {name}")
+        return mechc.parse(LEGS.replace("one.by", f"one.{name}"), files={"leg.mech": leg})
+
+    by, bar = [legs(name).jacobian(by=["w", "one.r"]) for name in ("by", "bar")]
+    assert by.by == bar.by == ["w", "one.r"] and by.results.shape == (1, 2)
+    assert same_bits(by.results, bar.results) and same_bits(by["py"], bar["py"])
+    leg = LEG.replace("body by", "body bar").replace(" by.O", " bar.O").replace("by_hand", "by")
+    joint = mechc.parse(LEGS.replace("one.by", "one.bar"), files={"leg.mech": leg})
+    assert joint.reactions().columns == ["t", "one.by.fx", "one.by.fy", "one.motor.effort"]
+
+
+def test_what_is_optimised_begins_with_what_is_set():
+    m = mechc.parse(LEG)
+    f = m.residuals("by.x", np.zeros(3), by="half", r=0.06)
+    assert list(f.x0) == [0.03] and same_bits(f(f.x0), m.run(r=0.06, lead=True)["by.x"])
+    with pytest.raises(mechc.UsageError, match="`half` is set"):
+        m.residuals("by.x", np.zeros(3), by="half", half=0.06)
+
+
+def test_residuals_are_of_nobody_else():
+    m, wanted = mechc.load(CRANK), np.zeros(3)
+    times = [0.0, 0.01, 0.02]
+    f = m.residuals(["travel"], wanted, by=(name for name in ["rod_length"]), at=(time for time in times))
+    values, slopes = f(f.x0).copy(), f.jacobian(f.x0).copy()
+    wanted += 1.0
+    f.jacobian(f.x0)[:] = 0.0
+    again = pickle.loads(pickle.dumps(f))
+    for kept in (f, again):
+        assert same_bits(kept(kept.x0), values) and same_bits(kept.jacobian(kept.x0), slopes)
+    with pytest.raises(mechc.UsageError, match="of which columns"):
+        m.residuals([], wanted, by="rod_length", at=times)
+
+
+def test_letters_with_marks_are_one_letter_or_two():
+    m = mechc.parse(LEG.replace("half", "m\u00e4\u00df"))
+    assert same_bits(m.run(**{"ma\u0308\u00df": 0.03})["by.phi"], m.run(set={"m\u00e4\u00df": 0.03})["by.phi"])
+    assert m.jacobian(by=["ma\u0308\u00df"]).by == ["m\u00e4\u00df"]
 
 
 def test_residuals_have_exact_derivatives():
