@@ -783,3 +783,31 @@ fn what_params_alone_decide_is_no_kink_on_the_way() {
     let z = affected.iter().find(|of| of.name == "z").expect("a result");
     near(z.slopes[0].expect("a derivative"), 4.0 * 0.17 * 3.6);
 }
+
+/// What rests has all its times in common: each of them may go its own way with a param, and a result of extremes then has no derivative.
+#[test]
+fn what_rests_may_be_set_moving_by_a_param() {
+    let text = "mechanism rest {
+        param la = 100 mm
+        param nominal = 100 mm
+        param speed = 0 rpm
+        ground { point O = (0, 0) }
+        body arm { point O = (0, 0) point tip = (la, 0) }
+        body still at (0, 0, 0.7) { point O = (0, 0) point tip = (la, 0) }
+        joint main: revolute(ground.O, arm.O)
+        joint side: revolute(ground.O, still.O)
+        driver mot: rotation(main) = 90 deg/s * t
+        driver held: rotation(side) = 0.7 + speed * t
+        measure off = x(arm.tip) - nominal * cos(90 deg/s * t)
+        result band = max(off) - min(off)
+        result worst = max(abs(off))
+        result stroke = max(x(still.tip)) - min(x(still.tip))
+        result long = max(distance(ground.O, arm.tip))
+        analysis from 0 s to 4 s every 0.1 s
+    }";
+    let (_, affected) = subject(text, &[]).affected(&["la=1mm", "speed=1rpm"]);
+    let slopes = |name: &str| &affected.iter().find(|of| of.name == name).expect("a result").slopes;
+    assert_eq!((slopes("band")[0], slopes("worst")[0], slopes("stroke")[1]), (None, None, None));
+    near(slopes("long")[0].expect("all its times go alike"), 1.0);
+    near(slopes("stroke")[0].expect("nothing is moved by it"), 0.0);
+}

@@ -12,7 +12,7 @@ use super::Lowering;
 use crate::expr::{Binary, Comparison, ExprId, Symbol, Unary};
 use crate::ir::{Outcome, Reduction, ReductionKind, Units};
 use crate::model::{Dimension, Variable, quotient};
-use crate::tolerances::results::slopes::{ALONE, DIGITS, FLAT, LAST_DIGITS, MOVED, NOTHING, SAME};
+use crate::tolerances::results::slopes::{ALONE, DIGITS, FLAT, LAST_DIGITS, LEAST_STEP, MOVED, NOTHING, SAME};
 use rustc_hash::FxHashMap;
 
 /// The first and the last time of the analysis.
@@ -290,7 +290,14 @@ impl Slopes<'_, '_> {
         let moved = graph.mul(part, range);
         // of what has no largest value nothing is known, not even that it rests
         let (step, rests) = (graph.div(moved, most), graph.compare(Comparison::LessEqual, most, zero));
+        // all values of what rests are alike, and yet the variable may move each of them by as much as it likes
+        let size = self.size_of_the_variable();
+        let graph = &mut self.lowering.graph;
+        let least = graph.constant(LEAST_STEP);
+        let least = graph.mul(least, size);
+        let step = graph.binary(Binary::Max, step, least);
         let step = graph.select(rests, zero, step);
+        let moved = graph.mul(step, most);
         let change = graph.mul(step, by);
         let both =
             [graph.add(value, change), graph.sub(value, change)].map(|formula| self.reduce(kind, formula, holds));
@@ -310,6 +317,16 @@ impl Slopes<'_, '_> {
 
     /// A slope where the variable changes the formula at all, by more than rounding does: if it were so much as it is large.
     fn where_it_goes(&mut self, (most, range): (ExprId, ExprId), slope: ExprId) -> ExprId {
+        let size = self.size_of_the_variable();
+        let graph = &mut self.lowering.graph;
+        let part = graph.constant(NOTHING);
+        let (change, limit) = (graph.mul(most, size), graph.mul(part, range));
+        let (rests, zero) = (graph.compare(Comparison::LessEqual, change, limit), graph.constant(0.0));
+        graph.select(rests, zero, slope)
+    }
+
+    /// How large the variable is, or usually is.
+    fn size_of_the_variable(&mut self) -> ExprId {
         let Variable { symbol, dimension, .. } = self.lowering.model.variables[self.variable as usize];
         let largest_size = self.lowering.largest_size;
         let own = match symbol {
@@ -318,6 +335,9 @@ impl Slopes<'_, '_> {
         };
         let usual = if dimension == Dimension::TIME {
             self.span()
+        } else if dimension == Dimension::RATE {
+            let (span, one) = (self.span(), self.lowering.graph.constant(1.0));
+            self.lowering.graph.div(one, span)
         } else {
             let usual = [(Dimension::LENGTH, largest_size), (Dimension::PURE, 1.0)];
             let usual = usual.into_iter().find(|(of, _)| *of == dimension).map_or(0.0, |(_, size)| size);
@@ -325,11 +345,7 @@ impl Slopes<'_, '_> {
         };
         let graph = &mut self.lowering.graph;
         let own = graph.unary(Unary::Abs, own);
-        let size = graph.add(own, usual);
-        let part = graph.constant(NOTHING);
-        let (change, limit) = (graph.mul(most, size), graph.mul(part, range));
-        let (rests, zero) = (graph.compare(Comparison::LessEqual, change, limit), graph.constant(0.0));
-        graph.select(rests, zero, slope)
+        graph.add(own, usual)
     }
 
     /// The largest value less the least.

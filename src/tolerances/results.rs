@@ -149,6 +149,8 @@ pub mod slopes {
     /// the second part of that; or for the last digits of its value.
     pub const MOVED: f64 = 1e-6;
     pub const ALONE: f64 = 0.01;
+    /// It is moved by what this part of a parameter's size makes of the formula at least, which may have no range.
+    pub const LEAST_STEP: f64 = 1e-9;
     pub const LAST_DIGITS: f64 = 1e-13;
     /// A parameter that as much again would change a formula by no more than this part of its range does not change it.
     pub const NOTHING: f64 = 1e-12;
