@@ -179,12 +179,9 @@ impl Fault<'_> {
 
     /// `2 pi t`, whose `pi` was taken for a unit: both products are mended at once.
     fn of_a_number_before_a_factor(&self) -> Option<Mend> {
+        let (number, start) = self.number_before_the_word()?;
         let (factor, found) = (self.word_before(), self.found);
-        let start = self.before().len() - factor.len();
-        let number = tokens(&self.text[..start]).last()?.text;
-        let is_factor = number.starts_with(|c: char| c.is_ascii_digit())
-            && factor.starts_with(char::is_alphabetic)
-            && Unit::named(factor).is_none();
+        let is_factor = factor.starts_with(char::is_alphabetic) && Unit::named(factor).is_none();
         is_factor.then(|| {
             let insert = |at| Edit { span: self.span(at..at), text: "* ".to_owned() };
             Mend::Fix(Fix {
@@ -197,12 +194,16 @@ impl Fault<'_> {
 
     /// `3 sin(t)`, whose function was taken for a unit.
     fn of_a_number_before_a_call(&self) -> Option<Mend> {
-        let function = self.word_before();
-        let start = self.before().len() - function.len();
+        let (number, start) = self.number_before_the_word()?;
+        let words = format!("a product is written with `*`: `{number} * {}(…)`", self.word_before());
+        (self.found == "(").then(|| self.replaced(start..start, "* ", &words, Applies::Probably))
+    }
+
+    /// The number before the word that ends before the fault, and where that word begins.
+    fn number_before_the_word(&self) -> Option<(&str, usize)> {
+        let start = self.before().len() - self.word_before().len();
         let number = tokens(&self.text[..start]).last()?.text;
-        let is_factor = self.found == "(" && number.starts_with(|c: char| c.is_ascii_digit());
-        let words = format!("a product is written with `*`: `{number} * {function}(…)`");
-        is_factor.then(|| self.replaced(start..start, "* ", &words, Applies::Probably))
+        number.starts_with(|c: char| c.is_ascii_digit()).then_some((number, start))
     }
 
     /// `sin x`, a function whose argument stands behind it.
