@@ -84,7 +84,7 @@ pub use stages::{
     InputMotion, Parsed, Redundant, Run, RunOptions, RustOptions, Seen, Settable, Shown, Sweep, SweepOptions,
     SweptColumn, Tolerance, Tolerancing, Variants, VaryOptions, Vectors, Verified, imported, seconds,
 };
-pub use sweep::{Levels, Method, Points, Sampling, Status, Swept, Varying};
+pub use sweep::{Levels, Method, Numbers, Points, Sampling, Status, Swept, Varying};
 pub use syntax::{Comment, Trivia};
 pub use vocabulary::{Category, Word, words};
 pub use world::{Contents, Memory, World};

@@ -212,7 +212,7 @@ impl Table {
         let units = self.wanted.as_ref().map(|_| self.units.as_slice());
         let cells = |column| match column {
             SweptColumn::Whole(numbers) => Cells::Whole(numbers),
-            SweptColumn::Numbers(numbers) => Cells::Numbers(numbers),
+            SweptColumn::Numbers(numbers) => Cells::Numbers(numbers.to_vec()),
             SweptColumn::Words(words) => Cells::Words(words),
         };
         block.tabulated(units).into_iter().map(cells).collect()

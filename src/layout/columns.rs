@@ -46,6 +46,19 @@ impl ColumnUnit {
         self.scale
     }
 
+    /// Whether it is that of SI.
+    #[must_use]
+    pub fn is_si(&self) -> bool {
+        self.is_si
+    }
+
+    /// Values in SI, in this unit from then on.
+    pub fn print_all(&self, values: &mut [f64]) {
+        if !self.is_si {
+            values.iter_mut().for_each(|value| *value = self.printed(*value));
+        }
+    }
+
     /// A value in SI, in this unit.
     #[must_use]
     pub fn printed(&self, value: f64) -> f64 {

@@ -4,11 +4,19 @@ use super::{Column, Machine, Program, Register, Registers, truth};
 use crate::expr::{Binary, Comparison, Unary, binary_value, compare, unary_value};
 use crate::math;
 use std::array::from_fn;
+use std::borrow::Borrow;
 
 /// The values of one register, a lane for each.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub struct LaneValues<const W: usize>(pub [f64; W]);
+
+impl<const W: usize> Borrow<[f64; W]> for LaneValues<W> {
+    #[inline]
+    fn borrow(&self) -> &[f64; W] {
+        &self.0
+    }
+}
 
 #[allow(clippy::inline_always)] // as all that is done in lanes
 impl<const W: usize> LaneValues<W> {
@@ -28,8 +36,8 @@ impl<const W: usize> LaneValues<W> {
 }
 
 /// Registers that hold a number for each lane, which are gone through in parts of `P` lanes: as many as a processor's vector registers hold a
-/// few times over, so that what an operation reads stays in these.
-pub struct LaneMachine<'n, const W: usize, const P: usize> {
+/// few times over, so that what an operation reads stays in these. With `ALL`, all parts are, which is known where it is compiled.
+pub struct LaneMachine<'n, const W: usize, const P: usize, const ALL: bool = false> {
     /// What stands in them.
     v: &'n mut [LaneValues<W>],
     /// How many parts there are that somebody asks for, and which of them is gone through.
@@ -41,7 +49,7 @@ pub struct LaneMachine<'n, const W: usize, const P: usize> {
     scalars: &'n Registers,
 }
 
-impl<'n, const W: usize, const P: usize> LaneMachine<'n, W, P> {
+impl<'n, const W: usize, const P: usize, const ALL: bool> LaneMachine<'n, W, P, ALL> {
     /// For registers of which so many parts are gone through.
     #[inline]
     #[must_use]
@@ -57,17 +65,17 @@ impl<'n, const W: usize, const P: usize> LaneMachine<'n, W, P> {
         let first = values.0[0].to_bits();
         let differs =
             |part: usize| values.part::<P>(part).iter().fold(0, |other, value| other | (value.to_bits() ^ first));
-        (0..self.parts).all(|part| differs(part) == 0)
+        (0..self.parts()).all(|part| differs(part) == 0)
     }
 }
 
 #[allow(clippy::inline_always)] // each is an arm of a loop that is compiled for several kinds of processors
-impl<const W: usize, const P: usize> Machine for LaneMachine<'_, W, P> {
+impl<const W: usize, const P: usize, const ALL: bool> Machine for LaneMachine<'_, W, P, ALL> {
     type Value = [f64; P];
 
     #[inline(always)]
     fn parts(&self) -> usize {
-        self.parts
+        if ALL { W / P } else { self.parts }
     }
 
     #[inline(always)]
@@ -161,8 +169,8 @@ impl<const W: usize, const P: usize> Machine for LaneMachine<'_, W, P> {
     /// Where all lanes ask for the same, one part is enough: variants that go side by side have one time.
     #[inline(always)]
     fn sin_cos_in(&mut self, [sin, cos]: [Register; 2], a: Register) {
-        let evaluated = if self.parts > 1 && self.is_alike(a) { 1 } else { self.parts };
-        for part in 0..self.parts {
+        let evaluated = if self.parts() > 1 && self.is_alike(a) { 1 } else { self.parts() };
+        for part in 0..self.parts() {
             self.go_to(part);
             if part < evaluated {
                 let angle = self.read(a);

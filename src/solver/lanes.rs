@@ -99,7 +99,7 @@ impl<const W: usize> Lanes<W> {
     /// How far the curve was from the solution in the last run: the largest first correction, scaled; not a number if one is not.
     #[must_use]
     pub fn first_correction(&self) -> f64 {
-        self.first_corrections().iter().copied().fold(0.0, math::max)
+        self.first_corrections().0.iter().copied().fold(0.0, math::max)
     }
 
     /// Whether all numbers of a lane's row are finite.
@@ -141,7 +141,7 @@ impl<const W: usize> Lanes<W> {
         let mut run = Run { lanes: self, solver, of, around };
         vectors.run(
             #[inline(always)]
-            || run.instructions(0..solver.fixed),
+            || run.instructions::<false>(0..solver.fixed),
         );
         self.of_fixed = self.watched.clone();
     }
@@ -156,30 +156,44 @@ impl<const W: usize> Lanes<W> {
         self.watched = self.of_fixed.clone();
         // one lane has nothing to do at once
         let vectors = if W == 1 { Vectors::BASE } else { self.vectors };
+        let is_all = around.parts() == W / P;
         let mut run = Run { lanes: self, solver, of, around };
-        vectors.run(
-            #[inline(always)]
-            || run.segments(),
-        );
+        if is_all {
+            vectors.run(
+                #[inline(always)]
+                || run.segments::<true>(),
+            );
+        } else {
+            vectors.run(
+                #[inline(always)]
+                || run.segments::<false>(),
+            );
+        }
     }
 
     /// Adds to each lane in which Newton has not settled, an equation is not met, a multiplier is above a part of the largest, or what was
     /// stored is not finite.
     #[inline(always)]
     #[allow(clippy::inline_always, clippy::needless_range_loop)] // compiled for several kinds of processors; by lane it vectorises best
-    pub(super) fn write_doubts(&self, part: f64, doubts: &mut [f64; W]) {
+    pub(super) fn write_doubts(&self, part: f64, doubts: &mut LaneValues<W>) {
         let largest = part * LARGEST_MULTIPLIER;
         let Watched { farthest, residual, multiplier, finite, .. } = &self.watched;
-        for k in 0..W {
-            let is_settled = farthest.0[k] <= LARGEST_CORRECTION && residual.0[k] <= 1.0;
-            let is_certain = multiplier.0[k] <= largest && finite.0[k] == 0.0;
-            doubts[k] += if is_settled & is_certain { 0.0 } else { 1.0 };
+        for part in 0..W / PART {
+            let (far, left) = (*farthest.part::<PART>(part), *residual.part::<PART>(part));
+            let (grown, finite) = (*multiplier.part::<PART>(part), *finite.part::<PART>(part));
+            let mut in_doubt = *doubts.part::<PART>(part);
+            for k in 0..PART {
+                let is_settled = far[k] <= LARGEST_CORRECTION && left[k] <= 1.0;
+                let is_certain = grown[k] <= largest && finite[k] == 0.0;
+                in_doubt[k] += if is_settled & is_certain { 0.0 } else { 1.0 };
+            }
+            *doubts.part_mut(part) = in_doubt;
         }
     }
 
     /// How far the guess of each lane was from its solution, scaled.
-    pub(super) fn first_corrections(&self) -> &[f64; W] {
-        &self.watched.first_correction.0
+    pub(super) fn first_corrections(&self) -> &LaneValues<W> {
+        &self.watched.first_correction
     }
 }
 
@@ -260,12 +274,12 @@ struct Run<'r, A, const W: usize, const P: usize> {
 #[allow(clippy::inline_always)]
 impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
     #[inline(always)]
-    fn segments(&mut self) {
+    fn segments<const ALL: bool>(&mut self) {
         for segment in &self.solver.segments {
             let tears = segment.tears();
             self.begin(tears);
             for iteration in 0..ITERATIONS {
-                self.instructions(segment.range());
+                self.instructions::<ALL>(segment.range());
                 // what is run once is done then
                 if tears.is_empty() || self.go_on(tears, iteration) {
                     break;
@@ -358,11 +372,11 @@ impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
     }
 
     #[inline(always)]
-    fn instructions(&mut self, range: Range<usize>) {
+    fn instructions<const ALL: bool>(&mut self, range: Range<usize>) {
         let Lanes { values, watched, .. } = &mut *self.lanes;
         let around = &mut self.around;
-        let parts = around.parts();
-        let mut machine = LaneMachine::<W, P>::new(values, parts, self.of);
+        let parts = if ALL { W / P } else { around.parts() };
+        let mut machine = LaneMachine::<W, P, ALL>::new(values, parts, self.of);
         for instruction in &self.solver.instructions[range] {
             // most are operations: one choice of many, and not two
             if let Instruction::Compute(op) = instruction {

@@ -96,20 +96,20 @@ impl<const W: usize> Abreast<W> {
     /// was kept is finite.
     #[inline(always)]
     #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
-    pub fn write_doubts(&self, doubts: &mut [f64; W]) {
+    pub fn write_doubts(&self, doubts: &mut LaneValues<W>) {
         self.lanes.write_doubts(CERTAIN_MULTIPLIER, doubts);
     }
 
     /// How far the guess of each lane was from its solution, scaled.
     #[must_use]
-    pub fn first_corrections(&self) -> &[f64; W] {
+    pub fn first_corrections(&self) -> &LaneValues<W> {
         self.lanes.first_corrections()
     }
 
     /// One over the smallest pivot of a lane, scaled.
     #[must_use]
-    pub fn steepest(&self) -> &[f64; W] {
-        &self.out.steepest.0
+    pub fn steepest(&self) -> &LaneValues<W> {
+        &self.out.steepest
     }
 
     /// By turn of the solver: one over the block's determinant, but for a sign that stays.

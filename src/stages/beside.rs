@@ -6,7 +6,7 @@ use super::over::FromOwn;
 use crate::analysis::Times;
 use crate::diag::Diagnostic;
 use crate::program::LaneValues;
-use crate::sweep::{Each, LANES, Room, Team, Together, WantedOfEach};
+use crate::sweep::{Each, LANES, Numbers, Room, Team, Together, WantedOfEach};
 use std::array::from_fn;
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
@@ -44,7 +44,7 @@ pub(super) struct SideBySide {
     team: Team,
     params: Vec<Each>,
     /// By column, place by place.
-    columns: Vec<Vec<f64>>,
+    columns: Vec<Numbers>,
     /// Those of which nothing is in doubt.
     done: [bool; LANES],
 }
@@ -65,7 +65,10 @@ impl Beside {
         for (place, param) in side.params.iter_mut().enumerate() {
             param.0 = lanes.map(|of| of.unwrap_or(aim).values[place]);
         }
-        side.columns.iter_mut().for_each(|column| column.resize(aims.len().min(LANES), 0.0));
+        for column in &mut side.columns {
+            column.truncate(0);
+            column.make_room(aims.len().min(LANES));
+        }
         let room = Room { columns: &mut side.columns, before: 0, rows: 1 };
         side.done = side.team.follow(&side.params, lanes.map(|of| of.is_some()), room, &options.cancel);
         Some(side)
@@ -95,7 +98,7 @@ impl Beside {
             team: Team::new(&of),
             of,
             params: Vec::new(),
-            columns: vec![Vec::new(); columns],
+            columns: vec![Numbers::default(); columns],
             done: [false; LANES],
         };
         Some(known.idle.pop().unwrap_or_else(new))

@@ -1,7 +1,7 @@
 //! Variants of a sweep as columns of a table, as all who write or hand out such tables have them.
 
 use crate::layout::ColumnUnit;
-use crate::sweep::{Status, Swept};
+use crate::sweep::{Numbers, Status, Swept};
 
 /// A column of variants, or of their rows.
 #[derive(Clone, PartialEq, Debug)]
@@ -9,7 +9,7 @@ pub enum SweptColumn {
     /// The numbers of the variants.
     Whole(Vec<u64>),
     /// Numbers; what is missing is not a number.
-    Numbers(Vec<f64>),
+    Numbers(Numbers),
     /// What became of them.
     Words(Vec<&'static str>),
 }
@@ -24,24 +24,25 @@ impl Swept {
         let mut columns = Vec::with_capacity(params.len() + results.len() + rows.len() + 3);
         let Some(units) = units else {
             columns.push(SweptColumn::Whole(numbers.collect()));
-            columns.extend(params.into_iter().chain(results).map(SweptColumn::Numbers));
+            columns.extend(params.into_iter().chain(results).map(|values| SweptColumn::Numbers(values.into())));
             columns.push(SweptColumn::Words(statuses.into_iter().map(Status::as_str).collect()));
-            columns.push(SweptColumn::Numbers(stopped));
+            columns.push(SweptColumn::Numbers(stopped.into()));
             return columns;
         };
-        columns.push(SweptColumn::Whole(repeated(numbers, &lengths)));
-        columns.extend(params.into_iter().map(|values| SweptColumn::Numbers(repeated(values, &lengths))));
+        // what is said once of a variant, for each of its rows
+        let mut whole = Vec::with_capacity(lengths.iter().sum());
+        numbers.zip(&lengths).for_each(|(number, &rows)| whole.resize(whole.len() + rows, number));
+        columns.push(SweptColumn::Whole(whole));
+        columns.extend(params.into_iter().map(|values| {
+            let mut numbers = rows.first().map_or_else(Numbers::default, |row| row.another(row.len()));
+            let of_rows = values.into_iter().zip(&lengths);
+            of_rows.for_each(|(value, &rows)| numbers.extend(std::iter::repeat_n(value, rows)));
+            SweptColumn::Numbers(numbers)
+        }));
         columns.extend(rows.into_iter().zip(units).map(|(mut values, unit)| {
-            for value in &mut values {
-                *value = unit.printed(*value);
-            }
+            unit.print_all(&mut values);
             SweptColumn::Numbers(values)
         }));
         columns
     }
-}
-
-/// What is said once of a variant, for each of its rows.
-fn repeated<T: Copy>(values: impl IntoIterator<Item = T>, lengths: &[usize]) -> Vec<T> {
-    values.into_iter().zip(lengths).flat_map(|(value, &rows)| std::iter::repeat_n(value, rows)).collect()
 }

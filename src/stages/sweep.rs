@@ -9,11 +9,14 @@ use crate::analysis::{Asked, Started, Times};
 use crate::cancel::Cancel;
 use crate::crew::{Crew, usual_jobs};
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::sweep::{LANES, OneVariant, PART, Status, Swept, Team};
+use crate::sweep::{LANES, OneVariant, PART, Spare, Status, Swept, Team};
 use std::sync::{Arc, OnceLock};
 
-/// Numbers that a piece of work holds, more or less: 2 MB.
-const NUMBERS: u64 = 1 << 18;
+/// Numbers that a piece of work holds, more or less: half a megabyte, which stays where the processor has it at hand.
+const NUMBERS: u64 = 1 << 16;
+/// What is done once for each column of a piece is worth so many rows; then it may hold so many numbers, 4 MB.
+const ROWS: u64 = 1 << 14;
+const NUMBERS_OF_MANY_COLUMNS: u64 = 1 << 19;
 /// Variants of a piece at the most, so that the first come soon.
 const MOST: u64 = 256;
 /// All lanes are used as long as a piece holds no more numbers than this: 32 MB.
@@ -53,10 +56,11 @@ impl Default for SweepOptions {
     }
 }
 
-/// How many variants a piece of work holds, of each of which there are so many numbers.
-fn variants_of_a_piece(numbers: u64) -> u64 {
+/// How many variants a piece of work holds, of each of which there are so many numbers, in so many columns.
+fn variants_of_a_piece(numbers: u64, columns: u64) -> u64 {
     let lanes = LANES as u64;
-    let all = (NUMBERS / numbers / lanes * lanes).clamp(lanes, MOST);
+    let wanted = ROWS.saturating_mul(columns).clamp(NUMBERS, NUMBERS_OF_MANY_COLUMNS);
+    let all = (wanted / numbers / lanes * lanes).clamp(lanes, MOST);
     let fewer = [all, PART as u64].into_iter().find(|variants| variants * numbers <= MOST_NUMBERS);
     fewer.unwrap_or(1)
 }
@@ -92,11 +96,12 @@ impl Checked {
         make: impl Fn(Swept) -> T + Send + Sync + 'static,
     ) -> Result<Sweep<T>, Box<Diagnostic>> {
         let times = options.times.over(compiled.analysis())?.times()?;
-        let numbers = match &options.columns {
-            Some(columns) => times.len() * columns.len() as u64,
-            None => compiled.results().len() as u64 + 1,
+        let (rows, width) = match &options.columns {
+            Some(columns) => (times.len(), columns.len() as u64),
+            None => (1, compiled.results().len() as u64 + 1),
         };
-        let size = variants_of_a_piece(numbers.max(1));
+        let numbers = rows * width;
+        let size = variants_of_a_piece(numbers.max(1), width);
         let end = variants.points().count();
         let first = options.skip.min(end);
         let last = options.take.map_or(end, |take| first.saturating_add(take).min(end));
@@ -108,8 +113,12 @@ impl Checked {
         let count = results.len();
         let families = Families::of((self, variants), options.redundant, [columns, results], first);
         let (own, variants, options) = (self.clone(), variants.clone(), options.clone());
-        let abreast = OnceLock::new();
-        let sweeping = Arc::new(Sweeping { own, families, variants, options, results: count, until, first, abreast });
+        // blocks in work with all that tables have of them, and two that somebody reads
+        let of_params = variants.points().params().len() as u64 * times.len();
+        let in_work = (numbers + of_params).saturating_mul(size).saturating_mul(jobs as u64 + 2);
+        let (abreast, spare) = (OnceLock::new(), Arc::new(Spare::new(in_work as usize)));
+        let sweeping =
+            Arc::new(Sweeping { own, families, variants, options, results: count, until, first, abreast, spare });
         let pieces = 0..(last - first).div_ceil(size);
 
         let work = move |piece: u64| {
@@ -150,6 +159,8 @@ struct Sweeping {
     first: u64,
     /// What variants share that go side by side, once somebody has asked; nothing where they go alone.
     abreast: OnceLock<Option<Abreast>>,
+    /// Memory of columns that are done with.
+    spare: Arc<Spare>,
 }
 
 /// Variants that went side by side.
@@ -167,7 +178,7 @@ impl<'d> Done<'d> {
     /// Follows variants, by their params.
     fn of(of: &Abreast, side: &'d mut Side, block: &mut Swept, params: &[f64], sweeping: &Sweeping) -> Done<'d> {
         let (count, rows) = (params.len() / sweeping.width(), of.rows());
-        let before = block.columns.first().map_or(0, Vec::len);
+        let before = block.columns.first().map_or(0, |column| column.len());
         let lanes = of.follow(side, params, block.room(count, rows), &sweeping.options.cancel);
         let team = &side.team;
         let is_whole = (0..count).all(|lane| lanes[lane] && sweeping.has_all(team, lane));
@@ -184,7 +195,8 @@ impl Sweeping {
         let mut block = Swept::new(variants.start, self.variants.points().params().len(), results, columns);
         let abreast = self.abreast();
         let mut side = abreast.map(Abreast::side);
-        block.reserve((variants.end - variants.start) as usize, abreast.map_or(0, Abreast::rows));
+        let rows = (variants.end - variants.start) as usize * abreast.map_or(0, Abreast::rows);
+        block.reserve(rows, &self.spare);
         let mut params = vec![0.0; width * LANES];
         let mut found = Some(false);
         for first in variants.clone().step_by(LANES) {
@@ -259,7 +271,7 @@ impl Sweeping {
         };
         let found = self.until.map(|until| results.remove(until));
         for (column, from) in block.columns.iter_mut().zip(done.aside.iter().flatten()) {
-            column.extend_from_slice(&from[lane * done.rows..(lane + 1) * done.rows]);
+            column.extend(from[lane * done.rows..(lane + 1) * done.rows].iter().copied());
         }
         block.push_abreast((1, done.rows), params);
         if is_known {
@@ -425,8 +437,10 @@ mod tests {
 
     #[test]
     fn pieces_fill_lanes_and_little_memory() {
-        for numbers in [1, 2, 400, 9_720, 131_072, 131_073, 500_000, 600_000, 1 << 40] {
-            let variants = variants_of_a_piece(numbers);
+        let all = [1, 2, 400, 9_720, 131_072, 131_073, 500_000, 600_000, 1 << 40];
+        for (numbers, columns) in all.into_iter().flat_map(|numbers| [(numbers, 1), (numbers, 40), (numbers, numbers)])
+        {
+            let variants = variants_of_a_piece(numbers, columns);
             assert!(variants == 1 || variants * numbers <= MOST_NUMBERS, "{variants} of {numbers}");
             assert!((1..=MOST).contains(&variants), "{variants} of {numbers}");
             let could_be_more = LANES as u64 * numbers <= MOST_NUMBERS;

@@ -316,7 +316,7 @@ struct Rows<'s> {
     times: &'s [f64],
     values: &'s [f64],
     /// By tolerance: its derivative, if it has one.
-    slopes: Vec<Option<&'s Vec<f64>>>,
+    slopes: Vec<Option<&'s [f64]>>,
 }
 
 impl AskedOf {
@@ -333,7 +333,8 @@ impl AskedOf {
         if let Some(times) = columns.next() {
             for measure in self.measures {
                 let Some(values) = columns.next() else { break };
-                let slopes = measure.by.iter().map(|by| by.and_then(|_| columns.next())).collect();
+                let slopes =
+                    measure.by.iter().map(|by| by.and_then(|_| columns.next().map(|column| &**column))).collect();
                 all.push(where_it_is_worst(measure, &Rows { times, values, slopes }, tolerances));
             }
         }

@@ -70,8 +70,12 @@ impl Stand {
             }
         }
         self.determinants.copy_from_slice(from.determinants());
-        for (to, &steepest) in self.nearness.0.iter_mut().zip(from.steepest()) {
-            *to = nearness(unit, steepest);
+        for part in 0..LANES / PART {
+            let mut near = *from.steepest().part::<PART>(part);
+            for k in 0..PART {
+                near[k] = nearness(unit, near[k]);
+            }
+            *self.nearness.part_mut(part) = near;
         }
     }
 
@@ -97,7 +101,7 @@ impl Stand {
 pub(super) fn of_step(
     tracked: &[Tracked],
     [now, next]: [&Stand; 2],
-    (h, first_corrections): (Option<f64>, &[f64; LANES]),
+    (h, first_corrections): (Option<f64>, &Each),
     doubts: &mut Doubts,
 ) {
     for part in 0..LANES / PART {
@@ -115,22 +119,29 @@ pub(super) fn of_step(
                 }
             }
         }
-        let [from, to] = [now, next].map(|at| at.nearness.part::<PART>(part));
-        let (corrections, doubts) = (&first_corrections.as_chunks::<PART>().0[part], doubts.0.part_mut::<PART>(part));
+        let (from, to) = (*now.nearness.part::<PART>(part), *next.nearness.part::<PART>(part));
+        let (corrections, mut in_doubt) = (*first_corrections.part::<PART>(part), *doubts.0.part::<PART>(part));
         for k in 0..PART {
             let (least, most) = if from[k] < to[k] { (from[k], to[k]) } else { (to[k], from[k]) };
-            let is_clear = least >= NEAREST && corrections[k] <= PART_OF_DISTANCE * least;
-            let is_short = motion[k] <= LARGEST_MOTION && motion[k] <= most && gap[k] <= LARGEST_GAP;
-            doubts[k] += if is_clear & is_short { 0.0 } else { 1.0 };
+            // all of it is looked at, in all lanes at once
+            let (is_far, is_near_guess) = (least >= NEAREST, corrections[k] <= PART_OF_DISTANCE * least);
+            let (is_short, is_inside) = (motion[k] <= LARGEST_MOTION, motion[k] <= most);
+            let is_led_to = gap[k] <= LARGEST_GAP;
+            in_doubt[k] += if is_far & is_near_guess & is_short & is_inside & is_led_to { 0.0 } else { 1.0 };
         }
+        *doubts.0.part_mut(part) = in_doubt;
     }
-    let doubts = &mut doubts.0.0;
     for (now, next) in now.determinants.iter().zip(&next.determinants) {
-        for k in 0..LANES {
-            // both are of one sign, and neither is more than so many times the other
-            let (product, a, b) = (now.0[k] * next.0[k], now.0[k].abs(), next.0[k].abs());
-            let is_alike = product > 0.0 && a <= LARGEST_CHANGE * b && b <= LARGEST_CHANGE * a;
-            doubts[k] += if is_alike { 0.0 } else { 1.0 };
+        for part in 0..LANES / PART {
+            let (from, to) = (*now.part::<PART>(part), *next.part::<PART>(part));
+            let mut in_doubt = *doubts.0.part::<PART>(part);
+            for k in 0..PART {
+                // both are of one sign, and neither is more than so many times the other
+                let (product, a, b) = (from[k] * to[k], from[k].abs(), to[k].abs());
+                let is_alike = product > 0.0 && a <= LARGEST_CHANGE * b && b <= LARGEST_CHANGE * a;
+                in_doubt[k] += if is_alike { 0.0 } else { 1.0 };
+            }
+            *doubts.0.part_mut(part) = in_doubt;
         }
     }
 }

@@ -6,6 +6,7 @@ mod base;
 mod course;
 mod each;
 mod judge;
+mod numbers;
 mod points;
 mod sobol;
 mod steps;
@@ -18,6 +19,7 @@ mod walk;
 
 pub use base::{Arrived, Base, Lost, Whole};
 pub use each::{Each, LANES, PART};
+pub use numbers::{Numbers, Spare};
 pub use points::{Levels, MOST_OF_SOBOL, Method, Points, Sampling, Varying, evenly, rounded};
 pub use swept::{OneVariant, Status, Swept};
 pub use table::Room;

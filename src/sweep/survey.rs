@@ -243,12 +243,12 @@ impl Survey {
             nearly: 0.0,
         };
         abreast.run(&asked.solver, (&of.program, &of.scalars), &guesses);
-        let mut doubts = [0.0; LANES];
+        let mut doubts = ZERO;
         abreast.write_doubts(&mut doubts);
         for (lane, open) in open.iter_mut().enumerate() {
             // between its steps a variant is far from singular positions
-            let is_near = abreast.first_corrections()[lane] <= PART_OF_DISTANCE * NEAREST;
-            *open &= doubts[lane] == 0.0 && is_near;
+            let is_near = abreast.first_corrections().0[lane] <= PART_OF_DISTANCE * NEAREST;
+            *open &= doubts.0[lane] == 0.0 && is_near;
         }
     }
 }

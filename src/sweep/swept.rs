@@ -1,7 +1,9 @@
 //! What comes out of a sweep: variants in a row, by columns.
 
+use super::numbers::{Numbers, Spare};
 use super::table::Room;
 use crate::diag::Code;
+use std::sync::Arc;
 
 /// What became of a variant.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -61,7 +63,7 @@ pub struct Swept {
     /// By variant: how many rows it has.
     pub lengths: Vec<usize>,
     /// By wanted column, row after row (SI).
-    pub columns: Vec<Vec<f64>>,
+    pub columns: Vec<Numbers>,
     /// How many of them went side by side: which way a variant went changes no bit of it.
     pub abreast: usize,
     /// Of how many of them results were found so too.
@@ -73,19 +75,25 @@ impl Swept {
     #[must_use]
     pub fn new(first: u64, params: usize, results: usize, columns: usize) -> Swept {
         let of = |count| vec![Vec::new(); count];
-        Swept { first, params: of(params), results: of(results), columns: of(columns), ..Swept::default() }
+        let columns = vec![Numbers::default(); columns];
+        Swept { first, params: of(params), results: of(results), columns, ..Swept::default() }
     }
 
     /// Makes room for the rows of the next variants, so many, which are to run side by side, each with so many rows.
     pub fn room(&mut self, variants: usize, rows: usize) -> Room<'_> {
-        let before = self.columns.first().map_or(0, Vec::len);
-        self.columns.iter_mut().for_each(|column| column.resize(before + variants * rows, 0.0));
+        let before = self.columns.first().map_or(0, |column| column.len());
+        self.columns.iter_mut().for_each(|column| column.make_room(variants * rows));
         Room { columns: &mut self.columns, before, rows }
     }
 
     /// Takes out what was written where room was made, by column; so many numbers were there before.
     pub fn take_room(&mut self, before: usize) -> Vec<Vec<f64>> {
-        self.columns.iter_mut().map(|column| column.split_off(before)).collect()
+        let take = |column: &mut Numbers| {
+            let taken = column[before..].to_vec();
+            column.truncate(before);
+            taken
+        };
+        self.columns.iter_mut().map(take).collect()
     }
 
     /// Adds the next variants, so many, which have run side by side, each with so many rows, which are there already: what their params are, one
@@ -112,9 +120,9 @@ impl Swept {
         self.results.iter_mut().zip(results).for_each(|(column, value)| column.push(*value));
     }
 
-    /// Makes room for so many variants, with so many rows each.
-    pub fn reserve(&mut self, variants: usize, rows: usize) {
-        self.columns.iter_mut().for_each(|column| column.reserve_exact(variants * rows));
+    /// Takes memory for so many rows in all.
+    pub fn reserve(&mut self, rows: usize, spare: &Arc<Spare>) {
+        self.columns.iter_mut().for_each(|column| *column = Numbers::with_capacity(rows, spare));
     }
 
     /// Adds the next variant.
@@ -126,7 +134,7 @@ impl Swept {
         let width = self.columns.len();
         self.lengths.push(variant.rows.len().checked_div(width).unwrap_or(0));
         for (k, column) in self.columns.iter_mut().enumerate() {
-            column.extend(variant.rows.iter().skip(k).step_by(width));
+            column.extend(variant.rows.iter().copied().skip(k).step_by(width));
         }
     }
 
@@ -140,6 +148,12 @@ impl Swept {
         self.columns.iter_mut().for_each(|column| column.truncate(rows));
         self.abreast = self.abreast.min(variants);
         self.answered = self.answered.min(variants);
+    }
+
+    /// Whether all of them went side by side: then all have all their rows, and every number there is finite (SI).
+    #[must_use]
+    pub fn went_abreast(&self) -> bool {
+        self.abreast == self.len()
     }
 
     /// How many variants it holds.

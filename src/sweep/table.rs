@@ -1,13 +1,13 @@
 //! The rows of variants that go side by side, column by column.
 
 use super::each::LANES;
+use super::numbers::Numbers;
 use super::together::{Rows, Together};
 use crate::math::{Vectors, WIDE};
-use crate::program::LaneValues;
 use crate::solver::Abreast;
 
-/// Rows that are put into columns together.
-const TILE: usize = WIDE;
+/// Rows that are put into columns together: a line of the processor's memory for each column of each variant.
+const TOGETHER: usize = WIDE;
 
 /// Rows that are wanted, and what solves for them.
 pub(super) struct Table {
@@ -18,7 +18,7 @@ pub(super) struct Table {
 /// Where rows of variants go, which stand one behind the other at the end of columns.
 pub struct Room<'c> {
     /// The columns that are wanted.
-    pub columns: &'c mut [Vec<f64>],
+    pub columns: &'c mut [Numbers],
     /// How many numbers they hold before.
     pub before: usize,
     /// How many rows each has.
@@ -28,18 +28,18 @@ pub struct Room<'c> {
 impl Table {
     /// For rows that are wanted.
     pub fn new(together: &Together, of: &Rows) -> Table {
-        Table { abreast: together.abreast(&of.solver, TILE), vectors: together.vectors }
+        Table { abreast: together.abreast(&of.solver, TOGETHER), vectors: together.vectors }
     }
 
     /// Goes to the row of an output time, by its number.
     pub fn turn_to(&mut self, number: u64) {
-        self.abreast.turn_to(number as usize % TILE);
+        self.abreast.turn_to(number as usize % TOGETHER);
     }
 
     /// Puts the last rows into columns, once there are enough of them: up to that of an output time, by its number.
     pub fn put(&self, of: &Rows, number: u64, room: &mut Room<'_>) {
-        let (last, count) = (number as usize, number as usize % TILE + 1);
-        if count < TILE && last + 1 < room.rows {
+        let (last, count) = (number as usize, number as usize % TOGETHER + 1);
+        if count < TOGETHER && last + 1 < room.rows {
             return;
         }
         let first = last + 1 - count;
@@ -52,12 +52,11 @@ impl Table {
                 continue;
             }
             let from = &self.abreast.rows(column)[..count];
-            if let Ok(tile) = <&[LaneValues<LANES>; TILE]>::try_from(from) {
-                self.vectors.turn(tile.each_ref().map(|row| &row.0), to, (first, room.rows));
-            } else {
-                for (lane, to) in to.chunks_exact_mut(room.rows).enumerate() {
-                    to[first..].iter_mut().zip(from).for_each(|(to, row)| *to = row.0[lane]);
-                }
+            self.vectors.turn(from, to, (first, room.rows));
+            let left = count % WIDE;
+            for (lane, to) in to.chunks_exact_mut(room.rows).enumerate() {
+                let left = from[count - left..].iter().map(|row| row.0[lane]);
+                to[last + 1 - left.len()..].iter_mut().zip(left).for_each(|(to, value)| *to = value);
             }
         }
     }

@@ -3,7 +3,7 @@
 
 use super::Base;
 use super::asked::Asked;
-use super::each::{Each, LANES, PART};
+use super::each::{Each, LANES, PART, ZERO};
 use super::judge::{Stand, Tracked, nearness};
 use crate::analysis::{Started, Times};
 use crate::ir::CoordinateKind;
@@ -140,8 +140,8 @@ impl Together {
         self.solve(&mut abreast, &mut loaded, &own)?;
         self.determinants = abreast.determinants().iter().map(|of| of.0[0]).collect();
         // pivots of rows of unit norm say little more than it is
-        self.nearness = f64::min(1.0, started.conditioning() * abreast.steepest()[0].max(1.0));
-        self.own_nearness = nearness(self.nearness, abreast.steepest()[0]);
+        self.nearness = f64::min(1.0, started.conditioning() * abreast.steepest().0[0].max(1.0));
+        self.own_nearness = nearness(self.nearness, abreast.steepest().0[0]);
         let place = |abreast: &Abreast<LANES>, tear: usize| abreast.column(self.tracked[tear].columns[0]).0[0];
         let here: Vec<f64> = self.tears.iter().map(|&tear| place(&abreast, tear)).collect();
         let mut slopes = Vec::with_capacity(self.led.len());
@@ -167,9 +167,9 @@ impl Together {
         let [bounds, _] = &self.bounds;
         let guesses = Guesses { times: [self.from; LANES], tears: &tears, loaded, bounds, parts: 1, nearly: NEARLY };
         abreast.run(&self.steps, (&self.program, &self.scalars), &guesses);
-        let mut doubts = [0.0; LANES];
+        let mut doubts = ZERO;
         abreast.write_doubts(&mut doubts);
-        (doubts[0] == 0.0).then_some(())
+        (doubts.0[0] == 0.0).then_some(())
     }
 
     /// Where all variants come from.

@@ -2,7 +2,7 @@
 //! there from time to time. Newton goes from grid point to grid point (`math/grid.rs`), so that what is solved for exactly has the bits that it has
 //! alone, as long as the branch is the same. A step is taken where that is beyond doubt; a variant in doubt leaves.
 
-use super::each::{Each, LANES, ZERO, parts_of};
+use super::each::{Each, LANES, PART, ZERO, parts_of};
 use super::judge::{self, Doubts, Stand};
 use super::table::Table;
 use super::together::{Rows, Together};
@@ -236,17 +236,13 @@ impl Walk {
         let spans = [h, now.t - before.t, now.t - earlier.t];
         // a place that was not passed is as good as none
         ahead.lead_on(*passed, from_fn(|k| if k < *passed { spans[k] } else { 0.0 }));
-        let ([x, v, a], [y, w, b], [z, u, c]) = ahead.weights.into();
         of.vectors.run(
             #[inline(always)]
             || {
                 for (guess, &tear) in guesses.iter_mut().zip(&of.tears) {
-                    let [now, before, earlier] = [&*now, &*before, &*earlier].map(|stand| &stand.tracked[tear]);
-                    for k in 0..LANES {
-                        let last = x * now[0].0[k] + v * now[1].0[k] + a * now[2].0[k];
-                        let before = y * before[0].0[k] + w * before[1].0[k] + b * before[2].0[k];
-                        let earlier = z * earlier[0].0[k] + u * earlier[1].0[k] + c * earlier[2].0[k];
-                        guess.0[k] = last + (before + earlier);
+                    let places = [&*now, &*before, &*earlier].map(|stand| &stand.tracked[tear]);
+                    for part in 0..LANES / PART {
+                        *guess.part_mut(part) = led_on(ahead.weights, places, part);
                     }
                 }
             },
@@ -269,7 +265,7 @@ impl Walk {
             #[inline(always)]
             || {
                 next.take(&of.tracked, of.nearness, t, abreast);
-                abreast.write_doubts(&mut doubts.0.0);
+                abreast.write_doubts(&mut doubts.0);
                 judge::of_step(&of.tracked, [now, next], (h, abreast.first_corrections()), &mut doubts);
             },
         );
@@ -283,4 +279,23 @@ impl Walk {
         std::mem::swap(&mut self.now, &mut self.next);
         self.passed = (self.passed + 1).min(PLACES);
     }
+}
+
+/// Where places lead to by their weights, in a part of the lanes. What it is made of is its own: else nothing would be done in all lanes at once.
+#[inline(always)]
+#[allow(clippy::inline_always)] // it is compiled for several kinds of processors
+fn led_on(weights: [[f64; 3]; PLACES], places: [&[Each; 3]; PLACES], part: usize) -> [f64; PART] {
+    let mut sums = [[0.0; PART]; PLACES];
+    for (place, sum) in sums.iter_mut().enumerate() {
+        let [x, v, a] = places[place].each_ref().map(|each| *each.part::<PART>(part));
+        let [of_x, of_v, of_a] = weights[place];
+        for k in 0..PART {
+            sum[k] = of_x * x[k] + of_v * v[k] + of_a * a[k];
+        }
+    }
+    let [mut sum, before, earlier] = sums;
+    for k in 0..PART {
+        sum[k] += before[k] + earlier[k];
+    }
+    sum
 }

@@ -93,11 +93,10 @@ pub fn join(all: &mut Swept, block: Swept) {
     all.lengths.extend(block.lengths);
     all.abreast += block.abreast;
     all.answered += block.answered;
-    for (all, more) in
-        [(&mut all.params, block.params), (&mut all.results, block.results), (&mut all.columns, block.columns)]
-    {
+    for (all, more) in [(&mut all.params, block.params), (&mut all.results, block.results)] {
         all.iter_mut().zip(more).for_each(|(all, more)| all.extend(more));
     }
+    all.columns.iter_mut().zip(&block.columns).for_each(|(all, more)| all.extend(more.iter().copied()));
 }
 
 /// The bits of numbers; what is no number is one.
@@ -107,8 +106,9 @@ pub fn bits(numbers: &[f64]) -> Vec<u64> {
 
 /// All of a block, by its bits.
 pub fn bits_of(block: &Swept) -> (Vec<Status>, Vec<usize>, Vec<Vec<u64>>) {
-    let columns = block.params.iter().chain(&block.results).chain(&block.columns).chain([&block.stopped]);
-    (block.statuses.clone(), block.lengths.clone(), columns.map(|column| bits(column)).collect())
+    let told = block.params.iter().chain(&block.results).chain([&block.stopped]).map(Vec::as_slice);
+    let columns = told.chain(block.columns.iter().map(|column| &**column));
+    (block.statuses.clone(), block.lengths.clone(), columns.map(bits).collect())
 }
 
 /// Compares each variant with what it is alone; gives how many of each status there are.

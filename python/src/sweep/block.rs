@@ -3,8 +3,9 @@
 use super::Whole;
 use crate::table::{Kind, Values};
 use arrow_array::StringArray;
-use arrow_buffer::{Buffer, OffsetBuffer};
-use mechc::{ColumnUnit, Status, Swept, SweptColumn};
+use arrow_buffer::{Buffer, OffsetBuffer, ScalarBuffer};
+use bytes::Bytes;
+use mechc::{ColumnUnit, Numbers, Status, Swept, SweptColumn};
 use std::collections::TryReserveError;
 
 /// A block of variants, as it comes from the threads that compute.
@@ -21,10 +22,16 @@ impl Block {
     pub fn of(swept: Swept, units: Option<&[ColumnUnit]>) -> Block {
         let (first, statuses) = (swept.first, swept.statuses.clone());
         let rows = if units.is_some() { swept.lengths.iter().sum() } else { swept.len() };
-        // on the threads that compute, where the numbers are at hand
-        let columns = swept.tabulated(units).into_iter().map(|column| {
-            let has_gaps =
-                matches!(&column, SweptColumn::Numbers(values) if !values.iter().all(|value| value.is_finite()));
+        // what is known to be there is not looked at again
+        let (params, went_abreast) = (swept.params.len(), swept.went_abreast());
+        let is_known = |column: usize| {
+            let unit = column.checked_sub(params + 1).and_then(|column| units?.get(column));
+            units.is_some() && unit.is_none_or(|unit| went_abreast && unit.is_si())
+        };
+        // on the threads that compute, where the numbers are at hand; all of them, several at once: mostly none is missing
+        let is_whole = |values: &[f64]| values.iter().fold(true, |all, value| all & value.is_finite());
+        let columns = swept.tabulated(units).into_iter().enumerate().map(|(number, column)| {
+            let has_gaps = matches!(&column, SweptColumn::Numbers(values) if !is_known(number) && !is_whole(values));
             (column, has_gaps)
         });
         Block { first, statuses, columns: columns.collect(), rows }
@@ -40,9 +47,16 @@ pub struct Gathered {
 }
 
 enum Gathering {
-    Real(Vec<f64>),
+    Real(Reals),
     Whole(Vec<u64>),
     Words(Words),
+}
+
+/// Numbers one behind the other; those of the first block stay where they are until there are more.
+#[derive(Default)]
+struct Reals {
+    first: Option<Numbers>,
+    all: Vec<f64>,
 }
 
 /// Words one behind the other, and where each begins.
@@ -64,7 +78,7 @@ impl From<TryReserveError> for Full {
 impl Gathered {
     pub fn new(whole: &Whole) -> Gathered {
         let columns = whole.heads.iter().map(|head| match head.kind {
-            Kind::Numbers => Gathering::Real(Vec::new()),
+            Kind::Numbers => Gathering::Real(Reals::default()),
             Kind::Whole => Gathering::Whole(Vec::new()),
             Kind::Words => Gathering::Words(Words::default()),
         });
@@ -76,7 +90,7 @@ impl Gathered {
         let rows = usize::try_from(rows).map_err(|_| Full)?;
         for column in &mut self.columns {
             match column {
-                Gathering::Real(values) => values.try_reserve_exact(rows)?,
+                Gathering::Real(values) => values.all.try_reserve_exact(rows)?,
                 Gathering::Whole(values) => values.try_reserve_exact(rows)?,
                 Gathering::Words(words) => words.begins.try_reserve_exact(rows + 1)?,
             }
@@ -90,7 +104,7 @@ impl Gathered {
         for ((into, gaps), (column, has_gaps)) in self.columns.iter_mut().zip(&mut self.gaps).zip(block.columns) {
             *gaps |= has_gaps;
             match (into, column) {
-                (Gathering::Real(into), SweptColumn::Numbers(values)) => append(into, values)?,
+                (Gathering::Real(into), SweptColumn::Numbers(values)) => into.append(values)?,
                 (Gathering::Whole(into), SweptColumn::Whole(values)) => append(into, values)?,
                 (Gathering::Words(into), SweptColumn::Words(words)) => into.append(&words)?,
                 _ => {}
@@ -102,7 +116,7 @@ impl Gathered {
     /// The columns.
     pub fn values(self) -> Vec<Values> {
         let values = self.columns.into_iter().map(|column| match column {
-            Gathering::Real(values) => Values::Numbers(values.into()),
+            Gathering::Real(values) => Values::Numbers(values.buffer()),
             Gathering::Whole(values) => Values::Whole(values.into()),
             Gathering::Words(words) => Values::Words(words.array()),
         });
@@ -119,6 +133,36 @@ fn append<T: Copy>(into: &mut Vec<T>, values: Vec<T>) -> Result<(), Full> {
         into.extend_from_slice(&values);
     }
     Ok(())
+}
+
+impl Reals {
+    fn append(&mut self, values: Numbers) -> Result<(), Full> {
+        if self.first.is_none() && self.all.capacity() == 0 {
+            self.first = Some(values);
+            return Ok(());
+        }
+        let first = self.first.take();
+        self.all.try_reserve(values.len() + first.as_deref().map_or(0, <[f64]>::len))?;
+        for values in first.iter().chain([&values]) {
+            self.all.extend_from_slice(values);
+        }
+        Ok(())
+    }
+
+    fn buffer(self) -> ScalarBuffer<f64> {
+        let Some(first) = self.first else { return self.all.into() };
+        let count = first.len();
+        ScalarBuffer::new(Bytes::from_owner(Owner(first)).into(), 0, count)
+    }
+}
+
+/// Who has the memory of an array of Arrow: it is used again once the array is gone.
+struct Owner(Numbers);
+
+impl AsRef<[u8]> for Owner {
+    fn as_ref(&self) -> &[u8] {
+        bytemuck::cast_slice(&self.0)
+    }
 }
 
 impl Words {

@@ -21,14 +21,14 @@ use std::time::{Duration, Instant};
 
 /// A batch has at least so many rows, or numbers, if that many come: few large batches are read faster than many small ones, and a block that is
 /// large by itself needs no copy.
-const ROWS: usize = 1 << 16;
+const ROWS: usize = 1 << 13;
 const NUMBERS: usize = 1 << 17;
 
 /// Who waits for another one that reads looks again after this.
 const TURN: Duration = Duration::from_millis(1);
 
 /// Blocks that wait to be read.
-const AHEAD: usize = 2;
+const AHEAD: usize = 0;
 
 /// What is read, and where it is told what became of it.
 pub struct Source {
