@@ -20,18 +20,28 @@ pub struct Abreast<const W: usize> {
 /// What a run leaves.
 #[derive(Clone, Debug)]
 struct Out<const W: usize> {
-    /// By column of a row: where it is among those that are kept.
-    places: Vec<u32>,
-    /// By column that is kept, by row of those that are kept.
+    /// By column of a row: where it is among the numbers that are kept.
+    places: Vec<Place>,
+    /// By column that is kept, by row of those that are kept of it.
     kept: Vec<LaneValues<W>>,
-    /// How many rows are kept, how far apart columns are, and which of the rows is written and read.
-    rows: usize,
-    pitch: usize,
+    /// Which of the rows is written and read.
     row: usize,
     /// By turn of the solver: one over the block's determinant, but for its sign where pivots are positive.
     determinants: Vec<LaneValues<W>>,
     /// One over the smallest pivot, scaled.
     steepest: LaneValues<W>,
+}
+
+/// Where a column is among the numbers that are kept, and of how many rows.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    first: u32,
+    rows: u32,
+}
+
+impl Place {
+    /// Of a column that is not kept.
+    const NOWHERE: Place = Place { first: NOWHERE, rows: 0 };
 }
 
 /// What variants are solved with.
@@ -52,24 +62,21 @@ pub struct Guesses<'g, const W: usize> {
 }
 
 impl<const W: usize> Abreast<W> {
-    /// For a solver that is laid out for variants, which keeps some columns of so many rows.
+    /// For a solver that is laid out for variants, which keeps so many rows of each column: of none, of the last one, or of as many as of others.
     #[must_use]
-    pub fn new(solver: &Solver, (is_kept, rows): (impl Fn(u32) -> bool, usize), vectors: Vectors) -> Abreast<W> {
-        let (mut places, mut count) = (vec![NOWHERE; solver.layout.stride], 0);
+    pub fn new(solver: &Solver, rows: impl Fn(u32) -> u32, vectors: Vectors) -> Abreast<W> {
+        let (mut places, mut count) = (vec![Place::NOWHERE; solver.layout.stride], 0);
         for (column, place) in places.iter_mut().enumerate() {
-            if is_kept(column as u32) {
-                *place = count;
-                count += 1;
+            let rows = rows(column as u32);
+            if rows > 0 {
+                *place = Place { first: count, rows };
+                // an odd number of rows apart: else all columns of a row would want the same few places of the processor's memory
+                count += rows | 1;
             }
         }
         let zero = LaneValues([0.0; W]);
-        // an odd number of rows apart: else all columns of a row would want the same few places of the processor's memory
-        let pitch = rows | 1;
-        let (kept, determinants) = (vec![zero; count as usize * pitch], vec![zero; solver.turns.len()]);
-        Abreast {
-            lanes: Lanes::new(solver, vectors),
-            out: Out { places, kept, rows, pitch, row: 0, determinants, steepest: zero },
-        }
+        let (kept, determinants) = (vec![zero; count as usize], vec![zero; solver.turns.len()]);
+        Abreast { lanes: Lanes::new(solver, vectors), out: Out { places, kept, row: 0, determinants, steepest: zero } }
     }
 
     /// Takes over what depends on parameters alone, of the program's registers, in so many parts of the lanes, and leaves in all rows that are kept
@@ -140,14 +147,15 @@ impl<const W: usize> Abreast<W> {
 impl<const W: usize> Out<W> {
     #[inline]
     fn place(&self, column: u32) -> usize {
-        self.all(column).start + self.row
+        let Place { first, rows } = self.places[column as usize];
+        first as usize + if rows > 1 { self.row } else { 0 }
     }
 
     /// The places of all rows.
     #[inline]
     fn all(&self, column: u32) -> Range<usize> {
-        let first = self.places[column as usize] as usize * self.pitch;
-        first..first + self.rows
+        let Place { first, rows } = self.places[column as usize];
+        first as usize..first as usize + rows as usize
     }
 }
 

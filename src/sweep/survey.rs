@@ -55,7 +55,7 @@ impl Survey {
     /// For what results ask of a mechanism.
     pub fn new(together: &Together, asked: &Asked) -> Survey {
         Survey {
-            abreast: together.abreast(&asked.solver, 1),
+            abreast: together.abreast(&asked.solver, |_| 1),
             registers: (0..asked.count()).map(|quantity| asked.registers(quantity)).collect(),
             steps: Steps::default(),
             guesses: vec![ZERO; together.tears.len()],

@@ -28,7 +28,9 @@ pub struct Room<'c> {
 impl Table {
     /// For rows that are wanted.
     pub fn new(together: &Together, of: &Rows) -> Table {
-        Table { abreast: together.abreast(&of.solver, TOGETHER), vectors: together.vectors }
+        // of what steps alone are judged by the last row is enough
+        let rows = |column| if of.wanted.contains(&column) { TOGETHER as u32 } else { 1 };
+        Table { abreast: together.abreast(&of.solver, rows), vectors: together.vectors }
     }
 
     /// Goes to the row of an output time, by its number.

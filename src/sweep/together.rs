@@ -135,7 +135,7 @@ impl Together {
     /// Learns what the solver's pivots tell of nearness to a singular position where it stands with its own values, and how it moves with
     /// parameters there.
     fn look_at_own(&mut self, started: &mut Started) -> Option<()> {
-        let (mut abreast, mut loaded) = (self.abreast(&self.steps, 1), self.registers());
+        let (mut abreast, mut loaded) = (self.abreast(&self.steps, |_| 1), self.registers());
         let own: Vec<Each> = self.own.iter().map(|&value| LaneValues([value; LANES])).collect();
         self.solve(&mut abreast, &mut loaded, &own)?;
         self.determinants = abreast.determinants().iter().map(|of| of.0[0]).collect();
@@ -194,9 +194,10 @@ impl Together {
         self.rows.as_ref().map_or(0, |rows| rows.times.len() as usize)
     }
 
-    /// Registers for one of its solvers, which keeps so many rows.
-    pub(super) fn abreast(&self, solver: &Solver, rows: usize) -> Abreast<LANES> {
-        Abreast::new(solver, (solver.keeps(), rows), self.vectors)
+    /// Registers for one of its solvers, which keeps so many rows of a column that it leaves something in.
+    pub(super) fn abreast(&self, solver: &Solver, rows: impl Fn(u32) -> u32) -> Abreast<LANES> {
+        let is_kept = solver.keeps();
+        Abreast::new(solver, |column| if is_kept(column) { rows(column) } else { 0 }, self.vectors)
     }
 
     /// The program's registers, a lane for each variant.

@@ -86,7 +86,7 @@ impl Walk {
         Walk {
             registers: together.registers(),
             params: together.own.iter().map(|&value| LaneValues([value; LANES])).collect(),
-            steps: together.abreast(&together.steps, 1),
+            steps: together.abreast(&together.steps, |_| 1),
             now: together.stand(),
             before: together.stand(),
             earlier: together.stand(),
