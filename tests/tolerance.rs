@@ -582,6 +582,44 @@ fn corners_that_do_not_run_are_told() {
     assert!(verified.found.iter().all(Option::is_some), "{:?}", affected.iter().map(|of| &of.name).collect::<Vec<_>>());
 }
 
+/// A corner at which a result has no value is told, and linear is not enough then.
+#[test]
+fn corners_without_a_value_are_told() {
+    let text = arm(
+        "result far = sqrt(first(x(arm.tip)) / 1 m - 2) result up = first(x(arm.tip)) analysis from 0 to 1 every 0.1",
+    );
+    let subject = subject_with(&text, Choice { set: vec!["reach=2.5 m".to_owned()], ..Choice::default() });
+    let (tolerances, affected, verified) = subject.verified(&["reach=0.6m"]);
+    assert_eq!(verified.missing, [Some((1, vec!["reach=1.9 m".to_owned()])), None]);
+    let sums: Vec<_> = affected.iter().map(|of| of.deviation(&tolerances, false).expect("known")).collect();
+    assert!(!verified.is_linear(0, &affected[0], &sums[0]) && verified.is_linear(1, &affected[1], &sums[1]));
+}
+
+/// Where a formula of results has a kink or a jump at the nominal values, what derivatives say of one side does not hold for the other.
+#[test]
+fn a_result_at_a_kink_of_results_has_no_derivative() {
+    by_p(
+        2.0,
+        &[
+            ("abs(max(p * sin(tau * t)) - 2)", None),
+            ("abs(max(p * sin(tau * t)) - 2.001)", Some(-1.0)),
+            ("min(max(p * sin(tau * t)), 2)", None),
+            ("max(max(p * sin(tau * t)), 1.9)", Some(1.0)),
+            ("max(max(p * sin(tau * t)), 2.1)", Some(0.0)),
+            ("if max(p * sin(tau * t)) > 2 then 1 else 0", None),
+            ("if max(p * sin(tau * t)) > 1.5 then max(p * sin(tau * t)) else 0", Some(1.0)),
+            ("mod(max(p * sin(tau * t)), 2)", None),
+            ("mod(max(p * sin(tau * t)), 1.5)", Some(1.0)),
+            ("(max(p * sin(tau * t)) - 2)^2", Some(0.0)),
+            ("abs(max(p * sin(tau * t)) - 2)^3", Some(0.0)),
+            ("abs(max(sin(tau * t)) - 1)", Some(0.0)),
+            ("abs(p - 2) + max(sin(tau * t)) * abs(p - max(2 * sin(tau * t)))", None),
+            ("max(sin(tau * t)) * abs(p - 1)", Some(1.0)),
+            ("1e6 * abs(max(p * sin(tau * t)) - 1000)", Some(-1e6)),
+        ],
+    );
+}
+
 /// With what is set beside the text, the nominal one is that.
 #[test]
 fn what_is_set_is_the_nominal_value() {

@@ -16,7 +16,8 @@ class Deviation:
 
     ``slopes`` are the exact derivatives by each param, ``contributions`` what the tolerance of each makes of it, from the least to the
     largest, ``shares`` its part of the variance. ``worst`` is the sum of all at their worst, ``statistical`` the root of the sum of squares,
-    ``sigma`` the standard deviation. Where it was verified ``found`` is how far it was off, and ``is_linear`` whether derivatives are enough.
+    ``sigma`` the standard deviation. Where it was verified ``found`` is how far it was off, ``missing`` in how many variants it has no value,
+    and ``is_linear`` whether derivatives are enough.
     """
 
     name: str
@@ -30,6 +31,7 @@ class Deviation:
     statistical: tuple[float, float] | None
     sigma: float | None
     found: tuple[float, float] | None = None
+    missing: int | None = None
     is_linear: bool | None = None
 
 
@@ -110,6 +112,7 @@ def told(params: list[Any], quantities: list[dict[str, Any]], tried: Any) -> Tol
             statistical=pair(of["statistical"]),
             sigma=of["sigma"],
             found=pair(of["found"]),
+            missing=of["missing"],
             is_linear=of["is_linear"],
         )
         for of in quantities

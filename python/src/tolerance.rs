@@ -27,8 +27,9 @@ pub struct OfQuantity {
     worst: Option<[f64; 2]>,
     statistical: Option<[f64; 2]>,
     sigma: Option<f64>,
-    /// How far it was off when it was run, and whether derivatives are enough.
+    /// How far it was off when it was run, in how many variants it had no value, and whether derivatives are enough.
     found: Option<[f64; 2]>,
+    missing: Option<u64>,
     is_linear: Option<bool>,
 }
 
@@ -92,6 +93,7 @@ fn found(
             statistical: deviation.as_ref().map(|of| of.statistical),
             sigma: deviation.as_ref().map(|of| of.sigma),
             found: verified.as_ref().and_then(|verified| verified.found[k]),
+            missing: verified.as_ref().map(|verified| verified.missing[k].as_ref().map_or(0, |(count, _)| *count)),
             is_linear,
         }
     };

@@ -182,6 +182,7 @@ impl Contributions {
         add("sigma", json!(deviation.as_ref().map(|all| all.sigma)));
         if let Some(verified) = &self.verified {
             add("verified", json!(verified.found[k]));
+            add("missing", json!(verified.missing[k].as_ref().map_or(0, |(count, _)| *count)));
             add("is_linear", json!(self.is_linear(k, deviation.as_ref())));
         }
         Value::Object(object)
@@ -220,6 +221,11 @@ impl Contributions {
                 "{count} of them did not run on this branch, and are not in the table; the first ({status}): {}\n",
                 command(set)
             );
+        }
+        for (of, missing) in self.affected.iter().zip(&verified.missing) {
+            if let Some((count, set)) = missing {
+                text += &format!("`{}` has no value in {count} of them; the first: {}\n", of.name, command(set));
+            }
         }
         text
     }

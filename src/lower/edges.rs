@@ -24,6 +24,14 @@ impl Lowering<'_> {
         self.goes(&[formula], Break::Bend, variable) || self.decides(formula, 1, variable)
     }
 
+    /// Whether a formula of results may jump, or bend, where these decide.
+    pub(super) fn may_break_by_results(&mut self, formula: ExprId) -> bool {
+        let nodes = self.graph.reachable(&[formula]);
+        let operands: Vec<ExprId> =
+            nodes.into_iter().flat_map(|id| decided_by(&mut self.graph, id, Break::Bend)).collect();
+        operands.into_iter().any(|of| self.graph.dependence(of).on(Dependence::NAMED))
+    }
+
     /// Whether edges of what decides about derivatives of this order, and about forces, go with a variable. Places and velocities do not jump,
     /// whatever equations do.
     fn decides(&mut self, formula: ExprId, order: u8, variable: u32) -> bool {

@@ -12,7 +12,9 @@ use super::Lowering;
 use crate::expr::{Binary, Comparison, ExprId, Symbol, Unary};
 use crate::ir::{Outcome, Reduction, ReductionKind, Units};
 use crate::model::{Dimension, Variable, quotient};
-use crate::tolerances::results::slopes::{ALONE, DIGITS, FLAT, LAST_DIGITS, LEAST_STEP, MOVED, NOTHING, SAME};
+use crate::tolerances::results::slopes::{
+    ALONE, DIGITS, FLAT, LAST_DIGITS, LEAST_STEP, LEFT_OF_HALF, MOVED, NOTHING, SAME,
+};
 use rustc_hash::FxHashMap;
 
 /// The first and the last time of the analysis.
@@ -45,7 +47,10 @@ pub(super) struct Slopes<'s, 'm> {
 impl Slopes<'_, '_> {
     /// The derivative of a result, which has no value where no derivative is known.
     pub fn of_outcome(&mut self, outcome: &Outcome) -> Outcome {
-        let value = self.partial(outcome.value).unwrap_or_else(|| self.no_value());
+        let value = match self.partial(outcome.value) {
+            Some(slope) => self.where_it_goes_on(outcome.value, slope),
+            None => self.no_value(),
+        };
         let by = self.lowering.variations.as_ref().map(|known| known.variables[self.variable as usize].clone());
         let (by, unit) = by.map(|by| (by.name, by.unit)).unwrap_or_default();
         let Units { si, printed, scale } = &outcome.units;
@@ -69,6 +74,74 @@ impl Slopes<'_, '_> {
             sum = graph.add(sum, part);
         }
         Some(sum)
+    }
+
+    /// A slope of a formula of results where it is that to both sides. A small step to one side and to the other end off the straight line through
+    /// where it is, by so much that half the step leaves a quarter of it; at a kink it leaves half, at a jump all.
+    fn where_it_goes_on(&mut self, formula: ExprId, slope: ExprId) -> ExprId {
+        if self.is_zero(slope) && !self.is_moved(formula) || !self.lowering.may_break_by_results(formula) {
+            return slope;
+        }
+        let size = self.size_of_the_variable();
+        let [whole, half] = [MOVED, 0.5 * MOVED].map(|part| {
+            let graph = &mut self.lowering.graph;
+            let part = graph.constant(part);
+            let step = graph.mul(part, size);
+            self.off_the_line(formula, step)
+        });
+        let graph = &mut self.lowering.graph;
+        let [part, alone, digits] = [LEFT_OF_HALF, ALONE * MOVED, LAST_DIGITS].map(|part| graph.constant(part));
+        let left = graph.mul(part, whole);
+        let is_smooth = graph.compare(Comparison::LessEqual, half, left);
+        // a kink that counts for nothing is none, nor is what rounding makes
+        let change = graph.unary(Unary::Abs, slope);
+        let change = graph.mul(change, size);
+        let value = graph.unary(Unary::Abs, formula);
+        let value = graph.add(value, change);
+        let [alone, digits] = [graph.mul(alone, change), graph.mul(digits, value)];
+        let limit = graph.add(alone, digits);
+        let is_straight = graph.compare(Comparison::LessEqual, whole, limit);
+        let nothing = self.no_value();
+        let graph = &mut self.lowering.graph;
+        let curved = graph.select(is_smooth, slope, nothing);
+        graph.select(is_straight, slope, curved)
+    }
+
+    /// Whether the variable moves anything that a formula of results is made of.
+    fn is_moved(&self, formula: ExprId) -> bool {
+        let symbol = self.lowering.model.variables[self.variable as usize].symbol;
+        self.lowering.graph.symbols(formula).into_iter().any(|of| match of {
+            Symbol::Named(k) => self.known.get(&k).copied().flatten().is_some_and(|slope| !self.is_zero(slope)),
+            _ => of == symbol,
+        })
+    }
+
+    /// `|f(p + h) + f(p − h) − 2 f(p)|` of a formula of results, which go with `p` as their slopes say.
+    fn off_the_line(&mut self, formula: ExprId, step: ExprId) -> ExprId {
+        let back = self.lowering.graph.neg(step);
+        let [there, here] = [step, back].map(|step| self.stepped(formula, step));
+        let graph = &mut self.lowering.graph;
+        let (sum, twice) = (graph.add(there, here), graph.add(formula, formula));
+        let off = graph.sub(sum, twice);
+        graph.unary(Unary::Abs, off)
+    }
+
+    /// A formula of results where the variable has gone on by a step.
+    fn stepped(&mut self, formula: ExprId, step: ExprId) -> ExprId {
+        let own = self.lowering.model.variables[self.variable as usize].symbol;
+        let mut moved = FxHashMap::default();
+        for symbol in self.lowering.graph.symbols(formula) {
+            let slope = match symbol {
+                Symbol::Named(k) => self.known.get(&k).copied().flatten(),
+                _ => (symbol == own).then(|| self.lowering.graph.constant(1.0)),
+            };
+            if let Some(slope) = slope {
+                let graph = &mut self.lowering.graph;
+                let (from, way) = (graph.symbol(symbol), graph.mul(slope, step));
+                moved.insert(symbol, graph.add(from, way));
+            }
+        }
+        self.lowering.graph.substituted(&[formula], |symbol| moved.get(&symbol).copied())[0]
     }
 
     fn of_reduction(&mut self, k: u32) -> Option<ExprId> {

@@ -144,6 +144,8 @@ pub struct Verified {
     pub are_all_corners: bool,
     /// By measure or result: how far it was off, from the least to the largest (SI); nothing where no variant has a value.
     pub found: Vec<Option<[f64; 2]>>,
+    /// By measure or result: so many that came to their end have no value of it, if there are any; and what sets the first of them.
+    pub missing: Vec<Option<(u64, Vec<String>)>>,
     /// So many did not come to their end on the branch of the nominal one; and what sets the first of them, with its status.
     pub lost: Option<(u64, Vec<String>, &'static str)>,
 }
@@ -153,6 +155,9 @@ impl Verified {
     #[must_use]
     pub fn is_linear(&self, k: usize, of: &Affected, deviation: &Deviation) -> bool {
         let [low, high] = deviation.worst;
+        if self.missing[k].is_some() {
+            return false;
+        }
         let limit = LINEAR * f64::max(low.abs(), high.abs()) + DIGITS * of.nominal.abs();
         self.found[k].is_some_and(|found| (found[0] - low).abs() <= limit && (found[1] - high).abs() <= limit)
     }

@@ -395,6 +395,8 @@ struct Sought<'a> {
     /// The times (s) at which measures are looked at, rising, each once.
     times: Vec<f64>,
     found: Vec<Option<[f64; 2]>>,
+    /// Of those that came to their end: how many have no value of it, and what sets the first of them.
+    missing: Vec<Option<(u64, Vec<String>)>>,
     variants: u64,
     /// Variants that did not come to their end on the branch, by their group; and what sets the first of them, with its status.
     lost: BTreeSet<(usize, u64)>,
@@ -406,8 +408,8 @@ impl Sought<'_> {
         let mut times: Vec<f64> = affected.iter().filter_map(|of| of.at).collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
-        let found = vec![None; affected.len()];
-        Sought { affected, times, found, variants: 0, lost: BTreeSet::new(), first_lost: None }
+        let (found, missing) = (vec![None; affected.len()], vec![None; affected.len()]);
+        Sought { affected, times, found, missing, variants: 0, lost: BTreeSet::new(), first_lost: None }
     }
 
     /// The sweeps that it takes: one for measures, at their times, and one for results.
@@ -435,34 +437,36 @@ impl Sought<'_> {
                 self.lost.insert((group, number));
                 self.first_lost.get_or_insert_with(|| (variants.settings(number), status.as_str()));
             } else if has_measures {
-                self.take_measures(swept, row);
+                self.take_measures(swept, row, || variants.settings(number));
             } else {
-                self.take_results(swept, k);
+                self.take_results(swept, k, || variants.settings(number));
             }
         }
     }
 
-    fn take_measures(&mut self, swept: &Swept, first_row: usize) {
+    fn take_measures(&mut self, swept: &Swept, first_row: usize, set: impl Fn() -> Vec<String>) {
         let measures = (0..self.affected.len()).filter_map(|k| Some((k, self.affected[k].at?)));
         for (column, (k, at)) in measures.enumerate().collect::<Vec<_>>() {
             let row = self.times.iter().position(|time| time.total_cmp(&at).is_eq());
             let value = row.and_then(|row| swept.columns.get(column)?.get(first_row + row).copied());
-            self.note(k, value.unwrap_or(f64::NAN));
+            self.note(k, value.unwrap_or(f64::NAN), &set);
         }
     }
 
-    fn take_results(&mut self, swept: &Swept, variant: usize) {
+    fn take_results(&mut self, swept: &Swept, variant: usize, set: impl Fn() -> Vec<String>) {
         let results: Vec<usize> = (0..self.affected.len()).filter(|&k| self.affected[k].at.is_none()).collect();
         for (result, k) in results.into_iter().enumerate() {
-            self.note(k, swept.results[result][variant]);
+            self.note(k, swept.results[result][variant], &set);
         }
     }
 
-    fn note(&mut self, k: usize, value: f64) {
+    fn note(&mut self, k: usize, value: f64, set: impl Fn() -> Vec<String>) {
         let off = value - self.affected[k].nominal;
         if off.is_finite() {
             let [low, high] = self.found[k].unwrap_or([off; 2]);
             self.found[k] = Some([low.min(off), high.max(off)]);
+        } else if self.affected[k].nominal.is_finite() {
+            self.missing[k].get_or_insert_with(|| (0, set())).0 += 1;
         }
     }
 
@@ -472,6 +476,7 @@ impl Sought<'_> {
             variants: self.variants,
             are_all_corners,
             found: self.found,
+            missing: self.missing,
             lost: self.first_lost.map(|(set, status)| (count, set, status)),
         }
     }

@@ -149,6 +149,9 @@ pub mod slopes {
     /// the second part of that; or for the last digits of its value.
     pub const MOVED: f64 = 1e-6;
     pub const ALONE: f64 = 0.01;
+    /// Half a step leaves no more than this part of what a whole one ends off the straight line, where a formula of results is smooth: a quarter,
+    /// and at a kink half.
+    pub const LEFT_OF_HALF: f64 = 0.35;
     /// It is moved by what this part of a parameter's size makes of the formula at least, which may have no range.
     pub const LEAST_STEP: f64 = 1e-9;
     pub const LAST_DIGITS: f64 = 1e-13;
