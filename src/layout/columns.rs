@@ -55,7 +55,9 @@ impl ColumnUnit {
     /// Values in SI, in this unit from then on.
     pub fn print_all(&self, values: &mut [f64]) {
         if !self.is_si {
-            values.iter_mut().for_each(|value| *value = self.printed(*value));
+            for value in values {
+                *value = self.printed(*value);
+            }
         }
     }
 

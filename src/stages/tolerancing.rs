@@ -371,7 +371,7 @@ fn where_it_is_worst(measure: AskedMeasure, rows: &Rows<'_>, tolerances: &[Toler
     Affected {
         at: row.map(|row| times[row]).or(times.first().copied()),
         nominal: number(values).unwrap_or(f64::NAN),
-        slopes: slopes.iter().map(|slope| slope.and_then(|slope| number(slope))).collect(),
+        slopes: slopes.iter().map(|slope| slope.and_then(number)).collect(),
         unknown: [unknown, rows.len() as u64],
         name: measure.name,
         unit: measure.unit,
