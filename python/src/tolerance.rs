@@ -93,7 +93,7 @@ fn found(
             statistical: deviation.as_ref().map(|of| of.statistical),
             sigma: deviation.as_ref().map(|of| of.sigma),
             found: verified.as_ref().and_then(|verified| verified.found[k]),
-            missing: verified.as_ref().map(|verified| verified.missing[k].as_ref().map_or(0, |(count, _)| *count)),
+            missing: verified.as_ref().map(|verified| verified.missing(k)),
             is_linear,
         }
     };

@@ -182,7 +182,7 @@ impl Contributions {
         add("sigma", json!(deviation.as_ref().map(|all| all.sigma)));
         if let Some(verified) = &self.verified {
             add("verified", json!(verified.found[k]));
-            add("missing", json!(verified.missing[k].as_ref().map_or(0, |(count, _)| *count)));
+            add("missing", json!(verified.missing(k)));
             add("is_linear", json!(self.is_linear(k, deviation.as_ref())));
         }
         Value::Object(object)

@@ -26,10 +26,9 @@ impl Lowering<'_> {
 
     /// Whether a formula of results may jump, or bend, where these decide.
     pub(super) fn may_break_by_results(&mut self, formula: ExprId) -> bool {
-        let nodes = self.graph.reachable(&[formula]);
-        let operands: Vec<ExprId> =
-            nodes.into_iter().flat_map(|id| decided_by(&mut self.graph, id, Break::Bend)).collect();
-        operands.into_iter().any(|of| self.graph.dependence(of).on(Dependence::NAMED))
+        deciding(&mut self.graph, &[formula], Break::Bend)
+            .into_iter()
+            .any(|of| self.graph.dependence(of).on(Dependence::NAMED))
     }
 
     /// Whether edges of what decides about derivatives of this order, and about forces, go with a variable. Places and velocities do not jump,
@@ -51,9 +50,7 @@ impl Lowering<'_> {
 
     /// Whether what breaks formulas goes with a variable.
     fn goes(&mut self, roots: &[ExprId], what: Break, variable: u32) -> bool {
-        let nodes = self.graph.reachable(roots);
-        let mut operands: Vec<ExprId> =
-            nodes.into_iter().flat_map(|id| decided_by(&mut self.graph, id, what)).collect();
+        let mut operands = deciding(&mut self.graph, roots, what);
         operands.sort_unstable();
         operands.dedup();
         let (moves, symbol) = (self.moves_anything(variable), self.model.variables[variable as usize].symbol);
@@ -76,6 +73,11 @@ impl Lowering<'_> {
         let rows: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
         self.graph.symbols_of_all(&rows).contains(&self.model.variables[variable as usize].symbol)
     }
+}
+
+/// What must stay for none of some formulas to break elsewhere.
+fn deciding(graph: &mut Graph, roots: &[ExprId], what: Break) -> Vec<ExprId> {
+    graph.reachable(roots).into_iter().flat_map(|id| decided_by(graph, id, what)).collect()
 }
 
 /// What must stay for a node not to break elsewhere.

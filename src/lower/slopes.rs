@@ -9,7 +9,7 @@
 //! - a formula of such numbers by the chain rule.
 
 use super::Lowering;
-use crate::expr::{Binary, Comparison, ExprId, Symbol, Unary};
+use crate::expr::{Binary, Comparison, ExprId, Graph, Symbol, Unary};
 use crate::ir::{Outcome, Reduction, ReductionKind, Units};
 use crate::model::{Dimension, Variable, quotient};
 use crate::tolerances::results::slopes::{
@@ -79,7 +79,8 @@ impl Slopes<'_, '_> {
     /// A slope of a formula of results where it is that to both sides. A small step to one side and to the other end off the straight line through
     /// where it is, by so much that half the step leaves a quarter of it; at a kink it leaves half, at a jump all.
     fn where_it_goes_on(&mut self, formula: ExprId, slope: ExprId) -> ExprId {
-        if self.is_zero(slope) && !self.is_moved(formula) || !self.lowering.may_break_by_results(formula) {
+        let moved = self.moved_by_the_variable(formula);
+        if moved.is_empty() || !self.lowering.may_break_by_results(formula) {
             return slope;
         }
         let size = self.size_of_the_variable();
@@ -87,7 +88,7 @@ impl Slopes<'_, '_> {
             let graph = &mut self.lowering.graph;
             let part = graph.constant(part);
             let step = graph.mul(part, size);
-            self.off_the_line(formula, step)
+            self.off_the_line((formula, &moved), step)
         });
         let graph = &mut self.lowering.graph;
         let [part, alone, digits] = [LEFT_OF_HALF, ALONE * MOVED, LAST_DIGITS].map(|part| graph.constant(part));
@@ -107,41 +108,28 @@ impl Slopes<'_, '_> {
         graph.select(is_straight, slope, curved)
     }
 
-    /// Whether the variable moves anything that a formula of results is made of.
-    fn is_moved(&self, formula: ExprId) -> bool {
-        let symbol = self.lowering.model.variables[self.variable as usize].symbol;
-        self.lowering.graph.symbols(formula).into_iter().any(|of| match of {
-            Symbol::Named(k) => self.known.get(&k).copied().flatten().is_some_and(|slope| !self.is_zero(slope)),
-            _ => of == symbol,
-        })
-    }
-
-    /// `|f(p + h) + f(p − h) − 2 f(p)|` of a formula of results, which go with `p` as their slopes say.
-    fn off_the_line(&mut self, formula: ExprId, step: ExprId) -> ExprId {
-        let back = self.lowering.graph.neg(step);
-        let [there, here] = [step, back].map(|step| self.stepped(formula, step));
-        let graph = &mut self.lowering.graph;
-        let (sum, twice) = (graph.add(there, here), graph.add(formula, formula));
-        let off = graph.sub(sum, twice);
-        graph.unary(Unary::Abs, off)
-    }
-
-    /// A formula of results where the variable has gone on by a step.
-    fn stepped(&mut self, formula: ExprId, step: ExprId) -> ExprId {
+    /// What a formula of results is made of that goes with the variable, and how.
+    fn moved_by_the_variable(&mut self, formula: ExprId) -> Vec<(Symbol, ExprId)> {
         let own = self.lowering.model.variables[self.variable as usize].symbol;
-        let mut moved = FxHashMap::default();
+        let mut moved = Vec::new();
         for symbol in self.lowering.graph.symbols(formula) {
             let slope = match symbol {
                 Symbol::Named(k) => self.known.get(&k).copied().flatten(),
                 _ => (symbol == own).then(|| self.lowering.graph.constant(1.0)),
             };
-            if let Some(slope) = slope {
-                let graph = &mut self.lowering.graph;
-                let (from, way) = (graph.symbol(symbol), graph.mul(slope, step));
-                moved.insert(symbol, graph.add(from, way));
-            }
+            moved.extend(slope.filter(|slope| !self.is_zero(*slope)).map(|slope| (symbol, slope)));
         }
-        self.lowering.graph.substituted(&[formula], |symbol| moved.get(&symbol).copied())[0]
+        moved
+    }
+
+    /// `|f(p + h) + f(p − h) − 2 f(p)|` of a formula of results, which go with `p` as their slopes say.
+    fn off_the_line(&mut self, of: (ExprId, &[(Symbol, ExprId)]), step: ExprId) -> ExprId {
+        let (formula, graph) = (of.0, &mut self.lowering.graph);
+        let back = graph.neg(step);
+        let [there, here] = [step, back].map(|step| stepped(graph, of, step));
+        let (sum, twice) = (graph.add(there, here), graph.add(formula, formula));
+        let off = graph.sub(sum, twice);
+        graph.unary(Unary::Abs, off)
     }
 
     fn of_reduction(&mut self, k: u32) -> Option<ExprId> {
@@ -483,4 +471,14 @@ impl Slopes<'_, '_> {
     fn no_value(&mut self) -> ExprId {
         self.lowering.no_value()
     }
+}
+
+/// A formula where the variable has gone on by a step, with what goes with it, and how.
+fn stepped(graph: &mut Graph, (formula, moved): (ExprId, &[(Symbol, ExprId)]), step: ExprId) -> ExprId {
+    let mut with = FxHashMap::default();
+    for &(symbol, slope) in moved {
+        let (from, way) = (graph.symbol(symbol), graph.mul(slope, step));
+        with.insert(symbol, graph.add(from, way));
+    }
+    graph.substituted(&[formula], |symbol| with.get(&symbol).copied())[0]
 }

@@ -3,7 +3,6 @@
 //! The only file that knows pulp.
 
 use std::array::from_fn;
-use std::borrow::Borrow;
 
 /// The vector instructions of a processor.
 #[derive(Clone, Copy, Debug)]
@@ -68,8 +67,8 @@ type Tile = [[f64; WIDE]; WIDE];
 impl Vectors {
     /// Turns rows to columns: number `k` of `from[row]` is left in the `k`th stretch of `to`, each of which is `length` long, at `first + row`.
     ///
-    /// There are to be as many stretches as a row has numbers, or fewer; rows behind the last eighth one are left out.
-    pub fn turn<const W: usize>(self, from: &[impl Borrow<[f64; W]>], to: &mut [f64], (first, length): (usize, usize)) {
+    /// There are to be as many stretches as a row has numbers, or fewer.
+    pub fn turn<const W: usize>(self, from: [&[f64; W]; WIDE], to: &mut [f64], (first, length): (usize, usize)) {
         match self.0 {
             Unit::Base => turn_tiles(from, to, (first, length), turned),
             #[cfg(all(feature = "vectors", target_arch = "x86_64"))]
@@ -89,21 +88,15 @@ impl Vectors {
 #[inline(always)]
 #[allow(clippy::inline_always)] // it is compiled for several kinds of processors, as what follows is
 fn turn_tiles<const W: usize>(
-    from: &[impl Borrow<[f64; W]>],
+    from: [&[f64; W]; WIDE],
     to: &mut [f64],
     (first, length): (usize, usize),
     turned: impl Fn(&Tile) -> Tile,
 ) {
-    // all rows of some stretches first: these are in as many pages of memory
     for (part, to) in to.chunks_mut(length * WIDE).enumerate() {
-        for (rows, first) in from.as_chunks::<WIDE>().0.iter().zip((first..).step_by(WIDE)) {
-            let mut tile = [[0.0; WIDE]; WIDE];
-            for (tile, row) in tile.iter_mut().zip(rows) {
-                *tile = row.borrow().as_chunks().0[part];
-            }
-            for (column, to) in turned(&tile).iter().zip(to.chunks_exact_mut(length)) {
-                to[first..first + WIDE].copy_from_slice(column);
-            }
+        let tile = turned(&from.map(|row| row.as_chunks().0[part]));
+        for (column, to) in tile.iter().zip(to.chunks_exact_mut(length)) {
+            to[first..first + WIDE].copy_from_slice(column);
         }
     }
 }
@@ -186,16 +179,15 @@ mod tests {
     #[test]
     fn rows_are_turned_to_columns_with_all_instructions() {
         const COLUMNS: usize = 16;
-        const ROWS: usize = 2 * WIDE;
-        let rows: [[f64; COLUMNS]; ROWS + 1] = from_fn(|row| from_fn(|column| (100 * row + column) as f64));
-        let (first, length) = (3, 21);
+        let rows: [[f64; COLUMNS]; WIDE] = from_fn(|row| from_fn(|column| (100 * row + column) as f64));
+        let (first, length) = (3, 13);
         for vectors in Vectors::NAMES.into_iter().filter_map(Vectors::named) {
             // all stretches, and fewer than there are columns
             for count in [COLUMNS, 11] {
                 let mut to = vec![-1.0; count * length];
-                vectors.turn(&rows, &mut to, (first, length));
+                vectors.turn(rows.each_ref(), &mut to, (first, length));
                 for (at, &value) in to.iter().enumerate() {
-                    let (column, row) = (at / length, (at % length).checked_sub(first).filter(|row| *row < ROWS));
+                    let (column, row) = (at / length, (at % length).checked_sub(first).filter(|row| *row < WIDE));
                     let wanted = row.map_or(-1.0, |row| rows[row][column]);
                     assert_eq!(value.to_bits(), wanted.to_bits(), "{vectors:?} {count} {at}");
                 }

@@ -4,19 +4,11 @@ use super::{Column, Machine, Program, Register, Registers, truth};
 use crate::expr::{Binary, Comparison, Unary, binary_value, compare, unary_value};
 use crate::math;
 use std::array::from_fn;
-use std::borrow::Borrow;
 
 /// The values of one register, a lane for each.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub struct LaneValues<const W: usize>(pub [f64; W]);
-
-impl<const W: usize> Borrow<[f64; W]> for LaneValues<W> {
-    #[inline]
-    fn borrow(&self) -> &[f64; W] {
-        &self.0
-    }
-}
 
 #[allow(clippy::inline_always)] // as all that is done in lanes
 impl<const W: usize> LaneValues<W> {

@@ -375,8 +375,8 @@ impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
     fn instructions<const ALL: bool>(&mut self, range: Range<usize>) {
         let Lanes { values, watched, .. } = &mut *self.lanes;
         let around = &mut self.around;
-        let parts = if ALL { W / P } else { around.parts() };
-        let mut machine = LaneMachine::<W, P, ALL>::new(values, parts, self.of);
+        let mut machine = LaneMachine::<W, P, ALL>::new(values, around.parts(), self.of);
+        let parts = machine.parts();
         for instruction in &self.solver.instructions[range] {
             // most are operations: one choice of many, and not two
             if let Instruction::Compute(op) = instruction {

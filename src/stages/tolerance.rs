@@ -151,11 +151,17 @@ pub struct Verified {
 }
 
 impl Verified {
+    /// In how many variants that came to their end a measure or result has no value.
+    #[must_use]
+    pub fn missing(&self, k: usize) -> u64 {
+        self.missing[k].as_ref().map_or(0, |(count, _)| *count)
+    }
+
     /// Whether what derivatives say of a measure or result is near enough to what was found.
     #[must_use]
     pub fn is_linear(&self, k: usize, of: &Affected, deviation: &Deviation) -> bool {
         let [low, high] = deviation.worst;
-        if self.missing[k].is_some() {
+        if self.missing(k) > 0 {
             return false;
         }
         let limit = LINEAR * f64::max(low.abs(), high.abs()) + DIGITS * of.nominal.abs();

@@ -140,13 +140,15 @@ impl Swept {
 
     /// Keeps the first ones, so many.
     pub fn truncate(&mut self, variants: usize) {
+        let left_out = self.len().saturating_sub(variants);
         self.statuses.truncate(variants);
         self.stopped.truncate(variants);
         self.lengths.truncate(variants);
         let rows = self.lengths.iter().sum();
         self.params.iter_mut().chain(&mut self.results).for_each(|column| column.truncate(variants));
         self.columns.iter_mut().for_each(|column| column.truncate(rows));
-        self.abreast = self.abreast.min(variants);
+        // which of those that are left out went side by side nobody knows: never too many are said to
+        self.abreast = self.abreast.saturating_sub(left_out);
         self.answered = self.answered.min(variants);
     }
 

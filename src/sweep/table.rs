@@ -4,10 +4,11 @@ use super::each::LANES;
 use super::numbers::Numbers;
 use super::together::{Rows, Together};
 use crate::math::{Vectors, WIDE};
+use crate::program::LaneValues;
 use crate::solver::Abreast;
 
 /// Rows that are put into columns together: a line of the processor's memory for each column of each variant.
-const TOGETHER: usize = WIDE;
+const TILE: usize = WIDE;
 
 /// Rows that are wanted, and what solves for them.
 pub(super) struct Table {
@@ -29,19 +30,19 @@ impl Table {
     /// For rows that are wanted.
     pub fn new(together: &Together, of: &Rows) -> Table {
         // of what steps alone are judged by the last row is enough
-        let rows = |column| if of.wanted.contains(&column) { TOGETHER as u32 } else { 1 };
+        let rows = |column| if of.wanted.contains(&column) { TILE as u32 } else { 1 };
         Table { abreast: together.abreast(&of.solver, rows), vectors: together.vectors }
     }
 
     /// Goes to the row of an output time, by its number.
     pub fn turn_to(&mut self, number: u64) {
-        self.abreast.turn_to(number as usize % TOGETHER);
+        self.abreast.turn_to(number as usize % TILE);
     }
 
     /// Puts the last rows into columns, once there are enough of them: up to that of an output time, by its number.
     pub fn put(&self, of: &Rows, number: u64, room: &mut Room<'_>) {
-        let (last, count) = (number as usize, number as usize % TOGETHER + 1);
-        if count < TOGETHER && last + 1 < room.rows {
+        let (last, count) = (number as usize, number as usize % TILE + 1);
+        if count < TILE && last + 1 < room.rows {
             return;
         }
         let first = last + 1 - count;
@@ -54,11 +55,12 @@ impl Table {
                 continue;
             }
             let from = &self.abreast.rows(column)[..count];
-            self.vectors.turn(from, to, (first, room.rows));
-            let left = count % WIDE;
-            for (lane, to) in to.chunks_exact_mut(room.rows).enumerate() {
-                let left = from[count - left..].iter().map(|row| row.0[lane]);
-                to[last + 1 - left.len()..].iter_mut().zip(left).for_each(|(to, value)| *to = value);
+            if let Ok(tile) = <&[LaneValues<LANES>; TILE]>::try_from(from) {
+                self.vectors.turn(tile.each_ref().map(|row| &row.0), to, (first, room.rows));
+            } else {
+                for (lane, to) in to.chunks_exact_mut(room.rows).enumerate() {
+                    to[first..].iter_mut().zip(from).for_each(|(to, row)| *to = row.0[lane]);
+                }
             }
         }
     }

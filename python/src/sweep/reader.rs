@@ -27,7 +27,7 @@ const NUMBERS: usize = 1 << 17;
 /// Who waits for another one that reads looks again after this.
 const TURN: Duration = Duration::from_millis(1);
 
-/// Blocks that wait to be read.
+/// Blocks that wait to be read, beside the one that is done: none, for each that is in use takes another's place in the processor's memory.
 const AHEAD: usize = 0;
 
 /// What is read, and where it is told what became of it.
