@@ -30,7 +30,7 @@ mod without_branches {
     include!("math/without_branches.rs");
 }
 
-pub use ahead::weigh;
+pub use ahead::{weigh, weigh_slopes};
 pub use curve::{about, along, between, farthest, parabola, predicted, quintic, value_and_slopes};
 pub use neighbours::bisect;
 pub use search::{GOLDEN, GoldenSection, Halving, boundary};

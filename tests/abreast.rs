@@ -191,6 +191,38 @@ fn threads_vectors_and_columns_change_no_bit() {
     }
 }
 
+/// Rows that are near to each other are led on by velocities alone, where no accelerations are wanted: they are the same ones, also where variants
+/// are much faster than the file's own values have it, lock up, or come by where branches meet.
+#[test]
+fn near_rows_of_positions_alone_are_the_same() {
+    let driven = four_bar(TURNS, "0.015").replace("revolute(ground.B, rocker.B)", "revolute(rocker.B, ground.B)");
+    let driven = driven.replace("rotation(main) = 0.5 + speed * t", "rotation(pivot) = -1.85 + speed * t / 10");
+    let shapes = ["base=2..5", "arm=0.3..2", "rod=1.5..5", "lever=1.5..5", "speed=-20..20"];
+    let sampled = sampled(&shapes, 150, Method::Random);
+    let (changing, locking) = (vary(&[&about("rod", 6.0), "lever=2.9,3"]), vary(&["speed=-3..3:40", "rod=3.4..3.6:3"]));
+    for (text, asked, least) in [
+        (four_bar(TURNS, "0.015"), sampled, 20),
+        (four_bar(TURNS, "0.015"), changing, 10),
+        (four_bar("0.5 + speed * t + 0.3 * sin(20 * t)", "0.005"), vary(&["rod=3.4..3.6:5", "speed=0..9:7"]), 20),
+        (driven, locking, 10),
+    ] {
+        let subject = subject(&text, Choice::default());
+        let (variants, all) = (subject.variants(&asked), subject.all_columns());
+        let whole = subject.swept(&variants, &all);
+        // positions of the last body, and its velocities
+        for columns in [vec![7, 8, 9], vec![18, 19]] {
+            let swept = subject.swept(&variants, &SweepOptions { columns: Some(columns.clone()), ..all.clone() });
+            assert!(swept.abreast >= least, "{} of {:?}", swept.abreast, swept.statuses);
+            assert_eq!((&swept.statuses, &swept.lengths), (&whole.statuses, &whole.lengths));
+            for (column, from) in swept.columns.iter().zip(&columns) {
+                let (found, known) =
+                    (column.iter().map(|x| x.to_bits()), whole.columns[*from].iter().map(|x| x.to_bits()));
+                assert!(found.eq(known), "column {from} of {asked:?}");
+            }
+        }
+    }
+}
+
 /// Of a zero the text's check decides other things than of other values; times may be a list that begins later than the motion; and a text
 /// may say nothing but values.
 #[test]

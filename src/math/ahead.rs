@@ -7,23 +7,36 @@
 /// `L³ (1 − 3 s d + (6 s² − 3/2 r) d²)`, `L³ (d − 3 s d²)` and `L³ d² / 2`.
 pub fn weigh(nodes: &[f64], t: f64, weights: &mut [[f64; 3]]) {
     for (k, (&node, weights)) in nodes.iter().zip(weights).enumerate() {
-        let d = t - node;
-        let (mut lagrange, mut s, mut squares) = (1.0, 0.0, 0.0);
-        for (_, &other) in nodes.iter().enumerate().filter(|&(other, _)| other != k) {
-            let per = 1.0 / (node - other);
-            lagrange *= (t - other) * per;
-            s += per;
-            squares += per * per;
-        }
-        let (r, cube) = (s * s - squares, lagrange * lagrange * lagrange);
-        let bend = 6.0 * s * s - 1.5 * r;
+        let (d, [lagrange, s, r]) = (t - node, of_lagrange(nodes, k, t));
+        let (cube, bend) = (lagrange * lagrange * lagrange, 6.0 * s * s - 1.5 * r);
         *weights = [cube * (1.0 + d * (d * bend - 3.0 * s)), cube * d * (1.0 - 3.0 * s * d), 0.5 * cube * d * d];
     }
 }
 
+/// The same where second derivatives are not known: value and slope weigh `L² (1 − 2 s d)` and `L² d`.
+pub fn weigh_slopes(nodes: &[f64], t: f64, weights: &mut [[f64; 3]]) {
+    for (k, (&node, weights)) in nodes.iter().zip(weights).enumerate() {
+        let (d, [lagrange, s, _]) = (t - node, of_lagrange(nodes, k, t));
+        let square = lagrange * lagrange;
+        *weights = [square * (1.0 - 2.0 * s * d), square * d, 0.0];
+    }
+}
+
+/// The Lagrange polynomial of a node at a time, and its first and second derivative at the node.
+fn of_lagrange(nodes: &[f64], k: usize, t: f64) -> [f64; 3] {
+    let (mut lagrange, mut s, mut squares) = (1.0, 0.0, 0.0);
+    for (_, &other) in nodes.iter().enumerate().filter(|&(other, _)| other != k) {
+        let per = 1.0 / (nodes[k] - other);
+        lagrange *= (t - other) * per;
+        s += per;
+        squares += per * per;
+    }
+    [lagrange, s, s * s - squares]
+}
+
 #[cfg(test)]
 mod tests {
-    use super::weigh;
+    use super::{weigh, weigh_slopes};
 
     /// A polynomial of some degree, with its derivatives.
     fn polynomial(degree: u32, t: f64) -> [f64; 3] {
@@ -41,14 +54,24 @@ mod tests {
         for (nodes, t) in
             [(&[0.3][..], 0.7), (&[0.0, -0.4], 0.3), (&[0.1, -0.2, -0.45], 0.32), (&[0.0, -1.0, 0.5], -0.7)]
         {
-            let degree = 3 * nodes.len() as u32 - 1;
             let mut weights = [[0.0; 3]; 3];
             weigh(nodes, t, &mut weights);
-            let known = nodes.iter().map(|&node| polynomial(degree, node));
-            let led_on: f64 =
-                known.zip(weights).map(|(of, by)| of.into_iter().zip(by).map(|(x, w)| x * w).sum::<f64>()).sum();
-            let there = polynomial(degree, t)[0];
-            assert!((led_on - there).abs() <= 1e-12 * there.abs().max(1.0), "{nodes:?}: {led_on} and {there}");
+            leads_to_its_polynomial(nodes, t, 3, &weights);
         }
+        for (nodes, t) in [(&[0.3][..], 0.7), (&[0.0, -0.4], 0.3), (&[0.1, -0.2, -0.3, -0.45], 0.22)] {
+            let mut weights = [[0.0; 3]; 4];
+            weigh_slopes(nodes, t, &mut weights);
+            leads_to_its_polynomial(nodes, t, 2, &weights);
+        }
+    }
+
+    /// Of the largest degree that so many numbers at each node fix.
+    fn leads_to_its_polynomial(nodes: &[f64], t: f64, known: u32, weights: &[[f64; 3]]) {
+        let degree = known * nodes.len() as u32 - 1;
+        let at_nodes = nodes.iter().map(|&node| polynomial(degree, node));
+        let led_on: f64 =
+            at_nodes.zip(weights).map(|(of, by)| of.into_iter().zip(by).map(|(x, w)| x * w).sum::<f64>()).sum();
+        let there = polynomial(degree, t)[0];
+        assert!((led_on - there).abs() <= 1e-12 * there.abs().max(1.0), "{nodes:?}: {led_on} and {there}");
     }
 }

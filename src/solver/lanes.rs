@@ -43,6 +43,13 @@ impl<const W: usize> Watched<W> {
         let zero = LaneValues([0.0; W]);
         Watched { multiplier: zero, residual: zero, farthest: zero, first_correction: zero, bound: zero, finite: zero }
     };
+
+    /// Goes on from what has been seen of what stays, before there is any correction; bounds are set where Newton begins.
+    fn begin_behind(&mut self, fixed: &Watched<W>) {
+        let zero = LaneValues([0.0; W]);
+        (self.farthest, self.first_correction) = (zero, zero);
+        (self.multiplier, self.residual, self.finite) = (fixed.multiplier, fixed.residual, fixed.finite);
+    }
 }
 
 /// What a run reads beside its registers, and where it leaves its results: part by part of its lanes, `P` in each.
@@ -153,7 +160,7 @@ impl<const W: usize> Lanes<W> {
         of: (&Program, &Registers),
         around: impl Around<P>,
     ) {
-        self.watched = self.of_fixed.clone();
+        self.watched.begin_behind(&self.of_fixed);
         // one lane has nothing to do at once
         let vectors = if W == 1 { Vectors::BASE } else { self.vectors };
         let is_all = around.parts() == W / P;
@@ -329,19 +336,25 @@ impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
         if iteration == 0 {
             keep_largest(watched.first_correction.part_mut(part), &far, 1.0);
         }
-        // by lane: the cells, in cells, among whose points coordinates next to a border go on; 0 where all stay
-        let (mut cells, mut bound) = ([0.0; P], *watched.bound.part::<P>(part));
+        let (mut bound, mut moves) = (*watched.bound.part::<P>(part), [0.0_f64; P]);
         for k in 0..P {
-            let stays = (largest[k] <= bound[k]) | is_lost(farthest[k]);
-            let (next, width) = going_on(largest[k], bound[k], BORDER);
-            let next = if nearly > 0.0 { nearly } else { next };
-            bound[k] = if stays { f64::INFINITY } else { next };
-            cells[k] = if stays { 0.0 } else { width };
+            // those that are lost stay where they are
+            moves[k] = if (largest[k] > bound[k]) & (farthest[k] <= LARGEST_CORRECTION) { 1.0 } else { 0.0 };
         }
-        *watched.bound.part_mut(part) = bound;
-        if cells.iter().fold(0, |open, cells| open | cells.to_bits()) == 0 {
+        // mostly none does, which is seen in all lanes at once
+        if moves.iter().fold(0, |open, moves| open | moves.to_bits()) == 0 {
+            *watched.bound.part_mut(part) = [f64::INFINITY; P];
             return true;
         }
+        // by lane: the cells, in cells, among whose points coordinates next to a border go on; 0 where all stay
+        let mut cells = [0.0; P];
+        for k in 0..P {
+            let (next, width) = going_on(largest[k], bound[k], BORDER);
+            let next = if nearly > 0.0 { nearly } else { next };
+            bound[k] = if moves[k] == 0.0 { f64::INFINITY } else { next };
+            cells[k] = if moves[k] == 0.0 { 0.0 } else { width };
+        }
+        *watched.bound.part_mut(part) = bound;
         for tear in tears {
             let delta = *values[tear.delta as usize].part::<P>(part);
             let x = values[tear.x as usize].part_mut::<P>(part);

@@ -13,12 +13,31 @@ use crate::tolerances::solving::variants::{LARGEST_CHANGE, LARGEST_GAP, LARGEST_
 #[derive(Clone)]
 pub(super) struct Stand {
     pub t: f64,
-    /// By coordinate that steps are judged by: value, velocity, acceleration.
+    /// By coordinate that steps are judged by: value, velocity, and acceleration where that is known.
     pub tracked: Vec<[Each; 3]>,
     /// By turn of the solver: one over the determinant.
     pub determinants: Vec<Each>,
     /// How near to a singular position that is.
     pub nearness: Each,
+}
+
+/// What is known of each place that steps lead to, by which they are judged, and from which they lead on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Known {
+    /// Positions and velocities, which are enough where places are near to each other.
+    Velocities,
+    /// Accelerations too.
+    Accelerations,
+}
+
+impl Known {
+    /// How many numbers of each coordinate.
+    pub fn orders(self) -> usize {
+        match self {
+            Known::Velocities => 2,
+            Known::Accelerations => 3,
+        }
+    }
 }
 
 /// A coordinate that steps are judged by.
@@ -62,10 +81,10 @@ impl Stand {
     /// Takes over what was solved for.
     #[inline(always)]
     #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
-    pub fn take(&mut self, tracked: &[Tracked], unit: f64, t: f64, from: &Abreast<LANES>) {
+    pub fn take(&mut self, (tracked, known): (&[Tracked], Known), unit: f64, t: f64, from: &Abreast<LANES>) {
         self.t = t;
         for (own, of) in self.tracked.iter_mut().zip(tracked) {
-            for (to, column) in own.iter_mut().zip(of.columns) {
+            for (to, &column) in own.iter_mut().zip(&of.columns[..known.orders()]) {
                 *to = *from.column(column);
             }
         }
@@ -94,12 +113,12 @@ impl Stand {
 /// Adds what is in doubt of a step from one place to the next, of a length (s) if it is one of time.
 ///
 /// Nothing is where both ends are far from singular positions, which the motion between does not come up to; the first correction is small
-/// beside the distance to them, for so far off are other branches; no determinant has turned, or changed by much; and both ends' velocities
-/// and accelerations lead to where positions are.
+/// beside the distance to them, for so far off are other branches; no determinant has turned, or changed by much; and both ends' velocities,
+/// with accelerations where these are known, lead to where positions are.
 #[inline(always)]
 #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
 pub(super) fn of_step(
-    tracked: &[Tracked],
+    (tracked, known): (&[Tracked], Known),
     [now, next]: [&Stand; 2],
     (h, first_corrections): (Option<f64>, &Each),
     doubts: &mut Doubts,
@@ -111,12 +130,23 @@ pub(super) fn of_step(
             for k in 0..PART {
                 motion[k] = max(motion[k], (y[k] - x[k]).abs() * of.per_scale);
             }
-            if let Some(h) = h {
-                let (half, twelfth) = (0.5 * h, h * h * (1.0 / 12.0));
-                for k in 0..PART {
-                    let way = half * (v[k] + w[k]) + twelfth * (a[k] - b[k]);
-                    gap[k] = max(gap[k], (y[k] - x[k] - way).abs() * of.per_scale);
+            let mut way = [0.0; PART];
+            match (h, known) {
+                (None, _) => continue,
+                (Some(h), Known::Velocities) => {
+                    for k in 0..PART {
+                        way[k] = 0.5 * h * (v[k] + w[k]);
+                    }
                 }
+                (Some(h), Known::Accelerations) => {
+                    let (half, twelfth) = (0.5 * h, h * h * (1.0 / 12.0));
+                    for k in 0..PART {
+                        way[k] = half * (v[k] + w[k]) + twelfth * (a[k] - b[k]);
+                    }
+                }
+            }
+            for k in 0..PART {
+                gap[k] = max(gap[k], (y[k] - x[k] - way[k]).abs() * of.per_scale);
             }
         }
         let (from, to) = (*now.nearness.part::<PART>(part), *next.nearness.part::<PART>(part));

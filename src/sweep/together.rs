@@ -4,13 +4,16 @@
 use super::Base;
 use super::asked::Asked;
 use super::each::{Each, LANES, PART, ZERO};
-use super::judge::{Stand, Tracked, nearness};
+use super::judge::{Known, Stand, Tracked, nearness};
 use crate::analysis::{Started, Times};
 use crate::ir::CoordinateKind;
+use crate::layout::RowLayout;
 use crate::math::Vectors;
 use crate::program::{LaneMachine, LaneValues, Op, Program, Register, Registers, Stage};
 use crate::solver::{Abreast, Guesses, Solver};
-use crate::tolerances::solving::variants::{BESIDE, CERTAIN_RESIDUAL, NEARLY, RESIDUAL_OF_STEP};
+use crate::tolerances::solving::variants::{
+    BESIDE, CERTAIN_RESIDUAL, DENSE_MOTION, DENSE_PART_OF_SPAN, NEARLY, RESIDUAL_OF_STEP,
+};
 use std::sync::Arc;
 
 /// What variants share that go side by side.
@@ -29,7 +32,8 @@ pub struct Together {
     pub(super) rows: Option<Rows>,
     /// What results ask; none where there are none, or where they had better be found alone.
     pub(super) asked: Option<Asked>,
-    /// The coordinates that steps are judged by.
+    /// The coordinates that steps are judged by, and what is known of each.
+    pub(super) known: Known,
     pub(super) tracked: Vec<Tracked>,
     /// By tear: its place among these.
     pub(super) tears: Vec<usize>,
@@ -93,7 +97,8 @@ impl Together {
         let ((determined, program), own) = base.stands();
         let judged = judged(&started);
         let tracked = tracked(&started, &judged)?;
-        let is_tracked = |column: u32| tracked.iter().any(|of| of.columns.contains(&column));
+        let known = known(&mut started, wanted, &judged);
+        let is_tracked = |column: u32| tracked.iter().any(|of| of.columns[..known.orders()].contains(&column));
         let asked =
             if wanted.results { Asked::of(determined, &mut started, times, (&is_tracked, vectors)) } else { None };
         // who has all results has got through the motion
@@ -117,6 +122,7 @@ impl Together {
             steps,
             rows,
             asked,
+            known,
             tracked,
             tears,
             bounds: [RESIDUAL_OF_STEP, CERTAIN_RESIDUAL].map(per_bound),
@@ -224,6 +230,22 @@ fn judged(started: &Started) -> Vec<usize> {
     let is_tear = |k: usize| started.solver().is_some_and(|solver| solver.tears().contains(&(k as u32)));
     let is_judged = |&k: &usize| is_tear(k) || coordinates[k].kind != CoordinateKind::Length;
     (0..coordinates.len()).filter(is_judged).collect()
+}
+
+/// What of these is known at each step: what is cheapest, where nothing but near rows is wanted, none of which shows accelerations.
+fn known(started: &mut Started, wanted: &WantedOfEach<'_>, judged: &[usize]) -> Known {
+    let (times, Some(columns), Some(velocities)) = (wanted.rows.0, wanted.rows.1, started.velocities()) else {
+        return Known::Accelerations;
+    };
+    let layout = RowLayout::new(started.system());
+    if wanted.results || columns.iter().any(|&column| layout.order_of(column) == 2) {
+        return Known::Accelerations;
+    }
+    let coordinates = started.system().coordinates();
+    let fastest = judged.iter().map(|&k| velocities[k].abs() / coordinates[k].scale).fold(0.0, f64::max);
+    let apart = times.widest_gap();
+    let is_dense = apart <= DENSE_PART_OF_SPAN * times.span() && apart * fastest <= DENSE_MOTION;
+    if is_dense { Known::Velocities } else { Known::Accelerations }
 }
 
 /// The same with their columns.

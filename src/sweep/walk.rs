@@ -3,18 +3,28 @@
 //! alone, as long as the branch is the same. A step is taken where that is beyond doubt; a variant in doubt leaves.
 
 use super::each::{Each, LANES, PART, ZERO, parts_of};
-use super::judge::{self, Doubts, Stand};
+use super::judge::{self, Doubts, Known, Stand};
 use super::table::Table;
 use super::together::{Rows, Together};
-use crate::math::weigh;
+use crate::math::{weigh, weigh_slopes};
 use crate::program::LaneValues;
 use crate::solver::{Abreast, Guesses, Solver};
 use crate::tolerances::solving::variants::{ALIKE, CALM_STEPS, NEARLY, PARTS_OF_WAY, PATIENCE};
 use crate::tolerances::steps::march::CRUMB;
 use std::array::from_fn;
 
-/// A motion is led on from so many places.
-const PLACES: usize = 3;
+/// A motion is led on from so many places at the most.
+const PLACES: usize = 4;
+
+impl Known {
+    /// From how many places a motion is led on of which this is known.
+    fn places(self) -> usize {
+        match self {
+            Known::Velocities => 4,
+            Known::Accelerations => 3,
+        }
+    }
+}
 
 /// Variants on their way.
 pub(super) struct Walk {
@@ -22,10 +32,9 @@ pub(super) struct Walk {
     pub registers: Vec<Each>,
     params: Vec<Each>,
     steps: Abreast<LANES>,
-    /// Where they are, where they were before and before that, and where they are to be.
+    /// Where they are, where they were before that, last things first, and where they are to be.
     pub now: Box<Stand>,
-    before: Box<Stand>,
-    earlier: Box<Stand>,
+    before: [Box<Stand>; PLACES - 1],
     next: Box<Stand>,
     /// How many of these places lie on the motion, with where they are.
     passed: usize,
@@ -53,15 +62,21 @@ struct Ahead {
 
 impl Ahead {
     /// Leads on by a step from so many places, which were some time ago (s).
-    fn lead_on(&mut self, passed: usize, spans: [f64; PLACES]) {
+    fn lead_on(&mut self, known: Known, passed: usize, spans: [f64; PLACES]) {
         let is_alike = |(span, before): (&f64, &f64)| (span - before).abs() <= ALIKE * before;
         // what a guess is off so much is far below a cell of the grid
         if spans.iter().zip(&self.spans).all(is_alike) {
             return;
         }
-        let [h, back, further] = spans;
+        let [h, back @ ..] = spans;
         (self.spans, self.weights) = (spans, [[0.0; 3]; PLACES]);
-        weigh(&[0.0, -back, -further][..passed], h, &mut self.weights);
+        let mut nodes = [0.0; PLACES];
+        nodes[1..].iter_mut().zip(back).for_each(|(node, back)| *node = -back);
+        let weigh = match known {
+            Known::Velocities => weigh_slopes,
+            Known::Accelerations => weigh,
+        };
+        weigh(&nodes[..passed], h, &mut self.weights);
     }
 }
 
@@ -88,8 +103,7 @@ impl Walk {
             params: together.own.iter().map(|&value| LaneValues([value; LANES])).collect(),
             steps: together.abreast(&together.steps, |_| 1),
             now: together.stand(),
-            before: together.stand(),
-            earlier: together.stand(),
+            before: from_fn(|_| together.stand()),
             next: together.stand(),
             passed: 0,
             ahead: Ahead::default(),
@@ -118,8 +132,6 @@ impl Walk {
         self.length = self.longest;
         self.goes = self.lead(of, params);
         solving.abreast.load(solving.solver, (&of.program, &of.scalars), &self.registers, self.parts);
-        // what may have got lost on the way is behind them
-        (self.before, self.earlier) = (self.now.clone(), self.now.clone());
         for (guess, &tear) in self.guesses.iter_mut().zip(&of.tears) {
             *guess = self.now.tracked[tear][0];
         }
@@ -150,7 +162,7 @@ impl Walk {
 
     /// The same in so many parts; says which of some variants get there.
     fn lead_in(&mut self, of: &Together, parts: u32, targets: &[Each], mut open: [bool; LANES]) -> [bool; LANES] {
-        (self.now, self.before) = (of.stand(), of.stand());
+        (self.now, self.before[0]) = (of.stand(), of.stand());
         for part in 1..=parts {
             self.load(of, targets, f64::from(part) / f64::from(parts));
             if part == 1 {
@@ -158,7 +170,7 @@ impl Walk {
             } else {
                 // straight on
                 for (guess, &tear) in self.guesses.iter_mut().zip(&of.tears) {
-                    let (now, before) = (&self.now.tracked[tear][0].0, &self.before.tracked[tear][0].0);
+                    let (now, before) = (&self.now.tracked[tear][0].0, &self.before[0].tracked[tear][0].0);
                     guess.0 = from_fn(|k| now[k] + (now[k] - before[k]));
                 }
             }
@@ -232,17 +244,21 @@ impl Walk {
 
     /// Where Newton begins after a step of length `h`: on the curve through the last places, which is linear in what these are.
     fn guess(&mut self, of: &Together, h: f64) {
-        let Walk { now, before, earlier, passed, ahead, guesses, .. } = self;
-        let spans = [h, now.t - before.t, now.t - earlier.t];
-        // a place that was not passed is as good as none
-        ahead.lead_on(*passed, from_fn(|k| if k < *passed { spans[k] } else { 0.0 }));
+        let Walk { now, before: [before, earlier, earliest], passed, ahead, guesses, .. } = self;
+        let (places, passed) = ([&**now, before, earlier, earliest], (*passed).min(of.known.places()));
+        // a place that was not passed is none: what has got lost on the way may stand there
+        let places: [&Stand; PLACES] = from_fn(|k| places[if k < passed { k } else { 0 }]);
+        ahead.lead_on(of.known, passed, from_fn(|k| if k == 0 { h } else { places[0].t - places[k].t }));
         of.vectors.run(
             #[inline(always)]
             || {
                 for (guess, &tear) in guesses.iter_mut().zip(&of.tears) {
-                    let places = [&*now, &*before, &*earlier].map(|stand| &stand.tracked[tear]);
+                    let places = places.map(|stand| &stand.tracked[tear]);
                     for part in 0..LANES / PART {
-                        *guess.part_mut(part) = led_on(ahead.weights, places, part);
+                        *guess.part_mut(part) = match of.known {
+                            Known::Velocities => led_on::<2, 4>(ahead.weights, places, part),
+                            Known::Accelerations => led_on::<3, 3>(ahead.weights, places, part),
+                        };
                     }
                 }
             },
@@ -264,9 +280,10 @@ impl Walk {
         of.vectors.run(
             #[inline(always)]
             || {
-                next.take(&of.tracked, of.nearness, t, abreast);
+                let tracked = (&*of.tracked, of.known);
+                next.take(tracked, of.nearness, t, abreast);
                 abreast.write_doubts(&mut doubts.0);
-                judge::of_step(&of.tracked, [now, next], (h, abreast.first_corrections()), &mut doubts);
+                judge::of_step(tracked, [now, next], (h, abreast.first_corrections()), &mut doubts);
             },
         );
         doubts
@@ -274,28 +291,41 @@ impl Walk {
 
     /// Goes to where they were to be.
     fn advance(&mut self) {
-        std::mem::swap(&mut self.earlier, &mut self.before);
-        std::mem::swap(&mut self.before, &mut self.now);
+        self.before.rotate_right(1);
+        std::mem::swap(&mut self.before[0], &mut self.now);
         std::mem::swap(&mut self.now, &mut self.next);
         self.passed = (self.passed + 1).min(PLACES);
     }
 }
 
-/// Where places lead to by their weights, in a part of the lanes. What it is made of is its own: else nothing would be done in all lanes at once.
+/// Where some of the places lead to by their weights, as far as so many numbers of each are known, in a part of the lanes. What it is made of is
+/// its own: else nothing would be done in all lanes at once.
 #[inline(always)]
 #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
-fn led_on(weights: [[f64; 3]; PLACES], places: [&[Each; 3]; PLACES], part: usize) -> [f64; PART] {
-    let mut sums = [[0.0; PART]; PLACES];
+fn led_on<const ORDERS: usize, const OF: usize>(
+    weights: [[f64; 3]; PLACES],
+    places: [&[Each; 3]; PLACES],
+    part: usize,
+) -> [f64; PART] {
+    let mut sums = [[0.0; PART]; OF];
     for (place, sum) in sums.iter_mut().enumerate() {
-        let [x, v, a] = places[place].each_ref().map(|each| *each.part::<PART>(part));
-        let [of_x, of_v, of_a] = weights[place];
-        for k in 0..PART {
-            sum[k] = of_x * x[k] + of_v * v[k] + of_a * a[k];
+        let weighed = |order: usize| {
+            let (known, weight) = (*places[place][order].part::<PART>(part), weights[place][order]);
+            known.map(|known| weight * known)
+        };
+        *sum = weighed(0);
+        for order in 1..ORDERS {
+            let more = weighed(order);
+            for k in 0..PART {
+                sum[k] += more[k];
+            }
         }
     }
-    let [mut sum, before, earlier] = sums;
-    for k in 0..PART {
-        sum[k] += before[k] + earlier[k];
+    let mut there = sums[0];
+    for sum in &sums[1..] {
+        for k in 0..PART {
+            there[k] += sum[k];
+        }
     }
-    sum
+    there
 }

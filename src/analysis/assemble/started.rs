@@ -177,6 +177,15 @@ impl Started {
         &self.state.q
     }
 
+    /// The velocities at the start [m/s, rad/s]; none where they have no values.
+    #[must_use]
+    pub fn velocities(&mut self) -> Option<Vec<f64>> {
+        let mut state = self.state.clone();
+        self.kinematics.restore(&state);
+        self.kinematics.derivatives(&mut state).ok()?;
+        Some(state.qd)
+    }
+
     /// The smallest singular value of any block of the scaled `Φ_q` at the start: 1 is best, 0 a singular position.
     #[must_use]
     pub fn conditioning(&mut self) -> f64 {

@@ -108,6 +108,18 @@ impl Times {
         }
     }
 
+    /// How far they are apart at the most, the first one from where the motion begins (s).
+    #[must_use]
+    pub fn widest_gap(&self) -> f64 {
+        match &self.kind {
+            Kind::Grid { every, .. } => *every,
+            Kind::Listed { times, .. } => {
+                let before = std::iter::once(&self.from).chain(times);
+                before.zip(times).map(|(before, t)| t - before).fold(0.0, f64::max)
+            }
+        }
+    }
+
     /// The one of a number, counted from 0 (s); there must be so many.
     #[must_use]
     pub fn at(&self, number: u64) -> f64 {
