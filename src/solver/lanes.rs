@@ -339,7 +339,8 @@ impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
         let (mut bound, mut moves) = (*watched.bound.part::<P>(part), [0.0_f64; P]);
         for k in 0..P {
             // those that are lost stay where they are
-            moves[k] = if (largest[k] > bound[k]) & (farthest[k] <= LARGEST_CORRECTION) { 1.0 } else { 0.0 };
+            let (is_beyond, is_near) = (largest[k] > bound[k], farthest[k] <= LARGEST_CORRECTION);
+            moves[k] = if is_beyond & is_near { 1.0 } else { 0.0 };
         }
         // mostly none does, which is seen in all lanes at once
         if moves.iter().fold(0, |open, moves| open | moves.to_bits()) == 0 {
