@@ -202,9 +202,9 @@ fn near_rows_of_positions_alone_are_the_same() {
     let (changing, locking) = (vary(&[&about("rod", 6.0), "lever=2.9,3"]), vary(&["speed=-3..3:40", "rod=3.4..3.6:3"]));
     for (text, asked, least) in [
         (four_bar(TURNS, "0.015"), sampled, 20),
-        (four_bar(TURNS, "0.015"), changing, 10),
+        (four_bar(TURNS, "0.015"), changing, 1),
         (four_bar("0.5 + speed * t + 0.3 * sin(20 * t)", "0.005"), vary(&["rod=3.4..3.6:5", "speed=0..9:7"]), 20),
-        (driven, locking, 10),
+        (driven, locking, 1),
     ] {
         let subject = subject(&text, Choice::default());
         let (variants, all) = (subject.variants(&asked), subject.all_columns());

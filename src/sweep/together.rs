@@ -7,7 +7,6 @@ use super::each::{Each, LANES, PART, ZERO};
 use super::judge::{Known, Stand, Tracked, nearness};
 use crate::analysis::{Started, Times};
 use crate::ir::CoordinateKind;
-use crate::layout::RowLayout;
 use crate::math::Vectors;
 use crate::program::{LaneMachine, LaneValues, Op, Program, Register, Registers, Stage};
 use crate::solver::{Abreast, Guesses, Solver};
@@ -237,8 +236,8 @@ fn known(started: &mut Started, wanted: &WantedOfEach<'_>, judged: &[usize]) -> 
     let (times, Some(columns), Some(velocities)) = (wanted.rows.0, wanted.rows.1, started.velocities()) else {
         return Known::Accelerations;
     };
-    let layout = RowLayout::new(started.system());
-    if wanted.results || columns.iter().any(|&column| layout.order_of(column) == 2) {
+    let shows_accelerations = |solver: &Solver| columns.iter().any(|&column| solver.layout().order_of(column) == 2);
+    if wanted.results || started.solver().is_none_or(shows_accelerations) {
         return Known::Accelerations;
     }
     let coordinates = started.system().coordinates();

@@ -66,9 +66,9 @@ pub mod variants {
     pub const LARGEST_CHANGE: f64 = 2.0;
     /// Steps over the whole span at least.
     pub const FEWEST_STEPS: f64 = 16.0;
-    /// Rows are dense, by whose velocities alone steps are led on and judged, that are no farther apart than this part of the span, and than what
-    /// moves nothing by more than this, scaled.
+    /// Rows are dense, by whose velocities alone steps are led on and judged, that are no farther apart than this part of the span.
     pub const DENSE_PART_OF_SPAN: f64 = 1.0 / 64.0;
+    /// Between them nothing moves by more than this at the start, scaled.
     pub const DENSE_MOTION: f64 = 0.04;
     /// Steps are of one length that differ by no more than this part.
     pub const ALIKE: f64 = 1e-9;
