@@ -6,7 +6,7 @@
 mod support;
 
 use mechc::{Choice, Method, Status, SweepOptions, VaryOptions, Vectors};
-use support::swept::{Subject, bits_of, compare_all, count, subject, vary};
+use support::swept::{Subject, bits_of, compare_all, count, have_the_same_bits, subject, vary};
 
 /// A four-bar that is turned once, or to and fro, by what is said of it.
 fn four_bar(turn: &str, every: &str) -> String {
@@ -143,8 +143,9 @@ fn results_beside_a_lane_are_those_alone() {
     let alone = subject.swept(&subject.variants(&asked), &SweepOptions::default());
     let beside = subject.swept(&subject.variants(&asked), &subject.all_columns());
     assert_eq!((alone.abreast, &alone.statuses), (abreast, &beside.statuses));
-    let bits = |columns: &[Vec<f64>]| columns.iter().flatten().map(|x| x.to_bits()).collect::<Vec<_>>();
-    assert_eq!(bits(&alone.results), bits(&beside.results));
+    for (alone, beside) in alone.results.iter().zip(&beside.results) {
+        assert!(have_the_same_bits(alone, beside), "{alone:?} {beside:?}");
+    }
 }
 
 /// One that stops, or is not even a mechanism, beside others: they do not feel it.
@@ -175,8 +176,7 @@ fn threads_vectors_and_columns_change_no_bit() {
         let swept = subject.swept(&variants, &SweepOptions { columns: Some(columns.clone()), ..all.clone() });
         assert_eq!(swept.statuses, whole.statuses);
         for (column, from) in swept.columns.iter().zip(&columns) {
-            let (found, known) = (column.iter().map(|x| x.to_bits()), whole.columns[*from].iter().map(|x| x.to_bits()));
-            assert!(found.eq(known), "column {from} of {columns:?}");
+            assert!(have_the_same_bits(column, &whole.columns[*from]), "column {from} of {columns:?}");
         }
     }
     // other groups, other neighbours
@@ -185,8 +185,7 @@ fn threads_vectors_and_columns_change_no_bit() {
         let first: usize = whole.lengths[..skip as usize].iter().sum();
         let rows: usize = share.lengths.iter().sum();
         for (column, known) in share.columns.iter().zip(&whole.columns) {
-            let known = &known[first..first + rows];
-            assert!(column.iter().map(|x| x.to_bits()).eq(known.iter().map(|x| x.to_bits())), "from {skip} on");
+            assert!(have_the_same_bits(column, &known[first..first + rows]), "from {skip} on");
         }
     }
 }
@@ -215,9 +214,7 @@ fn near_rows_of_positions_alone_are_the_same() {
             assert!(swept.abreast >= least, "{} of {:?}", swept.abreast, swept.statuses);
             assert_eq!((&swept.statuses, &swept.lengths), (&whole.statuses, &whole.lengths));
             for (column, from) in swept.columns.iter().zip(&columns) {
-                let (found, known) =
-                    (column.iter().map(|x| x.to_bits()), whole.columns[*from].iter().map(|x| x.to_bits()));
-                assert!(found.eq(known), "column {from} of {asked:?}");
+                assert!(have_the_same_bits(column, &whole.columns[*from]), "column {from} of {asked:?}");
             }
         }
     }
@@ -244,8 +241,8 @@ fn zeros_and_times_of_their_own_are_as_alone() {
     assert_eq!((some.abreast, &some.lengths), (9, &vec![2; 9]));
     let rows = all.lengths[0];
     for (some, all) in some.columns.iter().zip(&all.columns) {
-        let wanted = (0..9).flat_map(|k| [all[k * rows + 3], all[k * rows + 6]]);
-        assert!(some.iter().map(|x| x.to_bits()).eq(wanted.map(f64::to_bits)));
+        let wanted: Vec<f64> = (0..9).flat_map(|k| [all[k * rows + 3], all[k * rows + 6]]).collect();
+        assert!(have_the_same_bits(some, &wanted));
     }
 }
 

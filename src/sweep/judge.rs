@@ -32,7 +32,7 @@ pub(super) enum Known {
 
 impl Known {
     /// How many numbers of each coordinate.
-    pub fn orders(self) -> usize {
+    pub const fn orders(self) -> usize {
         match self {
             Known::Velocities => 2,
             Known::Accelerations => 3,

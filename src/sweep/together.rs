@@ -233,18 +233,21 @@ fn judged(started: &Started) -> Vec<usize> {
 
 /// What of these is known at each step: what is cheapest, where nothing but near rows is wanted, none of which shows accelerations.
 fn known(started: &mut Started, wanted: &WantedOfEach<'_>, judged: &[usize]) -> Known {
-    let (times, Some(columns), Some(velocities)) = (wanted.rows.0, wanted.rows.1, started.velocities()) else {
-        return Known::Accelerations;
-    };
+    let (times, columns) = (wanted.rows.0, wanted.rows.1.unwrap_or_default());
     let shows_accelerations = |solver: &Solver| columns.iter().any(|&column| solver.layout().order_of(column) == 2);
-    if wanted.results || started.solver().is_none_or(shows_accelerations) {
+    let apart = times.widest_gap();
+    if wanted.results
+        || columns.is_empty()
+        || started.solver().is_none_or(shows_accelerations)
+        || apart > DENSE_PART_OF_SPAN * times.span()
+    {
         return Known::Accelerations;
     }
+    // asked last: it takes a factoring
+    let Some(velocities) = started.velocities() else { return Known::Accelerations };
     let coordinates = started.system().coordinates();
     let fastest = judged.iter().map(|&k| velocities[k].abs() / coordinates[k].scale).fold(0.0, f64::max);
-    let apart = times.widest_gap();
-    let is_dense = apart <= DENSE_PART_OF_SPAN * times.span() && apart * fastest <= DENSE_MOTION;
-    if is_dense { Known::Velocities } else { Known::Accelerations }
+    if apart * fastest <= DENSE_MOTION { Known::Velocities } else { Known::Accelerations }
 }
 
 /// The same with their columns.

@@ -18,7 +18,7 @@ const PLACES: usize = 4;
 
 impl Known {
     /// From how many places a motion is led on of which this is known.
-    fn places(self) -> usize {
+    const fn places(self) -> usize {
         match self {
             Known::Velocities => 4,
             Known::Accelerations => 3,
@@ -249,6 +249,7 @@ impl Walk {
         // a place that was not passed is none: what has got lost on the way may stand there
         let places: [&Stand; PLACES] = from_fn(|k| places[if k < passed { k } else { 0 }]);
         ahead.lead_on(of.known, passed, from_fn(|k| if k == 0 { h } else { places[0].t - places[k].t }));
+        let weights = ahead.weights;
         of.vectors.run(
             #[inline(always)]
             || {
@@ -256,8 +257,15 @@ impl Walk {
                     let places = places.map(|stand| &stand.tracked[tear]);
                     for part in 0..LANES / PART {
                         *guess.part_mut(part) = match of.known {
-                            Known::Velocities => led_on::<2, 4>(ahead.weights, places, part),
-                            Known::Accelerations => led_on::<3, 3>(ahead.weights, places, part),
+                            Known::Velocities => {
+                                led_on::<{ Known::Velocities.orders() }, { Known::Velocities.places() }>(
+                                    weights, places, part,
+                                )
+                            }
+                            Known::Accelerations => led_on::<
+                                { Known::Accelerations.orders() },
+                                { Known::Accelerations.places() },
+                            >(weights, places, part),
                         };
                     }
                 }

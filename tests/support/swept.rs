@@ -111,6 +111,11 @@ pub fn bits_of(block: &Swept) -> (Vec<Status>, Vec<usize>, Vec<Vec<u64>>) {
     (block.statuses.clone(), block.lengths.clone(), columns.map(bits).collect())
 }
 
+/// Whether numbers are the same ones, to the bit.
+pub fn have_the_same_bits(found: &[f64], known: &[f64]) -> bool {
+    bits(found) == bits(known)
+}
+
 /// Compares each variant with what it is alone; gives how many of each status there are.
 pub fn compare(subject: &Subject, variants: &Variants) -> Vec<(Status, usize)> {
     compare_all(subject, variants).0
