@@ -499,7 +499,7 @@ fn each_number_of_copies_is_a_mechanism_of_its_own() {
     // columns go by their names
     let rows = output(
         path,
-        &["sweep", "a.mech", "--vary", "cells=3,5", "--rows", "--columns", "rise", "--columns", "up[3].x", "--at", "1"],
+        &["sweep", "a.mech", "--vary", "cells=3,5", "--rows", "--columns", "rise", "--columns", "up[*].x", "--at", "1"],
     );
     let rows = String::from_utf8(rows.stdout).unwrap();
     let run = |cells: &str| {
@@ -515,5 +515,7 @@ fn each_number_of_copies_is_a_mechanism_of_its_own() {
         let (found, wanted) = (cells(line), cells(&run(count)));
         assert_eq!((&found[at("t")], &found[at("rise")]), (&wanted[0], &wanted[1]));
         assert_eq!(found[at("up[3].x")].is_empty(), count == "3", "three cells have no fourth");
+        // though the text has four
+        assert_eq!(found[at("up[4].x")].is_empty(), count == "3", "five cells have a fifth");
     }
 }

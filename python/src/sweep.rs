@@ -82,6 +82,7 @@ impl Whole {
         let ((checked, compiled), said) = stages.with(&choice, &world, redundant, cancel)?;
         let told = |(sources, said): Refused| Said::of(&said, &sources);
         let variants = checked.variants(&more.vary_options(), &choice, &world).map_err(told)?;
+        let compiled = checked.widest(&variants, redundant).unwrap_or(compiled);
         let mut sources = variants.sources().clone();
         let ends = [&asked.from, &asked.to, &asked.every];
         let times = AskedTimes::of(ends, &asked.at, &mut sources).map_err(|why| Said::of(&why, &sources))?;

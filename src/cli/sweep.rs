@@ -36,12 +36,14 @@ pub(super) fn sweep(arguments: &SweepArguments, reporter: &mut Reporter) -> Resu
     })?;
     reporter.sources = variants.sources().clone();
     reporter.named.extend(variants.named_files().iter().cloned());
+    let redundant = if arguments.following.allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
+    let compiled = checked.widest(&variants, redundant).unwrap_or(compiled);
     let table = Table::of(arguments, format, &compiled, &variants)?;
     let range = range(arguments, &variants)?;
     let options = SweepOptions {
         times: times::said((&arguments.interval, &arguments.at), &mut reporter.sources)?,
         columns: table.wanted.clone(),
-        redundant: if arguments.following.allow_redundant { Redundant::LeftOut } else { Redundant::Refused },
+        redundant,
         tolerance: arguments.following.tolerance,
         pass_bifurcations: arguments.following.pass_bifurcations,
         jobs: arguments.jobs,

@@ -7,6 +7,9 @@ use crate::cancel::Cancel;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+/// Of so many params that decide all combinations of their least and largest values are looked at.
+const MOST_AT_CORNERS: usize = 4;
+
 /// All families of a sweep.
 pub(super) struct Families {
     /// The params that decide how often something is there, by their numbers among those that vary.
@@ -37,6 +40,54 @@ pub(super) enum Places {
     Others { columns: Vec<Option<usize>>, results: Vec<Option<usize>> },
 }
 
+/// The numbers of the params that decide how often something is there in a variant.
+fn deciding(one: &Checked, variants: &Variants) -> Vec<usize> {
+    let counts = one.counts();
+    let decides = |name: &String| counts.iter().any(|count| count.path == *name);
+    let names = variants.points().params().iter().enumerate();
+    names.filter(|(_, name)| decides(name)).map(|(k, _)| k).collect()
+}
+
+/// The mechanism with some params as a variant has them, by their numbers; nothing where that is not determined.
+fn compiled_with(
+    those: &[usize],
+    params: &[f64],
+    (own, variants): (&Checked, &Variants),
+    redundant: Redundant,
+) -> Option<Compiled> {
+    let set = variants.read_settings(params).enumerate().filter(|(k, _)| those.contains(k));
+    own.led_to(set.map(|(_, setting)| setting), variants.sources()).compile(redundant, &Cancel::default()).0
+}
+
+impl Checked {
+    /// Where a param that varies decides how often something is there: that of the variants with the most columns, whose names tables of all of
+    /// them are to have; what a variant has not is missing there. Nothing where none decides: all have those of the mechanism itself.
+    #[must_use]
+    pub fn widest(&self, variants: &Variants, redundant: Redundant) -> Option<Compiled> {
+        let mut params = variants.values(0);
+        let one = self.led_to(variants.read_settings(&params), variants.sources());
+        let counts = deciding(&one, variants);
+        if counts.is_empty() {
+            return None;
+        }
+        let mut widest: Option<Compiled> = None;
+        // most is there where each has its largest value, or one of them its least
+        for corner in 0..1_u32 << counts.len().min(MOST_AT_CORNERS) {
+            for (k, &count) in counts.iter().enumerate() {
+                let [least, most] = variants.points().ends(count);
+                params[count] = if k < MOST_AT_CORNERS && corner >> k & 1 == 1 { least } else { most };
+            }
+            let columns = |compiled: &Compiled| compiled.columns().len() + compiled.results().len();
+            if let Some(compiled) = compiled_with(&counts, &params, (self, variants), redundant)
+                && widest.as_ref().is_none_or(|widest| columns(&compiled) > columns(widest))
+            {
+                widest = Some(compiled);
+            }
+        }
+        widest
+    }
+}
+
 impl Families {
     /// Of the variants of a mechanism from one of them on, whose params are those of all.
     pub fn of(
@@ -45,13 +96,8 @@ impl Families {
         told: [Vec<String>; 2],
         first: u64,
     ) -> Families {
-        let mut values = vec![0.0; variants.points().params().len()];
-        variants.points().values(first, &mut values);
-        let one = own.led_to(variants.read_settings(&values), variants.sources());
-        let counts = one.counts();
-        let decides = |name: &String| counts.iter().any(|count| count.path == *name);
-        let names = variants.points().params().iter().enumerate();
-        let counts = names.filter(|(_, name)| decides(name)).map(|(k, _)| k).collect();
+        let one = own.led_to(variants.read_settings(&variants.values(first)), variants.sources());
+        let counts = deciding(&one, variants);
         let only = Arc::new(Family { from_own: one.begins_at_own(redundant), places: Places::Same });
         Families { counts, redundant, told, only, known: Mutex::default() }
     }
@@ -77,9 +123,7 @@ impl Families {
 
     fn family(&self, params: &[f64], own: &Checked, variants: &Variants) -> Family {
         let one = own.led_to(variants.read_settings(params), variants.sources());
-        let counts = variants.read_settings(params).enumerate().filter(|(k, _)| self.counts.contains(k));
-        let with_counts = own.led_to(counts.map(|(_, setting)| setting), variants.sources());
-        let compiled = with_counts.compile(self.redundant, &Cancel::default()).0;
+        let compiled = compiled_with(&self.counts, params, (own, variants), self.redundant);
         // of one that is not determined nothing is told
         let places = compiled.map_or(Places::Same, |compiled| self.places_in(&compiled));
         Family { from_own: one.begins_at_own(self.redundant), places }

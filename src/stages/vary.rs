@@ -91,7 +91,8 @@ impl Variants {
         self.points.params().iter().zip(&self.ones).zip(values).map(set)
     }
 
-    fn values(&self, variant: u64) -> Vec<f64> {
+    /// The values of a variant's params (SI).
+    pub(super) fn values(&self, variant: u64) -> Vec<f64> {
         let mut values = vec![0.0; self.points.params().len()];
         self.points.values(variant, &mut values);
         values

@@ -164,6 +164,28 @@ impl Points {
         self.count
     }
 
+    /// The least and the largest value that a param takes (SI); of a sample the ends of its range.
+    #[must_use]
+    pub fn ends(&self, param: usize) -> [f64; 2] {
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut take = |value: f64| (least, most) = (least.min(value), most.max(value));
+        for axis in &self.axes {
+            let Some(place) = axis.params.iter().position(|&own| own == param) else { continue };
+            match &axis.values {
+                // one alone is the first
+                Levels::Even { ends: [first, last], count } => {
+                    [*first, if *count > 1 { *last } else { *first }].map(&mut take)
+                }
+                Levels::Listed(rows) => {
+                    rows.iter().skip(place).step_by(axis.params.len()).copied().for_each(&mut take);
+                    continue;
+                }
+                Levels::Sampled(sample) => sample.ends[place].map(&mut take),
+            };
+        }
+        [least, most]
+    }
+
     /// The values of a variant's params (SI), in the order of [`Points::params`].
     pub fn values(&self, variant: u64, into: &mut [f64]) {
         let mut rest = variant;
@@ -214,6 +236,19 @@ mod tests {
             Varying { params: vec![0, 2], values: list },
         ]));
         assert_eq!(found, [[1.0, 0.0, 2.0], [3.0, 0.0, 4.0], [1.0, 1.0, 2.0], [3.0, 1.0, 4.0]]);
+    }
+
+    #[test]
+    fn ends_are_those_of_what_is_taken() {
+        let sample = Sampling::of(vec![[1.0, 2.0], [-3.0, -5.0]], 9, Method::Sobol, None);
+        let found = points(vec![
+            Varying { params: vec![0], values: Levels::Even { ends: [2.0, 1.0], count: 3 } },
+            Varying { params: vec![1], values: Levels::Even { ends: [2.0, 1.0], count: 1 } },
+            Varying { params: vec![3, 2], values: Levels::Listed(vec![1.0, 7.0, 4.0, 5.0, -2.0, 6.0]) },
+            Varying { params: vec![4, 5], values: Levels::Sampled(Box::new(sample)) },
+        ]);
+        let ends: Vec<[f64; 2]> = (0..6).map(|param| found.ends(param)).collect();
+        assert_eq!(ends, [[1.0, 2.0], [2.0, 2.0], [5.0, 7.0], [-2.0, 4.0], [1.0, 2.0], [-5.0, -3.0]]);
     }
 
     #[test]
