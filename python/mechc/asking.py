@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any, TypeVar
 
 from mechc.errors import MechcWarning, warn
-from mechc.values import many, mapping, meant, number, path_of, plain, table, texts, usage, whole, written
+from mechc.values import many, mapping, meant, number, path_of, plain, sound, table, texts, usage, whole, written
 from mechc.values import varied as one_varied
 
 Method = TypeVar("Method", bound=Callable[..., Any])
@@ -96,6 +96,7 @@ def refuse_unknown(
     """Refuses keywords that are neither params nor inputs."""
     for name in names:
         if name not in params and name not in inputs:
+            sound("a name", name)
             known = [*params, *inputs, *options]
             raise usage(f"there is no param, input or option `{name}`", meant(name, known) or _listed(params, inputs))
 
@@ -129,14 +130,14 @@ def unit_of(name: str, units: Mapping[str, str]) -> str:
 def formulas(results: Any) -> list[str]:
     """Results as ``NAME = FORMULA``: a mapping, a list of such texts, or one."""
     if isinstance(results, Mapping):
-        return [f"{name} = {formula}" for name, formula in results.items()]
+        return [sound("results", f"{name} = {formula}") for name, formula in results.items()]
     return texts("results", results)
 
 
 def _time(name: str, value: Any) -> str | None:
     if value is None:
         return None
-    return value if isinstance(value, str) else repr(number(name, value))
+    return sound(name, value) if isinstance(value, str) else repr(number(name, value))
 
 
 def _times(at: Any) -> list[str]:
@@ -192,7 +193,7 @@ def varied(
         told = one_varied(name, values, unit_of(name, units))
         (lists if isinstance(told, bytes) else found).append(told)  # type: ignore[arg-type]
     if isinstance(variants, (str, os.PathLike)):
-        found.append(f"@{path_of('variants', variants)}")
+        found.append(f"@{sound('variants', path_of('variants', variants))}")
     elif variants is not None:
         columns = _columns_of(variants)
         lists.append(table(columns, {name: unit_of(name, units) for name in columns}))
@@ -202,6 +203,8 @@ def varied(
         raise usage(f"`method` is {method!r}", "it is `'sobol'` or `'random'`")
     if until is not None and not isinstance(until, str):
         raise usage(f"`until` is {until!r}, and a condition is wanted", "as in `until='stroke > 80 mm'`")
+    if until is not None:
+        sound("until", until)
     if flag("rows", rows) is False:
         if asked["at"]:
             help = "add `rows=True` for the rows at these times, or measure with `results={'NAME': 'at(…, T)'}`"

@@ -28,21 +28,33 @@ class Jacobian:
     def __init__(self, run: Run, names: list[str], by: list[str], results: Array) -> None:
         #: The motion, with the columns ``NAME.by.PARAM``.
         self.run = run
-        #: The params and inputs that it is by.
-        self.by = by
-        #: The names of the rows of ``results``.
-        self.result_names = names
+        self._by = by
+        self._names = names
         results.setflags(write=False)
         #: Of shape (results, params), in SI.
         self.results = results
 
+    @property
+    def by(self) -> list[str]:
+        """The params and inputs that it is by."""
+        return list(self._by)
+
+    @property
+    def result_names(self) -> list[str]:
+        """The names of the rows of ``results``."""
+        return list(self._names)
+
+    # it is no sequence, for all that it has items
+    __iter__ = None
+
     def __getitem__(self, name: str) -> Array:
         """The derivatives of a column, or of a result."""
-        if name in self.result_names:
-            return self.results[self.result_names.index(name)]
-        columns = [f"{name}.by.{by}" for by in self.by]
+        if name in self._names:
+            return self.results[self._names.index(name)]
+        columns = [f"{name}.by.{by}" for by in self._by]
         if name not in self.run or any(column not in self.run for column in columns):
-            hint = meant(name, [*self.result_names, *(known for known in self.run if not self.run._derived(known)[1])])
+            known = [*self._names, *(known for known in self.run if not self.run._derived(known)[1])]
+            hint = meant(name, known) if isinstance(name, str) else None
             raise KeyError(f"there are no derivatives of {name!r}" + (f"; {hint}" if hint else ""))
         return np.column_stack([self.run[column] for column in columns])
 
@@ -52,7 +64,7 @@ class Jacobian:
         return self.run.t
 
     def __repr__(self) -> str:
-        return f"<Jacobian: {len(self.result_names)} results and {self.run.rows} rows by {', '.join(self.by)}>"
+        return f"<Jacobian: {len(self._names)} results and {self.run.rows} rows by {', '.join(self._by)}>"
 
 
 def jacobian(m: Mechanism, by: Any, asked: dict[str, Any]) -> Jacobian:
@@ -100,10 +112,13 @@ class Objective:
         self._place = place
         self._name = evaluate.results[place]
         self._failed = failed
-        #: The params, in the order of ``x``.
-        self.by = list(evaluate.by)
-        #: Their values in the text, with what was set (SI).
+        #: The values of the params in the text, with what was set (SI).
         self.x0 = evaluate.x0
+
+    @property
+    def by(self) -> list[str]:
+        """The params, in the order of ``x``."""
+        return list(self._evaluate.by)
 
     def __call__(self, x: ArrayLike) -> tuple[float, Array]:
         value, gradient = self._both(x)
@@ -144,13 +159,20 @@ class Residuals:
     def __init__(self, evaluate: Evaluation, columns: list[str], wanted: Array, failed: float | None) -> None:
         self._evaluate = evaluate
         self._failed = failed
-        #: The columns, in the order of the inner index.
-        self.columns = columns
+        self._columns = columns
         self._wanted = wanted
-        #: The params, in the order of ``x``.
-        self.by = list(evaluate.by)
-        #: Their values in the text, with what was set (SI).
+        #: The values of the params in the text, with what was set (SI).
         self.x0 = evaluate.x0
+
+    @property
+    def columns(self) -> list[str]:
+        """The columns, in the order of the inner index."""
+        return list(self._columns)
+
+    @property
+    def by(self) -> list[str]:
+        """The params, in the order of ``x``."""
+        return list(self._evaluate.by)
 
     def _both(self, x: ArrayLike) -> tuple[Array, Array]:
         try:
@@ -196,9 +218,10 @@ class Evaluation:
         self._last: tuple[bytes, Any] | None = None
 
     def __call__(self, x: ArrayLike) -> Any:
-        x = np.asarray(elements("x", x)).reshape(-1)
+        x = np.asarray(elements("x", x))
         if x.size != len(self.by):
             raise usage(f"{x.size} values are given for {len(self.by)} params", f"these are {', '.join(self.by)}, in that order")
+        x = np.ascontiguousarray(x).reshape(-1)
         if self._last is not None and self._last[0] == x.tobytes():
             return self._last[1]
         values, rows = self._evaluator.evaluate(x)

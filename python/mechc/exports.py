@@ -17,8 +17,12 @@ HEAD = 6
 
 
 def path_of(path: str | os.PathLike[str]) -> Path:
-    """A path that was handed over."""
-    return Path(values.path_of("path", path))
+    """A path that was handed over, of what is to be written."""
+    told = values.path_of("path", path)
+    if not told:
+        # it would be taken for the folder that we are in
+        raise values.usage("`path` is empty, and that of a file or folder is wanted", "`'.'` is the folder that you are in")
+    return Path(told)
 
 
 def write(path: Path, text: str) -> Path:

@@ -13,7 +13,7 @@ from mechc.derivatives import Jacobian, Objective, Residuals, jacobian, objectiv
 from mechc.errors import MechcError, MechcWarning, warn
 from mechc.running import Running
 from mechc.tolerances import Tolerance, told
-from mechc.values import Value, mapping, many, number, path_of, usage, whole
+from mechc.values import Value, mapping, many, number, path_of, sound, usage, whole
 
 #: What files hold: texts or bytes.
 Files = Mapping[Any, "str | bytes"]
@@ -52,8 +52,9 @@ def parse(
     for path, contents in ({} if files is None else _listed(files)).items():
         if not isinstance(contents, (str, bytes, bytearray, memoryview)):
             raise usage(f"the file {path!r} is an object of {type(contents).__name__}", "give its text, or its bytes")
-        held[path_of("files", path)] = contents.encode() if isinstance(contents, str) else bytes(contents)
-    return _made(text, path_of("name", name), held, False, mechanism, set, allow_redundant)
+        name_of_it = path_of("files", path)
+        held[name_of_it] = sound(name_of_it, contents).encode() if isinstance(contents, str) else bytes(contents)
+    return _made(sound("text", text), path_of("name", name), held, False, mechanism, set, allow_redundant)
 
 
 def _listed(files: Any) -> Mapping[Any, Any]:
@@ -73,6 +74,8 @@ def _made(
 ) -> Mechanism:
     if mechanism is not None and not isinstance(mechanism, str):
         raise usage(f"{mechanism!r} is no name of a mechanism")
+    if mechanism is not None:
+        sound("mechanism", mechanism)
     given, leaves_out = [], asking.flag("allow_redundant", allow_redundant)
     if set is not None and mapping("set", set):
         # which unit a number has is known when the mechanism is
@@ -161,7 +164,7 @@ class Mechanism(Running):
         )
         if not isinstance(result, str):
             raise usage(f"{result!r} is no name of a result")
-        return objective(self, result, by, _replacing(failed), asked)
+        return objective(self, sound("result", result), by, _replacing(failed), asked)
 
     @with_options
     def residuals(

@@ -17,6 +17,12 @@ _INSTEAD = {
     "at": "ask for fewer elements at once",
 }
 
+#: What takes less is not looked at (bytes).
+SMALL = 64 << 20
+
+#: So many columns each mechanism has at the least: the time, and the three coordinates of a body with both derivatives.
+LEAST = 10
+
 #: What holds the limits of this process, and what it has of them: of groups of processes, as containers are, in both versions.
 _GROUPS = (
     ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current", "/sys/fs/cgroup/memory.stat"),
@@ -35,10 +41,23 @@ def refuse_beyond(rows: int, columns: int, of: str) -> None:
         raise too_large(rows, columns, of, free)
 
 
-def too_large(rows: int, columns: int, of: str, free: int | None = None) -> TooLarge:
+def refuse_elements(count: int) -> None:
+    """Refuses elements that do not fit into the memory that is free, whatever mechanism they are of."""
+    if 8 * count * LEAST > SMALL:
+        free = _free()
+        if free is not None and 8 * count * LEAST > free:
+            raise too_many(count, free)
+
+
+def too_many(count: int, free: int | None = None) -> TooLarge:
+    """That elements do not fit into memory, before it is known how many columns they have."""
+    return too_large(count, LEAST, "at", free, " or more")
+
+
+def too_large(rows: int, columns: int, of: str, free: int | None = None, more: str = "") -> TooLarge:
     """That rows of numbers do not fit into memory, and what to do instead."""
     beside = "" if free is None else f", and {_size(max(free, 0))} of memory are free"
-    message = f"{rows} rows of {columns} columns take {_size(8 * rows * columns)}{beside}"
+    message = f"{rows} rows of {columns} columns{more} take {_size(8 * rows * columns)}{more}{beside}"
     error = usage(message, _INSTEAD[of], TooLarge)
     error.diagnostics[0]["data"] = {"rows": rows, "columns": columns, "bytes": 8 * rows * columns}
     return error  # type: ignore[return-value]

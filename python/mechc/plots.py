@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from mechc.values import usage
+from mechc.values import texts, usage
 
 if TYPE_CHECKING:
     from mechc.tables import Run
 
 
-def over_time(run: Run, columns: Sequence[str], ax: Any = None) -> Any:
+def over_time(run: Run, columns: Sequence[str | Iterable[str]], ax: Any = None) -> Any:
     """Columns over time. Those of one unit share the scale on the left; those of a second one have a scale on the right."""
     try:
         from matplotlib import pyplot
     except ImportError:
         raise ImportError("plots need matplotlib: pip install 'mechc[plot]'") from None
-    names = list(columns) or _measures(run)
+    names = [name for one in columns for name in texts("columns", one)]
+    if columns and not names:
+        raise usage("`columns` holds no name", "leave it out for all measures")
+    names = names or _measures(run)
     if not names:
         raise usage("there is no measure to plot", "name columns, as in `run.plot('crank.phi')`")
     values = {name: run[name] for name in names}

@@ -174,7 +174,8 @@ class Running(Described):
     def reactions(self, /, **options: Any) -> Run:
         """What all joints exert and all drivers supply, as ``mechc run --reactions`` has it: ``main.fx``, ``main.fy``, ``motor.effort``.
 
-        It takes what :meth:`run` takes, and gives those columns alone, behind the time. Forces are in the outermost frame (N, N*m).
+        It takes what :meth:`run` takes, and gives those columns alone, behind the time; with ``by`` their derivatives too. Forces are in
+        the outermost frame (N, N*m).
         """
         is_strict, columns = flag("strict", options.pop("strict", True)), texts("columns", options.get("columns"))
         # what the caller names has been looked at, and what is named here is none of the caller's
@@ -182,7 +183,7 @@ class Running(Described):
         run = Running.run.__wrapped__(self, **asked)  # type: ignore[attr-defined]
         if not columns:
             plain = {*self.columns}
-            names = [name for name in run if name == "t" or (name not in plain and not run._derived(name)[1])]
+            names = [name for name in run if name == "t" or run._derived(name)[0] not in plain]
             run = run._with_columns(names)
         return _unless(is_strict, run)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -33,7 +33,8 @@ class Rows(Mapping[str, Any]):
 
     ``table["travel"]`` is a numpy array of shape (rows,) that shares the table's memory and cannot be written to. Whatever takes
     Arrow takes the table: ``table.to_polars()``, ``pyarrow.table(table)``, ``duckdb``; there a value that is missing is null, in arrays,
-    and where the table is taken for a mapping, as by ``polars.DataFrame(table)``, it is ``nan``.
+    and where the table is taken for a mapping, as by ``polars.DataFrame(table)``, it is ``nan``. ``numpy.asarray(table)`` are all columns
+    side by side, of shape (rows, columns). That is what ``pandas.DataFrame(table)`` takes, without names: ``table.to_pandas()`` has them.
     """
 
     def __init__(self, table: _mechc.Table) -> None:
@@ -62,15 +63,19 @@ class Rows(Mapping[str, Any]):
         return len(self._table)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
+        if not isinstance(name, str):
+            raise KeyError(f"there is no column {name!r}; several columns are `to_numpy(['NAME', …])`")
         known = self._arrays.get(name)
         if known is not None:
             return known
-        place = self._places.get(name) if isinstance(name, str) else None
+        place = self._places.get(name)
         if place is None:
-            hint = meant(name, self._places) if isinstance(name, str) else None
+            hint = meant(name, self._places)
             raise KeyError(f"there is no column {name!r}" + (f"; {hint}" if hint else ""))
         column = self._table.column(place)
         array = np.array(column, dtype=object) if isinstance(column, list) else np.asarray(column)
+        # it is given to all who ask
+        array.setflags(write=False)
         self._arrays[name] = array
         return array
 
@@ -81,7 +86,7 @@ class Rows(Mapping[str, Any]):
         return len(self._places)
 
     def __contains__(self, name: object) -> bool:
-        return name in self._places
+        return isinstance(name, str) and name in self._places
 
     def __eq__(self, other: object) -> bool:
         return self is other
@@ -93,6 +98,13 @@ class Rows(Mapping[str, Any]):
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         return self._table.__arrow_c_stream__(requested_schema)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        """All columns side by side, of shape (rows, columns): numbers, or objects where some hold words."""
+        if copy is False:
+            raise ValueError("columns lie apart in memory: side by side they are a copy")
+        array = self.to_numpy(self.columns)
+        return array if dtype is None else array.astype(dtype, copy=False)
 
     def to_numpy(self, columns: list[str] | str | None = None) -> NDArray[np.float64]:
         """Columns of numbers side by side, an array of shape (rows, columns); all of them where none are named."""
@@ -185,7 +197,7 @@ class Run(Rows):
         table = _mechc.Table(names, [units[name] for name in names], columns)
         return Run(table, self._name, self._results, self.status, self.stopped, self.error)
 
-    def plot(self, *columns: str, ax: Any = None) -> Any:
+    def plot(self, *columns: str | Iterable[str], ax: Any = None) -> Any:
         """Columns over time, with matplotlib; all measures where none are named. Gives the axes."""
         from mechc.plots import over_time
 

@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import ItemsView, Iterator, KeysView, ValuesView
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 if TYPE_CHECKING:
     import pandas
     import polars
+
+
+class _Fixed(dict[str, Any]):
+    """A dictionary that stays as it is, since all who ask are given the same; `dict(…)` of it is one's own."""
+
+    def _refuse(self, *_: Any, **__: Any) -> NoReturn:
+        raise TypeError("what was found cannot be changed: `dict(…)` makes a copy that can")
+
+    __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refuse  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _Fixed, (dict(self),)
 
 
 @dataclass(frozen=True)
@@ -37,7 +50,10 @@ class Deviation:
 
 @dataclass(frozen=True)
 class Tolerance:
-    """What tolerances make of a mechanism, made by :meth:`mechc.Mechanism.tolerance`; ``tolerance["stroke"]`` is a :class:`Deviation`."""
+    """What tolerances make of a mechanism, made by :meth:`mechc.Mechanism.tolerance`; ``tolerance["stroke"]`` is a :class:`Deviation`.
+
+    ``dict(tolerance)`` has them by their names; ``tolerance.to_pandas()``, ``to_polars()`` and ``to_dict()`` are a table, a row for each.
+    """
 
     #: Of each param: how far it may be below and above (SI).
     ranges: dict[str, tuple[float, float]]
@@ -53,11 +69,27 @@ class Tolerance:
     def __getitem__(self, name: str) -> Deviation:
         return self.deviations[name]
 
-    def __iter__(self) -> Any:
+    def __iter__(self) -> Iterator[str]:
         return iter(self.deviations)
 
     def __len__(self) -> int:
         return len(self.deviations)
+
+    def keys(self) -> KeysView[str]:
+        """The names of the measures and results."""
+        return self.deviations.keys()
+
+    def values(self) -> ValuesView[Deviation]:
+        """What is known of each."""
+        return self.deviations.values()
+
+    def items(self) -> ItemsView[str, Deviation]:
+        """Both."""
+        return self.deviations.items()
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NoReturn:
+        # its names alone, as what iterates over it would have them, are what nobody means
+        raise TypeError("deviations are no array of numbers: `to_pandas()`, `to_polars()` and `to_dict()` give a table of them")
 
     def to_dict(self) -> dict[str, list[Any]]:
         """A row for each measure and result, by columns."""
@@ -94,12 +126,12 @@ def told(params: list[Any], quantities: list[dict[str, Any]], tried: Any) -> Tol
     names = [name for name, *_ in params]
 
     def by_param(values: Any) -> Any:
-        return None if values is None else dict(zip(names, (tuple(v) if isinstance(v, list) else v for v in values)))
+        return None if values is None else _Fixed(zip(names, (tuple(v) if isinstance(v, list) else v for v in values)))
 
     def pair(values: Any) -> Any:
         return None if values is None else tuple(values)
 
-    deviations = {
+    deviations = _Fixed({
         of["name"]: Deviation(
             name=of["name"],
             at=of["at"],
@@ -116,6 +148,7 @@ def told(params: list[Any], quantities: list[dict[str, Any]], tried: Any) -> Tol
             is_linear=of["is_linear"],
         )
         for of in quantities
-    }
+    })
     variants, are_all, lost = tried or (None, None, None)
-    return Tolerance({name: tuple(range_) for name, _, range_, _ in params}, deviations, variants, are_all, lost)
+    ranges = _Fixed({name: tuple(range_) for name, _, range_, _ in params})
+    return Tolerance(ranges, deviations, variants, are_all, lost)

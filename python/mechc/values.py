@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import itertools
 import math
 import numbers
 import operator
@@ -53,6 +54,17 @@ def said(
     return text, [diagnostic]
 
 
+def sound(name: str, text: str) -> str:
+    """A text that can be written: half of a pair of surrogates is no character, and no file and no message holds it."""
+    if not text.isascii():
+        try:
+            text.encode()
+        except UnicodeEncodeError as error:
+            message = f"`{name}` has {ascii(text[error.start])} at character {error.start + 1}, which is half a character"
+            raise usage(message, "give text that was decoded whole") from None
+    return text
+
+
 def number(name: str, value: Any) -> float:
     """A finite number; ``name`` is what it is for."""
     if isinstance(value, (bool, np.bool_)) or isinstance(value, (str, bytes)):
@@ -98,7 +110,7 @@ def written(name: str, value: Any, unit: str) -> str:
     if isinstance(value, str):
         if not value.strip():
             raise usage(f"`{name}` is an empty text", "give a number in SI, or a text with a unit")
-        return value
+        return sound(name, value)
     text = repr(number(name, value))
     return f"{text}{unit}" if unit.startswith("/") else f"{text} {unit}".rstrip()
 
@@ -120,18 +132,29 @@ def mapping(option: str, given: Any) -> dict[str, Any]:
     if not isinstance(given, Mapping):
         raise usage(f"`{option}` is {_shown(given)}, and a mapping is wanted", f"as in `{option}={_EXAMPLES[option]}`")
     found = dict(given)
-    for name in found:
+    for name, value in found.items():
         if not isinstance(name, str):
             raise usage(f"`{option}` has {_shown(name)}, which is no name", f"as in `{option}={_EXAMPLES[option]}`")
+        sound(option, name)
+        if isinstance(value, str):
+            sound(name, value)
     return found
 
 
 def path_of(name: str, value: Any, help: str | None = None) -> str:
     """A path: a text, bytes, or whatever stands for one."""
     try:
-        return os.fsdecode(os.fspath(value))
+        path = os.fsdecode(os.fspath(value))
     except TypeError:
         raise usage(f"`{name}` is {_shown(value)}, and a path is wanted", help) from None
+    try:
+        # bytes that are no text are a name for the system; half a character is none
+        os.fsencode(path)
+    except UnicodeEncodeError:
+        raise usage(f"`{name}` is {_shown(path)}, which has half a character, and no file is called so") from None
+    if "\0" in path:
+        raise usage(f"`{name}` is {_shown(path)}, which has a NUL in it, and no file is called so")
+    return path
 
 
 def many(name: str, values: Any) -> list[Any]:
@@ -155,6 +178,7 @@ def texts(name: str, values: Any) -> list[str]:
     for text in found:
         if not isinstance(text, str):
             raise usage(f"`{name}` has {_shown(text)}, and texts are wanted")
+        sound(name, text)
     return found
 
 
@@ -211,8 +235,11 @@ def varied(name: str, values: Any, unit: str) -> str | bytes:
         ends = f"{written(name, values.first, unit)}..{written(name, values.last, unit)}"
         return f"{name}={ends}" if values.count is None else f"{name}={ends}:{values.count}"
     if isinstance(values, str):
-        return f"{name}={values}"
-    found = values if isinstance(values, np.ndarray) and values.ndim > 0 else many(name, values)
+        return f"{name}={sound(name, values)}"
+    _refuse_masked(name, values)
+    # arrays of texts are taken as lists of them are
+    are_numbers = isinstance(values, np.ndarray) and values.ndim > 0 and values.dtype.kind not in "OUT"
+    found = values if are_numbers else many(name, values)
     if len(found) == 0:
         raise usage(f"`{name}` varies over no value", "give a list of values, or `mechc.between(A, B, N)`")
     if not isinstance(found, np.ndarray) and any(isinstance(value, str) for value in found):
@@ -224,6 +251,7 @@ def table(columns: Mapping[str, Any], units: Mapping[str, str]) -> bytes:
     """Variants as the CSV that the command reads: a column for each param, numbers in SI."""
     lists: dict[str, list[float]] = {}
     for name, values in columns.items():
+        sound("variants", name)
         _refuse_masked(name, values)
         array = np.asarray(values)
         if array.ndim != 1 or array.dtype.kind not in "iuf":
@@ -264,18 +292,34 @@ def elements(name: str, values: Any) -> float | np.ndarray[Any, Any]:
         raise usage(f"`{name}` is an array of {array.dtype}, and one of numbers is wanted", "numbers are taken in SI")
     if array.ndim > MOST_DIMENSIONS:
         raise usage(f"`{name}` is an array of {array.ndim} dimensions", f"it may have at most {MOST_DIMENSIONS}")
-    array = np.ascontiguousarray(array, dtype=np.float64)
-    if not np.isfinite(array).all():
+    # what is spread out by numpy has its elements once, and is not spread out before it is known how many there are to be
+    once = tuple(slice(1) if stride == 0 else slice(None) for stride in array.strides)
+    held = np.ascontiguousarray(array[once], dtype=np.float64)
+    if not np.isfinite(held).all():
         raise usage(f"`{name}` has elements that are not finite", "only finite numbers can be computed with")
-    return array
+    return held if held.shape == array.shape else np.broadcast_to(held, array.shape)
 
 
 def alike(arrays: list[np.ndarray[Any, Any]]) -> list[np.ndarray[Any, Any]]:
-    """Arrays of one shape."""
-    if all(array.shape == arrays[0].shape for array in arrays):
-        return arrays
+    """Arrays of one shape, spread out; more elements than there can be are refused before."""
+    # it takes its messages from here
+    from mechc import memory
+
+    shape = _common([array.shape for array in arrays])
+    memory.refuse_elements(math.prod(shape))
     try:
-        return [np.ascontiguousarray(array) for array in np.broadcast_arrays(*arrays)]
-    except ValueError:
-        shapes = ", ".join(str(array.shape) for array in arrays)
-        raise usage(f"arrays of the shapes {shapes} do not go together", "numpy's rules of broadcasting hold") from None
+        return [np.ascontiguousarray(np.broadcast_to(array, shape)) for array in arrays]
+    except MemoryError:
+        raise memory.too_many(math.prod(shape)) from None
+
+
+def _common(shapes: list[tuple[int, ...]]) -> tuple[int, ...]:
+    """The shape that arrays have together, by numpy's rules; it may have more elements than numpy counts."""
+    found = []
+    for sizes in itertools.zip_longest(*(shape[::-1] for shape in shapes), fillvalue=1):
+        own = {size for size in sizes if size != 1}
+        if len(own) > 1:
+            told = ", ".join(str(shape) for shape in shapes)
+            raise usage(f"arrays of the shapes {told} do not go together", "numpy's rules of broadcasting hold")
+        found.append(own.pop() if own else 1)
+    return tuple(found[::-1])

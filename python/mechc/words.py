@@ -26,7 +26,8 @@ WHOLE = {
 
 _SPAN = re.compile(r"`(--[a-z][^`\n]*)`")
 _OPTION = re.compile(r"--([a-z][a-z-]*)(?:[ =]+((?:'[^']*'|(?!--)\S+|\s+(?!--))+))?")
-_SOURCE = re.compile(r"(?m)^(\s*┌─ )--([a-z-]+)")
+#: Where a message says what it is of: above the text that it shows, or, where that is too long to be shown, before a line and a column.
+_SOURCE = re.compile(r"^(\s*┌─ |\s*(?=--[^:]*:\d+:\d+: ))--([a-z-]+)")
 _LINE_OF_TEXT = re.compile(r"\s*\d+ │")
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?(?:e[-+]?\d+)?")
 _RANGE = re.compile(r"(.+?)\.\.(.+?)(?::(\S+))?")

@@ -135,6 +135,92 @@ def test_odd_arguments(name, crank, robot):
         survives(lambda: CALLS[name](crank, robot, odd))
 
 
+#: Half of a pair of surrogates, which Python's texts may have and nothing else.
+HALF = "a\ud800"
+
+#: Where texts and names are taken.
+TEXTS = {
+    "text": lambda m, r, text: mechc.parse(m.text + "// " + text),
+    "mechanism": lambda m, r, text: mechc.parse(m.text, mechanism=text),
+    "files": lambda m, r, text: mechc.parse(m.text, files={"a.mech": text}),
+    "text of set": lambda m, r, text: mechc.parse(m.text, set={"rod_length": text}),
+    "name of set": lambda m, r, text: mechc.parse(m.text, set={text: 1.0}),
+    "run set": lambda m, r, text: m.run(set={"rod_length": text}),
+    "run set name": lambda m, r, text: m.run(set={text: 1.0}),
+    "run keyword": lambda m, r, text: m.run(**{text: 1.0}),
+    "run param": lambda m, r, text: m.run(rod_length=text),
+    "run inputs": lambda m, r, text: r.run(inputs={"swing[0]": text}),
+    "run from": lambda m, r, text: m.run(from_=text),
+    "run at": lambda m, r, text: m.run(at=[0.0, text]),
+    "run columns": lambda m, r, text: m.run(columns=["t", text]),
+    "run results": lambda m, r, text: m.run(results=text),
+    "run result": lambda m, r, text: m.run(results={"top": text}),
+    "run result name": lambda m, r, text: m.run(results={text: "max(travel)"}),
+    "run by": lambda m, r, text: m.run(by=text),
+    "at set": lambda m, r, text: m.at(0.0, set={"rod_length": text}),
+    "at inputs": lambda m, r, text: r.at(inputs={text: 1.0}),
+    "at rates": lambda m, r, text: r.at(inputs={"swing[0]": 0.1}, rates={"swing[0]": text}),
+    "at by": lambda m, r, text: m.at(0.0, by=[text]),
+    "vary": lambda m, r, text: m.sweep({"rod_length": text}),
+    "vary name": lambda m, r, text: m.sweep({text: [1.0]}),
+    "vary list": lambda m, r, text: m.sweep({"rod_length": [text]}),
+    "between": lambda m, r, text: m.sweep({"rod_length": mechc.between(text, 1.0, 3)}),
+    "variants": lambda m, r, text: m.sweep(variants={text: [1.0]}),
+    "until": lambda m, r, text: m.sweep({"rod_length": [0.14]}, until=text),
+    "jacobian": lambda m, r, text: m.jacobian(text),
+    "objective": lambda m, r, text: m.objective(text, by="rod_length"),
+    "residuals": lambda m, r, text: m.residuals([text], [0.0], by="rod_length", at=[0.0]),
+    "tolerance": lambda m, r, text: m.tolerance({"rod_length": (text, 0)}),
+    "tolerance name": lambda m, r, text: m.tolerance({text: 1.0}),
+}
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_half_a_character_is_refused_in_words(name, crank, robot):
+    with pytest.raises(mechc.UsageError, match=r"has '\\ud800' at character \d+, which is half a character") as caught:
+        TEXTS[name](crank, robot, HALF)
+    assert str(caught.value).isascii()
+    # whole characters beyond those of sixteen bits are none of these
+    try:
+        TEXTS[name](crank, robot, "𝔯")
+    except mechc.MechcError as error:
+        assert "half a character" not in str(error)
+
+
+PATHS = {
+    "load": lambda m, r, path: mechc.load(path),
+    "name": lambda m, r, path: mechc.parse(m.text, name=path),
+    "files": lambda m, r, path: mechc.parse(m.text, files={path: ""}),
+    "samples": lambda m, r, path: r.run(samples=path),
+    "variants": lambda m, r, path: m.sweep(variants=path),
+    "to_rust": lambda m, r, path: m.to_rust(path),
+    "to_rust file": lambda m, r, path: m.to_rust(path + ".rs"),
+    "to_latex": lambda m, r, path: m.to_latex(path),
+    "to_json": lambda m, r, path: m.to_json(path),
+    "view": lambda m, r, path: m.view(path + ".html"),
+    "view folder": lambda m, r, path: m.view(path + "/a.svg"),
+}
+
+
+@pytest.mark.parametrize("name", PATHS)
+def test_a_path_that_no_file_has_is_refused_in_words(name, crank, robot, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for path, why in ((HALF, "has half a character"), ("a\0b", "has a NUL in it")):
+        with pytest.raises(mechc.UsageError, match=f"{why}, and no file is called so") as caught:
+            PATHS[name](crank, robot, path)
+        assert str(caught.value).isascii() and "\0" not in str(caught.value)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere names of files are texts")
+def test_bytes_that_are_no_text_name_a_file(crank, tmp_path):
+    path = os.fsencode(tmp_path) + b"/\xe9.mech"
+    with open(path, "w") as file:
+        file.write(crank.text)
+    assert mechc.load(path).text == crank.text
+    assert crank.to_latex(os.fsencode(tmp_path) + b"/\xe9.tex").exists()
+
+
 def test_huge_questions_are_refused(crank):
     with pytest.raises((MemoryError, mechc.UsageError)):
         crank.run(every=1e-300)

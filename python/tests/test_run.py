@@ -76,6 +76,57 @@ def test_arrays_share_memory_and_cannot_be_written_to():
     assert again.__array_interface__["data"] == x.__array_interface__["data"]
 
 
+def test_a_table_is_an_array_of_all_its_columns():
+    m = mechc.load(ROOT / "examples/slider_crank.mech")
+    run = m.run(every="10 ms")
+    wanted = np.column_stack([run[name] for name in run.columns])
+    found = np.asarray(run)
+    assert found.dtype == np.float64 and found.shape == run.shape and same_bits(found, wanted)
+    assert np.asarray(run, dtype=np.float32).dtype == np.float32 and np.array(run).flags.writeable
+    if int(np.__version__.split(".")[0]) >= 2:
+        with pytest.raises(ValueError, match="side by side they are a copy"):
+            np.asarray(run, copy=False)
+    # words are among the columns of a sweep, which stay in their places
+    swept = m.sweep({"rod_length": [0.14, 0.15]}, results={"top": "max(travel)"}).read()
+    assert np.asarray(swept)[:, swept.columns.index("status")].tolist() == ["ok", "ok"] and np.asarray(swept).shape == swept.shape
+
+
+def test_frames_are_made_of_a_table():
+    pandas, polars = pytest.importorskip("pandas"), pytest.importorskip("polars")
+    m = mechc.load(ROOT / "examples/slider_crank.mech")
+    swept = m.sweep({"rod_length": [0.14, 0.15]}, results={"top": "max(travel)"}).read()
+    for table in (m.run(every="10 ms"), m.reactions(every="10 ms"), swept):
+        # what pandas takes for a table of columns are dictionaries alone; of all else it takes the array
+        frames = [pandas.DataFrame(table, columns=table.columns), pandas.DataFrame(dict(table)), table.to_pandas(), polars.DataFrame(table)]
+        for frame in frames:
+            assert list(frame.columns) == table.columns and frame.shape == table.shape
+            assert all(frame[name].to_numpy().tolist() == table[name].tolist() for name in table if name != "stopped")
+        assert pandas.DataFrame(table).shape == table.shape
+
+
+def test_what_a_table_gives_changes_nothing_of_it():
+    m = mechc.load(ROOT / "examples/slider_crank.mech")
+    run = m.run(every="10 ms", results={"top": "max(travel)"})
+    for again in (run, pickle.loads(pickle.dumps(run))):
+        kept = again.results, again.result_units, again.units, again.columns, again.to_dict()
+        for given in (again.results, again.result_units, again.units, again.columns, again.to_dict()):
+            given.clear()
+        assert all(given for given in kept)
+        assert (again.results, again.result_units, again.units, again.columns) == kept[:4] and list(again.to_dict()) == list(kept[4])
+    swept = m.sweep({"rod_length": [0.14]}, results={"top": "max(travel)"}).read()
+    with pytest.raises(ValueError):
+        swept["status"][0] = "E0602"
+    assert swept.to_pandas()["status"].tolist() == ["ok"]
+
+
+def test_names_that_are_none_are_refused_in_words():
+    run = mechc.load(ROOT / "examples/slider_crank.mech").run(every="10 ms")
+    for name in (["travel"], {"travel"}, 3, None):
+        with pytest.raises(KeyError, match="there is no column .*; several columns are `to_numpy"):
+            run[name]
+        assert name not in run
+
+
 def test_a_lock_up_has_what_there_is():
     m = mechc.load(ROOT / "examples/slider_crank.mech")
     with pytest.raises(mechc.LockUp) as caught:

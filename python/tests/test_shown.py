@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import dataclasses
 import html
 import json
 import pickle
@@ -61,6 +63,15 @@ def test_plots():
         run.plot("travl")
     with pytest.raises(mechc.UsageError, match="do not go into one plot"):
         run.plot("travel", "travel.d", "travel.dd")
+    for columns in (["travel", "travel.dd"], ("travel", "travel.dd"), np.array(["travel", "travel.dd"])):
+        assert [line.get_label() for axis in run.plot(columns).figure.axes for line in axis.get_lines()] == ["travel", "travel.dd"]
+    with pytest.raises(KeyError, match="was `travel` meant"):
+        run.plot(["travl"])
+    for nothing in ([], None, ()):
+        with pytest.raises(mechc.UsageError, match="holds no name"):
+            run.plot(nothing)
+    with pytest.raises(mechc.UsageError, match="`columns` has 3, and texts are wanted"):
+        run.plot(["travel", 3])
 
 
 def test_files_are_those_of_the_command(tmp_path):
@@ -245,6 +256,71 @@ def test_reactions_are_those_of_the_command():
     table = command("run", str(path), "--reactions").table()
     assert len(found.columns) > 5 and all(same_bits(found[name], table[name]) for name in found)
     assert not [name for name in found if name.endswith(".x")]
+
+
+def test_reactions_have_their_derivatives():
+    path = ROOT / "examples/compressor.mech"
+    m = mechc.load(path)
+    param = next(iter(m.params))
+    plain, found, whole = m.reactions(), m.reactions(by=param), m.run(reactions=True, by=param)
+    assert found.columns == [*plain.columns, *(f"{name}.by.{param}" for name in plain.columns if name != "t")]
+    table = command("run", str(path), "--reactions", "--by", param).table()
+    assert all(same_bits(found[name], table[name]) and same_bits(found[name], whole[name]) for name in found)
+    assert np.abs(found[f"{plain.columns[-1]}.by.{param}"]).max() > 0.0
+
+
+def test_answers_stay_as_they_are():
+    m = mechc.load(CRANK)
+    found = m.tolerance({"rod_length": "0.05 mm"}, results=PEAK)
+    for again in (found, pickle.loads(pickle.dumps(found)), copy.deepcopy(found)):
+        for held in (again.ranges, again.deviations, again["peak"].slopes, again["peak"].contributions, again["peak"].shares):
+            kept = dict(held)
+            changes = [held.clear, held.popitem, lambda: held.update(a=1), lambda: held.pop("peak", None), lambda: held.setdefault("a", 1)]
+            changes += [lambda: held.__setitem__("a", 1), lambda: held.__delitem__(next(iter(held))), lambda: held.__ior__({"a": 1})]
+            for change in changes:
+                with pytest.raises(TypeError, match="cannot be changed"):
+                    change()
+            assert held == kept
+        assert json.loads(json.dumps(again["peak"].slopes)) == found["peak"].slopes and again == found
+        assert dataclasses.asdict(again["peak"])["slopes"] == found["peak"].slopes
+    j = m.jacobian(by=["rod_length", "speed"], results=PEAK)
+    f = m.residuals(["travel"], [0.0, 0.1], by=["rod_length"], at=[0.0, 0.01])
+    g = m.objective("peak", by=["rod_length"], results=PEAK)
+    for held in (lambda: j.by, lambda: j.result_names, lambda: f.by, lambda: f.columns, lambda: g.by):
+        kept = held()
+        held().append("nothing")
+        assert held() == kept and "nothing" not in kept
+    assert j["travel"].shape == (81, 2) and f.jacobian(f.x0).shape == (2, 1)
+
+
+def test_tolerances_are_taken_by_name_and_are_no_array():
+    found = mechc.load(CRANK).tolerance({"rod_length": "0.05 mm"}, results=PEAK)
+    assert dict(found) == dict(found.items()) == dict(zip(found.keys(), found.values())) == found.deviations
+    # the names alone, which iterating gives, would be a table of names
+    pandas = pytest.importorskip("pandas")
+    for take in (np.asarray, pandas.DataFrame):
+        with pytest.raises(TypeError, match="`to_pandas\\(\\)`"):
+            take(found)
+    assert found.to_pandas()["name"].tolist() == list(found)
+
+
+def test_a_jacobian_is_called_by_name():
+    j = mechc.load(CRANK).jacobian(by=["rod_length"], every="20 ms")
+    for name in (3, ["travel"], None):
+        with pytest.raises(KeyError, match="there are no derivatives of"):
+            j[name]
+    with pytest.raises(TypeError, match="not iterable"):
+        list(j)
+
+
+def test_a_path_that_names_nothing_is_refused(tmp_path, monkeypatch):
+    m = mechc.load(CRANK)
+    monkeypatch.chdir(tmp_path)
+    for write in (m.to_latex, m.to_json, m.to_rust, m.view):
+        for empty in ("", b""):
+            with pytest.raises(mechc.UsageError, match="`path` is empty"):
+                write(empty)
+    assert not list(tmp_path.iterdir())
 
 
 def test_nothing_is_written_over_what_was_read(tmp_path):

@@ -162,3 +162,23 @@ def test_what_is_told_of_a_mechanism_is_nobodys_to_change():
     assert m.params == known and "t" in m.columns and m.units["base"] == "m"
     with pytest.raises(AttributeError):
         m.params = {}
+
+
+@pytest.mark.parametrize("kind", [str, object, "both"])
+def test_arrays_of_texts_are_lists_of_them(kind):
+    m = mechc.load(ROOT / "examples/slider_crank.mech")
+    texts = ["140 mm", "0.15 m"]
+    values = np.array([*texts, 0.16], dtype=object) if kind == "both" else np.array(texts, dtype=kind)
+    lengths = m.sweep({"rod_length": values}, results={"top": "max(travel)"}).read()["rod_length"]
+    assert lengths.tolist() == m.sweep({"rod_length": values.tolist()}, results={"top": "max(travel)"}).read()["rod_length"].tolist()
+    assert lengths.tolist() == [0.14, 0.15, 0.16][: len(values)]
+
+
+def test_arrays_of_what_is_neither_are_refused():
+    m = mechc.load(ROOT / "examples/slider_crank.mech")
+    masked = np.ma.masked_array(["140 mm", "150 mm"], mask=[False, True])
+    odd = [(np.array([["140 mm"]]), "one of one dimension"), (np.array([], dtype=str), "varies over no value"), (masked, "masked")]
+    odd += [(np.array(["140 mm", None], dtype=object), "is no number"), (np.array([b"140 mm"]), "is no number")]
+    for values, why in odd:
+        with pytest.raises(mechc.UsageError, match=why):
+            m.sweep({"rod_length": values})

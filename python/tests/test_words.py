@@ -54,6 +54,10 @@ def test_every_option_that_messages_speak_of_has_words_here():
         ("`--skip K --take N`", "`skip=K, take=N`"),
         ("`--mechanism NAME`", "`mechanism='NAME'`"),
         ("12 │ // see `--lead`", "12 │ // see `--lead`"),
+        ("--set leg[1].la:1:201: error[E0103]: too deep", "set leg[1].la:1:201: error[E0103]: too deep"),
+        ("  --result:1:212: one level too many", "  results:1:212: one level too many"),
+        ("--from:1:2: error", "from_:1:2: error"),
+        ("--set is no place", "--set is no place"),
         ("a -- b", "a -- b"),
     ],
 )
@@ -74,3 +78,28 @@ def test_messages_and_their_data_have_them():
             ask()
         assert wanted in str(caught.value) and "--" not in str(caught.value), str(caught.value)
         assert "--" not in json.dumps(caught.value.diagnostics)
+
+
+@pytest.mark.parametrize("deep", ["-" * 300 + "1 m", "-" * 3000 + "1 m", "(" * 3000 + "1 m" + ")" * 3000])
+def test_what_is_too_deep_is_said_of_the_keyword(deep):
+    """Of lines that are too long to be shown the place stands alone."""
+    m, robot = mechc.load(CRANK), mechc.load(ROOT / "examples/parallel_robot.mech")
+    asks = [
+        (lambda: m.run(set={"rod_length": deep}), "set rod_length:1:"),
+        (lambda: m.run(rod_length=deep), "set rod_length:1:"),
+        (lambda: mechc.load(CRANK, set={"rod_length": deep}), "set rod_length:1:"),
+        (lambda: m.run(results={"p": deep}), "results:1:"),
+        (lambda: m.run(from_=deep), "from_:1:"),
+        (lambda: m.run(at=[deep]), "at:1:"),
+        (lambda: robot.run(inputs={"swing[0]": deep}), "inputs swing[0]:1:"),
+        (lambda: m.sweep({"rod_length": [deep]}), "vary rod_length:1:"),
+        (lambda: m.sweep({"rod_length": [0.14]}, until=f"{deep} > 1 m"), "until:1:"),
+        (lambda: m.tolerance({"rod_length": deep}), "tol rod_length:1:"),
+    ]
+    for ask, place in asks:
+        with pytest.raises(mechc.UsageError, match="E0103") as caught:
+            ask()
+        for text in (str(caught.value), json.dumps(caught.value.diagnostics)):
+            assert not re.search(r"--[a-z]", text), text
+        lead = "" if len(deep) > 1000 else "  ┌─ "
+        assert f"\n{lead}{place}" in f"\n{caught.value}"
