@@ -746,3 +746,39 @@ fn a_driver_whose_formula_ends() {
         expect("E0605", name)
     });
 }
+
+/// Loops that have nothing to do with each other, one of which cannot close: so many that they are assembled one by one.
+#[test]
+fn one_of_many_loops_is_told_as_it_is_alone() {
+    let four_bar = |k: usize, rod: f64| {
+        let x = 10.0 * k as f64;
+        format!(
+            "body crank{k} at ({x}, 0, 0.5) {{ point A = (0, 0) point C = (1, 0) }}
+            body coupler{k} at ({}, 0.48, 0.78) {{ point C = (0, 0) point D = ({rod}, 0) }}
+            body rocker{k} at ({}, 1.5, 1.8) {{ point B = (-1.5, 0) point D = (1.5, 0) }}
+            joint main{k}: revolute(ground.A{k}, crank{k}.A)
+            joint pin{k}: revolute(crank{k}.C, coupler{k}.C)
+            joint knee{k}: revolute(coupler{k}.D, rocker{k}.D)
+            joint pivot{k}: revolute(ground.B{k}, rocker{k}.B)
+            driver motor{k}: rotation(main{k}) = 0.5 + 2 * t\n",
+            x + 0.88,
+            x + 3.7
+        )
+    };
+    let told = |loops: std::ops::Range<usize>| {
+        let bars: String = loops.clone().map(|k| four_bar(k, if k == 70 { 0.05 } else { 3.5 })).collect();
+        let points: String =
+            loops.map(|k| format!("point A{k} = ({}, 0) point B{k} = ({}, 0) ", 10 * k, 10 * k + 4)).collect();
+        let outcome = run(
+            "many",
+            &format!("mechanism many {{ ground {{ {points} }}\n{bars} analysis from 0 to 1 every 0.5 }}"),
+            Span::default(),
+        );
+        let errors = outcome.diagnostics.iter().filter(|said| said.is_error());
+        errors.map(|said| (said.code.as_str(), said.message.clone(), said.notes.clone())).collect::<Vec<_>>()
+    };
+    let (alone, among) = (told(70..71), told(0..110));
+    assert_eq!(alone.len(), 1);
+    assert_eq!(alone[0].0, "E0601");
+    assert_eq!(among, alone);
+}

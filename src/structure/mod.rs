@@ -59,6 +59,24 @@ impl Determined {
     pub fn blocks(&self) -> &[Block] {
         &self.blocks
     }
+
+    /// The blocks that one of them cannot be solved without, by their numbers, in that order: itself, and what its equations read.
+    #[must_use]
+    pub fn needed_by(&self, block: usize) -> Vec<usize> {
+        let mut block_of = vec![0; self.system.coordinates().len()];
+        for (number, block) in self.blocks.iter().enumerate() {
+            block.columns.iter().for_each(|&column| block_of[column as usize] = number);
+        }
+        let mut is_needed = vec![false; self.blocks.len()];
+        let mut open = vec![block];
+        while let Some(number) = open.pop() {
+            if !std::mem::replace(&mut is_needed[number], true) {
+                let read = self.blocks[number].rows.iter().flat_map(|&row| self.system.phi_q().row(row as usize));
+                open.extend(read.map(|&(column, _)| block_of[column as usize]));
+            }
+        }
+        (0..self.blocks.len()).filter(|&number| is_needed[number]).collect()
+    }
 }
 
 fn is_explicit(system: &ConstraintSystem, block: &Block) -> bool {

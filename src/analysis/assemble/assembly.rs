@@ -64,7 +64,7 @@ pub fn nearest(kinematics: &mut Kinematics, t: f64) -> Option<Vec<f64>> {
     kinematics.set_position(&estimates).ok()?;
     let start = explicit_first(kinematics, &estimates);
     kinematics.set_position(&start).ok()?;
-    let q = least_squares(kinematics, start);
+    let q = least_squares(kinematics, start).q;
     open_loop::opened(&kinematics.determined(), &q, t)
 }
 
@@ -171,14 +171,17 @@ fn by_least_squares(
 ) -> Result<(Vec<f64>, bool), Box<Diagnostic>> {
     let mut nearest = None;
     let mut noise = Noise::new();
+    let mut start = estimates.to_vec();
+    let mut is_moved = vec![true; estimates.len()];
     for size in std::iter::once(0.0).chain(PERTURBATIONS) {
         if kinematics.is_cancelled() {
             break;
         }
-        let start: Vec<f64> = (0..estimates.len())
-            .map(|k| estimates[k] + size * kinematics.linear().column_scale(k) * noise.next())
-            .collect();
-        let q = least_squares(kinematics, start);
+        for (k, start) in start.iter_mut().enumerate() {
+            let aside = size * kinematics.linear().column_scale(k) * noise.next();
+            *start = if is_moved[k] { estimates[k] + aside } else { *start };
+        }
+        let Rest { q, open } = least_squares(kinematics, start.clone());
         if let Some(polished) = assembled(kinematics, &q) {
             return Ok((polished, size > 0.0));
         }
@@ -187,6 +190,14 @@ fn by_least_squares(
         if kinematics.violated().is_none() && kinematics.turned_lines().is_empty() {
             // assembled, but Newton does not settle: a singular position
             return Ok((q, size > 0.0));
+        }
+        if let Some(open) = open {
+            // what closes without it stays where it is
+            start.copy_from_slice(&q);
+            let determined = kinematics.determined();
+            let needed = determined.needed_by(open).into_iter().flat_map(|block| &determined.blocks()[block].columns);
+            is_moved.fill(false);
+            needed.for_each(|&column| is_moved[column as usize] = true);
         }
         nearest.get_or_insert(q);
     }
@@ -298,7 +309,7 @@ fn independent_later(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Option<b
 
 /// Whether the equations are independent where least squares lead from a start; none if that is `q` again, or nowhere.
 fn independent_at(kinematics: &mut Kinematics, q: &[f64], start: Vec<f64>) -> Option<bool> {
-    let near = least_squares(kinematics, start);
+    let near = least_squares(kinematics, start).q;
     let all: Vec<u32> = (0..q.len() as u32).collect();
     independent_where(kinematics, q, &near, &all)
 }
@@ -314,28 +325,43 @@ fn independent_where(kinematics: &mut Kinematics, q: &[f64], near: &[f64], rows:
     (moved && holds).then(|| kinematics.nearness(SINGULAR_START) > SINGULAR_START)
 }
 
-/// Levenberg–Marquardt on the whole or block by block; gives where it comes to rest.
-fn least_squares(kinematics: &mut Kinematics, mut q: Vec<f64>) -> Vec<f64> {
-    let determined = kinematics.determined();
+/// Where least squares come to rest.
+struct Rest {
+    q: Vec<f64>,
+    /// The first block that stays open, by its number, where blocks were gone through.
+    open: Option<usize>,
+}
+
+/// Levenberg–Marquardt on the whole or block by block.
+fn least_squares(kinematics: &mut Kinematics, mut q: Vec<f64>) -> Rest {
     let n = q.len();
-    if n <= LARGEST_DENSE {
-        let all: Vec<u32> = (0..n as u32).collect();
-        levenberg_marquardt(kinematics, &mut q, &all, &all);
-    } else {
-        for block in determined.blocks().iter().filter(|block| block.rows.len() <= LARGEST_DENSE) {
-            if kinematics.set_position(&q).is_err() {
-                break;
-            }
-            let _ = kinematics.factor();
-            if kinematics.hold(&block.rows) {
-                continue;
-            }
-            levenberg_marquardt(kinematics, &mut q, &block.rows, &block.columns);
-            // the blocks behind it depend on it
-            if kinematics.set_position(&q).is_err() || !kinematics.hold(&block.rows) {
-                break;
-            }
+    if n > LARGEST_DENSE {
+        return block_by_block(kinematics, q);
+    }
+    let all: Vec<u32> = (0..n as u32).collect();
+    levenberg_marquardt(kinematics, &mut q, &all, &all);
+    Rest { q, open: None }
+}
+
+/// The same block by block, up to the first that stays open: those behind it may depend on it. Those that are closed take no time.
+fn block_by_block(kinematics: &mut Kinematics, mut q: Vec<f64>) -> Rest {
+    let determined = kinematics.determined();
+    let mut is_there = kinematics.set_position(&q).is_ok();
+    let _ = kinematics.factor();
+    for (number, block) in determined.blocks().iter().enumerate().filter(|(_, block)| block.rows.len() <= LARGEST_DENSE)
+    {
+        if !is_there {
+            break;
+        }
+        if kinematics.hold(&block.rows) {
+            continue;
+        }
+        levenberg_marquardt(kinematics, &mut q, &block.rows, &block.columns);
+        is_there = kinematics.set_position(&q).is_ok();
+        let _ = kinematics.factor();
+        if is_there && !kinematics.hold(&block.rows) {
+            return Rest { q, open: Some(number) };
         }
     }
-    q
+    Rest { q, open: None }
 }

@@ -29,10 +29,20 @@ impl<'s> Evaluator<'s> {
 
     /// Some rows by some columns at a time (s); none where they are not finite. Without weights rows come to unit norm.
     pub fn linear(&mut self, rows: &[u32], columns: &[u32], weights: Option<&[f64]>, t: f64) -> Option<Linear> {
+        self.evaluate(t);
+        self.linear_there(rows, columns, weights)
+    }
+
+    /// Evaluates everything at a time (s).
+    pub fn evaluate(&mut self, t: f64) {
         self.registers.set(self.program.inputs.time, t);
         self.registers.set_all(self.program.inputs.coordinates[0], &self.q);
         self.program.run(Stage::Time, &mut self.registers);
         self.program.run(Stage::Position, &mut self.registers);
+    }
+
+    /// Some rows by some columns where all was evaluated last.
+    pub fn linear_there(&self, rows: &[u32], columns: &[u32], weights: Option<&[f64]>) -> Option<Linear> {
         let (registers, outputs) = (&self.registers, &self.program.outputs);
         let phi = |row: usize| registers.get(outputs.phi[row]);
         let phi_q = |position: usize| registers.get(outputs.phi_q[position]);

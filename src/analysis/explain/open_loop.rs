@@ -9,7 +9,7 @@ use super::evaluator::Evaluator;
 use crate::analysis::state::Linear;
 use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, PointId};
 use crate::math;
-use crate::structure::{Determined, Subsystem};
+use crate::structure::{Block, Determined, Subsystem};
 use crate::tolerances::determinacy::open_loop::{
     ALONG, CLOSED, FAR, IN_LENGTH, LARGEST, LIGHT, PULLS, TAKES_PART, WIDE,
 };
@@ -51,30 +51,37 @@ pub enum LinkOf {
 
 /// What does not close where the nearest position is `q`.
 pub fn found(determined: &Determined, q: &[f64], t: f64) -> Option<OpenLoop> {
-    told(determined, q, t).map(|(open, _)| open)
+    told(determined, q, t).map(|told| told.open)
 }
 
 /// The coordinates [m, rad] where all is closed but what is told to be open.
 pub fn opened(determined: &Determined, q: &[f64], t: f64) -> Option<Vec<f64>> {
-    let (open, q) = told(determined, q, t)?;
+    let Told { open, mut evaluator, blocks } = told(determined, q, t)?;
+    // what hangs on the loop is shown where it would be then
+    for block in determined.blocks()[blocks..].iter().filter(|block| block.rows.len() <= LARGEST) {
+        evaluator.assemble(&block.rows, &block.columns, None, t);
+    }
+    let q = evaluator.q;
     let far = if open.kind == CoordinateKind::Length { FAR * determined.system().length() } else { FAR };
     (open.by <= far && q.iter().all(|x| x.is_finite())).then_some(q)
 }
 
-/// The loop that does not close, and the coordinates where all but one declaration of it is.
-fn told(determined: &Determined, q: &[f64], t: f64) -> Option<(OpenLoop, Vec<f64>)> {
+/// A loop that does not close.
+struct Told<'s> {
+    open: OpenLoop,
+    /// Where all but one declaration of it is.
+    evaluator: Evaluator<'s>,
+    /// How many blocks it is among, or behind.
+    blocks: usize,
+}
+
+fn told<'s>(determined: &'s Determined, q: &[f64], t: f64) -> Option<Told<'s>> {
     let mut evaluator = Evaluator::new(determined.system());
     evaluator.q.copy_from_slice(q);
     let part = open_part(&mut evaluator, determined, t)?;
     evaluator.q.copy_from_slice(q);
     let open = open_loop(&mut evaluator, &part.equations, t)?;
-    // what hangs on the loop is shown where it would be then
-    for block in &determined.blocks()[part.blocks..] {
-        if block.rows.len() <= LARGEST {
-            evaluator.assemble(&block.rows, &block.columns, None, t);
-        }
-    }
-    Some((open, evaluator.q))
+    Some(Told { open, evaluator, blocks: part.blocks })
 }
 
 /// The equations that are looked at together, and how many of the blocks need not be looked at beside them.
@@ -83,28 +90,33 @@ struct OpenPart {
     blocks: usize,
 }
 
-/// The first block that stays open, and what comes before it, unless that is large; all, where each block closes by itself.
+/// The first block that stays open, and what it needs, unless that is large; all, where each block closes by itself.
 fn open_part(evaluator: &mut Evaluator<'_>, determined: &Determined, t: f64) -> Option<OpenPart> {
     let blocks = determined.blocks();
-    let mut before = Subsystem { rows: Vec::new(), columns: Vec::new() };
+    let closes =
+        |linear: Option<Linear>| linear.is_some_and(|linear| linear.residual.iter().all(|open| open.abs() <= CLOSED));
+    let together = |numbers: &[usize]| Some(in_order(blocks, numbers)).filter(|part| part.rows.len() <= LARGEST);
+    evaluator.evaluate(t);
     for (k, block) in blocks.iter().enumerate().filter(|(_, block)| block.rows.len() <= LARGEST) {
-        before.rows.extend(&block.rows);
-        before.columns.extend(&block.columns);
-        let is_open = evaluator
-            .assemble(&block.rows, &block.columns, None, t)
-            .is_none_or(|linear| linear.residual.iter().any(|open| open.abs() > CLOSED));
-        if is_open {
-            let alone = || Subsystem { rows: block.rows.clone(), columns: block.columns.clone() };
-            let equations = if before.rows.len() <= LARGEST { in_order(before) } else { alone() };
+        // most are closed where they are
+        if !closes(evaluator.linear_there(&block.rows, &block.columns, None))
+            && !closes(evaluator.assemble(&block.rows, &block.columns, None, t))
+        {
+            let equations = together(&determined.needed_by(k)).unwrap_or_else(|| in_order(blocks, &[k]));
             return Some(OpenPart { equations, blocks: k + 1 });
         }
     }
-    let is_all = before.rows.len() == determined.system().rows().len();
-    (is_all && before.rows.len() <= LARGEST).then(|| OpenPart { equations: in_order(before), blocks: blocks.len() })
+    let all: Vec<usize> = (0..blocks.len()).collect();
+    together(&all).map(|equations| OpenPart { equations, blocks: blocks.len() })
 }
 
-/// In the order of the file, which is that of what is said.
-fn in_order(mut part: Subsystem) -> Subsystem {
+/// Some blocks, by their numbers, in the order of the file, which is that of what is said.
+fn in_order(blocks: &[Block], numbers: &[usize]) -> Subsystem {
+    let mut part = Subsystem { rows: Vec::new(), columns: Vec::new() };
+    for &number in numbers {
+        part.rows.extend(&blocks[number].rows);
+        part.columns.extend(&blocks[number].columns);
+    }
     part.rows.sort_unstable();
     part.columns.sort_unstable();
     part
