@@ -11,9 +11,24 @@ pub(super) struct Summary {
     counts: BTreeMap<&'static str, (u64, u64)>,
     completed: u64,
     rows: u64,
+    /// By result that some have no value of though they ran to their end: its name, how many, and the first of them.
+    without_value: Vec<(String, u64, u64)>,
 }
 
 impl Summary {
+    /// Of none yet, with such results.
+    pub fn of(results: Vec<String>) -> Summary {
+        Summary { without_value: results.into_iter().map(|name| (name, 0, 0)).collect(), ..Summary::default() }
+    }
+
+    /// Adds, by result, how many of a block have no value of it, and the first of them.
+    pub fn add_without_value(&mut self, lacking: &[(u64, u64)]) {
+        for ((_, count, first), (more, variant)) in self.without_value.iter_mut().zip(lacking) {
+            *first = if *count == 0 { *variant } else { *first };
+            *count += more;
+        }
+    }
+
     /// Adds a block of them with its rows.
     pub fn add(&mut self, first: u64, statuses: &[Status], rows: usize) {
         for (variant, status) in (first..).zip(statuses) {
@@ -33,7 +48,7 @@ impl Summary {
         self.completed
     }
 
-    /// A line for all of them, and one for each status but `ok`.
+    /// A line for all of them, one for each status but `ok`, and one for each result that has no value in some.
     pub fn text(&self, command: &dyn Fn(u64) -> String) -> String {
         let of = |status: Status| self.counts.get(status.as_str()).map_or(0, |(count, _)| *count);
         let (ok, reassembled) = (of(Status::Ok), of(Status::Reassembled));
@@ -43,9 +58,15 @@ impl Summary {
         parts.extend((stopped > 0).then(|| format!("{stopped} stopped")));
         let rows = if self.rows > 0 { format!("; {} rows", self.rows) } else { String::new() };
         let mut text = format!("{}{rows}\n", parts.join(", "));
-        for (status, (count, first)) in self.counts.iter().filter(|(status, _)| **status != Status::Ok.as_str()) {
-            let which = if *count == 1 { "variant" } else { "the first is variant" };
-            text += &format!("  {status:<11} {count:>8}, {which} {first}: {}\n", command(*first));
+        let which = |count: u64, first: u64| {
+            let which = if count == 1 { "variant" } else { "the first is variant" };
+            format!("{which} {first}: {}", command(first))
+        };
+        for (status, &(count, first)) in self.counts.iter().filter(|(status, _)| **status != Status::Ok.as_str()) {
+            text += &format!("  {status:<11} {count:>8}, {}\n", which(count, first));
+        }
+        for (name, count, first) in self.without_value.iter().filter(|(_, count, _)| *count > 0) {
+            text += &format!("  no value of `{name}` in {count}, {}\n", which(*count, *first));
         }
         text
     }
@@ -114,6 +135,16 @@ mod tests {
         let text = summary.text(&|variant| format!("see {variant}"));
         let wanted = "2 ok, 1 reassembled, 2 stopped; 5 rows\n  E0602              2, the first is variant 11: see 11\n  reassembled        1, variant 12: see 12\n";
         assert_eq!(text, wanted);
+    }
+
+    #[test]
+    fn results_without_a_value_are_counted() {
+        let mut summary = Summary::of(vec!["a".to_owned(), "b".to_owned()]);
+        summary.add(0, &[Status::Ok; 4], 0);
+        summary.add_without_value(&[(0, 0), (2, 1)]);
+        summary.add_without_value(&[(0, 0), (1, 3)]);
+        let wanted = "4 ok\n  no value of `b` in 3, the first is variant 1: see 1\n";
+        assert_eq!(summary.text(&|variant| format!("see {variant}")), wanted);
     }
 
     #[test]

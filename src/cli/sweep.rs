@@ -241,6 +241,17 @@ struct Written {
     first: u64,
     statuses: Vec<Status>,
     rows: usize,
+    /// By result of the table: how many have no value of it though they ran to their end, and the first of them.
+    without_value: Vec<(u64, u64)>,
+}
+
+/// By result: how many variants of a block have no value of it though they ran to their end, and the first of them.
+fn lacking(block: &Swept) -> Vec<(u64, u64)> {
+    let counted = block.without_value().map(|mut those| {
+        let first = those.next()?;
+        Some((1 + those.count() as u64, first))
+    });
+    counted.map(Option::unwrap_or_default).collect()
 }
 
 /// A sweep that is to be written.
@@ -265,18 +276,21 @@ impl Sweeping<'_> {
         let table = self.table.clone();
         let make = move |block: Swept| {
             let (first, statuses, rows) = (block.first, block.statuses.clone(), block.lengths.iter().sum());
-            Written { made: table.sheet.made(table.cells(block)), first, statuses, rows }
+            let without_value = if table.wanted.is_none() { lacking(&block) } else { Vec::new() };
+            Written { made: table.sheet.made(table.cells(block)), first, statuses, rows, without_value }
         };
         let sweep = checked.sweep(compiled, self.variants, &self.options, make)?;
         let [first, last] = self.range;
-        let mut summary = Summary::default();
+        let results = compiled.results_of_variants().into_iter().map(|(name, _)| name);
+        let mut summary = Summary::of(results.collect());
         let progress = &mut Progress::of("variants", last - first, output.is_standard());
         let written = (|| {
             let mut writer = SheetWriter::new(output.writer(), &self.table.sheet)?;
-            for Written { made, first, statuses, rows } in sweep {
+            for Written { made, first, statuses, rows, without_value } in sweep {
                 writer.write(made)?;
                 progress.advance(statuses.len() as u64);
                 summary.add(first, &statuses, rows);
+                summary.add_without_value(&without_value);
             }
             writer.finish().map(|_| ())
         })();

@@ -138,6 +138,14 @@ impl Swept {
         }
     }
 
+    /// By result: the numbers of the variants that ran to their end and have no value of it.
+    pub fn without_value(&self) -> impl Iterator<Item = impl Iterator<Item = u64>> {
+        self.results.iter().map(|values| {
+            let all = (self.first..).zip(values.iter().zip(&self.statuses));
+            all.filter(|(_, (value, status))| value.is_nan() && status.is_complete()).map(|(variant, _)| variant)
+        })
+    }
+
     /// Keeps the first ones, so many.
     pub fn truncate(&mut self, variants: usize) {
         let left_out = self.len().saturating_sub(variants);
