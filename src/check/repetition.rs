@@ -540,8 +540,8 @@ impl<'t, 'c> Writer<'t, 'c> {
                 let text = self.one_of(&copies, segment, numbers)?;
                 Ok(Name { text, span: name.span })
             }
-            // of what could not be repeated that has been said
-            None if self.is_repeated(name) => Err(Unwritten),
+            // of what could not be repeated, or be read, that has been said
+            None if self.is_repeated(name) || self.is_unread(name) => Err(Unwritten),
             None if self.names.contains(name.text.as_str()) => {
                 self.tell(errors::not_repeated(name));
                 Err(Unwritten)
@@ -554,6 +554,15 @@ impl<'t, 'c> Writer<'t, 'c> {
     fn is_repeated(&self, name: &Name) -> bool {
         let is_it = |item: &Item| name_of(item).is_some_and(|own| own.text == name.text);
         self.tree.items.iter().any(|item| !item.ranges.is_empty() && is_it(item))
+    }
+
+    /// Whether a declaration that could not be read gives this name, perhaps to several.
+    fn is_unread(&self, name: &Name) -> bool {
+        let gives_it = |item: &Item| match &item.kind {
+            ItemKind::Broken { names } => names.iter().any(|own| own.text == name.text),
+            _ => false,
+        };
+        self.tree.items.iter().any(gives_it)
     }
 
     fn values(&mut self, indices: &[Expr], numbers: &Numbers<'_>) -> Written<Vec<i64>> {

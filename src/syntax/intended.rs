@@ -2,6 +2,7 @@
 
 mod forces;
 mod ground;
+mod habits;
 mod heads;
 mod keywords;
 mod parts;
@@ -51,7 +52,7 @@ impl<'a> Intent<'a> {
         let word = |k: usize| all.get(k).map_or("", |token| token.text);
         let is_opener = |k: usize| match all[k].text {
             "load" if k + 1 == all.len() => found == ":",
-            "load" | "part" if word(k + 2) == ":" => true,
+            "load" | "part" if [":", "["].contains(&word(k + 2)) => true,
             "gravity" | "mass" => {
                 let is_named = || word(k + 2) == ":" && is_name(word(k + 1));
                 // what comes next is the fault itself
@@ -61,7 +62,11 @@ impl<'a> Intent<'a> {
                     || is_last
             }
             // a name behind a name begins something, whatever stands behind it
-            other => opens(other) && (word(k + 2) == "=" || k + 2 == all.len() && is_name(word(k + 1))),
+            other => {
+                opens(other)
+                    && (["=", "["].contains(&word(k + 2)) && is_name(word(k + 1))
+                        || k + 2 == all.len() && is_name(word(k + 1)))
+            }
         };
         let is_keyword = |k: usize| begins_declaration(text, all[k]) || is_opener(k);
         let start = (0..all.len()).rev().find(|&k| is_keyword(k)).unwrap_or(0);
@@ -86,6 +91,8 @@ impl<'a> Intent<'a> {
             return None;
         }
         self.of_forces(keyword, last)
+            .or_else(|| self.of_a_size(keyword))
+            .or_else(|| self.of_a_type(keyword))
             .or_else(|| self.of_a_head(keyword, last))
             .or_else(|| self.of_bare_arguments(keyword, last))
             .or_else(|| self.of_the_ground())
@@ -95,6 +102,7 @@ impl<'a> Intent<'a> {
             .or_else(|| self.of_a_pose(keyword, last))
             .or_else(|| self.of_a_diameter())
             .or_else(|| self.of_a_list(keyword))
+            .or_else(|| self.of_several_values(keyword))
             .or_else(|| self.of_a_coordinate(last))
             .or_else(|| self.of_an_arrow(last))
             .or_else(|| self.of_single_quotes())

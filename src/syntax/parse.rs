@@ -298,6 +298,10 @@ impl Reading<'_> {
             Ok(Some(head)) => of_body(head),
             Ok(None) => ground,
             Err(_) if rule == Rule::ground_head || self.outline.word(first + 1) == "ground" => ground,
+            // how many of it there are to be is not known, so nothing can be said of what takes one of them
+            Err(_) if self.outline.word(first + 2) == "[" => {
+                (ItemKind::Broken { names: self.names_of(first, behind_head) }, Vec::new())
+            }
             Err(_) => match self.names_of(first, behind_head).pop() {
                 Some(name) => of_body(Head { name, ranges: Vec::new(), pose: None }),
                 None => (ItemKind::Broken { names: Vec::new() }, Vec::new()),

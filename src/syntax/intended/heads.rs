@@ -170,7 +170,7 @@ impl Intent<'_> {
 }
 
 /// What is longer is not repeated in a message (in characters).
-const LONGEST_SHOWN: usize = 60;
+pub(super) const LONGEST_SHOWN: usize = 60;
 
 /// What the argument of a function or curve is mostly called.
 const ARGUMENTS: [&str; 10] = ["u", "v", "w", "x", "phi", "theta", "φ", "θ", "s", "a"];
