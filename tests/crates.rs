@@ -208,6 +208,29 @@ fn what_somebody_wrote_stays() {
 }
 
 #[test]
+fn what_an_earlier_crate_has_and_this_one_has_not_is_removed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let target = folder.path().join("a_crate");
+    let name = target.to_string_lossy();
+    emit_crate(&[SLIDER_CRANK, "--crate", &name, "--ffi"], 0);
+    let header = target.join("include/a_crate.h");
+    // the crate had another name once
+    fs::copy(&header, target.join("include/before.h")).unwrap();
+    fs::write(target.join("include/mine.h"), "/* mine */\n").unwrap();
+    let said = emit_crate(&["examples/trammel.mech", "--crate", &name, "--ffi"], 0);
+    assert_eq!(said, format!("removed `{name}/include/before.h`, which is no longer a part of the crate\n"));
+    assert!(fs::read_to_string(&header).unwrap().contains("mechanism trammel"));
+    let said = emit_crate(&["examples/trammel.mech", "--crate", &name], 0);
+    assert!(said.contains("include/a_crate.h`") && said.contains("src/unsafe_c.rs`"), "{said}");
+    let left = ["Cargo.toml", "README.md", "benches/steps.rs", "include/mine.h", "src/lib.rs", "src/mechanism.rs"];
+    assert_eq!(inside(&target), [&left[..], &["tests/reference.rs"]].concat());
+    fs::remove_file(target.join("include/mine.h")).unwrap();
+    emit_crate(&[SLIDER_CRANK, "--crate", &name, "--ffi"], 0);
+    emit_crate(&[SLIDER_CRANK, "--crate", &name], 0);
+    assert!(!target.join("include").exists(), "nothing is left in it");
+}
+
+#[test]
 fn where_the_motion_stops_the_crate_is_written_up_to_there() {
     let folder = tempfile::tempdir().expect("a folder");
     let target = folder.path().join("four_bar");

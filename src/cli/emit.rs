@@ -7,7 +7,7 @@ use super::files::{self, Output};
 use super::input;
 use super::report::Reporter;
 use super::timings::Timings;
-use crate::emit::MARK;
+use crate::emit::{MARK, NOT_IN_ALL};
 use crate::stages::{Compiled, RustOptions};
 use std::path::Path;
 
@@ -63,8 +63,12 @@ fn package(compiled: &Compiled, folder: &str, options: &RustOptions, reporter: &
     let Some(crate_files) = crate_files else {
         return Err(said.into());
     };
-    let texts = crate_files.iter().map(|file| (file.path.as_str(), file.text.as_str()));
-    files::write_all(folder, texts, MARK, &reporter.spared())?;
+    let texts = || crate_files.iter().map(|file| (file.path.as_str(), file.text.as_str()));
+    files::write_all(folder, texts(), MARK, &reporter.spared())?;
+    let written: Vec<&str> = texts().map(|(path, _)| path).collect();
+    for removed in files::remove_left(folder, &NOT_IN_ALL, &written, MARK)? {
+        Reporter::say(&format!("removed `{removed}`, which is no longer a part of the crate\n"));
+    }
     if said.has_errors() {
         return Err(said.into());
     }

@@ -289,9 +289,7 @@ pub(super) fn write_all<'f>(
 ) -> Result<(), Failure> {
     let files: Vec<(PathBuf, &str)> = files.map(|(path, text)| (Path::new(folder).join(path), text)).collect();
     for (path, _) in &files {
-        let is_ours =
-            |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).lines().take(HEAD).any(|line| line.contains(mark));
-        if path.symlink_metadata().is_ok() && !fs::read(path).is_ok_and(is_ours) {
+        if path.symlink_metadata().is_ok() && !holds(path, mark) {
             let shown = path.to_string_lossy();
             return Err(Diagnostic::new(
                 Code::E0702,
@@ -311,6 +309,46 @@ pub(super) fn write_all<'f>(
         outputs.extend(output.written()?);
     }
     put_in_place(outputs)
+}
+
+/// Removes what an earlier crate has left in a folder where this one was written: files in the given folders, with the given endings, that
+/// hold the mark and are not among those written. What somebody wrote stays. Says what is gone.
+pub(super) fn remove_left(
+    folder: &str,
+    places: &[(&str, &str)],
+    written: &[&str],
+    mark: &str,
+) -> Result<Vec<String>, Failure> {
+    let mut removed = Vec::new();
+    for (inner, ending) in places {
+        let place = Path::new(folder).join(inner);
+        let is_left = |name: &String| name.ends_with(ending) && !written.contains(&format!("{inner}/{name}").as_str());
+        for name in Disk.names_in(&place).into_iter().filter(is_left) {
+            let path = place.join(name);
+            // a link leads to what may be somebody's
+            let is_file = path.symlink_metadata().is_ok_and(|found| found.is_file());
+            if is_file && holds(&path, mark) {
+                let shown = path.to_string_lossy().into_owned();
+                fs::remove_file(&path).map_err(|error| cannot_remove(&shown, &error))?;
+                removed.push(shown);
+            }
+        }
+        // where nothing else is in it, it was made for them
+        if !removed.is_empty() {
+            let _ = fs::remove_dir(&place);
+        }
+    }
+    Ok(removed)
+}
+
+fn cannot_remove(name: &str, error: &io::Error) -> Diagnostic {
+    Diagnostic::new(Code::E0702, format!("cannot remove `{name}`: {}", world::reason(error)))
+        .help("an earlier crate has left it: remove it by hand")
+}
+
+/// Whether one of the first lines of a file holds the mark.
+fn holds(path: &Path, mark: &str) -> bool {
+    fs::read(path).is_ok_and(|bytes| String::from_utf8_lossy(&bytes).lines().take(HEAD).any(|line| line.contains(mark)))
 }
 
 /// Lines of a file that may hold the mark.

@@ -26,6 +26,7 @@ mod tables;
 mod tape;
 mod text;
 
+pub(crate) use files::NOT_IN_ALL;
 pub use files::{CrateFile, MARK};
 pub use json::json;
 pub use latex::latex;
