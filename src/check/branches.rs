@@ -85,6 +85,7 @@ impl Checker<'_> {
                 let (left, right) = (self.number(a, context), self.number(b, context));
                 let (left, right) = (left?, right?);
                 self.alike("this compares", (a.span, left.dim), (b.span, right.dim), context)?;
+                self.remember_compared_lengths([(a, left), (b, right)], context);
                 let (x, y, graph) = (left.id, right.id, &mut self.model.graph);
                 Some(match comparison {
                     ComparisonSign::Less => graph.compare(Comparison::Less, x, y),
