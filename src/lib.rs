@@ -73,7 +73,7 @@ pub use check::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use diag::{
     Applies, Blame, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, Severity, fixed, render,
 };
-pub use emit::{CrateFile, LARGEST_STRAIGHT, MARK};
+pub use emit::{CrateFile, LARGEST_STRAIGHT, MARK, NOT_IN_ALL};
 pub use layout::ColumnUnit;
 #[cfg(feature = "live")]
 pub use live::page::{picture, written as page};

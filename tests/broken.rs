@@ -767,8 +767,8 @@ fn one_of_many_loops_is_told_as_it_is_alone() {
     };
     let told = |loops: std::ops::Range<usize>| {
         let bars: String = loops.clone().map(|k| four_bar(k, if k == 70 { 0.05 } else { 3.5 })).collect();
-        let points: String =
-            loops.map(|k| format!("point A{k} = ({}, 0) point B{k} = ({}, 0) ", 10 * k, 10 * k + 4)).collect();
+        let points = loops.map(|k| format!("point A{k} = ({}, 0) point B{k} = ({}, 0)", 10 * k, 10 * k + 4));
+        let points = points.collect::<Vec<_>>().join(" ");
         let outcome = run(
             "many",
             &format!("mechanism many {{ ground {{ {points} }}\n{bars} analysis from 0 to 1 every 0.5 }}"),

@@ -39,6 +39,7 @@ const COMMAND_LINE: &[&str] = &[
     "cancel",
     "diag",
     "emit::MARK",
+    "emit::NOT_IN_ALL",
     "expr::number",
     "layout",
     "live",

@@ -6,7 +6,7 @@
 use super::Checker;
 use super::entity::Entity;
 use super::errors::{self, Plain};
-use super::formula::{Context, Value};
+use super::formula::{Context, Dim, Value};
 use super::mentions::formulas;
 use crate::expr::ExprId;
 use crate::math;
@@ -39,9 +39,10 @@ impl<'a> Checker<'a> {
 
     /// Remembers what a length is compared with in a formula without a unit, if that is a number.
     pub(super) fn remember_compared_lengths(&mut self, [a, b]: [(&Expr, Value); 2], context: &Context<'_>) {
-        for ((side, value), (other, number)) in [(a, b), (b, a)] {
-            let is_asked = !context.judged && self.number_of(number.id).is_some() && self.number_of(value.id).is_none();
-            if is_asked && self.known_dimension(side, value, context).is_some_and(|known| known.is(Dimension::LENGTH)) {
+        for ((_, value), (other, number)) in [(a, b), (b, a)] {
+            let is_length = matches!(value.dim, Dim::Of(known) if known.is(Dimension::LENGTH));
+            let is_one = is_length && self.number_of(value.id).is_none();
+            if !context.judged && is_one && self.number_of(number.id).is_some() {
                 self.remember_plain_length(other, number.id);
             }
         }

@@ -26,8 +26,7 @@ mod tables;
 mod tape;
 mod text;
 
-pub(crate) use files::NOT_IN_ALL;
-pub use files::{CrateFile, MARK};
+pub use files::{CrateFile, MARK, NOT_IN_ALL};
 pub use json::json;
 pub use latex::latex;
 pub use package::{Reference, package};

@@ -103,9 +103,10 @@ impl Intent<'_> {
         let is_short = each.chars().count() <= 2 * LONGEST_SHOWN;
         let message = if is_short { format!("{what}: {each}") } else { apart };
         // a unit behind the last one is meant for all
-        let (gap, unit) = (self.gap_between_declarations(), &self.text[end..self.end()]);
-        let rest: String = others.iter().map(|other| format!("{unit}{gap}{other}")).collect();
-        Some(Intent::change(message, vec![self.edit(self.at..self.end(), &(rest + unit))]))
+        let unit = &self.text[end..self.end()];
+        let gap = format!("{unit}{}", self.gap_between_declarations());
+        let rest = format!("{gap}{}{unit}", others.join(&gap));
+        Some(Intent::change(message, vec![self.edit(self.at..self.end(), &rest)]))
     }
 
     /// Formulas with commas between, from the `=` on, and where the last of them ends.
