@@ -38,12 +38,7 @@ impl Wanted {
 impl Groups {
     pub fn new(determined: &Determined) -> Groups {
         let (system, blocks) = (determined.system(), determined.blocks());
-        let mut block_of_column = vec![0; system.coordinates().len()];
-        for (k, block) in blocks.iter().enumerate() {
-            for &column in &block.columns {
-                block_of_column[column as usize] = k;
-            }
-        }
+        let block_of_column = determined.block_of_columns();
         let mut parent: Vec<usize> = (0..blocks.len()).collect();
         let mut join = |a: usize, b: usize| {
             let (a, b) = (root(&mut parent, a), root(&mut parent, b));

@@ -65,8 +65,8 @@ impl Checked {
     #[must_use]
     pub fn widest(&self, variants: &Variants, redundant: Redundant) -> Option<Compiled> {
         let mut params = variants.values(0);
-        let one = self.led_to(variants.read_settings(&params), variants.sources());
-        let counts = deciding(&one, variants);
+        let read = || deciding(&self.led_to(variants.read_settings(&params), variants.sources()), variants);
+        let counts = variants.deciding.get_or_init(read);
         if counts.is_empty() {
             return None;
         }
@@ -78,7 +78,7 @@ impl Checked {
                 params[count] = if k < MOST_AT_CORNERS && corner >> k & 1 == 1 { least } else { most };
             }
             let columns = |compiled: &Compiled| compiled.columns().len() + compiled.results().len();
-            if let Some(compiled) = compiled_with(&counts, &params, (self, variants), redundant)
+            if let Some(compiled) = compiled_with(counts, &params, (self, variants), redundant)
                 && widest.as_ref().is_none_or(|widest| columns(&compiled) > columns(widest))
             {
                 widest = Some(compiled);
@@ -97,7 +97,8 @@ impl Families {
         first: u64,
     ) -> Families {
         let one = own.led_to(variants.read_settings(&variants.values(first)), variants.sources());
-        let counts = deciding(&one, variants);
+        // where tables have been laid out by them, these and no others
+        let counts = variants.deciding.get_or_init(|| deciding(&one, variants)).clone();
         let only = Arc::new(Family { from_own: one.begins_at_own(redundant), places: Places::Same });
         Families { counts, redundant, told, only, known: Mutex::default() }
     }

@@ -11,6 +11,7 @@ use crate::sweep::{Levels, MOST_OF_SOBOL, Method, Points, Sampling, Varying};
 use crate::syntax::{self, ast};
 use crate::world::{self, World};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 /// What is to vary, as options say it.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -36,6 +37,8 @@ pub struct Variants {
     /// With the texts of the options, and of the files that they name.
     sources: Sources,
     named: Vec<PathBuf>,
+    /// The numbers of the params that decide how often something is there, once somebody has asked.
+    pub(super) deciding: OnceLock<Vec<usize>>,
 }
 
 impl Variants {
@@ -47,7 +50,7 @@ impl Variants {
             let file = sources.add_option(format!("{option} {name}"), written(1.0, unit));
             ones.push(syntax::parse_expression(&sources, file).map_err(|why| (sources.clone(), why))?);
         }
-        Ok(Variants { points, units, ones, sources, named: Vec::new() })
+        Ok(Variants { points, units, ones, sources, named: Vec::new(), deciding: OnceLock::new() })
     }
 
     /// The values of their params.

@@ -60,13 +60,20 @@ impl Determined {
         &self.blocks
     }
 
-    /// The blocks that one of them cannot be solved without, by their numbers, in that order: itself, and what its equations read.
+    /// By coordinate: the number of its block.
     #[must_use]
-    pub fn needed_by(&self, block: usize) -> Vec<usize> {
+    pub fn block_of_columns(&self) -> Vec<usize> {
         let mut block_of = vec![0; self.system.coordinates().len()];
         for (number, block) in self.blocks.iter().enumerate() {
             block.columns.iter().for_each(|&column| block_of[column as usize] = number);
         }
+        block_of
+    }
+
+    /// The blocks that one of them cannot be solved without, by their numbers, in that order: itself, and what its equations read.
+    #[must_use]
+    pub fn needed_by(&self, block: usize) -> Vec<usize> {
+        let block_of = self.block_of_columns();
         let mut is_needed = vec![false; self.blocks.len()];
         let mut open = vec![block];
         while let Some(number) = open.pop() {

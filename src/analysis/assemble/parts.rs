@@ -63,7 +63,7 @@ struct Placing<'d> {
     is_settled: Vec<bool>,
     /// By coordinate.
     is_of_an_open_part: Vec<bool>,
-    block_of: Vec<u32>,
+    block_of: Vec<usize>,
     /// By part: the coordinates that it follows.
     needs: Vec<Vec<u32>>,
     /// Not placed yet.
@@ -74,10 +74,6 @@ impl<'d> Placing<'d> {
     fn new(mut kinematics: Kinematics, determined: &'d Determined, t: f64, q: Vec<f64>) -> Placing<'d> {
         kinematics.set_time(t);
         let system = determined.system();
-        let mut block_of = vec![0; q.len()];
-        for (number, block) in determined.blocks().iter().enumerate() {
-            block.columns.iter().for_each(|&column| block_of[column as usize] = number as u32);
-        }
         let needs = |part: &PartStart| {
             let formulas: Vec<ExprId> = part.inputs.iter().map(|(_, id)| *id).chain(part.mount).collect();
             let symbols = system.graph().symbols_of_all(&formulas).into_iter();
@@ -97,7 +93,7 @@ impl<'d> Placing<'d> {
             is_settled: vec![false; q.len()],
             is_of_an_open_part,
             q,
-            block_of,
+            block_of: determined.block_of_columns(),
             needs: parts.iter().map(needs).collect(),
             open: (0..parts.len()).collect(),
         }
@@ -156,20 +152,20 @@ impl<'d> Placing<'d> {
     /// Solves blocks that parts need, each once those before it are settled; whether there was one.
     fn solve_what_is_needed(&mut self) -> bool {
         let mut wanted: Vec<u32> = self.open.iter().flat_map(|&part| self.needs[part].iter().copied()).collect();
-        let mut numbers: Vec<u32> = Vec::new();
+        let mut numbers: Vec<usize> = Vec::new();
         let mut is_wanted = vec![false; self.determined.blocks().len()];
         while let Some(column) = wanted.pop() {
             let number = self.block_of[column as usize];
-            if self.is_settled[column as usize] || std::mem::replace(&mut is_wanted[number as usize], true) {
+            if self.is_settled[column as usize] || std::mem::replace(&mut is_wanted[number], true) {
                 continue;
             }
             numbers.push(number);
-            wanted.extend(self.behind(&self.determined.blocks()[number as usize]));
+            wanted.extend(self.behind(&self.determined.blocks()[number]));
         }
         numbers.sort_unstable();
         let mut was_solved = false;
         for number in numbers {
-            let block = &self.determined.blocks()[number as usize];
+            let block = &self.determined.blocks()[number];
             let holds_open_part = block.columns.iter().any(|&column| self.is_of_an_open_part[column as usize]);
             let is_ready = self.behind(block).all(|column| self.is_settled[column as usize]);
             if is_ready && !holds_open_part && block.columns.len() <= LARGEST {
