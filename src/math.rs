@@ -36,7 +36,7 @@ pub use neighbours::bisect;
 pub use search::{GOLDEN, GoldenSection, Halving, boundary};
 pub use sin_cos::{A_MILLION, sin_cos};
 pub use sin_cos_of_each::sin_cos_of_each;
-pub use vectors::{Vectors, WIDE};
+pub use vectors::{Vectors, WIDE, to_next_line};
 
 /// The largest power of two that is not above a positive number.
 #[must_use]

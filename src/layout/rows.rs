@@ -1,6 +1,7 @@
 //! Where a row holds what.
 
 use crate::ir::{BodyId, ConstraintSystem, With};
+use crate::math::WIDE;
 use std::ops::Range;
 
 /// Columns that stand together in a row.
@@ -153,7 +154,7 @@ pub struct RowLayout {
     pub slopes: u32,
     /// Columns that the table has.
     pub printed: usize,
-    /// All columns.
+    /// All columns, filled up to whole lines of the processor's memory.
     pub stride: usize,
     /// How many coordinates there are.
     n: u32,
@@ -193,6 +194,7 @@ impl RowLayout {
             }
             layout.stride += stretch.length(system);
         }
+        layout.stride = layout.stride.next_multiple_of(WIDE);
         layout
     }
 

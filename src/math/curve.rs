@@ -21,6 +21,8 @@ pub fn parabola([q, qd, qdd]: [f64; 3], h: f64) -> [f64; 6] {
 
 /// A curve's value at a part of its step.
 #[must_use]
+#[inline(always)]
+#[allow(clippy::inline_always)] // for several lanes at once
 pub fn along(curve: &[f64; 6], x: f64) -> f64 {
     curve.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }

@@ -58,14 +58,20 @@ impl Vectors {
     }
 }
 
-/// As many numbers as the widest vector registers hold.
+/// As many numbers as the widest vector registers hold, and as a line of the processor's memory.
 pub const WIDE: usize = 8;
+
+/// How many numbers lie between a place and where the next line of the processor's memory begins: what is written line by line is there at once.
+#[must_use]
+pub fn to_next_line(place: *const f64) -> usize {
+    place.align_offset(WIDE * size_of::<f64>()) % WIDE
+}
 
 /// So many rows of so many numbers.
 type Tile = [[f64; WIDE]; WIDE];
 
 impl Vectors {
-    /// Turns rows to columns: number `k` of `from[row]` is left in the `k`th stretch of `to`, each of which is `length` long, at `first + row`.
+    /// Turns rows to columns, or columns to rows: number `k` of `from[row]` is left in the `k`th stretch of `to`, each of which is `length` long, at `first + row`.
     ///
     /// There are to be as many stretches as a row has numbers, or fewer.
     pub fn turn<const W: usize>(self, from: [&[f64; W]; WIDE], to: &mut [f64], (first, length): (usize, usize)) {

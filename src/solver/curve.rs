@@ -37,6 +37,8 @@ impl Bend {
 
     /// The place on the bent curve at a part of the step.
     #[must_use]
+    #[inline(always)]
+    #[allow(clippy::inline_always)] // for several lanes at once
     pub fn on_curve(&self, curve: &[f64; 6], x: f64) -> f64 {
         let u = x * (1.0 - x);
         let s = x + self.back;

@@ -6,7 +6,7 @@ use super::{Instruction, LARGEST_MULTIPLIER, Solver, Tear, from_bits};
 use crate::math::grid::{bound_at_first, going_on, next_point, on_grid};
 use crate::math::{self, Vectors, WIDE};
 use crate::program::{LaneMachine, LaneValues, Machine, Program, Register, Registers};
-use crate::tolerances::solving::lanes::{BORDER, ITERATIONS, LARGEST_CORRECTION};
+use crate::tolerances::solving::lanes::{BORDER, ITERATIONS, LARGEST_CORRECTION, MOST_TURNED};
 use std::array::from_fn;
 use std::ops::Range;
 
@@ -18,6 +18,8 @@ pub const PART: usize = WIDE;
 pub struct Lanes<const W: usize> {
     vectors: Vectors,
     values: Vec<LaneValues<W>>,
+    /// The columns of rows, to be turned to these; none where that does not pay.
+    columns: Vec<LaneValues<W>>,
     watched: Watched<W>,
     /// What is seen of what depends on numbers and parameters alone.
     of_fixed: Watched<W>,
@@ -98,9 +100,19 @@ impl<const W: usize> Lanes<W> {
         Lanes {
             vectors,
             values: vec![LaneValues([0.0; W]); solver.registers],
+            columns: Vec::new(),
             watched: Watched::NOTHING,
             of_fixed: Watched::NOTHING,
         }
+    }
+
+    /// The same, for rows of which each has its numbers one behind the other ([`Lanes::run`]).
+    #[must_use]
+    pub fn for_rows(solver: &Solver, vectors: Vectors) -> Lanes<W> {
+        let stride = solver.layout.stride;
+        let are_turned = W.is_multiple_of(WIDE) && stride <= MOST_TURNED;
+        let columns = vec![LaneValues([0.0; W]); if are_turned { stride } else { 0 }];
+        Lanes { columns, ..Lanes::new(solver, vectors) }
     }
 
     /// How far the curve was from the solution in the last run: the largest first correction, scaled; not a number if one is not.
@@ -127,11 +139,17 @@ impl<const W: usize> Lanes<W> {
         batch: &Batch<'_, W>,
         rows: &mut [f64],
     ) -> [bool; W] {
-        for (row, t) in rows.chunks_exact_mut(solver.layout.stride).zip(batch.times) {
+        // all at once: there is work for all of them
+        let mut columns = std::mem::take(&mut self.columns);
+        self.solve::<W>(solver, (program, scalars), OfTimes { solver, scalars, batch, rows, columns: &mut columns });
+        let stride = solver.layout.stride;
+        for (group, columns) in columns.chunks_exact(WIDE).enumerate() {
+            self.vectors.turn(from_fn(|column| &columns[column].0), rows, (group * WIDE, stride));
+        }
+        self.columns = columns;
+        for (row, t) in rows.chunks_exact_mut(stride).zip(batch.times) {
             row[0] = t;
         }
-        // all at once: there is work for all of them
-        self.solve::<W>(solver, (program, scalars), OfTimes { solver, scalars, batch, rows });
         let Watched { farthest, multiplier, residual, .. } = &self.watched;
         from_fn(|k| !is_lost(farthest.0[k]) && multiplier.0[k] <= LARGEST_MULTIPLIER && residual.0[k] <= 1.0)
     }
@@ -210,6 +228,8 @@ struct OfTimes<'r, const W: usize> {
     scalars: &'r Registers,
     batch: &'r Batch<'r, W>,
     rows: &'r mut [f64],
+    /// What is turned to rows when all is there; none where it goes there at once.
+    columns: &'r mut [LaneValues<W>],
 }
 
 #[allow(clippy::inline_always)] // as all that `Lanes::solve` does
@@ -236,6 +256,9 @@ impl<const W: usize, const P: usize> Around<P> for OfTimes<'_, W> {
 
     #[inline(always)]
     fn stored(&self, column: u32, part: usize) -> [f64; P] {
+        if let Some(column) = self.columns.get(column as usize) {
+            return *column.part(part);
+        }
         let stride = self.solver.layout.stride;
         let (mut at, mut values) = (column as usize + part * P * stride, [0.0; P]);
         for value in &mut values {
@@ -247,6 +270,12 @@ impl<const W: usize, const P: usize> Around<P> for OfTimes<'_, W> {
 
     #[inline(always)]
     fn store(&mut self, column: u32, mut values: impl FnMut(usize) -> [f64; P]) {
+        if let Some(column) = self.columns.get_mut(column as usize) {
+            for part in 0..W / P {
+                *column.part_mut(part) = values(part);
+            }
+            return;
+        }
         let (mut at, stride) = (column as usize, self.solver.layout.stride);
         for part in 0..W / P {
             for value in values(part) {
@@ -444,7 +473,12 @@ impl<const W: usize> Batch<'_, W> {
         let curve = &self.curve[solver.tears[tear as usize] as usize];
         let bend = self.bends.get(tear as usize).unwrap_or(&Bend::NONE);
         let per_second = 1.0 / self.length;
-        self.times.as_chunks().0[part].map(|t| bend.on_curve(curve, (t - self.from) * per_second))
+        let mut values = self.times.as_chunks().0[part];
+        // no closure, which would be compiled for every processor
+        for value in &mut values {
+            *value = bend.on_curve(curve, (*value - self.from) * per_second);
+        }
+        values
     }
 }
 

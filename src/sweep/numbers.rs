@@ -1,11 +1,9 @@
 //! The numbers of a column of variants, in memory that is used again.
 
+use crate::math::{WIDE, to_next_line};
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
-
-/// So many numbers are a line of the processor's memory.
-const LINE: usize = 8;
 
 /// Memory of numbers that nobody asks for any more: to be written over it need not be cleared, and is at hand.
 #[derive(Debug)]
@@ -61,8 +59,8 @@ impl Numbers {
     /// None yet, with memory for so many.
     #[must_use]
     pub fn with_capacity(capacity: usize, spare: &Arc<Spare>) -> Numbers {
-        let mut memory = spare.take(capacity + LINE);
-        let begin = memory.as_ptr().align_offset(LINE * size_of::<f64>()) % LINE;
+        let mut memory = spare.take(capacity + WIDE);
+        let begin = to_next_line(memory.as_ptr());
         if memory.len() < begin {
             memory.resize(begin, 0.0);
         }

@@ -41,6 +41,8 @@ pub mod lanes {
     /// A correction that is no farther from half a cell than this, in cells, leads to the border of two. What rounding makes of corrections
     /// is less.
     pub const BORDER: f64 = 1.0 / 4_096.0;
+    /// Rows of so many numbers at the most are turned from columns: more would not stay in the processor's memory until then.
+    pub const MOST_TURNED: usize = 2_048;
 }
 
 /// Variants side by side (`solver/variants.rs`, `sweep`).

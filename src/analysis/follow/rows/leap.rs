@@ -1,9 +1,11 @@
 //! A step over several output times, whose rows are solved for on its curve, several at once (`solver`).
 
+use super::alone::Alone;
 use crate::analysis::follow::bookmark::Bookmark;
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, State, Times};
 use crate::layout::RowLayout;
+use crate::math::{WIDE, to_next_line};
 use crate::solver::{Batch, Bend, Lanes, Pivoting, Solver};
 use crate::tolerances::solving::rows::{ENOUGH, LANES, REFINED, SAME_TIME, SHORT};
 #[cfg(feature = "threads")]
@@ -16,11 +18,12 @@ pub struct Leap {
     solver: Arc<Solver>,
     /// The registers of each thread.
     lanes: Vec<Lanes<LANES>>,
+    /// Their rows, from where a line of the processor's memory begins.
     values: Vec<f64>,
+    begin: usize,
     holds: Vec<[bool; LANES]>,
     /// For the end of a step.
-    alone: Lanes<1>,
-    alone_row: Vec<f64>,
+    alone: Alone,
     /// A position as a curve that stays there.
     rest: Vec<[f64; 6]>,
     /// Where the solver's order of elimination loses digits; none where a block is too large.
@@ -31,6 +34,8 @@ pub struct Leap {
     first: u64,
     end: u64,
     last: u64,
+    /// Up to this number they hold, with all their columns.
+    ready: u64,
     /// What may be left of each row of Φ, as its inverse.
     bounds: Vec<f64>,
     has_bounds: bool,
@@ -74,18 +79,20 @@ impl Leap {
     pub fn new(kinematics: &Kinematics, solver: Arc<Solver>, origin: Bookmark, span: f64) -> Leap {
         let threads = threads(&solver);
         let n = kinematics.system().coordinates().len();
+        let values = vec![0.0; threads * LANES * solver.layout().stride + WIDE];
         Leap {
-            lanes: vec![Lanes::new(&solver, kinematics.vectors()); threads],
-            values: vec![0.0; threads * LANES * solver.layout().stride],
+            lanes: vec![Lanes::for_rows(&solver, kinematics.vectors()); threads],
+            begin: to_next_line(values.as_ptr()),
+            values,
             holds: vec![[false; LANES]; threads],
-            alone: Lanes::new(&solver, kinematics.vectors()),
-            alone_row: vec![0.0; solver.layout().stride],
+            alone: Alone::new(kinematics, &solver),
             rest: vec![[0.0; 6]; n],
             pivoting: Pivoting::new(&kinematics.determined()),
             pivoted: origin.state().clone(),
             first: 0,
             end: 0,
             last: 0,
+            ready: 0,
             bounds: vec![0.0; kinematics.system().rows().len()],
             has_bounds: false,
             before: origin.state().clone(),
@@ -101,13 +108,13 @@ impl Leap {
     /// The row of a lane.
     pub fn row(&self, lane: usize) -> &[f64] {
         let layout = self.solver.layout();
-        &self.values[lane * layout.stride..][..layout.printed]
+        &self.values[self.begin + lane * layout.stride..][..layout.printed]
     }
 
     /// The same, to be written.
     pub fn row_mut(&mut self, lane: usize) -> &mut [f64] {
         let layout = self.solver.layout();
-        &mut self.values[lane * layout.stride..][..layout.printed]
+        &mut self.values[self.begin + lane * layout.stride..][..layout.printed]
     }
 
     /// Where the step that was gone over last begins.
@@ -127,7 +134,7 @@ impl Leap {
 
     /// Forgets the step.
     pub fn close(&mut self) {
-        (self.first, self.end, self.last) = (0, 0, 0);
+        (self.first, self.end, self.last, self.ready) = (0, 0, 0, 0);
         (self.length, self.is_smooth) = (0.0, false);
     }
 
@@ -137,43 +144,64 @@ impl Leap {
         h <= SHORT * self.span
     }
 
-    /// Solves at the end of a step of length `h` to a time (s) from Taylor's prediction, which has been made, and gives the correction;
-    /// none where that does not hold.
+    /// Solves at the end of a step of length `h` to a time (s), and gives how far that is from Taylor's prediction, which has been made;
+    /// none where it does not hold.
     pub fn solve_ahead(&mut self, kinematics: &Kinematics, step: &mut Step, h: f64, t: f64) -> Option<f64> {
         if !self.has_bounds {
             kinematics.write_bounds(&mut self.bounds);
             self.has_bounds = true;
         }
-        step.draw_way_ahead(h, self.solver.tears().iter().map(|&tear| tear as usize));
-        if !self.solve_alone(kinematics, step.curve(), [step.t(), h, t]) {
+        if !self.solve_beyond(kinematics, step, t) && !self.solve_on_parabola(kinematics, step, h, t) {
             // one that is far off wants a shorter step, and not more care
             let size = self.alone.first_correction();
             return Some(size).filter(|size| *size > LARGEST_CORRECTION && !self.is_short(h));
         }
         let (layout, n) = (self.solver.layout(), step.state().q.len());
-        let part = |order: usize| &self.alone_row[layout.coordinates[order] as usize..][..n];
+        let part = |order: usize| &self.alone.row()[layout.coordinates[order] as usize..][..n];
         let orders = if layout.has_jerk { 0..4 } else { 0..3 };
         Some(step.take_solved(kinematics, orders.map(part)))
     }
 
+    /// Solves at a time from where the last step leads beyond its end, if it led smoothly to where the motion is: so near to the solution
+    /// that it saves an iteration. Says whether it holds.
+    fn solve_beyond(&mut self, kinematics: &Kinematics, step: &mut Step, t: f64) -> bool {
+        if !self.is_smooth || !self.leads_to(step.t()) {
+            return false;
+        }
+        let [from, length] = self.way();
+        let columns = self.solver.tears().iter().map(|&tear| tear as usize);
+        step.draw_way_since(self.origin.state(), length, columns);
+        let way = Batch { times: [t], from, length, curve: step.curve(), bends: &self.bends, bounds: &self.bounds };
+        self.alone.solve(kinematics, &self.solver, &way)
+    }
+
+    /// The same from where the derivatives lead, for a step of length `h`.
+    fn solve_on_parabola(&mut self, kinematics: &Kinematics, step: &mut Step, h: f64, t: f64) -> bool {
+        step.draw_way_ahead(h, self.solver.tears().iter().map(|&tear| tear as usize));
+        self.solve_within(kinematics, step.curve(), [step.t(), h, t])
+    }
+
+    /// Whether the last step, which was a leap, ended at a time (s).
+    fn leads_to(&self, t: f64) -> bool {
+        let [from, length] = self.way();
+        length > 0.0 && (from + length - t).abs() <= SAME_TIME * length
+    }
+
     /// Solves at one time, of a step from a time and of a length; says whether it holds.
-    fn solve_alone(&mut self, kinematics: &Kinematics, curve: &[[f64; 6]], [from, length, t]: [f64; 3]) -> bool {
-        let batch = Batch { times: [t], from, length, curve, bends: &[], bounds: &self.bounds };
-        let (program, registers) = kinematics.program();
-        let [holds] = self.alone.run(&self.solver, program, registers, &batch, &mut self.alone_row);
-        holds
+    fn solve_within(&mut self, kinematics: &Kinematics, curve: &[[f64; 6]], [from, length, t]: [f64; 3]) -> bool {
+        let way = Batch { times: [t], from, length, curve, bends: &[], bounds: &self.bounds };
+        self.alone.solve(kinematics, &self.solver, &way)
     }
 
     /// The state in the middle of the step that was accepted last, if that was a leap to where the motion is and can be solved for
     /// there.
     pub fn middle(&mut self, kinematics: &Kinematics, step: &Step) -> Option<State> {
         let [from, length] = self.way();
-        let is_of_it = length > 0.0 && (from + length - step.t()).abs() <= SAME_TIME * length;
         let t = 0.5 * from + 0.5 * step.t();
-        if !is_of_it || !self.solve_alone(kinematics, step.curve(), [from, length, t]) {
+        if !self.leads_to(step.t()) || !self.solve_within(kinematics, step.curve(), [from, length, t]) {
             return None;
         }
-        Some(state_of_row(self.solver.layout(), &self.alone_row, step.state(), t))
+        Some(state_of_row(self.solver.layout(), self.alone.row(), step.state(), t))
     }
 
     /// How far the curve of a step is from the motion: at the first rows within it, or where there are few, at some place.
@@ -186,7 +214,7 @@ impl Leap {
     ) -> f64 {
         let probe = step.next_probe();
         if self.last - self.first < ENOUGH {
-            self.solve_alone(kinematics, step.curve(), [step.t(), h, step.t() + probe * h]);
+            self.solve_within(kinematics, step.curve(), [step.t(), h, step.t() + probe * h]);
             return self.alone.first_correction();
         }
         self.solve_batch(kinematics, step, (times, next));
@@ -206,11 +234,10 @@ impl Leap {
     ) {
         let behind = times.first_after(end, next);
         let at_end = to_edge && behind > next && times.at(behind - 1) >= end;
-        (self.first, self.end) = (next, next);
+        (self.first, self.end, self.ready) = (next, next, next);
         self.last = if at_end { behind - 1 } else { behind };
+        let is_bent = self.is_smooth && self.leads_to(step.t());
         std::mem::swap(&mut self.before, &mut self.origin.mark.state);
-        let was_next_to_it = (self.before.t + self.length - step.t()).abs() <= SAME_TIME * h;
-        let is_bent = self.is_smooth && was_next_to_it && self.length > 0.0;
         let before = &self.before;
         for (bend, &tear) in self.bends.iter_mut().zip(self.solver.tears()) {
             let k = tear as usize;
@@ -232,8 +259,19 @@ impl Leap {
             self.solve_batch(kinematics, step, (times, next));
         }
         let lane = (next - self.first) as usize;
-        let is_solved = self.holds[lane / LANES][lane % LANES];
-        (is_solved && (self.is_whole(lane) || self.is_finite(lane))).then_some(lane)
+        let is_ready = |lane: &usize| self.is_solved(*lane) && self.is_whole(*lane);
+        let behind = (lane..(self.end - self.first) as usize).find(|lane| !is_ready(lane));
+        self.ready = behind.map_or(self.end, |lane| self.first + lane as u64);
+        (self.is_solved(lane) && (self.is_whole(lane) || self.is_finite(lane))).then_some(lane)
+    }
+
+    /// The lane with the row of an output time, by its number, if the one before has been asked for and that is known to hold with all its columns.
+    pub fn ready_lane(&self, number: u64) -> Option<usize> {
+        (number < self.ready).then(|| (number - self.first) as usize)
+    }
+
+    fn is_solved(&self, lane: usize) -> bool {
+        self.holds[lane / LANES][lane % LANES]
     }
 
     /// Whether all numbers of a lane's row are finite, be they of measures.
@@ -244,7 +282,7 @@ impl Leap {
     /// Whether the coordinates of a lane's row and their derivatives are numbers.
     fn is_finite(&self, lane: usize) -> bool {
         let layout = self.solver.layout();
-        let row = &self.values[lane * layout.stride..][..layout.stride];
+        let row = &self.values[self.begin + lane * layout.stride..][..layout.stride];
         let n = self.bounds.len();
         let mut parts = layout.coordinates[..3].iter().map(|&first| &row[first as usize..][..n]);
         parts.all(|part| part.iter().all(|value| value.is_finite()))
@@ -270,7 +308,7 @@ impl Leap {
         let solve = |part: usize, lanes: &mut Lanes<LANES>, values: &mut [f64], holds: &mut [bool; LANES]| {
             *holds = lanes.run(solver, program, registers, &batch(part), values);
         };
-        let rows = values.chunks_exact_mut(LANES * solver.layout().stride);
+        let rows = values[self.begin..].chunks_exact_mut(LANES * solver.layout().stride);
         let all = lanes.iter_mut().zip(rows).zip(holds).enumerate().take(parts);
         #[cfg(feature = "threads")]
         if parts > 1 {
@@ -290,7 +328,7 @@ impl Leap {
     pub fn refine(&mut self, kinematics: &mut Kinematics, here: &State, t: f64, row: &mut [f64]) {
         let printed = row.len();
         let is_solved = self.solve_at_rest(kinematics, t, row) || self.solve_pivoted(kinematics, here, t, row);
-        let refined = &self.alone_row[..printed];
+        let refined = &self.alone.row()[..printed];
         // where both do not agree the position is too near to a singular one for the grid
         // a measure may have no value, and what is varied does not decide about the row
         let agrees = |(column, (a, b)): (usize, (&f64, &f64))| {
@@ -312,10 +350,8 @@ impl Leap {
         for (rest, q) in self.rest.iter_mut().zip(self.solver.layout().position(row)) {
             rest[0] = *q;
         }
-        let batch = Batch { times: [t], from: t, length: 1.0, curve: &self.rest, bends: &[], bounds: &self.bounds };
-        let (program, registers) = kinematics.program();
-        let [holds] = self.alone.run(&self.solver, program, registers, &batch, &mut self.alone_row);
-        holds
+        let rest = Batch { times: [t], from: t, length: 1.0, curve: &self.rest, bends: &[], bounds: &self.bounds };
+        self.alone.solve(kinematics, &self.solver, &rest)
     }
 
     /// The same with partial pivoting.
@@ -325,7 +361,7 @@ impl Leap {
         };
         self.pivoted.t = t;
         self.pivoted.q.copy_from_slice(self.solver.layout().position(row));
-        let is_solved = kinematics.pivoted_row(pivoting, &mut self.pivoted, &mut self.alone_row[..row.len()]);
+        let is_solved = kinematics.pivoted_row(pivoting, &mut self.pivoted, &mut self.alone.row_mut()[..row.len()]);
         kinematics.restore(here);
         is_solved
     }

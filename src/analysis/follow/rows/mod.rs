@@ -1,5 +1,6 @@
 //! A row for each output time: which one comes next, what it holds, and what it is worth.
 
+mod alone;
 mod forces;
 mod leap;
 mod missing;
@@ -91,6 +92,13 @@ impl Rows {
     pub fn count_row(&mut self) {
         self.next += 1;
         self.forget_steps();
+    }
+
+    /// The next row, if it has been solved for and there is nothing to be said of it; it has been handed out then.
+    pub fn hand_out_ready(&mut self) -> Option<Place> {
+        let lane = self.leap.as_ref()?.ready_lane(self.next)?;
+        self.count_row();
+        Some(Place::Lane(lane))
     }
 
     /// Begins to count the steps anew.

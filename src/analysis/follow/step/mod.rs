@@ -246,6 +246,13 @@ impl Step {
         }
     }
 
+    /// The way from another state to where the motion is, `h` (s) later, of some coordinates.
+    pub fn draw_way_since(&mut self, before: &State, h: f64, columns: impl Iterator<Item = usize>) {
+        for k in columns {
+            self.curve[k] = quintic_between(before, &self.state, k, h);
+        }
+    }
+
     /// The way that the state leads to, of some coordinates.
     pub fn draw_way_ahead(&mut self, h: f64, columns: impl Iterator<Item = usize>) {
         for k in columns {
