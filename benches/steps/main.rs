@@ -39,6 +39,8 @@ use timing::{Table, median, per_step};
 
 /// Times a turn, both ends counted.
 const STEPS: u32 = 1001;
+/// The same for variants side by side.
+const VARIANT_TIMES: u32 = 360;
 /// Unknowns beyond which a dense matrix is not worth waiting for.
 const LARGEST_DENSE: usize = 200;
 /// Steps that are enough to time the ways that take long.
@@ -164,14 +166,12 @@ fn single(floor: f64) {
     }
 }
 
-/// The same in lanes, beside what is emitted of them, one time after the other.
+/// The same in lanes, beside what is emitted of them, one time after the other: the times of one mechanism, and variants side by side.
 fn beside_emitted() {
     macro_rules! emitted {
-        ($module:ident, $text:expr) => {{
-            let compiled = compile($text);
-            let [from, to, _] = compiled.analysis().expect("an analysis");
-            let times: Vec<f64> =
-                (0..STEPS).map(|k| from + (to - from) * f64::from(k) / f64::from(STEPS - 1)).collect();
+        ($module:ident, $text:expr, $every:expr, $params:expr) => {{
+            let [from, to, _] = compile($text).analysis().expect("an analysis");
+            let times = turn_of(from, to);
             let scalar = median(21, || {
                 let mut state = $module::assemble(&$module::Params::default()).expect("it assembles");
                 per_step(STEPS, || {
@@ -181,23 +181,41 @@ fn beside_emitted() {
                     }
                 })
             });
-            let lanes = median(21, || {
-                let mut motion = started(&compiled, &Times::listed(from, times.clone()));
-                per_step(STEPS, || {
-                    while let Some(row) = motion.next_row() {
-                        black_box(row.expect("it moves"));
-                    }
-                })
-            });
-            [scalar, lanes]
+            let [own, step] = $every;
+            [scalar, in_lanes($text, &times), sweeps::row_of_variants($text.replace(own, step), $params, VARIANT_TIMES)]
         }};
     }
     println!("mechc beside emitted Rust, one at a time");
-    let both = [("Andrews", emitted!(andrews, mechanisms::ANDREWS)), ("Jansen", emitted!(jansen, mechanisms::JANSEN))];
-    for (name, [scalar, lanes]) in both {
-        println!("  {name:<16} {lanes:>6.0} ns   emitted {scalar:>6.0} ns {:>7.2} x", lanes / scalar);
+    let andrews = ["every 0.5 ms", "every 30 ms / 359"];
+    let jansen = ["every 25 ms", "every 2 s / 359"];
+    let both = [
+        ("Andrews", emitted!(andrews, mechanisms::ANDREWS, andrews, ["rr=6.9 mm..7.1 mm", "dd=27.9 mm..28.1 mm"])),
+        ("Jansen", emitted!(jansen, mechanisms::JANSEN, jansen, ["lc=39 mm..39.6 mm", "lm=14.8 mm..15.2 mm"])),
+    ];
+    for (name, [scalar, times, variants]) in both {
+        println!("  {name:<8} emitted                  {scalar:>6.0} ns");
+        println!("           1001 times in lanes      {times:>6.0} ns {:>7.2} x", times / scalar);
+        println!("           variants, {VARIANT_TIMES} times each {variants:>6.0} ns {:>7.2} x", variants / scalar);
     }
     println!();
+}
+
+/// ns a row of one mechanism at some times.
+fn in_lanes(text: &str, times: &[f64]) -> f64 {
+    let compiled = compile(text);
+    median(21, || {
+        let mut motion = started(&compiled, &Times::listed(times[0], times.to_vec()));
+        per_step(STEPS, || {
+            while let Some(row) = motion.next_row() {
+                black_box(row.expect("it moves"));
+            }
+        })
+    })
+}
+
+/// So many times from one to another (s).
+fn turn_of(from: f64, to: f64) -> Vec<f64> {
+    (0..STEPS).map(|k| from + (to - from) * f64::from(k) / f64::from(STEPS - 1)).collect()
 }
 
 fn four_bars(floor: f64) {

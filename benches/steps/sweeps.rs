@@ -8,6 +8,8 @@ use std::hint::black_box;
 
 /// Variants that are enough to time one, side by side; what they share is made once and included.
 const ABREAST: u32 = 20_000;
+/// The same for larger mechanisms.
+const FEW_ABREAST: u32 = 4_000;
 
 /// The four-bar of the closed form, whose coupler and rocker may have other lengths.
 fn four_bar(times: u32, more: &str) -> String {
@@ -31,27 +33,36 @@ fn four_bar(times: u32, more: &str) -> String {
     )
 }
 
-/// A sweep of it.
+/// A mechanism, and what of it is varied.
 struct Subject {
     text: String,
+    params: [&'static str; 2],
     checked: Checked,
     compiled: Compiled,
     choice: Choice,
 }
 
 impl Subject {
-    fn new(times: u32, more: &str) -> Subject {
-        let text = four_bar(times, more);
+    fn four_bar(times: u32, more: &str) -> Subject {
+        Subject::new(four_bar(times, more), ["rod=3.4..3.6", "arm=2.9..3.1"])
+    }
+
+    fn new(text: String, params: [&'static str; 2]) -> Subject {
         let choice = Choice { lead: true, ..Choice::default() };
         let checked = Parsed::of("bench.mech", &text).check(&choice, &Memory::default());
         let compiled = compile_as(&text, &choice);
-        Subject { text, checked, compiled, choice }
+        Subject { text, params, checked, compiled, choice }
+    }
+
+    /// The columns but time.
+    fn all_columns(&self) -> Vec<usize> {
+        (1..self.compiled.columns().len()).collect()
     }
 
     /// ns a variant, of some columns; of results where none are wanted.
     fn per_variant(&self, columns: Option<&[usize]>, count: u32, jobs: usize) -> f64 {
         let vary = VaryOptions {
-            params: vec!["rod=3.4..3.6".to_owned(), "arm=2.9..3.1".to_owned()],
+            params: self.params.map(str::to_owned).to_vec(),
             sample: Some(u64::from(count)),
             ..VaryOptions::default()
         };
@@ -69,18 +80,24 @@ impl Subject {
     }
 }
 
+/// ns a row of variants that go side by side, of so many times each, with all columns.
+pub fn row_of_variants(text: String, params: [&'static str; 2], times: u32) -> f64 {
+    let subject = Subject::new(text, params);
+    subject.per_variant(Some(&subject.all_columns()), FEW_ABREAST, 1) / f64::from(times)
+}
+
 pub fn sweeps(floor: f64) {
     println!("variants of the four-bar, one thread");
-    let turn = Subject::new(360, "");
-    let all: Vec<usize> = (1..turn.compiled.columns().len()).collect();
+    let turn = Subject::four_bar(360, "");
+    let all = turn.all_columns();
     let one = turn.per_variant(Some(&all), ABREAST, 1);
     let row = one / 360.0;
     println!("  (a) rows: 360 times, 27 numbers            {row:>9.0} ns a row {:>7.2} x", row / floor);
-    let two = Subject::new(200, "").per_variant(Some(&[4, 5]), ABREAST, 1);
+    let two = Subject::four_bar(200, "").per_variant(Some(&[4, 5]), ABREAST, 1);
     println!("  (b) two columns of position, 200 times     {:>9.1} s for 1,000,000", two * 1e-3);
-    let result = Subject::new(360, "result farthest = max(x(coupler.C))").per_variant(None, ABREAST, 1);
+    let result = Subject::four_bar(360, "result farthest = max(x(coupler.C))").per_variant(None, ABREAST, 1);
     println!("  (c) the largest of a coordinate in a turn  {:>9.1} us a variant", result * 1e-3);
-    let three = Subject::new(3, "").per_variant(Some(&all), ABREAST, 1);
+    let three = Subject::four_bar(3, "").per_variant(Some(&all), ABREAST, 1);
     println!("  (d) three times, leading over included     {:>9.1} us a variant", three * 1e-3);
     if std::thread::available_parallelism().is_ok_and(|cores| cores.get() > 1) {
         println!(

@@ -100,7 +100,12 @@ fn turn_tiles<const W: usize>(
     turned: impl Fn(&Tile) -> Tile,
 ) {
     for (part, to) in to.chunks_mut(length * WIDE).enumerate() {
-        let tile = turned(&from.map(|row| row.as_chunks().0[part]));
+        // no closures: one that is not inlined is compiled for every processor
+        let mut tile = [[0.0; WIDE]; WIDE];
+        for (own, row) in tile.iter_mut().zip(from) {
+            *own = row.as_chunks().0[part];
+        }
+        let tile = turned(&tile);
         for (column, to) in tile.iter().zip(to.chunks_exact_mut(length)) {
             to[first..first + WIDE].copy_from_slice(column);
         }
@@ -149,26 +154,33 @@ fn turned_by_fours(unit: pulp::x86::V3, tile: &Tile) -> Tile {
 fn turned_at_once(unit: pulp::x86::V4, tile: &Tile) -> Tile {
     use std::arch::x86_64::__m512d;
     let avx = unit.avx512f;
-    let rows: [__m512d; WIDE] = (*tile).map(pulp::cast);
-    // of two rows the even columns, then the odd ones
-    let of_two: [__m512d; WIDE] = from_fn(|k| match k % 2 {
-        0 => avx._mm512_unpacklo_pd(rows[k], rows[k + 1]),
-        _ => avx._mm512_unpackhi_pd(rows[k - 1], rows[k]),
-    });
-    // the even pairs of two registers, or the odd ones
-    let pairs = |is_odd: bool, a: __m512d, b: __m512d| {
-        if is_odd {
-            avx._mm512_shuffle_f64x2::<0b11_01_11_01>(a, b)
-        } else {
-            avx._mm512_shuffle_f64x2::<0b10_00_10_00>(a, b)
-        }
-    };
+    macro_rules! pairs {
+        (even $a:expr, $b:expr) => {
+            avx._mm512_shuffle_f64x2::<0b10_00_10_00>($a, $b)
+        };
+        (odd $a:expr, $b:expr) => {
+            avx._mm512_shuffle_f64x2::<0b11_01_11_01>($a, $b)
+        };
+    }
+    let [a, b, c, d, e, f, g, h]: [__m512d; WIDE] = pulp::cast(*tile);
+    // of two rows the even columns, and the odd ones
+    let [ab, cd] = [avx._mm512_unpacklo_pd(a, b), avx._mm512_unpacklo_pd(c, d)];
+    let [ef, gh] = [avx._mm512_unpacklo_pd(e, f), avx._mm512_unpacklo_pd(g, h)];
+    let [ab_odd, cd_odd] = [avx._mm512_unpackhi_pd(a, b), avx._mm512_unpackhi_pd(c, d)];
+    let [ef_odd, gh_odd] = [avx._mm512_unpackhi_pd(e, f), avx._mm512_unpackhi_pd(g, h)];
     // of four rows the columns 0 and 4, 1 and 5, 2 and 6, 3 and 7
-    let of_four: [__m512d; WIDE] = from_fn(|k| {
-        let [rows, column] = [k / 4 * 4, k % 4];
-        pairs(column >= 2, of_two[rows + column % 2], of_two[rows + 2 + column % 2])
-    });
-    from_fn(|column| pulp::cast(pairs(column >= 4, of_four[column % 4], of_four[4 + column % 4])))
+    let above = [pairs!(even ab, cd), pairs!(even ab_odd, cd_odd), pairs!(odd ab, cd), pairs!(odd ab_odd, cd_odd)];
+    let below = [pairs!(even ef, gh), pairs!(even ef_odd, gh_odd), pairs!(odd ef, gh), pairs!(odd ef_odd, gh_odd)];
+    pulp::cast([
+        pairs!(even above[0], below[0]),
+        pairs!(even above[1], below[1]),
+        pairs!(even above[2], below[2]),
+        pairs!(even above[3], below[3]),
+        pairs!(odd above[0], below[0]),
+        pairs!(odd above[1], below[1]),
+        pairs!(odd above[2], below[2]),
+        pairs!(odd above[3], below[3]),
+    ])
 }
 
 impl Default for Vectors {

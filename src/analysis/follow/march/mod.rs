@@ -98,7 +98,9 @@ impl Follower {
     /// # Errors
     /// Why and where the motion cannot go on.
     pub fn next_row(&mut self) -> Option<Result<&[f64], Box<Diagnostic>>> {
-        if self.forces.is_none() && let Some(place) = self.rows.hand_out_ready() {
+        if self.forces.is_none()
+            && let Some(place) = self.rows.hand_out_ready()
+        {
             return Some(Ok(self.rows.row(place)));
         }
         let t = self.rows.next_time()?;
