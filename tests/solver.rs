@@ -66,6 +66,20 @@ fn a_row_has_the_same_bits_whichever_others_are_asked_for() {
 }
 
 #[test]
+fn short_rows_and_long_ones_hold_the_same() {
+    // short ones are turned from columns, the others are written number by number
+    let [few, many] = [20, 150].map(|n| compiled("some", &four_bars(n)));
+    let times = Times::grid(0.0, 2.0, 0.01).expect("a grid");
+    let place = |name: &String| many.columns().iter().position(|other| other == name).expect("the same names");
+    let places: Vec<usize> = few.columns().iter().map(place).collect();
+    for (k, (short, long)) in rows(&few, &times).iter().zip(rows(&many, &times)).enumerate() {
+        for (value, &place) in short.iter().zip(&places) {
+            assert_eq!(value.to_bits(), long[place].to_bits(), "row {k}, {}", many.columns()[place]);
+        }
+    }
+}
+
+#[test]
 fn every_case_is_solved_for_in_lanes() {
     let mut seen = 0;
     for path in files("tests/cases", "mech") {

@@ -3,18 +3,7 @@
 use super::{Column, Machine, Program, Register, Registers, truth};
 use crate::expr::{Binary, Comparison, Unary, binary_value, compare, unary_value};
 use crate::math;
-
-/// A value for each lane, by its number, in a loop where it stands: a closure may not become part of what is compiled for several kinds of
-/// processors, and then has no vector instructions.
-macro_rules! by_lane {
-    ($k:ident, $value:expr) => {{
-        let mut values = [0.0; P];
-        for ($k, value) in values.iter_mut().enumerate() {
-            *value = $value;
-        }
-        values
-    }};
-}
+use std::array::from_fn;
 
 /// The values of one register, a lane for each.
 #[derive(Clone, Copy, Debug)]
@@ -98,70 +87,70 @@ impl<const W: usize, const P: usize, const ALL: bool> Machine for LaneMachine<'_
 
     #[inline(always)]
     fn add(&mut self, a: [f64; P], b: [f64; P]) -> [f64; P] {
-        by_lane!(k, a[k] + b[k])
+        from_fn(|k| a[k] + b[k])
     }
 
     #[inline(always)]
     fn sub(&mut self, a: [f64; P], b: [f64; P]) -> [f64; P] {
-        by_lane!(k, a[k] - b[k])
+        from_fn(|k| a[k] - b[k])
     }
 
     #[inline(always)]
     fn mul(&mut self, a: [f64; P], b: [f64; P]) -> [f64; P] {
-        by_lane!(k, a[k] * b[k])
+        from_fn(|k| a[k] * b[k])
     }
 
     #[inline(always)]
     fn div(&mut self, a: [f64; P], b: [f64; P]) -> [f64; P] {
-        by_lane!(k, a[k] / b[k])
+        from_fn(|k| a[k] / b[k])
     }
 
     // in one go, so that no lane's product is put away
 
     #[inline(always)]
     fn mul_add(&mut self, a: [f64; P], b: [f64; P], c: [f64; P]) -> [f64; P] {
-        by_lane!(k, a[k] * b[k] + c[k])
+        from_fn(|k| a[k] * b[k] + c[k])
     }
 
     #[inline(always)]
     fn mul_less(&mut self, a: [f64; P], b: [f64; P], c: [f64; P]) -> [f64; P] {
-        by_lane!(k, a[k] * b[k] - c[k])
+        from_fn(|k| a[k] * b[k] - c[k])
     }
 
     #[inline(always)]
     fn less_mul(&mut self, a: [f64; P], b: [f64; P], c: [f64; P]) -> [f64; P] {
-        by_lane!(k, c[k] - a[k] * b[k])
+        from_fn(|k| c[k] - a[k] * b[k])
     }
 
     #[inline(always)]
     fn product_of_three(&mut self, a: [f64; P], b: [f64; P], c: [f64; P]) -> [f64; P] {
-        by_lane!(k, a[k] * b[k] * c[k])
+        from_fn(|k| a[k] * b[k] * c[k])
     }
 
     #[inline(always)]
     fn sum_of_products(&mut self, [a, b]: [[f64; P]; 2], [c, d]: [[f64; P]; 2]) -> [f64; P] {
-        by_lane!(k, a[k] * b[k] + c[k] * d[k])
+        from_fn(|k| a[k] * b[k] + c[k] * d[k])
     }
 
     #[inline(always)]
     fn difference_of_products(&mut self, [a, b]: [[f64; P]; 2], [c, d]: [[f64; P]; 2]) -> [f64; P] {
-        by_lane!(k, a[k] * b[k] - c[k] * d[k])
+        from_fn(|k| a[k] * b[k] - c[k] * d[k])
     }
 
     #[inline(always)]
     fn turn(&mut self, [sin, cos]: [[f64; P]; 2], half: [f64; P], delta: [f64; P]) -> [[f64; P]; 2] {
-        let to_sin = by_lane!(k, sin[k] + delta[k] * (cos[k] - half[k] * sin[k]));
-        [to_sin, by_lane!(k, cos[k] - delta[k] * (sin[k] + half[k] * cos[k]))]
+        let to_sin = from_fn(|k| sin[k] + delta[k] * (cos[k] - half[k] * sin[k]));
+        [to_sin, from_fn(|k| cos[k] - delta[k] * (sin[k] + half[k] * cos[k]))]
     }
 
     #[inline(always)]
     fn neg(&mut self, a: [f64; P]) -> [f64; P] {
-        by_lane!(k, -a[k])
+        a.map(|a| -a)
     }
 
     #[inline(always)]
     fn recip(&mut self, a: [f64; P]) -> [f64; P] {
-        by_lane!(k, 1.0 / a[k])
+        a.map(|a| 1.0 / a)
     }
 
     #[inline(always)]
@@ -191,51 +180,51 @@ impl<const W: usize, const P: usize, const ALL: bool> Machine for LaneMachine<'_
 
     #[inline(always)]
     fn unary(&mut self, function: Unary, a: [f64; P]) -> [f64; P] {
-        by_lane!(k, unary_value(function, a[k]))
+        a.map(|a| unary_value(function, a))
     }
 
     #[inline(always)]
     fn binary(&mut self, function: Binary, a: [f64; P], b: [f64; P]) -> [f64; P] {
-        by_lane!(k, binary_value(function, a[k], b[k]))
+        from_fn(|k| binary_value(function, a[k], b[k]))
     }
 
     #[inline(always)]
     fn compare(&mut self, comparison: Comparison, a: [f64; P], b: [f64; P]) -> [f64; P] {
-        by_lane!(k, compare(comparison, a[k], b[k]))
+        from_fn(|k| compare(comparison, a[k], b[k]))
     }
 
     #[inline(always)]
     fn and(&mut self, a: [f64; P], b: [f64; P]) -> [f64; P] {
-        by_lane!(k, truth::and(a[k], b[k]))
+        from_fn(|k| truth::and(a[k], b[k]))
     }
 
     #[inline(always)]
     fn or(&mut self, a: [f64; P], b: [f64; P]) -> [f64; P] {
-        by_lane!(k, truth::or(a[k], b[k]))
+        from_fn(|k| truth::or(a[k], b[k]))
     }
 
     #[inline(always)]
     fn not(&mut self, a: [f64; P]) -> [f64; P] {
-        by_lane!(k, truth::not(a[k]))
+        a.map(truth::not)
     }
 
     #[inline(always)]
     fn select(&mut self, condition: [f64; P], a: [f64; P], b: [f64; P]) -> [f64; P] {
-        by_lane!(k, truth::select(condition[k], a[k], b[k]))
+        from_fn(|k| truth::select(condition[k], a[k], b[k]))
     }
 
     #[inline(always)]
     fn either(&mut self, condition: [f64; P], a: [f64; P], b: [f64; P]) -> [f64; P] {
-        by_lane!(k, truth::either(condition[k], a[k], b[k]))
+        from_fn(|k| truth::either(condition[k], a[k], b[k]))
     }
 
     #[inline(always)]
     fn piece(&mut self, table: u32, a: [f64; P]) -> [f64; P] {
-        by_lane!(k, self.program.piece(table, a[k], self.scalars))
+        a.map(|a| self.program.piece(table, a, self.scalars))
     }
 
     #[inline(always)]
     fn pick(&mut self, table: u32, column: Column, piece: [f64; P]) -> [f64; P] {
-        by_lane!(k, self.program.pick(table, column, piece[k], self.scalars))
+        piece.map(|piece| self.program.pick(table, column, piece, self.scalars))
     }
 }

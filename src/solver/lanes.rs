@@ -443,11 +443,10 @@ impl<A: Around<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
                 Instruction::Column { to, column } => by_part!(part, machine.write(to, around.stored(column, part))),
                 Instruction::Store { column, a } => around.store(column, |part| {
                     machine.go_to(part);
-                    let mut values = machine.read(a);
-                    for (finite, value) in watched.finite.part_mut::<P>(part).iter_mut().zip(&mut values) {
-                        // −0 would surprise a reader
-                        *value += 0.0;
-                        *finite += 0.0 * *value;
+                    // −0 would surprise a reader
+                    let values = machine.read(a).map(|value| value + 0.0);
+                    for (finite, value) in watched.finite.part_mut::<P>(part).iter_mut().zip(values) {
+                        *finite += 0.0 * value;
                     }
                     values
                 }),
