@@ -190,7 +190,7 @@ fn beside_emitted() {
     let jansen = ["every 25 ms", "every 2 s / 359"];
     let both = [
         ("Andrews", emitted!(andrews, mechanisms::ANDREWS, andrews, ["rr=6.9 mm..7.1 mm", "dd=27.9 mm..28.1 mm"])),
-        ("Jansen", emitted!(jansen, mechanisms::JANSEN, jansen, ["lc=39 mm..39.6 mm", "lm=14.8 mm..15.2 mm"])),
+        ("Jansen", emitted!(jansen, mechanisms::JANSEN, jansen, ["lj=49.5 mm..50.5 mm", "lm=14.8 mm..15.2 mm"])),
     ];
     for (name, [scalar, times, variants]) in both {
         println!("  {name:<8} emitted                  {scalar:>6.0} ns");
