@@ -255,6 +255,9 @@ impl Leap {
 
     /// The lane with the row of an output time within the step, by its number; none if that does not hold.
     pub fn lane_of(&mut self, kinematics: &Kinematics, step: &Step, (times, next): (&Times, u64)) -> Option<usize> {
+        if let Some(lane) = self.ready_lane(next) {
+            return Some(lane);
+        }
         if next >= self.end {
             self.solve_batch(kinematics, step, (times, next));
         }
