@@ -20,5 +20,5 @@ mod step;
 
 pub use lead::{LeadOptions, Way, before_ways, lead, lead_again};
 pub use march::{Follower, Stretch};
-pub use rows::state_of_row;
+pub use rows::{Alone, state_of_row};
 pub use step::quintic_between;

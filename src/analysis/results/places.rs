@@ -1,19 +1,18 @@
 //! States within a stretch of the motion, solved for where they are asked for.
 
 use super::varying::Varying;
-use crate::analysis::follow::{Stretch, quintic_between, state_of_row};
+use crate::analysis::follow::{Alone, Stretch, quintic_between, state_of_row};
 use crate::analysis::state::{Kinematics, State};
 use crate::math::along;
 use crate::program::{Ranges, Register, Stage};
-use crate::solver::{Batch, Lanes, Solver};
+use crate::solver::{Batch, Solver};
 use crate::tolerances::results::places::{ITERATIONS, SOLVABLE};
 use std::sync::Arc;
 
 /// What solves for states between the ends of stretches.
 pub(super) struct Places {
     kinematics: Kinematics,
-    solver: Option<(Arc<Solver>, Lanes<1>)>,
-    row: Vec<f64>,
+    solver: Option<(Arc<Solver>, Alone)>,
     curve: Vec<[f64; 6]>,
     delta: Vec<f64>,
     /// By row of Φ, one over what may be left of it; of the stretch, once that has been asked for.
@@ -35,12 +34,10 @@ impl Places {
         let (program, values) = kinematics.program();
         let signals = Ranges::new(program, values, &registers, Stage::Time, true);
         let solver = solver.map(|solver| {
-            let lanes = Lanes::new(&solver, kinematics.vectors());
-            (solver, lanes)
+            let alone = Alone::new(&kinematics, &solver);
+            (solver, alone)
         });
-        let stride = solver.as_ref().map_or(0, |(solver, _)| solver.layout().stride);
         Places {
-            row: vec![0.0; stride],
             curve: vec![[0.0; 6]; n],
             delta: vec![0.0; n],
             bounds: vec![0.0; kinematics.system().rows().len()],
@@ -161,13 +158,12 @@ impl Places {
             self.kinematics.write_bounds(&mut self.bounds);
             self.has_bounds = true;
         }
-        let (solver, lanes) = self.solver.as_mut()?;
+        let (solver, alone) = self.solver.as_mut()?;
         let batch = Batch { times: [t], from: from.t, length: h, curve: &self.curve, bends: &[], bounds: &self.bounds };
-        let (program, registers) = self.kinematics.program();
-        let [holds] = lanes.run(solver, program, registers, &batch, &mut self.row);
+        let holds = alone.solve(&self.kinematics, solver, &batch);
         let layout = solver.layout();
-        let is_finite = layout.position(&self.row).iter().all(|x| x.is_finite());
-        (holds && is_finite).then(|| state_of_row(layout, &self.row, from, t))
+        let is_finite = layout.position(alone.row()).iter().all(|x| x.is_finite());
+        (holds && is_finite).then(|| state_of_row(layout, alone.row(), from, t))
     }
 
     /// Newton from a position; none where it does not arrive, or is nearer to a singular position than a limit.

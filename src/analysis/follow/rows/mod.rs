@@ -10,6 +10,7 @@ use super::edges::Edge;
 use super::remarks::Remarks;
 use crate::analysis::state::{Kinematics, State, Times, Trust, shortly_after};
 use crate::tolerances::steps::march::{CRUMB, MOST_STEPS};
+pub use alone::Alone;
 pub use forces::ForceWatch;
 pub use leap::{Leap, state_of_row};
 use missing::Missing;
