@@ -32,6 +32,9 @@
 // what only the command line, tests of rooms and later rooms ask for
 #![cfg_attr(not(all(feature = "rooms", feature = "cli")), allow(dead_code, unused_imports))]
 
+// what pest generates without its `std` asks for it
+extern crate alloc;
+
 mod analysis;
 mod cancel;
 mod check;

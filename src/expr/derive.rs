@@ -5,7 +5,7 @@
 
 use super::vary::VariedTables;
 use super::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, Unary};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 /// A sum of numbers is what rounding leaves of them where it is no more than this part of the larger.
 const CANCELLED: f64 = 4.0 * f64::EPSILON;
@@ -30,8 +30,9 @@ impl Graph {
         direction: &mut impl FnMut(&mut Graph, Symbol) -> Option<ExprId>,
         varied: &mut Option<VariedTables>,
     ) -> Vec<ExprId> {
-        let mut known: FxHashMap<ExprId, ExprId> = FxHashMap::default();
-        for id in self.reachable(roots) {
+        let reachable = self.reachable(roots);
+        let mut known: FxHashMap<ExprId, ExprId> = FxHashMap::with_capacity_and_hasher(reachable.len(), FxBuildHasher);
+        for id in reachable {
             let node = self.node(id);
             let derivative = match node {
                 Node::Symbol(symbol) => direction(self, symbol),

@@ -20,7 +20,8 @@ pub use print::{Printer, number};
 pub use table::{Table, TableId, piece};
 pub use vary::VARIED_TABLE;
 
-use rustc_hash::FxHashMap;
+use indexmap::IndexSet;
+use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
 
 /// A node of a [`Graph`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -287,12 +288,15 @@ impl Dependence {
     }
 }
 
+/// Where a graph has more nodes than this for each root, few of them are likely to be needed.
+const SPARSE: usize = 64;
+
 /// An arena of formulas.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
-    nodes: Vec<Node>,
+    /// Each once, by its number.
+    nodes: IndexSet<Node, FxBuildHasher>,
     dependence: Vec<Dependence>,
-    ids: FxHashMap<Node, ExprId>,
     tables: Vec<Table>,
 }
 
@@ -344,7 +348,8 @@ impl Graph {
     /// The node of a function of one argument, if the graph has it.
     #[must_use]
     pub fn find_unary(&self, function: Unary, argument: ExprId) -> Option<ExprId> {
-        self.ids.get(&Node::Unary(function, argument)).copied()
+        let known = self.nodes.get_index_of(&Node::Unary(function, argument));
+        known.map(|index| ExprId(index as u32))
     }
 
     /// As [`Graph::reachable`], with all that the tables among them are made of.
@@ -371,7 +376,30 @@ impl Graph {
     /// Every node that the roots are built of, children before parents.
     #[must_use]
     pub fn reachable(&self, roots: &[ExprId]) -> Vec<ExprId> {
-        let mut seen = rustc_hash::FxHashSet::default();
+        let last = roots.iter().max().map_or(0, |id| id.index() + 1);
+        if last / SPARSE <= roots.len() { self.reachable_of_many(roots, last) } else { self.reachable_of_few(roots) }
+    }
+
+    /// Of roots that need much of the graph: all nodes are gone through, parents before children.
+    fn reachable_of_many(&self, roots: &[ExprId], last: usize) -> Vec<ExprId> {
+        let mut is_needed = vec![false; last];
+        for root in roots {
+            is_needed[root.index()] = true;
+        }
+        for k in (0..last).rev() {
+            if !is_needed[k] {
+                continue;
+            }
+            for child in self.nodes[k].children().as_slice() {
+                is_needed[child.index()] = true;
+            }
+        }
+        (0..last).filter(|&k| is_needed[k]).map(|k| ExprId(k as u32)).collect()
+    }
+
+    /// Of roots that need little of it.
+    fn reachable_of_few(&self, roots: &[ExprId]) -> Vec<ExprId> {
+        let mut seen = FxHashSet::default();
         let mut open: Vec<ExprId> = roots.to_vec();
         while let Some(id) = open.pop() {
             if seen.insert(id) {
@@ -483,19 +511,16 @@ impl Graph {
     }
 
     fn intern(&mut self, node: Node) -> ExprId {
-        if let Some(&id) = self.ids.get(&node) {
-            return id;
+        let (index, is_new) = self.nodes.insert_full(node);
+        if is_new {
+            let own = match node {
+                Node::Symbol(symbol) => Dependence::of(symbol),
+                Node::Table(table, ..) => self.tables[table.index()].dependence,
+                _ => Dependence::default(),
+            };
+            let children = node.children();
+            self.dependence.push(children.as_slice().iter().fold(own, |all, &child| all.or(self.dependence(child))));
         }
-        let id = ExprId(self.nodes.len() as u32);
-        let own = match node {
-            Node::Symbol(symbol) => Dependence::of(symbol),
-            Node::Table(table, ..) => self.tables[table.index()].dependence,
-            _ => Dependence::default(),
-        };
-        let dependence = node.children().as_slice().iter().fold(own, |all, &child| all.or(self.dependence(child)));
-        self.nodes.push(node);
-        self.dependence.push(dependence);
-        self.ids.insert(node, id);
-        id
+        ExprId(index as u32)
     }
 }

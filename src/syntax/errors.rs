@@ -404,7 +404,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::kw_circle
         | Rule::kw_curve
         | Rule::kw_mass => "a point, axis, circle, curve or mass",
-        Rule::name | Rule::use_prefix | Rule::name_text | Rule::word | Rule::ground_word => "a name",
+        Rule::name | Rule::use_prefix | Rule::word | Rule::ground_word => "a name",
         Rule::expression_only
         | Rule::expr
         | Rule::conditional
@@ -415,7 +415,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::prefix
         | Rule::kw_if
         | Rule::kw_not => "a formula",
-        Rule::infix | Rule::kw_and | Rule::kw_or => "an operator",
+        Rule::infix => "an operator",
         Rule::paren | Rule::left => "`(`",
         Rule::equals => "`=`",
         Rule::colon => "`:`",

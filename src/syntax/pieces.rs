@@ -14,9 +14,9 @@ use crate::vocabulary::is_declaration;
 use std::ops::Range;
 
 /// A piece is no smaller than this, in bytes.
-const PIECE: usize = 1 << 15;
+const PIECE: usize = 1 << 13;
 /// Nor is a text of so few of them read in pieces.
-const FEWEST: usize = 4;
+const FEWEST: usize = 16;
 /// So many threads read as fast as memory gives what they need.
 const MOST_JOBS: usize = 4;
 
