@@ -127,7 +127,8 @@ impl Counter<'_> {
         if let Some(known) = self.totals.get(&key) {
             return *known;
         }
-        let total = instance.tree().items.iter().map(|item| self.of_item(item, instance)).sum();
+        let mut of_items = instance.tree().items.iter().map(|item| self.of_item(item, instance));
+        let total = of_items.try_fold(0_i64, |sum, own| Some(sum.saturating_add(own?)));
         self.totals.insert(key, total);
         total
     }
@@ -137,7 +138,7 @@ impl Counter<'_> {
         for item in &instance.tree().items {
             let own = self.of_item(item, instance);
             let (sum, copies) = all.entry(item.span).or_insert((Some(0), 0));
-            *sum = sum.zip(own).map(|(sum, own)| sum + own);
+            *sum = sum.zip(own).map(|(sum, own)| sum.saturating_add(own));
             *copies += 1;
         }
         all

@@ -17,6 +17,9 @@ use std::rc::Rc;
 /// Declarations that a mechanism may have, written out, with those of its parts.
 pub(super) const MOST: usize = 1_000_000;
 
+/// Indices that a declaration may have: all of them stand in the names of its copies.
+const MOST_INDICES: usize = 16;
+
 /// How far a number may be from a whole one: rounding.
 const WHOLE: f64 = 1e-9;
 
@@ -166,6 +169,10 @@ impl<'t, 'c> Writer<'t, 'c> {
     /// be told.
     fn copies(&mut self, item: &'t Item) -> Option<Vec<Numbers<'t>>> {
         let mut copies: Vec<Numbers<'t>> = vec![Vec::new()];
+        if let Some(range) = item.ranges.get(MOST_INDICES) {
+            self.tell(errors::too_many_indices(range.index.span, MOST_INDICES));
+            return None;
+        }
         for range in &item.ranges {
             if !self.is_free(range, &item.ranges) {
                 return None;
@@ -223,7 +230,7 @@ impl<'t, 'c> Writer<'t, 'c> {
             }
         };
         let whole = value.round();
-        if (value - whole).abs() > WHOLE || whole.abs() > 1e15 {
+        if !value.is_finite() || (value - whole).abs() > WHOLE || whole.abs() > 1e15 {
             self.tell(errors::not_whole(place, e.span, value, numbers));
             return Err(Unwritten);
         }

@@ -65,7 +65,9 @@ fn unit_named(text: &str) -> Option<CompoundUnit> {
         let end = rest.find(['*', '/']).unwrap_or(rest.len());
         let (name, power) = match rest[..end].split_once('^') {
             None => (rest[..end].trim(), 1),
-            Some((name, power)) => (name.trim(), power.trim().parse().ok().filter(|power: &i32| power.abs() < 10)?),
+            Some((name, power)) => {
+                (name.trim(), power.trim().parse().ok().filter(|power: &i32| (-9..=9).contains(power))?)
+            }
         };
         units.push((Unit::named(name)?, sign * power));
         if end == rest.len() {

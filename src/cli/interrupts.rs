@@ -46,12 +46,19 @@ pub(super) fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
 pub(super) fn watch() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     let wanted = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
-    if let Ok(mut signals) = signal_hook::iterator::Signals::new(wanted) {
-        let wait = move || signals.forever().filter(|signal| !end(*signal)).for_each(abandon);
-        // without the thread a signal would do nothing at all
-        if std::thread::Builder::new().name("interrupts".to_owned()).spawn(wait).is_err() {
-            process::abort();
+    let (is_watching, watches) = std::sync::mpsc::channel();
+    let wait = move || {
+        let signals = signal_hook::iterator::Signals::new(wanted);
+        // nobody waits for what cannot be sent
+        let _ = is_watching.send(());
+        if let Ok(mut signals) = signals {
+            signals.forever().filter(|signal| !end(*signal)).for_each(abandon);
         }
+    };
+    // where the system gives no thread, signals do what they do to any process: a signal that is caught and not seen to would do nothing
+    if std::thread::Builder::new().name("interrupts".to_owned()).spawn(wait).is_ok() {
+        // an error says that it ended, and with it what it watched
+        let _ = watches.recv();
     }
 }
 

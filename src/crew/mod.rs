@@ -48,7 +48,7 @@ impl<T: Send + 'static> Crew<T> {
     pub fn new(jobs: usize, pieces: Range<u64>, work: impl Fn(u64) -> Option<T> + Send + Sync + 'static) -> Crew<T> {
         let work: Arc<Work<T>> = Arc::new(work);
         #[cfg(feature = "threads")]
-        let hands = (jobs > 1).then(|| Hands::new(jobs, &pieces, &work));
+        let hands = (jobs > 1).then(|| Hands::new(jobs, &pieces, &work)).filter(|hands| !hands.threads.is_empty());
         #[cfg(not(feature = "threads"))]
         let _ = jobs;
         Crew {
@@ -116,9 +116,10 @@ impl<T: Send + 'static> Hands<T> {
         let shared = Arc::new(Shared { state: Mutex::new(state), done: Condvar::new(), handed_out: Condvar::new() });
         let start = |_| {
             let (shared, work) = (Arc::clone(&shared), Arc::clone(work));
-            thread::spawn(move || shared.work(&*work))
+            // a system that gives fewer threads has the same done by fewer
+            thread::Builder::new().spawn(move || shared.work(&*work)).ok()
         };
-        Hands { threads: (0..jobs).map(start).collect(), shared }
+        Hands { threads: (0..jobs).map_while(start).collect(), shared }
     }
 }
 

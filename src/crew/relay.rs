@@ -37,7 +37,7 @@ impl<P: Send + 'static, T: Send + 'static> Relay<P, T> {
         let _ = jobs;
         Relay {
             #[cfg(feature = "threads")]
-            hands: (0..jobs).filter(|_| jobs > 1).map(|_| Hand::new(&work)).collect(),
+            hands: (0..jobs).filter(|_| jobs > 1).map_while(|_| Hand::new(&work)).collect(),
             work,
             #[cfg(feature = "threads")]
             given: 0,
@@ -111,16 +111,17 @@ struct Hand<P, T> {
 
 #[cfg(feature = "threads")]
 impl<P: Send + 'static, T: Send + 'static> Hand<P, T> {
-    fn new(work: &Arc<Work<P, T>>) -> Hand<P, T> {
+    /// One more, if the system gives it.
+    fn new(work: &Arc<Work<P, T>>) -> Option<Hand<P, T>> {
         let ((pieces, given), (ready, made)) = (channel(), channel());
         let work = Arc::clone(work);
-        let thread = thread::spawn(move || {
+        let thread = thread::Builder::new().spawn(move || {
             for piece in given {
                 // nobody waits for what cannot be sent
                 let _ = ready.send(work(piece));
             }
         });
-        Hand { pieces, made, thread }
+        Some(Hand { pieces, made, thread: thread.ok()? })
     }
 
     /// Whether it takes a piece.

@@ -15,10 +15,14 @@ pub fn in_shares<T: Send>(jobs: usize, count: usize, work: impl Fn(Range<usize>)
     #[cfg(feature = "threads")]
     let made = thread::scope(|scope| {
         let work = &work;
-        let others: Vec<_> = (1..jobs).map(|job| scope.spawn(move || work(share(job)))).collect();
+        let start = |job| thread::Builder::new().spawn_scoped(scope, move || work(share(job)));
+        let others: Vec<_> = (1..jobs).map(start).collect();
         let first = work(share(0));
-        let others =
-            others.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        let others = others.into_iter().zip(1..).map(|(thread, job)| match thread {
+            Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+            // the system gives no more of them
+            Err(_) => work(share(job)),
+        });
         std::iter::once(first).chain(others).collect()
     });
     #[cfg(not(feature = "threads"))]

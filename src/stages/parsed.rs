@@ -1,8 +1,8 @@
 //! The first stage: a text with its tree.
 
 use crate::diag::{Diagnostics, Edit};
-use crate::source::{FileId, Sources, Span};
-use crate::syntax::{self, Trivia, ast, format};
+use crate::source::{FileId, Source, Sources, Span};
+use crate::syntax::{self, ParsedText, Trivia, ast, format};
 use crate::world::{self, World};
 use std::path::Path;
 use std::sync::Arc;
@@ -47,7 +47,7 @@ impl Parsed {
     /// Reads one of some texts; the files that it names are beside a path.
     #[must_use]
     pub fn of_source(sources: Sources, file: FileId, path: &Path) -> Parsed {
-        let read = Arc::new(syntax::parse(&sources, file));
+        let read = Arc::new(unless_too_large(&sources, file, || syntax::parse(&sources, file)));
         Parsed { sources, file, path: path.into(), read }
     }
 
@@ -58,7 +58,8 @@ impl Parsed {
         let own = self.sources.get(self.file);
         let mut sources = Sources::default();
         let file = sources.add(&own.name, text);
-        let read = Arc::new(syntax::reread(&self.read, &own.text, &sources, file));
+        let reread = || syntax::reread(&self.read, &own.text, &sources, file);
+        let read = Arc::new(unless_too_large(&sources, file, reread));
         Parsed { sources, file, path: Arc::clone(&self.path), read }
     }
 
@@ -149,4 +150,15 @@ impl Parsed {
     pub(super) fn with_sources(&self, sources: Sources) -> Parsed {
         Parsed { sources, ..self.clone() }
     }
+}
+
+/// What is read of a text, unless places in it could not be told.
+fn unless_too_large(sources: &Sources, file: FileId, read: impl FnOnce() -> ParsedText) -> ParsedText {
+    let Source { name, text, .. } = sources.get(file);
+    if text.len() <= world::LARGEST {
+        return read();
+    }
+    let fault = world::cannot_read(name, &world::too_large());
+    let tree = ast::File { uses: Vec::new(), mechanisms: Vec::new() };
+    ParsedText { tree, trivia: Trivia::default(), faults: fault.into() }
 }

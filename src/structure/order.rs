@@ -170,7 +170,9 @@ pub fn order_of_solution(determined: &Determined) -> String {
         equations.dedup();
         let equations: Vec<&str> = equations.into_iter().map(|k| system.declarations()[k].name.as_str()).collect();
         let how = if step.together && *count > 1 { "together, from" } else { "from" };
-        text += &format!("  {head:<width$}  {how} {}\n", equations.join(", "));
+        // a width that is formatted ends at 65,535
+        let gap = " ".repeat(width - head.chars().count());
+        text += &format!("  {head}{gap}  {how} {}\n", equations.join(", "));
     }
     if steps.len() > LONGEST {
         text += &format!("  … {} more\n", steps.len() - LONGEST);

@@ -92,7 +92,11 @@ pub fn evenly([first, last]: [f64; 2], index: u64, count: u64) -> f64 {
     match index {
         0 => first,
         _ if index + 1 == count => last,
-        _ => rounded((first * (steps - k) + last * k) / steps),
+        _ => {
+            let value = (first * (steps - k) + last * k) / steps;
+            // ends so large that a sum of them is no number
+            rounded(if value.is_finite() { value } else { first * ((steps - k) / steps) + last * (k / steps) })
+        }
     }
 }
 
@@ -110,7 +114,9 @@ fn unit(bits: u64) -> f64 {
 /// What lies at a part of the way. Within the ends, whatever rounding does.
 fn between(from: f64, to: f64, part: f64) -> f64 {
     let (least, most) = if from <= to { (from, to) } else { (to, from) };
-    (from + (to - from) * part).clamp(least, most)
+    let way = to - from;
+    let value = if way.is_finite() { from + way * part } else { from * (1.0 - part) + to * part };
+    value.clamp(least, most)
 }
 
 impl Varying {

@@ -100,7 +100,7 @@ pub(super) fn unit_power(reader: &Reader<'_>, pair: &Pair<'_, Rule>) -> Built<i3
     // comments may stand between
     let digits: String =
         tokens(pair.as_str()).into_iter().map(|token| token.text).filter(|&text| text != "^").collect();
-    let whole: Option<i32> = digits.parse().ok().filter(|p: &i32| p.abs() <= 100);
+    let whole: Option<i32> = digits.parse().ok().filter(|p: &i32| (-100..=100).contains(p));
     whole.ok_or_else(|| {
         let (message, label) = ("the power of a unit is between -100 and 100", "too large");
         Box::new(errors::misplaced(reader.span(pair), message, label))

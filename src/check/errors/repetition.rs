@@ -73,6 +73,10 @@ pub fn index_is_taken(name: &Name) -> Diagnostic {
         .help("choose a name that nothing else has: `i`, `j`, `k`")
 }
 
+pub fn too_many_indices(span: Span, most: usize) -> Diagnostic {
+    Diagnostic::new(Code::E0208, format!("a declaration has {most} indices at the most")).at(span, "one more")
+}
+
 pub fn too_many_declarations(span: Span, most: usize, label: &str) -> Diagnostic {
     Diagnostic::new(Code::E0208, format!("written out, the mechanism has more than {most} declarations"))
         .at(span, label)

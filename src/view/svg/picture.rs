@@ -26,6 +26,8 @@ const MILLIMETERS: f64 = 25.4 / 96.0;
 /// Decimals of pixels, and of degrees.
 pub(super) const PIXELS: usize = 2;
 pub(super) const DEGREES: usize = 3;
+/// As many of degrees as a number can tell.
+const DIGITS: usize = 17;
 /// Decimals of pixels where paper is cut: 1e-4 px are 0.03 µm.
 const PIXELS_TO_CUT: usize = 4;
 
@@ -59,7 +61,8 @@ fn degrees_to_cut([width, height]: [f64; 2]) -> usize {
     for _ in 0..DEGREES {
         off *= 0.1;
     }
-    while off > 1e-4 {
+    // what is farther away than a number tells of degrees, turns as it may
+    while off > 1e-4 && decimals < DIGITS {
         off *= 0.1;
         decimals += 1;
     }

@@ -12,6 +12,10 @@ use crate::tolerances::solving::rows::{ENOUGH, LANES, REFINED, SAME_TIME, SHORT}
 use crate::tolerances::solving::rows::{MOST_THREADS, WORTH_A_THREAD};
 use crate::tolerances::steps::march::LARGEST_CORRECTION;
 use std::sync::Arc;
+#[cfg(feature = "threads")]
+use std::sync::{Mutex, PoisonError};
+#[cfg(feature = "threads")]
+use std::thread::Builder;
 
 /// Rows within a step, a few at a time.
 pub struct Leap {
@@ -315,11 +319,17 @@ impl Leap {
         let all = lanes.iter_mut().zip(rows).zip(holds).enumerate().take(parts);
         #[cfg(feature = "threads")]
         if parts > 1 {
-            let solve = &solve;
-            std::thread::scope(|scope| {
-                for (part, ((lanes, values), holds)) in all {
-                    scope.spawn(move || solve(part, lanes, values, holds));
+            let left = Mutex::new(all);
+            let next = || left.lock().unwrap_or_else(PoisonError::into_inner).next();
+            let work = || {
+                while let Some((part, ((lanes, values), holds))) = next() {
+                    solve(part, lanes, values, holds);
                 }
+            };
+            std::thread::scope(|scope| {
+                // where the system gives fewer threads, these do all
+                let _others: Vec<_> = (1..parts).map(|_| Builder::new().spawn_scoped(scope, work)).collect();
+                work();
             });
             return;
         }
