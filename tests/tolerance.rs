@@ -388,6 +388,10 @@ fn an_extremum_at_an_edge_has_a_derivative_where_the_edge_stays() {
             ("max(if t < p then t else 0)", None),
             ("max(if t < 0.5 then 0 else p * (1 - t))", Some(0.5)),
             ("max(if t < 0.5 then p * t else 0)", Some(0.5)),
+            // also where nothing but the condition holds p
+            ("min(if t < p then -t else t)", None),
+            ("min(if x(arm.tip) < p * 1 m then -x(arm.tip) else x(arm.tip))", None),
+            ("argmin(if x(arm.tip) < p * 1 m then -x(arm.tip) else x(arm.tip))", None),
             // elsewhere they do not matter
             ("max(abs(t - p))", Some(-1.0)),
             ("max(if t < p then -1 else -(t - 0.7)^2 + p * t^2)", Some((0.7_f64 / 0.6).min(1.0).powi(2))),
@@ -455,6 +459,62 @@ fn what_needs_too_many_derivatives_has_none() {
     assert_eq!((affected[0].slopes[0], affected[1].slopes[0]), (None, None));
     near(affected[2].slopes[0].expect("a derivative"), TAU * TAU);
     assert_eq!(affected[0].deviation(&[], false), None, "a sum of what is not known");
+}
+
+/// Where nothing is in the way, peaks and means of forces have derivatives, and so have peaks of accelerations that are short beside the analysis.
+#[test]
+fn peaks_of_forces_and_accelerations_have_derivatives() {
+    let text = "mechanism driven {
+        param a = 30 mm
+        ground { point A = (0, 0) point D = (100 mm, 0) point S = (50 mm, 90 mm) }
+        body crank at (0, 0, 60 deg) { point A = (0, 0) point B = (a, 0) mass 0.3 kg at (a / 2, 0) inertia 1e-4 kg * m^2 }
+        body coupler at (15 mm, 26 mm, 20 deg) {
+            point B = (0, 0) point C = (90 mm, 0) point P = (40 mm, 30 mm)
+            mass 0.5 kg at (40 mm, 10 mm) inertia 5e-4 kg * m^2
+        }
+        body rocker at (100 mm, 0, 110 deg) { point D = (0, 0) point C = (60 mm, 0) mass 0.2 kg at (30 mm, 0) inertia 1e-4 kg * m^2 }
+        joint ja: revolute(ground.A, crank.A)
+        joint jb: revolute(crank.B, coupler.B)
+        joint jc: revolute(coupler.C, rocker.C)
+        joint jd: revolute(ground.D, rocker.D)
+        driver motor: rotation(ja) = 60 deg + 60 rpm * t
+        gravity (0, -9.81 m/s^2)
+        load spring: -200 N/m * (distance(coupler.P, ground.S) - 30 mm) on distance(coupler.P, ground.S)
+        measure torque = effort(motor)
+        result peak = max(torque)
+        result most = max(abs(torque))
+        result side = max(abs(force_x(ja)))
+        result whole = max(hypot(force_x(ja), force_y(ja)))
+        result middle = mean(force_x(ja))
+        result fastest = max(der(der(y(coupler.P))))
+        analysis from 0 s to 1 s every 0.01 s
+    }";
+    assert_eq!(compare(&subject(text, &[]), &["a=0.1mm"]), (7, 7), "the torque itself, and six results");
+    let claw = std::fs::read_to_string("examples/film_claw.mech").expect("an example");
+    let asked =
+        ["up = max(der(der(y(claw.P))))", "down = min(der(der(y(claw.P))))", "along = max(der(der(x(claw.P))))"];
+    let (_, affected) = subject(&claw, &asked).affected(&["C.y=0.1mm"]);
+    let slopes: Vec<f64> = affected.iter().rev().take(3).filter_map(|of| of.slopes[0]).collect();
+    // by differences of 1 um and of 0.1 um
+    for (found, wanted) in slopes.iter().rev().zip([2509.7, 1345.1, -11058.0]) {
+        assert!((found - wanted).abs() < 1e-4 * wanted.abs(), "{found} instead of {wanted}");
+    }
+    assert_eq!(slopes.len(), 3);
+}
+
+/// What cannot go with a param makes nothing jump, whatever stands in it.
+#[test]
+fn a_jump_that_stays_leaves_the_mean_of_a_force_its_derivative() {
+    let text = std::fs::read_to_string("examples/compressor.mech").expect("an example");
+    let subject = subject(&text, &[]);
+    let (_, affected) = subject.affected(&["rod_length=0.1mm"]);
+    let by = |name: &str| affected.iter().find(|of| of.name == name).expect("a result").slopes[0];
+    assert!(by("mean_torque").is_some_and(|slope| slope.abs() < 1e-9), "the work of a turn stays");
+    assert!(by("swing").is_some() && by("variation").is_some());
+    // where the valve opens
+    assert_eq!(by("peak"), None);
+    let (_, known) = compare(&subject, &["rod_length=0.1mm"]);
+    assert!(known >= 5, "{known}");
 }
 
 /// A force that jumps where a load does.

@@ -28,6 +28,8 @@ pub struct Outcome {
     pub value: ExprId,
     /// In what it is told.
     pub units: Units,
+    /// Whether a condition over what is not known does not hold: elsewhere such a result is not known.
+    pub unknown_is_false: bool,
 }
 
 /// What becomes of a formula over the whole analysis.

@@ -340,7 +340,7 @@ mod tests {
         let said = broken(|s| {
             let value = named(s);
             let units = s.measures[0].units.clone();
-            let outcome = Outcome { name: String::new(), span: s.span, value, units };
+            let outcome = Outcome { name: String::new(), span: s.span, value, units, unknown_is_false: false };
             s.results.outcomes.push(outcome);
         });
         assert_eq!(said, "Named(7) in results is of nothing");

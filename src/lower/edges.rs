@@ -14,14 +14,18 @@ enum Break {
 }
 
 impl Lowering<'_> {
-    /// Whether a formula may jump where that goes with a variable.
-    pub(super) fn may_jump_elsewhere(&mut self, formula: ExprId, variable: u32) -> bool {
-        self.goes(&[formula], Break::Jump, variable) || self.decides(formula, 2, variable)
+    /// How what a formula may jump at goes with a variable, each of it by its derivative; none where nothing goes.
+    pub(super) fn jumping_elsewhere(&mut self, formula: ExprId, variable: u32) -> Vec<ExprId> {
+        let mut going = self.going(&[formula], Break::Jump, variable);
+        going.extend(self.going_in_equations(formula, Break::Jump, variable));
+        going
     }
 
-    /// Whether a formula may jump, or its rate, where that goes with a variable.
-    pub(super) fn may_bend_elsewhere(&mut self, formula: ExprId, variable: u32) -> bool {
-        self.goes(&[formula], Break::Bend, variable) || self.decides(formula, 1, variable)
+    /// The same of what it may jump at, or its rate.
+    pub(super) fn bending_elsewhere(&mut self, formula: ExprId, variable: u32) -> Vec<ExprId> {
+        let mut going = self.going(&[formula], Break::Bend, variable);
+        going.extend(self.going_in_equations(formula, Break::Bend, variable));
+        going
     }
 
     /// Whether a formula of results may jump, or bend, where these decide.
@@ -31,9 +35,10 @@ impl Lowering<'_> {
             .any(|of| self.graph.dependence(of).on(Dependence::NAMED))
     }
 
-    /// Whether edges of what decides about derivatives of this order, and about forces, go with a variable. Places and velocities do not jump,
+    /// How edges of what decides about derivatives of this order, and about forces, go with a variable. Places and velocities do not jump,
     /// whatever equations do.
-    fn decides(&mut self, formula: ExprId, order: u8, variable: u32) -> bool {
+    fn going_in_equations(&mut self, formula: ExprId, what: Break, variable: u32) -> Vec<ExprId> {
+        let order = if what == Break::Jump { 2 } else { 1 };
         let dependence = self.graph.dependence(formula);
         let holds_forces = dependence.on(Dependence::FORCES);
         let highest = dependence.highest_order().max(dependence.highest_varied_order());
@@ -41,31 +46,37 @@ impl Lowering<'_> {
         if holds_forces || highest >= Some(order) {
             roots.extend(self.rows.iter().map(|row| row.phi));
         }
+        let mut going = self.going(&roots, Break::Bend, variable);
         if holds_forces {
             let loads: Vec<ExprId> = self.model.loads.iter().map(|load| load.force).collect();
-            roots.extend(loads.into_iter().map(|force| self.formula(force)));
+            let loads: Vec<ExprId> = loads.into_iter().map(|force| self.formula(force)).collect();
+            going.extend(self.going(&loads, what, variable));
         }
-        self.goes(&roots, Break::Bend, variable)
+        going
     }
 
-    /// Whether what breaks formulas goes with a variable.
-    fn goes(&mut self, roots: &[ExprId], what: Break, variable: u32) -> bool {
+    /// How what breaks formulas goes with a variable: the derivatives of that.
+    fn going(&mut self, roots: &[ExprId], what: Break, variable: u32) -> Vec<ExprId> {
         let mut operands = deciding(&mut self.graph, roots, what);
         operands.sort_unstable();
         operands.dedup();
         let (moves, symbol) = (self.moves_anything(variable), self.model.variables[variable as usize].symbol);
         // what parameters alone decide does not change on the way
         operands.retain(|&of| !self.graph.dependence(of).is_constant());
-        operands.into_iter().any(|of| {
-            // how reductions go is not looked at here
-            self.graph.dependence(of).on(Dependence::NAMED)
-                || if moves {
-                    let by = self.derivative_by(of, variable);
-                    !self.graph.is_zero(by)
-                } else {
-                    self.graph.symbols(of).contains(&symbol)
-                }
-        })
+        let by = operands.into_iter().map(|of| {
+            // how reductions go is not looked at here, nor how a parameter that moves nothing goes into a formula
+            let is_untold = self.graph.dependence(of).on(Dependence::NAMED);
+            match moves {
+                _ if is_untold => self.graph.constant(1.0),
+                true => self.derivative_by(of, variable),
+                false => self.graph.constant(f64::from(u8::from(self.graph.symbols(of).contains(&symbol)))),
+            }
+        });
+        let mut going: Vec<ExprId> = by.collect();
+        going.retain(|by| !self.graph.is_zero(*by));
+        going.sort_unstable();
+        going.dedup();
+        going
     }
 
     /// Whether the motion goes with a variable at all: masses and loads do not move it.

@@ -21,6 +21,7 @@ impl Lowering<'_> {
             span: outcome.declared.span,
             value: self.formula(outcome.value),
             units: units(&outcome.units),
+            unknown_is_false: false,
         });
         let mut outcomes: Vec<Outcome> = outcomes.collect();
         if let Some(ends) = model.slopes {

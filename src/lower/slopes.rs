@@ -13,7 +13,7 @@ use crate::expr::{Binary, Comparison, ExprId, Graph, Symbol, Unary};
 use crate::ir::{Outcome, Reduction, ReductionKind, Units};
 use crate::model::{Dimension, Variable, quotient};
 use crate::tolerances::results::slopes::{
-    ALONE, DIGITS, FLAT, LAST_DIGITS, LEAST_STEP, LEFT_OF_HALF, MOVED, NOTHING, SAME,
+    ALONE, BESIDE, DIGITS, FLAT, LAST_DIGITS, LEAST_STEP, LEFT_OF_HALF, MOVED, NOTHING, SAME,
 };
 use rustc_hash::FxHashMap;
 
@@ -56,7 +56,13 @@ impl Slopes<'_, '_> {
         let Units { si, printed, scale } = &outcome.units;
         let units =
             Units { si: quotient(si, &unit), printed: printed.clone().map(|of| quotient(&of, &unit)), scale: *scale };
-        Outcome { name: format!("der({}, {by})", outcome.name), span: outcome.span, value, units }
+        Outcome {
+            name: format!("der({}, {by})", outcome.name),
+            span: outcome.span,
+            value,
+            units,
+            unknown_is_false: true,
+        }
     }
 
     /// How a formula changes with the variable at fixed time, through all reductions in it too.
@@ -199,12 +205,16 @@ impl Slopes<'_, '_> {
     /// that no two times have, `∫ d(w e)/dt dt` lacks the jumps of `w e` from end to end.
     fn where_it_does_not_jump(&mut self, k: u32, slope: ExprId) -> Option<ExprId> {
         let Reduced { value, holds } = self.formulas[k as usize];
-        if !self.lowering.may_jump_elsewhere(value, self.variable) {
+        let going = self.lowering.jumping_elsewhere(value, self.variable);
+        if going.is_empty() {
             return Some(slope);
         }
         let (of, weight) = (self.reductions[k as usize].of, self.weight());
         let weighed = self.lowering.graph.mul(weight, value);
-        let rate = self.lowering.along_the_motion(weighed)?;
+        let Some(rate) = self.lowering.along_the_motion(weighed) else {
+            let (rests, nothing) = (self.rests(&going), self.no_value());
+            return Some(self.lowering.graph.select(rests, slope, nothing));
+        };
         let inside = self.reduce(ReductionKind::Integral, rate, holds);
         let [from, to] = ENDS.map(|end| self.reduce(end, weighed, holds));
         let graph = &mut self.lowering.graph;
@@ -229,7 +239,8 @@ impl Slopes<'_, '_> {
         let Reduced { value, holds } = self.formulas[k as usize];
         let by = self.partial(value)?;
         let rate = self.lowering.along_the_motion(value);
-        let bends = self.lowering.may_bend_elsewhere(value, self.variable);
+        let going = self.lowering.bending_elsewhere(value, self.variable);
+        let bends = !going.is_empty();
         let ends = self.of_ends();
         let stays = ends.iter().all(|(_, goes)| self.is_zero(*goes));
         if self.is_zero(by) && stays && !bends {
@@ -241,8 +252,14 @@ impl Slopes<'_, '_> {
         let inside = if when { self.of_time_within(at, (value, holds), by)? } else { self.reduce(at, by, holds) };
         let mut slope = inside;
         if when || bends {
-            let rate = rate.map(|rate| self.reduce(at, rate, holds))?;
-            slope = self.where_flat((of, rate), inside);
+            slope = match rate {
+                Some(rate) => {
+                    let rate = self.reduce(at, rate, holds);
+                    self.where_flat((of, rate), inside)
+                }
+                None if when => return None,
+                None => self.where_rounded((of, largest), time, inside),
+            };
         }
         for (kind, goes) in ends {
             let at_end = if when {
@@ -259,7 +276,7 @@ impl Slopes<'_, '_> {
         }
         let met = self.reduce(at, value, holds);
         let slope = self.where_it_is_met((of, largest), met, slope);
-        Some(self.where_alone((of, largest), (value, holds), by, slope))
+        Some(self.where_alone((of, largest), (value, holds), (by, &going), slope))
     }
 
     /// What changes at fixed time, and with a time that goes.
@@ -305,6 +322,35 @@ impl Slopes<'_, '_> {
         self.lowering.graph.select(is_flat, slope, nothing)
     }
 
+    /// The same of what has no rate: beside the time of its extremum a formula that is flat there is off it by a quarter at half the distance; at a
+    /// kink by half, at a jump by all.
+    fn where_rounded(&mut self, (of, largest): (ExprId, bool), time: ExprId, slope: ExprId) -> ExprId {
+        let found = self.asked(ReductionKind::Extreme { largest, when: false }, of);
+        let (range, span, [from, to]) = (self.range(of), self.span(), ENDS.map(|end| self.time(end)));
+        let off = [BESIDE, 0.5 * BESIDE, -BESIDE, -0.5 * BESIDE].map(|part| {
+            let graph = &mut self.lowering.graph;
+            let part = graph.constant(part);
+            let way = graph.mul(part, span);
+            let there = graph.add(time, way);
+            let there = graph.binary(Binary::Max, there, from);
+            let there = graph.binary(Binary::Min, there, to);
+            let value = self.asked(ReductionKind::At(there), of);
+            let graph = &mut self.lowering.graph;
+            let off = graph.sub(value, found);
+            graph.unary(Unary::Abs, off)
+        });
+        let graph = &mut self.lowering.graph;
+        let (left, digits, nothing) = (graph.constant(LEFT_OF_HALF), graph.constant(DIGITS), self.no_value());
+        let graph = &mut self.lowering.graph;
+        let digits = graph.mul(digits, range);
+        [[off[0], off[1]], [off[2], off[3]]].into_iter().fold(slope, |slope, [whole, half]| {
+            let left = graph.mul(left, whole);
+            let limit = graph.add(left, digits);
+            let is_rounded = graph.compare(Comparison::LessEqual, half, limit);
+            graph.select(is_rounded, slope, nothing)
+        })
+    }
+
     /// A slope where the formula has the extremum's value at its time, as rows have it: at a jump it may be that of the side that they are not of.
     fn where_it_is_met(&mut self, (of, largest): (ExprId, bool), met: ExprId, slope: ExprId) -> ExprId {
         let found = self.asked(ReductionKind::Extreme { largest, when: false }, of);
@@ -334,7 +380,7 @@ impl Slopes<'_, '_> {
         &mut self,
         (of, largest): (ExprId, bool),
         (value, holds): (ExprId, Option<ExprId>),
-        by: ExprId,
+        (by, going): (ExprId, &[ExprId]),
         slope: ExprId,
     ) -> ExprId {
         if self.is_zero(by) {
@@ -342,15 +388,16 @@ impl Slopes<'_, '_> {
         }
         let kind = ReductionKind::Extreme { largest, when: false };
         let by_of = self.lowering.only_where(holds, by);
-        let (ends, range) = (self.extremes(by_of), self.range(of));
+        // how much it goes at the most is often not known to as many digits as are asked of results
+        let square = self.lowering.graph.mul(by_of, by_of);
+        let (square, range) = (self.asked(ReductionKind::Mean, square), self.range(of));
         let found = self.asked(kind, of);
         let graph = &mut self.lowering.graph;
-        let [low, high] = ends.map(|end| graph.unary(Unary::Abs, end));
-        let most = graph.binary(Binary::Max, low, high);
+        let usual = graph.unary(Unary::Sqrt, square);
         let (part, zero) = (graph.constant(MOVED), graph.constant(0.0));
         let moved = graph.mul(part, range);
-        // of what has no largest value nothing is known, not even that it rests
-        let (step, rests) = (graph.div(moved, most), graph.compare(Comparison::LessEqual, most, zero));
+        // of what has no mean nothing is known, not even that it rests
+        let (step, rests) = (graph.div(moved, usual), graph.compare(Comparison::LessEqual, usual, zero));
         // all values of what rests are alike, and yet the variable may move each of them by as much as it likes
         let size = self.size_of_the_variable();
         let graph = &mut self.lowering.graph;
@@ -358,7 +405,7 @@ impl Slopes<'_, '_> {
         let least = graph.mul(least, size);
         let step = graph.binary(Binary::Max, step, least);
         let step = graph.select(rests, zero, step);
-        let moved = graph.mul(step, most);
+        let moved = graph.mul(step, usual);
         let change = graph.mul(step, by);
         let both =
             [graph.add(value, change), graph.sub(value, change)].map(|formula| self.reduce(kind, formula, holds));
@@ -373,17 +420,34 @@ impl Slopes<'_, '_> {
         let is_alone = graph.compare(Comparison::LessEqual, off, limit);
         let nothing = self.no_value();
         let slope = self.lowering.graph.select(is_alone, slope, nothing);
-        self.where_it_goes((most, range), slope)
+        self.where_it_goes((usual, range), going, slope)
     }
 
-    /// A slope where the variable changes the formula at all, by more than rounding does: if it were so much as it is large.
-    fn where_it_goes(&mut self, (most, range): (ExprId, ExprId), slope: ExprId) -> ExprId {
+    /// A slope where the variable changes the formula at all, by more than rounding does: if it were so much as it is large; or what it bends
+    /// at.
+    fn where_it_goes(&mut self, (usual, range): (ExprId, ExprId), going: &[ExprId], slope: ExprId) -> ExprId {
         let size = self.size_of_the_variable();
         let graph = &mut self.lowering.graph;
-        let part = graph.constant(NOTHING);
-        let (change, limit) = (graph.mul(most, size), graph.mul(part, range));
-        let (rests, zero) = (graph.compare(Comparison::LessEqual, change, limit), graph.constant(0.0));
-        graph.select(rests, zero, slope)
+        let (part, zero) = (graph.constant(NOTHING), graph.constant(0.0));
+        let (change, limit) = (graph.mul(usual, size), graph.mul(part, range));
+        let mut rests = graph.compare(Comparison::LessEqual, change, limit);
+        if !going.is_empty() {
+            let stays = self.rests(going);
+            rests = self.lowering.graph.and(rests, stays);
+        }
+        self.lowering.graph.select(rests, zero, slope)
+    }
+
+    /// Whether some formulas, one at least, are nothing all the time.
+    fn rests(&mut self, formulas: &[ExprId]) -> ExprId {
+        let graph = &mut self.lowering.graph;
+        let zero = graph.constant(0.0);
+        let squares = formulas.iter().fold(zero, |sum, &of| {
+            let square = graph.mul(of, of);
+            graph.add(sum, square)
+        });
+        let mean = self.reduce(ReductionKind::Mean, squares, None);
+        self.lowering.graph.compare(Comparison::LessEqual, mean, zero)
     }
 
     /// How large the variable is, or usually is.

@@ -145,6 +145,8 @@ pub mod slopes {
     pub const DIGITS: f64 = 1e-9;
     /// An extremum is flat, if its rate would change it over the analysis by no more than this part of its range.
     pub const FLAT: f64 = 1e-3;
+    /// What has no rate is looked at so far beside its extremum, as a part of the analysis.
+    pub const BESIDE: f64 = 3e-4;
     /// An extremum is alone, if it goes with what moves the formula by the first part of its range as much to one side as to the other, but for
     /// the second part of that; or for the last digits of its value.
     pub const MOVED: f64 = 1e-6;
