@@ -882,3 +882,47 @@ fn drawn_four_bar() {
 fn leg() {
     reference("leg");
 }
+
+/// What is left of `to` behind `from`, added to it again, may be a rounding more than `to`.
+#[test]
+fn the_end_is_reached_whatever_rounding_makes_of_the_span() {
+    let text =
+        arm("t", "result at_end = last(x(arm.tip)) result least = min(x(arm.tip)) result area = integral(y(arm.tip))");
+    let compiled = compiled("m", &text);
+    let mut beyond = 0;
+    for k in 0..60 {
+        let (from, to) = (0.12, 1.0 + f64::from(k) * 0.0061);
+        beyond += usize::from(from + (to - from) > to);
+        let times = Times::grid(from, to, 0.1).expect("a grid");
+        let mut run = compiled.run(&times, &RunOptions::default()).0.expect("it assembles");
+        while let Some(row) = run.next_row() {
+            row.expect("it moves");
+        }
+        let answers = run.results().expect("results of a grid");
+        let values: Vec<f64> = answers.values.iter().map(|value| value.unwrap_or(f64::NAN)).collect();
+        let [start, end] = [from, to].map(|angle| sin_cos(angle).1);
+        for (found, wanted) in values.iter().zip([end, end, start - end]) {
+            assert!((found - wanted).abs() < 1e-12, "to {to}: {values:?} {:?}", answers.notes);
+        }
+    }
+    assert!(beyond > 20, "{beyond}");
+}
+
+/// What compares a number that is not there is not there either; unless the other side decides.
+#[test]
+fn conditions_over_what_has_no_value_have_none() {
+    let text = arm(
+        "t",
+        "result gone = sqrt(max(x(arm.tip)) / 1 m - 2)
+        result ra = if gone > 0 then 1 else 2
+        result rb = if not (gone > 0) then 1 else 2
+        result rc = if gone > 0 and max(x(arm.tip)) > 5 m then 1 else 2
+        result rd = if gone > 0 or max(x(arm.tip)) > 0.5 m then 1 else 2
+        result re = if gone > 0 or max(x(arm.tip)) > 5 m then 1 else 2
+        result rf = if max(x(arm.tip)) > 0.5 m then 3 else gone
+        result rg = min(1 + 0 * gone, 2)",
+    );
+    let (answers, _) = answers(&text, [1.0, 0.1]);
+    let wanted = [None, None, None, Some(2.0), Some(1.0), None, Some(3.0)];
+    assert_eq!(answers.values[..7], wanted, "{:?}", answers.notes);
+}

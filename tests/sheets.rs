@@ -424,15 +424,14 @@ fn interrupted_within(path: &Path, arguments: &[&str], count: usize) -> String {
 
 #[test]
 fn an_interrupted_sweep_has_whole_variants_and_the_rest_goes_on_behind_them() {
-    const COUNT: usize = 6000;
-    // means are found for each variant alone: it takes long enough to be interrupted
-    const SLOW: &str = "middle = mean(travel)";
+    const COUNT: usize = 2000;
+    // rows enough to be interrupted among them
+    const ROWS: usize = 401;
     for out in ["part.csv", "part.json", "part.parquet"] {
         let folder = slider_crank();
         let path = folder.path();
         let range = format!("rod_length=100mm..200mm:{COUNT}");
-        let sweep =
-            ["sweep", "a.mech", "--vary", &range, "--rows", "--columns", "travel*", "--every", "1ms", "--result", SLOW];
+        let sweep = ["sweep", "a.mech", "--vary", &range, "--rows", "--columns", "travel*", "--every", "0.1ms"];
         let with = |more: &[&'static str]| -> Vec<String> {
             sweep.iter().map(|word| (*word).to_owned()).chain(more.iter().map(|word| (*word).to_owned())).collect()
         };
@@ -447,7 +446,7 @@ fn an_interrupted_sweep_has_whole_variants_and_the_rest_goes_on_behind_them() {
         more.push(whole.clone());
         assert!(mechc(path).args(&more).output().expect("it runs").status.success());
         let rows: Vec<String> = all_rows(&path.join(out)).into_iter().chain(all_rows(&path.join(rest))).collect();
-        assert_eq!(rows.len(), COUNT * 41, "{out}");
+        assert_eq!(rows.len(), COUNT * ROWS, "{out}");
         assert!(rows == all_rows(&path.join(whole)), "{out}: parts put together are the whole");
     }
 }
@@ -518,4 +517,99 @@ fn each_number_of_copies_is_a_mechanism_of_its_own() {
         // though the text has four
         assert_eq!(found[at("up[4].x")].is_empty(), count == "3", "five cells have a fifth");
     }
+}
+
+/// An arm, with a param that decides how fast it turns.
+const ARM: &str = "mechanism m {
+    param c = 1
+    param w = 60 rpm
+    param gap = 1 mm
+    ground { point O = (0, 0) }
+    body arm { point O = (0, 0) point E = (1 m, gap) }
+    joint j: revolute(ground.O, arm.O)
+    driver motor: rotation(j) = c * w * t
+    result r = max(x(arm.E))
+    analysis from 0 s to 1 s every 0.1 s
+}";
+
+/// What is looked for decides nothing of a variant, is found where it is the last, and is not fulfilled by what is not there.
+#[test]
+fn a_sweep_ends_where_a_condition_holds_for_the_first_time() {
+    let folder = in_folder(&[("a.mech", ARM)]);
+    let swept = |more: &[&str]| {
+        let output = output(folder.path(), &[&["sweep", "a.mech"], more].concat());
+        (String::from_utf8(output.stdout.clone()).unwrap().lines().count() - 1, said(&output))
+    };
+    for (more, rows, found) in [
+        (vec!["--vary", "c=1,2,3", "--until", "c > 1.5"], 2, Some(1)),
+        // the last one
+        (vec!["--vary", "c=1,2,3", "--until", "c > 2.5"], 3, Some(2)),
+        (vec!["--vary", "c=1,2,3", "--until", "c > 1.5", "--take", "2"], 2, Some(1)),
+        (vec!["--vary", "c=1,2,3", "--until", "c > 5"], 3, None),
+        // of what is not finite
+        (vec!["--vary", "c=0,1,2", "--until", "1/c > 0.4"], 2, Some(1)),
+        (vec!["--vary", "c=0,1,2", "--set", "w=0rpm", "--until", "1/(c - 1) > 0.4"], 3, Some(2)),
+        (vec!["--vary", "c=0,1,2", "--result", "q=r/c", "--until", "q > 0.5 m"], 2, Some(1)),
+        (vec!["--vary", "c=1,2,3", "--result", "q=sqrt(r / 1 m - 9)", "--until", "not (q > 0)"], 3, None),
+        (vec!["--vary", "c=1,2,3", "--result", "q=sqrt(r / 1 m - 9)", "--until", "q != 0"], 3, None),
+    ] {
+        let (count, said) = swept(&more);
+        assert_eq!(count, rows, "{more:?}: {said}");
+        assert!(said.contains(&format!("{rows} ok")), "{more:?}: {said}");
+        let told = found.map(|variant| format!("variant {variant} is the first with"));
+        assert!(
+            said.contains(told.as_deref().unwrap_or("no variant that ran to its end was found")),
+            "{more:?}: {said}"
+        );
+    }
+}
+
+/// A zero fits anything, and a number without a unit what has none.
+#[test]
+fn zeros_need_no_unit() {
+    for (table, ok) in
+        [("w\n0\n-0.0\n", true), ("gap,w [rpm]\n0,30\n0,0\n", true), ("gap\n0\n1\n", false), ("c\n0\n1\n", true)]
+    {
+        let folder = in_folder(&[("a.mech", ARM), ("v.csv", table)]);
+        let swept = output(folder.path(), &["sweep", "a.mech", "--vary", "@v.csv"]);
+        assert_eq!(swept.status.code(), Some(if ok { 0 } else { 1 }), "{table}: {}", said(&swept));
+        assert!(said(&swept).contains(if ok { "2 ok" } else { "must be a length" }), "{table}: {}", said(&swept));
+    }
+    let folder = in_folder(&[("a.mech", ARM)]);
+    let swept = output(folder.path(), &["sweep", "a.mech", "--vary", "gap=0,0", "--vary", "w=0..0:2"]);
+    assert!(said(&swept).contains("4 ok"), "{}", said(&swept));
+}
+
+#[test]
+fn what_cannot_be_swept_is_refused_before_anything_is_made() {
+    let leg = "mechanism leg { param a = 1 m body b { point O = (0, 0) point P = (a, 0) }
+        joint j: revolute(ground.O, b.O) ground { point O = (0, 0) } driver d: rotation(j) = t }
+        mechanism all { part leg[k in 0..2]: leg() result r = max(x(leg[1].b.P)) analysis from 0 s to 1 s every 0.1 s }";
+    let folder = in_folder(&[("a.mech", ARM), ("legs.mech", leg)]);
+    let refused = |arguments: &[&str], why: &str| {
+        let output = output(folder.path(), &[arguments, &["-o", "out.csv"]].concat());
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", said(&output));
+        assert!(said(&output).contains(why), "{arguments:?}: {}", said(&output));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "{arguments:?} leaves nothing behind");
+    };
+    let rows = ["sweep", "a.mech", "--vary", "c=0..1:3", "--rows"];
+    refused(&[&rows[..], &["--every", "1e-10"]].concat(), "a variant would have 10000000001 rows of");
+    refused(
+        &[&rows[..], &["--result", "q=max(y(arm.E))"]].concat(),
+        "`--result` asks for a number of the whole analysis",
+    );
+    let legs = ["sweep", "legs.mech", "--mechanism", "all"];
+    let copy_first = [&legs[..], &["--vary", "leg[1].a=1m,2m", "--vary", "leg.a=1m,3m"]].concat();
+    refused(&copy_first, "`leg[1].a` would be what `leg.a` is");
+    let all_first = [&legs[..], &["--vary", "leg.a=1m,3m", "--vary", "leg[1].a=1m,2m"]].concat();
+    assert!(said(&output(folder.path(), &all_first)).contains("4 ok"));
+    // at the end of as many variants as can be counted
+    let last = ["--vary", "c=0..1:18446744073709551615", "--skip", "18446744073709551610", "--take", "100", "--yes"];
+    let last = output(folder.path(), &[&["sweep", "a.mech"][..], &last].concat());
+    assert!(said(&last).contains("5 ok"), "{}", said(&last));
+    // between ends whose difference is no number
+    let far = output(folder.path(), &["sweep", "a.mech", "--vary", "c=-1e308..1e308:5", "--set", "w=0rpm"]);
+    let far = String::from_utf8(far.stdout).unwrap();
+    let second: Vec<&str> = far.lines().map(|line| line.split(',').nth(1).unwrap()).collect();
+    assert_eq!(second, ["c", "-1e+308", "-5e+307", "0.0", "5e+307", "1e+308"]);
 }

@@ -67,6 +67,7 @@ pub use lead::Lead;
 pub use lengths::usual_unit_of_length;
 pub use library::{KnownFile, KnownMechanism, Library, NotKnown};
 pub use mentions::name_of;
+pub use results::UNTIL;
 pub use samples::{Column, variants};
 pub use set_inputs::SetInputs;
 pub use surroundings::{Setting, Surroundings};

@@ -27,6 +27,9 @@ pub(super) struct ResultState<'a> {
 /// A call that is none of a reduction.
 pub(super) struct NoReduction;
 
+/// The option whose condition is a result beside those of the text, and its name.
+pub const UNTIL: &str = "--until";
+
 impl<'a> ResultState<'a> {
     pub fn of(formula: &'a Expr, unit: Option<&'a WrittenUnit>) -> ResultState<'a> {
         let (dimensional, value, angle, holds_plain_number) = (false, None, 0, false);
@@ -50,7 +53,11 @@ impl Checker<'_> {
         for k in std::mem::take(&mut self.result_order) {
             let formula = self.results[k].formula;
             let context = result_context(self.results[k].dimensional);
+            let source = self.sources.get(formula.span.file);
+            // what a variant is looked for by decides nothing of it: where it is not finite, it does not hold
+            self.branch.is_untaken = source.is_option && source.name == UNTIL;
             let value = self.formula(formula, &context);
+            self.branch.is_untaken = false;
             self.results[k].value = value;
             self.results[k].angle = self.angle_power(formula);
             self.results[k].holds_plain_number = self.holds_plain_number(formula);

@@ -31,7 +31,7 @@ impl Summary {
 
     /// Adds a block of them with its rows.
     pub fn add(&mut self, first: u64, statuses: &[Status], rows: usize) {
-        for (variant, status) in (first..).zip(statuses) {
+        for (status, variant) in statuses.iter().zip(first..) {
             self.counts.entry(status.as_str()).or_insert((0, variant)).0 += 1;
             self.completed += u64::from(status.is_complete());
         }

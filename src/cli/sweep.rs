@@ -72,6 +72,10 @@ fn refuse_what_needs_rows(arguments: &SweepArguments) -> Result<(), Failure> {
             .help("add `--rows` for the rows at these times, or measure with `--result 'NAME = at(…, T)'`")
             .into());
     }
+    if arguments.rows && !arguments.result.is_empty() && arguments.until.is_none() {
+        let said = unusable("`--rows` tabulates rows, and `--result` asks for a number of the whole analysis");
+        return Err(said.help("leave one of them out").into());
+    }
     if arguments.rows && arguments.until.is_some() && !arguments.at.is_empty() {
         let said = unusable("`--until` looks at results of the whole analysis, and `--at` asks for single times");
         return Err(said.help("leave one of them out").into());
@@ -279,14 +283,14 @@ impl Sweeping<'_> {
             let without_value = if table.wanted.is_none() { lacking(&block) } else { Vec::new() };
             Written { made: table.sheet.made(table.cells(block)), first, statuses, rows, without_value }
         };
-        let sweep = checked.sweep(compiled, self.variants, &self.options, make)?;
+        let mut sweep = checked.sweep(compiled, self.variants, &self.options, make)?;
         let [first, last] = self.range;
         let results = compiled.results_of_variants().into_iter().map(|(name, _)| name);
         let mut summary = Summary::of(results.collect());
         let progress = &mut Progress::of("variants", last - first, output.is_standard());
         let written = (|| {
             let mut writer = SheetWriter::new(output.writer(), &self.table.sheet)?;
-            for Written { made, first, statuses, rows, without_value } in sweep {
+            for Written { made, first, statuses, rows, without_value } in sweep.by_ref() {
                 writer.write(made)?;
                 progress.advance(statuses.len() as u64);
                 summary.add(first, &statuses, rows);
@@ -308,7 +312,7 @@ impl Sweeping<'_> {
             let command = |variant| again(self.arguments).command(&self.variants.settings(variant));
             Reporter::say(&summary.text(&command));
             if self.arguments.until.is_some() && !cancel.is_cancelled() {
-                Reporter::say(&self.told_until(first + done));
+                Reporter::say(&self.told_until(sweep.has_found().then(|| first + done - 1)));
             }
         }
         match interrupts::caught() {
@@ -327,17 +331,15 @@ impl Sweeping<'_> {
         Ok(())
     }
 
-    /// Which variant was found, the last that was written.
-    fn told_until(&self, end: u64) -> String {
+    /// Which variant was found, if one was.
+    fn told_until(&self, found: Option<u64>) -> String {
         let condition = self.arguments.until.as_deref().unwrap_or_default().trim();
-        if end < self.range[1] {
-            format!(
-                "variant {} is the first with `{condition}`: {}\n",
-                end - 1,
-                self.variants.settings(end - 1).join(", ")
-            )
-        } else {
-            format!("of the variants that ran to their end none was found before the last one with `{condition}`\n")
+        match found {
+            Some(variant) => {
+                let settings = self.variants.settings(variant).join(", ");
+                format!("variant {variant} is the first with `{condition}`: {settings}\n")
+            }
+            None => format!("no variant that ran to its end was found with `{condition}`\n"),
         }
     }
 }

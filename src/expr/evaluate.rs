@@ -95,9 +95,40 @@ impl Graph {
     /// The value of one formula. For tests and set-up; the time loop runs programs.
     #[must_use]
     pub fn value(&self, root: ExprId, symbol: impl Fn(Symbol) -> f64) -> f64 {
+        self.value_by(root, |node, operand| self.node_value(node, operand, &symbol))
+    }
+
+    /// The value of a formula whose symbols may be no number, as what is not known is; no number where it depends on one of these. So a
+    /// condition over what is not known, or not finite, neither holds nor does not.
+    #[must_use]
+    pub fn known_value(&self, root: ExprId, symbol: impl Fn(Symbol) -> f64) -> f64 {
+        self.value_by(root, |node, operand| {
+            let holds = |id| match operand(id) {
+                value if value.is_nan() => None,
+                value => Some(value != 0.0),
+            };
+            let is_unknown = match node {
+                Node::Compare(_, a, b) => !operand(a).is_finite() || !operand(b).is_finite(),
+                Node::And(a, b) => {
+                    let both = [holds(a), holds(b)];
+                    both.contains(&None) && !both.contains(&Some(false))
+                }
+                Node::Or(a, b) => {
+                    let both = [holds(a), holds(b)];
+                    both.contains(&None) && !both.contains(&Some(true))
+                }
+                Node::Select(condition, ..) => operand(condition).is_nan(),
+                _ => node.children().as_slice().iter().any(|&child| operand(child).is_nan()),
+            };
+            if is_unknown { f64::NAN } else { self.node_value(node, operand, &symbol) }
+        })
+    }
+
+    /// The value of a formula, from that of each operation on operands.
+    fn value_by(&self, root: ExprId, of: impl Fn(Node, &dyn Fn(ExprId) -> f64) -> f64) -> f64 {
         let mut values: rustc_hash::FxHashMap<ExprId, f64> = rustc_hash::FxHashMap::default();
         for id in self.reachable_with_tables(&[root]) {
-            let value = self.node_value(self.node(id), |child| values[&child], &symbol);
+            let value = of(self.node(id), &|child| values[&child]);
             values.insert(id, value);
         }
         values[&root]

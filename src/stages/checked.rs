@@ -8,7 +8,7 @@ use super::used::{self, Used};
 use super::used_at::UsedAt;
 use super::{Compiled, Parsed, Redundant};
 use crate::cancel::Cancel;
-use crate::check::{self, Given, Library, Setting, Surroundings, Symbols, TableFiles};
+use crate::check::{self, Given, Library, Setting, Surroundings, Symbols, TableFiles, UNTIL};
 use crate::diag::{Applies, Code, Diagnostic, Diagnostics, Fix, nearest};
 use crate::model::Mechanism;
 use crate::source::{FileId, Sources, Span};
@@ -21,9 +21,8 @@ use std::sync::{Arc, OnceLock};
 pub(super) const VARY: &str = "--vary";
 pub(super) const TOL: &str = "--tol";
 
-/// What messages call results that the command line adds, and the condition that ends a sweep.
+/// What messages call results that the command line adds.
 const RESULT: &str = "--result";
-pub(super) const UNTIL: &str = "--until";
 
 /// Which mechanism of a file is meant, and what is set in it from outside.
 #[derive(Clone, Debug, Default)]

@@ -1,12 +1,12 @@
 //! Many variants of one mechanism, each led over to its params along the branch.
 
 use super::abreast::{Abreast, Side};
-use super::checked::UNTIL;
 use super::families::{Families, Places};
 use super::over::Reached;
 use super::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Variants, Vectors};
 use crate::analysis::{Asked, Started, Times};
 use crate::cancel::Cancel;
+use crate::check::UNTIL;
 use crate::crew::{Crew, usual_jobs};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::sweep::{LANES, OneVariant, PART, Spare, Status, Swept, Team};
@@ -19,6 +19,8 @@ const ROWS: u64 = 1 << 14;
 const NUMBERS_OF_MANY_COLUMNS: u64 = 1 << 19;
 /// Variants of a piece at the most, so that the first come soon.
 const MOST: u64 = 256;
+/// Rows of one variant are held until it is done: no more numbers than 2 GiB hold.
+const MOST_OF_A_VARIANT: u64 = 1 << 28;
 /// All lanes are used as long as a piece holds no more numbers than this: 32 MB.
 const MOST_NUMBERS: u64 = 1 << 22;
 
@@ -67,8 +69,24 @@ fn variants_of_a_piece(numbers: u64, columns: u64) -> u64 {
 
 /// A sweep in progress: what was made of its blocks, in the order of the variants.
 pub struct Sweep<T> {
-    crew: Crew<(T, bool)>,
-    has_ended: bool,
+    crew: Crew<(T, Option<End>)>,
+    end: Option<End>,
+}
+
+/// Why a sweep ends before its last variant is done.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum End {
+    /// The variant that is looked for is the last of what was made.
+    Found,
+    Cancelled,
+}
+
+impl<T> Sweep<T> {
+    /// Whether the last variant of what it gave is the one that is looked for.
+    #[must_use]
+    pub fn has_found(&self) -> bool {
+        self.end == Some(End::Found)
+    }
 }
 
 impl Compiled {
@@ -87,7 +105,7 @@ impl Checked {
     /// It is sound, as the text has it; `compiled` is made of it.
     ///
     /// # Errors
-    /// The times are not said, where all variants have the same.
+    /// The times are not said, or a variant would have more rows at them than are held at once.
     pub fn sweep<T: Send + 'static>(
         &self,
         compiled: &Compiled,
@@ -100,7 +118,10 @@ impl Checked {
             Some(columns) => (times.len(), columns.len() as u64),
             None => (1, compiled.results().len() as u64 + 1),
         };
-        let numbers = rows * width;
+        let numbers = rows.saturating_mul(width);
+        if numbers > MOST_OF_A_VARIANT {
+            return Err(Box::new(too_many_rows(rows, width)));
+        }
         let size = variants_of_a_piece(numbers.max(1), width);
         let end = variants.points().count();
         let first = options.skip.min(end);
@@ -114,8 +135,8 @@ impl Checked {
         let families = Families::of((self, variants), options.redundant, [columns, results], first);
         let (own, variants, options) = (self.clone(), variants.clone(), options.clone());
         // blocks in work with all that tables have of them, and two that somebody reads
-        let of_params = variants.points().params().len() as u64 * times.len();
-        let in_work = (numbers + of_params).saturating_mul(size).saturating_mul(jobs as u64 + 2);
+        let of_params = (variants.points().params().len() as u64).saturating_mul(times.len());
+        let in_work = numbers.saturating_add(of_params).saturating_mul(size).saturating_mul(jobs as u64 + 2);
         let (abreast, spare) = (OnceLock::new(), Arc::new(Spare::new(in_work as usize)));
         let sweeping =
             Arc::new(Sweeping { own, families, variants, options, results: count, until, first, abreast, spare });
@@ -123,10 +144,10 @@ impl Checked {
 
         let work = move |piece: u64| {
             let begin = first + piece * size;
-            let (block, is_end) = sweeping.block(begin..(begin + size).min(last))?;
-            Some((make(block), is_end))
+            let (block, end) = sweeping.block(begin..begin.saturating_add(size).min(last))?;
+            Some((make(block), end))
         };
-        Ok(Sweep { crew: Crew::new(jobs, pieces, work), has_ended: false })
+        Ok(Sweep { crew: Crew::new(jobs, pieces, work), end: None })
     }
 }
 
@@ -136,11 +157,11 @@ impl<T: Send + 'static> Iterator for Sweep<T> {
     /// What was made of the next block; `None` behind the last one, behind the one with the variant that is looked for, and when it was
     /// cancelled: the last block holds what was done of it by then.
     fn next(&mut self) -> Option<T> {
-        if self.has_ended {
+        if self.end.is_some() {
             return None;
         }
-        let (made, is_end) = self.crew.next()?;
-        self.has_ended = is_end;
+        let (made, end) = self.crew.next()?;
+        self.end = end;
         Some(made)
     }
 }
@@ -187,9 +208,9 @@ impl<'d> Done<'d> {
 }
 
 impl Sweeping {
-    /// Some variants, up to the one that is looked for, or to where it was cancelled, and whether the sweep ends there; nothing where that is
-    /// before the first.
-    fn block(&self, variants: std::ops::Range<u64>) -> Option<(Swept, bool)> {
+    /// Some variants, up to the one that is looked for, or to where it was cancelled, and why the sweep ends there, if it does; nothing where
+    /// that is before the first.
+    fn block(&self, variants: std::ops::Range<u64>) -> Option<(Swept, Option<End>)> {
         let (columns, width) = (self.options.columns.as_ref().map_or(0, Vec::len), self.width());
         let results = self.results - usize::from(self.until.is_some());
         let mut block = Swept::new(variants.start, self.variants.points().params().len(), results, columns);
@@ -198,24 +219,24 @@ impl Sweeping {
         let rows = (variants.end - variants.start) as usize * abreast.map_or(0, Abreast::rows);
         block.reserve(rows, &self.spare);
         let mut params = vec![0.0; width * LANES];
-        let mut found = Some(false);
+        let mut end = None;
         for first in variants.clone().step_by(LANES) {
             let count = (variants.end - first).min(LANES as u64) as usize;
-            for (number, params) in (first..).zip(params.chunks_exact_mut(width)).take(count) {
+            for (number, params) in (first..variants.end).zip(params.chunks_exact_mut(width)) {
                 self.variants.points().values(number, params);
             }
             let (params, side) = (&params[..count * width], side.as_mut());
             let done = abreast.zip(side).map(|(abreast, side)| Done::of(abreast, side, &mut block, params, self));
-            found = self.push_all(&mut block, params, done.as_ref());
-            if found != Some(false) {
+            end = self.push_all(&mut block, params, done.as_ref());
+            if end.is_some() {
                 break;
             }
         }
         if let (Some(abreast), Some(side)) = (abreast, side) {
             abreast.give_back(side);
         }
-        let is_empty = found.is_none() && block.is_empty();
-        (!is_empty).then_some((block, found != Some(false)))
+        let is_empty = end == Some(End::Cancelled) && block.is_empty();
+        (!is_empty).then_some((block, end))
     }
 
     /// How many values a variant has, one at least.
@@ -223,32 +244,31 @@ impl Sweeping {
         self.variants.points().params().len().max(1)
     }
 
-    /// Adds variants, some of which went side by side, by their params; says whether the one that is looked for is among them, up to which they
-    /// are added; nothing when it was cancelled.
-    fn push_all(&self, block: &mut Swept, params: &[f64], done: Option<&Done<'_>>) -> Option<bool> {
+    /// Adds variants, some of which went side by side, by their params; up to the one that is looked for, or to where it was cancelled.
+    fn push_all(&self, block: &mut Swept, params: &[f64], done: Option<&Done<'_>>) -> Option<End> {
         let width = self.width();
         let count = params.len() / width;
         if let Some(done) = done.filter(|done| done.aside.is_none()) {
             block.push_abreast((count, done.rows), params);
             (0..count).filter_map(|lane| done.team.results(lane)).for_each(|known| block.push_results_abreast(known));
-            return Some(false);
+            return None;
         }
         for (lane, params) in params.chunks_exact(width).enumerate() {
             if self.options.cancel.is_cancelled() {
-                return None;
+                return Some(End::Cancelled);
             }
             let before = block.len();
             let found = self.push_one(block, params, done.filter(|done| done.lanes[lane]).map(|done| (done, lane)));
             if self.options.cancel.is_cancelled() {
                 // of this one not all may be there
                 block.truncate(before);
-                return None;
+                return Some(End::Cancelled);
             }
             if found == Some(1.0) {
-                return Some(true);
+                return Some(End::Found);
             }
         }
-        Some(false)
+        None
     }
 
     /// Whether all that is wanted of a variant that went side by side is there, and none is looked for.
@@ -422,6 +442,12 @@ fn write_results(values: &[Option<f64>], places: &Places, results: &mut [f64]) {
         };
         *into = place.and_then(|place| values.get(place).copied().flatten()).unwrap_or(f64::NAN);
     }
+}
+
+fn too_many_rows(rows: u64, width: u64) -> Diagnostic {
+    let said = format!("a variant would have {rows} rows of {width} numbers, more than are held at once");
+    let help = "take a larger step with `--every`, or fewer columns;\n`mechc run --lead --set …` writes the rows of one variant as they come";
+    Diagnostic::new(Code::E0706, said).help(help)
 }
 
 /// The first error of what is said, but for that of a way that does not get there; there is one where something could not be made.

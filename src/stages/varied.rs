@@ -83,7 +83,7 @@ fn read(asked: &[String]) -> Result<Vec<Asked>, Box<Diagnostic>> {
     Ok(asked)
 }
 
-/// Each param is told once.
+/// Each param is told once, and none of a copy before that of all copies, which would hide it.
 pub(super) fn refuse_twice<'n>(
     names: impl Iterator<Item = &'n String>,
     choice: &Choice,
@@ -95,6 +95,14 @@ pub(super) fn refuse_twice<'n>(
                 .help("say it once, or name another param")
                 .into());
         }
+        let set = choice.set.iter().filter_map(|set| set.split_once('=')).map(|(set, _)| spaceless(set));
+        if let Some(hidden) =
+            names[..k].iter().map(|before| (*before).clone()).chain(set).find(|one| is_of_a_copy(one, name))
+        {
+            return Err(unusable(format!("`{hidden}` would be what `{name}` is, which is that of all copies"))
+                .help(format!("leave `{hidden}` out, or say it behind `{name}`"))
+                .into());
+        }
         let is_set = |set: &String| set.split_once('=').is_some_and(|(set, _)| spaceless(set) == *name);
         if choice.set.iter().any(is_set) {
             return Err(unusable(format!("`{name}` is set, and is to vary"))
@@ -103,6 +111,16 @@ pub(super) fn refuse_twice<'n>(
         }
     }
     Ok(())
+}
+
+/// Whether a param is that of a copy of parts, where another one is that of all copies.
+fn is_of_a_copy(one: &str, all: &str) -> bool {
+    let without_numbers: String = one
+        .split('[')
+        .enumerate()
+        .map(|(k, part)| if k == 0 { part } else { part.split_once(']').map_or("", |(_, rest)| rest) })
+        .collect();
+    one.contains('[') && without_numbers == all
 }
 
 impl Asked {

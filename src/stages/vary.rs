@@ -310,8 +310,17 @@ impl Listing<'_> {
             dimension = dimension.or(found);
         }
         let texts: Vec<&str> = formulas.iter().map(String::as_str).collect();
-        let unit = si_unit(dimension.unwrap_or(Dimension::PURE), texts.iter().any(|text| is_of_angles(text)));
+        let unit = match dimension {
+            Some(dimension) => si_unit(dimension, texts.iter().any(|text| is_of_angles(text))),
+            None => self.own_unit(name),
+        };
         Ok((self.add(name, unit), values))
+    }
+
+    /// The SI unit of a param as the text has it, for zeros, which say none.
+    fn own_unit(&self, name: &str) -> String {
+        let known = self.reader.own.settable_params().into_iter().find(|param| param.name == name);
+        known.map(|param| param.unit).unwrap_or_default()
     }
 
     fn add(&mut self, name: &str, unit: String) -> usize {
@@ -331,8 +340,13 @@ impl Listing<'_> {
         })?;
         let mut params = Vec::with_capacity(columns.len());
         for Column { name, span, dimension, is_of_angles, values } in &columns {
-            let unit = si_unit(dimension.unwrap_or(Dimension::PURE), *is_of_angles);
-            self.reader.with(name, &written(values[0], &unit)).map_err(|why| self.of_column(*span, why))?;
+            let telling = values.iter().copied().find(|value| *value != 0.0);
+            let unit = match (dimension, telling) {
+                (None, None) => self.own_unit(name),
+                (dimension, _) => si_unit(dimension.unwrap_or(Dimension::PURE), *is_of_angles),
+            };
+            let tried = written(telling.unwrap_or(0.0), &unit);
+            self.reader.with(name, &tried).map_err(|why| self.of_column(*span, why))?;
             params.push(self.add(name, unit));
         }
         let rows = columns.first().map_or(0, |column| column.values.len());

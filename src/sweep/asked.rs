@@ -120,7 +120,7 @@ impl Asked {
 
     /// A formula of parameters for one variant (SI).
     pub fn value(&self, formula: ExprId, params: &[Each], lane: usize) -> f64 {
-        SmoothFormulas::value(self.system(), formula, |k| params[k as usize].0[lane], &[])
+        SmoothFormulas::value(self.system(), (formula, false), |k| params[k as usize].0[lane], &[])
     }
 
     /// How many results there are.
@@ -134,7 +134,8 @@ impl Asked {
         let reductions: Vec<f64> = self.reductions.iter().map(number).collect();
         for (outcome, result) in self.system().results().outcomes.iter().zip(results) {
             let of = |k: u32| params[k as usize].0[lane];
-            let value = SmoothFormulas::value(self.system(), outcome.value, of, &reductions);
+            let formula = (outcome.value, outcome.unknown_is_false);
+            let value = SmoothFormulas::value(self.system(), formula, of, &reductions);
             // −0 would surprise a reader
             *result = if value.is_finite() { value + 0.0 } else { f64::NAN };
         }

@@ -141,8 +141,8 @@ impl Swept {
     /// By result: the numbers of the variants that ran to their end and have no value of it.
     pub fn without_value(&self) -> impl Iterator<Item = impl Iterator<Item = u64>> {
         self.results.iter().map(|values| {
-            let all = (self.first..).zip(values.iter().zip(&self.statuses));
-            all.filter(|(_, (value, status))| value.is_nan() && status.is_complete()).map(|(variant, _)| variant)
+            let all = values.iter().zip(&self.statuses).zip(self.first..);
+            all.filter(|((value, status), _)| value.is_nan() && status.is_complete()).map(|(_, variant)| variant)
         })
     }
 

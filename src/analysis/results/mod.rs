@@ -165,7 +165,7 @@ impl Analysis {
         let (all, formula_of) = formulas(system, &of, known, places.variations());
         let mut all: Vec<Reduced> = all.into_iter().map(Reduced::new).collect();
         let at = |reduction: &Reduction| match reduction.kind {
-            ReductionKind::At(at) => self.value(at),
+            ReductionKind::At(at) => self.value(at, false),
             _ => f64::NAN,
         };
         let at: Vec<f64> = asked.iter().map(|(_, reduction)| at(reduction)).collect();
@@ -225,17 +225,17 @@ impl Analysis {
     }
 
     /// The value of a formula of parameters and of reductions that are known; no number where one has none.
-    fn value(&self, formula: ExprId) -> f64 {
+    fn value(&self, formula: ExprId, unknown_is_false: bool) -> f64 {
         let system = self.system();
         let found = |k: usize| self.found[k].and_then(Result::ok).unwrap_or(f64::NAN);
-        value_of(system.graph(), formula, |k| system.params()[k as usize].value, found)
+        value_of(system.graph(), (formula, unknown_is_false), |k| system.params()[k as usize].value, found)
     }
 
     fn answers(&self) -> Answers {
         let system = self.system();
         let mut answers = Answers::default();
         for outcome in &system.results().outcomes {
-            let value = self.value(outcome.value);
+            let value = self.value(outcome.value, outcome.unknown_is_false);
             if value.is_finite() {
                 // −0 would surprise a reader
                 answers.values.push(Some(value + 0.0));
@@ -282,7 +282,12 @@ fn formulas(
 }
 
 /// The value of a formula of parameters and of reductions that are found; no number where one has none.
-fn value_of(graph: &Graph, formula: ExprId, params: impl Fn(u32) -> f64, found: impl Fn(usize) -> f64) -> f64 {
+fn value_of(
+    graph: &Graph,
+    (formula, unknown_is_false): (ExprId, bool),
+    params: impl Fn(u32) -> f64,
+    found: impl Fn(usize) -> f64,
+) -> f64 {
     let value = |symbol| match symbol {
         Symbol::Param(k) => params(k),
         Symbol::Shift(_) => 0.0,
@@ -292,7 +297,8 @@ fn value_of(graph: &Graph, formula: ExprId, params: impl Fn(u32) -> f64, found: 
     match graph.node(formula) {
         // most results are a reduction and nothing else
         Node::Symbol(symbol) => value(symbol),
-        _ => graph.value(formula, value),
+        _ if unknown_is_false => graph.value(formula, value),
+        _ => graph.known_value(formula, value),
     }
 }
 

@@ -49,9 +49,15 @@ impl SmoothFormulas {
         &self.reductions
     }
 
-    /// A formula of parameters (SI), and of the reductions, by their numbers, where they are known.
+    /// A formula of parameters (SI), and of the reductions, by their numbers, where they are known; with whether a condition over what is not
+    /// known does not hold.
     #[must_use]
-    pub fn value(system: &ConstraintSystem, formula: ExprId, params: impl Fn(u32) -> f64, found: &[f64]) -> f64 {
+    pub fn value(
+        system: &ConstraintSystem,
+        formula: (ExprId, bool),
+        params: impl Fn(u32) -> f64,
+        found: &[f64],
+    ) -> f64 {
         value_of(system.graph(), formula, params, |k| found.get(k).copied().unwrap_or(f64::NAN))
     }
 }

@@ -69,6 +69,15 @@ impl Times {
         }
     }
 
+    /// The last of them, or when the analysis ends whose times they are (s): so far the motion is followed.
+    #[must_use]
+    pub fn last(&self) -> f64 {
+        match &self.kind {
+            Kind::Grid { to, .. } => *to,
+            Kind::Listed { times, .. } => times.last().copied().unwrap_or(self.from),
+        }
+    }
+
     /// Where the motion begins (s).
     #[must_use]
     pub fn from(&self) -> f64 {

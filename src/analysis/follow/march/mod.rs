@@ -57,7 +57,7 @@ impl Follower {
     /// Of a mechanism in a state, with what solves for its rows.
     #[must_use]
     pub fn new((mut kinematics, state, solver): (Kinematics, State, Option<Arc<Solver>>), times: Times) -> Follower {
-        let last = state.t + times.span();
+        let last = times.last();
         let span = if times.span() > 0.0 { times.span() } else { UNTOLD_SPAN };
         let edges = Edges::new(&mut kinematics, &state, span, times.end());
         let crossing = Crossing::new(&state, span, last);
