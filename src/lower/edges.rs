@@ -13,16 +13,24 @@ enum Break {
     Bend,
 }
 
+/// What something breaks at where it is nothing.
+#[derive(Clone, Copy)]
+pub(super) struct Going {
+    pub of: ExprId,
+    /// Its derivative by the variable that it goes with.
+    pub by: ExprId,
+}
+
 impl Lowering<'_> {
-    /// How what a formula may jump at goes with a variable, each of it by its derivative; none where nothing goes.
-    pub(super) fn jumping_elsewhere(&mut self, formula: ExprId, variable: u32) -> Vec<ExprId> {
+    /// What a formula may jump at that goes with a variable.
+    pub(super) fn jumping_elsewhere(&mut self, formula: ExprId, variable: u32) -> Vec<Going> {
         let mut going = self.going(&[formula], Break::Jump, variable);
         going.extend(self.going_in_equations(formula, Break::Jump, variable));
         going
     }
 
     /// The same of what it may jump at, or its rate.
-    pub(super) fn bending_elsewhere(&mut self, formula: ExprId, variable: u32) -> Vec<ExprId> {
+    pub(super) fn bending_elsewhere(&mut self, formula: ExprId, variable: u32) -> Vec<Going> {
         let mut going = self.going(&[formula], Break::Bend, variable);
         going.extend(self.going_in_equations(formula, Break::Bend, variable));
         going
@@ -35,9 +43,9 @@ impl Lowering<'_> {
             .any(|of| self.graph.dependence(of).on(Dependence::NAMED))
     }
 
-    /// How edges of what decides about derivatives of this order, and about forces, go with a variable. Places and velocities do not jump,
+    /// What of the equations and loads decides about derivatives of this order, and about forces, and goes with a variable. Places and velocities do not jump,
     /// whatever equations do.
-    fn going_in_equations(&mut self, formula: ExprId, what: Break, variable: u32) -> Vec<ExprId> {
+    fn going_in_equations(&mut self, formula: ExprId, what: Break, variable: u32) -> Vec<Going> {
         let order = if what == Break::Jump { 2 } else { 1 };
         let dependence = self.graph.dependence(formula);
         let holds_forces = dependence.on(Dependence::FORCES);
@@ -55,27 +63,26 @@ impl Lowering<'_> {
         going
     }
 
-    /// How what breaks formulas goes with a variable: the derivatives of that.
-    fn going(&mut self, roots: &[ExprId], what: Break, variable: u32) -> Vec<ExprId> {
+    /// What breaks formulas and goes with a variable.
+    fn going(&mut self, roots: &[ExprId], what: Break, variable: u32) -> Vec<Going> {
         let mut operands = deciding(&mut self.graph, roots, what);
         operands.sort_unstable();
         operands.dedup();
         let (moves, symbol) = (self.moves_anything(variable), self.model.variables[variable as usize].symbol);
         // what parameters alone decide does not change on the way
         operands.retain(|&of| !self.graph.dependence(of).is_constant());
-        let by = operands.into_iter().map(|of| {
+        let going = operands.into_iter().map(|of| {
             // how reductions go is not looked at here, nor how a parameter that moves nothing goes into a formula
             let is_untold = self.graph.dependence(of).on(Dependence::NAMED);
-            match moves {
+            let by = match moves {
                 _ if is_untold => self.graph.constant(1.0),
                 true => self.derivative_by(of, variable),
                 false => self.graph.constant(f64::from(u8::from(self.graph.symbols(of).contains(&symbol)))),
-            }
+            };
+            Going { of, by }
         });
-        let mut going: Vec<ExprId> = by.collect();
-        going.retain(|by| !self.graph.is_zero(*by));
-        going.sort_unstable();
-        going.dedup();
+        let mut going: Vec<Going> = going.collect();
+        going.retain(|going| !self.graph.is_zero(going.by));
         going
     }
 

@@ -9,6 +9,7 @@
 //! - a formula of such numbers by the chain rule.
 
 use super::Lowering;
+use super::edges::Going;
 use crate::expr::{Binary, Comparison, ExprId, Graph, Symbol, Unary};
 use crate::ir::{Outcome, Reduction, ReductionKind, Units};
 use crate::model::{Dimension, Variable, quotient};
@@ -380,7 +381,7 @@ impl Slopes<'_, '_> {
         &mut self,
         (of, largest): (ExprId, bool),
         (value, holds): (ExprId, Option<ExprId>),
-        (by, going): (ExprId, &[ExprId]),
+        (by, going): (ExprId, &[Going]),
         slope: ExprId,
     ) -> ExprId {
         if self.is_zero(by) {
@@ -425,7 +426,7 @@ impl Slopes<'_, '_> {
 
     /// A slope where the variable changes the formula at all, by more than rounding does: if it were so much as it is large; or what it bends
     /// at.
-    fn where_it_goes(&mut self, (usual, range): (ExprId, ExprId), going: &[ExprId], slope: ExprId) -> ExprId {
+    fn where_it_goes(&mut self, (usual, range): (ExprId, ExprId), going: &[Going], slope: ExprId) -> ExprId {
         let size = self.size_of_the_variable();
         let graph = &mut self.lowering.graph;
         let (part, zero) = (graph.constant(NOTHING), graph.constant(0.0));
@@ -438,16 +439,22 @@ impl Slopes<'_, '_> {
         self.lowering.graph.select(rests, zero, slope)
     }
 
-    /// Whether some formulas, one at least, are nothing all the time.
-    fn rests(&mut self, formulas: &[ExprId]) -> ExprId {
+    /// Whether what goes with the variable does so by no more than rounding, if that were so much as it is large.
+    fn rests(&mut self, going: &[Going]) -> ExprId {
+        let size = self.size_of_the_variable();
         let graph = &mut self.lowering.graph;
-        let zero = graph.constant(0.0);
-        let squares = formulas.iter().fold(zero, |sum, &of| {
-            let square = graph.mul(of, of);
-            graph.add(sum, square)
-        });
-        let mean = self.reduce(ReductionKind::Mean, squares, None);
-        self.lowering.graph.compare(Comparison::LessEqual, mean, zero)
+        let (part, yes) = (graph.constant(NOTHING * NOTHING), graph.constant(1.0));
+        let size = graph.mul(size, size);
+        going.iter().fold(yes, |all, &Going { of, by }| {
+            let [of, by] = [of, by].map(|of| {
+                let square = self.lowering.graph.mul(of, of);
+                self.reduce(ReductionKind::Mean, square, None)
+            });
+            let graph = &mut self.lowering.graph;
+            let (change, limit) = (graph.mul(by, size), graph.mul(part, of));
+            let rests = graph.compare(Comparison::LessEqual, change, limit);
+            graph.and(all, rests)
+        })
     }
 
     /// How large the variable is, or usually is.

@@ -310,17 +310,21 @@ impl Listing<'_> {
             dimension = dimension.or(found);
         }
         let texts: Vec<&str> = formulas.iter().map(String::as_str).collect();
-        let unit = match dimension {
-            Some(dimension) => si_unit(dimension, texts.iter().any(|text| is_of_angles(text))),
-            None => self.own_unit(name),
+        let unit = if dimension.is_none() && values.iter().all(|value| *value == 0.0) {
+            self.unit_of_zeros(name)
+        } else {
+            si_unit(dimension.unwrap_or(Dimension::PURE), texts.iter().any(|text| is_of_angles(text)))
         };
         Ok((self.add(name, unit), values))
     }
 
-    /// The SI unit of a param as the text has it, for zeros, which say none.
-    fn own_unit(&self, name: &str) -> String {
+    /// The SI unit that a param has in the text, for zeros, which say none.
+    fn unit_of_zeros(&self, name: &str) -> String {
         let known = self.reader.own.settable_params().into_iter().find(|param| param.name == name);
-        known.map(|param| param.unit).unwrap_or_default()
+        let unit = known.map(|param| param.unit).unwrap_or_default();
+        // a point may be one of plain numbers
+        let is_its = self.reader.with(name, &format!("0 * {}", written(1.0, &unit))).is_ok();
+        if is_its { unit } else { String::new() }
     }
 
     fn add(&mut self, name: &str, unit: String) -> usize {
@@ -342,7 +346,7 @@ impl Listing<'_> {
         for Column { name, span, dimension, is_of_angles, values } in &columns {
             let telling = values.iter().copied().find(|value| *value != 0.0);
             let unit = match (dimension, telling) {
-                (None, None) => self.own_unit(name),
+                (None, None) => self.unit_of_zeros(name),
                 (dimension, _) => si_unit(dimension.unwrap_or(Dimension::PURE), *is_of_angles),
             };
             let tried = written(telling.unwrap_or(0.0), &unit);
