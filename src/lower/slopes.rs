@@ -180,7 +180,7 @@ impl Slopes<'_, '_> {
         let graph = &mut self.lowering.graph;
         let more = graph.sub(to, from);
         let slope = graph.add(inside, more);
-        self.where_it_does_not_jump(k, slope)
+        Some(self.where_it_does_not_jump(k, slope))
     }
 
     fn of_mean(&mut self, k: u32) -> Option<ExprId> {
@@ -199,29 +199,29 @@ impl Slopes<'_, '_> {
         let more = graph.sub(to, from);
         let more = graph.div(more, span);
         let slope = graph.add(inside, more);
-        self.where_it_does_not_jump(k, slope)
+        Some(self.where_it_does_not_jump(k, slope))
     }
 
     /// A slope of an integral, which a jump of its formula adds to where its time goes with the variable, as nobody knows how. With a weight `w`
     /// that no two times have, `∫ d(w e)/dt dt` lacks the jumps of `w e` from end to end.
-    fn where_it_does_not_jump(&mut self, k: u32, slope: ExprId) -> Option<ExprId> {
+    fn where_it_does_not_jump(&mut self, k: u32, slope: ExprId) -> ExprId {
         let Reduced { value, holds } = self.formulas[k as usize];
         let going = self.lowering.jumping_elsewhere(value, self.variable);
         if going.is_empty() {
-            return Some(slope);
+            return slope;
         }
         let (of, weight) = (self.reductions[k as usize].of, self.weight());
         let weighed = self.lowering.graph.mul(weight, value);
         let Some(rate) = self.lowering.along_the_motion(weighed) else {
             let (rests, nothing) = (self.rests(&going), self.no_value());
-            return Some(self.lowering.graph.select(rests, slope, nothing));
+            return self.lowering.graph.select(rests, slope, nothing);
         };
         let inside = self.reduce(ReductionKind::Integral, rate, holds);
         let [from, to] = ENDS.map(|end| self.reduce(end, weighed, holds));
         let graph = &mut self.lowering.graph;
         let whole = graph.sub(to, from);
         let jumps = graph.sub(whole, inside);
-        Some(self.where_as_near(of, jumps, slope))
+        self.where_as_near(of, jumps, slope)
     }
 
     /// `exp((t − from)/(to − from))`
