@@ -89,22 +89,21 @@ pub(super) fn refuse_twice<'n>(
     choice: &Choice,
 ) -> Result<(), Box<Diagnostic>> {
     let names: Vec<&String> = names.collect();
+    let set: Vec<String> =
+        choice.set.iter().filter_map(|set| set.split_once('=')).map(|(set, _)| spaceless(set)).collect();
     for (k, &name) in names.iter().enumerate() {
         if names[..k].contains(&name) {
             return Err(unusable(format!("`{name}` is to vary twice"))
                 .help("say it once, or name another param")
                 .into());
         }
-        let set = choice.set.iter().filter_map(|set| set.split_once('=')).map(|(set, _)| spaceless(set));
-        if let Some(hidden) =
-            names[..k].iter().map(|before| (*before).clone()).chain(set).find(|one| is_of_a_copy(one, name))
-        {
+        let mut before = names[..k].iter().copied().chain(&set);
+        if let Some(hidden) = before.find(|one| is_of_a_copy(one, name)) {
             return Err(unusable(format!("`{hidden}` would be what `{name}` is, which is that of all copies"))
                 .help(format!("leave `{hidden}` out, or say it behind `{name}`"))
                 .into());
         }
-        let is_set = |set: &String| set.split_once('=').is_some_and(|(set, _)| spaceless(set) == *name);
-        if choice.set.iter().any(is_set) {
+        if set.contains(name) {
             return Err(unusable(format!("`{name}` is set, and is to vary"))
                 .help("leave `--set` or `--vary` out")
                 .into());
