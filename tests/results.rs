@@ -526,6 +526,43 @@ fn forces_of_loads_by_a_table_are_reduced_piece_by_piece() {
     check(&text, 8.0, &[(2.0, 1e-12), (2.5, 1e-12), (4.0, 1e-12), (9.5 / 4.0, 1e-9), (0.0, 1e-9)]);
 }
 
+/// A table whose pieces differ so much that their coefficients together say nothing of a quotient. The figures are SciPy's: its
+/// `CubicSpline(…, bc_type="periodic")`, integrated with four million steps.
+const UNEVEN: &str = "table lift = periodic spline [(0, 40 mm), (2, 45 mm), (4, 50 mm), (360 deg, 40 mm)]";
+
+#[test]
+fn tables_are_looked_at_piece_by_piece() {
+    let declared = format!(
+        "{UNEVEN}
+        result a = mean(1/(lift(t/1 s) - 30 mm)) result b = mean(lift(40 * t/1 s)) result c = max(lift(40 * t/1 s))
+        result d = max(der(der(lift(4 * t/1 s)))) result e = mean(lift(t/1 s) / (lift(2 * t/1 s) - 35 mm))"
+    );
+    let wanted =
+        [71.815_749_610_989, 0.044_966_863_925_603, 0.050_283_384_955_376, 0.105_116_303_633_047, 5.87748143845128];
+    check(&arm("t", &declared), 4.0, &wanted.map(|value| (value, 1e-9 * value)));
+}
+
+#[test]
+fn the_seam_of_a_table_is_no_edge() {
+    let resting = format!("{UNEVEN} result a = max(lift(rotation(main))) result b = mean(lift(rotation(main)))");
+    check(&arm("360 deg + 0 * t", &resting), 4.0, &[(0.04, 1e-15), (0.04, 1e-15)]);
+    // the plate of a cam goes over the seam of its own outline at t = 2 pi - 1
+    let cam = format!(
+        "mechanism m {{
+    {UNEVEN}
+    ground {{ point O = (0, 0) axis way = (0, 0) along (0, 1) }}
+    body plate {{ point O = (0, 0) curve pitch(u) = (-lift(u) * sin(u), lift(u) * cos(u)) at 1 }}
+    body follower at (0, 43 mm, 0) {{ point centre = (0, 0) axis stem = centre along (0, 1) }}
+    joint shaft: revolute(ground.O, plate.O)
+    joint guide: translational(ground.way, follower.stem)
+    joint contact: point_follower(follower.centre, plate.pitch)
+    driver motor: rotation(shaft) = -1 - t
+    result a = mean(slip(contact)) result b = mean(der(slip(contact))) * 5.5 s - (last(slip(contact)) - first(slip(contact)))
+}}"
+    );
+    check(&cam, 5.5, &[(0.045_873_075_35, 1e-9), (0.0, 1e-12)]);
+}
+
 #[test]
 fn results_speak_of_each_other_and_are_repeated() {
     let text = arm(

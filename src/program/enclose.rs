@@ -319,7 +319,7 @@ fn exact(low: f64, high: f64) -> Interval {
 }
 
 /// All of both.
-fn hull(a: Interval, b: Interval) -> Interval {
+pub(super) fn hull(a: Interval, b: Interval) -> Interval {
     Interval { low: a.low.min(b.low), high: a.high.max(b.high) }
 }
 

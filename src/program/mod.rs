@@ -21,6 +21,7 @@ mod op;
 mod ranges;
 mod signals;
 mod tables;
+mod ways;
 
 pub use enclose::Enclosure;
 pub use evaluate::{Frozen, Registers, truth};
@@ -119,6 +120,8 @@ pub struct TableLayout {
     pub knots: Register,
     /// First of each coefficient.
     pub coefficients: [Register; 4],
+    /// Of a periodic one: where it stands how many whole periods its arguments are beyond its range.
+    pub periods: Vec<Register>,
 }
 
 impl TableLayout {

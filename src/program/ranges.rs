@@ -2,11 +2,15 @@
 //!
 //! Unlike an [`Enclosure`](super::Enclosure), which proves that no switch changes, a range is one of all branches that may count: it
 //! holds every value, and tells whether there may be jumps among them.
+//!
+//! Where the argument of a table goes over a knot, or over the seam of a periodic one, the formula is looked at in each of the pieces by
+//! itself: what is put together of the coefficients of two says little of either.
 
-use super::enclose::{Interval, behind, enclose};
+use super::enclose::{Interval, behind, enclose, hull};
+use super::ways::{Ways, periods, stay_in_piece};
 use super::{Op, Program, Register, Registers, Stage};
 use crate::expr::{Binary, Unary};
-use crate::tolerances::results::ranges::{WIDEST, WIDEST_RATIO, WIDEST_VALUE};
+use crate::tolerances::results::ranges::{MOST_WAYS, WIDEST, WIDEST_RATIO, WIDEST_VALUE};
 
 /// What a formula is enclosed in.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -33,6 +37,16 @@ struct Found {
 
 const NOTHING: Found = Found { may_switch: false, is_resolved: true, crosses_knots: false };
 
+impl Found {
+    fn of_both(self, other: Found) -> Found {
+        Found {
+            may_switch: self.may_switch || other.may_switch,
+            is_resolved: self.is_resolved && other.is_resolved,
+            crosses_knots: self.crosses_knots || other.crosses_knots,
+        }
+    }
+}
+
 /// Room for the ranges of some formulas, each of which may use what those before it have.
 #[derive(Clone, Debug)]
 pub struct Ranges {
@@ -45,6 +59,11 @@ pub struct Ranges {
     is_frozen: bool,
     values: Vec<Interval>,
     time: Register,
+    /// Where an argument of a periodic table goes from period to period.
+    periods: Vec<Register>,
+    ways: Ways,
+    /// The values on one of the ways.
+    on_way: Vec<Interval>,
 }
 
 impl Ranges {
@@ -70,6 +89,9 @@ impl Ranges {
             is_frozen,
             values: (0..program.registers()).map(|k| point(registers.get(k as u32))).collect(),
             time: program.inputs.time,
+            periods: periods(program),
+            ways: Ways::default(),
+            on_way: Vec::new(),
         }
     }
 
@@ -85,33 +107,91 @@ impl Ranges {
 
     /// The range of a formula; those before it must have been asked for since time and coordinates were set.
     pub fn range(&mut self, program: &Program, registers: &Registers, k: usize) -> Range {
-        let before = if k == 0 { NOTHING } else { self.found[k - 1] };
-        let Found { mut may_switch, mut is_resolved, mut crosses_knots } = before;
+        let mut found = if k == 0 { NOTHING } else { self.found[k - 1] };
         for at in 0..self.operations[k].len() {
             let op = self.operations[k][at];
-            is_resolved &= is_resolved_in(op, &self.values);
+            found.is_resolved &= is_resolved_in(op, &self.values);
             enclose(program, op, &mut self.values);
-            if let Some(to) = op.switched() {
-                let value = &mut self.values[to as usize];
-                if self.is_frozen {
-                    let frozen = registers.get(to);
-                    *value = Interval { low: frozen, high: frozen };
-                    continue;
-                }
-                let changes = value.low.total_cmp(&value.high).is_ne();
-                // a spline goes on over its knots
-                let is_piece = matches!(op, Op::Piece { .. });
-                may_switch |= changes && !is_piece;
-                crosses_knots |= changes && is_piece;
+            if let (true, Some(to)) = (self.is_frozen, op.switched()) {
+                let frozen = registers.get(to);
+                self.values[to as usize] = Interval { low: frozen, high: frozen };
             }
-            if let Some(to) = bounded(op) {
-                let value = self.values[to as usize];
-                is_resolved &= value.high - value.low <= WIDEST_VALUE;
+            found = found.of_both(self.found_of(op, &self.values));
+        }
+        let mut all = self.values[self.roots[k] as usize];
+        if found.crosses_knots {
+            if let Some((piece_by_piece, found_so)) = self.range_by_pieces(program, k) {
+                all = Interval { low: all.low.max(piece_by_piece.low), high: all.high.min(piece_by_piece.high) };
+                found = found_so;
+            } else {
+                found.is_resolved = false;
             }
         }
-        self.found[k] = Found { may_switch, is_resolved, crosses_knots };
-        let Interval { low, high } = self.values[self.roots[k] as usize];
-        Range { low, high, may_switch, is_resolved: is_resolved && !may_switch, crosses_knots }
+        self.found[k] = found;
+        let Found { may_switch, is_resolved, crosses_knots } = found;
+        Range { low: all.low, high: all.high, may_switch, is_resolved: is_resolved && !may_switch, crosses_knots }
+    }
+
+    /// What the result of an operation says, which has just been enclosed.
+    fn found_of(&self, op: Op, v: &[Interval]) -> Found {
+        let width = |register: Register| v[register as usize].high - v[register as usize].low;
+        let changes = op.switched().is_some_and(|to| {
+            let Interval { low, high } = v[to as usize];
+            low.total_cmp(&high).is_ne()
+        });
+        let crosses_knots = changes && self.is_of_table(op);
+        Found {
+            // a spline goes on over its knots
+            may_switch: changes && !crosses_knots,
+            is_resolved: bounded(op).is_none_or(|to| width(to) <= WIDEST_VALUE),
+            crosses_knots,
+        }
+    }
+
+    /// Whether an operation tells where a table is entered.
+    fn is_of_table(&self, op: Op) -> bool {
+        matches!(op, Op::Piece { .. }) || op.switched().is_some_and(|to| self.periods.contains(&to))
+    }
+
+    /// The range of a formula, each piece of each table taken by itself; none where that would be too many ways.
+    fn range_by_pieces(&mut self, program: &Program, k: usize) -> Option<(Interval, Found)> {
+        let (mut on_way, mut ways) = (std::mem::take(&mut self.on_way), std::mem::take(&mut self.ways));
+        let mut all: Option<(Interval, Found)> = None;
+        ways.begin();
+        let mut is_last = false;
+        for _ in 0..MOST_WAYS {
+            on_way.clone_from(&self.values);
+            let Some(found) = self.go(program, k, (&mut ways, &mut on_way)) else { break };
+            let value = on_way[self.roots[k] as usize];
+            all = Some(all.map_or((value, found), |(hull_so_far, found_so_far)| {
+                (hull(hull_so_far, value), found_so_far.of_both(found))
+            }));
+            is_last = !ways.go_on();
+            if is_last {
+                break;
+            }
+        }
+        (self.on_way, self.ways) = (on_way, ways);
+        all.filter(|_| is_last)
+    }
+
+    /// Runs all operations of a formula on one of the ways; none where there are too many.
+    fn go(&self, program: &Program, k: usize, (ways, v): (&mut Ways, &mut [Interval])) -> Option<Found> {
+        let mut found = Found { crosses_knots: true, ..NOTHING };
+        for &op in self.operations[..=k].iter().flatten() {
+            found.is_resolved &= is_resolved_in(op, v);
+            enclose(program, op, v);
+            if let Some(to) = op.switched().filter(|_| self.is_of_table(op)) {
+                let Interval { low, high } = v[to as usize];
+                // over two knots there is no telling what lies between from what is at the ends
+                found.is_resolved &= high - low <= 1.0;
+                let taken = ways.take(v[to as usize])?;
+                v[to as usize] = Interval { low: taken, high: taken };
+                stay_in_piece(program, op, taken, v);
+            }
+            found = found.of_both(self.found_of(op, v));
+        }
+        Some(found)
     }
 }
 

@@ -44,6 +44,7 @@ impl Layout<'_> {
             let way = self.push(stage, |to| Op::Sub { to, a, b: knots });
             let turns = self.push(stage, |to| Op::Div { to, a: way, b: period });
             let whole = self.push(stage, |to| Op::Unary { function: Unary::Floor, to, a: turns });
+            self.table_layouts[number as usize].periods.push(whole);
             let back = self.push(stage, |to| Op::Mul { to, a: period, b: whole });
             a = self.push(stage, |to| Op::Sub { to, a, b: back });
         }
@@ -65,7 +66,8 @@ impl Layout<'_> {
         let pieces = of_graph.coefficients[0].len() as u32;
         let period = self.push(Stage::Prologue, |to| Op::Sub { to, a: knots + pieces, b: knots });
         let place = Place { number: self.table_layouts.len() as u32, period };
-        self.table_layouts.push(TableLayout { name: of_graph.name.clone(), pieces, knots, coefficients });
+        let (name, periods) = (of_graph.name.clone(), Vec::new());
+        self.table_layouts.push(TableLayout { name, pieces, knots, coefficients, periods });
         self.tables.insert(table, place);
         place
     }
