@@ -542,6 +542,22 @@ fn tables_are_looked_at_piece_by_piece() {
     check(&arm("t", &declared), 4.0, &wanted.map(|value| (value, 1e-9 * value)));
 }
 
+/// What is put together of the argument before a jump and behind it is none of what the function is asked for.
+#[test]
+fn branches_are_looked_at_one_by_one() {
+    let asked = "result a = max(asin(step5(mod(t/1 s, 1), 0, 0.2, 2, 0.9))) result b = max(sqrt(step7(if t < 0.5 s then 0 else 1, 0, 0.2, 2, 0.9)))
+        result c = max(asin(step5(if t < 0.5 s then 0 else 1, 0, 0.2, 2, 0.9)))";
+    check(&arm("t", asked), 2.0, &[(0.55_f64.asin(), 1e-9), (0.55_f64.sqrt(), 1e-9), (0.55_f64.asin(), 1e-9)]);
+}
+
+/// A number that rests is that number, and no little more or less.
+#[test]
+fn what_rests_at_a_switch_has_a_side() {
+    let asked = "result a = integral(mod(min(3 * t/1 s, 2), 1)) result b = integral(mod(max(t/1 s, 10), 1))
+        result c = integral(sign(min(3 * t/1 s, 2) - 2)) result d = integral(mod(min(3 * rotation(main), 2), 1))";
+    check(&arm("t", asked), 2.0, &[(1.0 / 3.0, 1e-9), (0.0, 1e-12), (-2.0 / 3.0, 1e-9), (1.0 / 3.0, 1e-9)]);
+}
+
 #[test]
 fn the_seam_of_a_table_is_no_edge() {
     let resting = format!("{UNEVEN} result a = max(lift(rotation(main))) result b = mean(lift(rotation(main)))");

@@ -399,6 +399,48 @@ fn an_extremum_at_an_edge_has_a_derivative_where_the_edge_stays() {
     );
 }
 
+/// What rests behind an edge has not turned there, and what stands at an edge goes to one side as it does not to the other.
+#[test]
+fn what_stands_at_an_edge_that_goes_with_the_param_has_no_derivative() {
+    by_p(
+        1.0,
+        &[
+            // the time is that of the jump
+            ("argmin(if t < 0.5 * p then 2 + sin(t) else -3)", None),
+            ("argmax(if t < 0.5 * p then -sin(t) else 3)", None),
+            // times at an edge, and beside one
+            ("last(abs(p - t))", None),
+            ("at(abs(y(arm.tip) / 1 m - p), 1/12)", None),
+            ("at(abs(y(arm.tip) / 1 m - p), 0.1)", Some(-1.0)),
+            ("last(if p * t < 1 then 1 else 2)", None),
+            ("max(if p * t < 1 then 1 else 2)", None),
+            ("last(mod(p * t, 1))", None),
+            ("at(mod(p * t, 1), 0.5)", Some(0.5)),
+            ("first(atan2(p * t, 1))", Some(0.0)),
+            ("last(hypot(p - t, 0 * t))", None),
+            ("last(hypot(p - t, t))", Some(0.0)),
+            // a turn at the end is one within the analysis to one side alone
+            ("argmin(cos(p * 180 deg * t))", None),
+            ("min(cos(p * 180 deg * t))", Some(0.0)),
+            ("argmax(sin(p * 80 deg * t))", Some(0.0)),
+            ("argmin((t - 1)^2 * p)", Some(0.0)),
+        ],
+    );
+}
+
+/// A switch goes with a param through a table as it does through any other function, and so does the motion.
+#[test]
+fn a_param_moves_a_switch_through_a_table() {
+    let lift = "table lift = spline [(0 s, 0), (0.5 s, p), (1 s, 0.4)] ";
+    let of = |declarations: &str, results: &str| {
+        let text = arm(&format!("param p = 0.6 {declarations} {results} analysis from 0 s to 1 s every 0.1 s"));
+        subject(&text, &[]).affected(&["p=0.01"]).1.iter().map(|of| of.slopes[0].is_some()).collect::<Vec<bool>>()
+    };
+    let results = "result a = integral(if lift(t) > 0.5 then 1 else 0) result b = mean(sign(lift(t) - 0.5))
+        result c = integral(mod(lift(t), 0.4)) result d = integral(lift(t)) result e = max(lift(t))";
+    assert_eq!(of(lift, results), [false, false, false, true, true]);
+}
+
 #[test]
 fn an_integral_has_a_derivative_where_no_jump_goes_with_the_param() {
     by_p(

@@ -417,11 +417,11 @@ impl Graph {
         self.symbols_of_all(&[root])
     }
 
-    /// The symbols in some formulas, each once, ordered.
+    /// The symbols in some formulas and the tables that they hold, each once, ordered.
     #[must_use]
     pub fn symbols_of_all(&self, roots: &[ExprId]) -> Vec<Symbol> {
         let mut list: Vec<Symbol> = self
-            .reachable(roots)
+            .reachable_with_tables(roots)
             .into_iter()
             .filter_map(|id| match self.node(id) {
                 Node::Symbol(symbol) => Some(symbol),

@@ -98,16 +98,37 @@ fn deciding(graph: &mut Graph, roots: &[ExprId], what: Break) -> Vec<ExprId> {
     graph.reachable(roots).into_iter().flat_map(|id| decided_by(graph, id, what)).collect()
 }
 
-/// What must stay for a node not to break elsewhere.
+/// What is nothing where a number is whole.
+fn at_whole_numbers(graph: &mut Graph, of: ExprId) -> ExprId {
+    let half_turn = graph.constant(std::f64::consts::PI);
+    let turned = graph.mul(half_turn, of);
+    graph.unary(Unary::Sin, turned)
+}
+
+/// What must stay for a node not to break elsewhere: it breaks where that is nothing.
 fn decided_by(graph: &mut Graph, id: ExprId, what: Break) -> Vec<ExprId> {
     let bends = what == Break::Bend;
     match graph.node(id) {
         Node::Compare(_, a, b) => vec![graph.sub(a, b)],
         Node::Binary(Binary::Min | Binary::Max, a, b) if bends => vec![graph.sub(a, b)],
-        Node::Binary(Binary::Hypot | Binary::Pow, a, b) if bends => vec![a, b],
-        Node::Binary(Binary::Atan2 | Binary::Mod, a, b) => vec![a, b],
-        Node::Unary(Unary::Sign | Unary::Floor, a) => vec![a],
-        Node::Unary(Unary::Abs | Unary::Sqrt | Unary::Asin | Unary::Acos, a) if bends => vec![a],
+        Node::Binary(Binary::Hypot, ..) if bends => vec![id],
+        Node::Binary(Binary::Pow, a, b) if bends => vec![a, b],
+        Node::Binary(Binary::Atan2, a, b) => {
+            // nothing where the second is negative and the first is nothing
+            let length = graph.binary(Binary::Hypot, a, b);
+            vec![graph.add(length, b)]
+        }
+        Node::Binary(Binary::Mod, a, b) => {
+            let turns = graph.div(a, b);
+            vec![at_whole_numbers(graph, turns)]
+        }
+        Node::Unary(Unary::Floor, a) => vec![at_whole_numbers(graph, a)],
+        Node::Unary(Unary::Sign, a) => vec![a],
+        Node::Unary(Unary::Abs | Unary::Sqrt, a) if bends => vec![a],
+        Node::Unary(Unary::Asin | Unary::Acos, a) if bends => {
+            let (one, square) = (graph.constant(1.0), graph.power(a, 2));
+            vec![graph.sub(one, square)]
+        }
         // the third derivative of a natural spline jumps
         Node::Table(_, order, a) if bends || order == 3 => vec![a],
         _ => Vec::new(),

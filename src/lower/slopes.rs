@@ -160,13 +160,40 @@ impl Slopes<'_, '_> {
         let Reduced { value, holds } = self.formulas[k as usize];
         let by = self.partial(value)?;
         let goes = self.of_time(time);
+        let going = self.lowering.bending_elsewhere(value, self.variable);
         if self.is_zero(goes) {
-            return Some(self.reduce(kind, by, holds));
+            let slope = self.reduce(kind, by, holds);
+            return Some(self.where_clear(kind, (&going, holds), slope));
         }
         let rate = self.lowering.along_the_motion(value)?;
         let [by, rate] = [by, rate].map(|formula| self.reduce(kind, formula, holds));
         let moved = self.lowering.graph.mul(rate, goes);
-        Some(self.lowering.graph.add(by, moved))
+        let slope = self.lowering.graph.add(by, moved);
+        Some(self.where_clear(kind, (&going, holds), slope))
+    }
+
+    /// A slope where no edge is that goes with the variable: at one there is a slope to either side, if any.
+    fn where_clear(
+        &mut self,
+        kind: ReductionKind,
+        (going, holds): (&[Going], Option<ExprId>),
+        slope: ExprId,
+    ) -> ExprId {
+        if going.is_empty() {
+            return slope;
+        }
+        let size = self.size_of_the_variable();
+        let nothing = self.no_value();
+        going.iter().fold(slope, |slope, &Going { of, by }| {
+            let [of, by] = [of, by].map(|formula| self.reduce(kind, formula, holds));
+            let graph = &mut self.lowering.graph;
+            let [off, goes] = [of, by].map(|of| graph.unary(Unary::Abs, of));
+            let part = graph.constant(SAME);
+            let reach = graph.mul(part, size);
+            let reached = graph.mul(goes, reach);
+            let is_clear = graph.compare(Comparison::LessEqual, reached, off);
+            graph.select(is_clear, slope, nothing)
+        })
     }
 
     fn of_integral(&mut self, k: u32) -> Option<ExprId> {
@@ -251,24 +278,23 @@ impl Slopes<'_, '_> {
         let time = self.asked(ReductionKind::Extreme { largest, when: true }, of);
         let at = ReductionKind::At(time);
         let inside = if when { self.of_time_within(at, (value, holds), by)? } else { self.reduce(at, by, holds) };
+        let rate_there = rate.map(|rate| self.reduce(at, rate, holds));
         let mut slope = inside;
         if when || bends {
-            slope = match rate {
-                Some(rate) => {
-                    let rate = self.reduce(at, rate, holds);
-                    self.where_flat((of, rate), inside)
-                }
+            slope = match rate_there {
+                Some(rate) => self.where_flat((of, rate), inside),
                 None if when => return None,
                 None => self.where_rounded((of, largest), time, inside),
             };
         }
         for (kind, goes) in ends {
             let at_end = if when {
-                goes
+                self.where_it_ends((of, rate_there?), inside, goes)
             } else {
                 let still = self.reduce(at, by, holds);
                 self.moved((at, still), (rate, holds), goes)?
             };
+            let at_end = self.where_clear(at, (&going, holds), at_end);
             let end = self.time(kind);
             let graph = &mut self.lowering.graph;
             let between = if kind == ReductionKind::First { [time, end] } else { [end, time] };
@@ -307,9 +333,31 @@ impl Slopes<'_, '_> {
         let second = self.lowering.along_the_motion(rate)?;
         let rate_by = self.lowering.along_the_motion(by)?;
         let [second, rate_by] = [second, rate_by].map(|formula| self.reduce(at, formula, holds));
+        let nothing = self.no_value();
         let graph = &mut self.lowering.graph;
         let quotient = graph.div(rate_by, second);
-        Some(graph.neg(quotient))
+        let slope = graph.neg(quotient);
+        // what rests there has begun to do so at an edge
+        let (bend, zero) = (graph.unary(Unary::Abs, second), graph.constant(0.0));
+        let turns = graph.compare(Comparison::Less, zero, bend);
+        Some(graph.select(turns, slope, nothing))
+    }
+
+    /// The slope of the time of an extremum that is at an end of the analysis: a turn that is there just now goes to one side on within the
+    /// analysis, to the other it leaves the extremum at the end.
+    fn where_it_ends(&mut self, (of, rate): (ExprId, ExprId), within: ExprId, goes: ExprId) -> ExprId {
+        let (range, span, size) = (self.range(of), self.span(), self.size_of_the_variable());
+        let nothing = self.no_value();
+        let graph = &mut self.lowering.graph;
+        let (part, digits) = (graph.constant(SAME), graph.constant(NOTHING));
+        let steep = graph.unary(Unary::Abs, rate);
+        let [steep, flat, short] = [graph.mul(steep, span), graph.mul(part, range), graph.mul(digits, span)];
+        let is_steep = graph.compare(Comparison::Less, flat, steep);
+        let way = graph.unary(Unary::Abs, within);
+        let way = graph.mul(way, size);
+        let stays = graph.compare(Comparison::LessEqual, way, short);
+        let stands = graph.or(is_steep, stays);
+        graph.select(stands, goes, nothing)
     }
 
     /// A slope where the formula does not change with time.

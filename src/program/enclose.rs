@@ -323,9 +323,15 @@ pub(super) fn hull(a: Interval, b: Interval) -> Interval {
     Interval { low: a.low.min(b.low), high: a.high.max(b.high) }
 }
 
-/// Rounding may have gone either way.
+/// Rounding may have gone either way; but where both ends are one number all that lies between is rounded to it.
 fn wider(low: f64, high: f64) -> Interval {
-    if low.is_nan() || high.is_nan() { WHOLE } else { Interval { low: low.next_down(), high: high.next_up() } }
+    if low.is_nan() || high.is_nan() {
+        WHOLE
+    } else if low.total_cmp(&high).is_eq() && low.is_finite() {
+        point(low)
+    } else {
+        Interval { low: low.next_down(), high: high.next_up() }
+    }
 }
 
 /// A sine or cosine changes by no more than its argument.

@@ -3,8 +3,8 @@
 //! Unlike an [`Enclosure`](super::Enclosure), which proves that no switch changes, a range is one of all branches that may count: it
 //! holds every value, and tells whether there may be jumps among them.
 //!
-//! Where the argument of a table goes over a knot, or over the seam of a periodic one, the formula is looked at in each of the pieces by
-//! itself: what is put together of the coefficients of two says little of either.
+//! Where a formula may change its branch, or the argument of a table goes over a knot, each branch and each piece is looked at by itself: what
+//! is put together of two says little of either.
 
 use super::enclose::{Interval, behind, enclose, hull};
 use super::ways::{Ways, periods, stay_in_piece};
@@ -119,9 +119,9 @@ impl Ranges {
             found = found.of_both(self.found_of(op, &self.values));
         }
         let mut all = self.values[self.roots[k] as usize];
-        if found.crosses_knots {
-            if let Some((piece_by_piece, found_so)) = self.range_by_pieces(program, k) {
-                all = Interval { low: all.low.max(piece_by_piece.low), high: all.high.min(piece_by_piece.high) };
+        if found.crosses_knots || found.may_switch {
+            if let Some((one_by_one, found_so)) = self.range_by_ways(program, k) {
+                all = Interval { low: all.low.max(one_by_one.low), high: all.high.min(one_by_one.high) };
                 found = found_so;
             } else {
                 found.is_resolved = false;
@@ -153,8 +153,8 @@ impl Ranges {
         matches!(op, Op::Piece { .. }) || op.switched().is_some_and(|to| self.periods.contains(&to))
     }
 
-    /// The range of a formula, each piece of each table taken by itself; none where that would be too many ways.
-    fn range_by_pieces(&mut self, program: &Program, k: usize) -> Option<(Interval, Found)> {
+    /// The range of a formula, each branch and each piece of each table taken by itself; none where that would be too many ways.
+    fn range_by_ways(&mut self, program: &Program, k: usize) -> Option<(Interval, Found)> {
         let (mut on_way, mut ways) = (std::mem::take(&mut self.on_way), std::mem::take(&mut self.ways));
         let mut all: Option<(Interval, Found)> = None;
         ways.begin();
@@ -177,11 +177,12 @@ impl Ranges {
 
     /// Runs all operations of a formula on one of the ways; none where there are too many.
     fn go(&self, program: &Program, k: usize, (ways, v): (&mut Ways, &mut [Interval])) -> Option<Found> {
-        let mut found = Found { crosses_knots: true, ..NOTHING };
+        let mut found = NOTHING;
         for &op in self.operations[..=k].iter().flatten() {
             found.is_resolved &= is_resolved_in(op, v);
             enclose(program, op, v);
-            if let Some(to) = op.switched().filter(|_| self.is_of_table(op)) {
+            found = found.of_both(self.found_of(op, v));
+            if let Some(to) = op.switched() {
                 let Interval { low, high } = v[to as usize];
                 // over two knots there is no telling what lies between from what is at the ends
                 found.is_resolved &= high - low <= 1.0;
@@ -189,7 +190,6 @@ impl Ranges {
                 v[to as usize] = Interval { low: taken, high: taken };
                 stay_in_piece(program, op, taken, v);
             }
-            found = found.of_both(self.found_of(op, v));
         }
         Some(found)
     }

@@ -1,9 +1,13 @@
 //! What of a mechanism can be set from outside, in SI: its params, and its inputs.
 
+use super::formula::Formula;
 use super::varied::{is_of_angles, si_unit};
 use super::{Checked, Compiled};
-use crate::check::Amount;
-use crate::syntax::ast::ItemKind;
+use crate::check::{self, Amount};
+use crate::diag::Diagnostics;
+use crate::model::Dimension;
+use crate::source::Sources;
+use crate::syntax::{self, ast::ItemKind};
 
 /// A param or an input, as an option sets it.
 #[derive(Clone, PartialEq, Debug)]
@@ -14,6 +18,28 @@ pub struct Settable {
     pub unit: String,
     /// What it is by the text (SI); of an input, at the first time of the analysis.
     pub value: f64,
+    /// What values of it must be.
+    pub(super) dimension: Dimension,
+}
+
+impl Settable {
+    /// The value of a formula for it (SI), which an option gives under this name.
+    ///
+    /// # Errors
+    /// It is no formula of numbers and units, or not of what it is for.
+    pub fn read(&self, option: &str, what: &str, text: &str, sources: &mut Sources) -> Result<f64, Diagnostics> {
+        let file = sources.add_option(option, text);
+        let formula = syntax::parse_expression(sources, file)?;
+        check::constant(&formula, &format!("{what} `{}`", self.name), self.dimension, sources)
+    }
+
+    /// Its derivative by time of some order, as something to be set.
+    #[must_use]
+    pub fn by_time(&self, order: u32) -> Settable {
+        let per = if order == 1 { "s".to_owned() } else { format!("s^{order}") };
+        let dimension = self.dimension.over(Dimension::TIME.to_the(f64::from(order)));
+        Settable { name: self.name.clone(), unit: format!("{}/{per}", self.unit), value: 0.0, dimension }
+    }
 }
 
 impl Checked {
@@ -32,11 +58,11 @@ impl Checked {
             match &known.amount {
                 Amount::Number { si, dimension, is_angle: is_known_angle, .. } => {
                     let unit = si_unit(*dimension, is_angle || *is_known_angle);
-                    found.push(Settable { name: name.clone(), unit, value: *si });
+                    found.push(Settable { name: name.clone(), unit, value: *si, dimension: *dimension });
                 }
                 Amount::Point(at) => found.extend(["x", "y"].into_iter().zip(at).map(|(axis, &value)| {
                     let (name, unit) = (format!("{name}.{axis}"), "m".to_owned());
-                    Settable { name, unit, value }
+                    Settable { name, unit, value, dimension: Dimension::LENGTH }
                 })),
             }
         }
@@ -48,7 +74,7 @@ impl Checked {
                 Some(known) => known.value = param.value,
                 None if name.contains('.') => {
                     let unit = si_unit(param.dimension, false);
-                    found.push(Settable { name: name.clone(), unit, value: param.value });
+                    found.push(Settable { name: name.clone(), unit, value: param.value, dimension: param.dimension });
                 }
                 None => {}
             }
@@ -61,13 +87,55 @@ impl Checked {
     pub fn settable_inputs(&self, compiled: &Compiled) -> Vec<Settable> {
         let first = compiled.analysis().map_or(0.0, |[from, ..]| from);
         let jogs = self.jogs(compiled, &[first]).into_iter();
-        jogs.map(|jog| Settable { name: jog.name, unit: jog.unit, value: jog.values[0] }).collect()
+        jogs.map(|jog| {
+            let dimension = dimension_of(&jog.unit);
+            Settable { name: jog.name, unit: jog.unit, value: jog.values[0], dimension }
+        })
+        .collect()
     }
+}
+
+/// Of what dimension values of a unit are; of a pure number where there is none.
+fn dimension_of(unit: &str) -> Dimension {
+    let one = if unit.starts_with('/') { format!("1{unit}") } else { format!("1 {unit}") };
+    let formula = Formula::of(&one, &mut Sources::default());
+    formula.ok().and_then(|formula| formula.known_dimension()).unwrap_or(Dimension::PURE)
 }
 
 #[cfg(test)]
 mod tests {
     use crate::{Cancel, Choice, Memory, Parsed, Redundant};
+
+    #[test]
+    fn formulas_for_what_is_set_are_of_what_it_is() {
+        let text = "mechanism lever {
+            param length = 50 mm
+            input slide  = 0.1 m/s * t
+            ground { axis way = (0, 0) along (1, 0) }
+            body block { axis way = (0, 0) along (1, 0) }
+            joint guide: translational(ground.way, block.way)
+            driver motor: displacement(guide) = slide + 0 * length
+        }";
+        let checked = Parsed::of("lever.mech", text).check(&Choice::default(), &Memory::default());
+        let compiled = checked.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
+        let (params, inputs) = (checked.settable_params(), checked.settable_inputs(&compiled));
+        let rate = inputs[0].by_time(1);
+        assert_eq!(rate.unit, "m/s");
+        let read = |of: &super::Settable, text: &str| {
+            let mut sources = crate::Sources::default();
+            let said = |said: crate::Diagnostics| said.iter().next().map_or(String::new(), |of| of.message.clone());
+            of.read("--set it", "the value of", text, &mut sources).map_err(said)
+        };
+        assert_eq!(read(&params[0], "2 * (20 mm + 1 cm)"), Ok(0.06));
+        assert_eq!(read(&inputs[0], "20 mm"), Ok(0.02));
+        assert_eq!(read(&rate, "20 mm/s"), Ok(0.02));
+        assert_eq!(read(&rate, "0"), Ok(0.0));
+        let wrong = "the value of `slide` must be a speed, found a length";
+        assert_eq!(read(&rate, "20 mm"), Err(wrong.to_owned()));
+        assert_eq!(read(&params[0], "t"), Err("time `t` may not stand in the value of `length`".to_owned()));
+        assert!(read(&params[0], "1 m) + (1 m").is_err());
+        assert!(read(&params[0], "length").is_err());
+    }
 
     #[test]
     fn params_and_inputs_are_told_in_si() {

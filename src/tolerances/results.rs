@@ -9,9 +9,9 @@ pub mod ranges {
     pub const WIDEST_VALUE: f64 = 0.5;
     /// What is divided by, or has a root taken of it, changes by no more than this factor.
     pub const WIDEST_RATIO: f64 = 2.0;
-    /// A table's argument lies in one of so many pieces more than one at the most, for each of them to be looked at by itself.
+    /// A switch has so many results more than one at the most, be it the piece of a table, for each of them to be looked at by itself.
     pub const MOST_AT_ONCE: f64 = 3.0;
-    /// So many ways through the pieces of tables are looked at, at the most.
+    /// So many ways through such results are looked at, at the most.
     pub const MOST_WAYS: usize = 16;
     /// An argument of a periodic table may be so far beyond its ends, by rounding (periods).
     pub const BESIDE_A_SEAM: f64 = 1e-9;
