@@ -6,8 +6,8 @@
 >>> run["piston.x"]                    # a numpy array (m), without a copy
 
 Whatever is computed has the bits of the command ``mechc``. Numbers that are handed over are in SI (m, rad, s, kg, N); texts have units
-(``"180 mm"``). Mechanisms, and the arrays that they give, are immutable, may be shared by threads, and can be pickled; while something is
-computed no lock is held, and Ctrl-C ends it.
+(``"180 mm"``). Mechanisms never change, may be shared by threads, and can be pickled; the arrays of runs and sweeps cannot be written to, those
+of ``at`` belong to who asks. While something is computed no lock is held, and Ctrl-C ends it.
 """
 
 import sysconfig as _sysconfig
@@ -38,6 +38,17 @@ from mechc.sweep import Sweep  # noqa: E402
 from mechc.tables import Run, Swept  # noqa: E402
 from mechc.tolerances import Deviation, Tolerance  # noqa: E402
 from mechc.values import Between, between  # noqa: E402
+
+
+
+def __getattr__(name: str) -> object:
+    # what needs Ray is there once it is asked for
+    if name == "ray":
+        import importlib
+
+        return importlib.import_module("mechc.ray")
+    raise AttributeError(f"module 'mechc' has no attribute {name!r}")
+
 
 __all__ = [
     "AnalysisError",

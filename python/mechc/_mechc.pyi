@@ -10,16 +10,19 @@ from typing import Any, TypedDict, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechc.errors import AnalysisError
+from mechc.errors import AnalysisError, MechcError
 
 __version__: str
 
 #: A number (of one element), or an array of the elements' shape.
 Numbers = float | NDArray[np.float64]
-#: A number in SI, a text with its unit, or an array of numbers in SI.
+#: A number in SI, a text with its unit, or an array of such.
 Given = ArrayLike | str
 #: Lines of JSON, text, blame, time (s), code: an error as it is packed.
 PackedError = tuple[list[str], str, str, float | None, str | None]
+
+def seconds(text: str) -> float:
+    """A time with its unit (s)."""
 
 def _end() -> None:
     """The interpreter is about to end, on this thread: those that compute stay away from it."""
@@ -48,6 +51,12 @@ class At:
     def __reduce__(self) -> tuple[Callable[..., At], tuple[Any, ...]]: ...
     def keys(self) -> list[str]:
         """The names of the columns."""
+    def values(self) -> list[Numbers]:
+        """The columns in order."""
+    def items(self) -> list[tuple[str, Numbers]]:
+        """The columns with their names."""
+    def get(self, key: str, default: Any = None, /) -> Any:
+        """A column by its name, or what stands for one that is not there."""
     def stacked(self, names: Sequence[str]) -> NDArray[np.float64]:
         """Columns of some names side by side, of shape (…, names)."""
     @property
@@ -75,7 +84,7 @@ class At:
     def status(self) -> str | list[str]:
         """``"ok"``, or the code of why it does not get there; of many elements a list, one behind the other as in ``x.q.reshape(-1, …)``."""
     @property
-    def error(self) -> AnalysisError | None:
+    def error(self) -> MechcError | None:
         """Why the first element that does not get there does not, with its index as ``error.element``; nothing where all do."""
     @property
     def shape(self) -> tuple[int, ...]:

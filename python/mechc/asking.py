@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import functools
 import inspect
+import itertools
 import os
+import re
+import unicodedata
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, TypeVar
+from typing import Any, TypeVar, Union
 
 from mechc.errors import MechcWarning, warn
 from mechc.values import many, mapping, meant, number, path_of, plain, sound, table, texts, usage, whole, written
@@ -24,7 +27,7 @@ def with_options(method: Method, *, like: Iterable[Callable[..., Any]] = ()) -> 
     @functools.wraps(method)
     def asks(m: Any, /, *arguments: Any, **keywords: Any) -> Any:
         params, inputs = m._param_units, m._input_units
-        keywords = {name if name in options else plain(name): value for name, value in keywords.items()}
+        keywords = {name if name in options else _keyword(name, [*params, *inputs]): value for name, value in keywords.items()}
         warn_of_options(params, inputs, {name: value for name, value in keywords.items() if name in options})
         refuse_unknown([name for name in keywords if name not in options], params, inputs, options)
         return method(m, *arguments, **keywords)
@@ -90,6 +93,40 @@ def warn_of_options(params: Mapping[str, str], inputs: Mapping[str, str], given:
         warn(MechcWarning(f"`{name}` is taken for the option of that name; the mechanism has {instead}"))
 
 
+def _keyword(name: str, known: list[str]) -> str:
+    """A name that was given as a keyword, in which Python writes some letters otherwise (NFKC), as ``µ``."""
+    found = plain(name)
+    alike = [] if found in known else [of for of in known if unicodedata.normalize("NFKC", of) == found]
+    return alike[0] if len(alike) == 1 else found
+
+
+def meant_by(
+    name: str, option: str, params: Mapping[str, str], inputs: Mapping[str, str], options: Iterable[str]
+) -> list[str]:
+    """The params or inputs that a name means, be it given by ``set`` or ``inputs``, or as a keyword."""
+    kinds = {"set": [params], "inputs": [inputs]}.get(option, [params, inputs])
+    for kind in kinds:
+        found = names_of(name if option else _keyword(name, list(kind)), kind)
+        if found:
+            return found
+    if option == "set" and names_of(name, inputs):
+        raise usage(f"`{name}` is an input, and `set` sets params", f"tell it by `inputs={{'{name}': …}}`")
+    if option == "inputs" and names_of(name, params):
+        raise usage(f"`{name}` is a param, and `inputs` tells inputs", f"set it by `set={{'{name}': …}}`")
+    refuse_unknown([name], params, inputs, options)
+    return []
+
+
+def names_of(name: str, known: Iterable[str]) -> list[str]:
+    """What a name is among some that are known: itself, all copies where it has no numbers, the coordinates of a point."""
+    found, known = plain(name), list(known)
+    if found in known:
+        return [found]
+    copies = [of for of in known if re.sub(r"\[[^\]]*\]", "", of) == found]
+    point = [f"{found}.x", f"{found}.y"]
+    return copies or (point if all(axis in known for axis in point) else [])
+
+
 def refuse_unknown(
     names: Iterable[str], params: Mapping[str, str], inputs: Mapping[str, str], options: Iterable[str]
 ) -> None:
@@ -110,8 +147,10 @@ def _listed(params: Mapping[str, str], inputs: Mapping[str, str]) -> str:
 def settings(option: str, given: Any, values: Mapping[str, Any], units: Mapping[str, str]) -> list[str]:
     """``NAME=FORMULA`` for each; a number has the unit of what it sets."""
     found = {}
-    for name, value in {**({} if given is None else mapping(option, given)), **values}.items():
+    for name, value in itertools.chain(({} if given is None else mapping(option, given)).items(), values.items()):
         known = plain(name)
+        if known in found:
+            raise usage(f"`{known}` is given twice", "say it once")
         found[known] = f"{known}={written(name, value, unit_of(known, units))}"
     return list(found.values())
 
@@ -187,17 +226,16 @@ def varied(
     asked: Mapping[str, Any],
 ) -> dict[str, Any]:
     """What of a sweep goes beyond a run, by the names of the command's options."""
-    found: list[str] = []
-    lists: list[bytes] = []
+    found: list[Axis] = []
     for name, values in _axes(vary):
         told = one_varied(name, values, unit_of(name, units))
-        (lists if isinstance(told, bytes) else found).append(told)  # type: ignore[arg-type]
+        found.append((f"vary {name}", told) if isinstance(told, bytes) else told)
     if isinstance(variants, (str, os.PathLike)):
-        found.append(f"@{sound('variants', path_of('variants', variants))}")
+        found.append(_variants_of(sound("variants", path_of("variants", variants))))
     elif variants is not None:
         columns = _columns_of(variants)
-        lists.append(table(columns, {name: unit_of(name, units) for name in columns}))
-    if not found and not lists:
+        found.append(("variants", table(columns, {name: unit_of(name, units) for name in columns})))
+    if not found:
         raise usage("it is not said what varies", "as in `vary={'rod_length': mechc.between('100 mm', '200 mm', 50)}`")
     if method not in (None, "sobol", "random"):
         raise usage(f"`method` is {method!r}", "it is `'sobol'` or `'random'`")
@@ -213,7 +251,6 @@ def varied(
             raise usage("`columns` chooses columns of rows", "add `rows=True`")
     return {
         "vary": found,
-        "lists": lists,
         "samples": None if samples is None else whole("samples", samples),
         "method": method,
         "seed": None if seed is None else whole("seed", seed),
@@ -227,6 +264,23 @@ def varied(
 
 #: More threads only wait for each other.
 MOST_JOBS = 1024
+
+#: No table of variants is larger (bytes), as the command has it.
+LARGEST = 1 << 30
+
+#: What varies: as the command's option has it, or a table as CSV with the name that messages have for it.
+Axis = Union[str, "tuple[str, bytes]"]
+
+
+def _variants_of(path: str) -> Axis:
+    """A table of variants in a file, which is read once: a sweep stays what it is. What cannot be read is told as the command tells it."""
+    try:
+        if os.path.isfile(path) and os.path.getsize(path) <= LARGEST:
+            with open(path, "rb") as file:
+                return path, file.read()
+    except OSError:
+        pass
+    return f"@{path}"
 
 
 def _axes(vary: Any) -> Iterable[tuple[str, Any]]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mechc.asking import names_of
 from mechc.errors import AnalysisError
 from mechc.tables import Run
 from mechc.values import elements, first_twice, meant, plain, refused, texts, usage
@@ -53,7 +54,7 @@ class Jacobian:
             return self.results[self._names.index(name)]
         columns = [f"{name}.by.{by}" for by in self._by]
         if name not in self.run or any(column not in self.run for column in columns):
-            known = [*self._names, *(known for known in self.run if not self.run._derived(known)[1])]
+            known = [*self._names, *(known for known in self.run if not self.run._derived(known)[1] and known not in (name, "t"))]
             hint = meant(name, known) if isinstance(name, str) else None
             raise KeyError(f"there are no derivatives of {name!r}" + (f"; {hint}" if hint else ""))
         return np.column_stack([self.run[column] for column in columns])
@@ -140,7 +141,7 @@ class Objective:
         return float(results[self._place]), slopes[self._place].copy()
 
     def value(self, x: ArrayLike) -> float:
-        """The value alone."""
+        """The value alone; the gradient is computed with it, whose bits do not depend on what else is asked then."""
         return self._both(x)[0]
 
     def gradient(self, x: ArrayLike) -> Array:
@@ -204,7 +205,9 @@ class Evaluation:
         params = _params(m, self.by, asked["set"])
         for name in self.by:
             if name not in params:
-                raise usage(f"there is no param `{name}`", meant(name, params) or f"the params are {', '.join(params)}")
+                copies = names_of(name, params)
+                help = f"as in `by={copies!r}`" if copies else meant(name, params) or f"the params are {', '.join(params)}"
+                raise usage(f"`{name}` is several params" if copies else f"there is no param `{name}`", help)
         self.x0 = np.array([params[name] for name in self.by])
         self.x0.setflags(write=False)
         patterns = [*columns, *(f"{column}.by.{name}" for column in columns for name in self.by)] or ["t"]
@@ -238,7 +241,6 @@ class Evaluation:
         )
         self._last = x.tobytes(), found
         return found
-
 
     def __reduce__(self) -> tuple[Any, ...]:
         # it is compiled anew where it is unpacked

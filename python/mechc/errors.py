@@ -61,6 +61,17 @@ class MechcError(Exception):
         codes = (of["code"] for of in self.diagnostics if of.get("severity") == "error")
         return next(codes, None)
 
+    @property
+    def element(self) -> tuple[int, ...] | None:
+        """Which element it is of those that :meth:`mechc.Mechanism.at` was asked for, as their array is indexed; nothing of one alone."""
+        found = self._datum("element")
+        return None if found is None else tuple(found)
+
+    def _datum(self, name: str) -> Any:
+        """What the first error has as data."""
+        found = (of.get("data", {}).get(name) for of in self.diagnostics if of.get("severity") == "error")
+        return next(found, None)
+
     def __reduce__(self) -> tuple[Any, ...]:
         # what holds it may be in its `partial`, and comes behind it
         return type(self), (self.text, self.diagnostics), dict(self.__dict__)
@@ -101,17 +112,6 @@ class AnalysisError(MechcError):
         """When it stopped (s), where that is known."""
         return self._datum("t")
 
-    @property
-    def element(self) -> tuple[int, ...] | None:
-        """Which element it is of those that :meth:`mechc.Mechanism.at` was asked for, as their array is indexed; nothing of one alone."""
-        found = self._datum("element")
-        return None if found is None else tuple(found)
-
-    def _datum(self, name: str) -> Any:
-        """What the first error has as data."""
-        found = (of.get("data", {}).get(name) for of in self.diagnostics if of.get("severity") == "error")
-        return next(found, None)
-
 
 class LockUp(AnalysisError):
     """The mechanism locks up: a driver drives into a dead point (E0602)."""
@@ -130,6 +130,10 @@ class MechcWarning(UserWarning):
 
     #: What is said, a dictionary for each message.
     diagnostics: list[dict[str, Any]]
+
+    def __init__(self, text: str, diagnostics: list[dict[str, Any]] | None = None) -> None:
+        super().__init__(text)
+        self.diagnostics = [] if diagnostics is None else diagnostics
 
 
 _OF_BLAME = {"input": InputError, "usage": UsageError, "analysis": AnalysisError, "files": FileError}
@@ -155,12 +159,13 @@ def _said(lines: list[str]) -> list[dict[str, Any]]:
 
 def _raised(lines: list[str], text: str, blame: str, code: str) -> MechcError:
     """The exception for diagnostics of the library."""
-    kind = _OF_CODE.get(code, _OF_BLAME.get(blame, MechcError))
-    return kind(in_python(text), _said(lines))
+    said = _said(lines)
+    # where no way leads, why it cannot be assembled from its estimates either is what is behind that
+    codes = [code, *(of["code"] for of in said if of["severity"] == "error")]
+    kind = next((_OF_CODE[code] for code in codes if code in _OF_CODE), _OF_BLAME.get(blame, MechcError))
+    return kind(in_python(text), said)
 
 
 def _warned(lines: list[str], text: str) -> None:
     """Warns of what is said."""
-    warning = MechcWarning(in_python(text))
-    warning.diagnostics = _said(lines)
-    warn(warning)
+    warn(MechcWarning(in_python(text), _said(lines)))

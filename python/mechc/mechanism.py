@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from mechc import asking, exports, notebook
+from mechc._mechc import seconds
 from mechc.asking import with_options
 from mechc.derivatives import Jacobian, Objective, Residuals, jacobian, objective, residuals
 from mechc.errors import MechcError, MechcWarning, warn
@@ -110,8 +111,8 @@ class Mechanism(Running):
     ) -> Jacobian:
         """The exact derivatives of all results and columns by params and inputs, ``by=["rod_length"]``.
 
-        ``j.results`` is of shape (results, params), in SI; ``j["travel"]`` of shape (rows, params), along the motion. The options are
-        those of :meth:`run`.
+        ``j.results`` is of shape (results, params), in SI; ``j["travel"]`` of shape (rows, params), along the motion. Its options are
+        those that :meth:`run` has by the same names.
         """
         asked = self._asked(
             values,
@@ -193,7 +194,7 @@ class Mechanism(Running):
         """
         at = None if at is None else many("at", at)
         if at is not None and len(at) > 1:
-            times = [number("at", time) for time in at]
+            times = [seconds(time) if isinstance(time, str) else number("at", time) for time in at]
             if any(a >= b for a, b in zip(times, times[1:])):
                 raise usage("the times of `at` do not rise", "each is to stand once, in order, as its target does")
         asked = self._asked(
@@ -320,9 +321,7 @@ class Mechanism(Running):
             error.partial = written
             raise error
         if error is not None:
-            warning = MechcWarning(str(error))
-            warning.diagnostics = error.diagnostics
-            warn(warning)
+            warn(MechcWarning(str(error), error.diagnostics))
         return written
 
     def _written(self, path: str | os.PathLike[str], text: str) -> Path:
@@ -344,6 +343,11 @@ class Mechanism(Running):
         params = f", {len(self._params)} params" if self._params else ""
         inputs = f", {len(self._inputs)} inputs" if self._inputs else ""
         return f"<Mechanism {self.name}: {moved} bodies{params}{inputs}>"
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        known = name in self._param_units or name in self._input_units
+        instead = f"`m.run({name}=…)` asks with another value" if known else "it is what its text says"
+        raise AttributeError(f"a mechanism does not change: {instead}")
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _again, self._packed()

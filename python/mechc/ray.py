@@ -7,20 +7,22 @@ schedules or transports.
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import json
 import os
 import pickle
 import uuid
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from mechc._mechc import __version__
 from mechc.asking import flag, with_options
+from mechc.errors import FileError, MechcError
 from mechc.running import Running
 from mechc.sweep import Sweep
-from mechc.values import path_of, usage, whole
+from mechc.values import path_of, said, usage, whole
 
 if TYPE_CHECKING:
     import pyarrow
@@ -47,27 +49,44 @@ class Shares:
     ranges: tuple[tuple[int, int], ...]
     #: How many shares this call made; the others were there.
     made: int
+    #: The file system that the folder is on, where one was given.
+    filesystem: pyarrow.fs.FileSystem | None = field(default=None, repr=False)
 
     @property
     def files(self) -> list[str]:
         """The files of the shares, in order."""
-        return [f"{self.folder.rstrip('/')}/{_name(first, last)}" for first, last in self.ranges]
+        place, mark, query = self.folder.partition("?") if "://" in self.folder else (self.folder, "", "")
+        return [f"{place.rstrip('/')}/{_name(first, last)}{mark}{query}" for first, last in self.ranges]
 
     def to_arrow(self) -> pyarrow.Table:
         """All shares, put in order: the sweep of one machine."""
         import pyarrow
         from pyarrow import parquet
 
-        fs, root = _opened(self.folder)
+        fs, root = _opened(self.folder, self.filesystem)
         return pyarrow.concat_tables(parquet.read_table(f"{root}/{_name(*of)}", filesystem=fs) for of in self.ranges)
 
 
+def _of_a_mechanism(asks: Callable[..., Shares]) -> Callable[..., Shares]:
+    """Refuses what is no mechanism, before it is asked for its params."""
+
+    @functools.wraps(asks)
+    def asked(m: Mechanism, /, *arguments: Any, **keywords: Any) -> Shares:
+        if not isinstance(m, Running):
+            raise usage(f"an object of {type(m).__name__} is no mechanism", "`mechc.load(path)` makes one of a file")
+        return asks(m, *arguments, **keywords)
+
+    return asked
+
+
+@_of_a_mechanism
 @functools.partial(with_options, like=[Running.sweep])
 def sweep(
     m: Mechanism,
     /,
     *,
     out: str | os.PathLike[str],
+    filesystem: pyarrow.fs.FileSystem | None = None,
     share: int = SHARE,
     concurrency: int | None = None,
     progress: bool = False,
@@ -76,8 +95,8 @@ def sweep(
     """Computes a sweep with Ray, and writes it into a folder: ``part-FIRST-LAST.parquet`` for each share, and ``sweep.json``.
 
     ``options`` are those of :meth:`mechc.Mechanism.sweep`: ``vary``, ``samples``, ``seed``, ``rows``, ``results`` and so on, but for
-    ``jobs``, ``skip``, ``take``, ``until`` and ``progress``. ``out`` may be on any file system that pyarrow opens (``s3://…``); all
-    workers must reach it. ``share`` is how many variants a task computes, on one core. ``concurrency`` bounds how many tasks run at once.
+    ``jobs``, ``skip``, ``take``, ``until`` and ``progress``. ``out`` may be on any file system that pyarrow opens (``s3://…``), or that is given
+    as ``filesystem``; all workers must reach it. ``share`` is how many variants a task computes, on one core. ``concurrency`` bounds how many tasks run at once.
 
     A file is written beside its place and renamed, so that what stands there is whole. A second call with the same sweep makes what is
     missing; with another one it is refused. A Ray that runs is used, or one is started.
@@ -89,9 +108,10 @@ def sweep(
     concurrency = None if concurrency is None else whole("concurrency", concurrency, 1)
     # workers may stand in other folders
     name = path_of("out", out)
-    name = name if "://" in name else os.path.abspath(name)
-    fs, root = _opened(name)
-    fs.create_dir(root, recursive=True)
+    name = name if "://" in name or filesystem is not None else os.path.abspath(name)
+    fs, root = _opened(name, filesystem)
+    with _told_of(name):
+        fs.create_dir(root, recursive=True)
     count = whole_sweep.variants
     told = {
         "mechc": __version__,
@@ -101,7 +121,8 @@ def sweep(
         "columns": [{"name": column, "unit": unit} for column, unit in whole_sweep.units.items()],
         "sweep": _fingerprint(whole_sweep),
     }
-    _tell(fs, root, told)
+    with _told_of(name):
+        _tell(fs, root, told)
     ranges = [(first, min(first + share, count)) for first in range(0, count, share)]
     there = _there(fs, root)
     missing = [of for of in ranges if _name(*of) not in there]
@@ -114,7 +135,7 @@ def sweep(
             rows = [{"first": first, "last": last} for first, last in missing]
             shares = ray.data.from_items(rows, override_num_blocks=len(rows))
             # within a list a reference is handed on as it is, and fetched once by each worker
-            keywords = {"packed": [packed], "folder": name}
+            keywords = {"packed": [packed], "folder": name, "filesystem": filesystem}
             compute = ray.data.TaskPoolStrategy(size=concurrency)
             made = shares.map(_make, fn_kwargs=keywords, num_cpus=1, compute=compute)
             done = sum(row["made"] for row in made.iter_rows())
@@ -123,30 +144,35 @@ def sweep(
         if done != len(missing):
             raise RuntimeError(f"Ray gave {done} shares of {len(missing)}")
         _clear(fs, root, missing)
-    return Shares(name, count, tuple(ranges), len(missing))
+    return Shares(name, count, tuple(ranges), len(missing), filesystem)
 
 
 def share(packed: bytes, first: int, last: int) -> Iterator[Any]:
-    """A share as record batches, from a pickled :class:`mechc.Sweep`: for whatever hands out work, as Spark and Dask do."""
+    """A share as record batches, from a pickled :class:`mechc.Sweep`: for whatever hands out work, as Spark and Dask do. Its variants are counted
+    from the first that the sweep computes: ``range(0, len(sweep), …)``."""
     import pyarrow
 
-    yield from pyarrow.RecordBatchReader.from_stream(_part(pickle.loads(packed), first, last))
+    of = pickle.loads(packed)
+    first, last = whole("first", first), whole("last", last)
+    if not first <= last <= of.variants:
+        raise usage(f"there are {of.variants} variants, and a share from {first} to {last} is none of them")
+    yield from pyarrow.RecordBatchReader.from_stream(_part(of, first, last))
 
 
 def _part(of: Sweep, first: int, last: int) -> Sweep:
     """Some variants of a sweep, on the one core that a task has."""
     m, asked, more, _ = of._made_of
-    return Sweep(m, asked, {**more, "skip": first, "take": last - first, "jobs": 1})
+    return Sweep(m, asked, {**more, "skip": more["skip"] + first, "take": last - first, "jobs": 1})
 
 
-def _make(row: dict[str, int], *, packed: Any, folder: str) -> dict[str, int]:
+def _make(row: dict[str, int], *, packed: Any, folder: str, filesystem: Any = None) -> dict[str, int]:
     """Makes a share, and writes its file."""
     import pyarrow
     from pyarrow import parquet
 
     first, last = int(row["first"]), int(row["last"])
     part = _part(_unpacked(packed), first, last)
-    fs, root = _opened(folder)
+    fs, root = _opened(folder, filesystem)
     # two workers may make one share, where one was taken for dead: each writes its own, and the last to rename wins with the same bits
     beside = f"{root}/.{_name(first, last)}.{uuid.uuid4().hex}"
     try:
@@ -186,9 +212,6 @@ def _whole(m: Mechanism, options: dict[str, Any]) -> Sweep:
             raise usage(f"`{name}` is not for sweeps of shares", "leave it out; `share` says how many variants a task computes")
     # what the caller names has been looked at
     found: Sweep = Running.sweep.__wrapped__(m, **options)  # type: ignore[attr-defined]
-    for option in found._made_of[2]["vary"]:
-        if option.startswith("@"):
-            raise usage("variants of a file are not there for all workers", "read it, and give `variants` as a table")
     return found
 
 
@@ -196,16 +219,21 @@ def _fingerprint(of: Sweep) -> dict[str, Any]:
     """What decides each bit of a sweep, as JSON."""
     import hashlib
 
+    def mark(contents: bytes) -> str:
+        return "sha256:" + hashlib.sha256(contents).hexdigest()
+
     m, asked, more, _ = of._made_of
-    text, _, files, mechanism, set, allow_redundant = m._packed()
-    contents = {str(path): hashlib.sha256(contents).hexdigest() for path, contents in sorted(files.items(), key=str)}
-    lists = [hashlib.sha256(listed).hexdigest() for listed in more["lists"]]
+    text, own, files, mechanism, set, allow_redundant = m._packed()
+    # wherever the text is, and from wherever it is named: what it names lies beside it
+    beside = {os.path.relpath(path, os.path.dirname(own) or "."): contents for path, contents in files.items()}
+    beside.pop(os.path.basename(own), None)
+    vary = [of if isinstance(of, str) else f"@{os.path.basename(of[0])} {mark(of[1])}" for of in more["vary"]]
     return {
-        "text": hashlib.sha256(text.encode()).hexdigest(),
-        "files": contents,
+        "text": mark(text.encode()),
+        "files": {path: mark(contents) for path, contents in sorted(beside.items())},
         "choice": {"mechanism": mechanism, "set": set, "allow_redundant": allow_redundant},
         "asked": _said(asked),
-        "variants": {**_said(more), "lists": lists},
+        "variants": {**_said(more), "vary": vary},
     }
 
 
@@ -219,10 +247,17 @@ def _tell(fs: pyarrow.fs.FileSystem, root: str, told: dict[str, Any]) -> None:
     place = f"{root}/{WHOLE}"
     if fs.get_file_info(place).type != 0:
         with fs.open_input_stream(place) as stream:
-            known = json.loads(stream.read())
-        if known != json.loads(json.dumps(told)):
-            differ = [key for key in told if known.get(key) != json.loads(json.dumps(told[key]))]
-            raise usage(f"the folder holds another sweep: {', '.join(differ)} differ", "name another folder")
+            contents = stream.read()
+        try:
+            known = json.loads(contents)
+        except ValueError:
+            known = None
+        if not isinstance(known, dict):
+            raise usage(f"the folder has a `{WHOLE}` that says nothing of a sweep", "name another folder")
+        differ = list(_differing(known, json.loads(json.dumps(told))))
+        if differ:
+            shown = "; ".join(differ[:MOST_DIFFERING]) + ("; …" if len(differ) > MOST_DIFFERING else "")
+            raise usage(f"the folder holds another sweep: {shown}", "name another folder")
         return
     if any(name.startswith("part-") for name in _there(fs, root)):
         raise usage(f"the folder has shares and no `{WHOLE}` that says what of", "name another folder")
@@ -230,6 +265,37 @@ def _tell(fs: pyarrow.fs.FileSystem, root: str, told: dict[str, Any]) -> None:
     with fs.open_output_stream(beside) as stream:
         stream.write(json.dumps(told, indent=1).encode())
     fs.move(beside, place)
+
+
+#: So many things that differ are told.
+MOST_DIFFERING = 4
+
+
+def _differing(there: Any, here: Any, name: str = "") -> Iterator[str]:
+    """What differs between a sweep that is there and one that is asked for, in words."""
+    if there == here:
+        return
+    if isinstance(there, dict) and isinstance(here, dict):
+        for key in [*here, *(key for key in there if key not in here)]:
+            yield from _differing(there.get(key), here.get(key), key)
+    elif isinstance(there, str) and isinstance(here, str) and there.startswith("sha256:"):
+        yield f"`{name}` is another"
+    else:
+        told = ["nothing" if value is None else json.dumps(value, ensure_ascii=False) for value in (there, here)]
+        yield f"`{name}` is {told[0]} there, and {told[1]} here"
+
+
+@contextlib.contextmanager
+def _told_of(folder: str) -> Iterator[None]:
+    """What a file system says of a folder, as the package says it."""
+    try:
+        yield
+    except MechcError:
+        raise
+    except (OSError, ImportError) as error:
+        why = (error.strerror if isinstance(error, OSError) else None) or str(error)
+        data = {"file": folder, "errno": getattr(error, "errno", None)}
+        raise FileError(*said("E0702", f"cannot write into `{folder}`: {why}", None, data)) from error
 
 
 def _there(fs: pyarrow.fs.FileSystem, root: str) -> set[str]:
@@ -246,12 +312,21 @@ def _clear(fs: pyarrow.fs.FileSystem, root: str, made: list[tuple[int, int]]) ->
             fs.delete_file(f"{root}/{name}")
 
 
-def _opened(folder: str) -> tuple[pyarrow.fs.FileSystem, str]:
+def _opened(folder: str, filesystem: Any = None) -> tuple[pyarrow.fs.FileSystem, str]:
     """The file system of a folder, and its path there."""
     from pyarrow.fs import FileSystem
 
+    if filesystem is not None:
+        if not isinstance(filesystem, FileSystem):
+            raise usage(f"`filesystem` is an object of {type(filesystem).__name__}", "one of `pyarrow.fs` is wanted")
+        return filesystem, folder.rstrip("/")
     place = folder if "://" in folder else os.path.abspath(folder)
-    fs, root = FileSystem.from_uri(place)
+    try:
+        with _told_of(folder):
+            fs, root = FileSystem.from_uri(place)
+    except ValueError as error:
+        # what it says of others than files
+        raise usage(f"`out` is {folder!r}: {error}", "a folder, or a place that pyarrow opens as `s3://…` is wanted") from error
     return fs, root.rstrip("/")
 
 

@@ -111,6 +111,9 @@ def written(name: str, value: Any, unit: str) -> str:
         if not value.strip():
             raise usage(f"`{name}` is an empty text", "give a number in SI, or a text with a unit")
         return sound(name, value)
+    if isinstance(value, (Between, list, tuple)):
+        help = f"what varies is said to a sweep: `m.sweep(vary={{'{name}': …}})`"
+        raise usage(f"`{name}` is {_shown(value)}, and one value is wanted", help)
     text = repr(number(name, value))
     return f"{text}{unit}" if unit.startswith("/") else f"{text} {unit}".rstrip()
 
@@ -263,7 +266,8 @@ def table(columns: Mapping[str, Any], units: Mapping[str, str]) -> bytes:
     lengths = {len(values) for values in lists.values()}
     if len(lengths) != 1 or lengths == {0}:
         told = ", ".join(f"`{name}` has {len(values)}" for name, values in lists.items())
-        raise usage(f"the columns of variants are not of one length: {told}" if lists else "there are no variants")
+        is_uneven = len(lengths) > 1
+        raise usage(f"the columns of variants are not of one length: {told}" if is_uneven else "there are no variants")
     head = ",".join(f"{name} [{_head(units[name])}]" if units.get(name) else name for name in lists)
     rows = "\n".join(",".join(map(repr, row)) for row in zip(*lists.values()))
     return f"{head}\n{rows}\n".encode()
@@ -275,6 +279,21 @@ def _head(unit: str) -> str:
         return unit
     parts = (part.partition("^") for part in unit[1:].split("/"))
     return "*".join(f"{name}^-{power or 1}" for name, _, power in parts)
+
+
+def spelled(values: Any) -> tuple[list[str], list[int]] | None:
+    """Texts in a list or an array, one behind the other, and its shape; nothing of anything else."""
+    is_array = isinstance(values, np.ndarray)
+    if not (is_array and values.dtype.kind in "UTO" or isinstance(values, (list, tuple))):
+        return None
+    try:
+        array = np.array(values, dtype=object)
+    except ValueError:
+        return None
+    flat = array.reshape(-1).tolist()
+    if array.ndim == 0 or not flat or not all(isinstance(text, str) for text in flat):
+        return None
+    return flat, list(array.shape)
 
 
 def elements(name: str, values: Any) -> float | np.ndarray[Any, Any]:

@@ -6,7 +6,9 @@ use crate::mechanism::{Mechanism, Stages};
 use crate::memory::{self, Of};
 use crate::waiting::interruptible;
 pub use found::{_at_again, At, Columns};
-use mechc::{Adjustable, Adjusting, AskedPlace, Cancel, Choice, ColumnUnit, Diagnostic, InputMotion};
+use mechc::{
+    Adjustable, Adjusting, AskedPlace, Cancel, Checked, Choice, ColumnUnit, Diagnostic, InputMotion, Settable,
+};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyString};
 pub use reading::{OPTIONS, Options, at};
@@ -19,8 +21,11 @@ mod reading;
 /// What was compiled for questions of a kind; so many kinds are remembered.
 const KINDS: usize = 16;
 
-/// More elements than this are computed on another thread, while Ctrl-C is looked for.
+/// What takes longer than some hundredths of a second is computed on another thread, while Ctrl-C is looked for: more elements than these, more
+/// columns, or a longer way from what the text says: of an input or a param in SI or by its own size, of the time by that of the analysis.
 const AT_ONCE: usize = 32;
+const MOST_COLUMNS: usize = 2000;
+const FARTHEST: f64 = 50.0;
 
 /// What is asked for, but for the values: it is compiled once for all of these.
 #[derive(Clone, PartialEq, Default)]
@@ -41,6 +46,8 @@ pub struct Compiled {
     columns: Arc<Columns>,
     /// The units that columns are printed in, where any is not SI.
     units: Option<Vec<ColumnUnit>>,
+    /// From where to where the time, and the inputs and params in order, are near what the text says.
+    near: Vec<[f64; 2]>,
 }
 
 /// What was compiled of a mechanism by now, the last first.
@@ -116,8 +123,24 @@ impl Compiled {
         let coordinates = ["", ".d", ".dd"].map(of_order);
         let columns = Columns::new(names, units.iter().map(|unit| unit.text.clone()).collect(), coordinates);
         let units = units.iter().any(|unit| unit.scale() != [1.0; 3]).then_some(units);
-        Ok(Compiled { adjustable, columns, units })
+        let near = near(&checked, adjustable.compiled(), kind);
+        Ok(Compiled { adjustable, columns, units, near })
     }
+}
+
+/// From where to where the time, and the inputs and params of a question in order, are near what the text says.
+fn near(checked: &Checked, compiled: &mechc::Compiled, kind: &Kind) -> Vec<[f64; 2]> {
+    let time = compiled.analysis().map_or([f64::NAN; 2], |[from, to, _]| [from, to + FARTHEST * (to - from)]);
+    let around = |list: Vec<Settable>, names: &[String]| {
+        let of = |name: &String| {
+            let own = list.iter().find(|of| of.name == *name).map_or(f64::NAN, |of| of.value);
+            let reach = FARTHEST * own.abs().max(1.0);
+            [own - reach, own + reach]
+        };
+        names.iter().map(of).collect::<Vec<_>>()
+    };
+    let (inputs, params) = (checked.settable_inputs(compiled), checked.settable_params());
+    [vec![time], around(inputs, &kind.inputs), around(params, &kind.params)].concat()
 }
 
 /// A question, as it was put.
@@ -142,6 +165,13 @@ impl Operand {
         match self {
             Operand::One(value) => *value,
             Operand::Each(values) => values[element],
+        }
+    }
+
+    fn all(&self, is: impl Fn(f64) -> bool) -> bool {
+        match self {
+            Operand::One(value) => is(*value),
+            Operand::Each(values) => values.iter().all(|value| is(*value)),
         }
     }
 }
@@ -182,7 +212,7 @@ impl Question {
         rows.and_then(|()| became.statuses.try_reserve_exact(elements))
             .map_err(|_| memory::too_large(py, size, Of::At))?;
         let columns = Arc::clone(&compiled.columns);
-        let (shape, became) = if elements <= AT_ONCE {
+        let (shape, became) = if elements <= AT_ONCE && width <= MOST_COLUMNS && self.is_near(&compiled.near) {
             let became = away(py, || self.all(&compiled, became, &Cancel::default()));
             (self.shape, became)
         } else {
@@ -194,6 +224,13 @@ impl Question {
         let told = |(element, why)| Said::of_one(of_element(why, element, shape.as_deref()), sources);
         let error = first.map(told);
         Ok(At { columns, rows, shape, statuses, error })
+    }
+
+    /// Whether all that is told is near what the text says.
+    fn is_near(&self, near: &[[f64; 2]]) -> bool {
+        let given = self.inputs.iter().map(|[value, ..]| value).chain(&self.params);
+        let is_near = |(of, [low, high]): (&Operand, &[f64; 2])| of.all(|value| *low <= value && value <= *high);
+        self.t.iter().zip(near).all(is_near) && given.zip(&near[1..]).all(is_near)
     }
 
     fn all(&self, compiled: &Compiled, mut became: Became, cancel: &Cancel) -> Became {

@@ -3,15 +3,15 @@
 
 use mechc::{Contents, World};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::{fs, io};
 
 /// No text is larger (bytes), as the command has it.
 const LARGEST: u64 = 1 << 30;
 
-/// What options list, under names that no file has.
-const LISTED: &str = "<listed ";
+/// So many files are named where one is missing.
+const MOST_NAMED: usize = 8;
 
 /// The files of a mechanism.
 pub struct Files {
@@ -23,7 +23,7 @@ pub struct Files {
 impl Files {
     /// Some that are known; others are read from the disk, if they may be.
     pub fn new(known: BTreeMap<PathBuf, Vec<u8>>, from_disk: bool) -> Files {
-        let known = known.into_iter().map(|(path, bytes)| (path, Arc::from(bytes))).collect();
+        let known = known.into_iter().map(|(path, bytes)| (plain(&path), Arc::from(bytes))).collect();
         Files { known: Mutex::new(known), from_disk }
     }
 
@@ -33,7 +33,23 @@ impl Files {
     }
 
     fn find(&self, path: &Path) -> Option<Arc<[u8]>> {
-        self.known.lock().unwrap_or_else(PoisonError::into_inner).get(path).cloned()
+        self.known.lock().unwrap_or_else(PoisonError::into_inner).get(&plain(path)).cloned()
+    }
+
+    /// That a file is none of those that were handed over.
+    fn missing(&self) -> io::Error {
+        let known = self.known();
+        let mut names: Vec<String> =
+            known.keys().take(MOST_NAMED).map(|path| format!("`{}`", path.display())).collect();
+        if known.len() > MOST_NAMED {
+            names.push("…".to_owned());
+        }
+        let said = if names.is_empty() {
+            "`files` has none: give its text there".to_owned()
+        } else {
+            format!("`files` has {} alone", names.join(", "))
+        };
+        io::Error::new(io::ErrorKind::NotFound, said)
     }
 }
 
@@ -44,10 +60,10 @@ impl World for Files {
             None if self.from_disk => {
                 let bytes: Arc<[u8]> = named(path)?.into();
                 let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-                known.insert(path.to_owned(), Arc::clone(&bytes));
+                known.insert(plain(path), Arc::clone(&bytes));
                 bytes
             }
-            None => return Err(io::ErrorKind::NotFound.into()),
+            None => return Err(self.missing()),
         };
         Ok(Contents { bytes, version: 0 })
     }
@@ -78,18 +94,13 @@ impl World for Files {
 /// The files of a mechanism, and tables that are listed by a caller beside them.
 pub struct WithLists<'f> {
     files: &'f Files,
-    lists: Vec<Vec<u8>>,
+    lists: Vec<(PathBuf, Vec<u8>)>,
 }
 
 impl<'f> WithLists<'f> {
-    /// Tables, as the bytes of CSV files.
-    pub fn new(files: &'f Files, lists: Vec<Vec<u8>>) -> WithLists<'f> {
+    /// Tables, as the bytes of CSV files, by what options name them.
+    pub fn new(files: &'f Files, lists: Vec<(PathBuf, Vec<u8>)>) -> WithLists<'f> {
         WithLists { files, lists }
-    }
-
-    /// What names a table to an option.
-    pub fn name(number: usize) -> String {
-        format!("{LISTED}{number}>")
     }
 }
 
@@ -99,9 +110,8 @@ impl World for WithLists<'_> {
     }
 
     fn given(&self, path: &Path) -> io::Result<Contents> {
-        let number = path.to_str().and_then(|path| path.strip_prefix(LISTED)?.strip_suffix('>')?.parse::<usize>().ok());
-        match number.and_then(|number| self.lists.get(number)) {
-            Some(bytes) => Ok(Contents { bytes: bytes.as_slice().into(), version: 0 }),
+        match self.lists.iter().find(|(name, _)| name == path) {
+            Some((_, bytes)) => Ok(Contents { bytes: bytes.as_slice().into(), version: 0 }),
             None => self.files.given(path),
         }
     }
@@ -117,6 +127,11 @@ impl World for WithLists<'_> {
     fn identity(&self, path: &Path) -> PathBuf {
         self.files.identity(path)
     }
+}
+
+/// A path without steps to where it is already.
+fn plain(path: &Path) -> PathBuf {
+    path.components().filter(|part| !matches!(part, Component::CurDir)).collect()
 }
 
 /// The bytes of a file; what is none may have no end, or wait for somebody to write.

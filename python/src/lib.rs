@@ -36,7 +36,16 @@ mod _mechc {
     #[pymodule_export]
     use super::table::{Column, Table};
 
-    use super::{Bound, PyAnyMethods, PyModule, PyModuleMethods, PyResult};
+    use super::errors::Said;
+    use super::{Bound, PyAnyMethods, PyModule, PyModuleMethods, PyResult, Python, pyfunction};
+    use mechc::Sources;
+
+    /// A time with its unit (s).
+    #[pyfunction]
+    fn seconds(py: Python<'_>, text: &str) -> PyResult<f64> {
+        let mut sources = Sources::default();
+        mechc::seconds("at", text, &mut sources).map_err(|why| Said::of(&why, &sources).raised(py))
+    }
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -11,7 +11,7 @@ use crate::tolerance::{self, Told};
 use crate::waiting::interruptible;
 use mechc::{Cancel, Checked, Choice, Compiled, Diagnostics, Parsed, Redundant, Settable, Sources, World};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::{PyBytes, PyDict, PyString};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -30,18 +30,54 @@ pub struct Mechanism {
 }
 
 impl Mechanism {
+    /// The params or inputs that a name means, each with its value, and whether it is an input: one of that name, all copies of one, both
+    /// coordinates of a point. `option` is what it is given by; nothing by a keyword.
+    pub fn meant<'m, 'py>(
+        &'m self,
+        py: Python<'py>,
+        name: &str,
+        value: Bound<'py, PyAny>,
+        option: &str,
+    ) -> PyResult<Vec<(&'m Settable, bool, Meant<'py>)>> {
+        if let (Some((of, is_input)), "") = (self.settable(name), option) {
+            return Ok(vec![(of, is_input, Meant::Given(value))]);
+        }
+        let meant = py.import("mechc.asking")?.getattr("meant_by")?;
+        let names: Vec<String> =
+            meant.call1((name, option, units(&self.params), units(&self.inputs), at::OPTIONS))?.extract()?;
+        let all = names.iter().filter_map(|name| self.settable(name));
+        let [x, y] = match names.as_slice() {
+            [x, y] if is_point(x, y) => [x, y],
+            _ => return Ok(all.map(|(of, is_input)| (of, is_input, Meant::Given(value.clone()))).collect()),
+        };
+        let Ok(text) = value.cast::<PyString>() else {
+            let usage = py.import("mechc.values")?.getattr("usage")?;
+            let help = format!("set `{x}` and `{y}`, or give a text as in `'(90 mm, 0)'`");
+            return Err(PyErr::from_value(usage.call1((format!("`{name}` is a point"), help))?));
+        };
+        let values = self.coordinates(py, [x, y], text.to_str()?)?;
+        Ok(all.zip(values).map(|((of, is_input), value)| (of, is_input, Meant::Known(value))).collect())
+    }
+
     /// A param or input by its name, and whether it is an input.
-    pub fn settable(&self, py: Python<'_>, name: &str) -> PyResult<(&Settable, bool)> {
+    fn settable(&self, name: &str) -> Option<(&Settable, bool)> {
         let found = |list: &'_ [Settable]| list.iter().position(|of| of.name == name);
-        if let Some(place) = found(&self.inputs) {
-            return Ok((&self.inputs[place], true));
+        let input = found(&self.inputs).map(|place| (&self.inputs[place], true));
+        input.or_else(|| found(&self.params).map(|place| (&self.params[place], false)))
+    }
+
+    /// The coordinates of a point (m) that is set by a text, as the language writes points.
+    fn coordinates(&self, py: Python<'_>, [x, y]: [&String; 2], text: &str) -> PyResult<[f64; 2]> {
+        let Stages { parsed, choice, files, .. } = &*self.stages;
+        let mut choice = choice.clone();
+        choice.set.push(format!("{}={text}", x.trim_end_matches(".x")));
+        let checked = parsed.check(&choice, &**files);
+        let params = checked.settable_params();
+        let of = |name: &String| params.iter().find(|of| of.name == *name).map(|of| of.value);
+        match (checked.is_sound(), of(x), of(y)) {
+            (true, Some(x), Some(y)) => Ok([x, y]),
+            _ => Err(Said::of(checked.diagnostics(), checked.sources()).raised(py)),
         }
-        if let Some(place) = found(&self.params) {
-            return Ok((&self.params[place], false));
-        }
-        let refuse = py.import("mechc.asking")?.getattr("refuse_unknown")?;
-        refuse.call1(([name], units(&self.params), units(&self.inputs), at::OPTIONS))?;
-        Err(pyo3::exceptions::PyKeyError::new_err(name.to_owned()))
     }
 
     /// Says of options that are given that their names win over those of params and inputs.
@@ -54,12 +90,24 @@ impl Mechanism {
         Ok(())
     }
 
-    /// The SI unit of an input's rate, or of its acceleration.
-    pub fn unit_of_rate(&self, name: &str, order: u32) -> String {
-        let unit = self.inputs.iter().find(|of| of.name == name).map_or("", |of| of.unit.as_str());
-        let per = if order == 1 { "s".to_owned() } else { format!("s^{order}") };
-        format!("{unit}/{per}")
+    /// An input's rate, or its acceleration.
+    pub fn rate(&self, name: &str, order: u32) -> PyResult<Settable> {
+        let input = self.inputs.iter().find(|of| of.name == name).map(|of| of.by_time(order));
+        input.ok_or_else(|| pyo3::exceptions::PyKeyError::new_err(name.to_owned()))
     }
+}
+
+/// What something is set to.
+pub enum Meant<'py> {
+    /// What was given for it.
+    Given(Bound<'py, PyAny>),
+    /// A number (SI).
+    Known(f64),
+}
+
+/// Whether two params are the coordinates of one point.
+fn is_point(x: &str, y: &str) -> bool {
+    x.strip_suffix(".x").is_some_and(|point| y.strip_suffix(".y") == Some(point))
 }
 
 /// What it was made of, and what it is.

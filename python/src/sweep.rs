@@ -17,6 +17,7 @@ use mechc::{
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 mod block;
@@ -26,10 +27,8 @@ mod reader;
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct AskedOfSweep {
-    /// `NAME=A..B:N`, `NAME=A,B,C`, `@FILE.csv`, as the command has it.
-    vary: Vec<String>,
-    /// Tables of variants as CSV, which options name `@` and a name that is made here.
-    lists: Vec<Vec<u8>>,
+    /// What varies, in order.
+    vary: Vec<Axis>,
     samples: Option<u64>,
     method: Option<String>,
     seed: Option<u64>,
@@ -38,6 +37,15 @@ pub struct AskedOfSweep {
     jobs: Option<usize>,
     skip: u64,
     take: Option<u64>,
+}
+
+/// What varies with others, or alone.
+#[derive(FromPyObject)]
+enum Axis {
+    /// `NAME=A..B:N`, `NAME=A,B,C`, `@FILE.csv`, as the command has it.
+    Written(String),
+    /// A table of variants as CSV, by the name that messages have for it.
+    Listed(PathBuf, Vec<u8>),
 }
 
 /// So many variants are computed side by side.
@@ -50,8 +58,8 @@ pub type Summary = BTreeMap<&'static str, (u64, u64)>;
 #[pyclass(frozen, module = "mechc._mechc")]
 pub struct Sweep {
     whole: Arc<Whole>,
-    /// What became of the variants of the stream that was read last.
-    summary: Arc<Mutex<Summary>>,
+    /// What became of the variants of the stream that was begun last.
+    summary: Mutex<Arc<Mutex<Summary>>>,
 }
 
 /// All that a sweep is made of.
@@ -76,7 +84,7 @@ type Refused = (Sources, Diagnostics);
 
 impl Whole {
     fn of(stages: &Stages, asked: &Asked, more: &AskedOfSweep, cancel: &Cancel) -> Result<(Whole, Said), Said> {
-        let world = WithLists::new(&stages.files, more.lists.clone());
+        let world = WithLists::new(&stages.files, more.lists());
         let choice = Choice { lead: true, until: more.until.clone(), ..asked.choice(stages) };
         let redundant = asked.redundant(stages);
         let ((checked, compiled), said) = stages.with(&choice, &world, redundant, cancel)?;
@@ -127,9 +135,20 @@ impl Whole {
 }
 
 impl AskedOfSweep {
+    fn lists(&self) -> Vec<(PathBuf, Vec<u8>)> {
+        let listed = |axis: &Axis| match axis {
+            Axis::Listed(name, table) => Some((name.clone(), table.clone())),
+            Axis::Written(_) => None,
+        };
+        self.vary.iter().filter_map(listed).collect()
+    }
+
     fn vary_options(&self) -> VaryOptions {
-        let mut params = self.vary.clone();
-        params.extend((0..self.lists.len()).map(|number| format!("@{}", WithLists::name(number))));
+        let option = |axis: &Axis| match axis {
+            Axis::Written(option) => option.clone(),
+            Axis::Listed(name, _) => format!("@{}", name.to_string_lossy()),
+        };
+        let params = self.vary.iter().map(option).collect();
         let method = self.method.as_deref().map(|name| if name == "random" { Method::Random } else { Method::Sobol });
         VaryOptions { params, sample: self.samples, method, seed: self.seed }
     }
@@ -159,12 +178,15 @@ impl Sweep {
         let made = interruptible(py, move |cancel| Whole::of(&stages, &asked, &more, cancel))?;
         let (whole, said) = made.map_err(|said| said.raised(py))?;
         said.warned(py)?;
-        Ok(Sweep { whole: Arc::new(whole), summary: Arc::default() })
+        Ok(Sweep { whole: Arc::new(whole), summary: Mutex::default() })
     }
 
     fn reader(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Reader> {
         self.whole.refuse_beyond(py)?;
-        Ok(Reader::new(Source { whole: Arc::clone(&self.whole), summary: Arc::clone(&self.summary) }, progress))
+        // one that is still read goes on telling what becomes of it, to nobody
+        let summary = Arc::default();
+        *self.summary.lock().unwrap_or_else(PoisonError::into_inner) = Arc::clone(&summary);
+        Ok(Reader::new(Source { whole: Arc::clone(&self.whole), summary }, progress))
     }
 }
 
@@ -198,10 +220,11 @@ impl Sweep {
         self.whole.variants.points().count()
     }
 
-    /// By status: how many variants of the stream that was read last, and the first of them.
+    /// By status: how many variants of the stream that was begun last, and the first of them.
     #[getter]
     fn summary(&self) -> Summary {
-        self.summary.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        let summary = Arc::clone(&self.summary.lock().unwrap_or_else(PoisonError::into_inner));
+        summary.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// What sets the params of a variant, as `set` takes it.

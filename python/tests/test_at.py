@@ -251,3 +251,79 @@ def test_elements_of_a_batch_go_side_by_side(four_bar):
 
     times = np.linspace(1e-3, 2e-3, len(thetas))
     assert 5 * took(lambda: m.at(theta=thetas)) < took(lambda: m.at(times, theta=thetas))
+
+
+def test_texts_are_read_as_a_run_reads_them(four_bar):
+    m, _ = four_bar
+    found = m.at(theta=["80 deg", "90 deg"], crank_length=["40 mm", "4 cm"])
+    assert same_bits(found.q[1], m.at(theta="90 deg", crank_length=0.04).q) and found.shape == (2,)
+    assert same_bits(m.at(theta="20 deg // a remark").q, m.at(theta="20 deg").q)
+    for given in ({"crank_length": "20 deg"}, {"crank_length": "45"}, {"theta": "20 mm"}):
+        with pytest.raises(mechc.UsageError) as at:
+            m.at(**given)
+        with pytest.raises(mechc.UsageError) as run:
+            m.run(**given)
+        messages = [of.value.diagnostics[0]["message"].partition(", found")[0] for of in (at, run)]
+        assert messages[0] == messages[1] and at.value.code == run.value.code
+        assert at.value.diagnostics[0]["labels"][0]["column"] == 1
+    with pytest.raises(mechc.UsageError, match="the rate of `theta` must be"):
+        m.at(theta=0.3, rates={"theta": "60 mm"})
+    with pytest.raises(mechc.UsageError, match="expected an operator"):
+        m.at(theta="0) + (1")
+
+
+def test_set_takes_any_name():
+    m = mechc.load(EXAMPLES / "walker.mech")
+    copies = [name for name in m.params if name.startswith("left[") and name.endswith(".la")]
+    assert len(copies) > 1
+    wanted = m.at(t=0.1, set={name: "38.2 mm" for name in copies}).q
+    assert same_bits(m.at(t=0.1, set={"left.la": "38.2 mm"}).q, wanted)
+    spread = {name.replace("[", "[ ").replace("]", " ]"): "38.2 mm" for name in copies}
+    assert same_bits(m.at(t=0.1, set=spread).q, wanted)
+    drawn = mechc.parse("""mechanism drawn {
+        param A = (80 mm, 0)
+        ground { point O = A }
+        body bar { point O = (0, 0) }
+        joint main: revolute(ground.O, bar.O)
+        input theta = t
+        driver motor: rotation(main) = theta
+    }""")
+    assert drawn.at(theta=1.0, set={"A": "(9 cm, 1 mm)"}).q[:2].tolist() == [0.09, 0.001]
+    with pytest.raises(mechc.UsageError, match="`A` is a point"):
+        drawn.at(theta=1.0, set={"A": 0.1})
+    with pytest.raises(mechc.UsageError):
+        drawn.at(theta=1.0, set={"A": "(9 cm, 1 deg)"})
+    for wrong in ({"set": {"theta": 1.0}}, {"inputs": {"A.x": 0.1}}, {"inputs": {"theta": 1.0}, "theta": 2.0}):
+        with pytest.raises(mechc.UsageError):
+            drawn.at(**wrong)
+
+
+def test_keywords_whose_letters_python_writes_otherwise():
+    m = mechc.parse("""mechanism letters {
+        param \u00b5 = 80 mm
+        ground { point O = (\u00b5, 0) }
+        body bar { point O = (0, 0) }
+        joint main: revolute(ground.O, bar.O)
+        input \u03d1 = t
+        driver motor: rotation(main) = \u03d1
+        analysis from 0 s to 1 s every 1 s
+    }""")
+    # the parser of Python makes these of the letters above
+    keywords = {"\u03bc": 0.09, "\u03b8": 0.5}
+    assert m.at(**keywords).q.tolist() == [0.09, 0.0, 0.5]
+    assert m.run(**keywords)["bar.x"].tolist() == [0.09, 0.09]
+
+
+def test_before_the_first_time_there_is_nothing(four_bar):
+    m, _ = four_bar
+    with pytest.raises(mechc.UsageError, match="before the first time") as error:
+        m.at(t=[0.1, -0.1])
+    assert error.value.element == (1,) and "--" not in str(error.value)
+
+
+def test_an_answer_is_a_mapping(four_bar):
+    x = four_bar[0].at(theta=[0.3, 0.4])
+    assert [name for name, _ in x.items()] == x.keys() and same_bits(x.values()[3], x[x.keys()[3]])
+    assert x.get("nothing") is None and x.get("nothing", 3) == 3 and same_bits(x.get("pen_x"), x["pen_x"])
+    with pytest.raises(KeyError, match="was `pen_x` meant"):
+        x["penx"]

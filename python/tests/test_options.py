@@ -253,3 +253,32 @@ def test_what_derivatives_give_is_not_changed_from_outside():
     assert np.isfinite(f.value(f.x0))
     with pytest.raises(mechc.UsageError, match="twice"):
         m.jacobian(by=["crank_length", "crank_length"])
+
+
+def test_a_mechanism_does_not_change():
+    m = mechc.load(CRANK)
+    with pytest.raises(AttributeError, match="m.run\\(rod_length=…\\)"):
+        m.rod_length = 0.3
+    with pytest.raises(AttributeError):
+        m.anything = 1
+    with pytest.raises(mechc.UsageError, match="given twice"):
+        m.run(rod_length=0.2, set={"rod_length": 0.21})
+    with pytest.raises(mechc.UsageError, match="vary={'rod_length'"):
+        m.sweep(rod_length=[0.1, 0.2])
+
+
+def test_times_of_residuals_have_units():
+    m = mechc.load(CRANK)
+    f = m.residuals(["travel"], [0.0, 0.0], by="rod_length", at=["1 ms", "2 ms"])
+    g = m.residuals(["travel"], [0.0, 0.0], by="rod_length", at=[1e-3, 2e-3])
+    assert f(f.x0).tolist() == g(g.x0).tolist()
+    with pytest.raises(mechc.UsageError, match="do not rise"):
+        m.residuals(["travel"], [0.0, 0.0], by="rod_length", at=["10 ms", "5 ms"])
+
+
+def test_files_that_are_not_handed_over_are_told():
+    text = 'use "parts/leg.mech" mechanism m { ground { point O = (0, 0) } }'
+    with pytest.raises(mechc.MechcError, match="`files` has `part/leg.mech` alone"):
+        mechc.parse(text, files={"part/leg.mech": "mechanism leg { }"})
+    with pytest.raises(mechc.MechcError, match="`files` has none"):
+        mechc.parse(text)

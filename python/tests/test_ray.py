@@ -83,8 +83,62 @@ def test_a_second_call_makes_what_is_missing(local_ray, hoeken, tmp_path):
     assert mechc.ray.sweep(hoeken, out=tmp_path, share=60, **OPTIONS).made == 0
     told = json.loads((tmp_path / "sweep.json").read_text())
     assert told["variants"] == 240 and told["mechanism"] == "hoeken"
-    with pytest.raises(mechc.UsageError, match="another sweep"):
+    with pytest.raises(mechc.UsageError, match="another sweep: `seed` is 3 there, and 4 here"):
         mechc.ray.sweep(hoeken, out=tmp_path, share=60, **{**OPTIONS, "seed": 4})
+    # the same text elsewhere is the same
+    (tmp_path / "copy.mech").write_text(hoeken.text)
+    for same in (mechc.load(tmp_path / "copy.mech"), mechc.parse(hoeken.text)):
+        assert mechc.ray.sweep(same, out=tmp_path, share=60, **OPTIONS).made == 0
+    with pytest.raises(mechc.UsageError, match="`text` is another"):
+        mechc.ray.sweep(mechc.parse(hoeken.text + " "), out=tmp_path, share=60, **OPTIONS)
+
+
+@pytest.mark.timeout(280)
+def test_variants_of_a_file_and_a_file_system_that_is_given(local_ray, hoeken, tmp_path):
+    import pyarrow.fs
+
+    table = tmp_path / "variants.csv"
+    table.write_text("base [mm]\n" + "\n".join(map(str, range(80, 90))) + "\n")
+    options = {"variants": table, "results": OPTIONS["results"]}
+    whole = pa.table(hoeken.sweep(**options))
+    system = pyarrow.fs.SubTreeFileSystem(str(tmp_path), pyarrow.fs.LocalFileSystem())
+    found = mechc.ray.sweep(hoeken, out="within", filesystem=system, share=4, **options)
+    assert found.made == 3 and len(os.listdir(tmp_path / "within")) == 4
+    assert found.to_arrow().combine_chunks().equals(whole.combine_chunks())
+    with pytest.raises(mechc.UsageError, match="`filesystem` is an object of str"):
+        mechc.ray.sweep(hoeken, out="within", filesystem="here", **options)
+
+
+def test_a_share_is_counted_from_the_first_variant_of_its_sweep(hoeken):
+    import pickle
+
+    sweep = hoeken.sweep(skip=100, take=50, **OPTIONS)
+    batches = list(mechc.ray.share(pickle.dumps(sweep), 10, 20))
+    assert pa.Table.from_batches(batches)["variant"].to_pylist() == list(range(110, 120))
+    for wrong in ((-5, 20), (40, 51), (20, 10)):
+        with pytest.raises(mechc.UsageError):
+            list(mechc.ray.share(pickle.dumps(sweep), *wrong))
+
+
+def test_what_is_no_folder_of_a_sweep(hoeken, tmp_path):
+    file = tmp_path / "file"
+    file.write_text("mine")
+    with pytest.raises(mechc.FileError):
+        mechc.ray.sweep(hoeken, out=file, **OPTIONS)
+    with pytest.raises(mechc.UsageError, match="nope"):
+        mechc.ray.sweep(hoeken, out="nope://x/y", **OPTIONS)
+    for contents in ("{", "[]"):
+        (tmp_path / "sweep.json").write_text(contents)
+        with pytest.raises(mechc.UsageError, match="says nothing of a sweep"):
+            mechc.ray.sweep(hoeken, out=tmp_path, **OPTIONS)
+    with pytest.raises(mechc.UsageError, match="no mechanism"):
+        mechc.ray.sweep(3, out=tmp_path, **OPTIONS)
+    assert file.read_text() == "mine"
+
+
+def test_files_of_a_place_with_a_query():
+    shares = mechc.ray.Shares("s3://bucket/x?region=here", 2, ((0, 2),), 1)
+    assert shares.files == ["s3://bucket/x/part-000000000000-000000000002.parquet?region=here"]
 
 
 def test_what_is_not_for_shares(hoeken, tmp_path):

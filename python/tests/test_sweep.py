@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -16,6 +17,11 @@ import mechc
 HOEKEN = ROOT / "examples/hoeken.mech"
 FLAT = {"flatness": "max(deviation) - min(deviation)"}
 AS_OPTION = ["--result", "flatness = max(deviation) - min(deviation)"]
+
+
+@pytest.fixture(scope="module")
+def crank():
+    return mechc.load(ROOT / "examples/slider_crank.mech")
 
 
 def held_against(frame, table):
@@ -182,3 +188,36 @@ def test_arrays_of_what_is_neither_are_refused():
     for values, why in odd:
         with pytest.raises(mechc.UsageError, match=why):
             m.sweep({"rod_length": values})
+
+
+def test_axes_keep_their_order_however_they_are_written(crank):
+    for rods in ([0.16, 0.17], ["160 mm", "170 mm"], mechc.between(0.16, 0.17, 2)):
+        swept = crank.sweep({"rod_length": rods, "crank_length": mechc.between(0.04, 0.05, 2)}).read()
+        assert swept.columns[:3] == ["variant", "rod_length", "crank_length"]
+        assert swept["crank_length"].tolist() == [0.04, 0.05, 0.04, 0.05]
+    with pytest.raises(mechc.MechcError) as error:
+        crank.sweep({"rodlength": [0.1]})
+    assert "vary rodlength" in str(error.value)
+
+
+def test_a_sweep_of_a_file_stays_what_it_is(crank, tmp_path):
+    file = tmp_path / "v.csv"
+    file.write_text("rod_length [mm]\n160\n170\n")
+    sweep = crank.sweep(variants=file)
+    packed, before = pickle.dumps(sweep), sweep.read()["rod_length"].tolist()
+    file.write_text("rod_length [mm]\n180\n")
+    assert before == [0.16, 0.17] and pickle.loads(packed).read()["rod_length"].tolist() == before
+    file.write_text("rod_length [deg]\n180\n")
+    with pytest.raises(mechc.MechcError, match="v.csv"):
+        crank.sweep(variants=file)
+    with pytest.raises(mechc.FileError):
+        crank.sweep(variants=tmp_path / "none.csv")
+
+
+def test_a_summary_is_of_the_stream_that_was_begun_last(crank):
+    sweep = crank.sweep({"rod_length": mechc.between(0.16, 0.2, 20_000)})
+    older = pa.RecordBatchReader.from_stream(sweep)
+    older.read_next_batch()
+    sweep.read()
+    older.read_next_batch()
+    assert sweep.summary == {"ok": (20_000, 0)}

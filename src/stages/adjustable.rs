@@ -8,7 +8,7 @@ use super::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Variants};
 use crate::analysis::{Answers, Asked, Times};
 use crate::cancel::Cancel;
 use crate::check::{SetInputs, Surroundings};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Code, Diagnostic, Diagnostics, readable};
 use crate::source::Sources;
 use crate::sweep::{LANES, Levels, Points, Varying};
 use std::sync::Arc;
@@ -260,6 +260,12 @@ impl Shared {
         };
         let (values, analysis) = &before.insert(known).1;
         let at = place.t.unwrap_or_else(|| analysis.map_or(0.0, |[from, ..]| from));
+        if let Some([from, ..]) = analysis.filter(|[from, ..]| place.inputs.is_empty() && at < *from) {
+            let said =
+                format!("`t` is {} s, before the first time of the analysis at {} s", readable(at), readable(from));
+            let help = "the motion begins there: ask for later times";
+            return Err(Box::new(Diagnostic::new(Code::E0706, said).help(help)));
+        }
         // inputs are what they are at that time, and not before
         let from = (!place.inputs.is_empty()).then_some(at);
         let times = AskedTimes { from, at: vec![at], ..AskedTimes::default() }.over(*analysis)?.times()?;

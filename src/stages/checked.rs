@@ -500,9 +500,9 @@ fn asked_results(choice: &Choice, sources: &mut Sources) -> Result<Vec<ast::Item
         }
     }
     if let Some(condition) = &choice.until {
-        let file = sources.add_option(UNTIL, format!("if {} then 1 else 0", condition.trim()));
+        let file = sources.add_option(UNTIL, condition.trim());
         match syntax::parse_expression(sources, file) {
-            Ok(value) => items.push(until(value)),
+            Ok(condition) => items.push(until(condition)),
             Err(why) => said.extend(why),
         }
     }
@@ -510,9 +510,12 @@ fn asked_results(choice: &Choice, sources: &mut Sources) -> Result<Vec<ast::Item
 }
 
 /// The result that is 1 for the variant that is looked for; no text can name it.
-fn until(value: ast::Expr) -> ast::Item {
-    let name = ast::Name { text: UNTIL.to_owned(), span: value.span };
-    let (span, kind) = (value.span, ast::ItemKind::Result { name, value, unit: None });
+fn until(condition: ast::Expr) -> ast::Item {
+    let span = condition.span;
+    let number = |value| ast::Expr { kind: ast::ExprKind::Literal { value, unit: None }, span };
+    let kind = ast::ExprKind::If { arms: vec![(condition, number(1.0))], otherwise: Box::new(number(0.0)) };
+    let name = ast::Name { text: UNTIL.to_owned(), span };
+    let kind = ast::ItemKind::Result { name, value: ast::Expr { kind, span }, unit: None };
     ast::Item { docs: Vec::new(), span, ranges: Vec::new(), kind }
 }
 

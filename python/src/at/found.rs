@@ -41,7 +41,7 @@ impl At {
     /// A column by its name: a number, or an array of the elements' shape.
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let Some(&place) = self.columns.places.get(name) else {
-            return Err(PyKeyError::new_err(format!("there is no column `{name}`")));
+            return Err(self.no_column(py, name));
         };
         self.picked(py, &[place], true)
     }
@@ -61,6 +61,28 @@ impl At {
     /// The names of the columns.
     fn keys(&self) -> Vec<String> {
         self.columns.names.clone()
+    }
+
+    /// The columns in order.
+    fn values<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        (0..self.columns.names.len()).map(|place| self.picked(py, &[place], true)).collect()
+    }
+
+    /// The columns with their names.
+    fn items<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
+        Ok(self.columns.names.iter().cloned().zip(self.values(py)?).collect())
+    }
+
+    /// A column by its name, or what stands for one that is not there.
+    #[pyo3(signature = (key, default=None, /))]
+    fn get<'py>(
+        &self,
+        py: Python<'py>,
+        key: &Bound<'py, PyAny>,
+        default: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let place = key.extract::<String>().ok().and_then(|name| self.columns.places.get(&name).copied());
+        place.map_or(Ok(default), |place| self.picked(py, &[place], true).map(Some))
     }
 
     /// The names of the columns.
@@ -108,7 +130,7 @@ impl At {
         let names: Vec<String> = py.import("mechc.values")?.getattr("texts")?.call1(("names", names))?.extract()?;
         let place = |name: &String| {
             let known = self.columns.places.get(name).copied();
-            known.ok_or_else(|| PyKeyError::new_err(format!("there is no column `{name}`")))
+            known.ok_or_else(|| self.no_column(py, name))
         };
         let places = names.iter().map(place).collect::<PyResult<Vec<usize>>>()?;
         self.picked(py, &places, false)
@@ -160,6 +182,15 @@ impl At {
 }
 
 impl At {
+    /// That there is no such column, and which may be meant.
+    fn no_column(&self, py: Python<'_>, name: &str) -> PyErr {
+        let hint = || -> PyResult<Option<String>> {
+            py.import("mechc.values")?.getattr("meant")?.call1((name, &self.columns.names))?.extract()
+        };
+        let hint = hint().ok().flatten().map_or(String::new(), |hint| format!("; {hint}"));
+        PyKeyError::new_err(format!("there is no column '{name}'{hint}"))
+    }
+
     /// Some columns of all elements, one behind the other; a single column of a single element as a number.
     fn picked<'py>(&self, py: Python<'py>, places: &[usize], is_alone: bool) -> PyResult<Bound<'py, PyAny>> {
         let width = self.columns.names.len();

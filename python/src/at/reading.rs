@@ -2,9 +2,9 @@
 
 use super::{At, Kind, Operand, Question};
 use crate::errors::Said;
-use crate::mechanism::Mechanism;
-use mechc::{Formula, Sources, seconds};
-use numpy::PyReadonlyArrayDyn;
+use crate::mechanism::{Meant, Mechanism};
+use mechc::{Diagnostics, Settable, Sources, seconds};
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
@@ -99,7 +99,7 @@ pub fn at<'py>(
     mechanism.warn_of_options(py, options.given().collect())?;
     let (read_options, t) = (options.read(py)?, options.0[0].as_ref());
     let [inputs, params] = named(py, mechanism, &read_options, values)?;
-    let mut all = vec![t.map_or(Ok(Value::One(0.0)), |t| read(py, "t", t, "s"))?];
+    let mut all = vec![t.map_or(Ok(Value::One(0.0)), |t| read(py, t, &Told::Time))?];
     let names = add_motions(py, mechanism, &read_options, inputs, &mut all)?;
     let (param_names, values): (Vec<String>, Vec<Value<'py>>) = params.into_iter().unzip();
     all.extend(values);
@@ -140,7 +140,7 @@ fn add_motions<'py>(
         for (motion, order) in [(&options.rates, 1), (&options.accelerations, 2)] {
             all.push(match motion.as_ref().map(|of| of.get_item(&name)).transpose()?.flatten() {
                 None => Value::One(0.0),
-                Some(value) => read(py, &name, &value, &mechanism.unit_of_rate(&name, order))?,
+                Some(value) => read(py, &value, &Told::Rate(&mechanism.rate(&name, order)?, order))?,
             });
         }
         names.push(name);
@@ -157,12 +157,17 @@ fn named<'py>(
     values: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<[Vec<(String, Value<'py>)>; 2]> {
     let mut found = [Vec::new(), Vec::new()];
-    for given in [options.set.as_ref(), options.inputs.as_ref(), values].into_iter().flatten() {
-        for (name, value) in given.iter() {
+    for (given, option) in [(&options.set, "set"), (&options.inputs, "inputs"), (&values.cloned(), "")] {
+        for (name, value) in given.iter().flat_map(PyDictMethods::iter) {
             let name: String = name.extract()?;
-            let (of, is_input) = mechanism.settable(py, &name)?;
-            let read = read(py, &name, &value, &of.unit)?;
-            found[usize::from(!is_input)].push((name, read));
+            for (of, is_input, value) in mechanism.meant(py, &name, value, option)? {
+                let told = if is_input { Told::Input(of) } else { Told::Param(of) };
+                let read = match value {
+                    Meant::Given(value) => read(py, &value, &told)?,
+                    Meant::Known(value) => Value::One(value),
+                };
+                found[usize::from(!is_input)].push((of.name.clone(), read));
+            }
         }
     }
     for named in &mut found {
@@ -188,8 +193,38 @@ fn refuse_rates_of_others(py: Python<'_>, options: &Read<'_>, inputs: &[String])
     Ok(())
 }
 
-/// A value that was handed over: a number, a text with its unit, or an array of numbers.
-fn read<'py>(py: Python<'py>, name: &str, value: &Bound<'py, PyAny>, unit: &str) -> PyResult<Value<'py>> {
+/// What a value is of.
+enum Told<'s> {
+    Time,
+    Input(&'s Settable),
+    Param(&'s Settable),
+    /// The rate of an input, or its acceleration.
+    Rate(&'s Settable, u32),
+}
+
+impl Told<'_> {
+    fn name(&self) -> &str {
+        match self {
+            Told::Time => "t",
+            Told::Input(of) | Told::Param(of) | Told::Rate(of, _) => &of.name,
+        }
+    }
+
+    /// The value of a text (SI).
+    fn read(&self, text: &str, sources: &mut Sources) -> Result<f64, Diagnostics> {
+        let (of, option, what) = match self {
+            Told::Time => return seconds("t", text, sources),
+            Told::Input(of) => (of, "--input", "the input"),
+            Told::Param(of) => (of, "--set", "the parameter"),
+            Told::Rate(of, 1) => (of, "--rates", "the rate of"),
+            Told::Rate(of, _) => (of, "--accelerations", "the acceleration of"),
+        };
+        of.read(&format!("{option} {}", of.name), what, text, sources)
+    }
+}
+
+/// A value that was handed over: a number, a text with its unit, or an array of such.
+fn read<'py>(py: Python<'py>, value: &Bound<'py, PyAny>, told: &Told<'_>) -> PyResult<Value<'py>> {
     let is_whole = || value.is_instance_of::<PyInt>() && !value.is_instance_of::<PyBool>();
     if (value.is_exact_instance_of::<PyFloat>() || is_whole())
         && let Some(number) = value.extract::<f64>().ok().filter(|number| number.is_finite())
@@ -197,36 +232,36 @@ fn read<'py>(py: Python<'py>, name: &str, value: &Bound<'py, PyAny>, unit: &str)
         return Ok(Value::One(number));
     }
     if let Ok(text) = value.cast::<PyString>() {
-        return formula(py, name, text.to_str()?, unit).map(Value::One);
+        return formula(py, text.to_str()?, told).map(Value::One);
+    }
+    static SPELLED: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+    if let Some((texts, shape)) = SPELLED
+        .import(py, "mechc.values", "spelled")?
+        .call1((value,))?
+        .extract::<Option<(Vec<String>, Vec<usize>)>>()?
+    {
+        let values = texts.iter().map(|text| formula(py, text, told)).collect::<PyResult<Vec<f64>>>()?;
+        return Ok(Value::Each(PyArray1::from_vec(py, values).reshape(shape)?.into_any()));
     }
     static ELEMENTS: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
-    let read = ELEMENTS.import(py, "mechc.values", "elements")?.call1((name, value))?;
+    let read = ELEMENTS.import(py, "mechc.values", "elements")?.call1((told.name(), value))?;
     Ok(match read.extract::<f64>() {
         Ok(number) if read.is_exact_instance_of::<PyFloat>() => Value::One(number),
         _ => Value::Each(read),
     })
 }
 
-/// The value of a formula in SI; it must be of a unit, as an addend of that unit is.
-fn formula(py: Python<'_>, name: &str, text: &str, unit: &str) -> PyResult<f64> {
-    let mut sources = Sources::default();
+/// The value of a formula (SI), which is to be none of time.
+fn formula(py: Python<'_>, text: &str, told: &Told<'_>) -> PyResult<f64> {
     let is_of_time = |word: &str| word == "t";
+    let name = told.name();
     if name != "t" && text.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(is_of_time) {
         let message = format!("`{name}` is a formula of time, and `at` takes values");
         let help = "an array has one for each element; what is not given follows its formula: `m.at(t=0.1)`";
         return Err(usage(py, &message, help)?);
     }
-    if name == "t" {
-        return seconds("t", text, &mut sources).map_err(|why| Said::of(&why, &sources).raised(py));
-    }
-    let sum = match unit {
-        "" => format!("({text})"),
-        unit if unit.starts_with('/') => format!("0{unit} + ({text})"),
-        unit => format!("0 {unit} + ({text})"),
-    };
-    let formula = Formula::of(&sum, &mut sources).map_err(|why| Said::of(&why, &sources).raised(py))?;
-    let [value, ..] = formula.values(0.0).map_err(|why| Said::of_one(*why, &sources).raised(py))?;
-    Ok(value)
+    let mut sources = Sources::default();
+    told.read(text, &mut sources).map_err(|why| Said::of(&why, &sources).raised(py))
 }
 
 /// Values by elements, and the shape of these; none where all are single numbers.

@@ -99,7 +99,6 @@ impl Pump {
 impl Reader {
     pub fn new(source: Source, progress: Option<Py<PyAny>>) -> Reader {
         let [next, _] = source.whole.range;
-        source.summary.lock().unwrap_or_else(PoisonError::into_inner).clear();
         let (pump, has_ended, reads_on) = (None, false, thread::current().id());
         Reader { source, progress, told: Instant::now(), pump, next, has_ended, reads_on }
     }
