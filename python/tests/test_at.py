@@ -265,7 +265,7 @@ def test_texts_are_read_as_a_run_reads_them(four_bar):
             m.run(**given)
         messages = [of.value.diagnostics[0]["message"].partition(", found")[0] for of in (at, run)]
         assert messages[0] == messages[1] and at.value.code == run.value.code
-        assert at.value.diagnostics[0]["labels"][0]["column"] == 1
+        assert at.value.diagnostics[0]["labels"][0]["start"]["column"] == 1
     with pytest.raises(mechc.UsageError, match="the rate of `theta` must be"):
         m.at(theta=0.3, rates={"theta": "60 mm"})
     with pytest.raises(mechc.UsageError, match="expected an operator"):

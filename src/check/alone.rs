@@ -4,7 +4,7 @@ use super::formula::Context;
 use super::{Checker, Surroundings};
 use crate::diag::Diagnostics;
 use crate::expr::{ExprId, Graph};
-use crate::model::{Condition, Dimension};
+use crate::model::{Condition, DecidedBy, Dimension};
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, Expr, Name};
 
@@ -13,10 +13,26 @@ use crate::syntax::ast::{self, Expr, Name};
 /// # Errors
 /// What is wrong with it.
 pub fn constant(formula: &Expr, place: &str, wanted: Dimension, sources: &Sources) -> Result<f64, Diagnostics> {
+    alone(formula, sources, |checker| checker.constant(formula, place, wanted))
+}
+
+/// The same of one that has a unit, unless it is nothing or a pure number.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn amount(formula: &Expr, place: &str, wanted: Dimension, sources: &Sources) -> Result<f64, Diagnostics> {
+    alone(formula, sources, |checker| checker.judged_constant(formula, place, wanted, (DecidedBy::Value, true)))
+}
+
+fn alone(
+    formula: &Expr,
+    sources: &Sources,
+    read: impl FnOnce(&mut Checker<'_>) -> Option<(ExprId, f64)>,
+) -> Result<f64, Diagnostics> {
     let tree = nothing(formula.span);
     let surroundings = Surroundings::default();
     let mut checker = Checker::new(&tree, &surroundings, sources);
-    match checker.constant(formula, place, wanted) {
+    match read(&mut checker) {
         Some((_, value)) if !checker.diagnostics.has_errors() => Ok(value),
         _ => Err(checker.diagnostics),
     }

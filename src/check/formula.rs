@@ -518,6 +518,17 @@ impl Checker<'_> {
         by: DecidedBy,
     ) -> Option<(ExprId, f64)> {
         let judged = self.is_dimensional(e);
+        self.judged_constant(e, place, wanted, (by, judged))
+    }
+
+    /// The same of one that may have to have a unit.
+    pub(super) fn judged_constant(
+        &mut self,
+        e: &Expr,
+        place: &str,
+        wanted: Dimension,
+        (by, judged): (DecidedBy, bool),
+    ) -> Option<(ExprId, f64)> {
         let context = Context { judged, ..Context::constant(place) };
         let value = self.formula(e, &context)?;
         if !judged && wanted.is(Dimension::LENGTH) && self.refuses_angle(place, e) {

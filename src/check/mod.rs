@@ -60,7 +60,7 @@ mod tables;
 mod told;
 mod variables;
 
-pub use alone::{FormulaOfTime, constant, formula_of_time};
+pub use alone::{FormulaOfTime, amount, constant, formula_of_time};
 pub use inputs::Given;
 pub use known::{Amount, Count, Index, Known, Value as KnownValue, known, slopes};
 pub use lead::Lead;

@@ -30,7 +30,7 @@ impl Settable {
     pub fn read(&self, option: &str, what: &str, text: &str, sources: &mut Sources) -> Result<f64, Diagnostics> {
         let file = sources.add_option(option, text);
         let formula = syntax::parse_expression(sources, file)?;
-        check::constant(&formula, &format!("{what} `{}`", self.name), self.dimension, sources)
+        check::amount(&formula, &format!("{what} `{}`", self.name), self.dimension, sources)
     }
 
     /// Its derivative by time of some order, as something to be set.
@@ -129,8 +129,12 @@ mod tests {
         assert_eq!(read(&params[0], "2 * (20 mm + 1 cm)"), Ok(0.06));
         assert_eq!(read(&inputs[0], "20 mm"), Ok(0.02));
         assert_eq!(read(&rate, "20 mm/s"), Ok(0.02));
-        assert_eq!(read(&rate, "0"), Ok(0.0));
-        let wrong = "the value of `slide` must be a speed, found a length";
+        assert_eq!((read(&rate, "0"), read(&params[0], "0")), (Ok(0.0), Ok(0.0)));
+        assert_eq!(
+            read(&params[0], "45"),
+            Err("the value of `length` must be a length, found a pure number".to_owned())
+        );
+        let wrong = "the value of `slide` must be a speed (m/s), found a length";
         assert_eq!(read(&rate, "20 mm"), Err(wrong.to_owned()));
         assert_eq!(read(&params[0], "t"), Err("time `t` may not stand in the value of `length`".to_owned()));
         assert!(read(&params[0], "1 m) + (1 m").is_err());
