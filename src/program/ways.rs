@@ -52,12 +52,16 @@ impl Ways {
 pub(super) fn stay_in_piece(program: &Program, op: Op, piece: f64, v: &mut [Interval]) {
     let Op::Piece { table, a, .. } = op else { return };
     let layout = &program.tables()[table as usize];
-    let last = f64::from(layout.pieces) - 1.0;
-    let knot = |k: f64| v[layout.knots as usize + k as usize].low;
+    let last = layout.pieces - 1;
+    // pieces are small whole numbers, and none is below 0
+    #[allow(clippy::cast_sign_loss)]
+    let piece = piece as u32;
+    let knot = |k: u32| v[(layout.knots + k) as usize].low;
     // the first and the last piece go on for ever, but where the next one is the other end's
-    let beyond = if layout.periods.is_empty() { f64::INFINITY } else { BESIDE_A_SEAM * (knot(last + 1.0) - knot(0.0)) };
-    let low = if piece > 0.0 { knot(piece) } else { knot(0.0) - beyond };
-    let high = if piece < last { knot(piece + 1.0) } else { knot(last + 1.0) + beyond };
+    let is_periodic = !layout.periods.is_empty();
+    let beyond = if is_periodic { BESIDE_A_SEAM * (knot(last + 1) - knot(0)) } else { f64::INFINITY };
+    let low = if piece > 0 { knot(piece) } else { knot(0) - beyond };
+    let high = if piece < last { knot(piece + 1) } else { knot(last + 1) + beyond };
     let argument = &mut v[a as usize];
     let [low, high] = [argument.low.max(low), argument.high.min(high)];
     *argument = Interval { low: low.min(high), high: low.max(high) };
