@@ -552,6 +552,17 @@ fn branches_are_looked_at_one_by_one() {
     check(&arm("t", asked), 2.0, &[(ASIN, 1e-9), (0.55_f64.sqrt(), 1e-9), (ASIN, 1e-9)]);
 }
 
+/// At a kink the derivatives are those of one side, and cells may begin or end just there.
+#[test]
+fn a_kink_where_cells_meet_is_integrated_on_both_sides() {
+    let asked = "result a = integral(max(0, t - 0.25)) result b = integral(max(t - 0.25, 0)) result c = integral(min(0.25, t))
+        result d = integral(max(0, 0.25 - t)) result e = integral(min(max(0, t - 0.25), 0.5)) result f = integral(max(0, t^2 - 0.0625))";
+    let wanted = [0.28125, 0.28125, 0.21875, 0.03125, 0.25, 1.0 / 3.0 - 0.0625 + 1.0 / 96.0];
+    check(&arm("t", asked), 1.0, &wanted.map(|value| (value, 1e-11)));
+    let turning = "result a = mean(max(y(arm.tip), 0 m)) result b = mean(max(0 m, x(arm.tip))) result c = rms(max(y(arm.tip), 0 m))";
+    check(&arm("360 deg * t", turning), 1.0, &[(1.0 / PI, 1e-10), (1.0 / PI, 1e-10), (0.5, 1e-10)]);
+}
+
 /// A number that rests is that number, and no little more or less.
 #[test]
 fn what_rests_at_a_switch_has_a_side() {

@@ -13,6 +13,12 @@ const LOBATTO: [[f64; 2]; 3] =
     [[-0.654_653_670_707_977_1, 49.0 / 90.0], [0.0, 32.0 / 45.0], [0.654_653_670_707_977_1, 49.0 / 90.0]];
 const LOBATTO_ENDS: f64 = 0.1;
 
+/// What a rule finds of a cell, and the values in it allow: where the formula bends at an end of the cell its derivatives there may be those of the
+/// other side.
+fn within(found: f64, [least, most]: [f64; 2]) -> f64 {
+    if found.is_finite() && least <= most { found.max(least).min(most) } else { found }
+}
+
 impl Survey<'_> {
     /// The integral of the formula over a stretch.
     pub(super) fn integral(&mut self, root: &Root, scale: Scale) -> f64 {
@@ -26,9 +32,11 @@ impl Survey<'_> {
             };
             let h = cell.length();
             let is_resolved = first.1.is_resolved && second.1.is_resolved;
-            let widest = f64::max(first.1.high, second.1.high) - f64::min(first.1.low, second.1.low);
+            let [low, high] = [f64::min(first.1.low, second.1.low), f64::max(first.1.high, second.1.high)];
+            let widest = high - low;
             let halves = [first.0, second.0];
             let (found, error) = self.both_rules(&cell, &halves);
+            let found = if self.formula.derivatives() > 0 { within(found, [low * h, high * h]) } else { found };
             let rounding = ROUNDING * scale.weight * h;
             let is_exact = is_resolved && error <= f64::max(ACCURACY * scale.range * h, rounding);
             let is_negligible = widest * h <= f64::max(NEGLIGIBLE * scale.range * scale.span, NOTHING);
