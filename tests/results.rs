@@ -563,6 +563,16 @@ fn a_kink_where_cells_meet_is_integrated_on_both_sides() {
     check(&arm("360 deg * t", turning), 1.0, &[(1.0 / PI, 1e-10), (1.0 / PI, 1e-10), (0.5, 1e-10)]);
 }
 
+/// Its slope is nothing just there, and cells may begin or end there.
+#[test]
+fn a_turn_where_cells_meet_is_found() {
+    let asked = "result a = argmax(x(arm.tip)) result b = max(x(arm.tip)) result c = argmin(-x(arm.tip)) result d = argmin((y(arm.tip)/1 m)^2)";
+    for (turn, t, to) in [("30 rpm", 0.75, 1.4), ("1 rad/s", 0.25, 1.0), ("1 rad/s", 0.5, 1.0), ("1 rad/s", 0.3, 1.0)] {
+        let text = arm(&format!("{turn} * (t - {t} s)"), asked);
+        check(&text, to, &[(t, 1e-9), (1.0, 1e-12), (t, 1e-9), (t, 1e-9)]);
+    }
+}
+
 /// A number that rests is that number, and no little more or less.
 #[test]
 fn what_rests_at_a_switch_has_a_side() {

@@ -164,6 +164,10 @@ impl Survey<'_> {
         let turns = sign * cell.a.sample.first > 0.0 && sign * cell.b.sample.first <= 0.0;
         // at a kink it may come to rest
         if (falls >= 0.0 || rises <= 0.0) && !(turns && first.may_switch) {
+            if turns {
+                // it turns where the cell ends, and falls from there on
+                self.note_turn(&cell.b, cell.b.state.t, extreme, scale);
+            }
             return true;
         }
         let [a, b] = extreme.values(cell);
@@ -220,8 +224,13 @@ impl Survey<'_> {
         // its time is where the slope turns, whatever the last digits of the values say
         let is_inside = guess > low.state.t && guess < high.state.t;
         let turn = if is_inside { guess } else { high.state.t };
-        let [t, value] = self.settled_turn(&top.state, turn, scale.span).unwrap_or([turn, top.sample.value]);
-        extreme.add(Extremum { t, value: sign * value, kind: Kind::Turn }, scale);
+        self.note_turn(&top, turn, extreme, scale);
+    }
+
+    /// Takes note of a turn at a time (s), near a point.
+    fn note_turn(&mut self, near: &Point, t: f64, extreme: &mut Extreme, scale: Scale) {
+        let [t, value] = self.settled_turn(&near.state, t, scale.span).unwrap_or([t, near.sample.value]);
+        extreme.add(Extremum { t, value: extreme.sign * value, kind: Kind::Turn }, scale);
     }
 
     /// The time (s) and the value of a turn that is near a state and a time, as they are whichever way led there; none where it does not settle, or
