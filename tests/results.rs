@@ -563,6 +563,17 @@ fn a_kink_where_cells_meet_is_integrated_on_both_sides() {
     check(&arm("360 deg * t", turning), 1.0, &[(1.0 / PI, 1e-10), (1.0 / PI, 1e-10), (0.5, 1e-10)]);
 }
 
+/// The third derivative of a spline jumps at its knots, also where nothing moves by it.
+#[test]
+fn jumps_of_third_derivatives_have_their_times() {
+    let asked = "table q = spline [(0, 0), (0.25, 1), (1, 0)]
+        result a = argmax(der(der(der(q(t/1 s))))) result b = max(der(der(der(q(t/1 s))))) result c = integral(der(der(der(q(t/1 s)))))
+        table p = periodic spline [(0, 0), (0.5, 1), (1.2, -1), (2, 0)]
+        result d = argmax(der(der(der(p(7 * t/1 s)))))";
+    // a natural spline with one knot inside: c₃ is −64/6 before it, and 64/18 behind it
+    check(&arm("7 * t", asked), 1.0, &[(0.25, 1e-9), (64.0 / 3.0, 1e-9), (0.0, 1e-8), (0.5 / 7.0, 1e-9)]);
+}
+
 /// Its slope is nothing just there, and cells may begin or end there.
 #[test]
 fn a_turn_where_cells_meet_is_found() {

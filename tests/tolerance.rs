@@ -439,6 +439,12 @@ fn a_param_moves_a_switch_through_a_table() {
     let results = "result a = integral(if lift(t) > 0.5 then 1 else 0) result b = mean(sign(lift(t) - 0.5))
         result c = integral(mod(lift(t), 0.4)) result d = integral(lift(t)) result e = max(lift(t))";
     assert_eq!(of(lift, results), [false, false, false, true, true]);
+    // and a knot that goes takes the jump of the third derivative along
+    let knot = "param k = 0.3 table q = spline [(0, 0), (p/2, 1), (1, 0)] ";
+    let results =
+        "result a = integral(der(der(der(q(t/1 s))))) result b = max(-t/1 s * der(der(der(q(t/1 s)))) * 1 s^3)
+        result c = max(q(t/1 s)) result d = integral(q(t/1 s))";
+    assert_eq!(of(knot, results), [false, false, true, true]);
 }
 
 #[test]

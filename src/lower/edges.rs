@@ -129,8 +129,13 @@ fn decided_by(graph: &mut Graph, id: ExprId, what: Break) -> Vec<ExprId> {
             let (one, square) = (graph.constant(1.0), graph.power(a, 2));
             vec![graph.sub(one, square)]
         }
-        // the third derivative of a natural spline jumps
-        Node::Table(_, order, a) if bends || order == 3 => vec![a],
+        // the third derivative of a spline jumps at its knots, which may go too
+        Node::Table(table, order, a) if bends || order == 3 => {
+            let knots = graph.tables()[table.index()].knots.clone();
+            let going = knots.into_iter().filter(|&knot| graph.as_const(knot).is_none()).collect::<Vec<ExprId>>();
+            let behind = going.into_iter().map(|knot| graph.sub(a, knot)).collect::<Vec<ExprId>>();
+            [vec![a], behind].concat()
+        }
         _ => Vec::new(),
     }
 }

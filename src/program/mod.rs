@@ -122,6 +122,8 @@ pub struct TableLayout {
     pub coefficients: [Register; 4],
     /// Of a periodic one: where it stands how many whole periods its arguments are beyond its range.
     pub periods: Vec<Register>,
+    /// Where third derivatives of it stand, which jump at its knots.
+    pub thirds: Vec<Register>,
 }
 
 impl TableLayout {

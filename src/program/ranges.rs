@@ -7,7 +7,7 @@
 //! is put together of two says little of either.
 
 use super::enclose::{Interval, behind, enclose, hull};
-use super::ways::{Ways, periods, stay_in_piece};
+use super::ways::{Ways, stay_in_piece};
 use super::{Op, Program, Register, Registers, Stage};
 use crate::expr::{Binary, Unary};
 use crate::tolerances::results::ranges::{MOST_WAYS, WIDEST, WIDEST_RATIO, WIDEST_VALUE};
@@ -61,6 +61,8 @@ pub struct Ranges {
     time: Register,
     /// Where an argument of a periodic table goes from period to period.
     periods: Vec<Register>,
+    /// Where third derivatives of tables stand.
+    thirds: Vec<Register>,
     ways: Ways,
     /// The values on one of the ways.
     on_way: Vec<Interval>,
@@ -89,7 +91,8 @@ impl Ranges {
             is_frozen,
             values: (0..program.registers()).map(|k| point(registers.get(k as u32))).collect(),
             time: program.inputs.time,
-            periods: periods(program),
+            periods: program.tables().iter().flat_map(|table| table.periods.iter().copied()).collect(),
+            thirds: program.tables().iter().flat_map(|table| table.thirds.iter().copied()).collect(),
             ways: Ways::default(),
             on_way: Vec::new(),
         }
@@ -108,6 +111,7 @@ impl Ranges {
     /// The range of a formula; those before it must have been asked for since time and coordinates were set.
     pub fn range(&mut self, program: &Program, registers: &Registers, k: usize) -> Range {
         let mut found = if k == 0 { NOTHING } else { self.found[k - 1] };
+        let mut jumps = found.may_switch;
         for at in 0..self.operations[k].len() {
             let op = self.operations[k][at];
             found.is_resolved &= is_resolved_in(op, &self.values);
@@ -117,6 +121,7 @@ impl Ranges {
                 self.values[to as usize] = Interval { low: frozen, high: frozen };
             }
             found = found.of_both(self.found_of(op, &self.values));
+            jumps |= self.is_third_of_several(op);
         }
         let mut all = self.values[self.roots[k] as usize];
         if found.crosses_knots || found.may_switch {
@@ -127,6 +132,7 @@ impl Ranges {
                 found.is_resolved = false;
             }
         }
+        found.may_switch |= jumps;
         self.found[k] = found;
         let Found { may_switch, is_resolved, crosses_knots } = found;
         Range { low: all.low, high: all.high, may_switch, is_resolved: is_resolved && !may_switch, crosses_knots }
@@ -146,6 +152,15 @@ impl Ranges {
             is_resolved: bounded(op).is_none_or(|to| width(to) <= WIDEST_VALUE),
             crosses_knots,
         }
+    }
+
+    /// Whether an operation leaves the third derivative of a table, of more pieces than one.
+    fn is_third_of_several(&self, op: Op) -> bool {
+        let is_third = |&to: &Register| {
+            let Interval { low, high } = self.values[to as usize];
+            self.thirds.contains(&to) && low.total_cmp(&high).is_ne()
+        };
+        op.writes().iter().any(is_third)
     }
 
     /// Whether an operation tells where a table is entered.

@@ -28,7 +28,11 @@ impl Layout<'_> {
             });
         }
         // no order is above 3
-        sum.unwrap_or(way)
+        let sum = sum.unwrap_or(way);
+        if order == 3 {
+            self.table_layouts[number as usize].thirds.push(sum);
+        }
+        sum
     }
 
     fn reached(&mut self, stage: Stage, table: TableId, x: ExprId) -> Reached {
@@ -66,8 +70,8 @@ impl Layout<'_> {
         let pieces = of_graph.coefficients[0].len() as u32;
         let period = self.push(Stage::Prologue, |to| Op::Sub { to, a: knots + pieces, b: knots });
         let place = Place { number: self.table_layouts.len() as u32, period };
-        let (name, periods) = (of_graph.name.clone(), Vec::new());
-        self.table_layouts.push(TableLayout { name, pieces, knots, coefficients, periods });
+        let (name, periods, thirds) = (of_graph.name.clone(), Vec::new(), Vec::new());
+        self.table_layouts.push(TableLayout { name, pieces, knots, coefficients, periods, thirds });
         self.tables.insert(table, place);
         place
     }

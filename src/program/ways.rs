@@ -1,8 +1,8 @@
 //! Ways through a formula: which branch is taken where it may change, and which piece of a table where an argument may lie in several.
 
 use super::Op;
+use super::Program;
 use super::enclose::Interval;
-use super::{Program, Register};
 use crate::tolerances::results::ranges::{BESIDE_A_SEAM, MOST_AT_ONCE};
 
 /// One way: at each switch that is met, in the order in which they are, the result that is taken and the last one that it may have; these are whole
@@ -65,9 +65,4 @@ pub(super) fn stay_in_piece(program: &Program, op: Op, piece: f64, v: &mut [Inte
     let argument = &mut v[a as usize];
     let [low, high] = [argument.low.max(low), argument.high.min(high)];
     *argument = Interval { low: low.min(high), high: low.max(high) };
-}
-
-/// Where it stands how many whole periods the arguments of periodic tables are beyond their ranges.
-pub(super) fn periods(program: &Program) -> Vec<Register> {
-    program.tables().iter().flat_map(|table| table.periods.iter().copied()).collect()
 }
