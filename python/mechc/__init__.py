@@ -40,7 +40,6 @@ from mechc.tolerances import Deviation, Tolerance  # noqa: E402
 from mechc.values import Between, between  # noqa: E402
 
 
-
 def __getattr__(name: str) -> object:
     # what needs Ray is there once it is asked for
     if name == "ray":

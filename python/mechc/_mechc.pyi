@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from mechc.errors import AnalysisError, MechcError
 
 __version__: str
+LARGEST_FILE: int
 
 #: A number (of one element), or an array of the elements' shape.
 Numbers = float | NDArray[np.float64]

@@ -11,6 +11,7 @@ import unicodedata
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, TypeVar, Union
 
+from mechc._mechc import LARGEST_FILE
 from mechc.errors import MechcWarning, warn
 from mechc.values import many, mapping, meant, number, path_of, plain, sound, table, texts, usage, whole, written
 from mechc.values import varied as one_varied
@@ -156,14 +157,8 @@ def settings(option: str, given: Any, values: Mapping[str, Any], units: Mapping[
 
 
 def unit_of(name: str, units: Mapping[str, str]) -> str:
-    """The SI unit of a param or input; of all copies where the name has no number."""
-    if name in units:
-        return units[name]
-    for known, unit in units.items():
-        owner, dot, rest = known.partition(".")
-        if f"{owner.partition('[')[0]}{dot}{rest}" == name or known.partition("[")[0] == name:
-            return unit
-    return ""
+    """The SI unit of what a name means: a param or input, all copies of one, the coordinates of a point."""
+    return next((units[known] for known in names_of(name, units)), "")
 
 
 def formulas(results: Any) -> list[str]:
@@ -265,9 +260,6 @@ def varied(
 #: More threads only wait for each other.
 MOST_JOBS = 1024
 
-#: No table of variants is larger (bytes), as the command has it.
-LARGEST = 1 << 30
-
 #: What varies: as the command's option has it, or a table as CSV with the name that messages have for it.
 Axis = Union[str, "tuple[str, bytes]"]
 
@@ -275,7 +267,7 @@ Axis = Union[str, "tuple[str, bytes]"]
 def _variants_of(path: str) -> Axis:
     """A table of variants in a file, which is read once: a sweep stays what it is. What cannot be read is told as the command tells it."""
     try:
-        if os.path.isfile(path) and os.path.getsize(path) <= LARGEST:
+        if os.path.isfile(path) and os.path.getsize(path) <= LARGEST_FILE:
             with open(path, "rb") as file:
                 return path, file.read()
     except OSError:

@@ -284,7 +284,7 @@ def _head(unit: str) -> str:
 def spelled(values: Any) -> tuple[list[str], list[int]] | None:
     """Texts in a list or an array, one behind the other, and its shape; nothing of anything else."""
     is_array = isinstance(values, np.ndarray)
-    if not (is_array and values.dtype.kind in "UTO" or isinstance(values, (list, tuple))):
+    if not (is_array and values.dtype.kind in "UTO" or isinstance(values, (list, tuple)) and _begins_with_text(values)):
         return None
     try:
         array = np.array(values, dtype=object)
@@ -294,6 +294,12 @@ def spelled(values: Any) -> tuple[list[str], list[int]] | None:
     if array.ndim == 0 or not flat or not all(isinstance(text, str) for text in flat):
         return None
     return flat, list(array.shape)
+
+
+def _begins_with_text(values: Any) -> bool:
+    while isinstance(values, (list, tuple)) and values:
+        values = values[0]
+    return isinstance(values, (str, np.ndarray))
 
 
 def elements(name: str, values: Any) -> float | np.ndarray[Any, Any]:

@@ -7,8 +7,8 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::{fs, io};
 
-/// No text is larger (bytes), as the command has it.
-const LARGEST: u64 = 1 << 30;
+/// No file is larger (bytes), as the command has it.
+pub const LARGEST: u64 = 1 << 30;
 
 /// So many files are named where one is missing.
 const MOST_NAMED: usize = 8;

@@ -50,6 +50,7 @@ mod _mechc {
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.py().import("atexit")?.call_method1("register", (module.getattr("_end")?,))?;
+        module.add("LARGEST_FILE", super::files::LARGEST)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

@@ -27,7 +27,7 @@ impl<'a> Checker<'a> {
                 self.report(errors::mass_of_the_ground(feature.span));
                 continue;
             };
-            if let Some(mass) = self.mass(body, feature, [Some(mass), at.as_ref(), inertia.as_ref()]) {
+            if let Some(mass) = self.mass(body, feature, [Some(mass), at.as_deref(), inertia.as_deref()]) {
                 self.model.masses.push(mass);
             }
         }

@@ -5,7 +5,7 @@ use super::bindings::BoundParam;
 use super::errors;
 use super::instance::Instance;
 use super::library::{Library, NotKnown};
-use super::mentions::{formulas, indices, mentioned, name_of};
+use super::mentions::{indices, mentioned, name_of};
 use super::repetition::{MOST, Numbers, Writer, broken, named, needs_writing};
 use super::{Checker, Surroundings};
 use crate::diag::Diagnostics;
@@ -225,7 +225,7 @@ impl<'t> Builder<'t, '_> {
         if needs_writing(tree) {
             let ranges = tree.items.iter().flat_map(|item| &item.ranges);
             open.extend(ranges.flat_map(|range| [&range.from, &range.to]));
-            open.extend(tree.items.iter().flat_map(formulas).flat_map(indices));
+            open.extend(tree.items.iter().flat_map(Item::formulas).flat_map(indices));
         }
         for item in &tree.items {
             let ItemKind::Part(part) = &item.kind else { continue };
@@ -244,7 +244,7 @@ impl<'t> Builder<'t, '_> {
 /// The declarations of parts in a mechanism.
 fn parts_of(tree: &Mechanism) -> impl Iterator<Item = &ast::Part> {
     tree.items.iter().filter_map(|item| match &item.kind {
-        ItemKind::Part(part) => Some(part),
+        ItemKind::Part(part) => Some(&**part),
         _ => None,
     })
 }
@@ -266,7 +266,7 @@ fn needed_by<'t>(tree: &'t Mechanism, mut open: Vec<&'t Expr>) -> FxHashSet<Stri
             |name, _| {
                 if needed.insert(name.text.clone()) {
                     let is_it = |item: &&Item| name_of(item).is_some_and(|other| other.text == name.text);
-                    open.extend(tree.items.iter().filter(is_it).flat_map(formulas));
+                    open.extend(tree.items.iter().filter(is_it).flat_map(Item::formulas));
                 }
             },
         );

@@ -7,7 +7,6 @@ use super::Checker;
 use super::entity::Entity;
 use super::errors::{self, Plain};
 use super::formula::{Context, Dim, Value};
-use super::mentions::formulas;
 use crate::expr::ExprId;
 use crate::math;
 use crate::syntax::ast::{Expr, ExprKind, Item};
@@ -127,7 +126,7 @@ impl<'a> Checker<'a> {
 #[must_use]
 pub fn usual_unit_of_length(items: &[Item]) -> Option<&'static Unit> {
     let mut counts: FxHashMap<&'static str, (usize, &'static Unit)> = FxHashMap::default();
-    for e in items.iter().flat_map(formulas) {
+    for e in items.iter().flat_map(Item::formulas) {
         let mut open = vec![e];
         while let Some(e) = open.pop() {
             if let ExprKind::Literal { unit: Some((name, 1)), .. } = &e.kind

@@ -2,7 +2,7 @@
 
 use super::kinds::coordinate;
 use crate::source::Span;
-use crate::syntax::ast::{DrawnPose, Expr, ExprKind, FeatureKind, Item, ItemKind, Mechanism, Name, TableRows};
+use crate::syntax::ast::{Expr, ExprKind, Item, ItemKind, Mechanism, Name};
 use crate::vocabulary::{Constant, StandsFor, Unit, gives_way, is_called};
 
 /// Where the argument of a function or curve stands in its formula.
@@ -21,7 +21,7 @@ pub(super) fn uses_in(mechanism: &Mechanism, declared: &Name, is_called: bool) -
     // alone, `t` may as well be the time
     let is_time =
         Constant::named(&declared.text).is_some_and(|constant| matches!(constant.stands_for, StandsFor::Time));
-    let mut open: Vec<&Expr> = mechanism.items.iter().flat_map(formulas).collect();
+    let mut open: Vec<&Expr> = mechanism.items.iter().flat_map(Item::formulas).collect();
     let (mut uses, mut units) = (Vec::new(), Vec::new());
     while let Some(e) = open.pop() {
         let used = match &e.kind {
@@ -83,48 +83,6 @@ pub fn name_of(item: &Item) -> Option<&Name> {
         ItemKind::Ground { .. } | ItemKind::Gravity { .. } | ItemKind::Broken { .. } | ItemKind::Analysis { .. } => {
             None
         }
-    }
-}
-
-/// The formulas of a declaration.
-pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
-    match &item.kind {
-        ItemKind::Param { value, .. }
-        | ItemKind::Input { value, .. }
-        | ItemKind::Function { value, .. }
-        | ItemKind::Measure { value, .. }
-        | ItemKind::Result { value, .. } => {
-            vec![value]
-        }
-        ItemKind::Trace { point, .. } => vec![point],
-        ItemKind::Part(part) => {
-            let bindings = part.bindings.iter().map(|binding| &binding.value);
-            bindings.chain(&part.on).chain(&part.at).collect()
-        }
-        ItemKind::Table { rows: TableRows::Listed(rows), .. } => rows.iter().collect(),
-        ItemKind::Table { .. } | ItemKind::Broken { .. } => Vec::new(),
-        ItemKind::Ground { features } => features.iter().flat_map(|feature| parts(&feature.kind)).collect(),
-        ItemKind::Body { pose, features, .. } => {
-            let pose = pose.iter().flat_map(DrawnPose::parts);
-            pose.chain(features.iter().flat_map(|feature| parts(&feature.kind))).collect()
-        }
-        ItemKind::Joint { arguments, .. } => arguments.iter().collect(),
-        ItemKind::Equation { left, right, .. } => vec![left, right],
-        ItemKind::Gravity { acceleration } => vec![acceleration],
-        ItemKind::Load { force, on, .. } => vec![force, on],
-        ItemKind::Analysis { from, to, every } => vec![from, to, every],
-    }
-}
-
-fn parts(feature: &FeatureKind) -> Vec<&Expr> {
-    match feature {
-        FeatureKind::Broken => Vec::new(),
-        FeatureKind::Point { at } => at.iter().collect(),
-        FeatureKind::AxisAlong { origin, direction } => vec![origin, direction],
-        FeatureKind::AxisTo { origin, target } => vec![origin, target],
-        FeatureKind::Circle { center, radius } => vec![center, radius],
-        FeatureKind::Curve { at, estimate, .. } => std::iter::once(at).chain(estimate).collect(),
-        FeatureKind::Mass { mass, at, inertia } => std::iter::once(mass).chain(at).chain(inertia).collect(),
     }
 }
 

@@ -18,7 +18,7 @@ impl<'a> Checker<'a> {
                     Feature::Circle(self.circle_feature(frame, &feature.name, center, radius))
                 }
                 FeatureKind::Curve { argument, at, estimate } => {
-                    Feature::Curve(self.curve_feature(frame, &feature.name, argument, at, estimate.as_ref()))
+                    Feature::Curve(self.curve_feature(frame, &feature.name, argument, at, estimate.as_deref()))
                 }
                 _ => continue,
             };

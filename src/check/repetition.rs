@@ -2,7 +2,7 @@
 //! names that the copies have. All else of `check` knows plain declarations alone.
 
 use super::instance::{Copies, Instance};
-use super::mentions::{formulas, name_of};
+use super::mentions::name_of;
 use super::{Checker, errors};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::model::Dimension;
@@ -311,7 +311,7 @@ impl<'t, 'c> Writer<'t, 'c> {
             ItemKind::Load { name, force, on } => {
                 ItemKind::Load { name: own(name), force: self.formula(force, numbers)?, on: self.formula(on, numbers)? }
             }
-            ItemKind::Part(part) => ItemKind::Part(self.part(part, numbers)?),
+            ItemKind::Part(part) => ItemKind::Part(Box::new(self.part(part, numbers)?)),
             other => other.clone(),
         })
     }
@@ -332,10 +332,12 @@ impl<'t, 'c> Writer<'t, 'c> {
 
     fn features(&mut self, features: &[Feature], numbers: &Numbers<'_>) -> Written<Vec<Feature>> {
         let copy = |feature: &Feature| {
-            let mut of = |e: &Expr| self.formula(e, numbers);
+            let mut of = |e: &Expr| self.formula(e, numbers).map(Box::new);
             let kind = match &feature.kind {
                 FeatureKind::Broken => FeatureKind::Broken,
-                FeatureKind::Point { at } => FeatureKind::Point { at: at.as_ref().map(of).transpose()? },
+                FeatureKind::Point { at } => {
+                    FeatureKind::Point { at: at.as_ref().map(|e| self.formula(e, numbers)).transpose()? }
+                }
                 FeatureKind::AxisAlong { origin, direction } => {
                     FeatureKind::AxisAlong { origin: of(origin)?, direction: of(direction)? }
                 }
@@ -348,12 +350,12 @@ impl<'t, 'c> Writer<'t, 'c> {
                 FeatureKind::Curve { argument, at, estimate } => FeatureKind::Curve {
                     argument: argument.clone(),
                     at: of(at)?,
-                    estimate: estimate.as_ref().map(of).transpose()?,
+                    estimate: estimate.as_deref().map(of).transpose()?,
                 },
                 FeatureKind::Mass { mass, at, inertia } => FeatureKind::Mass {
                     mass: of(mass)?,
-                    at: at.as_ref().map(&mut of).transpose()?,
-                    inertia: inertia.as_ref().map(of).transpose()?,
+                    at: at.as_deref().map(&mut of).transpose()?,
+                    inertia: inertia.as_deref().map(of).transpose()?,
                 },
             };
             Ok(Feature { docs: feature.docs.clone(), span: feature.span, name: feature.name.clone(), kind })
@@ -634,7 +636,7 @@ fn path_into_part(tree: &Mechanism, formula: &Expr) -> Option<Span> {
                 return Some(e.span);
             }
             if seen.insert(&name.text) {
-                open.extend(item(name).map(formulas).unwrap_or_default());
+                open.extend(item(name).map(Item::formulas).unwrap_or_default());
             }
         }
         open.extend(e.children());

@@ -5,13 +5,12 @@
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::mentions::formulas;
 use super::told::is_told_by;
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};
 use crate::model::{AskedInPart, Declared, Load, Named, Variable};
 use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind, Mechanism, Name};
+use crate::syntax::ast::{Expr, ExprKind, Item, Mechanism, Name};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// How many variables a formula may be differentiated by, one after the other, and how often by time then.
@@ -39,7 +38,7 @@ impl Variables {
 
     /// Those that a text asks for too, which stands under a path.
     pub fn add(&mut self, tree: &Mechanism, path: &str) {
-        for e in tree.items.iter().flat_map(formulas).flat_map(Expr::parts) {
+        for e in tree.items.iter().flat_map(Item::formulas).flat_map(Expr::parts) {
             if let Some((_, by)) = as_derivative(e) {
                 self.asked.extend(named(by).map(|name| format!("{path}{name}")));
             }

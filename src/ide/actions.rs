@@ -3,7 +3,6 @@
 use super::completion::{free, free_name};
 use super::diagnostics::{DiagnosticStage, ProposedFix, Said, diagnostics};
 use super::edits::{applied, faults, first_new, text_of};
-use super::names::formulas;
 use super::place::{Change, Place, Stretch};
 use super::snapshot::Snapshot;
 use crate::cancel::Cancel;
@@ -132,7 +131,7 @@ struct Quantity {
 /// The numbers with units in the formulas of a declaration; of a product its longest stretch first.
 fn quantities(item: &Item) -> Vec<Quantity> {
     let mut found = Vec::new();
-    for e in formulas(item).into_iter().flat_map(Expr::parts) {
+    for e in item.formulas().into_iter().flat_map(Expr::parts) {
         match &e.kind {
             ExprKind::Product(first, rest) => found.extend(compound(first, rest)),
             _ => found.extend(plain(e)),

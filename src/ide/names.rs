@@ -8,9 +8,7 @@ use super::snapshot::Snapshot;
 use crate::check::{KnownMechanism, Library, Meaning, name_of};
 use crate::source::{FileId, Span};
 use crate::stages::Checked;
-use crate::syntax::ast::{
-    DrawnPose, Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, MechanismName, Name, Part, TableRows,
-};
+use crate::syntax::ast::{Expr, ExprKind, Item, ItemKind, Mechanism, MechanismName, Name, Part, TableRows};
 use crate::world::{World, beside};
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -166,7 +164,7 @@ impl Walk<'_> {
             if let ItemKind::Part(part) = &item.kind {
                 self.part(part);
             }
-            for formula in formulas(item) {
+            for formula in item.formulas() {
                 formula.parts().for_each(|e| self.path(tree, e));
             }
         }
@@ -205,7 +203,7 @@ impl Walk<'_> {
         };
         let Some((first, rest)) = names.split_first() else { return };
         let part = tree.items.iter().find_map(|item| match &item.kind {
-            ItemKind::Part(part) if part.name.text == first.text => Some(part),
+            ItemKind::Part(part) if part.name.text == first.text => Some(&**part),
             _ => None,
         });
         let mut inside = part.and_then(|part| known(self.library, &part.mechanism, self.checked));
@@ -250,49 +248,6 @@ fn table_file(item: &Item) -> Option<&Name> {
     match &item.kind {
         ItemKind::Table { rows: TableRows::File { path, .. }, .. } => Some(path),
         _ => None,
-    }
-}
-
-/// The formulas of a declaration.
-pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
-    let mut all: Vec<&Expr> = item.ranges.iter().flat_map(|range| [&range.from, &range.to]).collect();
-    match &item.kind {
-        ItemKind::Param { value, .. }
-        | ItemKind::Function { value, .. }
-        | ItemKind::Input { value, .. }
-        | ItemKind::Measure { value, .. }
-        | ItemKind::Trace { point: value, .. }
-        | ItemKind::Result { value, .. } => all.push(value),
-        ItemKind::Table { rows: TableRows::Listed(rows), .. } => all.extend(rows),
-        ItemKind::Part(part) => {
-            all.extend(part.bindings.iter().map(|binding| &binding.value).chain(&part.on).chain(&part.at));
-        }
-        ItemKind::Ground { features } => all.extend(features.iter().flat_map(of_feature)),
-        ItemKind::Body { pose, features, .. } => {
-            all.extend(pose.iter().flat_map(DrawnPose::parts).chain(features.iter().flat_map(of_feature)));
-        }
-        ItemKind::Joint { arguments, .. } => all.extend(arguments),
-        ItemKind::Equation { left, right, .. } | ItemKind::Load { force: left, on: right, .. } => {
-            all.extend([left, right]);
-        }
-        ItemKind::Gravity { acceleration } => all.push(acceleration),
-        ItemKind::Analysis { from, to, every } => all.extend([from, to, every]),
-        ItemKind::Table { .. } | ItemKind::Broken { .. } => {}
-    }
-    all
-}
-
-/// The formulas of a feature.
-pub(super) fn of_feature(feature: &Feature) -> Vec<&Expr> {
-    match &feature.kind {
-        FeatureKind::Point { at } => at.iter().collect(),
-        FeatureKind::AxisAlong { origin, direction: other } | FeatureKind::AxisTo { origin, target: other } => {
-            vec![origin, other]
-        }
-        FeatureKind::Circle { center, radius } => vec![center, radius],
-        FeatureKind::Curve { at, estimate, .. } => std::iter::once(at).chain(estimate).collect(),
-        FeatureKind::Mass { mass, at, inertia } => std::iter::once(mass).chain(at).chain(inertia).collect(),
-        FeatureKind::Broken => Vec::new(),
     }
 }
 

@@ -1,6 +1,5 @@
 //! The shape of a text: what can be folded away, and what lies around a place.
 
-use super::names::{formulas, of_feature};
 use super::place::Place;
 use super::snapshot::Snapshot;
 use crate::source::Span;
@@ -136,7 +135,7 @@ fn spans_of(mechanism: &Mechanism, offset: u32, add: &mut impl FnMut(Span)) {
 }
 
 fn spans_of_item(item: &Item, add: &mut impl FnMut(Span)) {
-    formulas(item).into_iter().flat_map(Expr::parts).for_each(|e| add(e.span));
+    item.formulas().into_iter().flat_map(Expr::parts).for_each(|e| add(e.span));
     match &item.kind {
         ItemKind::Joint { call_span, .. } => add(*call_span),
         ItemKind::Part(part) => {
@@ -165,7 +164,7 @@ fn spans_of_item(item: &Item, add: &mut impl FnMut(Span)) {
 
 fn spans_of_feature(feature: &Feature, add: &mut impl FnMut(Span)) {
     add(feature.span);
-    of_feature(feature).into_iter().flat_map(Expr::parts).for_each(|e| add(e.span));
+    feature.formulas().into_iter().flat_map(Expr::parts).for_each(|e| add(e.span));
 }
 
 #[cfg(test)]

@@ -169,19 +169,19 @@ impl Features {
             feature(&point.name, point.span, FeatureKind::Point { at: Some(at) })
         });
         let axes = self.axes.iter().map(|axis| {
-            let origin = build::word(self.point_name(axis.origin), axis.span);
+            let origin = Box::new(build::word(self.point_name(axis.origin), axis.span));
             let kind = match &axis.line {
                 Line::Along(direction) => {
                     let direction = direction.map(|x| build::number(x, axis.span)).into();
-                    FeatureKind::AxisAlong { origin, direction: build::tuple(direction, axis.span) }
+                    FeatureKind::AxisAlong { origin, direction: Box::new(build::tuple(direction, axis.span)) }
                 }
-                Line::To { target, .. } => FeatureKind::AxisTo { origin, target: target.clone() },
+                Line::To { target, .. } => FeatureKind::AxisTo { origin, target: Box::new(target.clone()) },
             };
             feature(&axis.name, axis.span, kind)
         });
         let circles = self.circles.iter().map(|circle| {
-            let center = build::word(self.point_name(circle.center), circle.span);
-            let radius = build::length(circle.radius, circle.span);
+            let center = Box::new(build::word(self.point_name(circle.center), circle.span));
+            let radius = Box::new(build::length(circle.radius, circle.span));
             feature(&circle.name, circle.span, FeatureKind::Circle { center, radius })
         });
         points.chain(axes).chain(circles).collect()

@@ -61,6 +61,38 @@ pub struct Item {
     pub kind: ItemKind,
 }
 
+impl Item {
+    /// Its formulas, those of its features and ranges among them.
+    #[must_use]
+    pub fn formulas(&self) -> Vec<&Expr> {
+        let mut all: Vec<&Expr> = self.ranges.iter().flat_map(|range| [&range.from, &range.to]).collect();
+        match &self.kind {
+            ItemKind::Param { value, .. }
+            | ItemKind::Input { value, .. }
+            | ItemKind::Function { value, .. }
+            | ItemKind::Measure { value, .. }
+            | ItemKind::Trace { point: value, .. }
+            | ItemKind::Result { value, .. }
+            | ItemKind::Gravity { acceleration: value } => all.push(value),
+            ItemKind::Part(part) => {
+                all.extend(part.bindings.iter().map(|binding| &binding.value).chain(&part.on).chain(&part.at));
+            }
+            ItemKind::Table { rows: TableRows::Listed(rows), .. } => all.extend(rows),
+            ItemKind::Table { .. } | ItemKind::Broken { .. } => {}
+            ItemKind::Ground { features } => all.extend(features.iter().flat_map(Feature::formulas)),
+            ItemKind::Body { pose, features, .. } => {
+                all.extend(pose.iter().flat_map(DrawnPose::parts).chain(features.iter().flat_map(Feature::formulas)));
+            }
+            ItemKind::Joint { arguments, .. } => all.extend(arguments),
+            ItemKind::Equation { left, right, .. } | ItemKind::Load { force: left, on: right, .. } => {
+                all.extend([left, right]);
+            }
+            ItemKind::Analysis { from, to, every } => all.extend([from, to, every]),
+        }
+        all
+    }
+}
+
 /// `k in 0..n`: the whole numbers from one to another.
 #[derive(Clone, PartialEq, Debug)]
 pub struct IndexRange {
@@ -110,7 +142,7 @@ pub enum ItemKind {
         value: Expr,
     },
     /// `part NAME: MECHANISM(BINDING, …) on BODY at (x, y, phi) mirrored`
-    Part(Part),
+    Part(Box<Part>),
     /// `ground { … }`
     Ground {
         /// Its features.
@@ -202,6 +234,16 @@ pub enum ItemKind {
         /// Step.
         every: Expr,
     },
+}
+
+impl ItemKind {
+    /// The features of the ground or of a body.
+    pub fn features_mut(&mut self) -> Option<&mut Vec<Feature>> {
+        match self {
+            ItemKind::Ground { features } | ItemKind::Body { features, .. } => Some(features),
+            _ => None,
+        }
+    }
 }
 
 /// The declarations of another mechanism, once more.
@@ -350,7 +392,7 @@ pub struct Feature {
     pub kind: FeatureKind,
 }
 
-/// The kinds of features.
+/// The kinds of features. Points are many, so that what others have more stands elsewhere.
 #[derive(Clone, PartialEq, Debug)]
 pub enum FeatureKind {
     /// What does not follow the grammar
@@ -363,42 +405,60 @@ pub enum FeatureKind {
     /// `axis a = P along (dx, dy)`
     AxisAlong {
         /// A formula of points.
-        origin: Expr,
+        origin: Box<Expr>,
         /// A tuple.
-        direction: Expr,
+        direction: Box<Expr>,
     },
     /// `axis a = P to Q`
     AxisTo {
         /// A formula of points.
-        origin: Expr,
+        origin: Box<Expr>,
         /// A formula of points.
-        target: Expr,
+        target: Box<Expr>,
     },
     /// `circle c = P radius r`
     Circle {
         /// A formula of points.
-        center: Expr,
+        center: Box<Expr>,
         /// A length.
-        radius: Expr,
+        radius: Box<Expr>,
     },
     /// `curve k(u) = (x, y) at e`
     Curve {
         /// The name of the parameter.
         argument: Name,
         /// A formula of points, over the parameter.
-        at: Expr,
+        at: Box<Expr>,
         /// First estimate of the parameter.
-        estimate: Option<Expr>,
+        estimate: Option<Box<Expr>>,
     },
     /// `mass M at (x, y) inertia I`
     Mass {
         /// How much.
-        mass: Expr,
+        mass: Box<Expr>,
         /// Its centre: a formula of points.
-        at: Option<Expr>,
+        at: Option<Box<Expr>>,
         /// Its moment of inertia about that.
-        inertia: Option<Expr>,
+        inertia: Option<Box<Expr>>,
     },
+}
+
+impl Feature {
+    /// Its formulas.
+    #[must_use]
+    pub fn formulas(&self) -> Vec<&Expr> {
+        match &self.kind {
+            FeatureKind::Broken => Vec::new(),
+            FeatureKind::Point { at } => at.iter().collect(),
+            FeatureKind::AxisAlong { origin: one, direction: two }
+            | FeatureKind::AxisTo { origin: one, target: two }
+            | FeatureKind::Circle { center: one, radius: two } => vec![one, two],
+            FeatureKind::Curve { at, estimate, .. } => std::iter::once(&**at).chain(estimate.as_deref()).collect(),
+            FeatureKind::Mass { mass, at, inertia } => {
+                std::iter::once(&**mass).chain(at.as_deref()).chain(inertia.as_deref()).collect()
+            }
+        }
+    }
 }
 
 /// A formula, or a tuple of formulas, or a condition: which one its place allows is for `check` to say.

@@ -165,12 +165,13 @@ impl Reader<'_> {
         let span = self.span(&pair);
         let mut inner = pair.into_inner();
         let Head { name, .. } = self.head(inner.next().ok_or_else(|| self.truncated())?)?;
-        Ok(Mechanism { docs: self.docs_above(span.start), name, span, items: self.items(inner)? })
+        let mut items = Vec::new();
+        self.items(inner, &mut items)?;
+        Ok(Mechanism { docs: self.docs_above(span.start), name, span, items })
     }
 
-    /// Declarations of a mechanism, up to what ends them.
-    pub(super) fn items<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>) -> Built<Vec<Item>> {
-        let mut items = Vec::new();
+    /// Adds declarations of a mechanism, up to what ends them.
+    pub(super) fn items<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>, items: &mut Vec<Item>) -> Built<()> {
         for pair in pairs {
             match pair.as_rule() {
                 Rule::close | Rule::EOI => {}
@@ -178,22 +179,36 @@ impl Reader<'_> {
                 _ => items.push(self.plain_item(pair)?),
             }
         }
-        Ok(items)
+        Ok(())
     }
 
     /// The ground or a body.
     fn block(&self, pair: Pair<'_, Rule>) -> Built<Item> {
-        let (span, is_ground) = (self.span(&pair), pair.as_rule() == Rule::ground);
+        let span = self.span(&pair);
         let mut inner = pair.into_inner();
-        let head = inner.next().ok_or_else(|| self.truncated())?;
-        let features = inner.filter(|pair| pair.as_rule() != Rule::close).map(|pair| self.feature(pair));
-        let (kind, ranges) = if is_ground {
-            (ItemKind::Ground { features: features.collect::<Built<_>>()? }, Vec::new())
+        let mut block = self.empty_block(inner.next().ok_or_else(|| self.truncated())?, span)?;
+        if let Some(features) = block.kind.features_mut() {
+            *features = self.features(inner)?;
+        }
+        Ok(block)
+    }
+
+    /// The ground or a body without its features, from its head.
+    pub(super) fn empty_block(&self, head: Pair<'_, Rule>, span: Span) -> Built<Item> {
+        let features = Vec::new();
+        let (kind, ranges) = if head.as_rule() == Rule::ground_head {
+            (ItemKind::Ground { features }, Vec::new())
         } else {
             let Head { name, ranges, pose } = self.head(head)?;
-            (ItemKind::Body { name, pose, features: features.collect::<Built<_>>()? }, ranges)
+            (ItemKind::Body { name, pose, features }, ranges)
         };
         Ok(Item { docs: self.docs_above(span.start), span, ranges, kind })
+    }
+
+    /// Features, up to what ends them.
+    pub(super) fn features<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>) -> Built<Vec<Feature>> {
+        let features = pairs.filter(|pair| !matches!(pair.as_rule(), Rule::close | Rule::EOI));
+        exactly(features.map(|pair| self.feature(pair)))
     }
 
     /// A declaration of the mechanism that has no block.
@@ -212,7 +227,7 @@ impl Reader<'_> {
             },
             Rule::input => ItemKind::Input { name: self.next_name(&mut inner)?, value: self.next_expr(&mut inner)? },
             Rule::table => self.table(&mut inner)?,
-            Rule::part => ItemKind::Part(self.part(&mut inner)?),
+            Rule::part => ItemKind::Part(Box::new(self.part(&mut inner)?)),
             Rule::joint => self.joint(&mut inner)?,
             Rule::driver | Rule::constraint => ItemKind::Equation {
                 driver: rule == Rule::driver,
@@ -439,19 +454,21 @@ impl Reader<'_> {
         let kind = match rule {
             Rule::point => FeatureKind::Point { at: self.last_expr(&mut inner)? },
             Rule::axis if along => FeatureKind::AxisAlong {
-                origin: self.next_expr(&mut inner)?,
-                direction: self.next_operand(&mut inner)?,
+                origin: Box::new(self.next_expr(&mut inner)?),
+                direction: Box::new(self.next_operand(&mut inner)?),
             },
-            Rule::axis => {
-                FeatureKind::AxisTo { origin: self.next_expr(&mut inner)?, target: self.next_expr(&mut inner)? }
-            }
-            Rule::circle => {
-                FeatureKind::Circle { center: self.next_expr(&mut inner)?, radius: self.next_expr(&mut inner)? }
-            }
+            Rule::axis => FeatureKind::AxisTo {
+                origin: Box::new(self.next_expr(&mut inner)?),
+                target: Box::new(self.next_expr(&mut inner)?),
+            },
+            Rule::circle => FeatureKind::Circle {
+                center: Box::new(self.next_expr(&mut inner)?),
+                radius: Box::new(self.next_expr(&mut inner)?),
+            },
             Rule::curve => FeatureKind::Curve {
                 argument: self.next_name(&mut inner)?,
-                at: self.next_expr(&mut inner)?,
-                estimate: self.last_expr(&mut inner)?,
+                at: Box::new(self.next_expr(&mut inner)?),
+                estimate: self.last_expr(&mut inner)?.map(Box::new),
             },
             _ => return Err(self.truncated()),
         };
@@ -463,16 +480,16 @@ impl Reader<'_> {
         let span = self.span(&pair);
         let has_place = pair.clone().into_inner().any(|part| part.as_rule() == Rule::at);
         let mut inner = significant(pair);
-        let mass = self.next_expr(&mut inner)?;
-        let at = if has_place { self.last_expr(&mut inner)? } else { None };
-        let kind = FeatureKind::Mass { mass, at, inertia: self.last_expr(&mut inner)? };
+        let mass = Box::new(self.next_expr(&mut inner)?);
+        let at = if has_place { self.last_expr(&mut inner)?.map(Box::new) } else { None };
+        let kind = FeatureKind::Mass { mass, at, inertia: self.last_expr(&mut inner)?.map(Box::new) };
         let nameless = Name { text: String::new(), span: Span { end: span.start + "mass".len() as u32, ..span } };
         Ok(Feature { docs, span, name: nameless, kind })
     }
 
     /// The formulas of a list, without its commas and brackets.
     pub(super) fn list<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>, depth: usize) -> Built<Vec<Expr>> {
-        pairs.filter(|pair| pair.as_rule() == Rule::expr).map(|pair| formula::build(self, pair, depth)).collect()
+        exactly(pairs.filter(|pair| pair.as_rule() == Rule::expr).map(|pair| formula::build(self, pair, depth)))
     }
 
     fn next_name<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Name> {
@@ -497,6 +514,14 @@ impl Reader<'_> {
     fn docs_above(&self, start: u32) -> Vec<String> {
         docs_above(&self.source.text, start as usize)
     }
+}
+
+/// Some of what was built, without room for more: most lists are of one or two, and of those a large text has many.
+fn exactly<T>(built: impl Iterator<Item = Built<T>>) -> Built<Vec<T>> {
+    let mut all = built.collect::<Built<Vec<T>>>()?;
+    let mut exact = Vec::with_capacity(all.len());
+    exact.append(&mut all);
+    Ok(exact)
 }
 
 /// The `///` lines directly above a declaration that begins its line.

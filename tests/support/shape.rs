@@ -147,10 +147,10 @@ fn feature_shape(feature: &Feature) -> String {
         FeatureKind::AxisTo { origin, target } => format!("to {} {}", shape(origin), shape(target)),
         FeatureKind::Circle { center, radius } => format!("circle {} {}", shape(center), shape(radius)),
         FeatureKind::Curve { argument, at, estimate } => {
-            format!("curve {} {} {:?}", argument.text, shape(at), estimate.as_ref().map(shape))
+            format!("curve {} {} {:?}", argument.text, shape(at), estimate.as_deref().map(shape))
         }
         FeatureKind::Mass { mass, at, inertia } => {
-            let rest: Vec<_> = [at, inertia].map(|e| e.as_ref().map(shape)).into();
+            let rest: Vec<_> = [at, inertia].map(|e| e.as_deref().map(shape)).into();
             format!("mass {} {rest:?}", shape(mass))
         }
     };
