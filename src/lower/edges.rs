@@ -43,8 +43,8 @@ impl Lowering<'_> {
             .any(|of| self.graph.dependence(of).on(Dependence::NAMED))
     }
 
-    /// What of the equations and loads decides about derivatives of this order, and about forces, and goes with a variable. Places and velocities do not jump,
-    /// whatever equations do.
+    /// What of the equations and loads decides about derivatives of this order, and about forces, and goes with a variable. Places and velocities
+    /// do not jump, whatever equations do.
     fn going_in_equations(&mut self, formula: ExprId, what: Break, variable: u32) -> Vec<Going> {
         let order = if what == Break::Jump { 2 } else { 1 };
         let dependence = self.graph.dependence(formula);

@@ -17,6 +17,7 @@ mod moved;
 mod outline;
 mod parse;
 mod pieces;
+mod reading;
 mod tokens;
 mod trivia;
 

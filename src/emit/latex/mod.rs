@@ -6,11 +6,14 @@
 
 mod formula;
 mod letters;
+mod pieces;
+mod symbols;
 
 use crate::expr::{ExprId, Node, Table};
 use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, IdVec, Mechanics};
-use formula::{Formulas, coordinate, param};
+use formula::Formulas;
 use letters::{Set, Style, numeral, symbol, words};
+use symbols::{coordinate, param};
 
 /// How much of a line the matrix of an element may take (em).
 const WIDEST_MATRIX: f64 = 40.0;
