@@ -2,7 +2,8 @@
 
     python benches/ray_beside.py [VARIANTS]
 
-As many variants as take a minute or more; without what it takes to start Ray.
+A minute or more of work for one worker, in rounds that take turns with one process, forwards and backwards: a machine that others use too
+has another pace a minute later. What it takes until Ray and its workers stand is told by itself.
 """
 
 from __future__ import annotations
@@ -19,31 +20,59 @@ import mechc.ray
 
 HOEKEN = Path(__file__).resolve().parents[2] / "examples/hoeken.mech"
 
+#: Rounds, and shares in each.
+ROUNDS, SHARES = 4, 20
+
 
 def main():
     import ray
 
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 100_000
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 140_000
+    each = max(count // ROUNDS, 1)
     m = mechc.load(HOEKEN)
-    options = {
-        "vary": {"base": mechc.between("70 mm", "90 mm"), "arm": mechc.between("95 mm", "105 mm")},
-        "samples": count,
-        "results": {"flatness": "max(deviation) - min(deviation)"},
-    }
+
+    def options(variants):
+        return {
+            "vary": {"base": mechc.between("70 mm", "90 mm"), "arm": mechc.between("95 mm", "105 mm")},
+            "samples": variants,
+            "results": {"flatness": "max(deviation) - min(deviation)"},
+        }
+
+    wanted = pa.table(m.sweep(jobs=1, **options(each))).combine_chunks()
+
+    def process(threads):
+        return lambda: pa.table(m.sweep(jobs=threads, **options(each)))
+
+    def workers(count, variants=each):
+        def sweep():
+            with tempfile.TemporaryDirectory() as folder:
+                share = max(variants // SHARES, 1)
+                shares = mechc.ray.sweep(m, out=folder, share=share, concurrency=count, **options(variants))
+                return shares.to_arrow()
+
+        return sweep
+
+    def took(sweep):
+        began = time.perf_counter()
+        made = sweep()
+        return time.perf_counter() - began, made
+
     began = time.perf_counter()
-    wanted = pa.table(m.sweep(jobs=1, **options))
-    alone = time.perf_counter() - began
-    print(f"one process, one thread   {alone:7.1f} s")
     ray.init(num_cpus=2, include_dashboard=False, object_store_memory=200 * 2**20, log_to_driver=False, configure_logging=False)
-    took = {}
-    for workers in (1, 2):
-        with tempfile.TemporaryDirectory() as folder:
-            began = time.perf_counter()
-            shares = mechc.ray.sweep(m, out=folder, share=max(count // 20, 1), concurrency=workers, **options)
-            took[workers] = time.perf_counter() - began
-            assert shares.to_arrow().combine_chunks().equals(wanted.combine_chunks())
-        print(f"Ray, workers: {workers}           {took[workers]:7.1f} s, {100 * (took[workers] / alone - 1):+.0f} % of one process")
-    print(f"two workers are {took[1] / took[2]:.2f} × as fast as one")
+    workers(2, variants=2 * SHARES)()
+    print(f"until Ray and its workers stand   {time.perf_counter() - began:7.1f} s")
+    kinds = {"one thread": process(1), "Ray, one worker": workers(1), "two threads": process(2), "Ray, two workers": workers(2)}
+    all_of = dict.fromkeys(kinds, 0.0)
+    for number in range(ROUNDS):
+        for kind in list(kinds) if number % 2 == 0 else reversed(kinds):
+            seconds, made = took(kinds[kind])
+            all_of[kind] += seconds
+            assert made.combine_chunks().equals(wanted)
+    for kind, seconds in all_of.items():
+        print(f"{kind:33} {seconds:7.1f} s")
+    one, two = (all_of[kind] for kind in ("Ray, one worker", "Ray, two workers"))
+    print(f"one worker takes {100 * (one / all_of['one thread'] - 1):+.0f} % of one thread")
+    print(f"two workers are {one / two:.2f} × as fast as one, two threads {all_of['one thread'] / all_of['two threads']:.2f} ×")
 
 
 if __name__ == "__main__":

@@ -20,6 +20,9 @@ mod waiting;
 
 use pyo3::prelude::*;
 
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// The module.
 #[pymodule(gil_used = true)]
 mod _mechc {

@@ -307,16 +307,6 @@ impl Graph {
         Graph::default()
     }
 
-    /// An empty one, with room for so many nodes.
-    #[must_use]
-    pub fn with_capacity(nodes: usize) -> Graph {
-        Graph {
-            nodes: IndexSet::with_capacity_and_hasher(nodes, FxBuildHasher),
-            dependence: Vec::with_capacity(nodes),
-            ..Graph::default()
-        }
-    }
-
     /// How many nodes there are.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -40,9 +40,6 @@ use rustc_hash::{FxHashMap, FxHashSet};
 /// What holds so many time derivatives of the coordinates has one that holds a third derivative.
 const HOLDS_JERK: u8 = 2;
 
-/// Formulas and derivatives of a joint of a large mechanism have about so many nodes; a graph grows beyond them as it must.
-const NODES_OF_A_JOINT: usize = 32;
-
 /// The equations of a mechanism. Cannot fail: what could make it fail has been refused by `check`.
 #[must_use]
 pub fn lower(model: &Mechanism) -> ConstraintSystem {
@@ -204,7 +201,7 @@ impl<'m> Lowering<'m> {
         Lowering {
             model,
             numbering: Numbering::of(model),
-            graph: Graph::with_capacity(NODES_OF_A_JOINT * model.joints.len()),
+            graph: Graph::new(),
             known: FxHashMap::default(),
             named: Vec::new(),
             as_drawn: false,

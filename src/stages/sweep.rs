@@ -12,13 +12,16 @@ use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::sweep::{LANES, OneVariant, PART, Spare, Status, Swept, Team};
 use std::sync::{Arc, OnceLock};
 
-/// Numbers that a piece of work holds, more or less: half a megabyte, which stays where the processor has it at hand.
-const NUMBERS: u64 = 1 << 16;
+/// Numbers that a piece of work holds, more or less: a megabyte, which stays where the processor has it at hand.
+const NUMBERS: u64 = 1 << 17;
 /// What is done once for each column of a piece is worth so many rows; then it may hold so many numbers, 4 MB.
 const ROWS: u64 = 1 << 14;
 const NUMBERS_OF_MANY_COLUMNS: u64 = 1 << 19;
-/// Variants of a piece at the most, so that the first come soon.
+/// Variants of a piece at the most, so that the first come soon; of those of which all rows are wanted, each takes less time.
 const MOST: u64 = 256;
+const MOST_WITH_ROWS: u64 = 512;
+/// A sweep has so many pieces if it can, so that each of many threads gets some.
+const FEWEST_PIECES: u64 = 32;
 /// Rows of one variant are held until it is done: no more numbers than 2 GiB hold.
 const MOST_OF_A_VARIANT: u64 = 1 << 28;
 /// All lanes are used as long as a piece holds no more numbers than this: 32 MB.
@@ -58,11 +61,12 @@ impl Default for SweepOptions {
     }
 }
 
-/// How many variants a piece of work holds, of each of which there are so many numbers, in so many columns.
-fn variants_of_a_piece(numbers: u64, columns: u64) -> u64 {
+/// How many of `count` variants a piece of work holds, and no more than `most`, of each of which there are so many numbers, in so many columns.
+fn variants_of_a_piece((numbers, columns): (u64, u64), count: u64, most: u64) -> u64 {
     let lanes = LANES as u64;
     let wanted = ROWS.saturating_mul(columns).clamp(NUMBERS, NUMBERS_OF_MANY_COLUMNS);
-    let all = (wanted / numbers / lanes * lanes).clamp(lanes, MOST);
+    let all = (wanted / numbers).min(count / FEWEST_PIECES).min(most) / lanes * lanes;
+    let all = all.max(lanes);
     let fewer = [all, PART as u64].into_iter().find(|variants| variants * numbers <= MOST_NUMBERS);
     fewer.unwrap_or(1)
 }
@@ -114,18 +118,18 @@ impl Checked {
         make: impl Fn(Swept) -> T + Send + Sync + 'static,
     ) -> Result<Sweep<T>, Box<Diagnostic>> {
         let times = options.times.over(compiled.analysis())?.times()?;
-        let (rows, width) = match &options.columns {
-            Some(columns) => (times.len(), columns.len() as u64),
-            None => (1, compiled.results().len() as u64 + 1),
+        let (rows, width, most) = match &options.columns {
+            Some(columns) => (times.len(), columns.len() as u64, MOST_WITH_ROWS),
+            None => (1, compiled.results().len() as u64 + 1, MOST),
         };
         let numbers = rows.saturating_mul(width);
         if numbers > MOST_OF_A_VARIANT {
             return Err(Box::new(too_many_rows(rows, width)));
         }
-        let size = variants_of_a_piece(numbers.max(1), width);
         let end = variants.points().count();
         let first = options.skip.min(end);
         let last = options.take.map_or(end, |take| first.saturating_add(take).min(end));
+        let size = variants_of_a_piece((numbers.max(1), width), last - first, most);
         let results: Vec<String> = compiled.results().into_iter().map(|(name, _)| name).collect();
         let until = results.iter().position(|name| name == UNTIL);
         let jobs = options.jobs.unwrap_or_else(usual_jobs).max(1);
@@ -459,18 +463,31 @@ fn first_error(said: &Diagnostics) -> Box<Diagnostic> {
 
 #[cfg(test)]
 mod tests {
-    use super::{LANES, MOST, MOST_NUMBERS, variants_of_a_piece};
+    use super::{FEWEST_PIECES, LANES, MOST, MOST_NUMBERS, MOST_WITH_ROWS, variants_of_a_piece};
 
     #[test]
     fn pieces_fill_lanes_and_little_memory() {
         let all = [1, 2, 400, 9_720, 131_072, 131_073, 500_000, 600_000, 1 << 40];
-        for (numbers, columns) in all.into_iter().flat_map(|numbers| [(numbers, 1), (numbers, 40), (numbers, numbers)])
+        let all = all.into_iter().flat_map(|numbers| [(numbers, 1), (numbers, 40), (numbers, numbers)]);
+        let counts = [0, 1, 33, 1_000, 8_000, 100_000, u64::MAX];
+        for ((size, count), most) in
+            all.flat_map(|size| counts.map(|count| (size, count))).zip([MOST, MOST_WITH_ROWS].into_iter().cycle())
         {
-            let variants = variants_of_a_piece(numbers, columns);
-            assert!(variants == 1 || variants * numbers <= MOST_NUMBERS, "{variants} of {numbers}");
-            assert!((1..=MOST).contains(&variants), "{variants} of {numbers}");
+            let ((numbers, _), variants) = (size, variants_of_a_piece(size, count, most));
+            let of = format!("{variants} of {count} with {size:?}");
+            assert!(variants == 1 || variants * numbers <= MOST_NUMBERS, "{of}");
+            assert!((1..=most).contains(&variants), "{of}");
             let could_be_more = LANES as u64 * numbers <= MOST_NUMBERS;
-            assert!(!could_be_more || variants.is_multiple_of(LANES as u64), "{variants} of {numbers}");
+            assert!(!could_be_more || variants.is_multiple_of(LANES as u64), "{of}");
+            // no thread waits while another one has all of it
+            assert!(variants <= LANES as u64 || count / variants >= FEWEST_PIECES, "{of}");
         }
+    }
+
+    #[test]
+    fn many_variants_with_few_numbers_make_large_pieces() {
+        assert_eq!(variants_of_a_piece((1, 1), 1_000_000, MOST), MOST);
+        assert_eq!(variants_of_a_piece((3, 3), 1_000_000, MOST_WITH_ROWS), MOST_WITH_ROWS);
+        assert_eq!(variants_of_a_piece((3, 3), 3_200, MOST_WITH_ROWS), 96);
     }
 }

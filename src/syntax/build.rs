@@ -516,7 +516,8 @@ impl Reader<'_> {
     }
 }
 
-/// Some of what was built, without room for more: most lists are of one or two, and of those a large text has many.
+/// Some of what was built, without room for more: most lists are of one or two, and of those a large text has many. It is moved, since an
+/// allocator that is asked to make a block smaller may keep it as large.
 fn exactly<T>(built: impl Iterator<Item = Built<T>>) -> Built<Vec<T>> {
     let mut all = built.collect::<Built<Vec<T>>>()?;
     let mut exact = Vec::with_capacity(all.len());
