@@ -12,8 +12,8 @@ use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::sweep::{LANES, OneVariant, PART, Spare, Status, Swept, Team};
 use std::sync::{Arc, OnceLock};
 
-/// Numbers that a piece of work holds, more or less: a megabyte, which stays where the processor has it at hand.
-const NUMBERS: u64 = 1 << 17;
+/// Numbers that a piece of work holds, more or less: half a megabyte, which stays where the processor has it at hand.
+const NUMBERS: u64 = 1 << 16;
 /// What is done once for each column of a piece is worth so many rows; then it may hold so many numbers, 4 MB.
 const ROWS: u64 = 1 << 14;
 const NUMBERS_OF_MANY_COLUMNS: u64 = 1 << 19;
