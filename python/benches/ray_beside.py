@@ -20,14 +20,15 @@ import mechc.ray
 
 HOEKEN = Path(__file__).resolve().parents[2] / "examples/hoeken.mech"
 
-#: Rounds, and shares in each.
-ROUNDS, SHARES = 4, 20
+#: Rounds, and shares in each, of some seconds of work as they are where nothing is said: a share is a sweep of its own, which begins with some
+#: hundredths of a second.
+ROUNDS, SHARES = 4, 8
 
 
 def main():
     import ray
 
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 140_000
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 128_000
     each = max(count // ROUNDS, 1)
     m = mechc.load(HOEKEN)
 
