@@ -1,6 +1,6 @@
 """What a call of `at` costs beyond solving: alone, and in a batch, whose elements go side by side.
 
-    python benches/at.py
+    python python/benches/at.py
 
 One alone is solved in one of the sixteen lanes that a batch fills, which takes as long as sixteen elements of a batch; what it takes beyond that
 is the call. The careful way is what an element takes that no lane gets to: here each has a time of its own.

@@ -1,6 +1,6 @@
 """Memory while many rows are streamed: a hundred million by default.
 
-    python benches/memory.py [ROWS]
+    python python/benches/memory.py [ROWS]
 """
 
 from __future__ import annotations

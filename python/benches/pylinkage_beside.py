@@ -1,7 +1,7 @@
 """Four-bars beside pylinkage with numba: the same linkages, the same crank angles, in one run, on one core.
 
     pip install 'pylinkage[numba]'
-    python benches/pylinkage_beside.py [VARIANTS]
+    python python/benches/pylinkage_beside.py [VARIANTS]
 
 pylinkage gives positions alone, and recomputes nothing else; mechc follows each variant along its branch, with every row's residual proven. Times
 are the least of several rounds, of the processor where two are compared.

@@ -1,9 +1,10 @@
 """Sweeps with Ray beside one process: what shares, files and workers cost, and what a second worker gains.
 
-    python benches/ray_beside.py [VARIANTS]
+    python python/benches/ray_beside.py [VARIANTS]
 
 A minute or more of work for one worker, in rounds that take turns with one process, forwards and backwards: a machine that others use too
-has another pace a minute later. What it takes until Ray and its workers stand is told by itself.
+has another pace a minute later. Shares are as large as they are where nothing is said. What it takes until Ray and its workers stand is told
+by itself.
 """
 
 from __future__ import annotations
@@ -20,15 +21,14 @@ import mechc.ray
 
 HOEKEN = Path(__file__).resolve().parents[2] / "examples/hoeken.mech"
 
-#: Rounds, and shares in each, of some seconds of work as they are where nothing is said: a share is a sweep of its own, which begins with some
-#: hundredths of a second.
-ROUNDS, SHARES = 4, 8
+#: In each round a pipeline begins anew, which Ray lets have its second core after a second: rounds are long.
+ROUNDS = 2
 
 
 def main():
     import ray
 
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 128_000
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 240_000
     each = max(count // ROUNDS, 1)
     m = mechc.load(HOEKEN)
 
@@ -47,9 +47,7 @@ def main():
     def workers(count, variants=each):
         def sweep():
             with tempfile.TemporaryDirectory() as folder:
-                share = max(variants // SHARES, 1)
-                shares = mechc.ray.sweep(m, out=folder, share=share, concurrency=count, **options(variants))
-                return shares.to_arrow()
+                return mechc.ray.sweep(m, out=folder, concurrency=count, **options(variants)).to_arrow()
 
         return sweep
 
@@ -60,7 +58,7 @@ def main():
 
     began = time.perf_counter()
     ray.init(num_cpus=2, include_dashboard=False, object_store_memory=200 * 2**20, log_to_driver=False, configure_logging=False)
-    workers(2, variants=2 * SHARES)()
+    workers(2, variants=2_000)()
     print(f"until Ray and its workers stand   {time.perf_counter() - began:7.1f} s")
     kinds = {"one thread": process(1), "Ray, one worker": workers(1), "two threads": process(2), "Ray, two workers": workers(2)}
     all_of = dict.fromkeys(kinds, 0.0)

@@ -1,6 +1,6 @@
 """What of a sweep is its Arrow stream: the part of the process's time that the thread takes that reads.
 
-    python benches/stream.py [VARIANTS]
+    python python/benches/stream.py [VARIANTS]
 
 Another thread computes, and whoever reads puts blocks together into batches and hands these over; it is its own time that is counted, not that
 for which it waits, so that a machine which others use too tells the same.

@@ -209,6 +209,9 @@ class Sweep:
     def taken(self) -> int:
         """How many variants it computes."""
     @property
+    def rows_of_a_variant(self) -> int:
+        """How many rows a variant has at the most."""
+    @property
     def summary(self) -> dict[str, tuple[int, int]]: ...
     def settings(self, variant: int) -> list[str]: ...
     def _table(self, progress: Callable[[int, int], Any] | None = None) -> Table: ...

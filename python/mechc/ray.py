@@ -33,8 +33,13 @@ if TYPE_CHECKING:
 #: The file that says what the whole is.
 WHOLE = "sweep.json"
 
-#: Variants of a share, unless it is said: some seconds of work, and files that are neither many nor huge.
-SHARE = 10_000
+#: Where nothing is said there are so many shares, or as many as tasks; each has so many variants at the least, for it begins with some milliseconds,
+#: and so many numbers at the most, for a file is not to be huge.
+SHARES, LEAST_SHARE, MOST_NUMBERS = 200, 1_000, 100_000_000
+
+#: So many tasks a core, each of several shares where there are more: between two tasks Ray lets a core wait for some tenths of a second, and
+#: where each has many the last one is not waited for long.
+TASKS_OF_A_CORE = 8
 
 
 @dataclass(frozen=True)
@@ -87,7 +92,7 @@ def sweep(
     *,
     out: str | os.PathLike[str],
     filesystem: pyarrow.fs.FileSystem | None = None,
-    share: int = SHARE,
+    share: int | None = None,
     concurrency: int | None = None,
     progress: bool = False,
     **options: Any,
@@ -96,7 +101,8 @@ def sweep(
 
     ``options`` are those of :meth:`mechc.Mechanism.sweep`: ``vary``, ``samples``, ``seed``, ``rows``, ``results`` and so on, but for
     ``jobs``, ``skip``, ``take``, ``until`` and ``progress``. ``out`` may be on any file system that pyarrow opens (``s3://…``), or that is given
-    as ``filesystem``; all workers must reach it. ``share`` is how many variants a task computes, on one core. ``concurrency`` bounds how many tasks run at once.
+    as ``filesystem``; all workers must reach it. ``share`` is how many variants a file has, unless it is said what the folder has, or a two-hundredth of
+    them and less where there are many cores. A task computes some shares, one after the other, on one core; ``concurrency`` bounds how many tasks run at once.
 
     A file is written beside its place and renamed, so that what stands there is whole. A second call with the same sweep makes what is
     missing; with another one it is refused. A Ray that runs is used, or one is started.
@@ -104,7 +110,7 @@ def sweep(
     import ray
     import ray.data
 
-    whole_sweep, share = _whole(m, options), whole("share", share, 1)
+    whole_sweep, share = _whole(m, options), None if share is None else whole("share", share, 1)
     concurrency = None if concurrency is None else whole("concurrency", concurrency, 1)
     # workers may stand in other folders
     name = path_of("out", out)
@@ -112,7 +118,9 @@ def sweep(
     fs, root = _opened(name, filesystem)
     with _told_of(name):
         fs.create_dir(root, recursive=True)
+        known = _known(fs, root)
     count = whole_sweep.variants
+    share = share or (known["share"] if known else _usual_share(whole_sweep, _most_tasks(concurrency)))
     told = {
         "mechc": __version__,
         "mechanism": m.name,
@@ -122,7 +130,7 @@ def sweep(
         "sweep": _fingerprint(whole_sweep),
     }
     with _told_of(name):
-        _tell(fs, root, told)
+        _tell(fs, root, told, known)
     ranges = [(first, min(first + share, count)) for first in range(0, count, share)]
     there = _there(fs, root)
     missing = [of for of in ranges if _name(*of) not in there]
@@ -133,8 +141,8 @@ def sweep(
         context.enable_progress_bars = flag("progress", progress)
         try:
             rows = [{"first": first, "last": last} for first, last in missing]
-            shares = ray.data.from_items(rows, override_num_blocks=len(rows))
-            # within a list a reference is handed on as it is, and fetched once by each worker
+            shares = ray.data.from_items(rows, override_num_blocks=min(_most_tasks(concurrency), len(rows)))
+            # a task makes the shares of a block; within a list a reference is handed on as it is, and fetched once by each worker
             keywords = {"packed": [packed], "folder": name, "filesystem": filesystem}
             compute = ray.data.TaskPoolStrategy(size=concurrency)
             made = shares.map(_make, fn_kwargs=keywords, num_cpus=1, compute=compute)
@@ -159,6 +167,24 @@ def share(packed: bytes, first: int, last: int) -> Iterator[Any]:
     yield from pyarrow.RecordBatchReader.from_stream(_part(of, first, last))
 
 
+def _usual_share(of: Sweep, tasks: int) -> int:
+    """How many variants a file has, where nothing is said: 1, 2 or 5 with zeros."""
+    round_ones = [digit * 10**zeros for zeros in range(20) for digit in (1, 2, 5)]
+    wanted = next(share for share in round_ones if share >= max(of.variants / max(SHARES, tasks), LEAST_SHARE))
+    most = MOST_NUMBERS / (of._sweep.rows_of_a_variant * len(of.columns))
+    return max([share for share in round_ones if share <= min(wanted, most)], default=1)
+
+
+def _most_tasks(concurrency: int | None) -> int:
+    """How many tasks there are at the most, by the cores of the Ray that runs, or that is started."""
+    import ray
+
+    if not ray.is_initialized():
+        ray.init()
+    cores = max(int(ray.cluster_resources().get("CPU", 1)), 1)
+    return TASKS_OF_A_CORE * min(cores, concurrency or cores)
+
+
 def _part(of: Sweep, first: int, last: int) -> Sweep:
     """Some variants of a sweep, on the one core that a task has."""
     m, asked, more, _ = of._made_of
@@ -171,8 +197,11 @@ def _make(row: dict[str, int], *, packed: Any, folder: str, filesystem: Any = No
     from pyarrow import parquet
 
     first, last = int(row["first"]), int(row["last"])
-    part = _part(_unpacked(packed), first, last)
     fs, root = _opened(folder, filesystem)
+    if fs.get_file_info(f"{root}/{_name(first, last)}").type != 0:
+        # a worker died between this one and another of its shares
+        return {"first": first, "last": last, "made": 1}
+    part = _part(_unpacked(packed), first, last)
     # two workers may make one share, where one was taken for dead: each writes its own, and the last to rename wins with the same bits
     beside = f"{root}/.{_name(first, last)}.{uuid.uuid4().hex}"
     try:
@@ -242,18 +271,26 @@ def _said(options: dict[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in options.items() if value is not None and value is not False and value != []}
 
 
-def _tell(fs: pyarrow.fs.FileSystem, root: str, told: dict[str, Any]) -> None:
+def _known(fs: pyarrow.fs.FileSystem, root: str) -> dict[str, Any] | None:
+    """What a folder says of the whole, if it does."""
+    place = f"{root}/{WHOLE}"
+    if fs.get_file_info(place).type == 0:
+        return None
+    with fs.open_input_stream(place) as stream:
+        contents = stream.read()
+    try:
+        known = json.loads(contents)
+    except ValueError:
+        known = None
+    if not isinstance(known, dict) or not isinstance(known.get("share"), int) or known["share"] < 1:
+        raise usage(f"the folder has a `{WHOLE}` that says nothing of a sweep", "name another folder")
+    return known
+
+
+def _tell(fs: pyarrow.fs.FileSystem, root: str, told: dict[str, Any], known: dict[str, Any] | None) -> None:
     """Says what the whole is; refuses a folder of another one."""
     place = f"{root}/{WHOLE}"
-    if fs.get_file_info(place).type != 0:
-        with fs.open_input_stream(place) as stream:
-            contents = stream.read()
-        try:
-            known = json.loads(contents)
-        except ValueError:
-            known = None
-        if not isinstance(known, dict):
-            raise usage(f"the folder has a `{WHOLE}` that says nothing of a sweep", "name another folder")
+    if known is not None:
         differ = list(_differing(known, json.loads(json.dumps(told))))
         if differ:
             shown = "; ".join(differ[:MOST_DIFFERING]) + ("; …" if len(differ) > MOST_DIFFERING else "")

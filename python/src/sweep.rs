@@ -214,6 +214,12 @@ impl Sweep {
         usize::try_from(self.taken()).unwrap_or(usize::MAX)
     }
 
+    /// How many rows a variant has at the most.
+    #[getter]
+    fn rows_of_a_variant(&self) -> u64 {
+        self.whole.rows
+    }
+
     /// How many variants there are, taken or not.
     #[getter]
     fn count(&self) -> u64 {

@@ -58,7 +58,9 @@ def dying(marks, shares):
 
 
 @pytest.mark.timeout(280)
-def test_workers_die_and_the_bits_are_the_same(local_ray, hoeken, tmp_path, monkeypatch):
+@pytest.mark.parametrize("tasks", [1, 8])
+def test_workers_die_and_the_bits_are_the_same(local_ray, hoeken, tmp_path, monkeypatch, tasks):
+    monkeypatch.setattr(mechc.ray, "TASKS_OF_A_CORE", tasks)
     marks = tmp_path / "marks"
     marks.mkdir()
     monkeypatch.setattr(mechc.ray, "_make", dying(marks, (0, 100, 220)))
@@ -72,6 +74,43 @@ def test_workers_die_and_the_bits_are_the_same(local_ray, hoeken, tmp_path, monk
 
 
 @pytest.mark.timeout(280)
+def test_a_task_leaves_the_shares_that_are_there(local_ray, hoeken, tmp_path, monkeypatch):
+    """A task of several shares begins anew where its worker died; what that one wrote stays as it is."""
+    monkeypatch.setattr(mechc.ray, "TASKS_OF_A_CORE", 1)
+    (tmp_path / "marks").mkdir()
+
+    def noting(make, folder):
+        # the file that was there when the worker died
+        def noted(row, **more):
+            import os
+
+            first = f"{folder}/part-000000000000-000000000080.parquet"
+            if int(row["first"]) == 80 and not os.path.exists(f"{folder}/../at"):
+                with open(f"{folder}/../at", "w") as file:
+                    file.write(str(os.stat(first).st_mtime_ns))
+            return make(row, **more)
+
+        return noted
+
+    folder = tmp_path / "sweep"
+    monkeypatch.setattr(mechc.ray, "_make", noting(dying(tmp_path / "marks", (80,)), folder))
+    found = mechc.ray.sweep(hoeken, out=folder, share=80, concurrency=1, **OPTIONS)
+    assert os.listdir(tmp_path / "marks") == ["80"] and found.made == 3
+    assert os.stat(found.files[0]).st_mtime_ns == int((tmp_path / "at").read_text())
+
+
+def test_shares_are_neither_many_nor_small_nor_huge(hoeken):
+    def usual(samples, tasks=16, **more):
+        return mechc.ray._usual_share(hoeken.sweep(vary=VARY, samples=samples, yes=True, **more), tasks)
+
+    assert [usual(samples) for samples in (1, 240, 200_001, 10_000_000, 30_000_000)] == [1_000, 1_000, 2_000, 50_000, 200_000]
+    assert usual(10_000_000, tasks=1_000) == 10_000
+    numbers = len(hoeken.run().t) * len(hoeken.sweep(vary=VARY, samples=1, rows=True).columns)
+    assert 4e7 < usual(10**9, rows=True) * numbers <= 1e8
+    assert usual(10, rows=True, every=1e-6) == 1
+
+
+@pytest.mark.timeout(280)
 def test_a_second_call_makes_what_is_missing(local_ray, hoeken, tmp_path):
     first = mechc.ray.sweep(hoeken, out=tmp_path, share=60, **OPTIONS)
     assert first.made == 4
@@ -80,7 +119,10 @@ def test_a_second_call_makes_what_is_missing(local_ray, hoeken, tmp_path):
     again = mechc.ray.sweep(hoeken, out=tmp_path, share=60, **OPTIONS)
     assert again.made == 1 and all(os.stat(file).st_mtime_ns == at for file, at in before.items())
     assert again.to_arrow().equals(pa.table(hoeken.sweep(**OPTIONS)).cast(again.to_arrow().schema))
-    assert mechc.ray.sweep(hoeken, out=tmp_path, share=60, **OPTIONS).made == 0
+    # where nothing is said, shares are as large as they are in the folder
+    assert mechc.ray.sweep(hoeken, out=tmp_path, **OPTIONS).ranges == first.ranges
+    with pytest.raises(mechc.UsageError, match="another sweep: `share` is 60 there, and 50 here"):
+        mechc.ray.sweep(hoeken, out=tmp_path, share=50, **OPTIONS)
     told = json.loads((tmp_path / "sweep.json").read_text())
     assert told["variants"] == 240 and told["mechanism"] == "hoeken"
     with pytest.raises(mechc.UsageError, match="another sweep: `seed` is 3 there, and 4 here"):
@@ -127,7 +169,7 @@ def test_what_is_no_folder_of_a_sweep(hoeken, tmp_path):
         mechc.ray.sweep(hoeken, out=file, **OPTIONS)
     with pytest.raises(mechc.UsageError, match="nope"):
         mechc.ray.sweep(hoeken, out="nope://x/y", **OPTIONS)
-    for contents in ("{", "[]"):
+    for contents in ("{", "[]", "{}", '{"share": 0}', '{"share": "x"}'):
         (tmp_path / "sweep.json").write_text(contents)
         with pytest.raises(mechc.UsageError, match="says nothing of a sweep"):
             mechc.ray.sweep(hoeken, out=tmp_path, **OPTIONS)

@@ -44,8 +44,6 @@ pub struct Gathered {
     /// By column: whether a number of it is missing.
     pub gaps: Vec<bool>,
     pub rows: usize,
-    /// So many rows are wanted: room for them is made with the second block.
-    enough: usize,
 }
 
 enum Gathering {
@@ -78,13 +76,13 @@ impl From<TryReserveError> for Full {
 }
 
 impl Gathered {
-    pub fn new(whole: &Whole, enough: usize) -> Gathered {
+    pub fn new(whole: &Whole) -> Gathered {
         let columns = whole.heads.iter().map(|head| match head.kind {
             Kind::Numbers => Gathering::Real(Reals::default()),
             Kind::Whole => Gathering::Whole(Vec::new()),
             Kind::Words => Gathering::Words(Words::default()),
         });
-        Gathered { columns: columns.collect(), gaps: vec![false; whole.heads.len()], rows: 0, enough }
+        Gathered { columns: columns.collect(), gaps: vec![false; whole.heads.len()], rows: 0 }
     }
 
     /// Makes room for so many rows.
@@ -103,13 +101,11 @@ impl Gathered {
     /// Adds a block behind the others.
     pub fn add(&mut self, block: Block) -> Result<(), Full> {
         self.rows += block.rows;
-        // of blocks that are alike, as many as it takes
-        let most = if block.rows == 0 { 0 } else { self.enough.next_multiple_of(block.rows) };
         for ((into, gaps), (column, has_gaps)) in self.columns.iter_mut().zip(&mut self.gaps).zip(block.columns) {
             *gaps |= has_gaps;
             match (into, column) {
-                (Gathering::Real(into), SweptColumn::Numbers(values)) => into.append(values, most)?,
-                (Gathering::Whole(into), SweptColumn::Whole(values)) => append(into, values, most)?,
+                (Gathering::Real(into), SweptColumn::Numbers(values)) => into.append(values)?,
+                (Gathering::Whole(into), SweptColumn::Whole(values)) => append(into, values)?,
                 (Gathering::Words(into), SweptColumn::Words(words)) => into.append(&words)?,
                 _ => {}
             }
@@ -128,26 +124,25 @@ impl Gathered {
     }
 }
 
-/// Adds values behind others, which there will be so many of at the most, as it seems; what is alone needs no copy.
-fn append<T: Copy>(into: &mut Vec<T>, values: Vec<T>, most: usize) -> Result<(), Full> {
+/// Adds values behind others; what is alone needs no copy.
+fn append<T: Copy>(into: &mut Vec<T>, values: Vec<T>) -> Result<(), Full> {
     if into.capacity() == 0 {
         *into = values;
     } else {
-        into.try_reserve(values.len().max(most.saturating_sub(into.len())))?;
+        into.try_reserve(values.len())?;
         into.extend_from_slice(&values);
     }
     Ok(())
 }
 
 impl Reals {
-    fn append(&mut self, values: Numbers, most: usize) -> Result<(), Full> {
+    fn append(&mut self, values: Numbers) -> Result<(), Full> {
         if self.first.is_none() && self.all.capacity() == 0 {
             self.first = Some(values);
             return Ok(());
         }
         let first = self.first.take();
-        let least = values.len() + first.as_deref().map_or(0, <[f64]>::len);
-        self.all.try_reserve(least.max(most.saturating_sub(self.all.len())))?;
+        self.all.try_reserve(values.len() + first.as_deref().map_or(0, <[f64]>::len))?;
         for values in first.iter().chain([&values]) {
             self.all.extend_from_slice(values);
         }

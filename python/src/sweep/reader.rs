@@ -105,7 +105,7 @@ impl Reader {
 
     /// All that is left, as columns.
     pub fn all(&mut self, py: Python<'_>) -> PyResult<Vec<Values>> {
-        let (mut gathered, whole) = (Gathered::new(&self.source.whole, 0), Arc::clone(&self.source.whole));
+        let (mut gathered, whole) = (Gathered::new(&self.source.whole), Arc::clone(&self.source.whole));
         let (most, columns) = whole.size();
         // one that may end early has as many rows as it comes to
         if !whole.has_until {
@@ -216,10 +216,9 @@ impl Reader {
 
     /// The next batch.
     fn batch(&mut self) -> Option<PyResult<RecordBatch>> {
+        let mut gathered = Gathered::new(&self.source.whole);
         let width = self.source.whole.heads.len();
-        let enough = ROWS.min(NUMBERS.div_ceil(width));
-        let mut gathered = Gathered::new(&self.source.whole, enough);
-        while gathered.rows < enough {
+        while gathered.rows < ROWS && gathered.rows * width < NUMBERS {
             match self.block() {
                 Ok(Some(block)) => {
                     if gathered.add(block).is_err() {
