@@ -102,7 +102,8 @@ def sweep(
     ``options`` are those of :meth:`mechc.Mechanism.sweep`: ``vary``, ``samples``, ``seed``, ``rows``, ``results`` and so on, but for
     ``jobs``, ``skip``, ``take``, ``until`` and ``progress``. ``out`` may be on any file system that pyarrow opens (``s3://…``), or that is given
     as ``filesystem``; all workers must reach it. ``share`` is how many variants a file has, unless it is said what the folder has, or a two-hundredth of
-    them and less where there are many cores. A task computes some shares, one after the other, on one core; ``concurrency`` bounds how many tasks run at once.
+    them and less where there are many cores. A task computes some shares, one after the other, on one core; ``concurrency`` is how many tasks
+    run at once at the most: where nothing is said, as many as Ray has cores. It is to be said where a cluster grows.
 
     A file is written beside its place and renamed, so that what stands there is whole. A second call with the same sweep makes what is
     missing; with another one it is refused. A Ray that runs is used, or one is started.
@@ -176,13 +177,14 @@ def _usual_share(of: Sweep, tasks: int) -> int:
 
 
 def _most_tasks(concurrency: int | None) -> int:
-    """How many tasks there are at the most, by the cores of the Ray that runs, or that is started."""
+    """How many tasks there are at the most, by how many run at once: on the cores of the Ray that runs, or that is started, if nothing is said."""
     import ray
 
-    if not ray.is_initialized():
-        ray.init()
-    cores = max(int(ray.cluster_resources().get("CPU", 1)), 1)
-    return TASKS_OF_A_CORE * min(cores, concurrency or cores)
+    if concurrency is None:
+        if not ray.is_initialized():
+            ray.init()
+        concurrency = max(int(ray.cluster_resources().get("CPU", 1)), 1)
+    return TASKS_OF_A_CORE * concurrency
 
 
 def _part(of: Sweep, first: int, last: int) -> Sweep:

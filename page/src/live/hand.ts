@@ -1,7 +1,7 @@
 // Taking hold of what is drawn: a crank, by the angle around its pivot; a point that a param of the file is.
 
 import type { Document } from "../data/document.ts";
-import type { Knob, Told } from "../data/live.ts";
+import type { Told } from "../data/live.ts";
 import { unitOfLength } from "../data/lengths.ts";
 import { OF_A_FRAME, placeOf, type Moment, type Pair } from "../motion/motion.ts";
 import { Leash } from "./leash.ts";
@@ -45,11 +45,11 @@ export class Hand implements Grasp {
 
     constructor(private readonly deeds: Deeds) {}
 
-    /** There is another motion, with some params set. */
-    offer(told: Told, document: Document, set: ReadonlyMap<string, number>): void {
+    /** There is another motion, with some params set as they were when it was asked for; by now a hand may have moved on. */
+    offer(told: Told, document: Document, asked: ReadonlyMap<string, number>, now: ReadonlyMap<string, number>): void {
         this.told = told;
         this.document = document;
-        this.drawn = drawnPoints(told, document, set, this.drawn);
+        this.drawn = drawnPoints(told, document, { asked, now }, this.drawn);
     }
 
     points(): readonly { name: string; at: Pair }[] {
@@ -129,7 +129,7 @@ export class Hand implements Grasp {
 function drawnPoints(
     { knobs = [] }: Told,
     { motion, scene, table }: Document,
-    set: ReadonlyMap<string, number>,
+    set: { asked: ReadonlyMap<string, number>; now: ReadonlyMap<string, number> },
     before: readonly { name: string }[],
 ): { name: string; at: Pair; units: [string, string] }[] {
     const first = table.rows > 0 ? motion.at(motion.from, motion.moment()) : undefined;
@@ -142,12 +142,13 @@ function drawnPoints(
         const other = known.get(`${knob.name.slice(0, -1)}y`);
         if (!OWN.test(knob.name) || !other || knob.formula !== null || other.formula !== null || ofAll.has(knob.name)) return [];
         const units: [string, string] = [knob.unit || other.unit || "m", other.unit || knob.unit || "m"];
-        const now = ({ name, value }: Knob) => set.get(name) ?? value;
-        const at = [now(knob) * unitOfLength(units[0]), now(other) * unitOfLength(units[1])] as Pair;
+        const placeIn = (set: ReadonlyMap<string, number>) =>
+            [knob, other].map(({ name, value }, k) => (set.get(name) ?? value) * unitOfLength(units[k]!)) as Pair;
         const name = knob.name.slice(0, -2);
-        const isNear = ([x, y]: Pair) => Math.hypot(x - at[0], y - at[1]) < NEAR * size;
+        const drawn = placeIn(set.asked);
+        const isNear = ([x, y]: Pair) => Math.hypot(x - drawn[0], y - drawn[1]) < NEAR * size;
         const isThere = places?.some(isNear) ?? before.some((point) => point.name === name);
-        return isThere ? [{ name, at, units }] : [];
+        return isThere ? [{ name, at: placeIn(set.now), units }] : [];
     });
 }
 

@@ -230,14 +230,14 @@ export class Live {
 
     /** Asks for the motion, or where inputs are in it. */
     private async once(patience: number): Promise<void> {
-        const { set, key } = this.asked();
+        const [{ set, key }, values] = [this.asked(), new Map(this.set)];
         // the motion first, then where inputs are in it
         const isOfMotion = this.still === undefined || this.told?.version !== this.newest || key !== this.key;
         const jog = isOfMotion ? null : { time: this.still, inputs: [...this.moved] };
         try {
             const [began, isFirst] = [performance.now(), this.document === undefined];
             const answer = await this.ask({ set, jog }, patience);
-            if (answer) this.take(answer, key);
+            if (answer) this.take(answer, key, values);
             // the first one comes with the page, which takes its own time
             if (answer?.page && !isFirst) this.took.motion = performance.now() - began;
         } catch (error) {
@@ -270,7 +270,7 @@ export class Live {
         }
     }
 
-    private take(answer: Answer, key: string): void {
+    private take(answer: Answer, key: string, asked: ReadonlyMap<string, number>): void {
         const { live, page } = answer;
         if (live.superseded) {
             this.hasChanged = true;
@@ -289,7 +289,7 @@ export class Live {
             return;
         }
         this.said.right();
-        if (page) this.takeMotion(answer, page, key);
+        if (page) this.takeMotion(answer, page, key, asked);
     }
 
     /** The text is wrong, or what is set cannot be in it. */
@@ -320,7 +320,7 @@ export class Live {
         return isOther;
     }
 
-    private takeMotion(answer: Answer, page: Page, key: string): void {
+    private takeMotion(answer: Answer, page: Page, key: string, asked: ReadonlyMap<string, number>): void {
         const { live } = answer;
         if (live.version !== this.told?.version) this.glimpsesFrom = 0;
         [this.told, this.key] = [live, key];
@@ -333,7 +333,7 @@ export class Live {
         const values = (k: number) => answer.columns[page.columns.length + k] ?? new Float64Array(0);
         const inputs = (live.jogs ?? []).map(({ name }, k): [string, Float64Array] => [name, values(k)]);
         app.takeInputs(inputs);
-        this.hand.offer(live, document, this.set);
+        this.hand.offer(live, document, asked, this.set);
         // inputs that are moved by hand are where they are in this motion until it is known how far they get in it
         this.stood = [];
         app.show(document);
