@@ -244,6 +244,9 @@ def varied(
             raise usage("results are of the whole analysis, and `at` asks for single times", help)
         if asked["columns"]:
             raise usage("`columns` chooses columns of rows", "add `rows=True`")
+        for option in ("by", "reactions"):
+            if asked[option]:
+                raise usage(f"`{option}` adds columns to rows", "add `rows=True`")
     return {
         "vary": found,
         "samples": None if samples is None else whole("samples", samples),

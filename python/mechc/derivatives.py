@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechc.asking import names_of
-from mechc.errors import AnalysisError
+from mechc.errors import AnalysisError, UsageError
 from mechc.tables import Run
 from mechc.values import elements, first_twice, meant, plain, refused, texts, usage
 
@@ -131,7 +132,7 @@ class Objective:
 
     def _both(self, x: ArrayLike) -> tuple[float, Array]:
         try:
-            results, slopes, _, _ = self._evaluate(x)
+            results, slopes, *_ = self._evaluate(x)
             if np.isnan(results[self._place]):
                 raise refused(f"result `{self._name}` has no value here", "`failed=` gives one to such places")
         except AnalysisError:
@@ -154,12 +155,14 @@ class Residuals:
 
     For ``scipy.optimize.least_squares(f, x0, jac=f.jacobian)``: ``f(x)`` is of shape (times × columns,), ``f.jacobian(x)`` of shape
     (times × columns, params); times are the outer order. Where the mechanism does not get there an error is raised, or with ``failed=10.0``
-    all residuals are that.
+    all residuals are that. Times stay as they are, whatever the params: an analysis whose ends or step go with them is refused without ``at=``.
     """
 
     def __init__(self, evaluate: Evaluation, columns: list[str], wanted: Array, failed: float | None) -> None:
         self._evaluate = evaluate
         self._failed = failed
+        #: The times of the first place that was asked for.
+        self._times: Array | None = None
         self._columns = columns
         self._wanted = wanted
         #: The values of the params in the text, with what was set (SI).
@@ -177,14 +180,26 @@ class Residuals:
 
     def _both(self, x: ArrayLike) -> tuple[Array, Array]:
         try:
-            _, _, rows, slopes = self._evaluate(x)
+            found = self._evaluate(x)
+            if self._times is None:
+                self._times = self._times_that_stay(x, found.times)
         except AnalysisError:
             if self._failed is None:
                 raise
             return np.full(self._wanted.size, self._failed), np.zeros((self._wanted.size, len(self.by)))
-        if rows.shape != self._wanted.shape:
-            raise usage(f"there are {rows.shape[0]} times, and targets for {self._wanted.shape[0]}")
-        return (rows - self._wanted).ravel(), slopes.reshape(-1, len(self.by))
+        if not np.array_equal(found.times, self._times):
+            raise _times_move()
+        if found.rows.shape != self._wanted.shape:
+            raise usage(f"there are {len(found.times)} times, and targets for {self._wanted.shape[0]}")
+        return (found.rows - self._wanted).ravel(), found.slopes_of_rows.reshape(-1, len(self.by))
+
+    def _times_that_stay(self, x: ArrayLike, times: Array) -> Array:
+        """The times at a place; refuses those that are others a little beside it, of which the derivatives know nothing."""
+        if not self._evaluate.has_own_times:
+            with contextlib.suppress(AnalysisError):
+                if not np.array_equal(self._evaluate(np.asarray(elements("x", x)) * (1 + BESIDE) + BESIDE).times, times):
+                    raise _times_move()
+        return times
 
     def __call__(self, x: ArrayLike) -> Array:
         return self._both(x)[0]
@@ -193,6 +208,29 @@ class Residuals:
         """The derivatives of all residuals by all params."""
         # who gets them may change them
         return self._both(x)[1].copy()
+
+
+#: So far beside a place is looked whether times are others there, of the values and in SI.
+BESIDE = 1e-6
+
+
+def _times_move() -> UsageError:
+    return usage("the times of the analysis go with the params, and targets are for times that stay", "say them: `at=[0.0, 0.1, …]`")
+
+
+class Found(NamedTuple):
+    """What an evaluation gives."""
+
+    #: Of shape (results,).
+    results: Array
+    #: By the params: of shape (results, params).
+    slopes: Array
+    #: Of shape (times,) (s).
+    times: Array
+    #: Of shape (times, columns).
+    rows: Array
+    #: By the params: of shape (times, columns, params).
+    slopes_of_rows: Array
 
 
 class Evaluation:
@@ -210,17 +248,20 @@ class Evaluation:
                 raise usage(f"`{name}` is several params" if copies else f"there is no param `{name}`", help)
         self.x0 = np.array([params[name] for name in self.by])
         self.x0.setflags(write=False)
-        patterns = [*columns, *(f"{column}.by.{name}" for column in columns for name in self.by)] or ["t"]
+        patterns = [*columns, *(f"{column}.by.{name}" for column in columns for name in self.by), "t"]
         asked = {**asked, "by": self.by, "slopes": True, "columns": patterns}
         self._evaluator = m._evaluator(asked, self.by)
         places = {name: place for place, name in enumerate(self._evaluator.columns)}
+        self._time = places["t"]
+        #: Whether times are asked for, which stay whatever the params.
+        self.has_own_times = bool(asked["at"])
         self._columns = [places[column] for column in columns]
         self._slopes = [[places[f"{column}.by.{name}"] for name in self.by] for column in columns]
         self.results = [name for name, _ in self._evaluator.results]
         self.results = self.results[: len(self.results) // (len(self.by) + 1)]
-        self._last: tuple[bytes, Any] | None = None
+        self._last: tuple[bytes, Found] | None = None
 
-    def __call__(self, x: ArrayLike) -> Any:
+    def __call__(self, x: ArrayLike) -> Found:
         x = np.asarray(elements("x", x))
         if x.size != len(self.by):
             raise usage(f"{x.size} values are given for {len(self.by)} params", f"these are {', '.join(self.by)}, in that order")
@@ -233,9 +274,10 @@ class Evaluation:
         if not len(numbers):
             # times alone have no results
             numbers = np.full(own * (1 + len(self.by)), np.nan)
-        found = (
+        found = Found(
             numbers[:own],
             numbers[own:].reshape(own, len(self.by)),
+            rows[:, self._time],
             rows[:, self._columns],
             rows[:, self._slopes] if self._columns else np.empty((len(rows), 0, len(self.by))),
         )
@@ -282,7 +324,7 @@ def residuals(
         raise usage("it is not said of which columns", "as in `m.residuals(['px', 'py'], points, by=…)`")
     # what the caller does with theirs later is of no concern here
     targets = np.array(elements("wanted", wanted))
-    targets = targets.reshape(-1, len(names)) if targets.ndim == 1 else targets
+    targets = targets.reshape(-1, len(names)) if targets.ndim == 1 and targets.size % len(names) == 0 else targets
     if targets.ndim != 2 or targets.shape[1] != len(names):
         raise usage(f"targets of shape {targets.shape} are given for {len(names)} columns", "a row for each time is wanted")
     return Residuals(Evaluation(m, by, names, asked), names, targets, failed)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
+import stat
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path
@@ -26,22 +28,43 @@ def path_of(path: str | os.PathLike[str]) -> Path:
 
 
 def write(path: Path, text: str) -> Path:
-    """Replaces a file whole, or leaves it as it is."""
+    """Replaces a file whole, or leaves it as it is: what a link leads to, with the rights that it has. A pipe or a device is written into."""
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, beside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        try:
-            with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+        if _is_open_already(path) or (path.exists() and not path.is_file() and not path.is_dir()):
+            with open(path, "a", encoding="utf-8", newline="\n") as file:
                 file.write(text)
-            os.chmod(beside, 0o666 & ~_umask())
-            os.replace(beside, path)
-        except BaseException:
-            with contextlib.suppress(OSError):
-                os.unlink(beside)
-            raise
+        else:
+            _replace(Path(os.path.realpath(path)), text)
     except OSError as error:
         raise _cannot(path, error.strerror or str(error), number=error.errno) from error
     return path
+
+
+def _is_open_already(path: Path) -> bool:
+    """Whether a path means what the process has open, whatever that is: it is no place in a folder, where a file could be replaced."""
+    return str(path) in ("/dev/stdout", "/dev/stderr") or str(path).startswith(("/dev/fd/", "/proc/self/fd/"))
+
+
+def _replace(path: Path, text: str) -> None:
+    """Replaces a file, or makes it, and its folder."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    old = path.stat() if path.exists() else None
+    if old is not None and not old.st_mode & 0o222:
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    handle, beside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+        if old is not None and hasattr(os, "chown"):
+            # where this process may
+            with contextlib.suppress(OSError):
+                os.chown(beside, old.st_uid, old.st_gid)
+        os.chmod(beside, 0o666 & ~_umask() if old is None else stat.S_IMODE(old.st_mode) & 0o777)
+        os.replace(beside, path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.unlink(beside)
+        raise
 
 
 def refuse_what_was_read(path: Path, sources: Iterable[str | os.PathLike[str]]) -> None:
@@ -62,7 +85,7 @@ def write_all(folder: Path, files: list[tuple[str, str]], mark: str) -> Path:
         path = folder / name
         if path.is_symlink() or path.exists():
             with contextlib.suppress(OSError):
-                if any(mark in line for line in path.read_text(encoding="utf-8", errors="replace").splitlines()[:HEAD]):
+                if path.is_file() and any(mark in line for line in path.read_text(encoding="utf-8", errors="replace").splitlines()[:HEAD]):
                     continue
             raise _cannot(path, "a file is there that mechc did not write", "name a new folder, or one that mechc wrote")
     for name, text in files:

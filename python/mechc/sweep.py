@@ -54,8 +54,9 @@ class Sweep:
         return dict(self._sweep.summary)
 
     def settings(self, variant: int) -> dict[str, str]:
-        """The params of a variant, as ``set`` takes them: ``m.run(lead=True, set=sweep.settings(7))`` is its motion, to the bit."""
-        texts = self._sweep.settings(whole("variant", variant))
+        """The params of a variant, as ``set`` takes them, those among them that are set for all: ``m.run(lead=True, set=sweep.settings(7))`` is
+        its motion, to the bit."""
+        texts = [*self._made_of[1]["set"], *self._sweep.settings(whole("variant", variant))]
         return dict(text.split("=", 1) for text in texts)
 
     def read(self) -> Swept:
@@ -82,7 +83,8 @@ class Sweep:
     def _told(self) -> Any:
         progress = self._made_of[3]
         if progress is True:
-            return _Line()
+            # programs without a console have no standard error
+            return _Line() if sys.stderr is not None else None
         return progress or None
 
     def __repr__(self) -> str:

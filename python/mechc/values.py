@@ -268,9 +268,14 @@ def table(columns: Mapping[str, Any], units: Mapping[str, str]) -> bytes:
         told = ", ".join(f"`{name}` has {len(values)}" for name, values in lists.items())
         is_uneven = len(lengths) > 1
         raise usage(f"the columns of variants are not of one length: {told}" if is_uneven else "there are no variants")
-    head = ",".join(f"{name} [{_head(units[name])}]" if units.get(name) else name for name in lists)
+    head = ",".join(_quoted(f"{name} [{_head(units[name])}]" if units.get(name) else name) for name in lists)
     rows = "\n".join(",".join(map(repr, row)) for row in zip(*lists.values()))
     return f"{head}\n{rows}\n".encode()
+
+
+def _quoted(head: str) -> str:
+    """The head of a column as a CSV has it: names of copies of copies have commas (RFC 4180)."""
+    return '"' + head.replace('"', '""') + '"' if any(mark in head for mark in ',"\ufeff') else head
 
 
 def _head(unit: str) -> str:

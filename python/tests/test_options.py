@@ -274,6 +274,21 @@ def test_times_of_residuals_have_units():
     assert f(f.x0).tolist() == g(g.x0).tolist()
     with pytest.raises(mechc.UsageError, match="do not rise"):
         m.residuals(["travel"], [0.0, 0.0], by="rod_length", at=["10 ms", "5 ms"])
+    with pytest.raises(mechc.UsageError, match=r"shape \(3,\) are given for 2 columns"):
+        m.residuals(["travel", "t"], [0.0, 0.0, 0.0], by="rod_length", at=[0.001])
+
+
+def test_times_that_go_with_params_have_no_residuals():
+    text = (ROOT / "examples/hoeken.mech").read_text().replace("to 2 s every 20 ms", "to 2 * pi / speed every 0.25 * pi / speed")
+    m, wanted = mechc.parse(text), np.zeros((9, 1))
+    f = m.residuals(["pen_x"], wanted, by=["speed"])
+    for ask in (f, f.jacobian):
+        with pytest.raises(mechc.UsageError, match="times of the analysis go with the params"):
+            ask(f.x0)
+    for by, at in (["speed"], np.linspace(0, 1, 9)), (["base"], None):
+        f = m.residuals(["pen_x"], wanted, by=by, at=at)
+        difference = (f(f.x0 + 1e-6) - f(f.x0 - 1e-6)) / 2e-6
+        assert np.allclose(f.jacobian(f.x0)[:, 0], difference, atol=1e-6)
 
 
 def test_files_that_are_not_handed_over_are_told():

@@ -6,9 +6,11 @@ import copy
 import dataclasses
 import html
 import json
+import os
 import pickle
 import re
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -89,6 +91,26 @@ def test_files_are_those_of_the_command(tmp_path):
     assert page.read_text().lstrip().startswith("<!") and "<svg" in picture.read_text()
     with pytest.raises(mechc.UsageError):
         m.view(tmp_path / "a.png")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="links, rights and pipes")
+def test_what_is_written_leaves_the_place_what_it_is(tmp_path):
+    m = mechc.load(CRANK)
+    own, link, pipe = tmp_path / "own.tex", tmp_path / "link.tex", tmp_path / "pipe.tex"
+    own.touch(mode=0o600)
+    link.symlink_to(own.name)
+    m.to_latex(link)
+    wanted = m.to_latex()
+    assert link.is_symlink() and own.read_text() == wanted and own.stat().st_mode & 0o777 == 0o600
+    os.mkfifo(pipe)
+    with ThreadPoolExecutor(1) as reader:
+        read = reader.submit(pipe.read_text)
+        m.to_latex(pipe)
+        assert read.result() == wanted and pipe.is_fifo()
+    own.chmod(0o400)
+    with pytest.raises(mechc.FileError, match="Permission denied"):
+        m.to_json(own)
+    assert own.read_text() == wanted and sorted(os.listdir(tmp_path)) == ["link.tex", "own.tex", "pipe.tex"]
 
 
 def test_a_crate_spares_what_others_wrote(tmp_path):

@@ -108,6 +108,26 @@ def test_settings_of_a_variant_run_to_the_same_bits():
     sweep = m.sweep(vary={"base": mechc.between("60 mm", "100 mm", 9)}, results=FLAT)
     found = sweep.read()["flatness"][3]
     assert m.run(lead=True, set=sweep.settings(3), results=FLAT).results["flatness"] == found
+    # what is set for all variants is theirs too
+    sweep = m.sweep(vary={"arm": ["95 mm", "96 mm"]}, set={"base": "90 mm"}, results=FLAT)
+    assert sweep.settings(1) == {"base": "90 mm", "arm": "0.096 m"}
+    assert m.run(lead=True, set=sweep.settings(1), results=FLAT).results["flatness"] == sweep.read()["flatness"][1]
+
+
+def test_copies_of_copies_vary_by_their_names():
+    m, name = mechc.load(ROOT / "examples/engine.mech"), "cylinder[0,1].rod_length"
+    results = {"most": "max(shake_y)"}
+    wanted = m.sweep({name: ["130 mm", "140 mm"]}, to=0.002, results=results).read()["most"]
+    for options in ({"vary": {name: np.array([0.13, 0.14])}}, {"variants": pl.DataFrame({name: [0.13, 0.14]})}):
+        assert np.array_equal(m.sweep(**options, to=0.002, results=results).read()["most"], wanted)
+    with pytest.raises(mechc.MechcError, match="no parameter"):
+        mechc.load(HOEKEN).sweep(vary={"\ufeffbase": [0.08]})
+
+
+@pytest.mark.parametrize("option", [{"by": "base"}, {"reactions": True}, {"columns": "pen_x"}])
+def test_what_rows_alone_have_wants_rows(option):
+    with pytest.raises(mechc.UsageError, match="rows=True"):
+        mechc.load(HOEKEN).sweep(vary={"base": [0.08]}, **option)
 
 
 def test_shares_are_the_whole_and_jobs_change_nothing():
@@ -124,6 +144,10 @@ def test_progress():
     m = mechc.load(HOEKEN)
     m.sweep(vary={"base": mechc.between("60 mm", "100 mm", 9)}, results=FLAT, progress=lambda *done: told.append(done)).read()
     assert told[-1] == (9, 9)
+    with pytest.MonkeyPatch.context() as patch:
+        # as in programs without a console
+        patch.setattr("sys.stderr", None)
+        assert len(m.sweep(vary={"base": [0.06]}, results=FLAT, progress=True).read()["base"]) == 1
 
     def broken(done, count):
         raise RuntimeError("enough")
