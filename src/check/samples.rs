@@ -16,10 +16,22 @@ struct Words {
     one: &'static str,
     /// How its units are written, by an example.
     example: &'static str,
+    /// What is needed at least.
+    least: &'static str,
 }
 
-const SAMPLES: Words = Words { many: "samples", one: "sample", example: "`turn [deg]`, `feed [mm/s]`" };
-const VARIANTS: Words = Words { many: "variants", one: "value", example: "`rod [mm]`, `speed [rpm]`" };
+const SAMPLES: Words = Words {
+    many: "samples",
+    one: "sample",
+    example: "`turn [deg]`, `feed [mm/s]`",
+    least: "two rows are needed at least",
+};
+const VARIANTS: Words = Words {
+    many: "variants",
+    one: "value",
+    example: "`rod [mm]`, `speed [rpm]`",
+    least: "a line that names the params is needed, and a row for each variant",
+};
 
 /// What a file of samples holds.
 pub(super) struct Samples {
@@ -129,7 +141,7 @@ fn heads(source: &Source, file: FileId, words: Words) -> Result<(Line<'_>, Vec<H
     let Some(line) = lines(source, file).next() else {
         let nothing = Span { file, start: 0, end: 0 };
         let message = format!("the {} are empty", words.many);
-        return Err(vec![fault(Code::E0413, &message, nothing, "two rows are needed at least")]);
+        return Err(vec![fault(Code::E0413, &message, nothing, words.least)]);
     };
     let one = |fault: Box<Diagnostic>| vec![*fault];
     line.has_commas(words).map_err(one)?;

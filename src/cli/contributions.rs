@@ -214,8 +214,12 @@ impl Contributions {
             }
         }
         let Some(verified) = &self.verified else { return text };
-        let what = if verified.are_all_corners { "corners" } else { "corners and samples" };
-        text += &format!("{} {what} were run\n", verified.variants);
+        let what = match (verified.are_all_corners, verified.variants) {
+            (true, 1) => "corner was",
+            (true, _) => "corners were",
+            (false, _) => "corners and samples were",
+        };
+        text += &format!("{} {what} run\n", verified.variants);
         if let Some((count, set, status)) = &verified.lost {
             text += &format!(
                 "{count} of them did not run on this branch, and are not in the table; the first ({status}): {}\n",
