@@ -404,22 +404,29 @@ fn all_rows(path: &Path) -> Vec<String> {
 
 /// Interrupts a sweep of so many variants somewhere between, and gives the number that it tells to go on with.
 fn interrupted_within(path: &Path, arguments: &[&str], count: usize) -> String {
-    // how soon it has something depends on the machine
-    for wait in [100, 300, 1000, 3000, 9000] {
-        let child = begun(path, arguments, Duration::from_millis(wait));
+    // how soon it has something, and all, depends on the machine: it is looked for between too early and too late
+    let (mut early, mut late, mut wait) = (Duration::ZERO, None, Duration::from_millis(100));
+    for _ in 0..20 {
+        let child = begun(path, arguments, wait);
         signal(&child, "-2");
         let ended = child.wait_with_output().expect("it ends");
         let told = said(&ended);
-        assert_eq!(ended.status.code(), Some(130), "{told}");
-        let skip = told.split("--skip ").nth(1).and_then(|rest| rest.split('`').next()).expect("how to go on");
-        let done: usize = skip.parse().expect("a number");
-        assert!(told.contains(&format!("interrupted: {done} of {count} variants are written")), "{told}");
-        if done > 0 {
-            assert!(done < count, "{told}");
-            return skip.to_owned();
+        if ended.status.code() == Some(0) {
+            late = Some(wait);
+        } else {
+            assert_eq!(ended.status.code(), Some(130), "{told}");
+            let skip = told.split("--skip ").nth(1).and_then(|rest| rest.split('`').next()).expect("how to go on");
+            let done: usize = skip.parse().expect("a number");
+            assert!(told.contains(&format!("interrupted: {done} of {count} variants are written")), "{told}");
+            if done > 0 {
+                assert!(done < count, "{told}");
+                return skip.to_owned();
+            }
+            early = wait;
         }
+        wait = late.map_or(2 * wait, |late| (early + late) / 2);
     }
-    panic!("nothing was written in nine seconds");
+    panic!("between {early:?} and {late:?} there is no moment at which some is written");
 }
 
 #[test]

@@ -153,6 +153,27 @@ fn a_sweep_ends_at_the_variant_that_is_looked_for() {
     assert_eq!(until("swing > 500 deg"), [21; 2]);
 }
 
+/// A condition may ask for what some variants do not have: a time behind their ends, a copy beyond their number.
+#[test]
+fn what_is_looked_for_stops_no_variant() {
+    let lift = include_str!("../examples/scissor_lift.mech");
+    for (text, varied, condition) in [
+        (FOUR_BAR, "speed=30rpm,120rpm,60rpm", "at(height, 0.9 s) > 1 m"),
+        (lift, "cells=2,1,3", "max(y(up[1].low)) > 10 m"),
+    ] {
+        let swept = |until: Option<&str>, has_rows: bool| {
+            let subject = subject(text, Choice { until: until.map(str::to_owned), ..Choice::default() });
+            let options = if has_rows { subject.all_columns() } else { SweepOptions::default() };
+            subject.swept(&subject.variants(&vary(&[varied])), &options)
+        };
+        for has_rows in [false, true] {
+            let block = swept(Some(condition), has_rows);
+            assert_eq!(block.statuses, [Status::Ok; 3], "{condition}");
+            assert!(bits_of(&block) == bits_of(&swept(None, has_rows)), "{condition}, rows: {has_rows}");
+        }
+    }
+}
+
 #[test]
 fn a_cancelled_sweep_gives_whole_variants_and_ends() {
     let subject = subject(FOUR_BAR, Choice::default());

@@ -238,6 +238,15 @@ impl Checked {
         Checked::in_surroundings(parsed, number, surroundings, true, Diagnostics::default())
     }
 
+    /// The same without what a variant is looked for by.
+    pub(super) fn without_until(&self) -> Checked {
+        let Some(number) = self.number else { return self.clone() };
+        let is_until =
+            |item: &ast::Item| matches!(&item.kind, ast::ItemKind::Result { name, .. } if name.text == UNTIL);
+        let parsed = self.parsed.without_items(number, is_until);
+        Checked::in_surroundings(parsed, number, (*self.surroundings).clone(), self.is_led, Diagnostics::default())
+    }
+
     /// What it takes to have the mechanism once more.
     fn again(&self) -> Option<Again> {
         Some(Again::new(self.parsed.clone(), self.number?, Arc::clone(&self.surroundings)))

@@ -141,9 +141,12 @@ impl Checked {
         // blocks in work with all that tables have of them, and two that somebody reads
         let of_params = (variants.points().params().len() as u64).saturating_mul(times.len());
         let in_work = numbers.saturating_add(of_params).saturating_mul(size).saturating_mul(jobs as u64 + 2);
-        let (abreast, spare) = (OnceLock::new(), Arc::new(Spare::new(in_work as usize)));
+        let spare = Arc::new(Spare::new(in_work as usize));
+        let (abreast, without_until) = (OnceLock::new(), OnceLock::new());
+        let results = count;
         let sweeping =
-            Arc::new(Sweeping { own, families, variants, options, results: count, until, first, abreast, spare });
+            Sweeping { own, families, variants, options, results, until, first, abreast, spare, without_until };
+        let sweeping = Arc::new(sweeping);
         let pieces = 0..(last - first).div_ceil(size);
 
         let work = move |piece: u64| {
@@ -186,6 +189,8 @@ struct Sweeping {
     abreast: OnceLock<Option<Abreast>>,
     /// Memory of columns that are done with.
     spare: Arc<Spare>,
+    /// The same without what a variant is looked for by, once one has stopped.
+    without_until: OnceLock<Box<Sweeping>>,
 }
 
 /// Variants that went side by side.
@@ -342,8 +347,28 @@ impl Sweeping {
         self.abreast.get_or_init(new).as_ref()
     }
 
-    /// A variant as `run --lead --set` has it.
+    /// A variant as `run --lead --set` has it. What it is looked for by decides nothing of it: where that is what stopped it, as a place that this
+    /// variant does not have, it does not hold.
     fn variant(&self, params: &[f64]) -> OneVariant {
+        let variant = self.variant_with_all(params);
+        let Some(until) = self.until.filter(|_| matches!(variant.status, Status::Stopped(_))) else { return variant };
+        let mut variant =
+            self.without_until.get_or_init(|| Box::new(self.made_without(until))).variant_with_all(params);
+        variant.results.insert(until, f64::NAN);
+        variant
+    }
+
+    /// The same without a result that variants are looked for by, by its number.
+    fn made_without(&self, until: usize) -> Sweeping {
+        let own = self.own.without_until();
+        let families = self.families.without(until, (&own, &self.variants), self.first);
+        let (variants, options, spare) = (self.variants.clone(), self.options.clone(), Arc::clone(&self.spare));
+        let (results, first) = (self.results - 1, self.first);
+        let (abreast, without_until) = (OnceLock::new(), OnceLock::new());
+        Sweeping { own, families, variants, options, results, until: None, first, abreast, spare, without_until }
+    }
+
+    fn variant_with_all(&self, params: &[f64]) -> OneVariant {
         let mut variant = OneVariant {
             status: Status::Ok,
             stopped: f64::NAN,
