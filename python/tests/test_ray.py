@@ -119,6 +119,7 @@ def test_a_second_call_makes_what_is_missing(local_ray, hoeken, tmp_path):
     again = mechc.ray.sweep(hoeken, out=tmp_path, share=60, **OPTIONS)
     assert again.made == 1 and all(os.stat(file).st_mtime_ns == at for file, at in before.items())
     assert again.to_arrow().equals(pa.table(hoeken.sweep(**OPTIONS)).cast(again.to_arrow().schema))
+    assert mechc.ray.sweep(hoeken, out=tmp_path, share=60, **OPTIONS).made == 0
     # where nothing is said, shares are as large as they are in the folder
     assert mechc.ray.sweep(hoeken, out=tmp_path, **OPTIONS).ranges == first.ranges
     with pytest.raises(mechc.UsageError, match="another sweep: `share` is 60 there, and 50 here"):
