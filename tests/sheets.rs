@@ -424,7 +424,8 @@ fn interrupted_within(path: &Path, arguments: &[&str], count: usize) -> String {
             }
             early = wait;
         }
-        wait = late.map_or(2 * wait, |late| (early + late) / 2);
+        // nine seconds are enough for a sweep that does not hang
+        wait = late.map_or((2 * wait).min(Duration::from_secs(9)), |late| (early + late) / 2);
     }
     panic!("between {early:?} and {late:?} there is no moment at which some is written");
 }

@@ -368,6 +368,7 @@ impl Sweeping {
         Sweeping { own, families, variants, options, results, until: None, first, abreast, spare, without_until }
     }
 
+    /// The same with all that it is asked, what it is looked for by among it.
     fn variant_with_all(&self, params: &[f64]) -> OneVariant {
         let mut variant = OneVariant {
             status: Status::Ok,
