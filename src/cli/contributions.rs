@@ -199,7 +199,9 @@ impl Contributions {
                 .filter(|(slope, _)| slope.is_none())
                 .map(|(_, by)| by.name.as_str())
                 .collect();
-            if !unknown.is_empty() {
+            if !of.nominal.is_finite() {
+                text += &format!("`{}` has no value, and so no derivatives\n", of.name);
+            } else if !unknown.is_empty() {
                 let why = match of.at {
                     None => {
                         "it is of an extremum that two times share, of a kink or jump that goes with the param, or of too many derivatives"

@@ -293,6 +293,13 @@ impl Solver {
         })
     }
 
+    /// Which columns have one number at all times.
+    pub fn is_fixed(&self) -> impl Fn(u32) -> bool + use<> {
+        let mut is_fixed = vec![false; self.layout.stride];
+        self.fixed_columns().for_each(|column| is_fixed[column as usize] = true);
+        move |column| is_fixed[column as usize]
+    }
+
     /// Which columns they leave something in.
     pub fn keeps(&self) -> impl Fn(u32) -> bool + use<> {
         let mut is_kept = vec![false; self.layout.stride];

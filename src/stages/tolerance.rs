@@ -8,6 +8,8 @@ use crate::sweep::rounded;
 /// tolerance moves.
 const LINEAR: f64 = 0.05;
 const DIGITS: f64 = 1e-9;
+/// Or of the largest that is of its SI unit: what is a difference of such numbers is off by their rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// A param that may be off.
 #[derive(Clone, PartialEq, Debug)]
@@ -57,6 +59,8 @@ pub struct Affected {
     pub unit: ColumnUnit,
     /// The SI unit of its value.
     pub si: String,
+    /// The largest value of that unit among all measures, results and params that may be off (SI).
+    pub largest: f64,
     /// By tolerance: its derivative (SI); nothing where none is known.
     pub slopes: Vec<Option<f64>>,
     /// At so many of so many times it has a value and no derivatives.
@@ -164,7 +168,7 @@ impl Verified {
         if self.missing(k) > 0 {
             return false;
         }
-        let limit = LINEAR * f64::max(low.abs(), high.abs()) + DIGITS * of.nominal.abs();
+        let limit = LINEAR * f64::max(low.abs(), high.abs()) + DIGITS * of.nominal.abs() + ROUNDING * of.largest;
         self.found[k].is_some_and(|found| (found[0] - low).abs() <= limit && (found[1] - high).abs() <= limit)
     }
 }

@@ -95,8 +95,7 @@ impl Asked {
         let own = |why: Diagnostic| (reader.own.sources().clone(), Diagnostics::from(why));
         let mut values = Vec::with_capacity(2);
         for end in &self.ends {
-            reader.with(&self.name, end)?;
-            values.push(reader.value(end)?.0);
+            values.push(reader.number(&self.name, end)?.1);
         }
         let range = match values[..] {
             [one] if one < 0.0 => {
@@ -179,7 +178,15 @@ impl Tolerancing<'_> {
         if !swept.statuses[0].is_complete() {
             return Err((self.checked.sources().clone(), why_not(compiled, &options)));
         }
-        Ok(asked.affected(&swept, &self.tolerances))
+        let mut all = asked.affected(&swept, &self.tolerances);
+        let of_params = self.tolerances.iter().map(|of| (of.si.clone(), of.nominal));
+        let sizes: Vec<(String, f64)> = of_params.chain(all.iter().map(|of| (of.si.clone(), of.nominal))).collect();
+        for of in &mut all {
+            // the larger of two numbers passes over what is none
+            let alike = sizes.iter().filter(|(si, _)| *si == of.si);
+            of.largest = alike.fold(0.0, |largest, (_, value)| value.abs().max(largest));
+        }
+        Ok(all)
     }
 
     /// All params that may be off, by their numbers.
@@ -346,6 +353,7 @@ impl AskedOf {
             nominal: swept.results[k][0],
             unit,
             si,
+            largest: 0.0,
             slopes: (0..count).map(|j| number(own + k * count + j)).collect(),
             unknown: [0, 1],
         }));
@@ -376,6 +384,7 @@ fn where_it_is_worst(measure: AskedMeasure, rows: &Rows<'_>, tolerances: &[Toler
         name: measure.name,
         unit: measure.unit,
         si: measure.si,
+        largest: 0.0,
     }
 }
 

@@ -1,6 +1,7 @@
 //! Params that take values one after the other: what `--vary NAME=A..B:N` says, read.
 
 use super::checked::{TOL, VARY};
+use super::vary::Found;
 use super::{Checked, Choice, Formula, Parsed};
 use crate::check::Amount;
 use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
@@ -157,13 +158,13 @@ pub(super) struct Reader<'r> {
 impl Reader<'_> {
     fn varied(&self, asked: &Asked) -> Result<Varied, (Sources, Diagnostics)> {
         let Asked { name, ends: [first, last], count } = asked;
-        let checked = [self.with(name, first)?, self.with(name, last)?];
+        let [(low, a, _), (high, b, _)] = [self.number(name, first)?, self.number(name, last)?];
+        let (checked, si) = ([low, high], [a, b]);
         let unusable = |why: Diagnostic| (self.own.sources().clone(), why.into());
         let of_param = |checked: &Checked| checked.param_in_part(name);
         if checked.iter().any(Checked::is_sound) && checked.iter().all(|checked| of_param(checked).is_none()) {
             return Err(unusable(decides(name)));
         }
-        let si = [self.value(first)?.0, self.value(last)?.0];
         let dimension = checked.iter().find_map(of_param).map_or(Dimension::PURE, |(_, dimension)| dimension);
         let (ends, unit) = same_unit(first, last)
             .unwrap_or_else(|| (si, si_unit(dimension, is_of_angles(first) || is_of_angles(last))));
@@ -197,7 +198,33 @@ impl Reader<'_> {
         };
         let mut wrong = Diagnostics::default();
         checked.diagnostics().iter().filter(is_of_option).for_each(|said| wrong.push(said.clone()));
-        if wrong.is_empty() { Ok(checked) } else { Err((sources.clone(), wrong)) }
+        match wrong.is_empty() {
+            true => Ok(checked),
+            false if self.is_point(name) => Err((self.own.sources().clone(), self.of_a_point(name, formula).into())),
+            false => Err((sources.clone(), wrong)),
+        }
+    }
+
+    /// The same for a number, with its value in SI, and its dimension, if it has one.
+    pub fn number(&self, name: &str, formula: &str) -> Found<(Checked, f64, Option<Dimension>)> {
+        let checked = self.with(name, formula)?;
+        match self.value(formula) {
+            Ok((value, dimension)) => Ok((checked, value, dimension)),
+            Err(_) if self.is_point(name) => Err((self.own.sources().clone(), self.of_a_point(name, formula).into())),
+            Err(why) => Err(why),
+        }
+    }
+
+    fn is_point(&self, name: &str) -> bool {
+        let x = format!("{name}.x");
+        self.own.settable_params().iter().any(|param| param.name == x)
+    }
+
+    /// A point varies by its coordinates.
+    fn of_a_point(&self, name: &str, formula: &str) -> Diagnostic {
+        let option = self.option;
+        unusable(format!("`{name}` is a point, and `{option}` takes numbers: `{formula}` cannot be said of it"))
+            .help(format!("say it of a coordinate: `{option} {name}.x=…`, `{option} {name}.y=…`, or both"))
     }
 
     /// The value of a formula in SI, and its dimension, if it has one.

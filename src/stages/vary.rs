@@ -304,8 +304,7 @@ impl Listing<'_> {
     fn param(&mut self, name: &str, formulas: &[String]) -> Found<(usize, Vec<f64>)> {
         let (mut values, mut dimension) = (Vec::with_capacity(formulas.len()), None);
         for formula in formulas {
-            self.reader.with(name, formula)?;
-            let (value, found) = self.reader.value(formula)?;
+            let (_, value, found) = self.reader.number(name, formula)?;
             values.push(value);
             dimension = dimension.or(found);
         }

@@ -1,11 +1,13 @@
 //! The numbers of a column of variants, in memory that is used again.
 
 use crate::math::{WIDE, to_next_line};
+use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-/// Memory of numbers that nobody asks for any more: to be written over it need not be cleared, and is at hand.
+/// Memory of numbers that nobody asks for any more: to be written over it need not be cleared, and is at hand. That of a column is used for that
+/// column again: where that has one value everywhere, all is there already.
 #[derive(Debug)]
 pub struct Spare {
     kept: Mutex<Kept>,
@@ -15,8 +17,22 @@ pub struct Spare {
 
 #[derive(Debug, Default)]
 struct Kept {
-    memory: Vec<Vec<f64>>,
+    /// By column.
+    memory: BTreeMap<usize, Vec<Memory>>,
     numbers: usize,
+}
+
+/// All that has been written somewhere, and what all of it is known to be.
+#[derive(Debug)]
+struct Memory {
+    numbers: Vec<f64>,
+    alike: Option<f64>,
+}
+
+impl Default for Memory {
+    fn default() -> Memory {
+        Memory { numbers: Vec::new(), alike: Some(0.0) }
+    }
 }
 
 impl Spare {
@@ -26,61 +42,78 @@ impl Spare {
         Spare { kept: Mutex::default(), most }
     }
 
-    /// Memory for so many numbers.
-    fn take(&self, capacity: usize) -> Vec<f64> {
+    /// Memory for so many numbers of a column.
+    fn take(&self, capacity: usize, column: usize) -> Memory {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = kept.memory.pop();
-        kept.numbers -= found.as_ref().map_or(0, Vec::capacity);
-        found.filter(|memory| memory.capacity() >= capacity).unwrap_or_else(|| Vec::with_capacity(capacity))
+        let found = kept.memory.get_mut(&column).and_then(Vec::pop);
+        kept.numbers -= found.as_ref().map_or(0, |memory| memory.numbers.capacity());
+        let new = || Memory { numbers: Vec::with_capacity(capacity), ..Memory::default() };
+        found.filter(|memory| memory.numbers.capacity() >= capacity).unwrap_or_else(new)
     }
 
-    fn give_back(&self, memory: Vec<f64>) {
+    fn give_back(&self, memory: Memory, column: usize) {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        if kept.numbers + memory.capacity() <= self.most {
-            kept.numbers += memory.capacity();
-            kept.memory.push(memory);
+        let more = memory.numbers.capacity();
+        if kept.numbers + more <= self.most {
+            kept.numbers += more;
+            kept.memory.entry(column).or_default().push(memory);
         }
     }
 }
+
+/// What stands beside the columns of rows shares memory.
+const BESIDE: usize = usize::MAX;
 
 /// Numbers of a column, one behind the other. They begin where a line of the processor's memory does: what is written line by line is there
 /// at once.
 #[derive(Default)]
 pub struct Numbers {
-    /// All that has been written here. Of it the column has what stands from `begin` on, so many numbers.
-    memory: Vec<f64>,
+    /// Of it the column has what stands from `begin` on, so many numbers.
+    memory: Memory,
     begin: usize,
     count: usize,
-    /// Where its memory goes then, as long as somebody may take it from there.
+    /// Where its memory goes then, as long as somebody may take it from there, as that of which column.
     spare: Weak<Spare>,
+    column: usize,
 }
 
 impl Numbers {
-    /// None yet, with memory for so many.
+    /// None yet, with memory for so many of a column, by its number.
     #[must_use]
-    pub fn with_capacity(capacity: usize, spare: &Arc<Spare>) -> Numbers {
-        let mut memory = spare.take(capacity + WIDE);
-        let begin = to_next_line(memory.as_ptr());
-        if memory.len() < begin {
-            memory.resize(begin, 0.0);
+    pub fn with_capacity(capacity: usize, spare: &Arc<Spare>, column: usize) -> Numbers {
+        let mut memory = spare.take(capacity + WIDE, column);
+        let begin = to_next_line(memory.numbers.as_ptr());
+        if memory.numbers.len() < begin {
+            memory.numbers.resize(begin, memory.alike.unwrap_or_default());
         }
-        Numbers { memory, begin, count: 0, spare: Arc::downgrade(spare) }
+        Numbers { memory, begin, count: 0, spare: Arc::downgrade(spare), column }
     }
 
     /// None yet, with memory for so many from where its own comes.
     #[must_use]
     pub fn another(&self, capacity: usize) -> Numbers {
         let new = || Numbers::from(Vec::with_capacity(capacity));
-        self.spare.upgrade().map_or_else(new, |spare| Numbers::with_capacity(capacity, &spare))
+        self.spare.upgrade().map_or_else(new, |spare| Numbers::with_capacity(capacity, &spare, BESIDE))
     }
 
     /// Makes room for so many more, which are to be written: what stands there is of no use.
     pub fn make_room(&mut self, more: usize) {
         self.count += more;
-        let end = self.begin + self.count;
-        if self.memory.len() < end {
-            self.memory.resize(end, 0.0);
+        let (end, Memory { numbers, alike }) = (self.begin + self.count, &mut self.memory);
+        if numbers.len() < end {
+            numbers.resize(end, alike.unwrap_or_default());
         }
+    }
+
+    /// Makes all numbers from one on a value.
+    pub fn fill_from(&mut self, first: usize, value: f64) {
+        let Memory { numbers, alike } = &mut self.memory;
+        if alike.is_some_and(|alike| alike.to_bits() == value.to_bits()) {
+            return;
+        }
+        let end = if first == 0 { numbers.len() } else { self.begin + self.count };
+        numbers[self.begin + first..end].fill(value);
+        *alike = (first == 0).then_some(value);
     }
 
     /// Keeps the first ones, so many.
@@ -92,22 +125,24 @@ impl Numbers {
 impl Drop for Numbers {
     fn drop(&mut self) {
         if let Some(spare) = self.spare.upgrade() {
-            spare.give_back(std::mem::take(&mut self.memory));
+            spare.give_back(std::mem::take(&mut self.memory), self.column);
         }
     }
 }
 
 impl Extend<f64> for Numbers {
     fn extend<T: IntoIterator<Item = f64>>(&mut self, more: T) {
-        self.memory.truncate(self.begin + self.count);
-        self.memory.extend(more);
-        self.count = self.memory.len() - self.begin;
+        self.memory.alike = None;
+        self.memory.numbers.truncate(self.begin + self.count);
+        self.memory.numbers.extend(more);
+        self.count = self.memory.numbers.len() - self.begin;
     }
 }
 
 impl From<Vec<f64>> for Numbers {
-    fn from(memory: Vec<f64>) -> Numbers {
-        Numbers { begin: 0, count: memory.len(), memory, spare: Weak::new() }
+    fn from(numbers: Vec<f64>) -> Numbers {
+        let (count, memory) = (numbers.len(), Memory { numbers, alike: None });
+        Numbers { begin: 0, count, memory, spare: Weak::new(), column: BESIDE }
     }
 }
 
@@ -116,14 +151,15 @@ impl Deref for Numbers {
 
     #[inline]
     fn deref(&self) -> &[f64] {
-        &self.memory[self.begin..self.begin + self.count]
+        &self.memory.numbers[self.begin..self.begin + self.count]
     }
 }
 
 impl DerefMut for Numbers {
     #[inline]
     fn deref_mut(&mut self) -> &mut [f64] {
-        &mut self.memory[self.begin..self.begin + self.count]
+        self.memory.alike = None;
+        &mut self.memory.numbers[self.begin..self.begin + self.count]
     }
 }
 
@@ -153,11 +189,17 @@ mod tests {
     #[test]
     fn memory_is_used_again_and_holds_what_was_written_last() {
         let spare = Arc::new(Spare::new(100));
-        let kept = || spare.kept.lock().map(|kept| (kept.memory.len(), kept.numbers >= 20)).expect("nobody has it");
+        let kept = || {
+            spare
+                .kept
+                .lock()
+                .map(|kept| (kept.memory.values().map(Vec::len).sum::<usize>(), kept.numbers >= 20))
+                .expect("nobody has it")
+        };
         for round in 0..3 {
-            let mut numbers = Numbers::with_capacity(20, &spare);
+            let mut numbers = Numbers::with_capacity(20, &spare, 0);
             assert!(numbers.is_empty());
-            let at = numbers.memory.as_ptr() as usize + 8 * numbers.begin;
+            let at = numbers.memory.numbers.as_ptr() as usize + 8 * numbers.begin;
             assert_eq!(at % 64, 0, "it begins with a line");
             numbers.make_room(10);
             numbers.iter_mut().zip(0..).for_each(|(number, k)| *number = f64::from(10 * round + k));
@@ -170,8 +212,38 @@ mod tests {
             drop(numbers);
             assert_eq!(kept(), (1, true));
         }
-        let many: Vec<Numbers> = (0..9).map(|_| Numbers::with_capacity(20, &spare)).collect();
+        let many: Vec<Numbers> = (0..9).map(|_| Numbers::with_capacity(20, &spare, 0)).collect();
         drop(many);
         assert_eq!(kept(), (3, true), "no more is kept than it is for");
+    }
+    #[test]
+    fn what_is_alike_stays_there_until_somebody_may_have_written() {
+        let spare = Arc::new(Spare::new(1_000));
+        for value in [0.0, 2.5] {
+            for round in 0..4 {
+                let mut numbers = Numbers::with_capacity(20, &spare, 3);
+                let is_known = numbers.memory.alike == Some(value);
+                assert_eq!(is_known, round == 1 || round == 3 || (round, value) == (0, 0.0), "{round}");
+                for before in [0, 8] {
+                    numbers.make_room(8);
+                    numbers.fill_from(before, value);
+                    assert_eq!(*numbers, *vec![value; before + 8], "{round}");
+                }
+                assert_eq!(numbers.memory.alike, Some(value), "{round}");
+                if round == 1 {
+                    numbers[9] = 7.0;
+                }
+            }
+        }
+        let mut written = Numbers::with_capacity(20, &spare, 3);
+        written.extend([1.0, 2.0, 3.0]);
+        written.make_room(4);
+        written.fill_from(3, 0.0);
+        assert_eq!(*written, [1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(written.memory.alike, None);
+        drop(written);
+        // another column has nothing of it
+        assert_eq!(Numbers::with_capacity(20, &spare, 4).memory.alike, Some(0.0));
+        assert_eq!(Numbers::with_capacity(20, &spare, 3).memory.alike, None);
     }
 }

@@ -122,7 +122,9 @@ impl Swept {
 
     /// Takes memory for so many rows in all.
     pub fn reserve(&mut self, rows: usize, spare: &Arc<Spare>) {
-        self.columns.iter_mut().for_each(|column| *column = Numbers::with_capacity(rows, spare));
+        for (number, column) in self.columns.iter_mut().enumerate() {
+            *column = Numbers::with_capacity(rows, spare, number);
+        }
     }
 
     /// Adds the next variant.

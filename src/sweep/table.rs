@@ -4,15 +4,17 @@ use super::each::LANES;
 use super::numbers::Numbers;
 use super::together::{Rows, Together};
 use crate::math::{Vectors, WIDE};
-use crate::program::LaneValues;
 use crate::solver::Abreast;
 
-/// Rows that are put into columns together: a line of the processor's memory for each column of each variant.
-const TILE: usize = WIDE;
+/// Rows that are put into columns together: two lines of the processor's memory, which it fetches as a pair, for each column of each variant.
+const TILE: usize = 2 * WIDE;
 
 /// Rows that are wanted, and what solves for them.
 pub(super) struct Table {
     pub abreast: Abreast<LANES>,
+    /// Columns that are wanted, by their places in a room: those with one number in all rows of a variant, and the others.
+    fixed: Vec<(usize, u32)>,
+    varying: Vec<(usize, u32)>,
     vectors: Vectors,
 }
 
@@ -29,14 +31,30 @@ pub struct Room<'c> {
 impl Table {
     /// For rows that are wanted.
     pub fn new(together: &Together, of: &Rows) -> Table {
-        // of what steps alone are judged by the last row is enough
-        let rows = |column| if of.wanted.contains(&column) { TILE as u32 } else { 1 };
-        Table { abreast: together.abreast(&of.solver, rows), vectors: together.vectors }
+        let is_fixed = of.solver.is_fixed();
+        let (fixed, varying): (Vec<_>, Vec<_>) =
+            of.wanted.iter().copied().enumerate().partition(|&(_, column)| is_fixed(column));
+        // of what steps alone are judged by the last row is enough, and one of what all rows have
+        let rows = |column| if varying.iter().any(|&(_, wanted)| wanted == column) { TILE as u32 } else { 1 };
+        Table { abreast: together.abreast(&of.solver, rows), fixed, varying, vectors: together.vectors }
     }
 
     /// Goes to the row of an output time, by its number.
     pub fn turn_to(&mut self, number: u64) {
         self.abreast.turn_to(number as usize % TILE);
+    }
+
+    /// Puts what all rows have into columns, of variants that are loaded.
+    pub fn put_fixed(&self, room: &mut Room<'_>) {
+        for &(place, column) in &self.fixed {
+            let (to, values) = (&mut room.columns[place], &self.abreast.column(column).0);
+            if values.iter().all(|value| value.to_bits() == values[0].to_bits()) {
+                to.fill_from(room.before, values[0]);
+            } else {
+                let stretches = to[room.before..].chunks_exact_mut(room.rows);
+                stretches.zip(values).for_each(|(to, value)| to.fill(*value));
+            }
+        }
     }
 
     /// Puts the last rows into columns, once there are enough of them: up to that of an output time, by its number.
@@ -46,21 +64,21 @@ impl Table {
             return;
         }
         let first = last + 1 - count;
-        for (to, &column) in room.columns.iter_mut().zip(&of.wanted) {
-            let to = &mut to[room.before..];
+        for &(place, column) in &self.varying {
+            let to = &mut room.columns[place][room.before..];
             if column == 0 {
                 for to in to.chunks_exact_mut(room.rows) {
                     (first..=last).for_each(|row| to[row] = of.times.at(row as u64));
                 }
                 continue;
             }
-            let from = &self.abreast.rows(column)[..count];
-            if let Ok(tile) = <&[LaneValues<LANES>; TILE]>::try_from(from) {
-                self.vectors.turn(tile.each_ref().map(|row| &row.0), to, (first, room.rows));
-            } else {
-                for (lane, to) in to.chunks_exact_mut(room.rows).enumerate() {
-                    to[first..].iter_mut().zip(from).for_each(|(to, row)| *to = row.0[lane]);
-                }
+            let (lines, rest) = self.abreast.rows(column)[..count].as_chunks::<WIDE>();
+            for (line, tile) in lines.iter().enumerate() {
+                self.vectors.turn(tile.each_ref().map(|row| &row.0), to, (first + line * WIDE, room.rows));
+            }
+            let behind = first + lines.len() * WIDE;
+            for (lane, to) in to.chunks_exact_mut(room.rows).enumerate() {
+                to[behind..].iter_mut().zip(rest).for_each(|(to, row)| *to = row.0[lane]);
             }
         }
     }

@@ -44,6 +44,7 @@ impl Team {
             table.turn_to(0);
             let longest = rows.times.span() / FEWEST_STEPS;
             walk.begin(of, (params, those), longest, &mut Solving::of_rows(rows, table));
+            table.put_fixed(&mut room);
             for number in 0..rows.times.len() {
                 if !walk.goes.contains(&true) || cancel.is_cancelled() {
                     return [false; LANES];

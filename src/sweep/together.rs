@@ -231,16 +231,11 @@ fn judged(started: &Started) -> Vec<usize> {
     (0..coordinates.len()).filter(is_judged).collect()
 }
 
-/// What of these is known at each step: what is cheapest, where nothing but near rows is wanted, none of which shows accelerations.
+/// What of these is known at each step: what is cheapest, where nothing but near rows is wanted.
 fn known(started: &mut Started, wanted: &WantedOfEach<'_>, judged: &[usize]) -> Known {
     let (times, columns) = (wanted.rows.0, wanted.rows.1.unwrap_or_default());
-    let shows_accelerations = |solver: &Solver| columns.iter().any(|&column| solver.layout().order_of(column) == 2);
     let apart = times.widest_gap();
-    if wanted.results
-        || columns.is_empty()
-        || started.solver().is_none_or(shows_accelerations)
-        || apart > DENSE_PART_OF_SPAN * times.span()
-    {
+    if wanted.results || columns.is_empty() || apart > DENSE_PART_OF_SPAN * times.span() {
         return Known::Accelerations;
     }
     // asked last: it takes a factoring
