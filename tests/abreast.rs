@@ -190,10 +190,38 @@ fn threads_vectors_and_columns_change_no_bit() {
     }
 }
 
-/// Rows that are near to each other are led on by velocities alone, where no accelerations are wanted: they are the same ones, also where variants
-/// are much faster than the file's own values have it, lock up, or come by where branches meet.
+/// Columns are written where those of other variants stood before, of which some have one number throughout: another one, or the same.
 #[test]
-fn near_rows_of_positions_alone_are_the_same() {
+fn memory_that_held_other_variants_holds_these() {
+    let subject = subject(&four_bar(TURNS, "1.575"), Choice::default());
+    let rods = (0..40).map(|k| format!("{}", 3.4 + 0.005 * f64::from(k))).collect::<Vec<_>>().join(",");
+    for asked in [["speed=1,2,2,1,3", &format!("rod={rods}")], ["speed=1,2,2,1,3", &format!("rod={rods},9")]] {
+        let variants = subject.variants(&vary(&asked));
+        let one = SweepOptions { jobs: Some(1), ..subject.all_columns() };
+        let blocks = subject.checked.sweep(&subject.compiled, &variants, &one, |block| block).expect("times");
+        // each is dropped before the next one is made
+        let mut count = 0;
+        for block in blocks {
+            assert!(block.len() <= 64, "several blocks have the same memory");
+            for (k, number) in (block.first..).take(block.len()).enumerate() {
+                let (status, _, rows) = subject.alone(variants.settings(number));
+                assert_eq!((block.statuses[k], block.lengths[k]), (status, rows.len()));
+                let first: usize = block.lengths[..k].iter().sum();
+                for (at, row) in rows.iter().enumerate() {
+                    let swept: Vec<f64> = block.columns.iter().map(|column| column[first + at]).collect();
+                    assert!(have_the_same_bits(&swept, row), "{number}, row {at}");
+                }
+                count += 1;
+            }
+        }
+        assert_eq!(count, variants.points().count());
+    }
+}
+
+/// Rows that are near to each other are led on by velocities alone: they are the same ones, also where variants are much faster than the file's own
+/// values have it, lock up, or come by where branches meet.
+#[test]
+fn near_rows_are_those_alone() {
     let driven = four_bar(TURNS, "0.015").replace("revolute(ground.B, rocker.B)", "revolute(rocker.B, ground.B)");
     let driven = driven.replace("rotation(main) = 0.5 + speed * t", "rotation(pivot) = -1.85 + speed * t / 10");
     let shapes = ["base=2..5", "arm=0.3..2", "rod=1.5..5", "lever=1.5..5", "speed=-20..20"];
@@ -207,6 +235,8 @@ fn near_rows_of_positions_alone_are_the_same() {
     ] {
         let subject = subject(&text, Choice::default());
         let (variants, all) = (subject.variants(&asked), subject.all_columns());
+        let (found, abreast) = compare_all(&subject, &variants);
+        assert!(abreast >= least, "{abreast} of {found:?}");
         let whole = subject.swept(&variants, &all);
         // positions of the last body, and its velocities
         for columns in [vec![7, 8, 9], vec![18, 19]] {

@@ -680,6 +680,18 @@ fn where_derivatives_are_not_enough_is_seen_by_corners() {
     near(verified.found[1].expect("corners")[1], 2.0 * 0.3_f64.sin());
 }
 
+/// What is a difference of large numbers is off by their rounding, which no derivative tells.
+#[test]
+fn what_rounding_alone_moves_is_linear() {
+    let text = arm("measure off = hypot(x(arm.tip), y(arm.tip)) - reach analysis from 0 to 1 every 0.07");
+    let (tolerances, affected, verified) = subject(&text, &[]).verified(&["reach=0.3m", "begin=0.2 rad"]);
+    let deviation = affected[0].deviation(&tolerances, false).expect("known");
+    let [low, high] = verified.found[0].expect("corners");
+    let [worst_low, worst_high] = deviation.worst;
+    assert!(f64::max(high - worst_high, worst_low - low) > 0.05 * worst_high.max(-worst_low), "{low} to {high}");
+    assert!(verified.is_linear(0, &affected[0], &deviation));
+}
+
 #[test]
 fn corners_that_do_not_run_are_told() {
     let subject = subject(FOUR_BAR, &[]);

@@ -419,6 +419,12 @@ mod tests {
             (&["length=1mm..2:3"], &[], "the parameter `length` must be a length, found a pure number"),
             (&["lenght=1mm..2mm:3"], &[], "mechanism `lever` has no parameter `lenght`"),
             (&["length=1mm..speed:3"], &[], "a value from outside the file cannot name `speed`"),
+            (&["A=1mm..2mm:3"], &[], "`A` is a point, and `--vary` takes numbers: `1mm` cannot be said of it"),
+            (
+                &["A=(1mm, 0)..(2mm, 0):3"],
+                &[],
+                "`A` is a point, and `--vary` takes numbers: `(1mm, 0)` cannot be said of it",
+            ),
             (&["count=1..4:4"], &[], "`count` decides what is repeated, and cannot vary on a page"),
             (&["length=1mm..2mm:3", "length = 1mm..3mm:3"], &[], "`length` is to vary twice"),
             (&["length=1mm..2mm:3"], &["length=3mm"], "`length` is set, and is to vary"),
