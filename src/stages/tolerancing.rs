@@ -4,8 +4,7 @@
 
 use super::checked::TOL;
 use super::tolerance::{Affected, Tolerance, Verified};
-use super::varied::{Reader, is_of_angles, number_and_unit, si_unit, spaceless, unusable};
-use super::vary::Found;
+use super::varied::{Found, Reader, is_of_angles, number_and_unit, si_unit, spaceless, unusable};
 use super::{AskedTimes, Checked, Choice, Compiled, RunOptions, SweepOptions, Variants};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::layout::ColumnUnit;

@@ -1,7 +1,6 @@
 //! Params that take values one after the other: what `--vary NAME=A..B:N` says, read.
 
 use super::checked::{TOL, VARY};
-use super::vary::Found;
 use super::{Checked, Choice, Formula, Parsed};
 use crate::check::Amount;
 use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
@@ -25,6 +24,9 @@ const SAME: f64 = 1e-9;
 const ANGLES: [&str; 3] = ["deg", "rad", "rev"];
 
 const EXAMPLE: &str = "as in `--vary rod_length=120mm..180mm:13`";
+
+/// What is found of something asked for; what is wrong otherwise, with the texts that the diagnostics speak of.
+pub(super) type Found<T> = Result<T, (Sources, Diagnostics)>;
 
 /// A param with the values that it takes.
 #[derive(Clone, PartialEq, Debug)]
@@ -55,12 +57,7 @@ impl Checked {
     ///
     /// # Errors
     /// Something cannot vary so; with the texts that the diagnostics speak of.
-    pub fn varied(
-        &self,
-        asked: &[String],
-        choice: &Choice,
-        world: &dyn World,
-    ) -> Result<Vec<Varied>, (Sources, Diagnostics)> {
+    pub fn varied(&self, asked: &[String], choice: &Choice, world: &dyn World) -> Found<Vec<Varied>> {
         let own = |why: Box<Diagnostic>| (self.sources().clone(), Diagnostics::from(*why));
         let asked = read(asked).map_err(own)?;
         refuse_twice(asked.iter().map(|asked| &asked.name), choice).map_err(own)?;
@@ -156,7 +153,7 @@ pub(super) struct Reader<'r> {
 }
 
 impl Reader<'_> {
-    fn varied(&self, asked: &Asked) -> Result<Varied, (Sources, Diagnostics)> {
+    fn varied(&self, asked: &Asked) -> Found<Varied> {
         let Asked { name, ends: [first, last], count } = asked;
         let [(low, a, _), (high, b, _)] = [self.number(name, first)?, self.number(name, last)?];
         let (checked, si) = ([low, high], [a, b]);
@@ -183,7 +180,7 @@ impl Reader<'_> {
 
     /// The mechanism with a value of what varies. What is wrong with the formula itself is an error; what is wrong with the mechanism
     /// because of the value is that of a variant.
-    pub fn with(&self, name: &str, formula: &str) -> Result<Checked, (Sources, Diagnostics)> {
+    pub fn with(&self, name: &str, formula: &str) -> Found<Checked> {
         let set = vec![format!("{name}={formula}")];
         let choice = match self.option {
             TOL => Choice { off: set, ..self.choice.clone() },
@@ -228,7 +225,7 @@ impl Reader<'_> {
     }
 
     /// The value of a formula in SI, and its dimension, if it has one.
-    pub fn value(&self, formula: &str) -> Result<(f64, Option<Dimension>), (Sources, Diagnostics)> {
+    pub fn value(&self, formula: &str) -> Found<(f64, Option<Dimension>)> {
         let mut sources = self.own.sources().clone();
         let value = Formula::of(formula, &mut sources).and_then(|formula| {
             let [value, ..] = formula.values(0.0).map_err(|why| *why)?;

@@ -1,7 +1,7 @@
 //! Which variants a sweep computes: what `--vary` and `--sample` say, read.
 
 use super::checked::VARY;
-use super::varied::{Reader, is_of_angles, refuse_twice, si_unit, spaceless, unusable, written};
+use super::varied::{Found, Reader, is_of_angles, refuse_twice, si_unit, spaceless, unusable, written};
 use super::{Checked, Choice};
 use crate::check::{self, Column, Setting};
 use crate::diag::{Diagnostic, Diagnostics};
@@ -277,8 +277,6 @@ struct Listing<'r> {
     params: Vec<Param>,
     named: Vec<PathBuf>,
 }
-
-pub(super) type Found<T> = Result<T, (Sources, Diagnostics)>;
 
 impl Listing<'_> {
     fn read(&mut self, asked: &Asked) -> Found<Read> {
