@@ -212,8 +212,10 @@ fn tables_of_variants_are_read() {
 /// The value that is tried stands in no text; the header does.
 #[test]
 fn what_is_wrong_with_a_column_of_variants_is_said_at_its_header() {
-    let subject = subject(FOUR_BAR, Choice::default());
+    let text = FOUR_BAR.replacen("param ", "param pen = (1 mm, 2 mm) param ", 1);
+    let subject = subject(&text, Choice::default());
     for (header, help) in [
+        ("pen [mm]", "`pen` is a point: `--set pen=(12mm,0)`, or one of its coordinates: `--set pen.x=12mm`"),
         ("crank_length [s]", "units of length: `mm`, `m`"),
         ("cranklength [mm]", "was `crank_length` meant?"),
         ("crank_length (mm)", "a unit stands in brackets behind the name: `rod [mm]`"),

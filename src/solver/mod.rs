@@ -287,28 +287,26 @@ impl Solver {
 
     /// The columns in which they leave what only numbers and parameters lead to.
     fn fixed_columns(&self) -> impl Iterator<Item = u32> {
-        self.instructions[..self.fixed].iter().filter_map(|instruction| match *instruction {
-            Instruction::Store { column, .. } => Some(column),
-            _ => None,
-        })
+        stored(&self.instructions[..self.fixed])
     }
 
     /// Which columns have one number at all times.
     pub fn is_fixed(&self) -> impl Fn(u32) -> bool + use<> {
-        let mut is_fixed = vec![false; self.layout.stride];
-        self.fixed_columns().for_each(|column| is_fixed[column as usize] = true);
+        let is_fixed = self.by_column(self.fixed_columns());
         move |column| is_fixed[column as usize]
     }
 
     /// Which columns they leave something in.
     pub fn keeps(&self) -> impl Fn(u32) -> bool + use<> {
-        let mut is_kept = vec![false; self.layout.stride];
-        for instruction in &self.instructions {
-            if let Instruction::Store { column, .. } = *instruction {
-                is_kept[column as usize] = true;
-            }
-        }
+        let is_kept = self.by_column(stored(&self.instructions));
         move |column| is_kept[column as usize]
+    }
+
+    /// By column: whether it is among some.
+    fn by_column(&self, columns: impl Iterator<Item = u32>) -> Vec<bool> {
+        let mut is_among = vec![false; self.layout.stride];
+        columns.for_each(|column| is_among[column as usize] = true);
+        is_among
     }
 
     /// How many registers they need.
@@ -316,4 +314,12 @@ impl Solver {
     pub fn registers(&self) -> usize {
         self.registers
     }
+}
+
+/// The columns in which instructions leave something.
+fn stored(instructions: &[Instruction]) -> impl Iterator<Item = u32> {
+    instructions.iter().filter_map(|instruction| match *instruction {
+        Instruction::Store { column, .. } => Some(column),
+        _ => None,
+    })
 }

@@ -59,8 +59,6 @@ pub struct Affected {
     pub unit: ColumnUnit,
     /// The SI unit of its value.
     pub si: String,
-    /// The largest value of that unit among all measures, results and params that may be off (SI).
-    pub largest: f64,
     /// By tolerance: its derivative (SI); nothing where none is known.
     pub slopes: Vec<Option<f64>>,
     /// At so many of so many times it has a value and no derivatives.
@@ -146,6 +144,8 @@ pub struct Verified {
     pub variants: u64,
     /// So many of them are all corners; if not, they are a sample with some of these.
     pub are_all_corners: bool,
+    /// By measure or result: the largest nominal value of its SI unit among all, and among what may be off (SI).
+    pub largest: Vec<f64>,
     /// By measure or result: how far it was off, from the least to the largest (SI); nothing where no variant has a value.
     pub found: Vec<Option<[f64; 2]>>,
     /// By measure or result: so many that came to their end have no value of it, if there are any; and what sets the first of them.
@@ -168,7 +168,7 @@ impl Verified {
         if self.missing(k) > 0 {
             return false;
         }
-        let limit = LINEAR * f64::max(low.abs(), high.abs()) + DIGITS * of.nominal.abs() + ROUNDING * of.largest;
+        let limit = LINEAR * f64::max(low.abs(), high.abs()) + DIGITS * of.nominal.abs() + ROUNDING * self.largest[k];
         self.found[k].is_some_and(|found| (found[0] - low).abs() <= limit && (found[1] - high).abs() <= limit)
     }
 }

@@ -177,15 +177,18 @@ impl Tolerancing<'_> {
         if !swept.statuses[0].is_complete() {
             return Err((self.checked.sources().clone(), why_not(compiled, &options)));
         }
-        let mut all = asked.affected(&swept, &self.tolerances);
-        let of_params = self.tolerances.iter().map(|of| (of.si.clone(), of.nominal));
-        let sizes: Vec<(String, f64)> = of_params.chain(all.iter().map(|of| (of.si.clone(), of.nominal))).collect();
-        for of in &mut all {
+        Ok(asked.affected(&swept, &self.tolerances))
+    }
+
+    /// By measure or result: the largest nominal value of its SI unit among all of them, and among what may be off.
+    fn largest(&self, affected: &[Affected]) -> Vec<f64> {
+        let of_params = self.tolerances.iter().map(|of| (&of.si, of.nominal));
+        let all: Vec<(&String, f64)> = of_params.chain(affected.iter().map(|of| (&of.si, of.nominal))).collect();
+        let of = |si: &String| {
             // the larger of two numbers passes over what is none
-            let alike = sizes.iter().filter(|(si, _)| *si == of.si);
-            of.largest = alike.fold(0.0, |largest, (_, value)| value.abs().max(largest));
-        }
-        Ok(all)
+            all.iter().filter(|(unit, _)| *unit == si).fold(0.0, |largest: f64, (_, value)| largest.max(value.abs()))
+        };
+        affected.iter().map(|affected| of(&affected.si)).collect()
     }
 
     /// All params that may be off, by their numbers.
@@ -279,7 +282,7 @@ impl Tolerancing<'_> {
                 }
             }
         }
-        Ok(sought.verified(are_all_corners))
+        Ok(sought.verified(are_all_corners, self.largest(affected)))
     }
 }
 
@@ -352,7 +355,6 @@ impl AskedOf {
             nominal: swept.results[k][0],
             unit,
             si,
-            largest: 0.0,
             slopes: (0..count).map(|j| number(own + k * count + j)).collect(),
             unknown: [0, 1],
         }));
@@ -383,7 +385,6 @@ fn where_it_is_worst(measure: AskedMeasure, rows: &Rows<'_>, tolerances: &[Toler
         name: measure.name,
         unit: measure.unit,
         si: measure.si,
-        largest: 0.0,
     }
 }
 
@@ -478,11 +479,12 @@ impl Sought<'_> {
         }
     }
 
-    fn verified(self, are_all_corners: bool) -> Verified {
+    fn verified(self, are_all_corners: bool, largest: Vec<f64>) -> Verified {
         let count = self.lost.len() as u64;
         Verified {
             variants: self.variants,
             are_all_corners,
+            largest,
             found: self.found,
             missing: self.missing,
             lost: self.first_lost.map(|(set, status)| (count, set, status)),

@@ -195,21 +195,17 @@ impl Reader<'_> {
         };
         let mut wrong = Diagnostics::default();
         checked.diagnostics().iter().filter(is_of_option).for_each(|said| wrong.push(said.clone()));
-        match wrong.is_empty() {
-            true => Ok(checked),
-            false if self.is_point(name) => Err((self.own.sources().clone(), self.of_a_point(name, formula).into())),
-            false => Err((sources.clone(), wrong)),
-        }
+        if wrong.is_empty() { Ok(checked) } else { Err((sources.clone(), wrong)) }
     }
 
     /// The same for a number, with its value in SI, and its dimension, if it has one.
     pub fn number(&self, name: &str, formula: &str) -> Found<(Checked, f64, Option<Dimension>)> {
-        let checked = self.with(name, formula)?;
-        match self.value(formula) {
-            Ok((value, dimension)) => Ok((checked, value, dimension)),
-            Err(_) if self.is_point(name) => Err((self.own.sources().clone(), self.of_a_point(name, formula).into())),
-            Err(why) => Err(why),
-        }
+        let found = self.with(name, formula).and_then(|checked| {
+            let (value, dimension) = self.value(formula)?;
+            Ok((checked, value, dimension))
+        });
+        let of_a_point = || (self.own.sources().clone(), self.of_a_point(name, formula).into());
+        found.map_err(|why| if self.is_point(name) { of_a_point() } else { why })
     }
 
     fn is_point(&self, name: &str) -> bool {

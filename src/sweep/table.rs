@@ -76,9 +76,12 @@ impl Table {
             for (line, tile) in lines.iter().enumerate() {
                 self.vectors.turn(tile.each_ref().map(|row| &row.0), to, (first + line * WIDE, room.rows));
             }
-            let behind = first + lines.len() * WIDE;
-            for (lane, to) in to.chunks_exact_mut(room.rows).enumerate() {
-                to[behind..].iter_mut().zip(rest).for_each(|(to, row)| *to = row.0[lane]);
+            // only behind the last whole line
+            if !rest.is_empty() {
+                let behind = first + lines.len() * WIDE;
+                for (lane, to) in to.chunks_exact_mut(room.rows).enumerate() {
+                    to[behind..].iter_mut().zip(rest).for_each(|(to, row)| *to = row.0[lane]);
+                }
             }
         }
     }
