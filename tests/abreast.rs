@@ -218,6 +218,22 @@ fn memory_that_held_other_variants_holds_these() {
     }
 }
 
+/// What is the same for all variants is learned from those that come first, of which none gets to its end, or not all; where a crank's length or
+/// its speed varies, its place or its turn is not the same.
+#[test]
+fn what_is_the_same_for_all_is_theirs_alone() {
+    let subject = subject(&four_bar(TURNS, "0.045"), Choice::default());
+    let locking = (0..36).map(|k| 1.5 + 0.0125 * f64::from(k));
+    let turning = (0..40).map(|k| 3.4 + 0.005 * f64::from(k));
+    let rods = locking.chain(turning).map(|rod| format!("{rod}")).collect::<Vec<_>>().join(",");
+    for more in ["pen_x=1", "pen_x=1,2", "arm=1,0.95", "speed=2,1.9"] {
+        for asked in [[more, &format!("rod={rods}")], [&format!("rod={rods}"), more]] {
+            let (found, abreast) = compare(&subject, &vary(&asked));
+            assert!(abreast >= 40 && count(&found, Status::Ok) < 150 && found.len() == 2, "{abreast} of {found:?}");
+        }
+    }
+}
+
 /// Rows that are near to each other are led on by velocities alone: they are the same ones, also where variants are much faster than the file's own
 /// values have it, lock up, or come by where branches meet.
 #[test]

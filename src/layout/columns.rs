@@ -54,10 +54,8 @@ impl ColumnUnit {
 
     /// Values in SI, in this unit from then on.
     pub fn print_all(&self, values: &mut [f64]) {
-        if !self.is_si {
-            for value in values {
-                *value = self.printed(*value);
-            }
+        for value in values {
+            *value = self.printed(*value);
         }
     }
 

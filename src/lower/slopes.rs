@@ -62,6 +62,7 @@ impl Slopes<'_, '_> {
             value,
             units,
             unknown_is_false: true,
+            is_condition: false,
         }
     }
 

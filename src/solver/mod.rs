@@ -16,6 +16,7 @@
 //! The operations work on several times at once, as [`Lanes`]; each lane has the bits that it would have alone.
 
 mod age;
+mod alike;
 mod build;
 mod curve;
 mod elimination;

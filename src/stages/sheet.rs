@@ -40,7 +40,10 @@ impl Swept {
             SweptColumn::Numbers(numbers)
         }));
         columns.extend(rows.into_iter().zip(units).map(|(mut values, unit)| {
-            unit.print_all(&mut values);
+            // numbers that nobody has changed may stand where they are for the next variants
+            if !unit.is_si() {
+                unit.print_all(&mut values);
+            }
             SweptColumn::Numbers(values)
         }));
         columns

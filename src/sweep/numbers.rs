@@ -7,7 +7,7 @@ use std::ops::{Deref, DerefMut};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 /// Memory of numbers that nobody asks for any more: to be written over it need not be cleared, and is at hand. That of a column is used for that
-/// column again: where that has one value everywhere, all is there already.
+/// column again: where that has the same numbers for each variant, all is there already.
 #[derive(Debug)]
 pub struct Spare {
     kept: Mutex<Kept>,
@@ -22,17 +22,12 @@ struct Kept {
     numbers: usize,
 }
 
-/// All that has been written somewhere, and what all of it is known to be.
-#[derive(Debug)]
+/// All that has been written somewhere.
+#[derive(Default, Debug)]
 struct Memory {
     numbers: Vec<f64>,
-    alike: Option<f64>,
-}
-
-impl Default for Memory {
-    fn default() -> Memory {
-        Memory { numbers: Vec::new(), alike: Some(0.0) }
-    }
+    /// Of so many numbers, from where a column begins, all that follow are known to be repetitions; nothing where nothing is known.
+    period: Option<usize>,
 }
 
 impl Spare {
@@ -84,7 +79,7 @@ impl Numbers {
         let mut memory = spare.take(capacity + WIDE, column);
         let begin = to_next_line(memory.numbers.as_ptr());
         if memory.numbers.len() < begin {
-            memory.numbers.resize(begin, memory.alike.unwrap_or_default());
+            memory.numbers.resize(begin, 0.0);
         }
         Numbers { memory, begin, count: 0, spare: Arc::downgrade(spare), column }
     }
@@ -99,27 +94,36 @@ impl Numbers {
     /// Makes room for so many more, which are to be written: what stands there is of no use.
     pub fn make_room(&mut self, more: usize) {
         self.count += more;
-        let (end, Memory { numbers, alike }) = (self.begin + self.count, &mut self.memory);
+        let (end, Memory { numbers, period }) = (self.begin + self.count, &mut self.memory);
         if numbers.len() < end {
-            numbers.resize(end, alike.unwrap_or_default());
+            *period = None;
+            numbers.resize(end, 0.0);
         }
     }
 
-    /// Makes all numbers from one on a value.
-    pub fn fill_from(&mut self, first: usize, value: f64) {
-        let Memory { numbers, alike } = &mut self.memory;
-        if alike.is_some_and(|alike| alike.to_bits() == value.to_bits()) {
+    /// Makes all from a number on repetitions of some numbers; those before are such too, or there are none.
+    pub fn repeat_from(&mut self, first: usize, those: &[f64]) {
+        let Memory { numbers, period } = &mut self.memory;
+        let is_there = |known: &[f64]| *period == Some(known.len()) && is_same(known, those);
+        if numbers[self.begin..].get(..those.len()).is_some_and(is_there) {
             return;
         }
+        // all that has ever been written, if all of it is the column's own
         let end = if first == 0 { numbers.len() } else { self.begin + self.count };
-        numbers[self.begin + first..end].fill(value);
-        *alike = (first == 0).then_some(value);
+        for to in numbers[self.begin + first..end].chunks_mut(those.len()) {
+            to.copy_from_slice(&those[..to.len()]);
+        }
+        *period = (first == 0).then_some(those.len());
     }
 
     /// Keeps the first ones, so many.
     pub fn truncate(&mut self, count: usize) {
         self.count = self.count.min(count);
     }
+}
+
+fn is_same(some: &[f64], others: &[f64]) -> bool {
+    some.iter().map(|number| number.to_bits()).eq(others.iter().map(|number| number.to_bits()))
 }
 
 impl Drop for Numbers {
@@ -132,7 +136,7 @@ impl Drop for Numbers {
 
 impl Extend<f64> for Numbers {
     fn extend<T: IntoIterator<Item = f64>>(&mut self, more: T) {
-        self.memory.alike = None;
+        self.memory.period = None;
         self.memory.numbers.truncate(self.begin + self.count);
         self.memory.numbers.extend(more);
         self.count = self.memory.numbers.len() - self.begin;
@@ -141,7 +145,7 @@ impl Extend<f64> for Numbers {
 
 impl From<Vec<f64>> for Numbers {
     fn from(numbers: Vec<f64>) -> Numbers {
-        let (count, memory) = (numbers.len(), Memory { numbers, alike: None });
+        let (count, memory) = (numbers.len(), Memory { numbers, period: None });
         Numbers { begin: 0, count, memory, spare: Weak::new(), column: BESIDE }
     }
 }
@@ -158,7 +162,7 @@ impl Deref for Numbers {
 impl DerefMut for Numbers {
     #[inline]
     fn deref_mut(&mut self) -> &mut [f64] {
-        self.memory.alike = None;
+        self.memory.period = None;
         &mut self.memory.numbers[self.begin..self.begin + self.count]
     }
 }
@@ -216,34 +220,39 @@ mod tests {
         drop(many);
         assert_eq!(kept(), (3, true), "no more is kept than it is for");
     }
+
     #[test]
-    fn what_is_alike_stays_there_until_somebody_may_have_written() {
+    fn what_is_repeated_stays_there_until_somebody_may_have_written() {
         let spare = Arc::new(Spare::new(1_000));
-        for value in [0.0, 2.5] {
+        let period = |numbers: &Numbers| numbers.memory.period;
+        for (number, those) in [&[0.0][..], &[2.5], &[1.0, -0.0, 3.0], &[1.0, 0.0, 3.0], &[7.0; 3]].iter().enumerate() {
+            let wanted: Vec<f64> = those.iter().copied().cycle().take(9).collect();
             for round in 0..4 {
                 let mut numbers = Numbers::with_capacity(20, &spare, 3);
-                let is_known = numbers.memory.alike == Some(value);
-                assert_eq!(is_known, round == 1 || round == 3 || (round, value) == (0, 0.0), "{round}");
-                for before in [0, 8] {
-                    numbers.make_room(8);
-                    numbers.fill_from(before, value);
-                    assert_eq!(*numbers, *vec![value; before + 8], "{round}");
+                if round == 3 {
+                    assert_eq!(period(&numbers), Some(those.len()));
                 }
-                assert_eq!(numbers.memory.alike, Some(value), "{round}");
+                for before in [0, 3, 6] {
+                    numbers.make_room(3);
+                    numbers.repeat_from(before, those);
+                    assert!(super::is_same(&numbers, &wanted[..before + 3]), "{those:?} {round}");
+                }
+                // memory that had to grow is known the next time
+                assert_eq!(period(&numbers).is_some(), (number, round) != (0, 0));
                 if round == 1 {
-                    numbers[9] = 7.0;
+                    numbers[7] = 8.0;
+                    assert_eq!(period(&numbers), None);
                 }
             }
         }
         let mut written = Numbers::with_capacity(20, &spare, 3);
         written.extend([1.0, 2.0, 3.0]);
         written.make_room(4);
-        written.fill_from(3, 0.0);
-        assert_eq!(*written, [1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0]);
-        assert_eq!(written.memory.alike, None);
+        written.repeat_from(3, &[0.0, 4.0]);
+        assert_eq!(*written, [1.0, 2.0, 3.0, 0.0, 4.0, 0.0, 4.0]);
+        assert_eq!(period(&written), None);
         drop(written);
         // another column has nothing of it
-        assert_eq!(Numbers::with_capacity(20, &spare, 4).memory.alike, Some(0.0));
-        assert_eq!(Numbers::with_capacity(20, &spare, 3).memory.alike, None);
+        assert!(Numbers::with_capacity(20, &spare, 4).memory.numbers.len() < 20);
     }
 }

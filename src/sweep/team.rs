@@ -44,13 +44,14 @@ impl Team {
             table.turn_to(0);
             let longest = rows.times.span() / FEWEST_STEPS;
             walk.begin(of, (params, those), longest, &mut Solving::of_rows(rows, table));
-            table.put_fixed(&mut room);
+            table.put_known(&mut room);
             for number in 0..rows.times.len() {
+                table.turn_to(number);
+                walk.go_to(of, rows.times.at(number), (&mut Solving::of_rows(rows, table), false), |_, _| {});
+                // where nobody gets to there is no row
                 if !walk.goes.contains(&true) || cancel.is_cancelled() {
                     return [false; LANES];
                 }
-                table.turn_to(number);
-                walk.go_to(of, rows.times.at(number), (&mut Solving::of_rows(rows, table), false), |_, _| {});
                 table.put(rows, number, &mut room);
             }
             done = walk.goes;

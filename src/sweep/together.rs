@@ -58,14 +58,22 @@ pub(super) struct Rows {
     pub times: Times,
     /// The columns.
     pub wanted: Vec<u32>,
+    /// By column but the times: whether it is the same for all variants.
+    pub is_alike: Vec<bool>,
 }
 
 impl Rows {
     /// Of some times, with some columns beside those that steps are judged by.
-    fn of(started: &mut Started, times: &Times, columns: &[usize], is_tracked: &dyn Fn(u32) -> bool) -> Option<Rows> {
+    fn of(
+        started: &mut Started,
+        (times, columns): (&Times, &[usize]),
+        is_tracked: &dyn Fn(u32) -> bool,
+        differs: &[bool],
+    ) -> Option<Rows> {
         let wanted: Vec<u32> = columns.iter().map(|&column| column as u32).collect();
         let solver = started.solver_of_variants(&|column| is_tracked(column) || wanted.contains(&column))?;
-        Some(Rows { solver, times: times.clone(), wanted })
+        let is_alike = solver.alike(|register| differs[register as usize]);
+        Some(Rows { solver, times: times.clone(), wanted, is_alike })
     }
 }
 
@@ -101,9 +109,11 @@ impl Together {
         let asked =
             if wanted.results { Asked::of(determined, &mut started, times, (&is_tracked, vectors)) } else { None };
         // who has all results has got through the motion
-        let rows = match (columns, &asked) {
-            (None, Some(_)) => None,
-            _ => Some(Rows::of(&mut started, times, columns.unwrap_or_default(), &is_tracked)?),
+        let rows = if columns.is_none() && asked.is_some() {
+            None
+        } else {
+            let (wanted, differs) = ((times, columns.unwrap_or_default()), differing(program, params));
+            Some(Rows::of(&mut started, wanted, &is_tracked, &differs)?)
         };
         let steps = started.solver_of_variants(&is_tracked)?;
         let tears = steps.tears().iter().map(|&tear| judged.iter().position(|&k| k == tear as usize));
@@ -253,6 +263,19 @@ fn tracked(started: &Started, judged: &[usize]) -> Option<Vec<Tracked>> {
         per_scale: 1.0 / started.system().coordinates()[k].scale,
     };
     Some(judged.iter().map(tracked).collect())
+}
+
+/// By register: whether it depends on some parameters, by their numbers, before any time is known.
+fn differing(program: &Program, params: &[u32]) -> Vec<bool> {
+    let mut differs = vec![false; program.registers()];
+    for param in params {
+        differs[(program.inputs.params + param) as usize] = true;
+    }
+    for &op in program.stage(Stage::Prologue) {
+        let is_one = program.reads(op).any(|register| differs[register as usize]);
+        op.writes().iter().for_each(|&to| differs[to as usize] |= is_one);
+    }
+    differs
 }
 
 /// The operations of parameters alone that lead to some registers.
