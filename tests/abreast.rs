@@ -234,6 +234,15 @@ fn what_is_the_same_for_all_is_theirs_alone() {
     }
 }
 
+/// Of so many numbers none is kept but the times.
+#[test]
+fn long_motions_are_those_alone() {
+    let subject = subject(&four_bar(TURNS, "0.00008"), Choice::default());
+    assert!(subject.all_columns().columns.expect("all").len() * 39_375 > 1 << 20);
+    let (found, abreast) = compare(&subject, &vary(&["rod=3.4,3.5,3.6"]));
+    assert_eq!((count(&found, Status::Ok), abreast), (3, 3));
+}
+
 /// Rows that are near to each other are led on by velocities alone: they are the same ones, also where variants are much faster than the file's own
 /// values have it, lock up, or come by where branches meet.
 #[test]

@@ -67,6 +67,7 @@ pub use lead::Lead;
 pub use lengths::usual_unit_of_length;
 pub use library::{KnownFile, KnownMechanism, Library, NotKnown};
 pub use mentions::name_of;
+pub use results::UNTIL;
 pub use samples::{Column, variants};
 pub use set_inputs::SetInputs;
 pub use surroundings::{Setting, Surroundings};
@@ -136,13 +137,9 @@ pub fn check(
     if instance.is_written_out() {
         diagnostics.tell_once();
     }
-    if surroundings.is_variant {
-        diagnostics.retain(|said| !results::is_of_until(said, sources));
-    }
     diagnostics.sort_by_place();
     let diagnostics = meant::told_once(diagnostics);
-    // what copies could not be written of has been said
-    let sound = !diagnostics.has_errors() && !has_broken(tree);
+    let sound = !diagnostics.has_errors() && !has_broken(instance.tree());
     (sound.then_some(model), diagnostics)
 }
 

@@ -4,10 +4,8 @@ use super::elements::measure_context;
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
 use super::{Checker, errors};
-use crate::diag::Diagnostic;
 use crate::expr::{ExprId, Symbol};
-use crate::model::{Dimension, Named, Outcome, Reduction, ReductionKind, UNTIL, Units};
-use crate::source::{Source, Sources};
+use crate::model::{Dimension, Named, Outcome, Reduction, ReductionKind, Units};
 use crate::syntax::ast::{Expr, ItemKind, Name, WrittenUnit};
 use crate::vocabulary::ReductionWord;
 
@@ -29,15 +27,8 @@ pub(super) struct ResultState<'a> {
 /// A call that is none of a reduction.
 pub(super) struct NoReduction;
 
-/// Whether a text is the condition of that option.
-fn is_until(source: &Source) -> bool {
-    source.is_option && source.name == UNTIL
-}
-
-/// Whether it is said of the condition of that option.
-pub(super) fn is_of_until(said: &Diagnostic, sources: &Sources) -> bool {
-    said.labels.first().is_some_and(|label| is_until(sources.get(label.span.file)))
-}
+/// The option whose condition is a result beside those of the text, and its name.
+pub const UNTIL: &str = "--until";
 
 impl<'a> ResultState<'a> {
     pub fn of(formula: &'a Expr, unit: Option<&'a WrittenUnit>) -> ResultState<'a> {
@@ -62,8 +53,9 @@ impl Checker<'_> {
         for k in std::mem::take(&mut self.result_order) {
             let formula = self.results[k].formula;
             let context = result_context(self.results[k].dimensional);
+            let source = self.sources.get(formula.span.file);
             // what a variant is looked for by decides nothing of it: where it is not finite, it does not hold
-            self.branch.is_untaken = is_until(self.sources.get(formula.span.file));
+            self.branch.is_untaken = source.is_option && source.name == UNTIL;
             let value = self.formula(formula, &context);
             self.branch.is_untaken = false;
             self.results[k].value = value;

@@ -5,7 +5,6 @@ use crate::syntax::ast::Expr;
 
 /// What a mechanism is checked with, beside its own text.
 #[derive(Clone, Debug, Default)]
-#[allow(clippy::struct_excessive_bools)] // each is a thing of its own
 pub struct Surroundings {
     /// Parameters set from outside.
     pub settings: Vec<Setting>,
@@ -37,8 +36,6 @@ pub struct Surroundings {
     pub set_inputs: Option<SetInputs>,
     /// The paths of parts whose derivatives are by their own equations alone, though they move together with what is around them.
     pub coupled: Vec<String>,
-    /// Whether it is one of many variants: then [`UNTIL`](crate::model::UNTIL) may ask for what this one does not have, and there is no such result.
-    pub is_variant: bool,
 }
 
 /// A parameter's value from outside the file: `--set crank_length=60mm`.

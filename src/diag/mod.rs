@@ -232,11 +232,6 @@ impl Diagnostics {
         self.list.iter()
     }
 
-    /// Leaves those that are wanted.
-    pub fn retain(&mut self, is_wanted: impl Fn(&Diagnostic) -> bool) {
-        self.list.retain(is_wanted);
-    }
-
     /// Leaves of each code at each place the first: what is wrong in every copy of a declaration.
     pub fn tell_once(&mut self) {
         let mut told: FxHashSet<(Code, Span)> = FxHashSet::default();

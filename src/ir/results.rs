@@ -30,8 +30,6 @@ pub struct Outcome {
     pub units: Units,
     /// Whether a condition over what is not known does not hold: elsewhere such a result is not known.
     pub unknown_is_false: bool,
-    /// Whether variants are looked for by it: it decides nothing of them.
-    pub is_condition: bool,
 }
 
 /// What becomes of a formula over the whole analysis.

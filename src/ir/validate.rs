@@ -340,8 +340,7 @@ mod tests {
         let said = broken(|s| {
             let value = named(s);
             let units = s.measures[0].units.clone();
-            let (name, unknown_is_false, is_condition) = (String::new(), false, false);
-            let outcome = Outcome { name, span: s.span, value, units, unknown_is_false, is_condition };
+            let outcome = Outcome { name: String::new(), span: s.span, value, units, unknown_is_false: false };
             s.results.outcomes.push(outcome);
         });
         assert_eq!(said, "Named(7) in results is of nothing");

@@ -4,7 +4,7 @@ use super::slopes::{Reduced, Slopes};
 use super::{Lowering, units};
 use crate::expr::{ExprId, Symbol, Unary};
 use crate::ir::{self, Outcome, Results};
-use crate::model::{ReductionKind, UNTIL};
+use crate::model::ReductionKind;
 use rustc_hash::FxHashMap;
 
 impl Lowering<'_> {
@@ -22,7 +22,6 @@ impl Lowering<'_> {
             value: self.formula(outcome.value),
             units: units(&outcome.units),
             unknown_is_false: false,
-            is_condition: outcome.declared.name == UNTIL,
         });
         let mut outcomes: Vec<Outcome> = outcomes.collect();
         if let Some(ends) = model.slopes {

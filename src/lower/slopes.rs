@@ -62,7 +62,6 @@ impl Slopes<'_, '_> {
             value,
             units,
             unknown_is_false: true,
-            is_condition: false,
         }
     }
 

@@ -27,7 +27,7 @@ pub use parts::{AskedInPart, Part};
 pub use placement::Placement;
 pub use quantities::{Direction, Quantity};
 pub use quotients::quotient;
-pub use results::{Outcome, Reduction, ReductionKind, UNTIL};
+pub use results::{Outcome, Reduction, ReductionKind};
 
 use crate::expr::{ExprId, Graph};
 use crate::source::Span;

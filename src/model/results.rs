@@ -4,9 +4,6 @@ use super::{Condition, Declared, Units};
 use crate::expr::ExprId;
 use crate::source::Span;
 
-/// The option whose condition is a result beside those of the text, and the name of that.
-pub const UNTIL: &str = "--until";
-
 /// One number for the whole analysis.
 #[derive(Clone, Debug)]
 pub struct Outcome {

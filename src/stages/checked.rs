@@ -8,9 +8,9 @@ use super::used::{self, Used};
 use super::used_at::UsedAt;
 use super::{Compiled, Parsed, Redundant};
 use crate::cancel::Cancel;
-use crate::check::{self, Given, Library, Setting, Surroundings, Symbols, TableFiles};
+use crate::check::{self, Given, Library, Setting, Surroundings, Symbols, TableFiles, UNTIL};
 use crate::diag::{Applies, Code, Diagnostic, Diagnostics, Fix, nearest};
-use crate::model::{Mechanism, UNTIL};
+use crate::model::Mechanism;
 use crate::source::{FileId, Sources, Span};
 use crate::syntax::{self, ast};
 use crate::world::{self, World};
@@ -219,7 +219,9 @@ impl Checked {
         sources: &Sources,
     ) -> (Option<Mechanism>, Diagnostics) {
         let Some(tree) = self.tree() else { return (None, self.parsed.faults().clone()) };
-        check::check(tree, &self.surroundings_of_variant(settings), sources)
+        let mut surroundings = (*self.surroundings).clone();
+        surroundings.settings.extend(settings);
+        check::check(tree, &surroundings, sources)
     }
 
     /// Whether it is told inputs.
@@ -230,14 +232,19 @@ impl Checked {
     /// The same with more params set, over those that are set already, to which it is led; with the texts that say what they are.
     pub(super) fn led_to(&self, settings: impl IntoIterator<Item = Setting>, sources: &Sources) -> Checked {
         let Some(number) = self.number else { return self.clone() };
+        let mut surroundings = (*self.surroundings).clone();
+        surroundings.settings.extend(settings);
         let parsed = self.parsed.with_sources(sources.clone());
-        Checked::in_surroundings(parsed, number, self.surroundings_of_variant(settings), true, Diagnostics::default())
+        Checked::in_surroundings(parsed, number, surroundings, true, Diagnostics::default())
     }
 
-    fn surroundings_of_variant(&self, more: impl IntoIterator<Item = Setting>) -> Surroundings {
-        let mut surroundings = Surroundings { is_variant: true, ..(*self.surroundings).clone() };
-        surroundings.settings.extend(more);
-        surroundings
+    /// The same without what a variant is looked for by.
+    pub(super) fn without_until(&self) -> Checked {
+        let Some(number) = self.number else { return self.clone() };
+        let is_until =
+            |item: &ast::Item| matches!(&item.kind, ast::ItemKind::Result { name, .. } if name.text == UNTIL);
+        let parsed = self.parsed.without_items(number, is_until);
+        Checked::in_surroundings(parsed, number, (*self.surroundings).clone(), self.is_led, Diagnostics::default())
     }
 
     /// What it takes to have the mechanism once more.

@@ -103,6 +103,13 @@ impl Families {
         Families { counts, redundant, told, only, known: Mutex::default() }
     }
 
+    /// The same of a mechanism that has all but one of the results that are told, by its number.
+    pub fn without(&self, result: usize, (own, variants): (&Checked, &Variants), first: u64) -> Families {
+        let mut told = self.told.clone();
+        told[1].remove(result);
+        Families::of((own, variants), self.redundant, told, first)
+    }
+
     /// The only one, where nothing decides.
     pub fn only(&self) -> Option<&Family> {
         self.counts.is_empty().then_some(&*self.only)

@@ -340,7 +340,6 @@ impl<'s> Starts<'s> {
             set_inputs: None,
             has_signals: false,
             coupled: Vec::new(),
-            is_variant: false,
         };
         let alone = self.text_of(start).and_then(|tree| self.assembled(tree, surroundings)).map(Rc::new);
         if let Some(alone) = &alone {

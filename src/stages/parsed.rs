@@ -146,6 +146,13 @@ impl Parsed {
         Parsed { read: Arc::new(read), ..self.clone() }
     }
 
+    /// The same, without some declarations of one of its mechanisms, by its number.
+    pub(super) fn without_items(&self, number: usize, is_one: impl Fn(&ast::Item) -> bool) -> Parsed {
+        let mut read = (*self.read).clone();
+        read.tree.mechanisms[number].items.retain(|item| !is_one(item));
+        Parsed { read: Arc::new(read), ..self.clone() }
+    }
+
     /// The same, with more texts beside it.
     pub(super) fn with_sources(&self, sources: Sources) -> Parsed {
         Parsed { sources, ..self.clone() }

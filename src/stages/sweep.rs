@@ -6,6 +6,7 @@ use super::over::Reached;
 use super::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Variants, Vectors};
 use crate::analysis::{Asked, Started, Times};
 use crate::cancel::Cancel;
+use crate::check::UNTIL;
 use crate::crew::{Crew, usual_jobs};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::sweep::{LANES, OneVariant, PART, Spare, Status, Swept, Team};
@@ -96,7 +97,7 @@ impl Compiled {
     /// The names of the results that a sweep tabulates, with their units in SI.
     #[must_use]
     pub fn results_of_variants(&self) -> Vec<(String, String)> {
-        let outcomes = self.system().results().outcomes.iter().filter(|outcome| !outcome.is_condition);
+        let outcomes = self.system().results().outcomes.iter().filter(|outcome| outcome.name != UNTIL);
         outcomes.map(|outcome| (outcome.name.clone(), outcome.units.si.clone())).collect()
     }
 }
@@ -130,7 +131,7 @@ impl Checked {
         let last = options.take.map_or(end, |take| first.saturating_add(take).min(end));
         let size = variants_of_a_piece((numbers.max(1), width), last - first, most);
         let results: Vec<String> = compiled.results().into_iter().map(|(name, _)| name).collect();
-        let until = compiled.system().results().outcomes.iter().position(|outcome| outcome.is_condition);
+        let until = results.iter().position(|name| name == UNTIL);
         let jobs = options.jobs.unwrap_or_else(usual_jobs).max(1);
         let names = compiled.columns();
         let columns = options.columns.iter().flatten().map(|&column| names[column].clone()).collect();
@@ -141,8 +142,10 @@ impl Checked {
         let of_params = (variants.points().params().len() as u64).saturating_mul(times.len());
         let in_work = numbers.saturating_add(of_params).saturating_mul(size).saturating_mul(jobs as u64 + 2);
         let spare = Arc::new(Spare::new(in_work as usize));
-        let (results, abreast) = (count, OnceLock::new());
-        let sweeping = Sweeping { own, families, variants, options, results, until, first, abreast, spare };
+        let (abreast, without_until) = (OnceLock::new(), OnceLock::new());
+        let results = count;
+        let sweeping =
+            Sweeping { own, families, variants, options, results, until, first, abreast, spare, without_until };
         let sweeping = Arc::new(sweeping);
         let pieces = 0..(last - first).div_ceil(size);
 
@@ -186,6 +189,8 @@ struct Sweeping {
     abreast: OnceLock<Option<Abreast>>,
     /// Memory of columns that are done with.
     spare: Arc<Spare>,
+    /// The same without what a variant is looked for by, once one has stopped.
+    without_until: OnceLock<Box<Sweeping>>,
 }
 
 /// Variants that went side by side.
@@ -342,8 +347,29 @@ impl Sweeping {
         self.abreast.get_or_init(new).as_ref()
     }
 
-    /// A variant as `run --lead --set` has it.
+    /// A variant as `run --lead --set` has it. What it is looked for by decides nothing of it: where that is what stopped it, as a place that this
+    /// variant does not have, it does not hold.
     fn variant(&self, params: &[f64]) -> OneVariant {
+        let variant = self.variant_with_all(params);
+        let Some(until) = self.until.filter(|_| matches!(variant.status, Status::Stopped(_))) else { return variant };
+        let mut variant =
+            self.without_until.get_or_init(|| Box::new(self.made_without(until))).variant_with_all(params);
+        variant.results.insert(until, f64::NAN);
+        variant
+    }
+
+    /// The same without a result that variants are looked for by, by its number.
+    fn made_without(&self, until: usize) -> Sweeping {
+        let own = self.own.without_until();
+        let families = self.families.without(until, (&own, &self.variants), self.first);
+        let (variants, options, spare) = (self.variants.clone(), self.options.clone(), Arc::clone(&self.spare));
+        let (results, first) = (self.results - 1, self.first);
+        let (abreast, without_until) = (OnceLock::new(), OnceLock::new());
+        Sweeping { own, families, variants, options, results, until: None, first, abreast, spare, without_until }
+    }
+
+    /// The same with all that it is asked, what it is looked for by among it.
+    fn variant_with_all(&self, params: &[f64]) -> OneVariant {
         let mut variant = OneVariant {
             status: Status::Ok,
             stopped: f64::NAN,

@@ -3,7 +3,7 @@
 use super::checked::{TOL, VARY};
 use super::{Checked, Choice, Formula, Parsed};
 use crate::check::Amount;
-use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Severity, readable};
 use crate::model::{Dimension, Units};
 use crate::source::Sources;
 use crate::sweep::{evenly, rounded};
@@ -297,6 +297,7 @@ pub(super) fn is_of_angles(formula: &str) -> bool {
 
 /// A value as a formula.
 pub(super) fn written(value: f64, unit: &str) -> String {
+    let value = readable(value);
     if unit.is_empty() || unit.starts_with('/') { format!("{value}{unit}") } else { format!("{value} {unit}") }
 }
 

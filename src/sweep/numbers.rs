@@ -26,7 +26,9 @@ struct Kept {
 #[derive(Default, Debug)]
 struct Memory {
     numbers: Vec<f64>,
-    /// Of so many numbers, from where a column begins, all that follow are known to be repetitions; nothing where nothing is known.
+    /// Where the column begins, at a line of the processor's memory.
+    begin: usize,
+    /// How long the pattern is, if it is known that from there on all numbers repeat the first ones.
     period: Option<usize>,
 }
 
@@ -63,9 +65,8 @@ const BESIDE: usize = usize::MAX;
 /// at once.
 #[derive(Default)]
 pub struct Numbers {
-    /// Of it the column has what stands from `begin` on, so many numbers.
+    /// Of it the column has so many numbers from where it begins.
     memory: Memory,
-    begin: usize,
     count: usize,
     /// Where its memory goes then, as long as somebody may take it from there, as that of which column.
     spare: Weak<Spare>,
@@ -78,10 +79,13 @@ impl Numbers {
     pub fn with_capacity(capacity: usize, spare: &Arc<Spare>, column: usize) -> Numbers {
         let mut memory = spare.take(capacity + WIDE, column);
         let begin = to_next_line(memory.numbers.as_ptr());
+        if begin != memory.begin {
+            (memory.begin, memory.period) = (begin, None);
+        }
         if memory.numbers.len() < begin {
             memory.numbers.resize(begin, 0.0);
         }
-        Numbers { memory, begin, count: 0, spare: Arc::downgrade(spare), column }
+        Numbers { memory, count: 0, spare: Arc::downgrade(spare), column }
     }
 
     /// None yet, with memory for so many from where its own comes.
@@ -94,7 +98,8 @@ impl Numbers {
     /// Makes room for so many more, which are to be written: what stands there is of no use.
     pub fn make_room(&mut self, more: usize) {
         self.count += more;
-        let (end, Memory { numbers, period }) = (self.begin + self.count, &mut self.memory);
+        let Memory { numbers, begin, period } = &mut self.memory;
+        let end = *begin + self.count;
         if numbers.len() < end {
             *period = None;
             numbers.resize(end, 0.0);
@@ -103,14 +108,14 @@ impl Numbers {
 
     /// Makes all from a number on repetitions of some numbers; those before are such too, or there are none.
     pub fn repeat_from(&mut self, first: usize, those: &[f64]) {
-        let Memory { numbers, period } = &mut self.memory;
+        let Memory { numbers, begin, period } = &mut self.memory;
         let is_there = |known: &[f64]| *period == Some(known.len()) && is_same(known, those);
-        if numbers[self.begin..].get(..those.len()).is_some_and(is_there) {
+        if numbers[*begin..].get(..those.len()).is_some_and(is_there) {
             return;
         }
         // all that has ever been written, if all of it is the column's own
-        let end = if first == 0 { numbers.len() } else { self.begin + self.count };
-        for to in numbers[self.begin + first..end].chunks_mut(those.len()) {
+        let end = if first == 0 { numbers.len() } else { *begin + self.count };
+        for to in numbers[*begin + first..end].chunks_mut(those.len()) {
             to.copy_from_slice(&those[..to.len()]);
         }
         *period = (first == 0).then_some(those.len());
@@ -137,16 +142,16 @@ impl Drop for Numbers {
 impl Extend<f64> for Numbers {
     fn extend<T: IntoIterator<Item = f64>>(&mut self, more: T) {
         self.memory.period = None;
-        self.memory.numbers.truncate(self.begin + self.count);
+        self.memory.numbers.truncate(self.memory.begin + self.count);
         self.memory.numbers.extend(more);
-        self.count = self.memory.numbers.len() - self.begin;
+        self.count = self.memory.numbers.len() - self.memory.begin;
     }
 }
 
 impl From<Vec<f64>> for Numbers {
     fn from(numbers: Vec<f64>) -> Numbers {
-        let (count, memory) = (numbers.len(), Memory { numbers, period: None });
-        Numbers { begin: 0, count, memory, spare: Weak::new(), column: BESIDE }
+        let (count, memory) = (numbers.len(), Memory { numbers, begin: 0, period: None });
+        Numbers { count, memory, spare: Weak::new(), column: BESIDE }
     }
 }
 
@@ -155,7 +160,7 @@ impl Deref for Numbers {
 
     #[inline]
     fn deref(&self) -> &[f64] {
-        &self.memory.numbers[self.begin..self.begin + self.count]
+        &self.memory.numbers[self.memory.begin..][..self.count]
     }
 }
 
@@ -163,7 +168,7 @@ impl DerefMut for Numbers {
     #[inline]
     fn deref_mut(&mut self) -> &mut [f64] {
         self.memory.period = None;
-        &mut self.memory.numbers[self.begin..self.begin + self.count]
+        &mut self.memory.numbers[self.memory.begin..][..self.count]
     }
 }
 
@@ -203,7 +208,7 @@ mod tests {
         for round in 0..3 {
             let mut numbers = Numbers::with_capacity(20, &spare, 0);
             assert!(numbers.is_empty());
-            let at = numbers.memory.numbers.as_ptr() as usize + 8 * numbers.begin;
+            let at = numbers.memory.numbers.as_ptr() as usize + 8 * numbers.memory.begin;
             assert_eq!(at % 64, 0, "it begins with a line");
             numbers.make_room(10);
             numbers.iter_mut().zip(0..).for_each(|(number, k)| *number = f64::from(10 * round + k));

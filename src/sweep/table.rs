@@ -14,10 +14,10 @@ const MOST_LEARNED: u64 = 1 << 20;
 /// Rows that are wanted, and what solves for them.
 pub(super) struct Table {
     pub abreast: Abreast<LANES>,
-    /// Columns that are wanted: those that are the same for all variants, those with one number in all rows of a variant, and the others; by
-    /// their places in a room.
-    alike: Vec<Alike>,
+    /// Columns that are wanted, by their places in a room: those with one number in all rows of a variant, those that go with time alone, which all
+    /// variants have alike, and the others.
     fixed: Vec<(usize, u32)>,
+    alike: Vec<Alike>,
     varying: Vec<(usize, u32)>,
     vectors: Vectors,
 }
@@ -47,14 +47,14 @@ impl Table {
         let wanted = of.wanted.iter().copied().enumerate();
         let has_few = of.times.len().saturating_mul(of.wanted.len() as u64) <= MOST_LEARNED;
         let is_alike = |column: u32| column == 0 || has_few && of.is_alike[column as usize];
-        let (alike, others): (Vec<_>, Vec<_>) = wanted.partition(|&(_, column)| is_alike(column));
-        let (fixed, varying): (Vec<_>, Vec<_>) = others.into_iter().partition(|&(_, column)| is_fixed(column));
+        let (fixed, others): (Vec<_>, Vec<_>) = wanted.partition(|&(_, column)| is_fixed(column));
+        let (alike, varying): (Vec<_>, Vec<_>) = others.into_iter().partition(|&(_, column)| is_alike(column));
         // of what steps alone are judged by the last row is enough, and one of what is not collected row by row
         let rows = |column| if varying.iter().any(|&(_, wanted)| wanted == column) { TILE as u32 } else { 1 };
         let abreast = together.abreast(&of.solver, rows);
         let new = |(place, column)| Alike { place, column, numbers: Vec::with_capacity(of.times.len() as usize) };
         let alike = alike.into_iter().map(new).collect();
-        Table { abreast, alike, fixed, varying, vectors: together.vectors }
+        Table { abreast, fixed, alike, varying, vectors: together.vectors }
     }
 
     /// Goes to the row of an output time, by its number.
@@ -64,19 +64,23 @@ impl Table {
 
     /// Puts into columns what is known of all rows, of variants that are loaded.
     pub fn put_known(&self, room: &mut Room<'_>) {
+        for &(place, column) in &self.fixed {
+            let (to, values) = (&mut room.columns[place], &self.abreast.column(column).0);
+            if values.iter().all(|value| value.to_bits() == values[0].to_bits()) {
+                to.repeat_from(room.before, &values[..1]);
+            } else {
+                let stretches = to[room.before..].chunks_exact_mut(room.rows);
+                stretches.zip(values).for_each(|(to, value)| to.fill(*value));
+            }
+        }
         let is_known = |alike: &&Alike| alike.numbers.len() == room.rows;
         for Alike { place, numbers, .. } in self.alike.iter().filter(is_known) {
             room.columns[*place].repeat_from(room.before, numbers);
         }
-        for &(place, column) in &self.fixed {
-            let stretches = room.columns[place][room.before..].chunks_exact_mut(room.rows);
-            stretches.zip(self.abreast.column(column).0).for_each(|(to, value)| to.fill(value));
-        }
     }
 
     /// Puts the last rows into columns, once there are enough of them: up to that of an output time, by its number.
-    pub fn put(&mut self, of: &Rows, number: u64, room: &mut Room<'_>) {
-        self.learn(of, number, room);
+    pub fn put(&self, number: u64, room: &mut Room<'_>) {
         let (last, count) = (number as usize, number as usize % TILE + 1);
         if count < TILE && last + 1 < room.rows {
             return;
@@ -98,9 +102,9 @@ impl Table {
         }
     }
 
-    /// Learns the numbers of a row that are the same for all variants, of an output time by its number; those of the last row complete the columns
-    /// of these variants.
-    fn learn(&mut self, of: &Rows, number: u64, room: &mut Room<'_>) {
+    /// Learns what all variants have alike in the row of an output time, by its number, if that is not known; with the last row it is put into the
+    /// columns.
+    pub fn learn(&mut self, of: &Rows, number: u64, room: &mut Room<'_>) {
         for Alike { place, column, numbers } in self.alike.iter_mut().filter(|of| of.numbers.len() as u64 == number) {
             numbers.push(if *column == 0 { of.times.at(number) } else { self.abreast.column(*column).0[0] });
             if numbers.len() == room.rows {

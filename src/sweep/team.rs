@@ -52,7 +52,8 @@ impl Team {
                 if !walk.goes.contains(&true) || cancel.is_cancelled() {
                     return [false; LANES];
                 }
-                table.put(rows, number, &mut room);
+                table.learn(rows, number, &mut room);
+                table.put(number, &mut room);
             }
             done = walk.goes;
         }

@@ -66,13 +66,13 @@ impl Rows {
     /// Of some times, with some columns beside those that steps are judged by.
     fn of(
         started: &mut Started,
-        (times, columns): (&Times, &[usize]),
+        (times, columns): (&Times, Option<&[usize]>),
         is_tracked: &dyn Fn(u32) -> bool,
-        differs: &[bool],
+        differs: &dyn Fn(Register) -> bool,
     ) -> Option<Rows> {
-        let wanted: Vec<u32> = columns.iter().map(|&column| column as u32).collect();
+        let wanted: Vec<u32> = columns.unwrap_or_default().iter().map(|&column| column as u32).collect();
         let solver = started.solver_of_variants(&|column| is_tracked(column) || wanted.contains(&column))?;
-        let is_alike = solver.alike(|register| differs[register as usize]);
+        let is_alike = solver.alike(differs);
         Some(Rows { solver, times: times.clone(), wanted, is_alike })
     }
 }
@@ -112,8 +112,8 @@ impl Together {
         let rows = if columns.is_none() && asked.is_some() {
             None
         } else {
-            let (wanted, differs) = ((times, columns.unwrap_or_default()), differing(program, params));
-            Some(Rows::of(&mut started, wanted, &is_tracked, &differs)?)
+            let differs = differing(program, params);
+            Some(Rows::of(&mut started, wanted.rows, &is_tracked, &|register| differs[register as usize])?)
         };
         let steps = started.solver_of_variants(&is_tracked)?;
         let tears = steps.tears().iter().map(|&tear| judged.iter().position(|&k| k == tear as usize));

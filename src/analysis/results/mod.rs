@@ -28,7 +28,7 @@ use crate::analysis::state::{Kinematics, State, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::expr::{ExprId, Graph, Node, Symbol};
-use crate::ir::{ConstraintSystem, Reduction, ReductionKind, Results};
+use crate::ir::{ConstraintSystem, Reduction, ReductionKind};
 use crate::solver::Solver;
 use crate::structure::Determined;
 use crate::tolerances::results::stretches::CHUNK;
@@ -47,8 +47,7 @@ pub use turn::{MOST_LOOKS, Sampled, Settling, Turning};
 #[must_use]
 pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2]) -> Diagnostics {
     let mut diagnostics = Diagnostics::default();
-    let is_told = told(system);
-    for (reduction, _) in system.results().reductions.iter().zip(is_told).filter(|(_, is_told)| *is_told) {
+    for reduction in &system.results().reductions {
         // one at the time of another reduction is within
         if let ReductionKind::At(at) = reduction.kind
             && needed(system.graph(), at).is_empty()
@@ -60,22 +59,6 @@ pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2
         }
     }
     diagnostics
-}
-
-/// By reduction: whether a result needs it that is told.
-fn told(system: &ConstraintSystem) -> Vec<bool> {
-    let Results { reductions, outcomes, .. } = system.results();
-    let mut is_told = vec![false; reductions.len()];
-    let mut open: Vec<ExprId> = outcomes.iter().filter(|of| !of.is_condition).map(|of| of.value).collect();
-    while let Some(formula) = open.pop() {
-        for k in needed(system.graph(), formula) {
-            if !std::mem::replace(&mut is_told[k], true) {
-                open.push(reductions[k].of);
-                open.extend(if let ReductionKind::At(at) = reductions[k].kind { Some(at) } else { None });
-            }
-        }
-    }
-    is_told
 }
 
 /// What results are computed from: an assembled mechanism and the times of its analysis.
