@@ -1,11 +1,10 @@
 //! The numbers of a column of variants, in memory that is used again.
 
 use crate::math::{WIDE, to_next_line};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
-use std::thread::{self, ThreadId};
 
 /// Memory of numbers that nobody asks for any more: to be written over it need not be cleared, and is at hand. That of a column is used for that
 /// column again: where that has the same numbers for each variant, all is there already.
@@ -18,8 +17,8 @@ pub struct Spare {
 
 #[derive(Debug, Default)]
 struct Kept {
-    /// By the thread that writes there, near to which the memory is, and by column.
-    memory: HashMap<(ThreadId, usize), Vec<Memory>>,
+    /// By column.
+    memory: BTreeMap<usize, Vec<Memory>>,
     numbers: usize,
 }
 
@@ -41,20 +40,20 @@ impl Spare {
     }
 
     /// Memory for so many numbers of a column.
-    fn take(&self, capacity: usize, of: (ThreadId, usize)) -> Memory {
+    fn take(&self, capacity: usize, column: usize) -> Memory {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = kept.memory.get_mut(&of).and_then(Vec::pop);
+        let found = kept.memory.get_mut(&column).and_then(Vec::pop);
         kept.numbers -= found.as_ref().map_or(0, |memory| memory.numbers.capacity());
         let new = || Memory { numbers: Vec::with_capacity(capacity), ..Memory::default() };
         found.filter(|memory| memory.numbers.capacity() >= capacity).unwrap_or_else(new)
     }
 
-    fn give_back(&self, memory: Memory, of: (ThreadId, usize)) {
+    fn give_back(&self, memory: Memory, column: usize) {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let more = memory.numbers.capacity();
         if kept.numbers + more <= self.most {
             kept.numbers += more;
-            kept.memory.entry(of).or_default().push(memory);
+            kept.memory.entry(column).or_default().push(memory);
         }
     }
 }
@@ -69,17 +68,16 @@ pub struct Numbers {
     /// Of it the column has so many numbers from where it begins.
     memory: Memory,
     count: usize,
-    /// Where its memory goes then, as long as somebody may take it from there, as that of which thread and column.
+    /// Where its memory goes then, as long as somebody may take it from there, as that of which column.
     spare: Weak<Spare>,
-    of: Option<(ThreadId, usize)>,
+    column: usize,
 }
 
 impl Numbers {
     /// None yet, with memory for so many of a column, by its number.
     #[must_use]
     pub fn with_capacity(capacity: usize, spare: &Arc<Spare>, column: usize) -> Numbers {
-        let of = (thread::current().id(), column);
-        let mut memory = spare.take(capacity + WIDE, of);
+        let mut memory = spare.take(capacity + WIDE, column);
         let begin = to_next_line(memory.numbers.as_ptr());
         if begin != memory.begin {
             (memory.begin, memory.period) = (begin, None);
@@ -87,7 +85,7 @@ impl Numbers {
         if memory.numbers.len() < begin {
             memory.numbers.resize(begin, 0.0);
         }
-        Numbers { memory, count: 0, spare: Arc::downgrade(spare), of: Some(of) }
+        Numbers { memory, count: 0, spare: Arc::downgrade(spare), column }
     }
 
     /// None yet, with memory for so many from where its own comes.
@@ -135,8 +133,8 @@ fn is_same(some: &[f64], others: &[f64]) -> bool {
 
 impl Drop for Numbers {
     fn drop(&mut self) {
-        if let (Some(spare), Some(of)) = (self.spare.upgrade(), self.of) {
-            spare.give_back(std::mem::take(&mut self.memory), of);
+        if let Some(spare) = self.spare.upgrade() {
+            spare.give_back(std::mem::take(&mut self.memory), self.column);
         }
     }
 }
@@ -153,7 +151,7 @@ impl Extend<f64> for Numbers {
 impl From<Vec<f64>> for Numbers {
     fn from(numbers: Vec<f64>) -> Numbers {
         let (count, memory) = (numbers.len(), Memory { numbers, begin: 0, period: None });
-        Numbers { count, memory, spare: Weak::new(), of: None }
+        Numbers { count, memory, spare: Weak::new(), column: BESIDE }
     }
 }
 
