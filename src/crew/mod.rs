@@ -11,14 +11,13 @@ pub use shares::in_shares;
 #[cfg(feature = "threads")]
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::Arc;
 #[cfg(feature = "threads")]
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 #[cfg(feature = "threads")]
 use std::thread;
 
-/// What is made of a piece by its number; nothing where the work is to end.
-type Work<T> = dyn Fn(u64) -> Option<T> + Send + Sync;
+/// What is made of a piece by its number; nothing where the work is to end. It may have memory of its own.
+type Work<T> = Box<dyn FnMut(u64) -> Option<T> + Send>;
 
 /// Pieces that are done and not yet handed out are at most so many times the threads: a bound of the memory that they take.
 #[cfg(feature = "threads")]
@@ -36,24 +35,29 @@ pub fn usual_jobs() -> usize {
 
 /// What is made of pieces, in their order.
 pub struct Crew<T> {
-    work: Arc<Work<T>>,
     pieces: Range<u64>,
+    /// The work of the thread that asks for them.
+    own: Work<T>,
     #[cfg(feature = "threads")]
     hands: Option<Hands<T>>,
 }
 
 impl<T: Send + 'static> Crew<T> {
-    /// Work on pieces by so many threads; the one that asks for them is not among these unless there is one alone.
+    /// Work on pieces by so many threads, each of which begins it with memory of its own. The one that asks for pieces is among them: instead of
+    /// waiting it works.
     #[must_use]
-    pub fn new(jobs: usize, pieces: Range<u64>, work: impl Fn(u64) -> Option<T> + Send + Sync + 'static) -> Crew<T> {
-        let work: Arc<Work<T>> = Arc::new(work);
+    pub fn new<W>(jobs: usize, pieces: Range<u64>, begin: impl Fn() -> W + Send + Sync + 'static) -> Crew<T>
+    where
+        W: FnMut(u64) -> Option<T> + Send + 'static,
+    {
+        let own = Box::new(begin());
         #[cfg(feature = "threads")]
-        let hands = (jobs > 1).then(|| Hands::new(jobs, &pieces, &work)).filter(|hands| !hands.threads.is_empty());
+        let hands = (jobs > 1).then(|| Hands::new(jobs as u64, &pieces, begin));
         #[cfg(not(feature = "threads"))]
         let _ = jobs;
         Crew {
-            work,
             pieces,
+            own,
             #[cfg(feature = "threads")]
             hands,
         }
@@ -67,12 +71,12 @@ impl<T> Iterator for Crew<T> {
     fn next(&mut self) -> Option<T> {
         let piece = self.pieces.next()?;
         #[cfg(feature = "threads")]
-        let made = match &mut self.hands {
-            Some(hands) => hands.shared.handed_out(piece),
-            None => (self.work)(piece),
+        let made = match &self.hands {
+            Some(hands) => hands.shared.handed_out(piece, &mut self.own),
+            None => (self.own)(piece),
         };
         #[cfg(not(feature = "threads"))]
-        let made = (self.work)(piece);
+        let made = (self.own)(piece);
         if made.is_none() {
             self.pieces.start = self.pieces.end;
         }
@@ -80,7 +84,7 @@ impl<T> Iterator for Crew<T> {
     }
 }
 
-/// The threads.
+/// The other threads.
 #[cfg(feature = "threads")]
 struct Hands<T> {
     shared: Arc<Shared<T>>,
@@ -109,17 +113,34 @@ struct State<T> {
 }
 
 #[cfg(feature = "threads")]
+impl<T> State<T> {
+    /// The next piece that nobody has begun, if it is not too far ahead.
+    fn begun_next(&mut self) -> Option<u64> {
+        if self.is_far_ahead() || self.has_ended { None } else { self.left.next() }
+    }
+
+    fn is_far_ahead(&self) -> bool {
+        self.left.start >= self.bound
+    }
+}
+
+#[cfg(feature = "threads")]
 impl<T: Send + 'static> Hands<T> {
-    fn new(jobs: usize, pieces: &Range<u64>, work: &Arc<Work<T>>) -> Hands<T> {
-        let bound = pieces.start + AHEAD * jobs as u64;
+    /// All of some threads but the one that asks.
+    fn new<W>(jobs: u64, pieces: &Range<u64>, begin: impl Fn() -> W + Send + Sync + 'static) -> Hands<T>
+    where
+        W: FnMut(u64) -> Option<T>,
+    {
+        let bound = pieces.start.saturating_add(AHEAD * jobs);
         let state = State { left: pieces.clone(), bound, done: BTreeMap::new(), has_ended: false };
         let shared = Arc::new(Shared { state: Mutex::new(state), done: Condvar::new(), handed_out: Condvar::new() });
+        let begin = Arc::new(begin);
         let start = |_| {
-            let (shared, work) = (Arc::clone(&shared), Arc::clone(work));
+            let (shared, begin) = (Arc::clone(&shared), Arc::clone(&begin));
             // a system that gives fewer threads has the same done by fewer
-            thread::Builder::new().spawn(move || shared.work(&*work)).ok()
+            thread::Builder::new().spawn(move || shared.work(&*begin)).ok()
         };
-        Hands { threads: (0..jobs).map_while(start).collect(), shared }
+        Hands { threads: (1..jobs).map_while(start).collect(), shared }
     }
 }
 
@@ -130,9 +151,10 @@ impl<T> Shared<T> {
     }
 
     /// Does pieces until there are none, or nobody waits for them.
-    fn work(&self, work: &Work<T>) {
+    fn work<W: FnMut(u64) -> Option<T>>(&self, begin: &impl Fn() -> W) {
         // who waits for a piece must not wait for a thread that broke down
         let _end = EndOnPanic(self);
+        let mut work = begin();
         while let Some(piece) = self.next_piece() {
             let made = work(piece);
             self.state().done.insert(piece, made);
@@ -141,17 +163,26 @@ impl<T> Shared<T> {
     }
 
     fn next_piece(&self) -> Option<u64> {
-        let is_far_ahead = |state: &mut State<T>| !state.has_ended && state.left.start >= state.bound;
-        let waited = self.handed_out.wait_while(self.state(), is_far_ahead);
-        let mut state = waited.unwrap_or_else(PoisonError::into_inner);
-        if state.has_ended { None } else { state.left.next() }
+        let must_wait = |state: &mut State<T>| !state.has_ended && state.is_far_ahead();
+        let waited = self.handed_out.wait_while(self.state(), must_wait);
+        waited.unwrap_or_else(PoisonError::into_inner).begun_next()
     }
 
-    fn handed_out(&self, piece: u64) -> Option<T> {
-        let is_missing = |state: &mut State<T>| !state.has_ended && !state.done.contains_key(&piece);
-        let mut state = self.done.wait_while(self.state(), is_missing).unwrap_or_else(PoisonError::into_inner);
+    /// What was made of a piece; does others as long as it is missing, or that one, if nobody has begun it.
+    fn handed_out(&self, piece: u64, own: &mut Work<T>) -> Option<T> {
+        let mut state = self.state();
+        while !state.has_ended && !state.done.contains_key(&piece) {
+            let Some(next) = state.begun_next() else {
+                state = self.done.wait(state).unwrap_or_else(PoisonError::into_inner);
+                continue;
+            };
+            drop(state);
+            let made = own(next);
+            state = self.state();
+            state.done.insert(next, made);
+        }
         let made = state.done.remove(&piece).flatten();
-        state.bound += 1;
+        state.bound = state.bound.saturating_add(1);
         drop(state);
         self.handed_out.notify_one();
         made
@@ -197,6 +228,12 @@ mod tests {
     use super::Crew;
     use std::sync::Arc;
     use std::sync::atomic::{AtomicU64, Ordering};
+    #[cfg(feature = "threads")]
+    use std::sync::{Mutex, mpsc};
+    #[cfg(feature = "threads")]
+    use std::thread;
+    #[cfg(feature = "threads")]
+    use std::time::Duration;
 
     #[test]
     fn pieces_come_in_order_whatever_they_take() {
@@ -208,7 +245,7 @@ mod tests {
                 });
                 Some(piece * piece)
             };
-            let found: Vec<u64> = Crew::new(jobs, 3..100, work).collect();
+            let found: Vec<u64> = Crew::new(jobs, 3..100, move || work).collect();
             assert_eq!(found, (3..100).map(|piece| piece * piece).collect::<Vec<_>>(), "{jobs}");
         }
     }
@@ -216,7 +253,7 @@ mod tests {
     #[test]
     fn nothing_comes_behind_what_was_not_made() {
         for jobs in [1, 3] {
-            let mut crew = Crew::new(jobs, 0..100, |piece| (piece < 20).then_some(piece));
+            let mut crew = Crew::new(jobs, 0..100, || |piece| (piece < 20).then_some(piece));
             assert_eq!(crew.by_ref().count(), 20);
             assert_eq!(crew.next(), None);
         }
@@ -226,9 +263,12 @@ mod tests {
     fn few_pieces_are_done_ahead() {
         let begun = Arc::new(AtomicU64::new(0));
         let count = Arc::clone(&begun);
-        let mut crew = Crew::new(2, 0..1_000_000, move |piece| {
-            count.fetch_add(1, Ordering::Relaxed);
-            Some(piece)
+        let mut crew = Crew::new(2, 0..1_000_000, move || {
+            let count = Arc::clone(&count);
+            move |piece| {
+                count.fetch_add(1, Ordering::Relaxed);
+                Some(piece)
+            }
         });
         for _ in 0..10 {
             crew.next();
@@ -240,13 +280,59 @@ mod tests {
 
     #[test]
     #[cfg(feature = "threads")]
+    fn who_asks_works_too_instead_of_waiting() {
+        let asker = thread::current().id();
+        let (told, worked) = mpsc::channel();
+        let worked = Arc::new(Mutex::new(worked));
+        let begin = move || {
+            let (told, worked) = (told.clone(), Arc::clone(&worked));
+            move |piece| {
+                if thread::current().id() == asker {
+                    told.send(()).ok()?;
+                } else {
+                    // no other thread does anything before the one that asks
+                    let worked = worked.lock().expect("nobody panics");
+                    worked.recv_timeout(Duration::from_secs(60)).ok()?;
+                }
+                Some(piece)
+            }
+        };
+        assert_eq!(Crew::new(2, 0..2, begin).collect::<Vec<u64>>(), [0, 1]);
+    }
+
+    #[test]
+    fn each_thread_has_memory_of_its_own() {
+        for jobs in [1, 3] {
+            let begun = Arc::new(AtomicU64::new(0));
+            let count = Arc::clone(&begun);
+            let begin = move || {
+                let of = count.fetch_add(1, Ordering::Relaxed);
+                let mut done = 0;
+                move |_| {
+                    done += 1;
+                    Some((of, done))
+                }
+            };
+            let made: Vec<(u64, u64)> = Crew::new(jobs, 0..100, begin).collect();
+            assert!(begun.load(Ordering::Relaxed) <= jobs as u64);
+            for of in 0..jobs as u64 {
+                // what one thread counts comes in order
+                let counted = made.iter().filter(|(by, _)| *by == of).map(|(_, done)| *done);
+                assert!(counted.eq(1..=made.iter().filter(|(by, _)| *by == of).count() as u64), "{jobs} {made:?}");
+            }
+            assert_eq!(made.len(), 100);
+        }
+    }
+
+    #[test]
+    #[cfg(feature = "threads")]
     fn a_panic_is_passed_on() {
         let panicked = std::panic::catch_unwind(|| {
-            Crew::new(2, 0..10, |piece| {
+            let work = |piece| {
                 assert!(piece < 5, "broken");
                 Some(piece)
-            })
-            .count()
+            };
+            Crew::new(2, 0..10, move || work).count()
         });
         assert!(panicked.is_err());
     }

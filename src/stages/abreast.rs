@@ -11,13 +11,11 @@ use crate::program::{LaneMachine, LaneValues, Program, Register, Registers, Stag
 use crate::sweep::{Each, LANES, PART, Room, Team, Together, WantedOfEach};
 use std::array::from_fn;
 use std::collections::BTreeSet;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// What is known of variants that may go side by side.
 pub(super) struct Abreast {
     together: Arc<Together>,
-    /// Teams that nobody follows now.
-    idle: Mutex<Vec<Side>>,
     /// All params of one of them (SI).
     values: Vec<f64>,
     /// By param that varies: the numbers of the params that are it.
@@ -78,22 +76,13 @@ impl Abreast {
         let led: Vec<u32> = led.into_iter().collect();
         let decided = Decided::of(&model, &led, &values);
         let together = family.from_own.together(&led, &WantedOfEach { rows: (&times, columns), results }, options)?;
-        let (together, idle) = (Arc::new(together), Mutex::default());
-        Some(Abreast { together, idle, values, places, decided })
+        Some(Abreast { together: Arc::new(together), values, places, decided })
     }
 
     /// A team, to be followed.
     pub fn side(&self) -> Side {
-        let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        idle.unwrap_or_else(|| {
-            let params = self.values.iter().map(|&value| LaneValues([value; LANES])).collect();
-            Side { team: Team::new(&self.together), params, registers: self.decided.start() }
-        })
-    }
-
-    /// Takes one back.
-    pub fn give_back(&self, side: Side) {
-        self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(side);
+        let params = self.values.iter().map(|&value| LaneValues([value; LANES])).collect();
+        Side { team: Team::new(&self.together), params, registers: self.decided.start() }
     }
 
     /// How many rows each variant has.

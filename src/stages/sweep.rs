@@ -24,6 +24,8 @@ const MOST_WITH_ROWS: u64 = 512;
 const FEWEST_PIECES: u64 = 32;
 /// Rows of one variant are held until it is done: no more numbers than 2 GiB hold.
 const MOST_OF_A_VARIANT: u64 = 1 << 28;
+/// Blocks whose memory a thread keeps: that of the one in work, and of the one that is read meanwhile.
+const BLOCKS_OF_A_HAND: u64 = 2;
 /// All lanes are used as long as a piece holds no more numbers than this: 32 MB.
 const MOST_NUMBERS: u64 = 1 << 22;
 
@@ -40,7 +42,7 @@ pub struct SweepOptions {
     pub tolerance: f64,
     /// As a run has it.
     pub pass_bifurcations: bool,
-    /// So many threads; as many as the machine does at once where nothing is said.
+    /// So many threads, of which the one that asks for blocks is one; as many as the machine does at once where nothing is said.
     pub jobs: Option<usize>,
     /// So many variants are passed over.
     pub skip: u64,
@@ -138,23 +140,25 @@ impl Checked {
         let count = results.len();
         let families = Families::of((self, variants), options.redundant, [columns, results], first);
         let (own, variants, options) = (self.clone(), variants.clone(), options.clone());
-        // blocks in work with all that tables have of them, and two that somebody reads
+        // with all that tables have of a block
         let of_params = (variants.points().params().len() as u64).saturating_mul(times.len());
-        let in_work = numbers.saturating_add(of_params).saturating_mul(size).saturating_mul(jobs as u64 + 2);
-        let spare = Arc::new(Spare::new(in_work as usize));
+        let kept = numbers.saturating_add(of_params).saturating_mul(size).saturating_mul(BLOCKS_OF_A_HAND) as usize;
         let (abreast, without_until) = (OnceLock::new(), OnceLock::new());
         let results = count;
-        let sweeping =
-            Sweeping { own, families, variants, options, results, until, first, abreast, spare, without_until };
-        let sweeping = Arc::new(sweeping);
+        let sweeping = Sweeping { own, families, variants, options, results, until, first, abreast, without_until };
+        let (sweeping, make) = (Arc::new(sweeping), Arc::new(make));
         let pieces = 0..(last - first).div_ceil(size);
 
-        let work = move |piece: u64| {
-            let begin = first + piece * size;
-            let (block, end) = sweeping.block(begin..begin.saturating_add(size).min(last))?;
-            Some((make(block), end))
+        let begin = move || {
+            let mut hand = Hand { sweeping: Arc::clone(&sweeping), side: None, spare: Arc::new(Spare::new(kept)) };
+            let make = Arc::clone(&make);
+            move |piece: u64| {
+                let begin = first + piece * size;
+                let (block, end) = hand.block(begin..begin.saturating_add(size).min(last))?;
+                Some((make(block), end))
+            }
         };
-        Ok(Sweep { crew: Crew::new(jobs, pieces, work), end: None })
+        Ok(Sweep { crew: Crew::new(jobs, pieces, begin), end: None })
     }
 }
 
@@ -187,10 +191,17 @@ struct Sweeping {
     first: u64,
     /// What variants share that go side by side, once somebody has asked; nothing where they go alone.
     abreast: OnceLock<Option<Abreast>>,
-    /// Memory of columns that are done with.
-    spare: Arc<Spare>,
     /// The same without what a variant is looked for by, once one has stopped.
     without_until: OnceLock<Box<Sweeping>>,
+}
+
+/// Who computes blocks one after the other, with memory that stays near to him.
+struct Hand {
+    sweeping: Arc<Sweeping>,
+    /// Variants that go side by side, once some have.
+    side: Option<Side>,
+    /// Memory of columns that are done with.
+    spare: Arc<Spare>,
 }
 
 /// Variants that went side by side.
@@ -216,36 +227,41 @@ impl<'d> Done<'d> {
     }
 }
 
-impl Sweeping {
+impl Hand {
     /// Some variants, up to the one that is looked for, or to where it was cancelled, and why the sweep ends there, if it does; nothing where
     /// that is before the first.
-    fn block(&self, variants: std::ops::Range<u64>) -> Option<(Swept, Option<End>)> {
-        let (columns, width) = (self.options.columns.as_ref().map_or(0, Vec::len), self.width());
-        let results = self.results - usize::from(self.until.is_some());
-        let mut block = Swept::new(variants.start, self.variants.points().params().len(), results, columns);
-        let abreast = self.abreast();
-        let mut side = abreast.map(Abreast::side);
+    fn block(&mut self, variants: std::ops::Range<u64>) -> Option<(Swept, Option<End>)> {
+        let Hand { sweeping, side, spare } = self;
+        let (points, abreast, width) = (sweeping.variants.points(), sweeping.abreast(), sweeping.width());
+        let mut side = abreast.map(|abreast| (abreast, side.get_or_insert_with(|| abreast.side())));
+        let mut block = sweeping.empty_block(variants.start);
         let rows = (variants.end - variants.start) as usize * abreast.map_or(0, Abreast::rows);
-        block.reserve(rows, &self.spare);
+        block.reserve(rows, spare);
         let mut params = vec![0.0; width * LANES];
         let mut end = None;
         for first in variants.clone().step_by(LANES) {
             let count = (variants.end - first).min(LANES as u64) as usize;
             for (number, params) in (first..variants.end).zip(params.chunks_exact_mut(width)) {
-                self.variants.points().values(number, params);
+                points.values(number, params);
             }
-            let (params, side) = (&params[..count * width], side.as_mut());
-            let done = abreast.zip(side).map(|(abreast, side)| Done::of(abreast, side, &mut block, params, self));
-            end = self.push_all(&mut block, params, done.as_ref());
+            let params = &params[..count * width];
+            let done = side.as_mut().map(|(abreast, side)| Done::of(abreast, side, &mut block, params, sweeping));
+            end = sweeping.push_all(&mut block, params, done.as_ref());
             if end.is_some() {
                 break;
             }
         }
-        if let (Some(abreast), Some(side)) = (abreast, side) {
-            abreast.give_back(side);
-        }
         let is_empty = end == Some(End::Cancelled) && block.is_empty();
         (!is_empty).then_some((block, end))
+    }
+}
+
+impl Sweeping {
+    /// One that is to begin with a variant.
+    fn empty_block(&self, first: u64) -> Swept {
+        let results = self.results - usize::from(self.until.is_some());
+        let columns = self.options.columns.as_ref().map_or(0, Vec::len);
+        Swept::new(first, self.variants.points().params().len(), results, columns)
     }
 
     /// How many values a variant has, one at least.
@@ -362,10 +378,10 @@ impl Sweeping {
     fn made_without(&self, until: usize) -> Sweeping {
         let own = self.own.without_until();
         let families = self.families.without(until, (&own, &self.variants), self.first);
-        let (variants, options, spare) = (self.variants.clone(), self.options.clone(), Arc::clone(&self.spare));
+        let (variants, options) = (self.variants.clone(), self.options.clone());
         let (results, first) = (self.results - 1, self.first);
         let (abreast, without_until) = (OnceLock::new(), OnceLock::new());
-        Sweeping { own, families, variants, options, results, until: None, first, abreast, spare, without_until }
+        Sweeping { own, families, variants, options, results, until: None, first, abreast, without_until }
     }
 
     /// The same with all that it is asked, what it is looked for by among it.
