@@ -100,6 +100,7 @@ pub use world::{Contents, Memory, World};
 pub mod rooms {
     pub mod analysis { pub use crate::analysis::*; }
     pub mod check { pub use crate::check::*; }
+    pub mod crew { pub use crate::crew::*; }
     pub mod diag { pub use crate::diag::*; }
     pub mod emit { pub use crate::emit::*; }
     pub mod expr { pub use crate::expr::*; }

@@ -5,7 +5,8 @@
 
 mod support;
 
-use mechc::{Choice, Method, Status, SweepOptions, VaryOptions, Vectors};
+use mechc::{Choice, Method, Status, SweepOptions, Swept, Variants, VaryOptions, Vectors};
+use std::collections::VecDeque;
 use support::swept::{Subject, bits_of, compare_all, count, have_the_same_bits, subject, vary};
 
 /// A four-bar that is turned once, or to and fro, by what is said of it.
@@ -190,6 +191,19 @@ fn threads_vectors_and_columns_change_no_bit() {
     }
 }
 
+/// Compares a block with its variants, one after the other.
+fn assert_holds_those_alone(subject: &Subject, variants: &Variants, block: &Swept) {
+    for (k, number) in (block.first..).take(block.len()).enumerate() {
+        let (status, _, rows) = subject.alone(variants.settings(number));
+        assert_eq!((block.statuses[k], block.lengths[k]), (status, rows.len()));
+        let first: usize = block.lengths[..k].iter().sum();
+        for (at, row) in rows.iter().enumerate() {
+            let swept: Vec<f64> = block.columns.iter().map(|column| column[first + at]).collect();
+            assert!(have_the_same_bits(&swept, row), "{number}, row {at}");
+        }
+    }
+}
+
 /// Columns are written where those of other variants stood before, of which some have one number throughout: another one, or the same.
 #[test]
 fn memory_that_held_other_variants_holds_these() {
@@ -197,24 +211,22 @@ fn memory_that_held_other_variants_holds_these() {
     let rods = (0..40).map(|k| format!("{}", 3.4 + 0.005 * f64::from(k))).collect::<Vec<_>>().join(",");
     for asked in [["speed=1,2,2,1,3", &format!("rod={rods}")], ["speed=1,2,2,1,3", &format!("rod={rods},9")]] {
         let variants = subject.variants(&vary(&asked));
-        let one = SweepOptions { jobs: Some(1), ..subject.all_columns() };
-        let blocks = subject.checked.sweep(&subject.compiled, &variants, &one, |block| block).expect("times");
-        // each is dropped before the next one is made
-        let mut count = 0;
-        for block in blocks {
-            assert!(block.len() <= 64, "several blocks have the same memory");
-            for (k, number) in (block.first..).take(block.len()).enumerate() {
-                let (status, _, rows) = subject.alone(variants.settings(number));
-                assert_eq!((block.statuses[k], block.lengths[k]), (status, rows.len()));
-                let first: usize = block.lengths[..k].iter().sum();
-                for (at, row) in rows.iter().enumerate() {
-                    let swept: Vec<f64> = block.columns.iter().map(|column| column[first + at]).collect();
-                    assert!(have_the_same_bits(&swept, row), "{number}, row {at}");
-                }
-                count += 1;
+        // each is dropped before the next one is made, or stays for a while, as threads have it that read
+        for (jobs, stay) in [(1, 0), (3, 4)] {
+            let options = SweepOptions { jobs: Some(jobs), ..subject.all_columns() };
+            let mut blocks =
+                subject.checked.sweep(&subject.compiled, &variants, &options, |block| block).expect("times");
+            let mut read: VecDeque<Swept> = blocks.by_ref().take(stay).collect();
+            let mut count = 0;
+            loop {
+                read.extend(blocks.next());
+                let Some(block) = read.pop_front() else { break };
+                assert!(block.len() <= 64, "several blocks have the same memory");
+                assert_holds_those_alone(&subject, &variants, &block);
+                count += block.len() as u64;
             }
+            assert_eq!(count, variants.points().count());
         }
-        assert_eq!(count, variants.points().count());
     }
 }
 

@@ -179,7 +179,7 @@ fn a_cancelled_sweep_gives_whole_variants_and_ends() {
     let subject = subject(FOUR_BAR, Choice::default());
     let variants = subject.variants(&vary(&["crank_length=20mm..40mm:100000"]));
     let cancel = Cancel::default();
-    let options = SweepOptions { cancel: cancel.clone(), ..SweepOptions::default() };
+    let options = SweepOptions { cancel: cancel.clone(), jobs: Some(2), ..SweepOptions::default() };
     let mut sweep = subject.checked.sweep(&subject.compiled, &variants, &options, |block| block).expect("times");
     let first = sweep.next().expect("a block");
     assert!(first.len() >= 16 && first.statuses.iter().all(|status| *status == Status::Ok));

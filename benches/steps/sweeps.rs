@@ -59,7 +59,7 @@ impl Subject {
         (1..self.compiled.columns().len()).collect()
     }
 
-    /// ns a variant, of some columns; of results where none are wanted. Whoever computes a block looks at it, as whoever makes a table of it does.
+    /// ns a variant, of some columns; of results where none are wanted. Whoever has computed a block is done with it, as when he has made a table of it.
     fn per_variant(&self, columns: Option<&[usize]>, count: u32, jobs: usize) -> f64 {
         self.per_variant_made(columns, (count, jobs), |block| black_box(block).len(), |len| *len)
     }
@@ -111,10 +111,10 @@ pub fn sweeps(floor: f64) {
     let three = Subject::four_bar(3, "").per_variant(Some(&all), ABREAST, 1);
     println!("  (d) three times, leading over included     {:>9.1} us a variant", three * 1e-3);
     if std::thread::available_parallelism().is_ok_and(|cores| cores.get() > 1) {
-        let two = turn.per_variant(Some(&all), ABREAST, 2);
-        println!("  (a) by two threads                         {:>9.2} times as fast", one / two);
-        let handed = turn.per_variant_made(Some(&all), (ABREAST, 2), |block| block, Swept::len);
-        println!("      whose blocks one of them takes         {:>9.2} times as fast", one / handed);
+        let by_two = turn.per_variant(Some(&all), ABREAST, 2);
+        println!("  (a) by two threads                         {:>9.2} times as fast", one / by_two);
+        let handed_over = turn.per_variant_made(Some(&all), (ABREAST, 2), |block| block, Swept::len);
+        println!("      and all blocks handed to one of them   {:>9.2} times as fast", one / handed_over);
     }
     println!();
 }

@@ -43,16 +43,18 @@ pub struct Crew<T> {
 }
 
 impl<T: Send + 'static> Crew<T> {
-    /// Work on pieces by so many threads, each of which begins it with memory of its own. The one that asks for pieces is among them: instead of
-    /// waiting it works.
+    /// Work on pieces by so many threads, or fewer where there are fewer pieces, each of which starts it with memory of its own. The one that asks for
+    /// pieces is among them: it works where it would wait for others. They begin at once.
     #[must_use]
-    pub fn new<W>(jobs: usize, pieces: Range<u64>, begin: impl Fn() -> W + Send + Sync + 'static) -> Crew<T>
+    pub fn new<W>(jobs: usize, pieces: Range<u64>, start: impl Fn() -> W + Send + Sync + 'static) -> Crew<T>
     where
         W: FnMut(u64) -> Option<T> + Send + 'static,
     {
-        let own = Box::new(begin());
+        let own = Box::new(start());
         #[cfg(feature = "threads")]
-        let hands = (jobs > 1).then(|| Hands::new(jobs as u64, &pieces, begin));
+        let jobs = (jobs as u64).min(pieces.end.saturating_sub(pieces.start));
+        #[cfg(feature = "threads")]
+        let hands = (jobs > 1).then(|| Hands::new(jobs, &pieces, start));
         #[cfg(not(feature = "threads"))]
         let _ = jobs;
         Crew {
@@ -64,21 +66,43 @@ impl<T: Send + 'static> Crew<T> {
     }
 }
 
+impl<T> Crew<T> {
+    /// Does a piece that nobody has begun, for later; whether there was one, not too far ahead of those that were handed out.
+    #[cfg(feature = "threads")]
+    pub fn work_ahead(&mut self) -> bool {
+        self.hands.as_ref().is_some_and(|hands| hands.shared.work_ahead(&mut self.own))
+    }
+
+    /// As nothing is done before it is asked for.
+    #[cfg(not(feature = "threads"))]
+    #[allow(clippy::unused_self, clippy::needless_pass_by_ref_mut)] // with threads it works
+    pub fn work_ahead(&mut self) -> bool {
+        false
+    }
+
+    fn made(&mut self, piece: u64) -> Option<T> {
+        #[cfg(feature = "threads")]
+        if let Some(hands) = &self.hands {
+            return hands.shared.handed_out(piece, &mut self.own);
+        }
+        (self.own)(piece)
+    }
+}
+
 impl<T> Iterator for Crew<T> {
     type Item = T;
 
-    /// What was made of the next piece; `None` behind the last one, and behind the first one of which nothing was made.
+    /// What was made of the next piece; `None` behind the last one, behind the first one of which nothing was made, and behind a panic, which is
+    /// passed on from whichever thread it is.
     fn next(&mut self) -> Option<T> {
-        let piece = self.pieces.next()?;
-        #[cfg(feature = "threads")]
-        let made = match &self.hands {
-            Some(hands) => hands.shared.handed_out(piece, &mut self.own),
-            None => (self.own)(piece),
-        };
-        #[cfg(not(feature = "threads"))]
-        let made = (self.own)(piece);
-        if made.is_none() {
-            self.pieces.start = self.pieces.end;
+        // there are no others unless something is made of this one
+        let mut pieces = std::mem::take(&mut self.pieces);
+        let made = pieces.next().and_then(|piece| self.made(piece));
+        if made.is_some() {
+            self.pieces = pieces;
+        } else {
+            #[cfg(feature = "threads")]
+            drop(self.hands.take());
         }
         made
     }
@@ -114,33 +138,41 @@ struct State<T> {
 
 #[cfg(feature = "threads")]
 impl<T> State<T> {
-    /// The next piece that nobody has begun, if it is not too far ahead.
-    fn begun_next(&mut self) -> Option<u64> {
-        if self.is_far_ahead() || self.has_ended { None } else { self.left.next() }
-    }
-
     fn is_far_ahead(&self) -> bool {
         self.left.start >= self.bound
+    }
+
+    /// The next piece that nobody has begun, if it is not too far ahead.
+    fn begun_next(&mut self) -> Option<u64> {
+        if self.has_ended || self.is_far_ahead() { None } else { self.left.next() }
+    }
+
+    /// Keeps what was made of a piece; behind one of which nothing was made none is begun.
+    fn put(&mut self, piece: u64, made: Option<T>) {
+        if made.is_none() {
+            self.left.end = self.left.end.min(piece);
+        }
+        self.done.insert(piece, made);
     }
 }
 
 #[cfg(feature = "threads")]
 impl<T: Send + 'static> Hands<T> {
     /// All of some threads but the one that asks.
-    fn new<W>(jobs: u64, pieces: &Range<u64>, begin: impl Fn() -> W + Send + Sync + 'static) -> Hands<T>
+    fn new<W>(jobs: u64, pieces: &Range<u64>, start: impl Fn() -> W + Send + Sync + 'static) -> Hands<T>
     where
         W: FnMut(u64) -> Option<T>,
     {
-        let bound = pieces.start.saturating_add(AHEAD * jobs);
+        let bound = pieces.start.saturating_add(AHEAD.saturating_mul(jobs));
         let state = State { left: pieces.clone(), bound, done: BTreeMap::new(), has_ended: false };
         let shared = Arc::new(Shared { state: Mutex::new(state), done: Condvar::new(), handed_out: Condvar::new() });
-        let begin = Arc::new(begin);
-        let start = |_| {
-            let (shared, begin) = (Arc::clone(&shared), Arc::clone(&begin));
+        let start = Arc::new(start);
+        let spawned = |_| {
+            let (shared, start) = (Arc::clone(&shared), Arc::clone(&start));
             // a system that gives fewer threads has the same done by fewer
-            thread::Builder::new().spawn(move || shared.work(&*begin)).ok()
+            thread::Builder::new().spawn(move || shared.work(&*start)).ok()
         };
-        Hands { threads: (1..jobs).map_while(start).collect(), shared }
+        Hands { threads: (1..jobs).map_while(spawned).collect(), shared }
     }
 }
 
@@ -151,13 +183,13 @@ impl<T> Shared<T> {
     }
 
     /// Does pieces until there are none, or nobody waits for them.
-    fn work<W: FnMut(u64) -> Option<T>>(&self, begin: &impl Fn() -> W) {
+    fn work<W: FnMut(u64) -> Option<T>>(&self, start: &impl Fn() -> W) {
         // who waits for a piece must not wait for a thread that broke down
         let _end = EndOnPanic(self);
-        let mut work = begin();
+        let mut work = start();
         while let Some(piece) = self.next_piece() {
             let made = work(piece);
-            self.state().done.insert(piece, made);
+            self.state().put(piece, made);
             self.done.notify_one();
         }
     }
@@ -168,19 +200,22 @@ impl<T> Shared<T> {
         waited.unwrap_or_else(PoisonError::into_inner).begun_next()
     }
 
-    /// What was made of a piece; does others as long as it is missing, or that one, if nobody has begun it.
+    /// The same of one piece, by the thread that asks and does not wait.
+    fn work_ahead(&self, own: &mut Work<T>) -> bool {
+        let _end = EndOnPanic(self);
+        let Some(piece) = self.state().begun_next() else { return false };
+        let made = own(piece);
+        self.state().put(piece, made);
+        true
+    }
+
+    /// What was made of a piece. As long as it is missing others are done, or that one, if nobody has begun it.
     fn handed_out(&self, piece: u64, own: &mut Work<T>) -> Option<T> {
-        let mut state = self.state();
-        while !state.has_ended && !state.done.contains_key(&piece) {
-            let Some(next) = state.begun_next() else {
-                state = self.done.wait(state).unwrap_or_else(PoisonError::into_inner);
-                continue;
-            };
-            drop(state);
-            let made = own(next);
-            state = self.state();
-            state.done.insert(next, made);
-        }
+        let is_missing = |state: &State<T>| !state.has_ended && !state.done.contains_key(&piece);
+        while is_missing(&self.state()) && self.work_ahead(own) {}
+        // until something is handed out there is nothing else to do
+        let waited = self.done.wait_while(self.state(), |state| is_missing(state));
+        let mut state = waited.unwrap_or_else(PoisonError::into_inner);
         let made = state.done.remove(&piece).flatten();
         state.bound = state.bound.saturating_add(1);
         drop(state);
@@ -213,127 +248,9 @@ impl<T> Drop for Hands<T> {
     /// Waits for the threads, and passes on that one of them has broken down.
     fn drop(&mut self) {
         self.shared.end();
-        for thread in self.threads.drain(..) {
-            if let Err(panic) = thread.join()
-                && !thread::panicking()
-            {
-                std::panic::resume_unwind(panic);
-            }
+        let ended: Vec<thread::Result<()>> = self.threads.drain(..).map(thread::JoinHandle::join).collect();
+        if let Some(panic) = ended.into_iter().find_map(Result::err).filter(|_| !thread::panicking()) {
+            std::panic::resume_unwind(panic);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Crew;
-    use std::sync::Arc;
-    use std::sync::atomic::{AtomicU64, Ordering};
-    #[cfg(feature = "threads")]
-    use std::sync::{Mutex, mpsc};
-    #[cfg(feature = "threads")]
-    use std::thread;
-    #[cfg(feature = "threads")]
-    use std::time::Duration;
-
-    #[test]
-    fn pieces_come_in_order_whatever_they_take() {
-        for jobs in [1, 2, 7] {
-            let work = |piece: u64| {
-                // later pieces are done sooner
-                (0..(100 - piece) * 1000).for_each(|k| {
-                    std::hint::black_box(k);
-                });
-                Some(piece * piece)
-            };
-            let found: Vec<u64> = Crew::new(jobs, 3..100, move || work).collect();
-            assert_eq!(found, (3..100).map(|piece| piece * piece).collect::<Vec<_>>(), "{jobs}");
-        }
-    }
-
-    #[test]
-    fn nothing_comes_behind_what_was_not_made() {
-        for jobs in [1, 3] {
-            let mut crew = Crew::new(jobs, 0..100, || |piece| (piece < 20).then_some(piece));
-            assert_eq!(crew.by_ref().count(), 20);
-            assert_eq!(crew.next(), None);
-        }
-    }
-
-    #[test]
-    fn few_pieces_are_done_ahead() {
-        let begun = Arc::new(AtomicU64::new(0));
-        let count = Arc::clone(&begun);
-        let mut crew = Crew::new(2, 0..1_000_000, move || {
-            let count = Arc::clone(&count);
-            move |piece| {
-                count.fetch_add(1, Ordering::Relaxed);
-                Some(piece)
-            }
-        });
-        for _ in 0..10 {
-            crew.next();
-        }
-        let begun_then = begun.load(Ordering::Relaxed);
-        drop(crew);
-        assert!((10..=14).contains(&begun_then), "{begun_then}");
-    }
-
-    #[test]
-    #[cfg(feature = "threads")]
-    fn who_asks_works_too_instead_of_waiting() {
-        let asker = thread::current().id();
-        let (told, worked) = mpsc::channel();
-        let worked = Arc::new(Mutex::new(worked));
-        let begin = move || {
-            let (told, worked) = (told.clone(), Arc::clone(&worked));
-            move |piece| {
-                if thread::current().id() == asker {
-                    told.send(()).ok()?;
-                } else {
-                    // no other thread does anything before the one that asks
-                    let worked = worked.lock().expect("nobody panics");
-                    worked.recv_timeout(Duration::from_secs(60)).ok()?;
-                }
-                Some(piece)
-            }
-        };
-        assert_eq!(Crew::new(2, 0..2, begin).collect::<Vec<u64>>(), [0, 1]);
-    }
-
-    #[test]
-    fn each_thread_has_memory_of_its_own() {
-        for jobs in [1, 3] {
-            let begun = Arc::new(AtomicU64::new(0));
-            let count = Arc::clone(&begun);
-            let begin = move || {
-                let of = count.fetch_add(1, Ordering::Relaxed);
-                let mut done = 0;
-                move |_| {
-                    done += 1;
-                    Some((of, done))
-                }
-            };
-            let made: Vec<(u64, u64)> = Crew::new(jobs, 0..100, begin).collect();
-            assert!(begun.load(Ordering::Relaxed) <= jobs as u64);
-            for of in 0..jobs as u64 {
-                // what one thread counts comes in order
-                let counted = made.iter().filter(|(by, _)| *by == of).map(|(_, done)| *done);
-                assert!(counted.eq(1..=made.iter().filter(|(by, _)| *by == of).count() as u64), "{jobs} {made:?}");
-            }
-            assert_eq!(made.len(), 100);
-        }
-    }
-
-    #[test]
-    #[cfg(feature = "threads")]
-    fn a_panic_is_passed_on() {
-        let panicked = std::panic::catch_unwind(|| {
-            let work = |piece| {
-                assert!(piece < 5, "broken");
-                Some(piece)
-            };
-            Crew::new(2, 0..10, move || work).count()
-        });
-        assert!(panicked.is_err());
     }
 }

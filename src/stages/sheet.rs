@@ -33,8 +33,8 @@ impl Swept {
         let mut whole = Vec::with_capacity(lengths.iter().sum());
         numbers.zip(&lengths).for_each(|(number, &rows)| whole.resize(whole.len() + rows, number));
         columns.push(SweptColumn::Whole(whole));
-        columns.extend(params.into_iter().map(|values| {
-            let mut numbers = rows.first().map_or_else(Numbers::default, |row| row.another(row.len()));
+        columns.extend(params.into_iter().zip(rows.len()..).map(|(values, column)| {
+            let mut numbers = rows.first().map_or_else(Numbers::default, |row| row.another(row.len(), column));
             let of_rows = values.into_iter().zip(&lengths);
             of_rows.for_each(|(value, &rows)| numbers.extend(std::iter::repeat_n(value, rows)));
             SweptColumn::Numbers(numbers)

@@ -10,6 +10,7 @@ use crate::check::UNTIL;
 use crate::crew::{Crew, usual_jobs};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::sweep::{LANES, OneVariant, PART, Spare, Status, Swept, Team};
+use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 /// Numbers that a piece of work holds, more or less: half a megabyte, which stays where the processor has it at hand.
@@ -24,8 +25,8 @@ const MOST_WITH_ROWS: u64 = 512;
 const FEWEST_PIECES: u64 = 32;
 /// Rows of one variant are held until it is done: no more numbers than 2 GiB hold.
 const MOST_OF_A_VARIANT: u64 = 1 << 28;
-/// Blocks whose memory a thread keeps: that of the one in work, and of the one that is read meanwhile.
-const BLOCKS_OF_A_HAND: u64 = 2;
+/// A thread keeps the memory of so many blocks: who reads one has it while the next is made.
+const KEPT: usize = 2;
 /// All lanes are used as long as a piece holds no more numbers than this: 32 MB.
 const MOST_NUMBERS: u64 = 1 << 22;
 
@@ -73,9 +74,39 @@ fn variants_of_a_piece((numbers, columns): (u64, u64), count: u64, most: u64) ->
     fewer.unwrap_or(1)
 }
 
+/// The variants that are computed, in pieces of work.
+#[derive(Clone, Copy)]
+struct Pieces {
+    first: u64,
+    /// Behind the last one.
+    end: u64,
+    /// How many each has, but for the last.
+    size: u64,
+}
+
+impl Pieces {
+    /// Those of `count` variants that are asked for.
+    fn of(options: &SweepOptions, count: u64, numbers: (u64, u64), most: u64) -> Pieces {
+        let first = options.skip.min(count);
+        let end = options.take.map_or(count, |take| first.saturating_add(take).min(count));
+        Pieces { first, end, size: variants_of_a_piece(numbers, end - first, most) }
+    }
+
+    fn count(&self) -> u64 {
+        (self.end - self.first).div_ceil(self.size)
+    }
+
+    /// Those of a piece, by its number.
+    fn variants(&self, piece: u64) -> Range<u64> {
+        let begin = self.first + piece * self.size;
+        begin..begin.saturating_add(self.size).min(self.end)
+    }
+}
+
 /// A sweep in progress: what was made of its blocks, in the order of the variants.
 pub struct Sweep<T> {
-    crew: Crew<(T, Option<End>)>,
+    /// Until it ends.
+    crew: Option<Crew<(T, Option<End>)>>,
     end: Option<End>,
 }
 
@@ -92,6 +123,12 @@ impl<T> Sweep<T> {
     #[must_use]
     pub fn has_found(&self) -> bool {
         self.end == Some(End::Found)
+    }
+
+    /// Computes a block ahead of those that are asked for, where who asks has nothing else to do: among the threads that compute he is one. Whether
+    /// there was one to compute.
+    pub fn work_ahead(&mut self) -> bool {
+        self.crew.as_mut().is_some_and(Crew::work_ahead)
     }
 }
 
@@ -128,37 +165,28 @@ impl Checked {
         if numbers > MOST_OF_A_VARIANT {
             return Err(Box::new(too_many_rows(rows, width)));
         }
-        let end = variants.points().count();
-        let first = options.skip.min(end);
-        let last = options.take.map_or(end, |take| first.saturating_add(take).min(end));
-        let size = variants_of_a_piece((numbers.max(1), width), last - first, most);
+        let pieces = Pieces::of(options, variants.points().count(), (numbers.max(1), width), most);
+        let first = pieces.first;
         let results: Vec<String> = compiled.results().into_iter().map(|(name, _)| name).collect();
         let until = results.iter().position(|name| name == UNTIL);
         let jobs = options.jobs.unwrap_or_else(usual_jobs).max(1);
         let names = compiled.columns();
         let columns = options.columns.iter().flatten().map(|&column| names[column].clone()).collect();
-        let count = results.len();
+        let all = results.len();
         let families = Families::of((self, variants), options.redundant, [columns, results], first);
         let (own, variants, options) = (self.clone(), variants.clone(), options.clone());
-        // with all that tables have of a block
-        let of_params = (variants.points().params().len() as u64).saturating_mul(times.len());
-        let kept = numbers.saturating_add(of_params).saturating_mul(size).saturating_mul(BLOCKS_OF_A_HAND) as usize;
         let (abreast, without_until) = (OnceLock::new(), OnceLock::new());
-        let results = count;
-        let sweeping = Sweeping { own, families, variants, options, results, until, first, abreast, without_until };
+        let sweeping =
+            Sweeping { own, families, variants, options, results: all, until, first, abreast, without_until };
         let (sweeping, make) = (Arc::new(sweeping), Arc::new(make));
-        let pieces = 0..(last - first).div_ceil(size);
-
-        let begin = move || {
-            let mut hand = Hand { sweeping: Arc::clone(&sweeping), side: None, spare: Arc::new(Spare::new(kept)) };
-            let make = Arc::clone(&make);
+        let start = move || {
+            let (mut worker, make) = (Worker::of(&sweeping), Arc::clone(&make));
             move |piece: u64| {
-                let begin = first + piece * size;
-                let (block, end) = hand.block(begin..begin.saturating_add(size).min(last))?;
+                let (block, end) = worker.block(pieces.variants(piece))?;
                 Some((make(block), end))
             }
         };
-        Ok(Sweep { crew: Crew::new(jobs, pieces, begin), end: None })
+        Ok(Sweep { crew: Some(Crew::new(jobs, 0..pieces.count(), start)), end: None })
     }
 }
 
@@ -168,11 +196,11 @@ impl<T: Send + 'static> Iterator for Sweep<T> {
     /// What was made of the next block; `None` behind the last one, behind the one with the variant that is looked for, and when it was
     /// cancelled: the last block holds what was done of it by then.
     fn next(&mut self) -> Option<T> {
-        if self.end.is_some() {
-            return None;
-        }
-        let (made, end) = self.crew.next()?;
+        let (made, end) = self.crew.as_mut()?.next()?;
         self.end = end;
+        if end.is_some() {
+            self.crew = None;
+        }
         Some(made)
     }
 }
@@ -195,8 +223,8 @@ struct Sweeping {
     without_until: OnceLock<Box<Sweeping>>,
 }
 
-/// Who computes blocks one after the other, with memory that stays near to him.
-struct Hand {
+/// Who computes blocks one after the other, in memory of his own, which comes back to him.
+struct Worker {
     sweeping: Arc<Sweeping>,
     /// Variants that go side by side, once some have.
     side: Option<Side>,
@@ -227,13 +255,18 @@ impl<'d> Done<'d> {
     }
 }
 
-impl Hand {
+impl Worker {
+    /// One who has computed nothing yet.
+    fn of(sweeping: &Arc<Sweeping>) -> Worker {
+        Worker { sweeping: Arc::clone(sweeping), side: None, spare: Arc::new(Spare::new(KEPT)) }
+    }
+
     /// Some variants, up to the one that is looked for, or to where it was cancelled, and why the sweep ends there, if it does; nothing where
     /// that is before the first.
-    fn block(&mut self, variants: std::ops::Range<u64>) -> Option<(Swept, Option<End>)> {
-        let Hand { sweeping, side, spare } = self;
+    fn block(&mut self, variants: Range<u64>) -> Option<(Swept, Option<End>)> {
+        let Worker { sweeping, side, spare } = self;
         let (points, abreast, width) = (sweeping.variants.points(), sweeping.abreast(), sweeping.width());
-        let mut side = abreast.map(|abreast| (abreast, side.get_or_insert_with(|| abreast.side())));
+        let mut beside = abreast.map(|abreast| (abreast, side.get_or_insert_with(|| abreast.side())));
         let mut block = sweeping.empty_block(variants.start);
         let rows = (variants.end - variants.start) as usize * abreast.map_or(0, Abreast::rows);
         block.reserve(rows, spare);
@@ -245,7 +278,7 @@ impl Hand {
                 points.values(number, params);
             }
             let params = &params[..count * width];
-            let done = side.as_mut().map(|(abreast, side)| Done::of(abreast, side, &mut block, params, sweeping));
+            let done = beside.as_mut().map(|(abreast, side)| Done::of(abreast, side, &mut block, params, sweeping));
             end = sweeping.push_all(&mut block, params, done.as_ref());
             if end.is_some() {
                 break;

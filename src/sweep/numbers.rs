@@ -10,16 +10,10 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 /// column again: where that has the same numbers for each variant, all is there already.
 #[derive(Debug)]
 pub struct Spare {
-    kept: Mutex<Kept>,
-    /// It is for so many numbers at the most.
-    most: usize,
-}
-
-#[derive(Debug, Default)]
-struct Kept {
     /// By column.
-    memory: BTreeMap<usize, Vec<Memory>>,
-    numbers: usize,
+    kept: Mutex<BTreeMap<usize, Vec<Memory>>>,
+    /// Of each so much is kept at the most.
+    most: usize,
 }
 
 /// All that has been written somewhere.
@@ -33,7 +27,7 @@ struct Memory {
 }
 
 impl Spare {
-    /// None yet, and never for more than so many numbers.
+    /// None yet, and never more than that of so many at once of a column.
     #[must_use]
     pub fn new(most: usize) -> Spare {
         Spare { kept: Mutex::default(), most }
@@ -42,24 +36,20 @@ impl Spare {
     /// Memory for so many numbers of a column.
     fn take(&self, capacity: usize, column: usize) -> Memory {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = kept.memory.get_mut(&column).and_then(Vec::pop);
-        kept.numbers -= found.as_ref().map_or(0, |memory| memory.numbers.capacity());
+        let found = kept.get_mut(&column).and_then(Vec::pop);
         let new = || Memory { numbers: Vec::with_capacity(capacity), ..Memory::default() };
         found.filter(|memory| memory.numbers.capacity() >= capacity).unwrap_or_else(new)
     }
 
     fn give_back(&self, memory: Memory, column: usize) {
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let more = memory.numbers.capacity();
-        if kept.numbers + more <= self.most {
-            kept.numbers += more;
-            kept.memory.entry(column).or_default().push(memory);
+        // who takes some has it for a moment, or for ever, in a process that has forked meanwhile: then it is let go
+        let Ok(mut kept) = self.kept.try_lock() else { return };
+        let kept = kept.entry(column).or_default();
+        if kept.len() < self.most {
+            kept.push(memory);
         }
     }
 }
-
-/// What stands beside the columns of rows shares memory.
-const BESIDE: usize = usize::MAX;
 
 /// Numbers of a column, one behind the other. They begin where a line of the processor's memory does: what is written line by line is there
 /// at once.
@@ -88,11 +78,11 @@ impl Numbers {
         Numbers { memory, count: 0, spare: Arc::downgrade(spare), column }
     }
 
-    /// None yet, with memory for so many from where its own comes.
+    /// None yet, with memory for so many of another column from where its own comes.
     #[must_use]
-    pub fn another(&self, capacity: usize) -> Numbers {
+    pub fn another(&self, capacity: usize, column: usize) -> Numbers {
         let new = || Numbers::from(Vec::with_capacity(capacity));
-        self.spare.upgrade().map_or_else(new, |spare| Numbers::with_capacity(capacity, &spare, BESIDE))
+        self.spare.upgrade().map_or_else(new, |spare| Numbers::with_capacity(capacity, &spare, column))
     }
 
     /// Makes room for so many more, which are to be written: what stands there is of no use.
@@ -151,7 +141,7 @@ impl Extend<f64> for Numbers {
 impl From<Vec<f64>> for Numbers {
     fn from(numbers: Vec<f64>) -> Numbers {
         let (count, memory) = (numbers.len(), Memory { numbers, begin: 0, period: None });
-        Numbers { count, memory, spare: Weak::new(), column: BESIDE }
+        Numbers { count, memory, spare: Weak::new(), column: 0 }
     }
 }
 
@@ -197,14 +187,8 @@ mod tests {
 
     #[test]
     fn memory_is_used_again_and_holds_what_was_written_last() {
-        let spare = Arc::new(Spare::new(100));
-        let kept = || {
-            spare
-                .kept
-                .lock()
-                .map(|kept| (kept.memory.values().map(Vec::len).sum::<usize>(), kept.numbers >= 20))
-                .expect("nobody has it")
-        };
+        let spare = Arc::new(Spare::new(3));
+        let kept = || -> Vec<usize> { spare.kept.lock().expect("nobody has it").values().map(Vec::len).collect() };
         for round in 0..3 {
             let mut numbers = Numbers::with_capacity(20, &spare, 0);
             assert!(numbers.is_empty());
@@ -217,18 +201,25 @@ mod tests {
             let wanted: Vec<f64> = (0..10).map(|k| f64::from(10 * round + k)).chain([7.0]).collect();
             assert_eq!(*numbers, *wanted);
             assert_eq!(*numbers.clone(), *wanted);
-            assert_eq!(kept(), (0, false));
+            assert_eq!(kept().iter().sum::<usize>(), 0);
             drop(numbers);
-            assert_eq!(kept(), (1, true));
+            assert_eq!(kept(), [1]);
         }
         let many: Vec<Numbers> = (0..9).map(|_| Numbers::with_capacity(20, &spare, 0)).collect();
+        let mut others: Vec<Numbers> = (0..2).map(|_| many[0].another(20, 4)).collect();
         drop(many);
-        assert_eq!(kept(), (3, true), "no more is kept than it is for");
+        others.truncate(1);
+        assert_eq!(kept(), [3, 1], "no more of a column is kept than is said");
+        let had = spare.kept.lock().expect("nobody has it");
+        // who would have to wait lets it go
+        drop(others);
+        drop(had);
+        assert_eq!(kept(), [3, 1]);
     }
 
     #[test]
     fn what_is_repeated_stays_there_until_somebody_may_have_written() {
-        let spare = Arc::new(Spare::new(1_000));
+        let spare = Arc::new(Spare::new(2));
         let period = |numbers: &Numbers| numbers.memory.period;
         for (number, those) in [&[0.0][..], &[2.5], &[1.0, -0.0, 3.0], &[1.0, 0.0, 3.0], &[7.0; 3]].iter().enumerate() {
             let wanted: Vec<f64> = those.iter().copied().cycle().take(9).collect();

@@ -1,4 +1,4 @@
-//! A sweep while it is read. A thread of its own takes its blocks; who reads waits for them, holds no lock of Python meanwhile, and
+//! A sweep while it is read. A thread of its own computes its blocks with others and takes them; who reads waits for them, holds no lock of Python meanwhile, and
 //! looks for Ctrl-C, where signals are its concern.
 //!
 //! Threads do not come along when a process forks. A reader that finds itself in another process begins anew with the variant that is next.
@@ -14,7 +14,7 @@ use arrow_schema::{ArrowError, SchemaRef};
 use mechc::{Cancel, SweepOptions};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, TrySendError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError, TryLockError};
 use std::thread::{self, JoinHandle, ThreadId};
 use std::time::{Duration, Instant};
@@ -50,7 +50,7 @@ pub struct Reader {
     reads_on: ThreadId,
 }
 
-/// The thread that takes blocks.
+/// The thread that takes blocks, one of those that compute them.
 struct Pump {
     blocks: Receiver<Block>,
     cancel: Cancel,
@@ -69,11 +69,16 @@ impl Pump {
         let units = whole.units.clone();
         let make = move |swept| Block::of(swept, units.as_deref());
         let sweep = whole.checked.sweep(&whole.compiled, &whole.variants, &options, make);
-        let sweep = sweep.map_err(|why| PyRuntimeError::new_err(why.message))?;
+        let mut sweep = sweep.map_err(|why| PyRuntimeError::new_err(why.message))?;
         let (tell, blocks) = sync_channel(AHEAD);
         let pump = move || {
-            for block in sweep {
-                if tell.send(block).is_err() {
+            while let Some(block) = sweep.next() {
+                let mut told = tell.try_send(block);
+                // as long as nobody reads it computes, as one of the threads that do
+                while let Err(TrySendError::Full(block)) = told {
+                    told = if sweep.work_ahead() { tell.try_send(block) } else { tell.send(block).map_err(Into::into) };
+                }
+                if told.is_err() {
                     break;
                 }
             }

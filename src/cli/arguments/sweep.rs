@@ -74,7 +74,7 @@ pub(in crate::cli) struct SweepArguments {
     #[arg(long, value_name = "N")]
     pub take: Option<u64>,
 
-    /// So many threads; as many as the machine does at once if not given
+    /// So many threads, the one that writes among them; as many as the machine does at once if not given
     #[arg(long, value_name = "N", value_parser = jobs)]
     pub jobs: Option<usize>,
 
