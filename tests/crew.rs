@@ -35,7 +35,6 @@ fn nothing_comes_behind_what_was_not_made() {
         let mut crew = Crew::new(jobs, 0..100, || |piece| (piece < 20).then_some(piece));
         assert_eq!(crew.by_ref().count(), 20);
         assert_eq!(crew.next(), None);
-        assert!(!crew.work_ahead());
     }
 }
 
@@ -102,16 +101,6 @@ fn who_asks_works_where_it_would_wait() {
     });
     *go.lock().expect("nobody else has it") = Some(held.go);
     assert_eq!(held.crew.collect::<Vec<_>>(), [0, 1]);
-}
-
-#[test]
-fn who_waits_for_something_else_works_ahead() {
-    let Held { mut crew, go } = Held::new(9, Some);
-    let ahead = (0..9).take_while(|_| crew.work_ahead()).count();
-    assert_eq!(ahead, 3, "of four that are begun at once the other one holds the first");
-    assert!((0..9).all(|_| go.send(()).is_ok()));
-    assert!(crew.eq(0..9));
-    assert!(!Crew::new(1, 0..9, || Some).work_ahead());
 }
 
 #[test]
@@ -186,7 +175,6 @@ fn who_asks_may_break_down_and_ask_again() {
     assert_eq!(said(|| crew.next()), Some("broken here".to_owned()));
     drop(go);
     assert_eq!(crew.next(), None);
-    assert!(!crew.work_ahead());
 
     let mut alone = Crew::<u64>::new(1, 0..100, || |_| panic!("broken alone"));
     assert_eq!(said(|| alone.next()), Some("broken alone".to_owned()));

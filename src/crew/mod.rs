@@ -67,19 +67,6 @@ impl<T: Send + 'static> Crew<T> {
 }
 
 impl<T> Crew<T> {
-    /// Does a piece that nobody has begun, for later; whether there was one, not too far ahead of those that were handed out.
-    #[cfg(feature = "threads")]
-    pub fn work_ahead(&mut self) -> bool {
-        self.hands.as_ref().is_some_and(|hands| hands.shared.work_ahead(&mut self.own))
-    }
-
-    /// As nothing is done before it is asked for.
-    #[cfg(not(feature = "threads"))]
-    #[allow(clippy::unused_self, clippy::needless_pass_by_ref_mut)] // with threads it works
-    pub fn work_ahead(&mut self) -> bool {
-        false
-    }
-
     fn made(&mut self, piece: u64) -> Option<T> {
         #[cfg(feature = "threads")]
         if let Some(hands) = &self.hands {

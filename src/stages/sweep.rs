@@ -124,12 +124,6 @@ impl<T> Sweep<T> {
     pub fn has_found(&self) -> bool {
         self.end == Some(End::Found)
     }
-
-    /// Computes a block ahead of those that are asked for, where who asks has nothing else to do: among the threads that compute he is one. Whether
-    /// there was one to compute.
-    pub fn work_ahead(&mut self) -> bool {
-        self.crew.as_mut().is_some_and(Crew::work_ahead)
-    }
 }
 
 impl Compiled {

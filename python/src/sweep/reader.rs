@@ -14,7 +14,7 @@ use arrow_schema::{ArrowError, SchemaRef};
 use mechc::{Cancel, SweepOptions};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, TrySendError, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError, TryLockError};
 use std::thread::{self, JoinHandle, ThreadId};
 use std::time::{Duration, Instant};
@@ -69,16 +69,11 @@ impl Pump {
         let units = whole.units.clone();
         let make = move |swept| Block::of(swept, units.as_deref());
         let sweep = whole.checked.sweep(&whole.compiled, &whole.variants, &options, make);
-        let mut sweep = sweep.map_err(|why| PyRuntimeError::new_err(why.message))?;
+        let sweep = sweep.map_err(|why| PyRuntimeError::new_err(why.message))?;
         let (tell, blocks) = sync_channel(AHEAD);
         let pump = move || {
-            while let Some(block) = sweep.next() {
-                let mut told = tell.try_send(block);
-                // as long as nobody reads it computes, as one of the threads that do
-                while let Err(TrySendError::Full(block)) = told {
-                    told = if sweep.work_ahead() { tell.try_send(block) } else { tell.send(block).map_err(Into::into) };
-                }
-                if told.is_err() {
+            for block in sweep {
+                if tell.send(block).is_err() {
                     break;
                 }
             }
