@@ -1,5 +1,7 @@
 //! Work in pieces on several threads: order, ends, how far it goes ahead, and threads that break down.
 
+#![cfg(feature = "threads")]
+
 use mechc::rooms::crew::Crew;
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -41,17 +43,19 @@ fn nothing_comes_behind_what_was_not_made() {
 #[test]
 fn few_pieces_are_done_ahead() {
     for jobs in [2, 3] {
-        let (told, begun) = channel();
+        let (asker, (told, begun)) = (thread::current().id(), channel());
         let start = move || {
             let told = told.clone();
             move |piece: u64| {
-                told.send(piece).ok()?;
+                told.send(thread::current().id()).ok()?;
                 Some(piece)
             }
         };
         let mut crew = Crew::new(jobs, 0..1_000_000, start);
         let begun_are = |count: usize| {
-            assert!((0..count).all(|_| begun.recv_timeout(PATIENCE).is_ok()), "it is not too far ahead, {jobs}");
+            // who asks for what is there does nothing
+            let by_others = |_| begun.recv_timeout(PATIENCE).is_ok_and(|by| by != asker);
+            assert!((0..count).all(by_others), "it is not too far ahead, {jobs}");
             assert!(begun.recv_timeout(WHILE).is_err(), "{jobs}");
         };
         begun_are(2 * jobs);
@@ -66,12 +70,14 @@ fn few_pieces_are_done_ahead() {
 struct Held {
     crew: Crew<u64>,
     go: Sender<()>,
+    /// The pieces that the other thread begins from then on.
+    begun: Receiver<u64>,
 }
 
 impl Held {
     /// The one that asks does a piece so.
     fn new(count: u64, own: impl Fn(u64) -> Option<u64> + Clone + Send + Sync + 'static) -> Held {
-        let (asker, (told, holds), (go, wait)) = (thread::current().id(), channel(), channel());
+        let (asker, (told, begun), (go, wait)) = (thread::current().id(), channel(), channel());
         let wait: Arc<Mutex<Receiver<()>>> = Arc::new(Mutex::new(wait));
         let start = move || {
             let (told, wait, own) = (told.clone(), Arc::clone(&wait), own.clone());
@@ -79,15 +85,15 @@ impl Held {
                 if thread::current().id() == asker {
                     return own(piece);
                 }
-                // of later ones nobody waits to hear
+                // of later ones somebody may wait to hear
                 let _ = told.send(piece);
                 wait.lock().ok()?.recv_timeout(PATIENCE).ok()?;
                 Some(piece)
             }
         };
         let crew = Crew::new(2, 0..count, start);
-        assert_eq!(holds.recv_timeout(PATIENCE), Ok(0));
-        Held { crew, go }
+        assert_eq!(begun.recv_timeout(PATIENCE), Ok(0));
+        Held { crew, go, begun }
     }
 }
 
@@ -140,7 +146,7 @@ fn there_are_no_more_threads_than_pieces() {
         count.fetch_add(1, Ordering::Relaxed);
         Some
     };
-    assert!(Crew::new(usize::MAX, 5..8, start).eq(5..8));
+    assert!(Crew::new(64, 5..8, start).eq(5..8));
     assert!(begun.load(Ordering::Relaxed) <= 3);
 }
 
@@ -151,27 +157,62 @@ fn said<T>(what: impl FnOnce() -> T) -> Option<String> {
 }
 
 #[test]
-fn that_another_thread_breaks_down_is_passed_on_where_its_piece_is_asked_for() {
-    let (asker, (told, breaks)) = (thread::current().id(), channel());
+fn behind_a_piece_of_which_nothing_is_made_none_is_begun() {
+    let (told, has_none) = channel();
+    let Held { mut crew, go, begun } = Held::new(100, move |piece| {
+        // no other piece than the next one
+        let _ = told.send(piece);
+        None
+    });
+    let later = thread::spawn(move || {
+        let piece = has_none.recv_timeout(PATIENCE);
+        thread::sleep(4 * WHILE);
+        (go.send(()).ok(), piece)
+    });
+    assert_eq!(crew.next(), Some(0));
+    assert_eq!(later.join().expect("it is well"), (Some(()), Ok(1)));
+    assert!(begun.recv_timeout(WHILE).is_err());
+    assert_eq!(crew.next(), None);
+}
+
+#[test]
+fn what_has_ended_begins_nothing() {
+    let Held { mut crew, go, begun } = Held::new(100, Some);
+    crew.end();
+    assert!(go.send(()).is_ok());
+    assert_eq!(crew.next(), None);
+    assert!(begun.recv_timeout(WHILE).is_err());
+}
+
+#[test]
+fn that_another_thread_breaks_down_is_passed_on_where_its_piece_would_come() {
+    let (asker, (told, begun), (go, wait)) = (thread::current().id(), channel(), channel::<()>());
+    let wait = Arc::new(Mutex::new(wait));
     let start = move || {
-        let told = told.clone();
+        let (told, wait) = (told.clone(), Arc::clone(&wait));
         move |piece: u64| {
-            if thread::current().id() != asker {
+            if thread::current().id() != asker && piece < 2 {
                 told.send(piece).ok()?;
-                panic!("broken");
+                assert!(piece != 1, "broken");
+                wait.lock().ok()?.recv_timeout(PATIENCE).ok()?;
             }
             Some(piece)
         }
     };
-    let mut crew = Crew::new(2, 0..100, start);
-    assert_eq!(breaks.recv_timeout(PATIENCE), Ok(0));
+    let mut crew = Crew::new(3, 0..100, start);
+    let first: BTreeSet<u64> = (0..2).filter_map(|_| begun.recv_timeout(PATIENCE).ok()).collect();
+    assert_eq!(first, BTreeSet::from([0, 1]));
+    // it breaks down before
+    thread::sleep(4 * WHILE);
+    assert!(go.send(()).is_ok());
+    assert_eq!(crew.next(), Some(0));
     assert_eq!(said(|| crew.next()), Some("broken".to_owned()));
     assert_eq!(crew.next(), None);
 }
 
 #[test]
 fn who_asks_may_break_down_and_ask_again() {
-    let Held { mut crew, go } = Held::new(100, |_| panic!("broken here"));
+    let Held { mut crew, go, .. } = Held::new(100, |_| panic!("broken here"));
     assert_eq!(said(|| crew.next()), Some("broken here".to_owned()));
     drop(go);
     assert_eq!(crew.next(), None);

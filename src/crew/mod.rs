@@ -67,6 +67,15 @@ impl<T: Send + 'static> Crew<T> {
 }
 
 impl<T> Crew<T> {
+    /// Nobody begins a piece any more, and nothing is handed out.
+    pub fn end(&mut self) {
+        self.pieces = 0..0;
+        #[cfg(feature = "threads")]
+        if let Some(hands) = &self.hands {
+            hands.shared.end();
+        }
+    }
+
     fn made(&mut self, piece: u64) -> Option<T> {
         #[cfg(feature = "threads")]
         if let Some(hands) = &self.hands {
@@ -79,8 +88,8 @@ impl<T> Crew<T> {
 impl<T> Iterator for Crew<T> {
     type Item = T;
 
-    /// What was made of the next piece; `None` behind the last one, behind the first one of which nothing was made, and behind a panic, which is
-    /// passed on from whichever thread it is.
+    /// What was made of the next piece; `None` behind the last one, behind the first one of which nothing was made, and behind a panic. One of another
+    /// thread is passed on where its piece would come.
     fn next(&mut self) -> Option<T> {
         // there are no others unless something is made of this one
         let mut pieces = std::mem::take(&mut self.pieces);
@@ -119,7 +128,7 @@ struct State<T> {
     /// None from here on is begun yet.
     bound: u64,
     done: BTreeMap<u64, Option<T>>,
-    /// Nobody waits any more, or a thread has broken down.
+    /// Nobody waits any more.
     has_ended: bool,
 }
 
@@ -171,13 +180,10 @@ impl<T> Shared<T> {
 
     /// Does pieces until there are none, or nobody waits for them.
     fn work<W: FnMut(u64) -> Option<T>>(&self, start: &impl Fn() -> W) {
-        // who waits for a piece must not wait for a thread that broke down
-        let _end = EndOnPanic(self);
         let mut work = start();
         while let Some(piece) = self.next_piece() {
-            let made = work(piece);
-            self.state().put(piece, made);
-            self.done.notify_one();
+            let mut begun = Begun { shared: self, piece, made: None };
+            begun.made = work(piece);
         }
     }
 
@@ -189,7 +195,6 @@ impl<T> Shared<T> {
 
     /// The same of one piece, by the thread that asks and does not wait.
     fn work_ahead(&self, own: &mut Work<T>) -> bool {
-        let _end = EndOnPanic(self);
         let Some(piece) = self.state().begun_next() else { return false };
         let made = own(piece);
         self.state().put(piece, made);
@@ -198,7 +203,7 @@ impl<T> Shared<T> {
 
     /// What was made of a piece. As long as it is missing others are done, or that one, if nobody has begun it.
     fn handed_out(&self, piece: u64, own: &mut Work<T>) -> Option<T> {
-        let is_missing = |state: &State<T>| !state.has_ended && !state.done.contains_key(&piece);
+        let is_missing = |state: &State<T>| !state.done.contains_key(&piece);
         while is_missing(&self.state()) && self.work_ahead(own) {}
         // until something is handed out there is nothing else to do
         let waited = self.done.wait_while(self.state(), |state| is_missing(state));
@@ -212,21 +217,23 @@ impl<T> Shared<T> {
 
     fn end(&self) {
         self.state().has_ended = true;
-        self.done.notify_all();
         self.handed_out.notify_all();
     }
 }
 
-/// Ends all work when its thread panics.
+/// A piece that another thread works on. Who waits for it must not wait for one that breaks down: of its piece nothing was made.
 #[cfg(feature = "threads")]
-struct EndOnPanic<'s, T>(&'s Shared<T>);
+struct Begun<'s, T> {
+    shared: &'s Shared<T>,
+    piece: u64,
+    made: Option<T>,
+}
 
 #[cfg(feature = "threads")]
-impl<T> Drop for EndOnPanic<'_, T> {
+impl<T> Drop for Begun<'_, T> {
     fn drop(&mut self) {
-        if thread::panicking() {
-            self.0.end();
-        }
+        self.shared.state().put(self.piece, self.made.take());
+        self.shared.done.notify_one();
     }
 }
 

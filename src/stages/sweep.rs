@@ -105,8 +105,7 @@ impl Pieces {
 
 /// A sweep in progress: what was made of its blocks, in the order of the variants.
 pub struct Sweep<T> {
-    /// Until it ends.
-    crew: Option<Crew<(T, Option<End>)>>,
+    crew: Crew<(T, Option<End>)>,
     end: Option<End>,
 }
 
@@ -180,7 +179,7 @@ impl Checked {
                 Some((make(block), end))
             }
         };
-        Ok(Sweep { crew: Some(Crew::new(jobs, 0..pieces.count(), start)), end: None })
+        Ok(Sweep { crew: Crew::new(jobs, 0..pieces.count(), start), end: None })
     }
 }
 
@@ -190,10 +189,10 @@ impl<T: Send + 'static> Iterator for Sweep<T> {
     /// What was made of the next block; `None` behind the last one, behind the one with the variant that is looked for, and when it was
     /// cancelled: the last block holds what was done of it by then.
     fn next(&mut self) -> Option<T> {
-        let (made, end) = self.crew.as_mut()?.next()?;
+        let (made, end) = self.crew.next()?;
         self.end = end;
         if end.is_some() {
-            self.crew = None;
+            self.crew.end();
         }
         Some(made)
     }
