@@ -59,7 +59,8 @@ impl Subject {
         (1..self.compiled.columns().len()).collect()
     }
 
-    /// ns a variant, of some columns; of results where none are wanted. Whoever has computed a block is done with it, as when he has made a table of it.
+    /// ns a variant, of some columns; of results where none are wanted. Whoever has computed a block is done with it, as when he has made a
+    /// table of it.
     fn per_variant(&self, columns: Option<&[usize]>, count: u32, jobs: usize) -> f64 {
         self.per_variant_made(columns, (count, jobs), |block| black_box(block).len(), |len| *len)
     }

@@ -43,8 +43,8 @@ pub struct Crew<T> {
 }
 
 impl<T: Send + 'static> Crew<T> {
-    /// Work on pieces by so many threads, or fewer where there are fewer pieces, each of which starts it with memory of its own. The one that asks for
-    /// pieces is among them: it works where it would wait for others. They begin at once.
+    /// Work on pieces by so many threads, or fewer where there are fewer pieces, each of which starts it with memory of its own. The one that
+    /// asks for pieces is among them: it works where it would wait for others. The others begin at once.
     #[must_use]
     pub fn new<W>(jobs: usize, pieces: Range<u64>, start: impl Fn() -> W + Send + Sync + 'static) -> Crew<T>
     where
@@ -88,8 +88,8 @@ impl<T> Crew<T> {
 impl<T> Iterator for Crew<T> {
     type Item = T;
 
-    /// What was made of the next piece; `None` behind the last one, behind the first one of which nothing was made, and behind a panic. One of another
-    /// thread is passed on where its piece would come.
+    /// What was made of the next piece; `None` behind the last one, behind the first one of which nothing was made, and behind a panic. One of
+    /// another thread is passed on where its piece would come.
     fn next(&mut self) -> Option<T> {
         // there are no others unless something is made of this one
         let mut pieces = std::mem::take(&mut self.pieces);
@@ -193,7 +193,7 @@ impl<T> Shared<T> {
         waited.unwrap_or_else(PoisonError::into_inner).begun_next()
     }
 
-    /// The same of one piece, by the thread that asks and does not wait.
+    /// Does a piece that nobody has begun, on the thread that asks; whether there was one, not too far ahead.
     fn work_ahead(&self, own: &mut Work<T>) -> bool {
         let Some(piece) = self.state().begun_next() else { return false };
         let made = own(piece);

@@ -1,5 +1,5 @@
-//! A sweep while it is read. A thread of its own computes its blocks with others and takes them; who reads waits for them, holds no lock of Python meanwhile, and
-//! looks for Ctrl-C, where signals are its concern.
+//! A sweep while it is read. A thread of its own computes its blocks with others and takes them; who reads waits for them, holds no lock of
+//! Python meanwhile, and looks for Ctrl-C, where signals are its concern.
 //!
 //! Threads do not come along when a process forks. A reader that finds itself in another process begins anew with the variant that is next.
 
