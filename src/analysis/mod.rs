@@ -25,10 +25,10 @@ mod results;
 mod state;
 
 pub use crate::tolerances::TOLERANCE;
-pub use assemble::{Moved, Request, Started, assemble_from, nearest, start, start_from, start_led, with_parts};
+pub use assemble::{Moved, Request, Solving, Started, Unassembled, with_parts};
 pub use explain::errors::length as length_in_words;
 pub use explain::{FreeMotion, determine, free_motions};
-pub use follow::{Follower, LeadOptions, Way, before_ways, lead, lead_again};
+pub use follow::{Follower, LeadOptions, Way, before_ways, follow_to, lead, lead_again, start, start_from};
 pub use results::{
     Answers, Asked, Computed, MOST_LOOKS, Sampled, Settling, SmoothFormula, SmoothFormulas, Turning, moved,
     refused_results,

@@ -83,11 +83,10 @@ impl Checker<'_> {
         }
     }
 
-    fn along_a_line(&mut self, [from, to]: [f64; 2]) -> ExprId {
+    fn along_a_line(&mut self, ends: [f64; 2]) -> ExprId {
         let graph = &mut self.model.graph;
-        let (start, way, time) = (graph.constant(from), graph.constant(to - from), graph.symbol(Symbol::Time));
-        let gone = graph.mul(way, time);
-        graph.add(start, gone)
+        let (ends, time) = (ends.map(|end| graph.constant(end)), graph.symbol(Symbol::Time));
+        graph.line(ends, time)
     }
 
     /// The value of a formula of time, at a part of the way.

@@ -23,6 +23,13 @@ impl Graph {
         self.intern(Node::Symbol(symbol))
     }
 
+    /// `from + (to − from) s`
+    pub fn line(&mut self, [from, to]: [ExprId; 2], s: ExprId) -> ExprId {
+        let way = self.sub(to, from);
+        let gone = self.mul(way, s);
+        self.add(from, gone)
+    }
+
     pub(super) fn folded(&mut self, value: f64, node: Node) -> ExprId {
         if value.is_finite() { self.constant(value) } else { self.intern(node) }
     }

@@ -28,6 +28,7 @@ mod equations_of;
 mod features;
 mod forces;
 mod ids;
+mod path;
 mod print;
 mod results;
 mod right_sides;
@@ -47,6 +48,7 @@ pub use declared::{
 };
 pub use features::{Axis, Circle, Point};
 pub use forces::{Forces, LoadForce, Mechanics, Press, Reaction};
+pub use path::Path;
 pub use ids::{AxisId, BodyId, CircleId, DeclarationId, IdVec, PointId};
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use right_sides::{RightSide, With};

@@ -85,8 +85,6 @@ impl Lines {
 
 /// From the value of one parameter to that of another.
 fn line(graph: &mut Graph, ends: [u32; 2]) -> ExprId {
-    let ([from, to], time) = (ends.map(|end| graph.symbol(Symbol::Param(end))), graph.symbol(Symbol::Time));
-    let way = graph.sub(to, from);
-    let gone = graph.mul(way, time);
-    graph.add(from, gone)
+    let (ends, time) = (ends.map(|end| graph.symbol(Symbol::Param(end))), graph.symbol(Symbol::Time));
+    graph.line(ends, time)
 }

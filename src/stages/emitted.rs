@@ -1,7 +1,7 @@
 //! A compiled mechanism as code for others.
 
 use super::{Compiled, RunOptions};
-use crate::analysis::{self, Horizon, Times};
+use crate::analysis::{self, Horizon, Solving, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::emit::{self, CrateFile, EmittedMotion, Following, LARGEST_STRAIGHT, Reference, TranslationUnit};
@@ -9,7 +9,6 @@ use crate::expr::Dependence;
 use crate::layout::RowLayout;
 use crate::program::Program;
 use crate::solver::BlockTables;
-use std::sync::Arc;
 
 /// Rows and numbers at most that a crate is tested against.
 const MOST_ROWS: usize = 20;
@@ -193,9 +192,8 @@ impl Compiled {
         said: &mut Diagnostics,
     ) -> Result<EmittedMotion, Box<Diagnostic>> {
         let horizon = Horizon::of_analysis(self.analysis());
-        let mut started = if begin.is_some() {
-            let (determined, own) = (Arc::clone(self.determined()), Arc::clone(self.program()));
-            analysis::start_from(determined, own, horizon, begin, analysis::TOLERANCE, &Cancel::default())?
+        let mut started = if let Some(q) = begin {
+            self.unassembled(horizon, &RunOptions::default()).at(q, Solving::New)?
         } else {
             let (started, remarks) = self.start(horizon, &RunOptions::default());
             said.extend(remarks);

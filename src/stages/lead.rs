@@ -5,7 +5,7 @@ use super::angles::Angles;
 use super::lines::{Line, Target, lines};
 use super::lowered::lowered;
 use super::options::RunOptions;
-use crate::analysis::{self, Horizon, LeadOptions, Request};
+use crate::analysis::{self, Horizon, LeadOptions, Request, Solving, Unassembled};
 use crate::check::{self, Given, Lead, Setting, Surroundings};
 use crate::diag::{Code, Diagnostic, Diagnostics, readable};
 use crate::expr::Symbol;
@@ -44,8 +44,16 @@ pub(super) enum Outset {
     Estimates,
 }
 
+/// Where a mechanism begins [m, rad].
+pub(super) enum Begin {
+    /// It was led there.
+    Led(Vec<f64>),
+    /// It is drawn so, its parts where they begin; where the text's estimates have it, if there is nothing else.
+    Drawn(Option<Vec<f64>>),
+}
+
 impl Leading {
-    /// Where it begins at a time (s), its inputs being led there; nothing where its estimates say it, with what is to be said.
+    /// Where it begins at a time (s), its inputs being led there; with what is to be said.
     pub fn begin(
         &self,
         (determined, program): (&Arc<Determined>, &Arc<Program>),
@@ -53,7 +61,7 @@ impl Leading {
         outset: &Outset,
         leave_out_redundant: bool,
         options: &RunOptions,
-    ) -> (Option<Vec<f64>>, Diagnostics) {
+    ) -> (Begin, Diagnostics) {
         let RunOptions { tolerance, pass_bifurcations, ref cancel, .. } = *options;
         let (t, stands) = match outset {
             Outset::Own(t) => (*t, None),
@@ -76,11 +84,15 @@ impl Leading {
         } else {
             None
         };
-        let system = determined.system();
-        let begin = led.or_else(|| {
-            let settings = &self.surroundings.settings;
-            (!system.parts().is_empty()).then(|| starts.with_parts((determined, program), horizon, settings))
-        });
+        let begin = led.map_or_else(
+            || {
+                let settings = &self.surroundings.settings;
+                let has_parts = !determined.system().parts().is_empty();
+                let drawn = has_parts.then(|| starts.with_parts((determined, program), horizon, settings));
+                Begin::Drawn(drawn)
+            },
+            Begin::Led,
+        );
         (begin, starts.said)
     }
 }
@@ -371,9 +383,9 @@ impl<'s> Starts<'s> {
         if !determined.system().parts().is_empty() {
             alone.q = self.with_parts((&determined, &program), horizon, &alone.surroundings.settings);
         }
-        let LeadOptions { tolerance, cancel, .. } = self.options;
-        let started = analysis::start_from(determined, program, horizon, Some(&alone.q), *tolerance, cancel);
-        if let Ok(started) = started {
+        let LeadOptions { tolerance, ref cancel, .. } = *self.options;
+        let whole = Unassembled { determined, program, horizon, tolerance, cancel: cancel.clone() };
+        if let Ok(started) = analysis::start_from(&whole, Some(&alone.q), Solving::With(None)) {
             alone.remarks = started.remarks();
             alone.q = started.q().to_vec();
             alone.is_assembled = true;

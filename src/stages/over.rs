@@ -35,6 +35,8 @@ pub(super) struct Own {
     pub started: Started,
     /// When that is (s).
     pub t: f64,
+    /// Whether it has inputs that are set at a time.
+    pub sets_inputs: bool,
     /// Whether redundant equations are left out.
     pub leave_out_redundant: bool,
     /// For messages.
@@ -70,6 +72,9 @@ impl FromOwn {
     /// What variants share that go side by side, which differ in some of its params, by their numbers; nothing where they had better go alone.
     pub fn together(&self, params: &[u32], wanted: &WantedOfEach<'_>, options: &RunOptions) -> Option<Together> {
         let over = self.over(options)?;
+        if wanted.rows.0.from().to_bits() != over.options.t.to_bits() {
+            return None;
+        }
         let base = over.base(&over.values, wanted.rows.0.from(), &options.cancel)?;
         Together::of(base, &over.own.started, params, wanted, options.vectors)
     }
@@ -116,11 +121,12 @@ impl Over {
         let mut said = Diagnostics::default();
         let values = system.values_of_params();
         let Some(base) = self.base(&values, horizon.from, cancel) else { return (None, said) };
-        let (times, lines) = ([self.options.t, horizon.from], || self.lines(system, &values));
+        let (times, lines) = ([self.options.t, self.end(horizon.from)], || self.lines(system, &values));
         match base.alone(base.variant(&values), horizon, cancel) {
-            Ok(Arrived { started, passed: by }) => {
+            Ok(Arrived { started, passed: by, said: on_the_way }) => {
                 said.extend(self.own.started.far_estimates_at(self.own.t));
                 said.extend(by.iter().map(|(part, what)| passed(None, &lines(), times, *part, what)));
+                said.extend(on_the_way);
                 (Some(Ok(started)), said)
             }
             Err(Lost::There(why)) => (Some(Err(why)), said),
@@ -145,10 +151,15 @@ impl Over {
             Err(Lost::There(why)) => Reached::There(Err(why)),
             Err(Lost::OnItsWay(..)) if cancel.is_cancelled() => Reached::Nowhere(None),
             Err(Lost::OnItsWay(part, why)) => {
-                let (lines, ends) = (self.lines(variant.system(), values), [self.options.t, times.from()]);
+                let (lines, ends) = (self.lines(variant.system(), values), [self.options.t, self.end(times.from())]);
                 Reached::Nowhere(Some(Box::new(not_led(None, &lines, ends, self.own.model.declared.span, part, &why))))
             }
         }
+    }
+
+    /// When the way ends (s) of variants that are wanted from a time on.
+    fn end(&self, from: f64) -> f64 {
+        if self.own.sets_inputs { from } else { self.options.t }
     }
 
     /// What its params are led along.
@@ -167,7 +178,8 @@ impl Over {
 
     /// What variants of so many values that begin at a time (s) share.
     fn base(&self, values: &[f64], from: f64, cancel: &Cancel) -> Option<&Base> {
-        let goes = from.to_bits() != self.options.t.to_bits();
+        // inputs that are set have their values at that time, and not before
+        let goes = self.own.sets_inputs && from.to_bits() != self.options.t.to_bits();
         let place = &self.bases[usize::from(goes)];
         if place.get().is_none() {
             let base = self.new_base(goes, cancel);

@@ -56,6 +56,7 @@ impl Checked {
         let started = compiled.start(horizon, &RunOptions { stand: None, ..options.clone() }).0.ok()?;
         let whole = (Arc::clone(compiled.determined()), Arc::clone(compiled.program()));
         let angles = Angles::of(self.library(), self.sources());
-        Some(Own { whole, model, started, t, leave_out_redundant: redundant == Redundant::LeftOut, angles })
+        let sets_inputs = self.surroundings.set_inputs.as_ref().is_some_and(|set| !set.names.is_empty());
+        Some(Own { whole, model, started, t, sets_inputs, leave_out_redundant: redundant == Redundant::LeftOut, angles })
     }
 }

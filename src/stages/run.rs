@@ -1,15 +1,13 @@
 //! The last stage: a motion in progress, row by row.
 
 use super::Compiled;
-use super::lead::Outset;
+use super::lead::{Begin, Outset};
 use super::options::{RunOptions, Stand};
 use super::used_at::UsedAt;
-use crate::analysis::{self, Answers, Asked, Follower, Horizon, Started, Times};
+use crate::analysis::{self, Answers, Asked, Follower, Horizon, Solving, Started, Times, Unassembled};
 use crate::cancel::Cancel;
-use crate::diag::{Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, readable};
 use crate::layout::{ColumnUnit, RowLayout};
-use crate::program::Program;
-use crate::structure::Determined;
 use std::sync::Arc;
 
 /// The position in which a mechanism was assembled.
@@ -61,10 +59,6 @@ pub struct Run {
     used_at: UsedAt,
 }
 
-/// One of the ways to assemble a mechanism.
-type Start =
-    fn(Arc<Determined>, Arc<Program>, Horizon, Option<&[f64]>, f64, &Cancel) -> Result<Started, Box<Diagnostic>>;
-
 impl Compiled {
     /// Assembles it at the first of some times, and gives what follows it; with what is to be said of that. Nothing where it cannot
     /// be assembled, starts in a singular position, a formula has no value there, or it is cancelled.
@@ -97,7 +91,7 @@ impl Compiled {
     #[must_use]
     pub fn assembled(&self, t: f64, options: &RunOptions) -> (Option<Assembly>, Diagnostics) {
         let horizon = Horizon::of_analysis(self.analysis()).beginning(t);
-        let (started, mut said) = self.started(horizon, options, analysis::assemble_from);
+        let (started, mut said) = self.started(horizon, options, Solving::With(None));
         match started {
             _ if options.cancel.is_cancelled() => (None, Diagnostics::default()),
             Ok(mut started) => {
@@ -138,63 +132,101 @@ impl Compiled {
         horizon: Horizon,
         options: &RunOptions,
     ) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
-        self.started(horizon, options, analysis::start_from)
+        self.started(horizon, options, Solving::New)
     }
 
     fn started(
         &self,
         horizon: Horizon,
         options: &RunOptions,
-        start: Start,
+        solving: Solving,
     ) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
-        let (begins, said) = self.begins(horizon, options);
-        let from = match begins {
-            Begins::At(started) => return (*started, said),
-            Begins::From(from) => from,
+        let (beginning, mut said) = self.begins(horizon, options);
+        let started = match beginning {
+            Beginning::Started(started) => return (*started, said),
+            Beginning::At(Begin::Led(q), at) => self.unassembled(at, options).at(&q, solving),
+            Beginning::At(Begin::Drawn(drawn), at) => {
+                analysis::start_from(&self.unassembled(at, options), drawn.as_deref(), solving).and_then(|started| {
+                    if at.from.total_cmp(&horizon.from).is_eq() {
+                        return Ok(started);
+                    }
+                    let whole = self.unassembled(horizon, options);
+                    said.extend(started.far_estimates_at(at.from));
+                    let (started, passed) =
+                        analysis::follow_to(&whole, (started, at.from), options.pass_bifurcations)?;
+                    said.extend(passed);
+                    Ok(started)
+                })
+            }
         };
-        let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
-        (start(determined, program, horizon, from.as_deref(), options.tolerance, &options.cancel), said)
+        (started.map_err(|why| self.with_analysis_proposed(why, horizon)), said)
     }
 
     /// Where it comes nearest to being assembled at a time (s), if it cannot be assembled there: its coordinates [m, rad].
     pub(super) fn nearest(&self, t: f64, options: &RunOptions) -> Option<Vec<f64>> {
         let horizon = Horizon::of_analysis(self.analysis()).beginning(t);
-        let from = match self.begins(horizon, options).0 {
-            Begins::At(started) => started.ok().map(|started| started.q().to_vec()),
-            Begins::From(from) => from,
+        let (from, at) = match self.begins(horizon, options).0 {
+            Beginning::Started(started) => (started.ok().map(|started| started.q().to_vec()), horizon),
+            Beginning::At(Begin::Led(q), at) => (Some(q), at),
+            Beginning::At(Begin::Drawn(drawn), at) => (drawn, at),
         };
+        self.unassembled(at, options).nearest(from.as_deref())
+    }
+
+    /// The first time of the text's own analysis (s), or 0: there the drawing decides which branch is followed.
+    fn first_time(&self) -> f64 {
+        self.analysis().map_or(0.0, |[from, ..]| from)
+    }
+
+    /// What is to be assembled at the first time of a horizon.
+    pub(super) fn unassembled(&self, horizon: Horizon, options: &RunOptions) -> Unassembled {
+        let RunOptions { tolerance, ref cancel, .. } = *options;
         let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
-        analysis::nearest(determined, program, horizon, from.as_deref(), &options.cancel)
+        Unassembled { determined, program, horizon, tolerance, cancel: cancel.clone() }
     }
 
     /// Where the values of its params lead it, the inputs that it is told, and its parts; with what is to be said of the way.
-    fn begins(&self, horizon: Horizon, options: &RunOptions) -> (Begins, Diagnostics) {
+    fn begins(&self, horizon: Horizon, options: &RunOptions) -> (Beginning, Diagnostics) {
         let is_told = self.leading().is_some_and(|(leading, _)| leading.is_told);
-        let own = || Outset::Own(self.analysis().map_or(0.0, |[from, ..]| from));
         let stand = options.stand.as_ref().filter(|_| is_told);
         let (outset, mut said) = match (stand, self.over()) {
             // who stands somewhere has got there with the params that are set
             (Some(stand), _) => (Outset::At(stand.t, stand.q.clone()), Diagnostics::default()),
-            (None, None) => (own(), Diagnostics::default()),
+            (None, None) => (Outset::Own(self.first_time()), Diagnostics::default()),
             (None, Some(over)) => match over.lead(self.system(), horizon, options) {
                 (Some(Ok(started)), said) if is_told => (Outset::At(horizon.from, started.q().to_vec()), said),
-                (Some(started), said) => return (Begins::At(Box::new(started)), said),
+                (Some(started), said) => return (Beginning::Started(Box::new(started)), said),
                 (None, said) => (Outset::Estimates, said),
             },
         };
-        let Some((leading, leave_out)) = self.leading() else { return (Begins::From(None), said) };
-        let (from, more) = leading.begin((self.determined(), self.program()), horizon, &outset, leave_out, options);
+        // inputs that are told may have no value at the text's own first time
+        let is_there = is_told || self.first_time().total_cmp(&horizon.from).is_eq();
+        let at = if is_there { horizon } else { Horizon::of_analysis(self.analysis()).beginning(self.first_time()) };
+        let Some((leading, leave_out)) = self.leading() else { return (Beginning::At(Begin::Drawn(None), at), said) };
+        let (begin, more) = leading.begin((self.determined(), self.program()), at, &outset, leave_out, options);
         said.extend(more);
-        (Begins::From(from), said)
+        (Beginning::At(begin, at), said)
+    }
+
+    /// Why it cannot start, with a mend where a text without an analysis has no start at 0 s.
+    fn with_analysis_proposed(&self, why: Box<Diagnostic>, horizon: Horizon) -> Box<Diagnostic> {
+        if self.analysis().is_some() || horizon.from.total_cmp(&0.0).is_eq() {
+            return why;
+        }
+        let mend = format!(
+            "without an analysis the motion begins at 0 s: add `analysis from {} s to … every …` to the file",
+            readable(horizon.from)
+        );
+        Box::new(why.help(mend))
     }
 }
 
 /// How far it is known where a mechanism begins.
-enum Begins {
+enum Beginning {
     /// Assembled, or why it cannot be.
-    At(Box<Result<Started, Box<Diagnostic>>>),
-    /// From these coordinates [m, rad]; from the text's estimates where there are none.
-    From(Option<Vec<f64>>),
+    Started(Box<Result<Started, Box<Diagnostic>>>),
+    /// So, at the first time of a horizon.
+    At(Begin, Horizon),
 }
 
 impl Run {

@@ -1,9 +1,9 @@
 //! What all variants of a mechanism share, and the careful way from there to one of them: it is assembled with its own values, and led over
 //! to others along the branch. Where a variant begins depends on its own values alone, whichever others there are.
 
-use crate::analysis::{self, Horizon, LeadOptions, Started};
+use crate::analysis::{self, Horizon, LeadOptions, Solving, Started, Unassembled};
 use crate::cancel::Cancel;
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Diagnostics};
 use crate::program::Program;
 use crate::solver::Solver;
 use crate::structure::Determined;
@@ -57,6 +57,8 @@ pub struct Arrived {
     pub started: Started,
     /// What was passed on the way.
     pub passed: Passed,
+    /// What is to be said of its motion from its own first time to the one that is asked for.
+    pub said: Diagnostics,
 }
 
 /// Why a variant stands nowhere.
@@ -106,11 +108,20 @@ impl Base {
     /// # Errors
     /// It does not get there, or cannot begin there.
     pub fn alone(&self, variant: Arc<Determined>, horizon: Horizon, cancel: &Cancel) -> Result<Arrived, Lost> {
-        let LeadOptions { tolerance, .. } = self.options;
+        let LeadOptions { tolerance, t: own, pass_bifurcations, .. } = self.options;
         let (q, passed) = self.way_to(&variant.system().values_of_params(), horizon.from, cancel)?;
-        let (program, from) = (Arc::clone(&self.whole.1), (q.as_slice(), self.stands.solver.clone()));
-        let started = analysis::start_led(variant, program, horizon, from, tolerance, cancel).map_err(Lost::There)?;
-        Ok(Arrived { started, passed })
+        let is_there = self.goes || horizon.from.total_cmp(&own).is_eq();
+        let program = Arc::clone(&self.whole.1);
+        let whole = Unassembled { determined: variant, program, horizon, tolerance, cancel: cancel.clone() };
+        let solving = Solving::With(self.stands.solver.clone());
+        if is_there {
+            let started = whole.at(&q, solving).map_err(Lost::There)?;
+            return Ok(Arrived { started, passed, said: Diagnostics::default() });
+        }
+        let begun = Unassembled { horizon: horizon.beginning(own), ..whole.clone() }.at(&q, solving);
+        let followed = begun.and_then(|begun| analysis::follow_to(&whole, (begun, own), pass_bifurcations));
+        let (started, said) = followed.map_err(Lost::There)?;
+        Ok(Arrived { started, passed, said })
     }
 
     /// Where the way leads, with what was passed on it.

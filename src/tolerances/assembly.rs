@@ -18,6 +18,8 @@ pub mod estimates {
 
 /// Newton from the estimates, and singular starts (`analysis/assemble/assembly.rs`).
 pub mod newton {
+    /// Estimates from which drivers are off by no more than this, scaled, agree with them.
+    pub const AGREES: f64 = 1e-6;
     /// Passes over the explicit coordinates at most; each settles what depends on the one before.
     pub const EXPLICIT_STEPS: usize = 50;
     /// Newton steps at most.
@@ -96,6 +98,16 @@ pub mod branches {
 pub mod parts {
     /// Blocks up to this size are solved for the sake of parts.
     pub const LARGEST: usize = 300;
+}
+
+/// Drivers that are led from where the drawing has them to where they begin (`analysis/follow/start.rs`).
+pub mod drive {
+    /// Closing that moves nothing farther than this, scaled, closes what is drawn.
+    pub const AS_DRAWN: f64 = 0.01;
+    /// A drawing that closes another way by less than this part of the motion means that way.
+    pub const CLEARLY: f64 = 0.5;
+    /// Whole turns at most.
+    pub const MOST_TURNS: f64 = 100.0;
 }
 
 /// The way of inputs from their own values to those that are told (`analysis/follow/lead.rs`).

@@ -7,9 +7,10 @@ use super::search::{Noise, levenberg_marquardt};
 use crate::analysis::explain::{errors, open_loop, singular};
 use crate::analysis::state::{Fault, Horizon, Kinematics, State, behind_start};
 use crate::diag::Diagnostic;
+use crate::expr::Dependence;
 use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, WatchKind};
 use crate::tolerances::assembly::newton::{
-    BESIDE, EXPLICIT_STEPS, LARGEST_DENSE, LARGEST_STEP, MOVED, NEARBY, NEWTON_STEPS, OPEN_NEARBY, PERTURBATIONS,
+    AGREES, BESIDE, EXPLICIT_STEPS, LARGEST_DENSE, LARGEST_STEP, MOVED, NEARBY, NEWTON_STEPS, OPEN_NEARBY, PERTURBATIONS,
     SETTLED, SINGULAR_START, SMALLEST_DAMPING, VANISHING_TANGENT, WITHOUT_SLOPE,
 };
 use std::f64::consts::PI;
@@ -25,28 +26,80 @@ pub struct Moved {
     pub angle: f64,
     /// That body.
     pub angle_body: BodyId,
-    /// Whether the estimates led nowhere, and others near them had to be tried.
-    pub perturbed: bool,
 }
 
-/// Assembles at time `t`.
-pub fn assemble(kinematics: &mut Kinematics, t: f64) -> Result<(State, Moved), Box<Diagnostic>> {
+/// A position that satisfies every equation.
+pub struct Assembled {
+    /// Where and when.
+    pub state: State,
+    /// How far it is from the estimates.
+    pub moved: Moved,
+    /// Whether the estimates led nowhere, and others near them had to be tried.
+    pub is_perturbed: bool,
+}
+
+/// Assembles at time `t`, from the estimates or from a position that is known to be near.
+pub fn assemble(kinematics: &mut Kinematics, t: f64, near: Option<&[f64]>) -> Result<Assembled, Box<Diagnostic>> {
     let determined = kinematics.determined();
     let system = determined.system();
     let estimates = kinematics.estimates();
+    let from = near.unwrap_or(&estimates);
     set_start(kinematics, t);
-    if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = kinematics.set_position(&estimates) {
+    if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = kinematics.set_position(from) {
         return Err(Box::new(errors::no_value(system, fault, t)));
     }
-    let start = explicit_first(kinematics, &estimates);
-    let (q, perturbed) = match assembled(kinematics, &start) {
+    let start = explicit_first(kinematics, from);
+    let (q, is_perturbed) = match assembled(kinematics, &start) {
         Some(q) => (q, false),
         None => by_least_squares(kinematics, &start, t)?,
     };
-    let moved = Moved { perturbed, ..moved(system, &estimates, &q) };
+    let moved = moved(system, &estimates, &q);
     refuse_vanishing_tangents(kinematics, &q, t)?;
     refuse_singular(kinematics, &q, t)?;
-    Ok((State::new(t, q), moved))
+    Ok(Assembled { state: State::new(t, q), moved, is_perturbed })
+}
+
+/// What the drivers ask for and the estimates leave open at time `t`: by row, `Φ` there. None where that has no value, or is nothing, or
+/// leaves no choice: where every coordinate follows from others without iteration.
+pub fn left_by_drivers(kinematics: &mut Kinematics, t: f64) -> Option<Vec<(usize, f64)>> {
+    let determined = kinematics.determined();
+    if determined.system().has_signals() || determined.blocks().iter().all(|block| block.explicit) {
+        return None;
+    }
+    let estimates = kinematics.estimates();
+    let residuals = residuals_of_drivers(kinematics, t, &estimates)?;
+    residuals.iter().any(|&(row, _)| kinematics.residual(row) > AGREES).then_some(residuals)
+}
+
+/// `Φ` of the rows of drivers, and of others that time moves, at a position; none where one has no value. What was set is factored.
+fn residuals_of_drivers(kinematics: &mut Kinematics, t: f64, q: &[f64]) -> Option<Vec<(usize, f64)>> {
+    set_start(kinematics, t);
+    kinematics.set_position(q).ok()?;
+    // blocks may well be singular there
+    let _ = kinematics.factor();
+    let rows = driving_rows(kinematics.system());
+    Some(rows.into_iter().map(|row| (row, kinematics.phi(row))).collect())
+}
+
+fn driving_rows(system: &ConstraintSystem) -> Vec<usize> {
+    let is_driven =
+        |&row: &usize| system.is_driver(row) || system.graph().dependence(system.rows()[row].phi).on(Dependence::TIME);
+    (0..system.rows().len()).filter(is_driven).collect()
+}
+
+/// Where the estimates lead if drivers let go, and what these ask for and that leaves open; none if nothing closes there.
+pub fn closed_without_drivers(kinematics: &mut Kinematics, t: f64) -> Option<(Vec<f64>, Vec<(usize, f64)>)> {
+    let mut q = kinematics.estimates();
+    if q.len() > LARGEST_DENSE {
+        return None;
+    }
+    set_start(kinematics, t);
+    let driving = driving_rows(kinematics.system());
+    let columns: Vec<u32> = (0..q.len() as u32).collect();
+    let rows: Vec<u32> = columns.iter().copied().filter(|&row| !driving.contains(&(row as usize))).collect();
+    levenberg_marquardt(kinematics, &mut q, &rows, &columns);
+    let residuals = residuals_of_drivers(kinematics, t, &q)?;
+    (kinematics.hold_nearly(&rows, OPEN_NEARBY) && kinematics.turned_lines().is_empty()).then_some((q, residuals))
 }
 
 /// At a switch the later side counts.

@@ -15,8 +15,22 @@ use std::f64::consts::{PI, TAU};
 
 /// Why the position taken may not be the one meant.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Doubt {
-    /// The body whose estimate is off.
+pub enum Doubt {
+    /// The estimates led nowhere, and others near them were tried.
+    Perturbed,
+    /// The equations do not close with the drivers where the estimates have them: they were closed without the drivers, which were led to
+    /// where they begin then.
+    DriversLeftOut,
+    /// No way leads from the drawn position to where the drivers begin: the equations were closed from the estimates with the drivers there.
+    NotLed,
+    /// The estimate of a body is far off.
+    Far(FarBody),
+}
+
+/// A body whose estimate is far off.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct FarBody {
+    /// The body.
     pub body: BodyId,
     /// How far.
     pub off: Off,
@@ -40,7 +54,7 @@ struct Loop {
 }
 
 /// Whether the estimates `from` leave in doubt that the assembled state is the one meant.
-pub fn doubt(kinematics: &mut Kinematics, from: &[f64], state: &State) -> Option<Doubt> {
+pub fn doubt(kinematics: &mut Kinematics, from: &[f64], state: &State) -> Option<FarBody> {
     let determined = kinematics.determined();
     let system = determined.system();
     // most estimates are near
@@ -55,22 +69,34 @@ pub fn doubt(kinematics: &mut Kinematics, from: &[f64], state: &State) -> Option
     doubt.map(|(_, doubt)| doubt)
 }
 
+/// How far what has to be solved for by iteration, and what follows from it, moved; the largest way, scaled.
+pub fn moved_in_loops(determined: &Determined, from: &[f64], to: &[f64]) -> f64 {
+    let system = determined.system();
+    let of_bodies = |column: &usize| system.body_of(*column).is_some();
+    let way = |column: usize| {
+        let coordinate = &system.coordinates()[column];
+        distance_of(coordinate.kind, from[column], to[column]) / coordinate.scale
+    };
+    let loops = loops(determined);
+    loops.iter().flat_map(Loop::columns).filter(of_bodies).map(way).fold(0.0, f64::max)
+}
+
 /// The first body that turned over, or else the one that moved farthest, if that is far.
 fn farthest(
     system: &ConstraintSystem,
     columns: impl Iterator<Item = usize>,
     from: &[f64],
     to: &[f64],
-) -> Option<Doubt> {
+) -> Option<FarBody> {
     let (mut farthest, mut moved) = (system.length(), None);
     for column in columns {
         let Some(body) = system.body_of(column) else { continue };
         let kind = system.coordinates()[column].kind;
         let way = distance_of(kind, from[column], to[column]);
         match kind {
-            CoordinateKind::Angle if way > TURNED_OVER => return Some(Doubt { body, off: Off::Turned(way) }),
+            CoordinateKind::Angle if way > TURNED_OVER => return Some(FarBody { body, off: Off::Turned(way) }),
             CoordinateKind::Length if way > farthest => {
-                (farthest, moved) = (way, Some(Doubt { body, off: Off::Moved(way) }));
+                (farthest, moved) = (way, Some(FarBody { body, off: Off::Moved(way) }));
             }
             _ => {}
         }

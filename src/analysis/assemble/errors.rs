@@ -1,44 +1,48 @@
 //! What is said of a position that was found, but may not be the one meant.
 
 use super::assembly::Moved;
-use super::branches::{Doubt, Off};
+use super::branches::{Doubt, FarBody, Off};
 use crate::analysis::explain::errors::{at, degrees, length};
 use crate::diag::{Applies, Code, Diagnostic, Fix, readable};
 use crate::ir::{ConstraintSystem, DeclarationKind, Fit, JointKind};
+use crate::source::Span;
 use crate::tolerances::determinacy::fits::{LARGEST_MISFIT, MOVED, NOTHING};
 
-/// A remark where the estimates leave in doubt that the position taken is the one meant.
+/// A remark on what leaves in doubt that the position taken is the one meant.
 ///
 /// From the estimates to the assembled position.
-pub fn far_estimates(
-    system: &ConstraintSystem,
-    perturbed: bool,
-    doubt: Option<Doubt>,
-    [from, to]: [&[f64]; 2],
-    t: f64,
-) -> Option<Diagnostic> {
-    let assembled = || assembled_poses(system, from, to);
-    if perturbed {
-        let message = format!("the estimates do not say which way the mechanism is assembled at {}", at(t));
-        return Some(
-            Diagnostic::new(Code::N0601, message)
-                .at(system.span(), "one of several positions was taken")
-                .help("give estimates in `at` that are nearer to the position meant")
-                .change(assembled()),
-        );
-    }
-    let doubt = doubt?;
-    let body = &system.bodies()[doubt.body];
-    let how = match doubt.off {
-        Off::Moved(by) => format!("moved by {}", length(by)),
-        Off::Turned(by) => format!("turned by {}", degrees(by)),
+pub fn far_estimates(system: &ConstraintSystem, doubt: Doubt, [from, to]: [&[f64]; 2], t: f64) -> Diagnostic {
+    const NEARER: &str = "give estimates in `at` that are nearer to the position meant";
+    let remark = |message: String, span: Span, label: &str| Diagnostic::new(Code::N0601, message).at(span, label);
+    let whole = |message: String, label: &str| remark(message, system.span(), label);
+    let said = match doubt {
+        Doubt::Perturbed => whole(
+            format!("the estimates do not say which way the mechanism is assembled at {}", at(t)),
+            "one of several positions was taken",
+        )
+        .help(NEARER),
+        Doubt::DriversLeftOut => whole(
+            format!("the mechanism does not close as it is drawn at {}", at(t)),
+            "closed with its drivers left out, which then led it to where they begin",
+        )
+        .help(NEARER),
+        Doubt::NotLed => whole(
+            format!("no way leads from the drawn position to where the drivers begin at {}", at(t)),
+            "assembled from the estimates with the drivers there, which may mean another branch",
+        )
+        .help("draw it where its drivers begin, with poses in `at`"),
+        Doubt::Far(FarBody { body, off }) => {
+            let body = &system.bodies()[body];
+            let how = match off {
+                Off::Moved(by) => format!("moved by {}", length(by)),
+                Off::Turned(by) => format!("turned by {}", degrees(by)),
+            };
+            let message = format!("body `{}` was {how} by the assembly at {}", body.name, at(t));
+            remark(message, body.span, "far from its estimate")
+                .help("if this is not the branch meant, give better estimates in `at`")
+        }
     };
-    Some(
-        Diagnostic::new(Code::N0601, format!("body `{}` was {how} by the assembly at {}", body.name, at(t)))
-            .at(body.span, "far from its estimate")
-            .help("if this is not the branch meant, give better estimates in `at`")
-            .change(assembled()),
-    )
+    said.change(assembled_poses(system, from, to))
 }
 
 /// The assembled poses as the estimates of those bodies that assembly has moved by more than rounding.

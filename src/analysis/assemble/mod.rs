@@ -7,6 +7,7 @@ mod parts;
 mod search;
 mod started;
 
-pub use assembly::Moved;
+pub use assembly::{Moved, closed_without_drivers, left_by_drivers};
+pub use branches::Doubt;
 pub use parts::{Request, with_parts};
-pub use started::{Started, assemble_from, nearest, start, start_from, start_led};
+pub use started::{Solving, Started, Unassembled};

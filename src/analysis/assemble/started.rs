@@ -1,6 +1,6 @@
 //! A mechanism that is assembled at its first time: what can be followed from there on.
 
-use super::assembly::{self, Moved};
+use super::assembly::{self, Assembled, Moved};
 use super::branches::{self, Doubt};
 use super::errors::{far_estimates, misfit};
 use crate::analysis::state::{Horizon, Kinematics, State};
@@ -11,7 +11,6 @@ use crate::math::Vectors;
 use crate::program::Program;
 use crate::solver::Solver;
 use crate::structure::Determined;
-use crate::tolerances::TOLERANCE;
 use std::sync::Arc;
 
 /// A mechanism that is assembled at its first time, in a position of full rank.
@@ -26,112 +25,101 @@ pub struct Started {
     solver: Option<Arc<Solver>>,
 }
 
-/// Assembles a mechanism at the first time of a horizon.
-///
-/// # Errors
-/// It cannot be assembled, starts in a singular position, or a formula has no value there.
-pub fn start(
-    determined: Arc<Determined>,
-    program: Arc<Program>,
-    horizon: Horizon,
-    tolerance: f64,
-    cancel: &Cancel,
-) -> Result<Started, Box<Diagnostic>> {
-    start_from(determined, program, horizon, None, tolerance, cancel)
+/// What solves for the rows of a mechanism that is assembled.
+#[derive(Clone)]
+pub enum Solving {
+    /// A solver that is made for the position found.
+    New,
+    /// This solver, of the same equations; or none, where only positions are wanted.
+    With(Option<Arc<Solver>>),
 }
 
-/// As [`start`], from other estimates [m, rad] than those of the file, if there are any.
-///
-/// # Errors
-/// It cannot be assembled, starts in a singular position, or a formula has no value there.
-pub fn start_from(
-    determined: Arc<Determined>,
-    program: Arc<Program>,
-    horizon: Horizon,
-    estimates: Option<&[f64]>,
-    tolerance: f64,
-    cancel: &Cancel,
-) -> Result<Started, Box<Diagnostic>> {
-    started((determined, program), horizon, estimates, (tolerance, cancel), Kinematics::solver)
+/// A mechanism that is to be assembled.
+#[derive(Clone)]
+pub struct Unassembled {
+    /// Its equations.
+    pub determined: Arc<Determined>,
+    /// What evaluates them.
+    pub program: Arc<Program>,
+    /// When it is assembled, and how far it is looked at.
+    pub horizon: Horizon,
+    /// Bounds each row of Φ, scaled.
+    pub tolerance: f64,
+    /// Ends it.
+    pub cancel: Cancel,
 }
 
-/// As [`start_from`], without what solves for rows, which takes longer than all else: for who only asks for the position.
-///
-/// # Errors
-/// It cannot be assembled, starts in a singular position, or a formula has no value there.
-pub fn assemble_from(
-    determined: Arc<Determined>,
-    program: Arc<Program>,
-    horizon: Horizon,
-    estimates: Option<&[f64]>,
-    tolerance: f64,
-    cancel: &Cancel,
-) -> Result<Started, Box<Diagnostic>> {
-    started((determined, program), horizon, estimates, (tolerance, cancel), |_| None)
-}
-
-/// As [`start_from`], of a mechanism of which other values were assembled before, whose solver solves for these rows too; from where it has been
-/// led, so that nobody doubts that this is the position which is meant.
-///
-/// # Errors
-/// It cannot be assembled, starts in a singular position, or a formula has no value there.
-pub fn start_led(
-    determined: Arc<Determined>,
-    program: Arc<Program>,
-    horizon: Horizon,
-    (from, solver): (&[f64], Option<Arc<Solver>>),
-    tolerance: f64,
-    cancel: &Cancel,
-) -> Result<Started, Box<Diagnostic>> {
-    let mut kinematics = kinematics((determined, program), horizon, Some(from), (tolerance, cancel));
-    let (state, moved) = assembly::assemble(&mut kinematics, horizon.from)?;
-    kinematics.choose_orders();
-    Ok(Started { kinematics, state, moved, doubt: None, solver })
-}
-
-/// Where the bodies of a mechanism that cannot be assembled at the first time of a horizon come nearest to that, from the file's estimates or
-/// from others: all is closed but what is told to be open. None where that is not known, or hopeless [m, rad].
-#[must_use]
-pub fn nearest(
-    determined: Arc<Determined>,
-    program: Arc<Program>,
-    horizon: Horizon,
-    estimates: Option<&[f64]>,
-    cancel: &Cancel,
-) -> Option<Vec<f64>> {
-    let mut kinematics = kinematics((determined, program), horizon, estimates, (TOLERANCE, cancel));
-    assembly::nearest(&mut kinematics, horizon.from)
-}
-
-/// A mechanism before it is assembled, which begins at estimates.
-fn kinematics(
-    (determined, program): (Arc<Determined>, Arc<Program>),
-    horizon: Horizon,
-    estimates: Option<&[f64]>,
-    (tolerance, cancel): (f64, &Cancel),
-) -> Kinematics {
-    let mut kinematics = Kinematics::new(determined, program, horizon.span, tolerance, cancel.clone());
-    if let Some(estimates) = estimates {
-        kinematics.begin_from(estimates);
+impl Unassembled {
+    /// Closes the equations from the estimates of the file, or from others [m, rad], with the drivers where they are at that time.
+    ///
+    /// # Errors
+    /// It cannot be assembled, starts in a singular position, or a formula has no value there.
+    pub fn close(&self, estimates: Option<&[f64]>, solving: Solving) -> Result<Started, Box<Diagnostic>> {
+        self.closed(self.kinematics(estimates), solving)
     }
-    kinematics
-}
 
-fn started(
-    (determined, program): (Arc<Determined>, Arc<Program>),
-    horizon: Horizon,
-    estimates: Option<&[f64]>,
-    (tolerance, cancel): (f64, &Cancel),
-    solver: impl FnOnce(&Kinematics) -> Option<Solver>,
-) -> Result<Started, Box<Diagnostic>> {
-    let mut kinematics = kinematics((determined, program), horizon, estimates, (tolerance, cancel));
-    let (state, moved) = assembly::assemble(&mut kinematics, horizon.from)?;
-    // by the position at the start, which is what was factored last
-    kinematics.choose_orders();
-    let solver = solver(&kinematics).map(Arc::new);
-    let estimates = kinematics.estimates();
-    let doubt = if moved.perturbed { None } else { branches::doubt(&mut kinematics, &estimates, &state) };
-    Ok(Started { kinematics, state, moved, doubt, solver })
+    /// Closes the equations from the estimates of what evaluates them.
+    ///
+    /// # Errors
+    /// As [`Unassembled::close`].
+    pub fn closed(&self, mut kinematics: Kinematics, solving: Solving) -> Result<Started, Box<Diagnostic>> {
+        let Assembled { state, moved, is_perturbed } = assembly::assemble(&mut kinematics, self.horizon.from, None)?;
+        let mut started = self.started(kinematics, (state, moved), solving);
+        started.doubt = if is_perturbed {
+            Some(Doubt::Perturbed)
+        } else {
+            let (kinematics, state) = (&mut started.kinematics, &started.state);
+            let estimates = kinematics.estimates();
+            branches::doubt(kinematics, &estimates, state).map(Doubt::Far)
+        };
+        Ok(started)
+    }
+
+    /// Assembles at a position [m, rad] to which the mechanism was followed, which is the one meant.
+    ///
+    /// # Errors
+    /// As [`Unassembled::close`].
+    pub fn at(&self, q: &[f64], solving: Solving) -> Result<Started, Box<Diagnostic>> {
+        self.led(self.kinematics(Some(q)), q, solving)
+    }
+
+    /// The same, of what evaluates the equations, whose estimates may be others.
+    ///
+    /// # Errors
+    /// As [`Unassembled::close`].
+    pub fn led(&self, mut kinematics: Kinematics, q: &[f64], solving: Solving) -> Result<Started, Box<Diagnostic>> {
+        let Assembled { state, moved, .. } = assembly::assemble(&mut kinematics, self.horizon.from, Some(q))?;
+        Ok(self.started(kinematics, (state, moved), solving))
+    }
+
+    fn started(&self, mut kinematics: Kinematics, (state, moved): (State, Moved), solving: Solving) -> Started {
+        // by the position at the start, which is what was factored last
+        kinematics.choose_orders();
+        let solver = match solving {
+            Solving::New => kinematics.solver().map(Arc::new),
+            Solving::With(solver) => solver,
+        };
+        Started { kinematics, state, moved, doubt: None, solver }
+    }
+
+    /// What evaluates the equations, before they are assembled, with the estimates of the file or with others [m, rad].
+    #[must_use]
+    pub fn kinematics(&self, estimates: Option<&[f64]>) -> Kinematics {
+        let (determined, program) = (Arc::clone(&self.determined), Arc::clone(&self.program));
+        let mut kinematics =
+            Kinematics::new(determined, program, self.horizon.span, self.tolerance, self.cancel.clone());
+        if let Some(estimates) = estimates {
+            kinematics.begin_from(estimates);
+        }
+        kinematics
+    }
+
+    /// Where its bodies come nearest to being assembled, from the file's estimates or from others, if it cannot be: all is closed but what is
+    /// told to be open. None where that is not known, or hopeless [m, rad].
+    #[must_use]
+    pub fn nearest(&self, estimates: Option<&[f64]>) -> Option<Vec<f64>> {
+        assembly::nearest(&mut self.kinematics(estimates), self.horizon.from)
+    }
 }
 
 impl Started {
@@ -150,8 +138,20 @@ impl Started {
         let (system, from) = (self.kinematics.system(), self.kinematics.estimates());
         let ends = [from.as_slice(), &self.state.q];
         let mut diagnostics = Diagnostics::default();
-        diagnostics.extend(far_estimates(system, self.moved.perturbed, self.doubt, ends, t));
+        diagnostics.extend(self.doubt.map(|doubt| far_estimates(system, doubt, ends, t)));
         diagnostics
+    }
+
+    /// The same, with why this may not be the position that the estimates mean.
+    #[must_use]
+    pub fn with_doubt(self, doubt: Option<Doubt>) -> Started {
+        Started { doubt, ..self }
+    }
+
+    /// Why this may not be the position that the estimates mean.
+    #[must_use]
+    pub fn doubt(&self) -> Option<Doubt> {
+        self.doubt
     }
 
     /// The equations.
@@ -169,6 +169,13 @@ impl Started {
     #[must_use]
     pub fn moved(&self) -> &Moved {
         &self.moved
+    }
+
+    /// How far the assembly moved from their estimates what it had to iterate for, and what follows from that; the largest way, scaled.
+    #[must_use]
+    pub fn moved_in_loops(&self) -> f64 {
+        let estimates = self.kinematics.estimates();
+        branches::moved_in_loops(&self.kinematics.determined(), &estimates, &self.state.q)
     }
 
     /// The assembled coordinates [m, rad].

@@ -1,7 +1,8 @@
 //! The way from one start to another: a mechanism whose inputs go along straight lines is followed from where its own inputs have it to
 //! where others do, along the branch.
 
-use crate::analysis::assemble::{Started, start_from, start_led};
+use super::start::start_from;
+use crate::analysis::assemble::{Solving, Started, Unassembled};
 use crate::analysis::explain::errors;
 use crate::analysis::state::{Horizon, Times};
 use crate::cancel::Cancel;
@@ -15,7 +16,7 @@ use crate::tolerances::assembly::lead::{BESIDE_A_KINK, KINK, MOST_KINKS};
 use std::sync::Arc;
 
 /// The way as a time.
-const WAY: Horizon = Horizon { from: 0.0, span: 1.0 };
+pub(super) const WAY: Horizon = Horizon { from: 0.0, span: 1.0 };
 
 /// How a mechanism is led.
 #[derive(Clone, Debug)]
@@ -42,20 +43,23 @@ pub struct Way {
     pub stopped: Option<(f64, Box<Diagnostic>)>,
 }
 
-/// Follows a mechanism, in whose equations a straight way from 0 to 1 stands for time, from its estimates, or from others, to some parts of
-/// the way, which rise and are above 0. A velocity that jumps on the way is no reason to stop: there is no time.
+/// Follows a mechanism, in whose equations a straight way from 0 to 1 stands for time, from its estimates, or from where it stands, to some
+/// parts of the way, which rise and are above 0. A velocity that jumps on the way is no reason to stop: there is no time.
 ///
 /// # Errors
 /// It cannot be assembled at 0.
 pub fn lead(
     determined: &Arc<Determined>,
     program: &Arc<Program>,
-    from: Option<&[f64]>,
+    stands: Option<&[f64]>,
     parts: &[f64],
     options: &LeadOptions,
 ) -> Result<Way, Box<Diagnostic>> {
-    let leader = Leader { determined, program, solving: Solving::Own, options };
-    let started = leader.start(WAY, from)?;
+    let leader = Leader::new(determined, program, Solving::New, options);
+    let started = match stands {
+        Some(q) => leader.whole(WAY).at(q, Solving::New)?,
+        None => start_from(&leader.whole(WAY), None, Solving::New)?,
+    };
     Ok(leader.lead(started, parts))
 }
 
@@ -66,10 +70,10 @@ pub fn lead(
 pub fn before_ways(
     determined: &Arc<Determined>,
     program: &Arc<Program>,
-    from: &[f64],
+    stands: &[f64],
     options: &LeadOptions,
 ) -> Result<Started, Box<Diagnostic>> {
-    Leader { determined, program, solving: Solving::Own, options }.start(WAY, Some(from))
+    Leader::new(determined, program, Solving::New, options).whole(WAY).at(stands, Solving::New)
 }
 
 /// As [`lead`], to the end of the way alone, from where one of the same mechanism was begun by [`before_ways`], and by the solver of that.
@@ -79,33 +83,42 @@ pub fn before_ways(
 pub fn lead_again(
     determined: &Arc<Determined>,
     program: &Arc<Program>,
-    (from, solver): (&[f64], Option<Arc<Solver>>),
+    (stands, solver): (&[f64], Option<Arc<Solver>>),
     options: &LeadOptions,
 ) -> Result<Way, Box<Diagnostic>> {
-    let leader = Leader { determined, program, solving: Solving::With(solver), options };
-    let started = leader.start(WAY, Some(from))?;
+    let solving = Solving::With(solver);
+    let leader = Leader::new(determined, program, solving.clone(), options);
+    let started = leader.whole(WAY).at(stands, solving)?;
     Ok(leader.lead(started, &[1.0]))
 }
 
-/// What solves for the rows of what is led.
-enum Solving {
-    /// What each start makes for itself.
-    Own,
-    /// This, where it is not too large; of what only goes to other values of its params.
-    With(Option<Arc<Solver>>),
-}
-
 /// What is led, and how.
-struct Leader<'l> {
+pub(super) struct Leader<'l> {
     determined: &'l Arc<Determined>,
     program: &'l Arc<Program>,
     solving: Solving,
     options: &'l LeadOptions,
 }
 
-impl Leader<'_> {
+impl<'l> Leader<'l> {
+    pub fn new(
+        determined: &'l Arc<Determined>,
+        program: &'l Arc<Program>,
+        solving: Solving,
+        options: &'l LeadOptions,
+    ) -> Leader<'l> {
+        Leader { determined, program, solving, options }
+    }
+
+    /// What is led, to be assembled where a horizon begins.
+    pub fn whole(&self, horizon: Horizon) -> Unassembled {
+        let LeadOptions { tolerance, ref cancel, .. } = *self.options;
+        let (determined, program) = (Arc::clone(self.determined), Arc::clone(self.program));
+        Unassembled { determined, program, horizon, tolerance, cancel: cancel.clone() }
+    }
+
     /// Follows it from a start at 0 to some parts of the way.
-    fn lead(&self, mut started: Started, parts: &[f64]) -> Way {
+    pub fn lead(&self, mut started: Started, parts: &[f64]) -> Way {
         let options = self.options;
         let remarks = started.far_estimates_at(options.t);
         let mut way = Way { reached: Vec::new(), remarks, passed: Vec::new(), stopped: None };
@@ -136,26 +149,19 @@ impl Leader<'_> {
         way
     }
 
-    /// Assembled where a horizon begins, from its estimates or from others.
-    fn start(&self, horizon: Horizon, from: Option<&[f64]>) -> Result<Started, Box<Diagnostic>> {
-        let LeadOptions { tolerance, cancel, .. } = self.options;
-        let (determined, program) = (Arc::clone(self.determined), Arc::clone(self.program));
-        match (&self.solving, from) {
-            (Solving::With(solver), Some(from)) => {
-                start_led(determined, program, horizon, (from, solver.clone()), *tolerance, cancel)
-            }
-            _ => start_from(determined, program, horizon, from, *tolerance, cancel),
-        }
+    /// Assembled at a part of the way, where it stands.
+    fn at(&self, part: f64, q: &[f64]) -> Option<Started> {
+        self.whole(WAY.beginning(part)).at(q, self.solving.clone()).ok()
     }
 
     /// The start just behind a place where a velocity jumps, with its part of the way; none where the position is another one there.
     fn beyond_kink(&self, part: f64, (known, q): &(f64, Vec<f64>)) -> Option<(f64, Started)> {
         let (before, behind) = ((part - BESIDE_A_KINK).max(*known), (part + BESIDE_A_KINK).min(1.0));
-        let again = self.start(WAY.beginning(*known), Some(q)).ok()?;
+        let again = self.at(*known, q)?;
         let mut there = Vec::new();
         let stopped = self.follow(again, *known, &[before], &mut there, &mut Vec::new());
         let near = there.pop().filter(|_| stopped.is_none())?;
-        let beyond = self.start(WAY.beginning(behind), Some(&near)).ok()?;
+        let beyond = self.at(behind, &near)?;
         is_the_same(self.determined.system(), &near, beyond.q()).then_some((behind, beyond))
     }
 

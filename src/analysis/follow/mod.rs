@@ -16,9 +16,11 @@ mod lead;
 mod march;
 mod remarks;
 mod rows;
+mod start;
 mod step;
 
 pub use lead::{LeadOptions, Way, before_ways, lead, lead_again};
 pub use march::{Follower, Stretch};
 pub use rows::{Alone, state_of_row};
+pub use start::{follow_to, start, start_from};
 pub use step::quintic_between;

@@ -1,0 +1,173 @@
+//! The start of a mechanism.
+//!
+//! The branch of a motion is decided once, by the drawing: the equations are closed with the drivers where the drawing has them, and
+//! then the drivers are led to where they begin, along that branch. To any other first time the motion is followed from there.
+
+use super::lead::{LeadOptions, Leader, WAY};
+use crate::analysis::assemble::{Doubt, Solving, Started, Unassembled, closed_without_drivers, left_by_drivers};
+use crate::analysis::explain::errors::{at, cannot_follow, short};
+use crate::analysis::state::{Horizon, Times};
+use crate::cancel::Cancel;
+use crate::diag::{Code, Diagnostic, Diagnostics, Label};
+use crate::ir::{Path, RowUnit};
+use crate::math;
+use crate::layout::RowLayout;
+use crate::program::Program;
+use crate::structure::{self, Determined};
+use crate::tolerances::assembly::drive::{AS_DRAWN, CLEARLY, MOST_TURNS};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Assembles a mechanism at the first time of a horizon, from its estimates.
+///
+/// # Errors
+/// It cannot be assembled, starts in a singular position, or a formula has no value there.
+pub fn start(
+    determined: Arc<Determined>,
+    program: Arc<Program>,
+    horizon: Horizon,
+    tolerance: f64,
+    cancel: &Cancel,
+) -> Result<Started, Box<Diagnostic>> {
+    let whole = Unassembled { determined, program, horizon, tolerance, cancel: cancel.clone() };
+    start_from(&whole, None, Solving::New)
+}
+
+/// Assembles a mechanism from the estimates of its file, or from others [m, rad]: closed as it is drawn, then driven to its start.
+///
+/// Where the drawing closes clearly better with the drivers where they begin, as of a crank that is not drawn, it means that. Where it closes
+/// neither way, or no way leads on, it is closed with its drivers left out, and driven from there; else it is closed from the estimates with
+/// the drivers where they begin. Both leave the branch in doubt, which [`Started::remarks`] tells.
+///
+/// # Errors
+/// It cannot be assembled, starts in a singular position, or a formula has no value there.
+pub fn start_from(
+    whole: &Unassembled,
+    estimates: Option<&[f64]>,
+    solving: Solving,
+) -> Result<Started, Box<Diagnostic>> {
+    let (mut kinematics, t) = (whole.kinematics(estimates), whole.horizon.from);
+    let Some(residuals) = left_by_drivers(&mut kinematics, t) else { return whole.closed(kinematics, solving) };
+    let drawn = kinematics.estimates();
+    let closed = close_and_drive(whole, &drawn, &residuals);
+    if let Some(Closed { q, doubt, .. }) = closed.as_ref().filter(|closed| closed.moved <= AS_DRAWN) {
+        return Ok(whole.led(kinematics, q, solving)?.with_doubt(*doubt));
+    }
+    let begun = whole.closed(kinematics.clone(), Solving::With(None));
+    let begun = begun.map(|begun| Closed { moved: begun.moved_in_loops(), doubt: begun.doubt(), q: begun.q().to_vec() });
+    let is_better = |begun: &&Closed| match &closed {
+        None => begun.doubt.is_none() && begun.moved <= AS_DRAWN,
+        Some(closed) if closed.doubt.is_some() => begun.moved < closed.moved,
+        Some(closed) => begun.doubt.is_none() && begun.moved < CLEARLY * closed.moved,
+    };
+    let better = begun.as_ref().ok().filter(is_better);
+    if let Some(Closed { q, doubt, .. }) = better.or(closed.as_ref()) {
+        return Ok(whole.led(kinematics, q, solving)?.with_doubt(*doubt));
+    }
+    let free = closed_without_drivers(&mut kinematics, t);
+    let (q, doubt) = match free.and_then(|(q, residuals)| close_and_drive(whole, &q, &residuals)) {
+        Some(closed) => (closed.q, Doubt::DriversLeftOut),
+        None => (begun?.q, Doubt::NotLed),
+    };
+    Ok(whole.led(kinematics, &q, solving)?.with_doubt(Some(doubt)))
+}
+
+/// A mechanism at its start, and what closing it took.
+struct Closed {
+    /// Its coordinates at the start [m, rad].
+    q: Vec<f64>,
+    /// How far closing moved what it had to iterate for, scaled.
+    moved: f64,
+    /// What leaves in doubt that it closed as it is drawn.
+    doubt: Option<Doubt>,
+}
+
+/// Closes a mechanism with these residuals of rows of `Φ` as it is drawn [m, rad], and leads it to where they vanish; none where it does not
+/// close there, or no way leads on.
+fn close_and_drive(whole: &Unassembled, drawn: &[f64], residuals: &[(usize, f64)]) -> Option<Closed> {
+    let Unassembled { ref determined, horizon, tolerance, ref cancel, .. } = *whole;
+    let system = determined.system();
+    // further turns are left to the last step of the assembly, which turns what follows without iteration
+    let left = |row: usize, from: f64| {
+        let is_angle = system.rows()[row].unit == RowUnit::ANGLE;
+        let turns = if is_angle { -math::floor(-f64::max(from.abs() / TAU - MOST_TURNS, 0.0)) } else { 0.0 };
+        (TAU * turns).copysign(from)
+    };
+    let lines = residuals.iter().map(|&(row, from)| (row, [from, left(row, from)])).collect();
+    let on_its_way = structure::prove(system.along(&Path::Residuals { t: horizon.from, lines })).ok()?;
+    let (program, determined) = (Arc::new(Program::new(on_its_way.system())), Arc::new(on_its_way));
+    let options = LeadOptions { tolerance, pass_bifurcations: false, t: horizon.from, cancel: cancel.clone() };
+    let leader = Leader::new(&determined, &program, Solving::With(None), &options);
+    let closed = leader.whole(WAY).close(Some(drawn), Solving::With(None)).ok()?;
+    let (doubt, moved) = (closed.doubt(), closed.moved_in_loops());
+    if doubt == Some(Doubt::Perturbed) {
+        return None;
+    }
+    let q = leader.lead(closed, &[1.0]).reached.pop()?;
+    Some(Closed { q, moved, doubt })
+}
+
+/// Follows a mechanism from its start at a time (s) to the first time of its horizon, later or earlier; with the bifurcations that were
+/// passed on the way, where these are passed.
+///
+/// # Errors
+/// The motion does not get there, or cannot begin there.
+pub fn follow_to(
+    whole: &Unassembled,
+    (started, own): (Started, f64),
+    pass_bifurcations: bool,
+) -> Result<(Started, Diagnostics), Box<Diagnostic>> {
+    let to = whole.horizon.from;
+    let solver = started.shared_solver();
+    let (q, passed) = if to < own {
+        follow_back(whole, &started, own, pass_bifurcations)?
+    } else {
+        let layout = RowLayout::new(started.system());
+        let mut motion = started.into_motion(&Times::listed(own, vec![to]));
+        if pass_bifurcations {
+            motion.pass_bifurcations();
+        }
+        let q = match motion.next_row() {
+            Some(row) => row.map(|row| layout.position(row).to_vec()).map_err(|why| on_the_way(*why, own))?,
+            None => return Err(Box::new(cannot_follow(whole.determined.system(), own, None))),
+        };
+        let passed = motion.take_remarks().into_iter().filter(|remark| remark.code == Code::W0602);
+        (q, passed.map(|remark| *on_the_way(remark, own)).collect())
+    };
+    let mut said = Diagnostics::default();
+    said.extend(passed);
+    Ok((whole.at(&q, Solving::With(solver))?, said))
+}
+
+/// Where a motion comes from [m, rad], at a time before its start: it is followed back, along a straight line of time.
+fn follow_back(
+    whole: &Unassembled,
+    started: &Started,
+    own: f64,
+    pass_bifurcations: bool,
+) -> Result<(Vec<f64>, Vec<Diagnostic>), Box<Diagnostic>> {
+    let Unassembled { ref determined, horizon, tolerance, ref cancel, .. } = *whole;
+    let ends = [own, horizon.from];
+    let back = structure::prove(determined.system().along(&Path::Time(ends))).map_err(|refused| refused.diagnostic)?;
+    let (program, determined) = (Arc::new(Program::new(back.system())), Arc::new(back));
+    let options = LeadOptions { tolerance, pass_bifurcations, t: own, cancel: cancel.clone() };
+    let leader = Leader::new(&determined, &program, Solving::With(None), &options);
+    let mut way = leader.lead(leader.whole(WAY).at(started.q(), Solving::With(None))?, &[1.0]);
+    // its words and numbers speak of the part of the way that is gone
+    let told = |part: f64, what: Diagnostic| {
+        let t = own + (horizon.from - own) * part;
+        let message = format!("there is {} at {}", what.code.title(), at(t));
+        let labels = what.labels.into_iter().map(|label| Label { text: "here".to_owned(), ..label }).collect();
+        *on_the_way(Diagnostic { labels, ..Diagnostic::new(what.code, message).datum("t", t) }, own)
+    };
+    match (way.reached.pop(), way.stopped) {
+        (Some(q), _) => Ok((q, way.passed.into_iter().map(|(part, what)| told(part, what)).collect())),
+        (None, Some((part, why))) => Err(Box::new(told(part, *why))),
+        (None, None) => Err(Box::new(cannot_follow(whole.determined.system(), own, None))),
+    }
+}
+
+/// What happens before the first time that is asked for, on the way there from the time (s) at which the mechanism starts.
+fn on_the_way(what: Diagnostic, own: f64) -> Box<Diagnostic> {
+    Box::new(Diagnostic { message: format!("on the way from {} s: {}", short(own), what.message), ..what })
+}

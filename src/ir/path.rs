@@ -1,0 +1,83 @@
+//! Equations along a straight path: what stands in the place of time goes from 0 to 1.
+
+use super::{ConstraintSystem, Written};
+use crate::expr::{ExprId, Symbol};
+use rustc_hash::FxHashMap;
+
+/// What changes along a path.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Path {
+    /// Time stands still, and the residuals of some rows go from one value to another: `Φ(q, t) = from + (to − from) s`.
+    Residuals {
+        /// That time (s).
+        t: f64,
+        /// Rows of `Φ`, each with its residual at both ends.
+        lines: Vec<(usize, [f64; 2])>,
+    },
+    /// Time goes from one time to another (s).
+    Time([f64; 2]),
+}
+
+impl ConstraintSystem {
+    /// The equations along a path, without what is asked of the motion: measures, results, forces. Equations that were left out are not
+    /// looked at.
+    #[must_use]
+    pub fn along(&self, path: &Path) -> ConstraintSystem {
+        let (mut graph, mut known) = (self.graph.clone(), FxHashMap::default());
+        let s = graph.symbol(Symbol::Time);
+        let time = match path {
+            Path::Residuals { t, .. } => graph.constant(*t),
+            Path::Time(ends) => {
+                let ends = ends.map(|t| graph.constant(t));
+                graph.line(ends, s)
+            }
+        };
+        let mut along = |id: ExprId| {
+            graph.import(&self.graph, &[id], &mut known, |graph, symbol| match symbol {
+                Symbol::Time => time,
+                other => graph.symbol(other),
+            });
+            known[&id]
+        };
+        let mut rows = self.rows.clone();
+        rows.iter_mut().for_each(|row| row.phi = along(row.phi));
+        let mut conditions = self.conditions.clone();
+        conditions.iter_mut().for_each(|condition| condition.positive = along(condition.positive));
+        let mut watches = self.watches.clone();
+        watches.iter_mut().for_each(|watch| watch.value = along(watch.value));
+        if let Path::Residuals { lines, .. } = path {
+            for &(row, ends) in lines {
+                let ends = ends.map(|value| graph.constant(value));
+                let left = graph.line(ends, s);
+                rows[row].phi = graph.sub(rows[row].phi, left);
+            }
+        }
+        let written = Written {
+            name: self.name.clone(),
+            span: self.span,
+            graph,
+            params: self.params.clone(),
+            has_signals: false,
+            bodies: self.bodies.clone(),
+            points: self.points.clone(),
+            coordinates: self.coordinates.clone(),
+            declarations: self.declarations.clone(),
+            rows,
+            forces: None,
+            variations: None,
+            measures: Vec::new(),
+            conditions,
+            watches,
+            open_contacts: Vec::new(),
+            fits: self.fits.clone(),
+            parts: Vec::new(),
+            asking_parts: Vec::new(),
+            length: self.length,
+            analysis: None,
+        };
+        let mut system = ConstraintSystem::of(written, false);
+        (system.axes, system.circles) = (self.axes.clone(), self.circles.clone());
+        debug_assert_eq!(system.validate(), Ok(()));
+        system
+    }
+}
