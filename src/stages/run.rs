@@ -6,7 +6,7 @@ use super::options::{RunOptions, Stand};
 use super::used_at::UsedAt;
 use crate::analysis::{self, Answers, Asked, Follower, Horizon, Solving, Started, Times, Unassembled};
 use crate::cancel::Cancel;
-use crate::diag::{Diagnostic, Diagnostics, readable};
+use crate::diag::{Code, Diagnostic, Diagnostics, readable};
 use crate::layout::{ColumnUnit, RowLayout};
 use std::sync::Arc;
 
@@ -146,7 +146,8 @@ impl Compiled {
             Beginning::Started(started) => return (*started, said),
             Beginning::At(Begin::Led(q), at) => self.unassembled(at, options).at(&q, solving),
             Beginning::At(Begin::Drawn(drawn), at) => {
-                analysis::start_from(&self.unassembled(at, options), drawn.as_deref(), solving).and_then(|started| {
+                let started = analysis::start_from(&self.unassembled(at, options), drawn.as_deref(), solving);
+                started.map_err(|why| self.with_analysis_proposed(why, horizon)).and_then(|started| {
                     if at.from.total_cmp(&horizon.from).is_eq() {
                         return Ok(started);
                     }
@@ -159,7 +160,7 @@ impl Compiled {
                 })
             }
         };
-        (started.map_err(|why| self.with_analysis_proposed(why, horizon)), said)
+        (started, said)
     }
 
     /// Where it comes nearest to being assembled at a time (s), if it cannot be assembled there: its coordinates [m, rad].
@@ -208,14 +209,15 @@ impl Compiled {
         (Beginning::At(begin, at), said)
     }
 
-    /// Why it cannot start, with a mend where a text without an analysis has no start at 0 s.
+    /// Why it cannot start, with a mend where a text without an analysis has no values at 0 s.
     fn with_analysis_proposed(&self, why: Box<Diagnostic>, horizon: Horizon) -> Box<Diagnostic> {
-        if self.analysis().is_some() || horizon.from.total_cmp(&0.0).is_eq() {
+        let has_no_value = matches!(why.code, Code::E0605 | Code::E0606 | Code::E0608);
+        if self.analysis().is_some() || horizon.from.total_cmp(&0.0).is_eq() || !has_no_value {
             return why;
         }
+        let [from, to] = [horizon.from, horizon.from + horizon.span].map(readable);
         let mend = format!(
-            "without an analysis the motion begins at 0 s: add `analysis from {} s to … every …` to the file",
-            readable(horizon.from)
+            "without an analysis the motion begins at 0 s;\nadd `analysis from {from} s to {to} s every 10 ms` to the file"
         );
         Box::new(why.help(mend))
     }

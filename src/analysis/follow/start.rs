@@ -157,7 +157,8 @@ fn follow_back(
     let told = |part: f64, what: Diagnostic| {
         let t = own + (horizon.from - own) * part;
         let message = format!("there is {} at {}", what.code.title(), at(t));
-        let labels = what.labels.into_iter().map(|label| Label { text: "here".to_owned(), ..label }).collect();
+        let word = |is_primary: bool| if is_primary { "here" } else { "" }.to_owned();
+        let labels = what.labels.into_iter().map(|label| Label { text: word(label.primary), ..label }).collect();
         *on_the_way(Diagnostic { labels, ..Diagnostic::new(what.code, message).datum("t", t) }, own)
     };
     match (way.reached.pop(), way.stopped) {

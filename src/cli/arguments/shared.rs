@@ -68,7 +68,7 @@ pub(in crate::cli) enum When {
 /// When an analysis begins and ends, over what the file says.
 #[derive(Args, Clone, Debug, Default)]
 pub(in crate::cli) struct Interval {
-    /// First time, in seconds or with a unit
+    /// First time, in seconds or with a unit; the motion is followed to it from the start of the file's analysis, or from 0 s
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub from: Option<String>,
 
