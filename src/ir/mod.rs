@@ -48,8 +48,8 @@ pub use declared::{
 };
 pub use features::{Axis, Circle, Point};
 pub use forces::{Forces, LoadForce, Mechanics, Press, Reaction};
-pub use path::Path;
 pub use ids::{AxisId, BodyId, CircleId, DeclarationId, IdVec, PointId};
+pub use path::Path;
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use right_sides::{RightSide, With};
 pub use rims::Rim;

@@ -57,6 +57,14 @@ impl Checked {
         let whole = (Arc::clone(compiled.determined()), Arc::clone(compiled.program()));
         let angles = Angles::of(self.library(), self.sources());
         let sets_inputs = self.surroundings.set_inputs.as_ref().is_some_and(|set| !set.names.is_empty());
-        Some(Own { whole, model, started, t, sets_inputs, leave_out_redundant: redundant == Redundant::LeftOut, angles })
+        Some(Own {
+            whole,
+            model,
+            started,
+            t,
+            sets_inputs,
+            leave_out_redundant: redundant == Redundant::LeftOut,
+            angles,
+        })
     }
 }

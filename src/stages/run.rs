@@ -153,8 +153,7 @@ impl Compiled {
                     }
                     let whole = self.unassembled(horizon, options);
                     said.extend(started.far_estimates_at(at.from));
-                    let (started, passed) =
-                        analysis::follow_to(&whole, (started, at.from), options.pass_bifurcations)?;
+                    let (started, passed) = analysis::follow_to(&whole, (started, at.from), options.pass_bifurcations)?;
                     said.extend(passed);
                     Ok(started)
                 })

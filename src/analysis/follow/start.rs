@@ -10,8 +10,8 @@ use crate::analysis::state::{Horizon, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics, Label};
 use crate::ir::{Path, RowUnit};
-use crate::math;
 use crate::layout::RowLayout;
+use crate::math;
 use crate::program::Program;
 use crate::structure::{self, Determined};
 use crate::tolerances::assembly::drive::{AS_DRAWN, CLEARLY, MOST_TURNS};
@@ -54,7 +54,8 @@ pub fn start_from(
         return Ok(whole.led(kinematics, q, solving)?.with_doubt(*doubt));
     }
     let begun = whole.closed(kinematics.clone(), Solving::With(None));
-    let begun = begun.map(|begun| Closed { moved: begun.moved_in_loops(), doubt: begun.doubt(), q: begun.q().to_vec() });
+    let begun =
+        begun.map(|begun| Closed { moved: begun.moved_in_loops(), doubt: begun.doubt(), q: begun.q().to_vec() });
     let is_better = |begun: &&Closed| match &closed {
         None => begun.doubt.is_none() && begun.moved <= AS_DRAWN,
         Some(closed) if closed.doubt.is_some() => begun.moved < closed.moved,
