@@ -99,20 +99,17 @@ fn followed(text: impl Fn(&str, &str) -> String, target: f64) -> Vec<f64> {
 
 #[test]
 fn the_start_is_on_the_branch_of_the_file() {
-    let mut elsewhere = 0;
     for links in CRANK_ROCKER.iter().chain(&DRAG_LINK) {
         let text = |declarations: &str, driver: &str| four_bar(links, declarations, driver);
         for target in [31.0, 100.0, 180.0, 250.0, 359.0, 800.0, -75.0, -500.0] {
             let led = compiled(&text(TURN, "turn"), &[&format!("turn={target} deg")], None);
             let wanted = followed(text, target);
             assert!(same_place(&first_row(&led, 0.0), &wanted), "{target} deg, {:?}", links.lengths);
-            // from the estimates alone
+            // and so is that of a driver which begins there
             let alone = compiled(&text("", &format!("{target} deg + 0 rad/s * t")), &[], None);
-            let (rows, _) = run(&alone, &Times::listed(0.0, vec![0.0]));
-            elsewhere += usize::from(rows.first().is_none_or(|row| !same_place(row, &wanted)));
+            assert!(same_place(&first_row(&alone, 0.0), &wanted), "{target} deg, {:?}", links.lengths);
         }
     }
-    assert!(elsewhere > 4, "{elsewhere}: estimates alone would have done as well, and this shows nothing");
 }
 
 #[test]
@@ -355,7 +352,6 @@ const START: &str = "param start = 30 deg";
 
 #[test]
 fn params_that_are_set_are_gone_over_to_along_the_branch() {
-    let mut elsewhere = 0;
     for links in CRANK_ROCKER.iter().chain(&DRAG_LINK) {
         let text = |declarations: &str, driver: &str| four_bar(links, declarations, driver);
         for target in [31.0, 180.0, 359.0, -75.0, -500.0] {
@@ -367,12 +363,8 @@ fn params_that_are_set_are_gone_over_to_along_the_branch() {
             let half = format!("half={} deg", target / 2.0);
             assert!(same_place(&first_row(&led_over(&follows, &[&half]), 0.0), &wanted), "{target} deg");
             assert!(same_place(&first_row(&led_over(&follows, &[&set]), 0.0), &wanted), "{target} deg");
-            let alone = compiled(&text("", &format!("{target} deg + 0 rad/s * t")), &[], None);
-            let (rows, _) = run(&alone, &Times::listed(0.0, vec![0.0]));
-            elsewhere += usize::from(rows.first().is_none_or(|row| !same_place(row, &wanted)));
         }
     }
-    assert!(elsewhere > 4, "{elsewhere}: estimates alone would have done as well, and this shows nothing");
 }
 
 #[test]

@@ -146,7 +146,13 @@ impl Compiled {
             Beginning::Started(started) => return (*started, said),
             Beginning::At(Begin::Led(q), at) => self.unassembled(at, options).at(&q, solving),
             Beginning::At(Begin::Drawn(drawn), at) => {
-                let started = analysis::start_from(&self.unassembled(at, options), drawn.as_deref(), solving);
+                let whole = self.unassembled(at, options);
+                // where no way leads to what is told or set, the estimates alone are tried
+                let started = if said.has_errors() {
+                    whole.close(drawn.as_deref(), solving)
+                } else {
+                    analysis::start_from(&whole, drawn.as_deref(), solving)
+                };
                 started.map_err(|why| self.with_analysis_proposed(why, horizon)).and_then(|started| {
                     if at.from.total_cmp(&horizon.from).is_eq() {
                         return Ok(started);

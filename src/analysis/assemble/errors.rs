@@ -5,7 +5,6 @@ use super::branches::{Doubt, FarBody, Off};
 use crate::analysis::explain::errors::{at, degrees, length};
 use crate::diag::{Applies, Code, Diagnostic, Fix, readable};
 use crate::ir::{ConstraintSystem, DeclarationKind, Fit, JointKind};
-use crate::source::Span;
 use crate::tolerances::determinacy::fits::{LARGEST_MISFIT, MOVED, NOTHING};
 
 /// A remark on what leaves in doubt that the position taken is the one meant.
@@ -13,36 +12,40 @@ use crate::tolerances::determinacy::fits::{LARGEST_MISFIT, MOVED, NOTHING};
 /// From the estimates to the assembled position.
 pub fn far_estimates(system: &ConstraintSystem, doubt: Doubt, [from, to]: [&[f64]; 2], t: f64) -> Diagnostic {
     const NEARER: &str = "give estimates in `at` that are nearer to the position meant";
-    let remark = |message: String, span: Span, label: &str| Diagnostic::new(Code::N0601, message).at(span, label);
-    let whole = |message: String, label: &str| remark(message, system.span(), label);
-    let said = match doubt {
-        Doubt::Perturbed => whole(
+    let (message, place, label, help) = match doubt {
+        Doubt::Perturbed => (
             format!("the estimates do not say which way the mechanism is assembled at {}", at(t)),
+            system.span(),
             "one of several positions was taken",
-        )
-        .help(NEARER),
-        Doubt::DriversLeftOut => whole(
+            NEARER,
+        ),
+        Doubt::DriversLeftOut => (
             format!("the mechanism does not close as it is drawn at {}", at(t)),
+            system.span(),
             "closed with its drivers left out, which then led it to where they begin",
-        )
-        .help(NEARER),
-        Doubt::NotLed => whole(
+            NEARER,
+        ),
+        Doubt::NotLed => (
             format!("no way leads from the drawn position to where the drivers begin at {}", at(t)),
+            system.span(),
             "assembled from the estimates with the drivers there, which may mean another branch",
-        )
-        .help("draw it where its drivers begin, with poses in `at`"),
+            "draw it where its drivers begin, with poses in `at`",
+        ),
         Doubt::Far(FarBody { body, off }) => {
             let body = &system.bodies()[body];
             let how = match off {
                 Off::Moved(by) => format!("moved by {}", length(by)),
                 Off::Turned(by) => format!("turned by {}", degrees(by)),
             };
-            let message = format!("body `{}` was {how} by the assembly at {}", body.name, at(t));
-            remark(message, body.span, "far from its estimate")
-                .help("if this is not the branch meant, give better estimates in `at`")
+            (
+                format!("body `{}` was {how} by the assembly at {}", body.name, at(t)),
+                body.span,
+                "far from its estimate",
+                "if this is not the branch meant, give better estimates in `at`",
+            )
         }
     };
-    said.change(assembled_poses(system, from, to))
+    Diagnostic::new(Code::N0601, message).at(place, label).help(help).change(assembled_poses(system, from, to))
 }
 
 /// The assembled poses as the estimates of those bodies that assembly has moved by more than rounding.

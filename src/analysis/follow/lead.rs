@@ -1,7 +1,6 @@
 //! The way from one start to another: a mechanism whose inputs go along straight lines is followed from where its own inputs have it to
 //! where others do, along the branch.
 
-use super::start::start_from;
 use crate::analysis::assemble::{Solving, Started, Unassembled};
 use crate::analysis::explain::errors;
 use crate::analysis::state::{Horizon, Times};
@@ -41,26 +40,6 @@ pub struct Way {
     pub passed: Vec<(f64, Diagnostic)>,
     /// Where it did not go on, from 0 to 1, and what happens there.
     pub stopped: Option<(f64, Box<Diagnostic>)>,
-}
-
-/// Follows a mechanism, in whose equations a straight way from 0 to 1 stands for time, from its estimates, or from where it stands, to some
-/// parts of the way, which rise and are above 0. A velocity that jumps on the way is no reason to stop: there is no time.
-///
-/// # Errors
-/// It cannot be assembled at 0.
-pub fn lead(
-    determined: &Arc<Determined>,
-    program: &Arc<Program>,
-    stands: Option<&[f64]>,
-    parts: &[f64],
-    options: &LeadOptions,
-) -> Result<Way, Box<Diagnostic>> {
-    let leader = Leader::new(determined, program, Solving::New, options);
-    let started = match stands {
-        Some(q) => leader.whole(WAY).at(q, Solving::New)?,
-        None => start_from(&leader.whole(WAY), None, Solving::New)?,
-    };
-    Ok(leader.lead(started, parts))
 }
 
 /// What begins all ways of a mechanism whose parameters say where they lead: it stands at their beginning, whatever these are.

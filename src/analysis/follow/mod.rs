@@ -19,8 +19,8 @@ mod rows;
 mod start;
 mod step;
 
-pub use lead::{LeadOptions, Way, before_ways, lead, lead_again};
+pub use lead::{LeadOptions, Way, before_ways, lead_again};
 pub use march::{Follower, Stretch};
 pub use rows::{Alone, state_of_row};
-pub use start::{follow_to, start, start_from};
+pub use start::{follow_to, lead, start, start_from};
 pub use step::quintic_between;

@@ -3,13 +3,13 @@
 //! The branch of a motion is decided once, by the drawing: the equations are closed with the drivers where the drawing has them, and
 //! then the drivers are led to where they begin, along that branch. To any other first time the motion is followed from there.
 
-use super::lead::{LeadOptions, Leader, WAY};
+use super::lead::{LeadOptions, Leader, WAY, Way};
 use crate::analysis::assemble::{Doubt, Solving, Started, Unassembled, closed_without_drivers, left_by_drivers};
 use crate::analysis::explain::errors::{at, cannot_follow, short};
 use crate::analysis::state::{Horizon, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics, Label};
-use crate::ir::{Path, RowUnit};
+use crate::ir::{Homotopy, RowUnit};
 use crate::layout::RowLayout;
 use crate::math;
 use crate::program::Program;
@@ -73,6 +73,26 @@ pub fn start_from(
     Ok(whole.led(kinematics, &q, solving)?.with_doubt(Some(doubt)))
 }
 
+/// Follows a mechanism, in whose equations a straight way from 0 to 1 stands for time, from its estimates, or from where it stands, to some
+/// parts of the way, which rise and are above 0. A velocity that jumps on the way is no reason to stop: there is no time.
+///
+/// # Errors
+/// It cannot be assembled at 0.
+pub fn lead(
+    determined: &Arc<Determined>,
+    program: &Arc<Program>,
+    stands: Option<&[f64]>,
+    parts: &[f64],
+    options: &LeadOptions,
+) -> Result<Way, Box<Diagnostic>> {
+    let leader = Leader::new(determined, program, Solving::New, options);
+    let started = match stands {
+        Some(q) => leader.whole(WAY).at(q, Solving::New)?,
+        None => start_from(&leader.whole(WAY), None, Solving::New)?,
+    };
+    Ok(leader.lead(started, parts))
+}
+
 /// A mechanism at its start, and what closing it took.
 struct Closed {
     /// Its coordinates at the start [m, rad].
@@ -95,7 +115,7 @@ fn close_and_drive(whole: &Unassembled, drawn: &[f64], residuals: &[(usize, f64)
         (TAU * turns).copysign(from)
     };
     let lines = residuals.iter().map(|&(row, from)| (row, [from, left(row, from)])).collect();
-    let on_its_way = structure::prove(system.along(&Path::Residuals { t: horizon.from, lines })).ok()?;
+    let on_its_way = structure::prove(system.along(&Homotopy::Residuals { t: horizon.from, lines })).ok()?;
     let (program, determined) = (Arc::new(Program::new(on_its_way.system())), Arc::new(on_its_way));
     let options = LeadOptions { tolerance, pass_bifurcations: false, t: horizon.from, cancel: cancel.clone() };
     let leader = Leader::new(&determined, &program, Solving::With(None), &options);
@@ -149,7 +169,8 @@ fn follow_back(
 ) -> Result<(Vec<f64>, Vec<Diagnostic>), Box<Diagnostic>> {
     let Unassembled { ref determined, horizon, tolerance, ref cancel, .. } = *whole;
     let ends = [own, horizon.from];
-    let back = structure::prove(determined.system().along(&Path::Time(ends))).map_err(|refused| refused.diagnostic)?;
+    let back =
+        structure::prove(determined.system().along(&Homotopy::Time(ends))).map_err(|refused| refused.diagnostic)?;
     let (program, determined) = (Arc::new(Program::new(back.system())), Arc::new(back));
     let options = LeadOptions { tolerance, pass_bifurcations, t: own, cancel: cancel.clone() };
     let leader = Leader::new(&determined, &program, Solving::With(None), &options);

@@ -1,12 +1,12 @@
-//! Equations along a straight path: what stands in the place of time goes from 0 to 1.
+//! Equations along a homotopy: its parameter, which goes from 0 to 1, stands in the place of time.
 
 use super::{ConstraintSystem, Written};
 use crate::expr::{ExprId, Symbol};
 use rustc_hash::FxHashMap;
 
-/// What changes along a path.
+/// What a homotopy changes along a straight line, `s` being its parameter.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Path {
+pub enum Homotopy {
     /// Time stands still, and the residuals of some rows go from one value to another: `Φ(q, t) = from + (to − from) s`.
     Residuals {
         /// That time (s).
@@ -19,15 +19,15 @@ pub enum Path {
 }
 
 impl ConstraintSystem {
-    /// The equations along a path, without what is asked of the motion: measures, results, forces. Equations that were left out are not
+    /// The equations along a homotopy, without what is asked of the motion: measures, results, forces. Equations that were left out are not
     /// looked at.
     #[must_use]
-    pub fn along(&self, path: &Path) -> ConstraintSystem {
+    pub fn along(&self, homotopy: &Homotopy) -> ConstraintSystem {
         let (mut graph, mut known) = (self.graph.clone(), FxHashMap::default());
         let s = graph.symbol(Symbol::Time);
-        let time = match path {
-            Path::Residuals { t, .. } => graph.constant(*t),
-            Path::Time(ends) => {
+        let time = match homotopy {
+            Homotopy::Residuals { t, .. } => graph.constant(*t),
+            Homotopy::Time(ends) => {
                 let ends = ends.map(|t| graph.constant(t));
                 graph.line(ends, s)
             }
@@ -45,7 +45,7 @@ impl ConstraintSystem {
         conditions.iter_mut().for_each(|condition| condition.positive = along(condition.positive));
         let mut watches = self.watches.clone();
         watches.iter_mut().for_each(|watch| watch.value = along(watch.value));
-        if let Path::Residuals { lines, .. } = path {
+        if let Homotopy::Residuals { lines, .. } = homotopy {
             for &(row, ends) in lines {
                 let ends = ends.map(|value| graph.constant(value));
                 let left = graph.line(ends, s);
