@@ -249,7 +249,7 @@ impl<'a> Checker<'a> {
         let context = self.pair_context([dx, dy], "a direction", None);
         let (x, y) = (self.formula(dx, &context), self.formula(dy, &context));
         let (x, y) = (x?, y?);
-        self.alike("the two parts of the direction are", (dx.span, x.dim), (dy.span, y.dim), &context)?;
+        self.alike("the two parts of the direction are", (dx.span, x), (dy.span, y), &context)?;
         self.not_zero([x.id, y.id], e.span)
     }
 
@@ -285,7 +285,7 @@ impl<'a> Checker<'a> {
         context: &Context<'_>,
     ) -> Option<[ExprId; 2]> {
         let (x, y) = (x?, y?);
-        self.alike("the coordinates of a point are", (parts[0].span, x.dim), (parts[1].span, y.dim), context)?;
+        self.alike("the coordinates of a point are", (parts[0].span, x), (parts[1].span, y), context)?;
         for part in parts {
             if !context.judged && self.refuses_angle("a coordinate", part) {
                 return None;
@@ -303,14 +303,6 @@ impl<'a> Checker<'a> {
         self.warn_of_degrees_in(e);
         let (id, _) = self.constant_by(e, place, Dimension::PURE, DecidedBy::Finite)?;
         Some(id)
-    }
-
-    pub(super) fn warn_of_degrees(&mut self, e: &Expr) {
-        if let Some(value) = e.bare_number()
-            && value.abs() > std::f64::consts::TAU
-        {
-            self.report(errors::degrees(e.span, value, self.sources.text(e.span)));
-        }
     }
 
     /// A point where an axis begins or ends: one of the frame by name, or a formula of points.

@@ -53,10 +53,7 @@ impl Checker<'_> {
             self.report(errors::not_finite(name.span, value));
             return None;
         }
-        let dimension = match told.dim {
-            Dim::Of(dimension) => dimension,
-            Dim::Any => Dim::PURE.settled(),
-        };
+        let dimension = told.dim.settled();
         self.model.led.push(Led { declared, param: None, line, dimension });
         Some(Value { id: self.along_a_line(line), ..told })
     }

@@ -42,7 +42,7 @@ impl<'a> Checker<'a> {
         estimate: Option<&Expr>,
     ) -> Option<CurveId> {
         let id = self.name_symbol(Named::Argument, 0);
-        let value = Value { id, dim: Dim::Of(Dimension::PURE) };
+        let value = Value { id, dim: Dim::PURE };
         let known = self.model.conditions.len();
         let pair = self.at_curve(frame, &argument.text, |checker| {
             checker.place_of(at, "curve", "a curve", Some((&argument.text, value)))

@@ -43,10 +43,7 @@ impl Checker<'_> {
             return None;
         }
         self.model.conditions.truncate(before);
-        let dimension = match own.dim {
-            Dim::Of(dimension) => dimension,
-            Dim::Any => Dimension::PURE,
-        };
+        let dimension = own.dim.settled();
         let id = self.line(&declared, [value, t], (dimension, bends));
         Some(Value { id, ..own })
     }

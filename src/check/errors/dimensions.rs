@@ -2,7 +2,7 @@
 
 use crate::check::mends::{is_bare_number, with_factors, with_unit};
 use crate::check::rates::{Part, polar, rate_mended};
-use crate::diag::{Code, Diagnostic, readable};
+use crate::diag::{Code, Diagnostic, Fix, readable};
 use crate::model::Dimension;
 use crate::source::Span;
 use crate::syntax::ast::Name;
@@ -10,8 +10,14 @@ use crate::syntax::ast::Name;
 /// Places of one kind that are shown beside the first one, at most.
 pub(super) const MOST_PLACES: usize = 4;
 
-/// The text of a part is told where it is a bare number.
-pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time: bool) -> Diagnostic {
+/// The text of a part is told where it is a bare number; a factor is proposed where one is of quantities.
+pub fn unlike(
+    what: &str,
+    [first, second]: [Part; 2],
+    texts: [&str; 2],
+    has_time: bool,
+    is_of_quantities: bool,
+) -> Diagnostic {
     let [one, other] = [(first, texts[0]), (second, texts[1])];
     let fix = [(one, other), (other, one)].into_iter().find_map(|((one, text), (other, other_text))| {
         if !one.dimension.is(Dimension::PURE) {
@@ -26,6 +32,7 @@ pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time:
     let mended =
         rate_mended(first.dimension, second, texts[1]).or_else(|| rate_mended(second.dimension, first, texts[0]));
     let fix = mended.filter(|_| has_time).or(fix);
+    let fix = fix.or_else(|| scaled(first.dimension, second, texts[1]).filter(|_| is_of_quantities));
     let polar = polar(first, second, texts).filter(|_| what.starts_with("the coordinates"));
     // where time may not stand it is no more than an explanation
     let is_factor = fix.as_ref().is_some_and(|fix| fix.message.ends_with("t`"));
@@ -36,6 +43,33 @@ pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time:
         .fix_if(fix)
         .help_if(help)
         .help_if(polar)
+}
+
+/// Texts of more characters than this are left out of a message.
+const LONGEST_SHOWN: usize = 40;
+
+/// A term with the factor that makes it like another one.
+fn scaled(like: Dimension, term: Part, text: &str) -> Option<Fix> {
+    let factor = like.over(term.dimension);
+    let is_whole = [factor.length, factor.time, factor.mass].iter().all(|power| (power - power.round()).abs() < 1e-9);
+    let unit = usual_factor(factor);
+    let [before, behind] = match unit.strip_prefix("1/") {
+        Some(divisor) => {
+            let divisor = divisor.trim_start_matches('(').trim_end_matches(')');
+            let one = if divisor.contains(['*', '/']) { format!("(1 {divisor})") } else { format!("1 {divisor}") };
+            [String::new(), format!(" / {one}")]
+        }
+        None => [format!("1 {unit} * "), String::new()],
+    };
+    let shown = if text.chars().count() <= LONGEST_SHOWN && !text.contains(['+', '-', '\n']) { text } else { "(…)" };
+    let words = format!("a factor makes {} of it: `{before}{shown}{behind}`", like.in_words());
+    is_whole.then(|| with_factors(term.span, text, [&before, &behind], &words))
+}
+
+/// The unit of a factor; a rate is one of an angle.
+fn usual_factor(factor: Dimension) -> String {
+    let unit = factor.unit();
+    if factor.is(Dimension::RATE) { "rad/s".to_owned() } else { unit }
 }
 
 /// What a quantity is usually written in.
