@@ -73,6 +73,9 @@ impl Checker<'_> {
                 let (span, value) = arguments[0];
                 self.demand(&format!("the argument of `{name}`"), Dimension::PURE, span, value.dim, context)?;
                 let id = self.model.graph.unary(Unary::named(name)?, value.id);
+                if ["asin", "acos"].contains(&name) && self.is_no_sine(span, name, value) {
+                    return None;
+                }
                 let dim = if value.dim.is_pure() { self.made_of(arguments) } else { Dim::UNFIT };
                 Some(Value { id, dim })
             }
@@ -81,6 +84,14 @@ impl Checker<'_> {
             // a derivative is taken of a formula, not of its value; points are no numbers
             Group::Alike | Group::Derivative | Group::Points => self.apply_to_alike(name, arguments, context),
         }
+    }
+
+    /// Says that an angle has no such sine or cosine, where that is a constant.
+    fn is_no_sine(&mut self, span: Span, function: &str, argument: Value) -> bool {
+        let number = self.number_of(argument.id).filter(|number| number.is_finite() && number.abs() > 1.0);
+        let Some(number) = number.filter(|_| !self.branch.is_untaken) else { return false };
+        self.report(errors::no_such_angle(span, function, number));
+        true
     }
 
     fn apply_to_alike(&mut self, function: &str, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {

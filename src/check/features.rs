@@ -233,7 +233,7 @@ impl<'a> Checker<'a> {
 
     fn direction_of(&mut self, e: &Expr) -> Option<[ExprId; 2]> {
         let ExprKind::Tuple(parts) = &e.kind else {
-            self.wrong_kind(e.span, "a direction `(dx, dy)`", Self::describe(e));
+            self.report(errors::no_direction(e.span, Self::describe(e), self.angle_of_place(e)));
             return None;
         };
         let [dx, dy] = parts.as_slice() else {
@@ -251,6 +251,16 @@ impl<'a> Checker<'a> {
         let (x, y) = (x?, y?);
         self.alike("the two parts of the direction are", (dx.span, x), (dy.span, y), &context)?;
         self.not_zero([x.id, y.id], e.span)
+    }
+
+    /// The text of the angle of a place that is given by a distance and an angle.
+    fn angle_of_place(&self, e: &Expr) -> Option<&'a str> {
+        match &e.bare().kind {
+            ExprKind::Call { name, arguments } if name.text == "polar" => {
+                arguments.get(1).map(|angle| self.sources.text(angle.span))
+            }
+            _ => None,
+        }
     }
 
     fn not_zero(&mut self, direction: [ExprId; 2], span: Span) -> Option<[ExprId; 2]> {

@@ -32,6 +32,8 @@ pub struct Freedom {
     drivers: Vec<String>,
     /// Joints that may have been forgotten, as text to write.
     joints: Vec<String>,
+    /// The same of joints that slide.
+    guides: Vec<String>,
 }
 
 impl Freedom {
@@ -62,9 +64,10 @@ impl Freedom {
         let loose = bodies_where(with_share(LOOSE), 3);
         let moving = bodies_where(with_share(MOVES), 1);
         let motions = motions_beside(system, part, taken);
-        let mut freedom = Freedom { motions, loose, moving, drivers: Vec::new(), joints: Vec::new() };
+        let mut freedom = Freedom { motions, loose, moving, drivers: Vec::new(), joints: Vec::new(), guides: Vec::new() };
         let proposals = Proposals { evaluator, motions: &freedom.motions, moving: &freedom.moving };
-        (freedom.drivers, freedom.joints) = (proposals.drivers(), proposals.joints());
+        (freedom.drivers, freedom.joints, freedom.guides) =
+            (proposals.drivers(), proposals.joints(), proposals.guides());
         Some(freedom)
     }
 
@@ -119,6 +122,9 @@ impl Freedom {
                 "{what} These points are drawn onto each other, or nearly so: {}",
                 self.joints.join(", ")
             ));
+        }
+        if !self.guides.is_empty() {
+            helps.push(format!("a joint is missing? No joint takes these axes of one name: {}", self.guides.join(", ")));
         }
         let one = if helps.is_empty() { "add" } else { "or add" };
         match (self.drivers.as_slice(), self.degrees()) {

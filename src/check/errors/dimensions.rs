@@ -153,6 +153,15 @@ pub fn not_finite(span: Span, value: f64) -> Diagnostic {
         .help("look for a division by zero, a root or logarithm of what is not positive, or a number beyond 1.8e308")
 }
 
+/// `acos` of what is beyond 1.
+pub fn no_such_angle(argument: Span, function: &str, value: f64) -> Diagnostic {
+    let number = readable(value);
+    let which = if function == "acos" { "cosine" } else { "sine" };
+    Diagnostic::new(Code::E0404, format!("no angle has the {which} {number}"))
+        .at(argument, format!("{number}, and the {which} of an angle is between -1 and 1"))
+        .help("a triangle with these lengths does not close: one side is longer than the other two together, or a ratio is upside down")
+}
+
 pub fn zero_direction(span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0405, "an axis needs a direction, and this one has length zero")
         .at(span, "no direction")

@@ -102,6 +102,18 @@ pub fn degrees(span: Span, value: f64, text: &str) -> Diagnostic {
         .change(is_bare.then(|| unit("rad")))
 }
 
+/// Something else in the place of a direction; the text of its angle, where it has one.
+pub fn no_direction(span: Span, found: &str, angle: Option<&str>) -> Diagnostic {
+    let pair = |angle: &str| format!("(cos({angle}), sin({angle}))");
+    let fix = angle.map(|angle| {
+        let message = format!("the direction of an angle is `{}`", pair(angle));
+        Fix::replace(span, pair(angle), message, Applies::Probably)
+    });
+    Diagnostic::new(Code::E0302, format!("expected a direction `(dx, dy)`, found {found}"))
+        .at(span, format!("this is {found}"))
+        .fix_if(fix)
+}
+
 /// A term that is a bare number beside a measure which is printed in a unit of angle; where the unit would be written, and both texts.
 pub fn number_beside_degrees(
     [term, number]: [Span; 2],
