@@ -2,7 +2,7 @@
 
 use crate::check::mends::{is_bare_number, with_factors, with_unit};
 use crate::check::rates::{Part, polar, rate_mended};
-use crate::diag::{Code, Diagnostic, Fix, readable};
+use crate::diag::{Applies, Code, Diagnostic, Fix, readable};
 use crate::model::Dimension;
 use crate::source::Span;
 use crate::syntax::ast::Name;
@@ -31,7 +31,8 @@ pub fn unlike(
     });
     let mended =
         rate_mended(first.dimension, second, texts[1]).or_else(|| rate_mended(second.dimension, first, texts[0]));
-    let fix = mended.filter(|_| has_time).or(fix);
+    let upside_down = || unit_above(first.dimension, second, texts[1]).or_else(|| unit_above(second.dimension, first, texts[0]));
+    let fix = mended.filter(|_| has_time).or_else(upside_down).or(fix);
     let fix = fix.or_else(|| scaled(first.dimension, second, texts[1]).filter(|_| is_of_quantities));
     let polar = polar(first, second, texts).filter(|_| what.starts_with("the coordinates"));
     // where time may not stand it is no more than an explanation
@@ -43,6 +44,17 @@ pub fn unlike(
         .fix_if(fix)
         .help_if(help)
         .help_if(polar)
+}
+
+/// `1/3 s` that is to be like a time: a unit binds more tightly than what divides.
+fn unit_above(like: Dimension, term: Part, text: &str) -> Option<Fix> {
+    let (above, below) = text.split_once('/')?;
+    let (number, unit) = below.trim().split_once(' ')?;
+    let is_number = |text: &str| text.trim().parse::<f64>().is_ok();
+    let is_so = is_number(above) && is_number(number) && like.times(term.dimension).is(Dimension::PURE);
+    let mended = format!("{} {} / {number}", above.trim(), unit.trim());
+    let message = format!("a unit belongs to the number before it: `{mended}`");
+    is_so.then(|| Fix::replace(term.span, &mended, message, Applies::Probably))
 }
 
 /// Texts of more characters than this are left out of a message.
