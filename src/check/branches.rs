@@ -44,8 +44,7 @@ impl Checker<'_> {
         let mut span = otherwise.span;
         for (condition, value_span, value) in parts.into_iter().rev() {
             let (condition, value) = (condition?, value?);
-            let dim =
-                self.alike("the branches of this `if` are", (value_span, value), (span, choice), context)?;
+            let dim = self.alike("the branches of this `if` are", (value_span, value), (span, choice), context)?;
             choice = Value { id: self.model.graph.select(condition, value.id, choice.id), dim };
             span = value_span;
         }

@@ -131,8 +131,8 @@ impl Checker<'_> {
         }
         let [x, y] = [(a.0, x), (b.0, y)].map(|(span, dimension)| Part { span, dimension });
         let texts = [a.0, b.0].map(|span| self.sources.text(span));
-        let is_of_quantities = self.is_of_quantities(a.1.id) || self.is_of_quantities(b.1.id);
-        self.report(errors::unlike(what, [x, y], texts, context.time, is_of_quantities));
+        let takes_factor = context.quantities && (self.is_of_quantities(b.1.id) || texts[1] == "t");
+        self.report(errors::unlike(what, [x, y], texts, context.time, takes_factor));
         None
     }
 

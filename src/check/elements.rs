@@ -283,7 +283,6 @@ impl Checker<'_> {
         known.map(Dim::Of).or_else(read).unwrap_or(Dim::PURE)
     }
 
-
     /// Says where a side of an equation cannot be like the other one, a quantity and nothing else, whatever that is of.
     fn unlike_a_quantity(&mut self, known: (Span, Dim), other: &Expr, context: &Context<'_>) {
         if let ExprKind::Call { name, .. } = &other.bare().kind

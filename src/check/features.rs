@@ -462,6 +462,9 @@ impl<'a> Checker<'a> {
     pub(super) fn describe_member(&self, owner: &Name, feature: &Name) -> String {
         let space = self.frame_of(owner).and_then(|frame| self.common.features.get(&frame));
         let found = space.and_then(|space| space.get(&feature.text));
+        if let (None, Some(Entity::Joint(_))) = (space, self.entity(owner)) {
+            return "a coordinate of a joint, which is a column of the table and stands in no formula".to_owned();
+        }
         found.map_or("a feature of a body", Feature::noun).to_owned()
     }
 }

@@ -5,7 +5,7 @@ use super::formula::{Context, Dim, Value};
 use super::sites::{Drawn, Site};
 use super::{Checker, errors, mends};
 use crate::expr::Dependence;
-use crate::model::{Circle, CircleId, Curve, CurveId, Dimension, Frame, Named, Profile};
+use crate::model::{Circle, CircleId, Curve, CurveId, Frame, Named, Profile};
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprKind, FeatureKind, Name};
 use crate::vocabulary::Keyword;

@@ -2,8 +2,8 @@
 
 use super::elements::measure_context;
 use super::entity::Entity;
-use super::printed::known_dimension;
 use super::formula::{Context, Dim, Value};
+use super::printed::known_dimension;
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Dimension, Named, Outcome, Reduction, ReductionKind, Units};

@@ -5,7 +5,7 @@
 //! acceleration are parameters of the model, in this order, so that a mechanism is compiled once for all that they may be. The first two can be
 //! led from what the text says.
 
-use super::formula::{Dim, Value};
+use super::formula::Value;
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Declared, Dimension, Led, Param};

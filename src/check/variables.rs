@@ -8,7 +8,7 @@ use super::formula::{Context, Dim, Value};
 use super::told::is_told_by;
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};
-use crate::model::{Dimension, AskedInPart, Declared, Load, Named, Variable};
+use crate::model::{AskedInPart, Declared, Dimension, Load, Named, Variable};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Item, Mechanism, Name};
 use rustc_hash::{FxHashMap, FxHashSet};

@@ -121,8 +121,9 @@ impl Reading<'_> {
 
 /// A file that is read and holds neither mechanisms nor the names of others.
 fn no_mechanisms(shown: &str) -> Diagnostic {
-    Diagnostic::new(Code::E0101, format!("`{shown}` holds no mechanism"))
-        .help(format!("a file that is used begins with `use` or `mechanism`: `mechc check {shown}` says where it does not"))
+    Diagnostic::new(Code::E0101, format!("`{shown}` holds no mechanism")).help(format!(
+        "a file that is used begins with `use` or `mechanism`: `mechc check {shown}` says where it does not"
+    ))
 }
 
 /// Why a file cannot be read, with the place that names it.

@@ -67,7 +67,8 @@ impl Freedom {
         let moving = bodies_where(with_share(MOVES), 1);
         let motions = motions_beside(system, part, taken);
         let is_driven = system.declarations().iter().any(|one| one.kind == DeclarationKind::Driver);
-        let mut freedom = Freedom { motions, loose, moving, drivers: Vec::new(), joints: Vec::new(), guides: Vec::new(), is_driven };
+        let mut freedom =
+            Freedom { motions, loose, moving, drivers: Vec::new(), joints: Vec::new(), guides: Vec::new(), is_driven };
         let proposals = Proposals { evaluator, motions: &freedom.motions, moving: &freedom.moving };
         (freedom.drivers, freedom.joints, freedom.guides) =
             (proposals.drivers(), proposals.joints(), proposals.guides());
@@ -127,7 +128,8 @@ impl Freedom {
             ));
         }
         if !self.guides.is_empty() {
-            helps.push(format!("a joint is missing? No joint takes these axes of one name: {}", self.guides.join(", ")));
+            helps
+                .push(format!("a joint is missing? No joint takes these axes of one name: {}", self.guides.join(", ")));
         }
         let one = if helps.is_empty() { "add" } else { "or add" };
         match (self.drivers.as_slice(), self.degrees()) {

@@ -172,7 +172,8 @@ impl Proposals<'_, '_> {
             for q in system.points().ids().skip(p.index() + 1) {
                 let bodies = bodies_of(p, q);
                 let moves = bodies.iter().flatten().any(|body| self.moving.contains(body));
-                let is_drawn = self.has_place(p) && self.has_place(q) || system.points()[p].name == system.points()[q].name;
+                let is_drawn =
+                    self.has_place(p) && self.has_place(q) || system.points()[p].name == system.points()[q].name;
                 if bodies[0] == bodies[1] || !moves || !is_drawn {
                     continue;
                 }

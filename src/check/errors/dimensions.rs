@@ -10,13 +10,13 @@ use crate::syntax::ast::Name;
 /// Places of one kind that are shown beside the first one, at most.
 pub(super) const MOST_PLACES: usize = 4;
 
-/// The text of a part is told where it is a bare number; a factor is proposed where one is of quantities.
+/// The text of a part is told where it is a bare number; a factor is proposed where the second one may take it.
 pub fn unlike(
     what: &str,
     [first, second]: [Part; 2],
     texts: [&str; 2],
     has_time: bool,
-    is_of_quantities: bool,
+    takes_factor: bool,
 ) -> Diagnostic {
     let [one, other] = [(first, texts[0]), (second, texts[1])];
     let fix = [(one, other), (other, one)].into_iter().find_map(|((one, text), (other, other_text))| {
@@ -31,9 +31,10 @@ pub fn unlike(
     });
     let mended =
         rate_mended(first.dimension, second, texts[1]).or_else(|| rate_mended(second.dimension, first, texts[0]));
-    let upside_down = || unit_above(first.dimension, second, texts[1]).or_else(|| unit_above(second.dimension, first, texts[0]));
+    let upside_down =
+        || unit_above(first.dimension, second, texts[1]).or_else(|| unit_above(second.dimension, first, texts[0]));
     let fix = mended.filter(|_| has_time).or_else(upside_down).or(fix);
-    let fix = fix.or_else(|| scaled(first.dimension, second, texts[1]).filter(|_| is_of_quantities));
+    let fix = fix.or_else(|| scaled(first.dimension, second, texts[1]).filter(|_| takes_factor));
     let polar = polar(first, second, texts).filter(|_| what.starts_with("the coordinates"));
     // where time may not stand it is no more than an explanation
     let is_factor = fix.as_ref().is_some_and(|fix| fix.message.ends_with("t`"));

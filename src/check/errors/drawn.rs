@@ -134,10 +134,12 @@ pub fn number_beside_degrees(
         }
     };
     let radians = if unit.contains('/') || unit == "rpm" { "rad/s" } else { "rad" };
-    let diagnostic =
-        Diagnostic::new(Code::W0401, format!("the bare number `{text}` is in {radians}, beside what is printed in {unit}"))
-            .at(term, format!("in {radians}"))
-            .also(measure, format!("printed in {unit}"));
+    let diagnostic = Diagnostic::new(
+        Code::W0401,
+        format!("the bare number `{text}` is in {radians}, beside what is printed in {unit}"),
+    )
+    .at(term, format!("in {radians}"))
+    .also(measure, format!("printed in {unit}"));
     let declared = (number != term).then_some(number);
     let diagnostic = declared.into_iter().fold(diagnostic, |said, number| said.also(number, "this number"));
     diagnostic

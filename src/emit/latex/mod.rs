@@ -52,12 +52,7 @@ const PREAMBLE: &str = r"\documentclass[a4paper,10pt,fleqn]{article}
 
 /// One document; `file` is the name of the source for its head.
 #[must_use]
-pub fn latex(
-    system: &ConstraintSystem,
-    mechanics: Option<&Mechanics>,
-    is_determined: bool,
-    file: &str,
-) -> String {
+pub fn latex(system: &ConstraintSystem, mechanics: Option<&Mechanics>, is_determined: bool, file: &str) -> String {
     let mut writer = Writer { system, formulas: Formulas::new(system, &roots(system, mechanics)), text: String::new() };
     writer.head(file, is_determined);
     writer.coordinates();
