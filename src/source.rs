@@ -37,6 +37,14 @@ impl Encoding {
     }
 }
 
+/// Whether a terminal would do something else with a character than show it: control characters but for ends of lines and tabs, and those
+/// that turn the direction of writing.
+#[must_use]
+pub fn is_control(c: char) -> bool {
+    let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    turns || c.is_control() && !matches!(c, '\n' | '\t')
+}
+
 /// Which of the [`Sources`] a span lies in.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct FileId(u32);
@@ -69,13 +77,17 @@ pub struct Source {
     pub text: String,
     /// Whether it was typed on the command line, rather than read from a file.
     pub is_option: bool,
+    /// Whether control characters are in it, but for ends of lines.
+    pub has_controls: bool,
     line_starts: Vec<usize>,
 }
 
 impl Source {
     fn new(name: String, text: String, is_option: bool) -> Source {
         let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
-        Source { name, text, is_option, line_starts }
+        let goes_back = || text.match_indices('\r').any(|(at, _)| !text[at + 1..].starts_with('\n'));
+        let has_controls = text.contains(|c: char| is_control(c) && c != '\r') || goes_back();
+        Source { name, text, is_option, has_controls, line_starts }
     }
 
     /// Line and column of a byte offset, both from 1, the column in characters.

@@ -24,7 +24,7 @@ use std::time::{Duration, Instant};
 const TEXTS: u64 = 40;
 
 /// By when what is too large is told, by a build that is not optimised.
-const SOON: Duration = Duration::from_secs(20);
+const SOON: Duration = Duration::from_secs(300);
 
 /// Bytes that make one.
 const BYTES: usize = 900;

@@ -61,6 +61,11 @@ fn interrupted(folder: &Path, arguments: &[&str], moments: u64) -> usize {
             let mut command = mechc(folder);
             let mut child = command.args(arguments).stderr(Stdio::null()).spawn().expect("it runs");
             sleep(Duration::from_millis(delay));
+            // the later ones when something half done is there, whenever that is
+            while moment > moments / 2 && inside(folder).len() == before.len() {
+                assert!(child.try_wait().expect("a state").is_none(), "{arguments:?} ends before it writes");
+                sleep(Duration::from_millis(1));
+            }
             half_done += usize::from(inside(folder).len() > before.len());
             let status = interrupt(&mut child, signal);
             // before it has begun to listen the signal itself ends it
@@ -116,7 +121,10 @@ fn what_is_ignored_stays_ignored() {
         .stderr(Stdio::null())
         .spawn()
         .expect("it runs");
-    sleep(Duration::from_millis(200));
+    // it has begun, and ignores what it is to ignore
+    while inside(folder.path()) == before {
+        sleep(Duration::from_millis(1));
+    }
     let hung_up = Command::new("kill").args(["-1".to_owned(), child.id().to_string()]).status().expect("it runs");
     assert!(hung_up.success());
     sleep(Duration::from_millis(200));
@@ -261,7 +269,7 @@ fn what_a_text_names_is_not_written_over() {
 /// A command of the shell, with what it says; one that takes too long is ended.
 fn shell(folder: &Path, command: &str) -> (i32, String, String) {
     let mechc = env!("CARGO_BIN_EXE_mechc");
-    let limited = format!("mechc() {{ timeout 60 {mechc} \"$@\"; }}\n{command}");
+    let limited = format!("mechc() {{ timeout 600 {mechc} \"$@\"; }}\n{command}");
     let output = Command::new("bash").args(["-c", &limited]).current_dir(folder).output().expect("it runs");
     let text = |bytes| String::from_utf8(bytes).expect("text");
     (output.status.code().expect("it ends"), text(output.stdout), text(output.stderr))
@@ -293,6 +301,52 @@ fn pipes_and_devices_are_written_as_it_comes() {
     assert_eq!(fs::read_to_string(path.join("t.csv")).expect("a table"), table);
     let (code, _, said) = shell(path, "mechc run a.mech --results /dev/stdout");
     assert!(code == 2 && said.contains("would both go to standard output"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn outputs_that_are_one_file_by_a_link_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    fs::copy(SLIDER_CRANK, path.join("a.mech")).unwrap();
+    fs::write(path.join("t.json"), "precious").unwrap();
+    let prepare = "ln -s t.json r.json; ln t.json h.json; ln -s gone.json to_gone.json; mkdir one; ln -s one two";
+    shell(path, prepare);
+    for (table, results) in [
+        ("t.json", "t.json"),
+        ("t.json", "./t.json"),
+        ("t.json", "r.json"),
+        ("t.json", "h.json"),
+        ("gone.json", "to_gone.json"),
+        ("one/t.json", "two/t.json"),
+    ] {
+        let (code, _, said) = shell(path, &format!("mechc run a.mech -o {table} --results {results}"));
+        assert!(code == 2 && said.contains("E0706") && said.contains("would both go to"), "{table} {results}: {said}");
+        assert_eq!(fs::read_to_string(path.join("t.json")).unwrap(), "precious");
+        assert!(!path.join("gone.json").exists() && !path.join("one/t.json").exists(), "{table} {results}");
+    }
+    let (code, _, said) = shell(path, "mechc run a.mech -o one/t.json --results two/r.json");
+    assert!(code == 0 && path.join("one/r.json").exists(), "{said}");
+}
+
+#[test]
+fn control_characters_do_not_reach_the_terminal() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    fs::write(path.join("secret.txt"), "root:x:0:0\n").unwrap();
+    fs::write(path.join("uses.mech"), "use \"secret.txt\"\nmechanism m { }\n").unwrap();
+    let (code, _, said) = shell(path, "mechc check uses.mech");
+    assert!(code == 1 && said.contains("holds no mechanism") && !said.contains("root"), "{said}");
+    let text = "use \"a\u{1b}[31m.mech\"\nmechanism m { // \u{1b}[2J\u{7}\n param b\u{1b} = \u{9b}31m 2 \u{202e} x\u{7f}\r y }\n";
+    fs::write(path.join("a.mech"), text).unwrap();
+    for options in ["", "--message-format short", "--message-format json"] {
+        for set in ["", "--set $'a\\x1b[31m=1\\x07'"] {
+            let (code, out, said) = shell(path, &format!("mechc check a.mech {options} {set}"));
+            assert_eq!(code, 1, "{said}");
+            let is_raw = |c: char| c.is_control() && c != '\n' || c == '\u{202e}';
+            assert!(!out.contains(is_raw) && !said.contains(is_raw), "{options} {set}: {out:?} {said:?}");
+        }
+    }
 }
 
 #[test]

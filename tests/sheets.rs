@@ -349,15 +349,19 @@ fn sensitivities_in_a_sweep_are_differences_of_its_neighbours() {
 
 // ---- interruptions
 
-/// Starts a sweep that takes a while, and lets it write for some time.
-fn begun(folder: &Path, arguments: &[&str], while_it_writes: Duration) -> Child {
+/// Starts a sweep, and lets it write so many bytes, or all that it has.
+fn begun(folder: &Path, arguments: &[&str], size: u64) -> Child {
     let mut child = mechc(folder).args(arguments).stderr(Stdio::piped()).spawn().expect("it runs");
-    let is_hidden = |entry: fs::DirEntry| entry.file_name().to_string_lossy().starts_with('.');
-    while !fs::read_dir(folder).expect("a folder").flatten().any(is_hidden) {
-        assert!(child.try_wait().expect("a state").is_none(), "it ends before it writes");
-        sleep(Duration::from_millis(5));
+    let is_written = |entry: fs::DirEntry| {
+        let is_hidden = entry.file_name().to_string_lossy().starts_with('.');
+        is_hidden && entry.metadata().is_ok_and(|found| found.len() >= size)
+    };
+    while !fs::read_dir(folder).expect("a folder").flatten().any(is_written) {
+        if child.try_wait().expect("a state").is_some() {
+            break;
+        }
+        sleep(Duration::from_millis(1));
     }
-    sleep(while_it_writes);
     child
 }
 
@@ -379,7 +383,8 @@ fn what_is_killed_leaves_nothing_under_the_name() {
             fs::write(path.join(out), "precious").unwrap();
         }
         let sweep = ["sweep", "a.mech", "--vary", "rod_length=100mm..200mm:100000000", "--rows", "-o", out];
-        let mut child = begun(path, &sweep, Duration::from_secs(1));
+        // a part of a Parquet file comes late
+        let mut child = begun(path, &sweep, u64::from(!out.ends_with("parquet")));
         assert!(child.try_wait().expect("a state").is_none(), "it was to take a while");
         signal(&child, "-9");
         child.wait().expect("it ends");
@@ -404,15 +409,17 @@ fn all_rows(path: &Path) -> Vec<String> {
 
 /// Interrupts a sweep of so many variants somewhere between, and gives the number that it tells to go on with.
 fn interrupted_within(path: &Path, arguments: &[&str], count: usize) -> String {
-    // how soon it has something, and all, depends on the machine: it is looked for between too early and too late
-    let (mut early, mut late, mut wait) = (Duration::ZERO, None, Duration::from_millis(100));
-    for _ in 0..20 {
-        let child = begun(path, arguments, wait);
-        signal(&child, "-2");
+    // it is told by what is written, whatever time that takes: some bytes may be less than a variant, or all
+    let (mut early, mut late, mut size) = (0, None, 1);
+    for _ in 0..100 {
+        let mut child = begun(path, arguments, size);
+        if child.try_wait().expect("a state").is_none() {
+            signal(&child, "-2");
+        }
         let ended = child.wait_with_output().expect("it ends");
         let told = said(&ended);
         if ended.status.code() == Some(0) {
-            late = Some(wait);
+            late = Some(size);
         } else {
             assert_eq!(ended.status.code(), Some(130), "{told}");
             let skip = told.split("--skip ").nth(1).and_then(|rest| rest.split('`').next()).expect("how to go on");
@@ -422,12 +429,11 @@ fn interrupted_within(path: &Path, arguments: &[&str], count: usize) -> String {
                 assert!(done < count, "{told}");
                 return skip.to_owned();
             }
-            early = wait;
+            early = size;
         }
-        // nine seconds are enough for a sweep that does not hang
-        wait = late.map_or((2 * wait).min(Duration::from_secs(9)), |late| (early + late) / 2);
+        size = late.filter(|late| early + 1 < *late).map_or(2 * early.max(1), |late| u64::midpoint(early, late));
     }
-    panic!("between {early:?} and {late:?} there is no moment at which some is written");
+    panic!("between {early} and {late:?} bytes there is no moment at which some is written");
 }
 
 #[test]

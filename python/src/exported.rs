@@ -65,19 +65,12 @@ fn told<T>(py: Python<'_>, made: Option<T>, said: Said) -> PyResult<T> {
 
 /// The equations typeset.
 pub fn latex(py: Python<'_>, stages: Arc<Stages>) -> PyResult<String> {
-    has_no_variations(py, &stages)?;
     interruptible(py, move |_| stages.compiled.latex(&file_name(&stages)))
 }
 
 /// The constraint system as data.
 pub fn json(py: Python<'_>, stages: Arc<Stages>) -> PyResult<String> {
-    has_no_variations(py, &stages)?;
     interruptible(py, move |_| stages.compiled.json(&file_name(&stages)))
-}
-
-fn has_no_variations(py: Python<'_>, stages: &Stages) -> PyResult<()> {
-    let compiled = &stages.compiled;
-    compiled.has_no_variations().map_err(|why| Said::of_one(*why, compiled.sources()).raised(py))
 }
 
 fn file_name(stages: &Stages) -> String {

@@ -137,11 +137,8 @@ impl<'a> Checker<'a> {
             return None;
         };
         // a number without a unit is a pure number, as one that is set from outside
-        let fits = match (in_file.dim, value.dim) {
-            (Dim::Of(wanted), Dim::Of(found)) => wanted.is(found) || !judged && wanted.is(Dimension::PURE),
-            _ => true,
-        };
-        if let (false, Dim::Of(wanted), Dim::Of(found), Some(span)) = (fits, in_file.dim, value.dim, span) {
+        let unlike = in_file.dim.other_than(value.dim).filter(|[wanted, _]| judged || !wanted.is(Dimension::PURE));
+        if let (Some([wanted, found]), Some(span)) = (unlike, span) {
             let place = format!("the parameter `{}`", name.text);
             let part = rates::Part { span, dimension: found };
             self.report(errors::wrong_dimension(&place, wanted, part, self.sources.text(span)));

@@ -154,10 +154,11 @@ impl<'a> Checker<'a> {
         for condition in &mut self.model.conditions[conditions..] {
             condition.owner.clone_from(&owner);
         }
-        if let (Dim::Of(wanted), Dim::Of(found)) = (wanted, value.dim)
-            && judged
-            && !wanted.is(found)
-        {
+        let unlike = match wanted {
+            Dim::Of(_) => wanted.other_than(value.dim).filter(|_| self.counts(value, &context)),
+            _ => wanted.other_than(value.dim).filter(|_| judged),
+        };
+        if let Some([wanted, found]) = unlike {
             let place = format!("the input `{}` of `{}`", binding.name.text, self.bindings[part].name.text);
             let wrong = rates::Part { span: binding.value.span, dimension: found };
             self.report(errors::wrong_dimension(&place, wanted, wrong, self.sources.text(binding.value.span)));

@@ -1,6 +1,6 @@
 //! Branches: `if`, and the conditions under which what is read counts.
 
-use super::formula::{Context, Dim, Value};
+use super::formula::{Context, Value};
 use super::{Checker, errors};
 use crate::expr::{Comparison, ExprId};
 use crate::syntax::ast::{ComparisonSign, Expr, ExprKind};
@@ -16,6 +16,8 @@ pub(super) struct Branch {
 
 impl Checker<'_> {
     pub(super) fn choice(&mut self, arms: &[(Expr, Expr)], otherwise: &Expr, context: &Context<'_>) -> Option<Value> {
+        let values = arms.iter().map(|(_, value)| value).chain(std::iter::once(otherwise));
+        self.warn_of_numbers_beside(values, context);
         let outer = self.branch;
         let mut decided = false;
         let mut parts = Vec::new();
@@ -42,12 +44,11 @@ impl Checker<'_> {
         let mut span = otherwise.span;
         for (condition, value_span, value) in parts.into_iter().rev() {
             let (condition, value) = (condition?, value?);
-            let dim =
-                self.alike("the branches of this `if` are", (value_span, value.dim), (span, choice.dim), context)?;
+            let dim = self.alike("the branches of this `if` are", (value_span, value), (span, choice), context)?;
             choice = Value { id: self.model.graph.select(condition, value.id, choice.id), dim };
             span = value_span;
         }
-        Some(Value { dim: Dim::Of(choice.dim.settled()), ..choice })
+        Some(Value { dim: choice.dim.of_term(), ..choice })
     }
 
     /// What is read next counts only where a condition holds too.
@@ -82,9 +83,10 @@ impl Checker<'_> {
                 Some(all)
             }
             ExprKind::Compare(a, comparison, b) => {
+                self.warn_of_numbers_beside([&**a, &**b].into_iter(), context);
                 let (left, right) = (self.number(a, context), self.number(b, context));
                 let (left, right) = (left?, right?);
-                self.alike("this compares", (a.span, left.dim), (b.span, right.dim), context)?;
+                self.alike("this compares", (a.span, left), (b.span, right), context)?;
                 self.remember_compared_lengths([(a, left), (b, right)], context);
                 let (x, y, graph) = (left.id, right.id, &mut self.model.graph);
                 Some(match comparison {

@@ -41,6 +41,14 @@ impl Checker<'_> {
         if function.group == Group::Points {
             return self.number_of_points(e, name, arguments, context);
         }
+        match function.group {
+            Group::Alike => self.warn_of_numbers_beside(arguments.iter(), context),
+            Group::Motion => {
+                self.warn_of_numbers_beside([0, 1, 3].into_iter().filter_map(|k| arguments.get(k)), context);
+                self.warn_of_numbers_beside([2, 4].into_iter().filter_map(|k| arguments.get(k)), context);
+            }
+            _ => {}
+        }
         let values: Vec<Option<Value>> = arguments.iter().map(|argument| self.number(argument, context)).collect();
         let values: Vec<Argument> = arguments
             .iter()
@@ -65,7 +73,11 @@ impl Checker<'_> {
                 let (span, value) = arguments[0];
                 self.demand(&format!("the argument of `{name}`"), Dimension::PURE, span, value.dim, context)?;
                 let id = self.model.graph.unary(Unary::named(name)?, value.id);
-                Some(Value { id, dim: Dim::PURE })
+                if ["asin", "acos"].contains(&name) && self.is_no_sine(span, name, value) {
+                    return None;
+                }
+                let dim = if value.dim.is_pure() { self.made_of(arguments) } else { Dim::UNFIT };
+                Some(Value { id, dim })
             }
             Group::Motion => self.motion(name, MotionLaw::named(name)?, arguments, context),
             Group::Polynomial => self.polynomial(arguments, context),
@@ -74,15 +86,24 @@ impl Checker<'_> {
         }
     }
 
+    /// Says that an angle has no such sine or cosine, where that is a constant.
+    fn is_no_sine(&mut self, span: Span, function: &str, argument: Value) -> bool {
+        let number = self.number_of(argument.id).filter(|number| number.is_finite() && number.abs() > 1.0);
+        let Some(number) = number.filter(|_| !self.branch.is_untaken) else { return false };
+        self.report(errors::no_such_angle(span, function, number));
+        true
+    }
+
     fn apply_to_alike(&mut self, function: &str, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {
         let dim = self.all_alike(function, arguments, context)?;
         let ids: Vec<ExprId> = arguments.iter().map(|(_, value)| value.id).collect();
+        let made = self.made_of(arguments);
         let graph = &mut self.model.graph;
         let (id, dim) = match function {
-            "sqrt" => (graph.unary(Unary::Sqrt, ids[0]), Dim::Of(dim.settled().to_the(0.5))),
+            "sqrt" => (graph.unary(Unary::Sqrt, ids[0]), dim.map(|dimension| dimension.to_the(0.5))),
             "abs" => (graph.unary(Unary::Abs, ids[0]), dim),
-            "sign" => (graph.unary(Unary::Sign, ids[0]), Dim::PURE),
-            "atan2" => (graph.binary(Binary::Atan2, ids[0], ids[1]), Dim::PURE),
+            "sign" => (graph.unary(Unary::Sign, ids[0]), made),
+            "atan2" => (graph.binary(Binary::Atan2, ids[0], ids[1]), made),
             "hypot" => (graph.binary(Binary::Hypot, ids[0], ids[1]), dim),
             "mod" => (graph.modulo(ids[0], ids[1]), dim),
             _ => {
@@ -91,21 +112,24 @@ impl Checker<'_> {
                 (id, dim)
             }
         };
-        Some(Value { id, dim: Dim::Of(dim.settled()) })
+        Some(Value { id, dim: dim.of_term() })
     }
 
     fn all_alike(&mut self, function: &str, arguments: &[Argument], context: &Context<'_>) -> Option<Dim> {
-        let what = format!("the arguments of `{function}` are");
-        let (mut span, first) = arguments[0];
-        let mut dim = first.dim;
+        self.terms_alike(&format!("the arguments of `{function}` are"), arguments, context)
+    }
+
+    fn terms_alike(&mut self, what: &str, arguments: &[Argument], context: &Context<'_>) -> Option<Dim> {
+        let (mut span, mut all) = arguments[0];
         for &(next, value) in &arguments[1..] {
-            let joint = self.alike(&what, (span, dim), (next, value.dim), context)?;
-            if dim == Dim::Any {
-                span = next;
+            let dim = self.alike(what, (span, all), (next, value), context)?;
+            // what is said of the next one is said beside the one that has the dimension
+            if !matches!(all.dim, Dim::Of(_)) {
+                (span, all) = (next, value);
             }
-            dim = joint;
+            all.dim = dim;
         }
-        Some(dim)
+        Some(all.dim)
     }
 
     fn motion(
@@ -137,28 +161,24 @@ impl Checker<'_> {
             }
         }
         let id = self.model.graph.motion(motion, u.1.id, [u0.1.id, v0.1.id], [u1.1.id, v1.1.id]);
-        Some(Value { id, dim: Dim::Of(dim.settled()) })
+        Some(Value { id, dim: dim.of_term() })
     }
 
     /// `poly(u, u0, c0, c1, …)`: cₖ has the dimension of the result over that of uᵏ.
     fn polynomial(&mut self, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {
         let (u, u0, coefficients) = (arguments[0], arguments[1], &arguments[2..]);
-        let step = self.all_alike("poly", &[u, u0], context)?;
-        let mut dim = Dim::Any;
-        let mut first = coefficients[0].0;
-        for (power, &(span, c)) in coefficients.iter().enumerate() {
-            let term = match c.dim {
-                Dim::Any => Dim::Any,
-                Dim::Of(c) => Dim::Of(c.times(step.settled().to_the(power as f64))),
-            };
-            let joint = self.alike("the terms of `poly` are", (first, dim), (span, term), context)?;
-            if dim == Dim::Any {
-                first = span;
-            }
-            dim = joint;
-        }
+        let step = self.all_alike("poly", &[u, u0], context)?.settled();
+        let terms: Vec<Argument> = coefficients
+            .iter()
+            .enumerate()
+            .map(|(power, &(span, c))| {
+                let whole = |own: Dimension| own.times(step.to_the(power as f64));
+                (span, if c.dim == Dim::Any { c } else { Value { dim: c.dim.map(whole), ..c } })
+            })
+            .collect();
+        let dim = self.terms_alike("the terms of `poly` are", &terms, context)?;
         let way = self.model.graph.sub(u.1.id, u0.1.id);
         let ids: Vec<ExprId> = coefficients.iter().map(|(_, c)| c.id).collect();
-        Some(Value { id: self.model.graph.polynomial_of(way, &ids), dim: Dim::Of(dim.settled()) })
+        Some(Value { id: self.model.graph.polynomial_of(way, &ids), dim: dim.of_term() })
     }
 }

@@ -6,7 +6,7 @@
 
 use super::branches::Branch;
 use super::entity::Entity;
-use super::formula::{Context, Dim, Value};
+use super::formula::{Context, DimKey, Value};
 use super::{Checker, errors};
 use crate::expr::ExprId;
 use crate::model::Condition;
@@ -27,8 +27,10 @@ const MOST_READ: usize = 16;
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Call {
     entity: Entity,
-    argument: Option<(ExprId, Option<[u64; 3]>)>,
+    argument: Option<(ExprId, DimKey)>,
     judged: bool,
+    /// In what the argument is printed, where that is told.
+    printed: Option<Span>,
     /// Less is said in a branch that is never taken, and what must be positive must be so only where its branch counts.
     branch: Branch,
 }
@@ -94,12 +96,13 @@ impl<'a> Checker<'a> {
                     self.report(errors::argument_count(&name.text, None, e.span, "one argument", arguments.len()));
                     return None;
                 };
+                let printed = self.unit_of_argument(argument, context);
                 let argument = self.number(argument, context)?;
                 if let Some(at) = self.functions[k].time.filter(|_| !context.time) {
                     self.report(errors::time_in(context.place, e.span, Some((&name.text, at))));
                     return None;
                 }
-                self.function_value(k, argument, e.span, context)
+                self.function_value(k, argument, e.span, &Context { printed, ..*context })
             }
             Some(Entity::Table(k)) => self.table_call(k, e, arguments, context),
             Some(entity) => {
@@ -134,14 +137,11 @@ impl<'a> Checker<'a> {
             return Some(argument);
         }
         let (formula, name) = (function.value, function.argument);
-        let bits = match argument.dim {
-            Dim::Of(d) if context.judged => Some([d.length, d.time, d.mass].map(|power| (power + 0.0).to_bits())),
-            Dim::Any | Dim::Of(_) => None,
-        };
         let call = Call {
             entity: Entity::Function(at),
-            argument: Some((argument.id, bits)),
+            argument: Some((argument.id, argument.dim.key())),
             judged: context.judged,
+            printed: context.printed,
             branch: self.branch,
         };
         let inner = Context {
@@ -171,7 +171,8 @@ impl<'a> Checker<'a> {
             return None;
         }
         let formula = self.measures[at].value;
-        let call = Call { entity: Entity::Measure(at), argument: None, judged: context.judged, branch: self.branch };
+        let (judged, branch) = (context.judged, self.branch);
+        let call = Call { entity: Entity::Measure(at), argument: None, judged, printed: None, branch };
         self.expand(call, formula, None, span, context)
     }
 

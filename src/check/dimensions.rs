@@ -5,6 +5,7 @@ use super::formula::{Context, Dim, Value};
 use super::kinds::{self, Wanted, coordinate};
 use super::rates::Part;
 use super::{Checker, errors};
+use crate::expr::{Dependence, ExprId};
 use crate::model::Dimension;
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Name};
@@ -103,16 +104,59 @@ impl Checker<'_> {
         }
     }
 
-    /// Both dimensions, which must be alike where dimensions count.
-    pub(super) fn alike(&mut self, what: &str, a: (Span, Dim), b: (Span, Dim), context: &Context<'_>) -> Option<Dim> {
-        match (a.1, b.1) {
-            (Dim::Of(x), Dim::Of(y)) if context.judged && !x.is(y) => {
-                let [x, y] = [(a.0, x), (b.0, y)].map(|(span, dimension)| Part { span, dimension });
-                let texts = [a.0, b.0].map(|span| self.sources.text(span));
-                self.report(errors::unlike(what, x, y, texts, context.time));
-                None
+    /// The dimension of two terms, which must be alike where dimensions count.
+    pub(super) fn alike(
+        &mut self,
+        what: &str,
+        a: (Span, Value),
+        b: (Span, Value),
+        context: &Context<'_>,
+    ) -> Option<Dim> {
+        let dims = [a, b].map(|(_, value)| value.dim.where_judged(context.judged));
+        let (x, y) = match dims {
+            [Dim::Any, other] | [other, Dim::Any] => return Some(other),
+            [Dim::Of(x), Dim::Of(y)] => (x, y),
+            // a number has the dimension of what it stands beside
+            [Dim::Of(own), Dim::Plain { .. }] | [Dim::Plain { .. }, Dim::Of(own)] => return Some(Dim::Of(own)),
+            [one @ Dim::Plain { read, .. }, other @ Dim::Plain { .. }] => {
+                let fits = one.fits() && other.fits() && read.is(other.settled());
+                return Some(Dim::Plain { read, fits });
             }
-            (Dim::Any, other) | (other, _) => Some(other),
+        };
+        if x.is(y) {
+            return Some(Dim::Of(x));
+        }
+        if !self.counts(a.1, context) && !self.counts(b.1, context) {
+            return Some(Dim::Plain { read: x, fits: false });
+        }
+        let [x, y] = [(a.0, x), (b.0, y)].map(|(span, dimension)| Part { span, dimension });
+        let texts = [a.0, b.0].map(|span| self.sources.text(span));
+        let takes_factor = context.quantities && (self.is_of_quantities(b.1.id) || texts[1] == "t");
+        self.report(errors::unlike(what, [x, y], texts, context.time, takes_factor));
+        None
+    }
+
+    /// Whether a value's dimension counts: in a plain formula that of a quantity that no number scales. (A function is judged where it is
+    /// called.)
+    pub(super) fn counts(&self, value: Value, context: &Context<'_>) -> bool {
+        context.judged || context.expands && matches!(value.dim, Dim::Of(_)) && self.is_of_quantities(value.id)
+    }
+
+    /// Whether a formula's value depends on kinematic quantities, or on what comes of them.
+    pub(super) fn is_of_quantities(&self, id: ExprId) -> bool {
+        self.model.graph.dependence(id).on(Dependence::NAMED)
+    }
+
+    /// The dimension of a pure number that a function makes of others. Of a number it is one again, and of what is no pure number it shows
+    /// that numbers are missing.
+    pub(super) fn made_of(&self, arguments: &[(Span, Value)]) -> Dim {
+        let is_plain = |value: &Value| !matches!(value.dim, Dim::Of(_)) && !self.is_of_quantities(value.id);
+        if arguments.iter().any(|(_, value)| !value.dim.fits()) {
+            Dim::UNFIT
+        } else if arguments.iter().any(|(_, value)| is_plain(value)) {
+            Dim::PLAIN
+        } else {
+            Dim::PURE
         }
     }
 
@@ -125,7 +169,7 @@ impl Checker<'_> {
         found: Dim,
         context: &Context<'_>,
     ) -> Option<()> {
-        match found {
+        match found.where_judged(context.judged) {
             Dim::Of(dimension) if context.judged && !dimension.is(wanted) => {
                 let text = self.sources.text(span);
                 self.report(errors::wrong_dimension(place, wanted, Part { span, dimension }, text));

@@ -1,6 +1,7 @@
 //! Measures, constraints, drivers and the analysis.
 
 use super::formula::{Context, Dim, Value};
+use super::printed::known_dimension;
 use super::{Checker, errors};
 use crate::expr::{Dependence, ExprId, Symbol};
 use crate::model::{
@@ -16,29 +17,18 @@ pub(super) struct MeasureState<'a> {
     name: &'a Name,
     pub value: &'a Expr,
     /// In what it is printed, if that is said.
-    unit: Option<&'a WrittenUnit>,
+    pub unit: Option<&'a WrittenUnit>,
     pub dimensional: bool,
     pub sound: bool,
     /// How often an angle is a factor of it.
     pub angle: i32,
-    /// Whether it holds a number that may stand for anything.
-    pub holds_plain_number: bool,
     /// Its value, from its turn until it is listed, with what that asks at every time.
     made: Option<(Value, Vec<Condition>)>,
 }
 
 impl<'a> MeasureState<'a> {
     pub fn of(name: &'a Name, value: &'a Expr, unit: Option<&'a WrittenUnit>) -> MeasureState<'a> {
-        MeasureState {
-            name,
-            value,
-            unit,
-            dimensional: false,
-            sound: false,
-            angle: 0,
-            holds_plain_number: false,
-            made: None,
-        }
+        MeasureState { name, value, unit, dimensional: false, sound: false, angle: 0, made: None }
     }
 }
 
@@ -55,7 +45,6 @@ impl Checker<'_> {
             self.measures[k].made = value.map(|value| (value, conditions));
             self.measures[k].sound = value.is_some();
             self.measures[k].angle = self.angle_power(formula);
-            self.measures[k].holds_plain_number = self.holds_plain_number(formula);
         }
     }
 
@@ -85,9 +74,9 @@ impl Checker<'_> {
     }
 
     fn units_of_measure(&mut self, k: usize, value: Value) -> Option<Units> {
-        let (formula, unit, judged) = (self.measures[k].value, self.measures[k].unit, self.measures[k].dimensional);
+        let (formula, unit) = (self.measures[k].value, self.measures[k].unit);
         let dimension = match unit {
-            Some(_) => self.known_dimension(formula, value, &measure_context(judged)),
+            Some(_) => known_dimension(value),
             None => Some(value.dim.settled()),
         };
         self.units(formula, dimension, self.measures[k].angle, unit)
@@ -135,6 +124,7 @@ impl Checker<'_> {
         let context = Context { place: "a trace", ..measure_context(judged) };
         let coordinates = [x, y].map(|part| {
             let value = self.formula(part, &context)?;
+            let context = Context { judged: self.counts(value, &context), ..context };
             self.demand("a coordinate of a trace", Dimension::LENGTH, part.span, value.dim, &context)?;
             Some(value.id)
         });
@@ -161,12 +151,15 @@ impl Checker<'_> {
             match &item.kind {
                 ItemKind::Equation { driver, name, left, right } => {
                     let k = own.next().unwrap_or_default();
-                    if let Some((form, dimension)) = self.equation(*driver, name, [left, right]) {
+                    if let Some((form, dim)) = self.equation(*driver, name, [left, right]) {
                         let (declared, written) = (self.declared(name), left.span.to(right.span));
                         let driver = *driver && self.drives(form);
                         let is_angle = [left, right].into_iter().any(|side| self.angle_power(side) == 1);
+                        let dimension = dim.settled();
                         let equation = Equation { declared, driver, form, dimension, is_angle, written };
-                        self.equations[k] = Some(self.model.add_equation(equation));
+                        let id = self.model.add_equation(equation);
+                        self.common.plain_equations.extend((!matches!(dim, Dim::Of(_))).then_some(id));
+                        self.equations[k] = Some(id);
                     }
                 }
                 ItemKind::Part(_) => {
@@ -192,7 +185,7 @@ impl Checker<'_> {
     }
 
     /// What an equation says, and the dimension of its sides.
-    fn equation(&mut self, driver: bool, name: &Name, sides: [&Expr; 2]) -> Option<(EquationForm, Dimension)> {
+    fn equation(&mut self, driver: bool, name: &Name, sides: [&Expr; 2]) -> Option<(EquationForm, Dim)> {
         let [left, right] = sides;
         if !sides.iter().any(|side| self.holds_quantity(side)) {
             // a name that is wrong explains more than the want of a quantity
@@ -231,7 +224,11 @@ impl Checker<'_> {
             (None, None) => return None,
         };
         let what = format!("the two sides of {} `{}` are", if driver { "driver" } else { "constraint" }, name.text);
-        let alike = self.alike(&what, (left.span, a.dim), (right.span, b.dim), &context)?;
+        let alike = if !context.judged && is_a_curve([a, b]) {
+            a.dim
+        } else {
+            self.alike(&what, (left.span, a), (right.span, b), &context)?
+        };
         for (side, value, other) in [(left, a, right), (right, b, left)] {
             if is_a_length(other) {
                 self.remember_any_length(side, value.id, context.judged);
@@ -247,8 +244,8 @@ impl Checker<'_> {
         {
             return self.distance_equation(name, ends, right, b.id);
         }
-        let dim = if context.judged { alike } else { self.plain_dimension([(left, a), (right, b)], &context) };
-        Some((EquationForm::Equality(a.id, b.id), dim.settled()))
+        let dim = if context.judged { alike } else { self.plain_dimension([(left, a), (right, b)]) };
+        Some((EquationForm::Equality(a.id, b.id), dim))
     }
 
     /// Two points at a distance, which must be above zero.
@@ -258,7 +255,7 @@ impl Checker<'_> {
         (p, q): (PointId, PointId),
         right: &Expr,
         distance: ExprId,
-    ) -> Option<(EquationForm, Dimension)> {
+    ) -> Option<(EquationForm, Dim)> {
         match self.decided(distance, DecidedBy::Sign) {
             Some(value) if value <= 0.0 => {
                 self.report(errors::not_positive_length("a distance", right.span, value));
@@ -272,17 +269,18 @@ impl Checker<'_> {
                 owner: format!("{}{}", self.address.path, name.text),
             }),
         }
-        Some((EquationForm::Distance(p, q, distance), Dimension::LENGTH))
+        Some((EquationForm::Distance(p, q, distance), Dim::LENGTH))
     }
 
     /// What a plain equation is about: a side with quantities tells it, be it of lengths or angles; one of numbers and time stands for
     /// whatever is wanted.
-    fn plain_dimension(&mut self, sides: [(&Expr, Value); 2], context: &Context<'_>) -> Dim {
-        let telling: Vec<(&Expr, Value)> = sides.into_iter().filter(|(side, _)| self.holds_quantity(side)).collect();
-        let known = telling.iter().find_map(|&(side, value)| self.known_dimension(side, value, context));
+    fn plain_dimension(&self, sides: [(&Expr, Value); 2]) -> Dim {
+        let telling = sides.into_iter().filter(|(side, _)| self.holds_quantity(side)).map(|(_, value)| value);
+        let telling: Vec<Value> = telling.collect();
+        let known = telling.iter().find_map(|&value| known_dimension(value));
         // where numbers hide it in both, what is read as more than a number
-        let read = || telling.iter().map(|(_, value)| value.dim).find(|&dim| dim != Dim::PURE).unwrap_or(Dim::PURE);
-        known.map_or_else(read, Dim::Of)
+        let read = || telling.iter().map(|value| value.dim).find(|dim| !dim.settled().is(Dimension::PURE));
+        known.map(Dim::Of).or_else(read).unwrap_or(Dim::PURE)
     }
 
     /// Says where a side of an equation cannot be like the other one, a quantity and nothing else, whatever that is of.
@@ -377,6 +375,16 @@ impl Checker<'_> {
 pub(super) fn measure_context(judged: bool) -> Context<'static> {
     let context = Context::constant("a measure");
     Context { judged, time: true, inputs: true, quantities: true, rates: true, measures: true, ..context }
+}
+
+/// Whether an equation's sides are powers of lengths: a curve in coordinates, `y(P) = x(P)^2`, which are numbers of metres.
+fn is_a_curve(sides: [Value; 2]) -> bool {
+    sides.into_iter().all(|side| match side.dim {
+        Dim::Of(Dimension { length, time, mass }) => {
+            Dimension::LENGTH.to_the(length).is(Dimension { length, time, mass }) && length.abs() > 0.0
+        }
+        _ => false,
+    })
 }
 
 /// Whether a side of an equation is a length and nothing else.

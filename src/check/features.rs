@@ -233,7 +233,7 @@ impl<'a> Checker<'a> {
 
     fn direction_of(&mut self, e: &Expr) -> Option<[ExprId; 2]> {
         let ExprKind::Tuple(parts) = &e.kind else {
-            self.wrong_kind(e.span, "a direction `(dx, dy)`", Self::describe(e));
+            self.report(errors::no_direction(e.span, Self::describe(e), self.angle_of_place(e)));
             return None;
         };
         let [dx, dy] = parts.as_slice() else {
@@ -249,8 +249,18 @@ impl<'a> Checker<'a> {
         let context = self.pair_context([dx, dy], "a direction", None);
         let (x, y) = (self.formula(dx, &context), self.formula(dy, &context));
         let (x, y) = (x?, y?);
-        self.alike("the two parts of the direction are", (dx.span, x.dim), (dy.span, y.dim), &context)?;
+        self.alike("the two parts of the direction are", (dx.span, x), (dy.span, y), &context)?;
         self.not_zero([x.id, y.id], e.span)
+    }
+
+    /// The text of the angle of a place that is given by a distance and an angle.
+    fn angle_of_place(&self, e: &Expr) -> Option<&'a str> {
+        match &e.bare().kind {
+            ExprKind::Call { name, arguments } if name.text == "polar" => {
+                arguments.get(1).map(|angle| self.sources.text(angle.span))
+            }
+            _ => None,
+        }
     }
 
     fn not_zero(&mut self, direction: [ExprId; 2], span: Span) -> Option<[ExprId; 2]> {
@@ -285,7 +295,7 @@ impl<'a> Checker<'a> {
         context: &Context<'_>,
     ) -> Option<[ExprId; 2]> {
         let (x, y) = (x?, y?);
-        self.alike("the coordinates of a point are", (parts[0].span, x.dim), (parts[1].span, y.dim), context)?;
+        self.alike("the coordinates of a point are", (parts[0].span, x), (parts[1].span, y), context)?;
         for part in parts {
             if !context.judged && self.refuses_angle("a coordinate", part) {
                 return None;
@@ -303,14 +313,6 @@ impl<'a> Checker<'a> {
         self.warn_of_degrees_in(e);
         let (id, _) = self.constant_by(e, place, Dimension::PURE, DecidedBy::Finite)?;
         Some(id)
-    }
-
-    pub(super) fn warn_of_degrees(&mut self, e: &Expr) {
-        if let Some(value) = e.bare_number()
-            && value.abs() > std::f64::consts::TAU
-        {
-            self.report(errors::degrees(e.span, value, self.sources.text(e.span)));
-        }
     }
 
     /// A point where an axis begins or ends: one of the frame by name, or a formula of points.
@@ -460,6 +462,9 @@ impl<'a> Checker<'a> {
     pub(super) fn describe_member(&self, owner: &Name, feature: &Name) -> String {
         let space = self.frame_of(owner).and_then(|frame| self.common.features.get(&frame));
         let found = space.and_then(|space| space.get(&feature.text));
+        if let (None, Some(Entity::Joint(_))) = (space, self.entity(owner)) {
+            return "a coordinate of a joint, which is a column of the table and stands in no formula".to_owned();
+        }
         found.map_or("a feature of a body", Feature::noun).to_owned()
     }
 }

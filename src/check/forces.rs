@@ -235,12 +235,12 @@ impl Checker<'_> {
         let (works_on, wanted) = (quantity.dimension(), Dimension::ENERGY.over(quantity.dimension()));
         let text = self.sources.text(force.span);
         match value.dim {
-            Dim::Of(dimension) if judged && !dimension.is(wanted) => {
+            Dim::Of(dimension) if self.counts(value, &driven("a load", judged)) && !dimension.is(wanted) => {
                 let parts = [Part { span: force.span, dimension }, Part { span: on.span, dimension: works_on }];
                 self.report(errors::load_of_no_energy(name, parts, wanted, text));
                 None
             }
-            Dim::Of(_) if !judged && !works_on.is(Dimension::PURE) && !self.is_zero(force) => {
+            Dim::Of(_) | Dim::Plain { .. } if !judged && !works_on.is(Dimension::PURE) && !self.is_zero(force) => {
                 let on = Part { span: on.span, dimension: works_on };
                 self.report(errors::plain_load(name, force.span, text, on, wanted));
                 None
@@ -278,7 +278,9 @@ impl Checker<'_> {
         let dimension = self.model.dimension_of_force(force);
         // it holds accelerations
         let id = self.name_symbol(Named::Force(self.address.part, force), 2);
-        Some(Value { id, dim: Dim::Of(dimension) })
+        let is_plain = matches!(force, Force::Effort(equation) if self.common.plain_equations.contains(&equation));
+        let dim = if is_plain { Dim::Plain { read: dimension, fits: true } } else { Dim::Of(dimension) };
+        Some(Value { id, dim })
     }
 
     /// A constraint or driver; nothing where it is broken, which has been said.

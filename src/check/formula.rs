@@ -1,7 +1,8 @@
 //! Formulas: from the tree to the graph, with their dimensions.
 //!
 //! A formula that holds a unit is *judged*: its dimensions are worked out and compared. Any other is *plain*, and is
-//! taken in the SI unit of what is expected (`language.md`, "Units").
+//! taken in the SI unit of what is expected (`language.md`, "Units"): its numbers have whatever dimension they need. But
+//! its quantities keep theirs, so that terms of it that no number scales have to be alike too.
 
 use super::Checker;
 use super::entity::Entity;
@@ -15,6 +16,9 @@ use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name, PathSegment, Sign};
 use crate::vocabulary::{Constant, QuantityWord, StandsFor, Unit, is_called};
 
+/// Tells dimensions apart.
+pub(super) type DimKey = (bool, bool, [u64; 3]);
+
 /// The dimension of a formula.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Dim {
@@ -22,27 +26,91 @@ pub(super) enum Dim {
     Any,
     /// This one.
     Of(Dimension),
+    /// Any: a number without a unit is a factor of it, in a plain formula. A judged formula has none of these.
+    Plain {
+        /// With that number as a pure one.
+        read: Dimension,
+        /// Whether its parts fit together with all numbers as pure ones.
+        fits: bool,
+    },
 }
 
 impl Dim {
     pub const PURE: Dim = Dim::Of(Dimension::PURE);
     pub const LENGTH: Dim = Dim::Of(Dimension::LENGTH);
+    /// A number without a unit.
+    pub const PLAIN: Dim = Dim::Plain { read: Dimension::PURE, fits: true };
+    /// A formula in which numbers have to have dimensions.
+    pub const UNFIT: Dim = Dim::Plain { read: Dimension::PURE, fits: false };
 
-    /// What a literal zero is once something has been done with it: only a zero as it stands fits anything.
+    /// The dimension with all numbers without a unit as pure ones.
     pub fn settled(self) -> Dimension {
         match self {
             Dim::Any => Dimension::PURE,
-            Dim::Of(dimension) => dimension,
+            Dim::Of(dimension) | Dim::Plain { read: dimension, .. } => dimension,
+        }
+    }
+
+    /// What a literal zero is once something has been done with it: only a zero as it stands fits anything.
+    pub fn of_term(self) -> Dim {
+        if self == Dim::Any { Dim::PLAIN } else { self }
+    }
+
+    /// In a formula whose dimensions are compared, where numbers are pure.
+    pub fn where_judged(self, judged: bool) -> Dim {
+        match self {
+            Dim::Plain { read, .. } if judged => Dim::Of(read),
+            _ => self,
+        }
+    }
+
+    /// Of a root, a derivative, and the like.
+    pub fn map(self, f: impl FnOnce(Dimension) -> Dimension) -> Dim {
+        match self.of_term() {
+            Dim::Plain { read, fits } => Dim::Plain { read: f(read), fits },
+            other => Dim::Of(f(other.settled())),
         }
     }
 
     /// Of a product or quotient.
     pub fn with(self, other: Dim, f: impl Fn(Dimension, Dimension) -> Dimension) -> Dim {
-        Dim::Of(f(self.settled(), other.settled()))
+        let read = f(self.settled(), other.settled());
+        match (self, other) {
+            (Dim::Of(_), Dim::Of(_)) => Dim::Of(read),
+            _ => Dim::Plain { read, fits: self.fits() && other.fits() },
+        }
+    }
+
+    /// Whether its parts fit together with all numbers as pure ones.
+    pub fn fits(self) -> bool {
+        !matches!(self, Dim::Plain { fits: false, .. })
+    }
+
+    /// Tells it from others.
+    pub fn key(self) -> DimKey {
+        let read = self.settled();
+        let powers = [read.length, read.time, read.mass].map(|power| (power + 0.0).to_bits());
+        (matches!(self, Dim::Of(_)), self.fits() && self != Dim::Any, powers)
+    }
+
+    /// A dimension that is wanted and one that is found, where these differ; a zero fits anything.
+    pub fn other_than(self, found: Dim) -> Option<[Dimension; 2]> {
+        let both = [self.settled(), found.settled()];
+        (self != Dim::Any && found != Dim::Any && !both[0].is(both[1])).then_some(both)
+    }
+
+    /// Whether it is a pure number, and nothing else.
+    pub fn is_a_pure_number(self) -> bool {
+        matches!(self, Dim::Of(dimension) if dimension.is(Dimension::PURE))
+    }
+
+    /// Whether it fits where a pure number is wanted, with all numbers as pure ones.
+    pub fn is_pure(self) -> bool {
+        self.fits() && self.settled().is(Dimension::PURE)
     }
 }
 
-/// A formula in the graph, with its dimension; a plain formula's dimension says nothing.
+/// A formula in the graph, with its dimension.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Value {
     pub id: ExprId,
@@ -81,6 +149,8 @@ pub(super) struct Context<'c> {
     pub expands: bool,
     /// The argument of the function that is being expanded.
     pub argument: Option<(&'c str, Value)>,
+    /// In what that is printed, where it is an angle that is not printed in radians.
+    pub printed: Option<Span>,
 }
 
 impl<'c> Context<'c> {
@@ -98,13 +168,14 @@ impl<'c> Context<'c> {
             names: true,
             expands: true,
             argument: None,
+            printed: None,
         }
     }
 
     /// The same for another place and argument.
     pub fn at<'p>(&self, place: &'p str, argument: Option<(&'p str, Value)>) -> Context<'p> {
-        let &Context { judged, time, inputs, quantities, rates, measures, results, names, expands, .. } = self;
-        Context { place, judged, time, inputs, quantities, rates, measures, results, names, expands, argument }
+        let &Context { judged, time, inputs, quantities, rates, measures, results, names, expands, printed, .. } = self;
+        Context { place, judged, time, inputs, quantities, rates, measures, results, names, expands, argument, printed }
     }
 }
 
@@ -155,6 +226,7 @@ impl Checker<'_> {
                 None
             }
         }?;
+        let value = Value { dim: value.dim.where_judged(context.judged), ..value };
         self.finite(e.span, value)
     }
 
@@ -175,7 +247,7 @@ impl Checker<'_> {
             return None;
         }
         let Some((name, power)) = unit else {
-            let dim = if value == 0.0 { Dim::Any } else { Dim::PURE };
+            let dim = if value == 0.0 { Dim::Any } else { Dim::PLAIN };
             return Some(Value { id: self.model.graph.constant(value), dim });
         };
         let Some(unit) = Unit::named(&name.text) else {
@@ -225,7 +297,8 @@ impl Checker<'_> {
     fn time_named(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
         if context.time {
             let id = self.time();
-            return Some(Value { id, dim: Dim::Of(Dimension::TIME) });
+            // without a unit around it, it is a number of seconds
+            return Some(Value { id, dim: Dim::Plain { read: Dimension::TIME, fits: true } });
         }
         // a parameter was meant
         if !self.is_declared_though_taken(name) {
@@ -374,6 +447,7 @@ impl Checker<'_> {
     }
 
     fn sum(&mut self, first: &Expr, rest: &[(Sign, Expr)], context: &Context<'_>) -> Option<Value> {
+        self.warn_of_numbers_beside(std::iter::once(first).chain(rest.iter().map(|(_, term)| term)), context);
         let mut sum = self.number(first, context);
         let mut span = first.span;
         for (sign, term) in rest {
@@ -382,12 +456,12 @@ impl Checker<'_> {
                 continue;
             };
             let what = if *sign == Sign::Plus { "this adds" } else { "this subtracts" };
-            sum = self.alike(what, (span, left.dim), (term.span, right.dim), context).map(|dim| {
+            sum = self.alike(what, (span, left), (term.span, right), context).map(|dim| {
                 let id = match sign {
                     Sign::Plus => self.model.graph.add(left.id, right.id),
                     Sign::Minus => self.model.graph.sub(left.id, right.id),
                 };
-                Value { id, dim: Dim::Of(dim.settled()) }
+                Value { id, dim: dim.of_term() }
             });
             span = span.to(term.span);
             sum = sum.and_then(|value| self.finite(span, value));
@@ -423,17 +497,20 @@ impl Checker<'_> {
         let (a, b) = (a?, b?);
         self.demand("an exponent", Dimension::PURE, exponent.span, b.dim, context)?;
         let id = self.model.graph.pow(a.id, b.id);
-        let dim = match a.dim {
-            Dim::Of(dimension) if !dimension.is(Dimension::PURE) => match self.constant_value(b.id) {
-                Some(power) => Dim::Of(dimension.to_the(power)),
+        let dimension = a.dim.settled();
+        let dim = if dimension.is(Dimension::PURE) {
+            a.dim.of_term()
+        } else {
+            match self.constant_value(b.id) {
+                Some(power) => a.dim.map(|dimension| dimension.to_the(power)),
                 None if context.judged => {
                     self.report(errors::exponent(exponent.span, Part { span: base.span, dimension }));
                     return None;
                 }
-                None => Dim::PURE,
-            },
-            _ => Dim::PURE,
+                None => Dim::UNFIT,
+            }
         };
+        let dim = if b.dim.is_pure() { dim } else { Dim::UNFIT };
         Some(Value { id, dim })
     }
 
@@ -474,7 +551,7 @@ impl Checker<'_> {
             self.report(errors::derivative_too_high(e.span));
             return None;
         }
-        let dim = Dim::Of(inner.dim.settled().over(Dimension::TIME));
+        let dim = inner.dim.map(|dimension| dimension.over(Dimension::TIME));
         if self.model.graph.dependence(inner.id).is_constant() {
             return Some(Value { id: self.model.graph.constant(0.0), dim });
         }

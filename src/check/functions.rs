@@ -4,7 +4,7 @@ use super::Checker;
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
 use super::mentions::mentioned;
-use crate::model::{Dimension, Named};
+use crate::model::Named;
 use crate::source::Span;
 use crate::syntax::ast::{Expr, Name};
 
@@ -32,7 +32,7 @@ impl Checker<'_> {
             time: true,
             inputs: true,
             expands: false,
-            argument: Some((&argument.text, Value { id: named, dim: Dim::Of(Dimension::PURE) })),
+            argument: Some((&argument.text, Value { id: named, dim: Dim::UNFIT })),
             ..Context::constant("a function")
         };
         let known = self.model.conditions.len();

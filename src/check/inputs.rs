@@ -194,20 +194,16 @@ impl Checker<'_> {
         for condition in &mut self.model.conditions[conditions..] {
             condition.owner.clone_from(&owner);
         }
-        let dim = match value.dim {
-            Dim::Of(dimension) if judged => Dim::Of(dimension),
-            _ => Dim::PURE,
-        };
+        // a plain formula of time is a number
+        let is_plain = !judged && !value.dim.of_term().is_a_pure_number();
+        let dim = if is_plain { Dim::PLAIN } else { value.dim.of_term() };
         Some(Value { dim, ..value })
     }
 
     /// What a formula from outside says: a plain one is taken in the unit of what is expected.
     fn told(&mut self, name: &Name, formula: &Expr, wanted: Dim) -> Option<Value> {
         let given = self.input_value(name, formula)?;
-        if let (Dim::Of(wanted), Dim::Of(found)) = (wanted, given.dim)
-            && self.is_dimensional(formula)
-            && !wanted.is(found)
-        {
+        if let Some([wanted, found]) = wanted.other_than(given.dim).filter(|_| self.is_dimensional(formula)) {
             let part = Part { span: formula.span, dimension: found };
             let place = format!("the input `{}{}`", self.address.path, name.text);
             self.report(errors::wrong_dimension(&place, wanted, part, self.sources.text(formula.span)));
@@ -218,9 +214,8 @@ impl Checker<'_> {
 
     /// The natural cubic spline through samples, at time `t`.
     fn sampled(&mut self, times: &[f64], column: &Column, wanted: Dim) -> Option<Value> {
-        if let (Some(found), Dim::Of(wanted)) = (column.dimension, wanted)
-            && !wanted.is(found)
-        {
+        let unlike = column.dimension.and_then(|found| wanted.other_than(Dim::Of(found)));
+        if let Some([wanted, found]) = unlike {
             let part = Part { span: column.span, dimension: found };
             let place = format!("the input `{}`", column.name);
             self.report(errors::wrong_dimension(&place, wanted, part, self.sources.text(column.span)));

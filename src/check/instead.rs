@@ -217,18 +217,6 @@ impl Checker<'_> {
         let fix = fix.or_else(|| self.decimal_comma(arguments, most));
         self.report(fixed_first(diagnostic, fix));
     }
-
-    /// Warns of bare numbers beyond a turn among the terms of an angle.
-    pub(super) fn warn_of_degrees_in(&mut self, e: &Expr) {
-        match &e.bare().kind {
-            ExprKind::Sum(first, rest) => {
-                for term in std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term)) {
-                    self.warn_of_degrees(term);
-                }
-            }
-            _ => self.warn_of_degrees(e),
-        }
-    }
 }
 
 /// Whether a word asks for what comes out of the motion.

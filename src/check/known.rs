@@ -300,7 +300,7 @@ pub fn slopes(tree: &Mechanism, function: &str, surroundings: &Surroundings, sou
         (function.argument, function.value, function.dimensional)
     };
     let symbol = checker.name_symbol(Named::Argument, 0);
-    let argument_value = super::formula::Value { id: symbol, dim: Dim::Of(Dimension::PURE) };
+    let argument_value = super::formula::Value { id: symbol, dim: Dim::PURE };
     let argument_named = Some((argument.text.as_str(), argument_value));
     let context =
         Context { judged, time: true, inputs: true, argument: argument_named, ..Context::constant("a function") };

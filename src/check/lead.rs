@@ -4,7 +4,7 @@
 //! The model that comes out has no time of its own: what stands in the place of time goes from 0, where inputs are what the text says, to
 //! 1, where they are what they are told to be. Its motion is no motion of the mechanism, but leads from one start to another.
 
-use super::formula::{Dim, Value};
+use super::formula::Value;
 use super::told::is_told_by;
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};
@@ -53,10 +53,7 @@ impl Checker<'_> {
             self.report(errors::not_finite(name.span, value));
             return None;
         }
-        let dimension = match told.dim {
-            Dim::Of(dimension) => dimension,
-            Dim::Any => Dim::PURE.settled(),
-        };
+        let dimension = told.dim.settled();
         self.model.led.push(Led { declared, param: None, line, dimension });
         Some(Value { id: self.along_a_line(line), ..told })
     }

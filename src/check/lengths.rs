@@ -6,7 +6,7 @@
 use super::Checker;
 use super::entity::Entity;
 use super::errors::{self, Plain};
-use super::formula::{Context, Dim, Value};
+use super::formula::{Context, Value};
 use crate::expr::ExprId;
 use crate::math;
 use crate::syntax::ast::{Expr, ExprKind, Item};
@@ -39,7 +39,7 @@ impl<'a> Checker<'a> {
     /// Remembers what a length is compared with in a formula without a unit, if that is a number.
     pub(super) fn remember_compared_lengths(&mut self, [a, b]: [(&Expr, Value); 2], context: &Context<'_>) {
         for ((_, value), (other, number)) in [(a, b), (b, a)] {
-            let is_length = matches!(value.dim, Dim::Of(known) if known.is(Dimension::LENGTH));
+            let is_length = value.dim.settled().is(Dimension::LENGTH);
             let is_one = is_length && self.number_of(value.id).is_none();
             if !context.judged && is_one && self.number_of(number.id).is_some() {
                 self.remember_plain_length(other, number.id);
@@ -70,7 +70,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The number or parameter that a formula is, but for its sign; through parameters that are nothing else.
-    fn root_of(&mut self, e: &Expr) -> Option<Plain<'a>> {
+    pub(super) fn root_of(&mut self, e: &Expr) -> Option<Plain<'a>> {
         let mut found: Option<Plain<'a>> = None;
         let mut e = e;
         loop {

@@ -13,6 +13,7 @@ mod builtins;
 mod calls;
 mod columns_by;
 mod definitions;
+mod degrees;
 mod dimensions;
 mod elements;
 mod entity;

@@ -4,8 +4,8 @@ use super::entity::Entity;
 use super::mentions::{uses_in, uses_of_argument};
 use super::{Checker, MOST_SUGGESTIONS, errors};
 use crate::source::Span;
-use crate::syntax::ast::{Expr, FeatureKind, ItemKind, Mechanism, Name};
-use crate::vocabulary::{KindOfName, another_name, gives_way, is_called, is_taken};
+use crate::syntax::ast::{Expr, ExprKind, FeatureKind, ItemKind, Mechanism, Name};
+use crate::vocabulary::{Dimension, KindOfName, Unit, another_name, gives_way, is_called, is_taken};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// How many things of each kind have a name.
@@ -123,7 +123,11 @@ impl Checker<'_> {
             let is_reserved = is_taken(&name.text) || callable && is_called(&name.text) && !gives_way(&name.text);
             if is_reserved {
                 let uses = uses_in(mechanism, name, callable);
-                self.report_reserved(name, entity.kind_of_name(), &uses);
+                let kind = match &item.kind {
+                    ItemKind::Param { value, .. } => KindOfName::of_value(value.parts().find_map(dimension_written)),
+                    _ => entity.kind_of_name(),
+                };
+                self.report_reserved(name, kind, &uses);
             }
             // declared all the same, so that its uses are not reported too
             if let Err(first) = self.space.declare(name, entity)
@@ -284,4 +288,13 @@ impl Checker<'_> {
 /// Every word of a text.
 fn words_of(text: &str) -> FxHashSet<&str> {
     text.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect()
+}
+/// The dimension of a number with its unit.
+fn dimension_written(e: &Expr) -> Option<Dimension> {
+    match &e.kind {
+        ExprKind::Literal { unit: Some((unit, power)), .. } => {
+            Unit::named(&unit.text).map(|unit| unit.dimension.to_the(f64::from(*power)))
+        }
+        _ => None,
+    }
 }

@@ -50,21 +50,16 @@ impl<'a> Checker<'a> {
             }
             Some((None, setting)) => {
                 let given = self.param_value(&setting.value, Context { names: false, ..context })?;
-                match (in_file.dim, given.dim) {
-                    (Dim::Of(wanted), Dim::Of(found)) if !wanted.is(found) => {
-                        let place = format!("the parameter `{}{}`", self.address.path, name.text);
-                        let part = rates::Part { span: setting.value.span, dimension: found };
-                        self.report(errors::wrong_dimension(
-                            &place,
-                            wanted,
-                            part,
-                            self.sources.text(setting.value.span),
-                        ));
-                        return None;
-                    }
-                    (Dim::Of(wanted), _) => Value { dim: Dim::Of(wanted), ..given },
-                    (Dim::Any, _) => given,
+                if let Some([wanted, found]) = in_file.dim.other_than(given.dim) {
+                    let place = format!("the parameter `{}{}`", self.address.path, name.text);
+                    let part = rates::Part { span: setting.value.span, dimension: found };
+                    let text = self.sources.text(setting.value.span);
+                    self.report(errors::wrong_dimension(&place, wanted, part, text));
+                    return None;
                 }
+                // a zero takes the dimension that it is given; a number without a unit fits anything as the zero does
+                let is_open = in_file.dim == Dim::Any && matches!(given.dim, Dim::Of(_));
+                Value { dim: if is_open { given.dim } else { in_file.dim }, ..given }
             }
         };
         self.settable(self.declared(name), &name.text, docs, value)
@@ -84,10 +79,7 @@ impl<'a> Checker<'a> {
         }
         let index = self.model.params.len() as u32;
         self.note_param(&declared, Symbol::Param(index), value.dim);
-        let dimension = match value.dim {
-            Dim::Of(dimension) => dimension,
-            Dim::Any => Dimension::PURE,
-        };
+        let dimension = value.dim.settled();
         if is_open {
             self.open_param(&declared, number, dimension);
         }
@@ -164,8 +156,8 @@ impl<'a> Checker<'a> {
         let value = self.formula(formula, &Context { judged, ..context })?;
         let dim = match value.dim {
             _ if self.is_zero(formula) => Dim::Any,
-            Dim::Of(dimension) if judged => Dim::Of(dimension),
-            _ => Dim::Of(Dimension::PURE),
+            Dim::Any => Dim::PLAIN.where_judged(judged),
+            dim => dim,
         };
         Some(Value { dim, ..value })
     }

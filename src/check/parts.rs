@@ -5,7 +5,7 @@ use super::instance::Instance;
 use super::names::Space;
 use super::variables::Variables;
 use super::{Checker, Surroundings};
-use crate::model::{Frame, Named, NamedId, Part, PartId, PointId};
+use crate::model::{EquationId, Frame, Named, NamedId, Part, PartId, PointId};
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, ItemKind};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -24,6 +24,10 @@ pub(super) struct Common {
     pub derivative_orders: Vec<u8>,
     /// Values of the graph's nodes, NaN where they are not constant.
     pub values: Vec<f64>,
+    /// Those equations whose dimension is not known: a number without a unit scales both sides.
+    pub plain_equations: FxHashSet<EquationId>,
+    /// The bare numbers beside angles in degrees that have been told.
+    pub beside_degrees: FxHashSet<Span>,
     /// What derivatives are taken by.
     pub variables: Variables,
 }

@@ -3,7 +3,7 @@
 use super::Checker;
 use super::entity::Entity;
 use super::errors;
-use super::formula::{Context, Dim, Value};
+use super::formula::{Dim, Value};
 use super::variables;
 use crate::diag::Diagnostic;
 use crate::model::{Dimension, Units};
@@ -57,65 +57,6 @@ impl Checker<'_> {
             return None;
         }
         Some(Units::of(&unit, angle == 1))
-    }
-
-    /// The dimension that a measure's formula is known to have; none where it may have any: a plain number is taken in the unit that
-    /// is asked for.
-    pub(super) fn known_dimension(&mut self, formula: &Expr, value: Value, context: &Context<'_>) -> Option<Dimension> {
-        let dim = if context.judged { Some(value.dim) } else { self.dimension_if_judged(formula, context) };
-        match dim {
-            Some(Dim::Of(dimension)) if context.judged || !dimension.is(Dimension::PURE) => Some(dimension),
-            Some(Dim::Of(dimension)) => (!self.holds_plain_number(formula)).then_some(dimension),
-            Some(Dim::Any) | None => None,
-        }
-    }
-
-    /// The dimension of a plain formula, if its parts fit together as they stand.
-    fn dimension_if_judged(&mut self, formula: &Expr, context: &Context<'_>) -> Option<Dim> {
-        let said = std::mem::take(&mut self.diagnostics);
-        let known = std::mem::take(&mut self.calls.known);
-        let asked = std::mem::take(&mut self.calls.conditions);
-        let conditions = self.model.conditions.len();
-        let value = self.formula(formula, &Context { judged: true, ..*context });
-        self.model.conditions.truncate(conditions);
-        (self.calls.known, self.calls.conditions) = (known, asked);
-        let faults = std::mem::replace(&mut self.diagnostics, said);
-        value.map(|value| value.dim).filter(|_| !faults.has_errors())
-    }
-
-    /// Whether a formula holds a number that may stand for anything: one without a unit, or a name that stands for such.
-    pub(super) fn holds_plain_number(&self, formula: &Expr) -> bool {
-        let mut open = vec![formula];
-        while let Some(e) = open.pop() {
-            match &e.kind {
-                ExprKind::Literal { value, unit: None } if *value != 0.0 => return true,
-                ExprKind::Call { name, .. } if self.quantity_word(name).is_some() => {}
-                ExprKind::Name(name) | ExprKind::Call { name, .. } => match self.entity(name) {
-                    Some(Entity::Param(k)) if !self.params.get(k).is_some_and(|param| param.is_in_angles) => {
-                        return true;
-                    }
-                    Some(Entity::Function(_) | Entity::Table(_)) => return true,
-                    Some(Entity::Measure(k)) if self.measure_known(k).is_some_and(|known| known.holds_plain_number) => {
-                        return true;
-                    }
-                    Some(Entity::Result(k)) if self.result_known(k).is_some_and(|known| known.holds_plain_number) => {
-                        return true;
-                    }
-                    _ => {}
-                },
-                _ => {}
-            }
-            match &e.kind {
-                // an exponent is a number whatever its base is
-                ExprKind::Power(base, _) => open.push(base),
-                // nor does a derivative hold what it is taken by
-                ExprKind::Call { arguments, .. } if variables::as_derivative(e).is_some() => {
-                    open.extend(arguments.first());
-                }
-                _ => open.extend(e.children()),
-            }
-        }
-        false
     }
 
     /// How often an angle is a factor of a formula, as far as its words tell: 1 for an angle or a turning speed.
@@ -181,6 +122,16 @@ impl Checker<'_> {
                 None => Unit::named(&name.text).map_or(0, angle_power_of),
             },
         }
+    }
+}
+
+/// The dimension that a formula is known to have; none where it may have any: a number without a unit is taken in the unit that is asked
+/// for.
+pub(super) fn known_dimension(value: Value) -> Option<Dimension> {
+    match value.dim {
+        Dim::Of(dimension) => Some(dimension),
+        Dim::Plain { read, fits: true } if !read.is(Dimension::PURE) => Some(read),
+        Dim::Plain { .. } | Dim::Any => None,
     }
 }
 

@@ -5,7 +5,7 @@ use super::formula::{Context, Dim, Value};
 use super::sites::{Drawn, Site};
 use super::{Checker, errors, mends};
 use crate::expr::Dependence;
-use crate::model::{Circle, CircleId, Curve, CurveId, Dimension, Frame, Named, Profile};
+use crate::model::{Circle, CircleId, Curve, CurveId, Frame, Named, Profile};
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprKind, FeatureKind, Name};
 use crate::vocabulary::Keyword;
@@ -42,7 +42,7 @@ impl<'a> Checker<'a> {
         estimate: Option<&Expr>,
     ) -> Option<CurveId> {
         let id = self.name_symbol(Named::Argument, 0);
-        let value = Value { id, dim: Dim::Of(Dimension::PURE) };
+        let value = Value { id, dim: Dim::PURE };
         let known = self.model.conditions.len();
         let pair = self.at_curve(frame, &argument.text, |checker| {
             checker.place_of(at, "curve", "a curve", Some((&argument.text, value)))

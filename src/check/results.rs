@@ -3,6 +3,7 @@
 use super::elements::measure_context;
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
+use super::printed::known_dimension;
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Dimension, Named, Outcome, Reduction, ReductionKind, Units};
@@ -13,15 +14,13 @@ use crate::vocabulary::ReductionWord;
 pub(super) struct ResultState<'a> {
     formula: &'a Expr,
     /// In what it is told, if that is said.
-    unit: Option<&'a WrittenUnit>,
+    pub unit: Option<&'a WrittenUnit>,
     /// Holds a unit, or something that does.
     pub dimensional: bool,
     /// `None` before its turn, and where it is broken.
     pub value: Option<Value>,
     /// How often an angle is a factor of it.
     pub angle: i32,
-    /// Whether it holds a number that may stand for anything.
-    pub holds_plain_number: bool,
 }
 
 /// A call that is none of a reduction.
@@ -32,8 +31,7 @@ pub const UNTIL: &str = "--until";
 
 impl<'a> ResultState<'a> {
     pub fn of(formula: &'a Expr, unit: Option<&'a WrittenUnit>) -> ResultState<'a> {
-        let (dimensional, value, angle, holds_plain_number) = (false, None, 0, false);
-        ResultState { formula, unit, dimensional, value, angle, holds_plain_number }
+        ResultState { formula, unit, dimensional: false, value: None, angle: 0 }
     }
 }
 
@@ -60,7 +58,6 @@ impl Checker<'_> {
             self.branch.is_untaken = false;
             self.results[k].value = value;
             self.results[k].angle = self.angle_power(formula);
-            self.results[k].holds_plain_number = self.holds_plain_number(formula);
         }
     }
 
@@ -88,9 +85,9 @@ impl Checker<'_> {
     }
 
     fn units_of_result(&mut self, k: usize, value: Value) -> Option<Units> {
-        let (formula, unit, judged) = (self.results[k].formula, self.results[k].unit, self.results[k].dimensional);
+        let (formula, unit) = (self.results[k].formula, self.results[k].unit);
         let dimension = match unit {
-            Some(_) => self.known_dimension(formula, value, &result_context(judged)),
+            Some(_) => known_dimension(value),
             None => Some(value.dim.settled()),
         };
         self.units(formula, dimension, self.results[k].angle, unit)
@@ -149,11 +146,10 @@ impl Checker<'_> {
         };
         let of = of?;
         let kind = kind(word.word.name, at)?;
-        let dim = of.dim.settled();
         let dim = match kind {
-            ReductionKind::ArgMax | ReductionKind::ArgMin => Dimension::TIME,
-            ReductionKind::Integral => dim.times(Dimension::TIME),
-            _ => dim,
+            ReductionKind::ArgMax | ReductionKind::ArgMin => Dim::Of(Dimension::TIME),
+            ReductionKind::Integral => of.dim.map(|dimension| dimension.times(Dimension::TIME)),
+            _ => of.dim.of_term(),
         };
         let known = self.model.reductions.iter().position(|known| known.kind == kind && known.of == of.id);
         let k = known.unwrap_or_else(|| {
@@ -161,7 +157,7 @@ impl Checker<'_> {
             self.model.reductions.push(Reduction { kind, span: e.span, of: of.id, order, conditions });
             self.model.reductions.len() - 1
         });
-        Some(Value { id: self.name_symbol(Named::Reduction(k as u32), 0), dim: Dim::Of(dim) })
+        Some(Value { id: self.name_symbol(Named::Reduction(k as u32), 0), dim })
     }
 
     /// Whether a formula is one number for the whole analysis: it holds reductions, and nothing else that changes.

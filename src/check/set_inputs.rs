@@ -5,7 +5,7 @@
 //! acceleration are parameters of the model, in this order, so that a mechanism is compiled once for all that they may be. The first two can be
 //! led from what the text says.
 
-use super::formula::{Dim, Value};
+use super::formula::Value;
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Declared, Dimension, Led, Param};
@@ -43,10 +43,7 @@ impl Checker<'_> {
             return None;
         }
         self.model.conditions.truncate(before);
-        let dimension = match own.dim {
-            Dim::Of(dimension) => dimension,
-            Dim::Any => Dimension::PURE,
-        };
+        let dimension = own.dim.settled();
         let id = self.line(&declared, [value, t], (dimension, bends));
         Some(Value { id, ..own })
     }

@@ -108,26 +108,26 @@ impl<'a> Checker<'a> {
         let judged = cells.clone().any(|cell| self.is_dimensional(cell));
         let context = Context { judged, ..Context::constant("a table") };
         let mut column = Some(Vec::new());
-        let mut dim: Option<(Span, Dim)> = None;
+        let mut all: Option<(Span, Value)> = None;
         for cell in cells {
             let Some(value) = self.formula(cell, &context) else {
                 column = None;
                 continue;
             };
-            let own = if judged { value.dim } else { Dim::PURE };
-            match dim {
-                Some((span, known)) if known != Dim::Any => {
-                    if self.alike(&format!("{what} are"), (span, known), (cell.span, own), &context).is_none() {
-                        column = None;
+            match &mut all {
+                Some((span, known)) if known.dim != Dim::Any => {
+                    match self.alike(&format!("{what} are"), (*span, *known), (cell.span, value), &context) {
+                        Some(dim) => known.dim = dim,
+                        None => column = None,
                     }
                 }
-                _ => dim = Some((cell.span, own)),
+                _ => all = Some((cell.span, value)),
             }
             if let Some(column) = &mut column {
                 column.push(value.id);
             }
         }
-        Some((column?, dim.map_or(Dim::PURE, |(_, dim)| dim)))
+        Some((column?, all.map_or(Dim::PLAIN, |(_, all)| all.dim.of_term())))
     }
 
     /// `"file.csv" columns 1, 3 (unit, unit)`
@@ -172,7 +172,7 @@ impl<'a> Checker<'a> {
             self.report(errors::empty_table_file(path));
             return None;
         }
-        let dims = units.map(|unit| Dim::Of(unit.map_or(Dimension::PURE, |unit| unit.dimension())));
+        let dims = units.map(|unit| unit.map_or(Dim::PLAIN, |unit| Dim::Of(unit.dimension())));
         Some((rows, dims))
     }
 
@@ -258,9 +258,8 @@ impl<'a> Checker<'a> {
         };
         let argument = self.number(written, context)?;
         let made = self.tables[k].made?;
-        if let Dim::Of(wanted) = made.columns[0] {
-            self.demand(&format!("the argument of `{}`", name.text), wanted, written.span, argument.dim, context)?;
-        }
+        let wanted = made.columns[0].settled();
+        self.demand(&format!("the argument of `{}`", name.text), wanted, written.span, argument.dim, context)?;
         if !made.periodic {
             self.within(name, made, argument.id, written.span, context)?;
         }

@@ -8,7 +8,7 @@ use super::formula::{Context, Dim, Value};
 use super::told::is_told_by;
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};
-use crate::model::{AskedInPart, Declared, Load, Named, Variable};
+use crate::model::{AskedInPart, Declared, Dimension, Load, Named, Variable};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Item, Mechanism, Name};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -24,6 +24,8 @@ pub(super) struct Variables {
     asked: FxHashSet<String>,
     /// The numbers of those that have had their turn.
     pub known: FxHashMap<String, u32>,
+    /// Their dimensions, by number.
+    dims: Vec<Dim>,
     /// Of the graph's named symbols that hold such derivatives: by how many variables, and how often by time.
     orders: FxHashMap<ExprId, (u8, u8)>,
     /// The places of those of formulas that hold forces.
@@ -111,6 +113,7 @@ impl Checker<'_> {
     fn add_variable(&mut self, declared: Declared, symbol: Symbol, dim: Dim, is_angle: bool) {
         let number = self.model.variables.len() as u32;
         self.common.variables.known.insert(declared.name.clone(), number);
+        self.common.variables.dims.push(dim);
         self.model.variables.push(Variable { declared, symbol, dimension: dim.settled(), is_angle });
     }
 
@@ -140,7 +143,8 @@ impl Checker<'_> {
             self.report(errors::derivative_of_jerk(e.span));
             return None;
         }
-        let dim = Dim::Of(inner.dim.settled().over(self.model.variables[variable as usize].dimension));
+        let by = self.common.variables.dims[variable as usize];
+        let dim = inner.dim.with(by, Dimension::over);
         let within = self.address.part.filter(|_| self.is_coupled());
         let is_of_force = self.holds_force(inner.id);
         if is_of_force {

@@ -7,7 +7,7 @@ use super::report::Reporter;
 use super::timings::Timings;
 use super::{fix, input};
 use crate::analysis::Times;
-use crate::diag::readable;
+use crate::diag::{readable, visible};
 use crate::stages::{Assembly, Compiled, RunOptions};
 
 pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Result<(), Failure> {
@@ -27,7 +27,7 @@ pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Resu
         Reporter::say(&report);
         return Ok(());
     }
-    files::print(&report)
+    files::print(&visible(&report))
 }
 
 /// As many as a reader compares with a drawing.

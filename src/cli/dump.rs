@@ -5,6 +5,7 @@ use super::failure::Failure;
 use super::files::{Disk, Output};
 use super::input;
 use super::report::Reporter;
+use crate::diag::visible;
 
 pub(super) fn dump(arguments: &DumpArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let text = match arguments.stage {
@@ -17,5 +18,5 @@ pub(super) fn dump(arguments: &DumpArguments, reporter: &mut Reporter) -> Result
         // the equations can be looked at even where they are too many or too few
         Stage::Ir => input::model(&arguments.input, reporter)?.equations_text().unwrap_or_default(),
     };
-    Output::write(&arguments.output, &text, &reporter.spared())
+    Output::write(&arguments.output, &visible(&text), &reporter.spared())
 }

@@ -6,7 +6,7 @@ use super::failure::{Failure, unusable};
 use super::files::{self, Output};
 use super::input;
 use super::report::Reporter;
-use super::timings::Timings;
+use crate::diag::{Code, Diagnostic, Severity};
 use crate::emit::{MARK, NOT_IN_ALL};
 use crate::stages::{Compiled, RustOptions};
 use std::path::Path;
@@ -27,14 +27,20 @@ pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result
     if arguments.lanes.is_some() {
         can_have_lanes(arguments, format)?;
     }
-    let (input, mut timings) = (&arguments.input, Timings::new(false));
-    let parsed = input::parsed(input, reporter)?;
-    let compiled = input::compiled(&parsed, input, arguments.allow_redundant, reporter, &mut timings)?;
-    if format != EmitFormat::Rust {
-        compiled.has_no_variations()?;
-    }
+    let parsed = input::parsed(&arguments.input, reporter)?;
+    let checked = input::checked(&parsed, &arguments.input, reporter)?;
+    let (compiled, said) = input::proven(&checked, arguments.allow_redundant);
     // the name without its folder: the same output wherever the file lies
     let file = Path::new(&arguments.input.file).file_name().map_or("-".into(), |name| name.to_string_lossy());
+    if format != EmitFormat::Rust && compiled.is_none() && said.iter().all(is_of_counts) {
+        let text = if format == EmitFormat::Json { checked.json(&file) } else { checked.latex(&file) };
+        Output::write(&arguments.output, &text.unwrap_or_default(), &reporter.spared())?;
+        if !reporter.is_for_programs() {
+            Reporter::say("the mechanism is not determined, and the document says so: `mechc check` tells why\n");
+        }
+        return Ok(());
+    }
+    let compiled = reporter.settle(compiled, said)?;
     let options = RustOptions {
         with_motion: arguments.with != Content::Equations,
         with_sensitivities: arguments.with == Content::Sensitivities,
@@ -54,6 +60,11 @@ pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result
         EmitFormat::Json => compiled.json(&file),
     };
     Output::write(&arguments.output, &text, &reporter.spared())
+}
+
+/// Whether something is said of the number of equations and coordinates alone: these can be written all the same.
+fn is_of_counts(said: &Diagnostic) -> bool {
+    said.severity() != Severity::Error || matches!(said.code, Code::E0502 | Code::E0503)
 }
 
 /// A crate: where the motion stops on its way, it is written with what there is, as a table is.

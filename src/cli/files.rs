@@ -1,8 +1,8 @@
 //! Reading the input, and writing results whole or not at all.
 
-use super::failure::Failure;
+use super::failure::{Failure, unusable};
 use super::interrupts;
-use super::spared::{STANDARD_INPUT, Spared};
+use super::spared::{STANDARD_INPUT, Spared, is_same};
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Sources};
 use crate::world::{self, Contents, World};
@@ -308,6 +308,12 @@ pub(super) fn write_all<'f>(
         output.writer.write_all(text.as_bytes()).map_err(|error| output.failure(&error))?;
         outputs.extend(output.written()?);
     }
+    for (k, output) in outputs.iter().enumerate() {
+        if let Some(other) = outputs[..k].iter().find(|other| is_same(&other.path, &output.path)) {
+            let said = format!("`{}` and `{}` are one file by a link", other.name, output.name);
+            return Err(unusable(said).help("remove the link; nothing was touched").into());
+        }
+    }
     put_in_place(outputs)
 }
 
@@ -446,7 +452,7 @@ fn keep_rights(of: &Path, to: &File) -> io::Result<()> {
 }
 
 /// The file that a chain of links ends at: a link stays a link, what it points to is replaced.
-fn behind_links(path: &Path) -> io::Result<PathBuf> {
+pub(super) fn behind_links(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     for _ in 0..40 {
         match fs::read_link(&path) {

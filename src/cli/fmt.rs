@@ -5,7 +5,7 @@ use super::failure::{Failure, INPUT};
 use super::files::{self, Output};
 use super::folders;
 use super::report::Reporter;
-use crate::diag::Diagnostics;
+use crate::diag::{Diagnostics, visible};
 use crate::stages::Parsed;
 use similar::TextDiff;
 use std::path::Path;
@@ -36,7 +36,7 @@ pub(super) fn fmt(arguments: &FmtArguments, reporter: &mut Reporter) -> Result<(
         }
     }
     if !diffs.is_empty() {
-        files::print(&diffs)?;
+        files::print(&visible(&diffs))?;
         reporter.end_with(INPUT);
     }
     if faults.has_errors() { Err(faults.into()) } else { Ok(()) }

@@ -3,7 +3,7 @@
 use super::arguments::{MessageFormat, Messages, When};
 use super::failure::{Failure, exit_code};
 use super::spared::Spared;
-use crate::diag::{Code, Color, Diagnostics, Fix, Format, render, render_made};
+use crate::diag::{Code, Color, Diagnostics, Fix, Format, render, render_made, visible};
 use crate::source::{FileId, Sources};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
@@ -103,7 +103,7 @@ impl Reporter {
 
     /// Says something that is no diagnostic.
     pub fn say(text: &str) {
-        let _ = std::io::stderr().lock().write_all(text.as_bytes());
+        let _ = std::io::stderr().lock().write_all(visible(text).as_bytes());
     }
 
     /// Says why a command ended, and gives its exit code.

@@ -3,7 +3,7 @@
 use super::endings;
 use super::failure::{Failure, unusable};
 use super::files::{Output, is_standard_output};
-use super::spared::Spared;
+use super::spared::{Spared, is_same};
 use crate::analysis::Answers;
 use crate::diag::{Diagnostic, readable};
 use crate::layout::ColumnUnit;
@@ -19,13 +19,14 @@ pub(super) fn open(name: Option<&str>, table: &str, spared: &Spared<'_>) -> Resu
     endings::form(None, name, &FORMS, ()).map_err(|_| not_json(name))?;
     let are_files = !is_standard_output(name) && !is_standard_output(table);
     let is_same = if are_files {
-        std::path::absolute(name).ok() == std::path::absolute(table).ok()
+        is_same(Path::new(table), Path::new(name))
     } else {
         is_standard_output(name) && is_standard_output(table)
     };
     if is_same {
-        let place = if is_standard_output(name) { "standard output".to_owned() } else { format!("`{name}`") };
-        return Err(unusable(format!("the table and the results would both go to {place}"))
+        let place = if is_standard_output(name) { "standard output".to_owned() } else { format!("`{table}`") };
+        let link = if are_files && name != table { format!(": `{name}` is the same file") } else { String::new() };
+        return Err(unusable(format!("the table and the results would both go to {place}{link}"))
             .help("name another file: `--results OUT.json`")
             .into());
     }

@@ -1,6 +1,7 @@
 //! What no output may be: a file that was read, or that a text names.
 
 use super::failure::{Failure, unusable};
+use super::files::behind_links;
 use crate::source::Sources;
 use std::path::{Path, PathBuf};
 
@@ -47,7 +48,7 @@ impl Spared<'_> {
 }
 
 /// Whether two paths lead to one file, or would, if it were there.
-fn is_same(named: &Path, output: &Path) -> bool {
+pub(super) fn is_same(named: &Path, output: &Path) -> bool {
     match (identity(named), identity(output)) {
         (Some(named), Some(output)) => named == output,
         (None, None) => place(named).is_some_and(|named| Some(named) == place(output)),
@@ -55,9 +56,10 @@ fn is_same(named: &Path, output: &Path) -> bool {
     }
 }
 
-/// Where a file would be that is not there; what is there and no file is no such place.
+/// Where a file is, or would be if it were there, behind all links; what is there and no file has no such place of its own.
 fn place(path: &Path) -> Option<PathBuf> {
-    if path.exists() {
+    let path = behind_links(path).ok()?;
+    if path.is_dir() {
         return None;
     }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));

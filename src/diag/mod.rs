@@ -16,7 +16,7 @@ pub use codes::Code;
 pub use fix::{Applies, Edit, Fix, fixed};
 pub use nearest::nearest;
 pub use number::readable;
-pub use render::{Color, Format, render, render_made};
+pub use render::{Color, Format, render, render_made, visible};
 
 use crate::source::Span;
 use rustc_hash::FxHashSet;

@@ -3,11 +3,12 @@
 //! The only file that knows the rendering library.
 
 use super::{Diagnostic, Edit, Fix, Label, Severity};
-use crate::source::{FileId, Source, Sources, Span};
+use crate::source::{FileId, Source, Sources, Span, is_control};
 use codespan_reporting::diagnostic as rich;
 use codespan_reporting::files::{Error, Files};
 use codespan_reporting::term;
 use serde_json::{Value, json};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// A line longer than this is not shown with its marker: it would flood the terminal.
@@ -39,22 +40,81 @@ pub enum Color {
 #[must_use]
 pub fn render(diagnostic: &Diagnostic, sources: &Sources, format: Format, color: Color) -> String {
     match format {
-        Format::Human if fits_a_terminal(diagnostic, sources) => human(diagnostic, sources, color),
-        Format::Human => without_lines(diagnostic, sources),
-        Format::Short => short(diagnostic, sources),
-        Format::Json => format!("{}\n", as_json(diagnostic, sources)),
+        Format::Human if fits_a_terminal(diagnostic, sources) => human(&harmless(diagnostic), sources, color),
+        Format::Human => without_lines(&harmless(diagnostic), sources),
+        Format::Short => short(&harmless(diagnostic), sources),
+        Format::Json => format!("{}\n", escaped(as_json(diagnostic, sources).to_string())),
     }
+}
+
+/// A text with pictures in the place of control characters, `␛` for the one that begins commands to a terminal.
+#[must_use]
+pub fn visible(text: &str) -> Cow<'_, str> {
+    if !text.contains(is_control) {
+        return Cow::Borrowed(text);
+    }
+    let picture = |c: char| match c as u32 {
+        _ if !is_control(c) => c,
+        code @ 0..0x20 => char::from_u32(0x2400 + code).unwrap_or(char::REPLACEMENT_CHARACTER),
+        0x7f => '\u{2421}',
+        _ => char::REPLACEMENT_CHARACTER,
+    };
+    Cow::Owned(text.replace("\r\n", "\n").chars().map(picture).collect())
+}
+
+/// A text that is shown beside marks: with others of as many bytes in the place of control characters.
+fn in_place(text: &str) -> Cow<'_, str> {
+    if !text.contains(is_control) {
+        return Cow::Borrowed(text);
+    }
+    let other = |c: char| match c.len_utf8() {
+        // the line ends behind it
+        _ if !is_control(c) || c == '\r' => c,
+        1 => '?',
+        2 => '¿',
+        _ => char::REPLACEMENT_CHARACTER,
+    };
+    let shown: String = text.chars().map(other).collect();
+    // one that no end of line follows goes back to the line's begin
+    let lines: Vec<&str> = shown.split("\r\n").collect();
+    Cow::Owned(lines.into_iter().map(|line| line.replace('\r', "?")).collect::<Vec<_>>().join("\r\n"))
+}
+
+/// What is said, without control characters.
+fn harmless(diagnostic: &Diagnostic) -> Cow<'_, Diagnostic> {
+    let texts = || {
+        let labels = diagnostic.labels.iter().map(|label| &label.text);
+        labels.chain(&diagnostic.notes).chain(&diagnostic.help).chain([&diagnostic.message])
+    };
+    if !texts().any(|text| text.contains(is_control)) {
+        return Cow::Borrowed(diagnostic);
+    }
+    let mut shown = diagnostic.clone();
+    let labels = shown.labels.iter_mut().map(|label| &mut label.text);
+    for text in labels.chain(&mut shown.notes).chain(&mut shown.help).chain([&mut shown.message]) {
+        *text = visible(text).into_owned();
+    }
+    Cow::Owned(shown)
+}
+
+/// JSON in which no control character stands as it is.
+fn escaped(json: String) -> String {
+    if !json.contains(is_control) {
+        return json;
+    }
+    let escape = |c: char| if is_control(c) { format!("\\u{:04x}", c as u32) } else { c.to_string() };
+    json.chars().map(escape).collect()
 }
 
 /// A fix that was made, as a line of text: ``file:line:column: message: `**` → `^` ``.
 #[must_use]
 pub fn render_made(fix: &Fix, sources: &Sources, format: Format) -> String {
     if format == Format::Json {
-        return format!("{}\n", json!({ "fixed": fix_as_json(fix, sources) }));
+        return format!("{}\n", escaped(json!({ "fixed": fix_as_json(fix, sources) }).to_string()));
     }
     let place = fix.edits.first().map_or(String::new(), |edit| format!("{}: ", place(edit.span, sources)));
     let edits: Vec<String> = fix.edits.iter().map(|edit| edit_in_words(edit, sources)).collect();
-    format!("{place}{}: {}\n", fix.message, edits.join(", "))
+    format!("{place}{}: {}\n", visible(&fix.message), visible(&edits.join(", ")))
 }
 
 /// How much of a text that was changed is shown (in characters).
@@ -160,7 +220,7 @@ fn without_lines(diagnostic: &Diagnostic, sources: &Sources) -> String {
 fn place(span: Span, sources: &Sources) -> String {
     let source = sources.get(span.file);
     let (line, column) = source.position(span.start);
-    format!("{}:{line}:{column}", source.name)
+    format!("{}:{line}:{column}", visible(&source.name))
 }
 
 fn as_json(diagnostic: &Diagnostic, sources: &Sources) -> Value {
@@ -215,15 +275,16 @@ fn json_position(source: &Source, offset: u32) -> Value {
 
 impl<'a> Files<'a> for Sources {
     type FileId = FileId;
-    type Name = &'a str;
-    type Source = &'a str;
+    type Name = Cow<'a, str>;
+    type Source = Cow<'a, str>;
 
-    fn name(&'a self, id: FileId) -> Result<&'a str, Error> {
-        Ok(&self.get(id).name)
+    fn name(&'a self, id: FileId) -> Result<Cow<'a, str>, Error> {
+        Ok(visible(&self.get(id).name))
     }
 
-    fn source(&'a self, id: FileId) -> Result<&'a str, Error> {
-        Ok(&self.get(id).text)
+    fn source(&'a self, id: FileId) -> Result<Cow<'a, str>, Error> {
+        let source = self.get(id);
+        Ok(if source.has_controls { in_place(&source.text) } else { Cow::Borrowed(&source.text) })
     }
 
     fn line_index(&'a self, id: FileId, byte_index: usize) -> Result<usize, Error> {

@@ -3,6 +3,7 @@
 //! `docs/emit-json.md` is the contract. A formula shares its parts and a text does not, so large parts that stand in several
 //! places are listed once as `terms`, and the size of the whole stays that of the expression graph.
 
+use super::not_written;
 use crate::expr::{ExprId, Printer, Symbol, Table};
 use crate::ir::{
     ConditionKind, ConstraintSystem, CoordinateKind, DeclarationKind, Mechanics, Owner, SparseRows, WatchKind,
@@ -17,7 +18,13 @@ const LAYOUT: u32 = 1;
 ///
 /// `file` is the name of the source, and `sources` has the text that the system's places lie in.
 #[must_use]
-pub fn json(system: &ConstraintSystem, mechanics: Option<&Mechanics>, sources: &Sources, file: &str) -> String {
+pub fn json(
+    system: &ConstraintSystem,
+    mechanics: Option<&Mechanics>,
+    is_determined: bool,
+    sources: &Sources,
+    file: &str,
+) -> String {
     let prefix = prefix_of_terms(system);
     let mut printer = Printer::new(system.graph(), |symbol| match symbol {
         Symbol::Multiplier(row) => format!("lambda[{row}]"),
@@ -31,6 +38,9 @@ pub fn json(system: &ConstraintSystem, mechanics: Option<&Mechanics>, sources: &
     object.field("mechc", &json!(env!("CARGO_PKG_VERSION")));
     object.field("mechanism", &json!(system.name()));
     object.field("file", &json!(file));
+    if !is_determined {
+        object.field("determined", &json!(false));
+    }
     object.field("analysis", &writer.analysis());
     object.list("params", writer.params());
     if !system.inputs().is_empty() {
@@ -64,7 +74,8 @@ fn roots(system: &ConstraintSystem, mechanics: Option<&Mechanics>) -> Vec<ExprId
     roots.extend(system.nu().iter().chain(system.gamma()));
     roots.extend(system.coordinates().iter().map(|coordinate| coordinate.estimate));
     roots.extend(system.inputs().iter().flat_map(|input| input.formulas));
-    roots.extend(system.measures().iter().flat_map(|m| [Some(m.value), m.first, m.second].into_iter().flatten()));
+    let measures = system.measures().iter().flat_map(|of| [Some(of.value), of.first, of.second].into_iter().flatten());
+    roots.extend(measures.filter(|&id| not_written(system, id).is_none()));
     if let Some(Mechanics { mass_matrix, applied }) = mechanics {
         roots.extend(mass_matrix.entries().iter().map(|&(_, id)| id).chain(applied.iter().copied()));
         roots.extend(system.reactions().iter().map(|of| of.value));
@@ -230,15 +241,20 @@ impl Writer<'_> {
     }
 
     fn measures(&self) -> Vec<Value> {
+        let text = |id: ExprId| not_written(self.system, id).is_none().then(|| (self.text)(id));
         let measures = self.system.measures().iter().map(|measure| {
-            json!({
+            let mut object = json!({
                 "name": measure.name,
                 "line": self.line(measure.span),
                 "unit": measure.units.si,
-                "value": (self.text)(measure.value),
-                "first": measure.first.map(self.text),
-                "second": measure.second.map(self.text),
-            })
+                "value": text(measure.value),
+                "first": measure.first.and_then(text),
+                "second": measure.second.and_then(text),
+            });
+            if let (Some(reason), Some(fields)) = (not_written(self.system, measure.value), object.as_object_mut()) {
+                fields.insert("reason".to_owned(), json!(reason));
+            }
+            object
         });
         measures.collect()
     }

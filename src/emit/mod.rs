@@ -101,3 +101,9 @@ pub struct EmittedMotion {
     /// What the parts of rows of `Φ` may be left open by, scaled.
     pub tolerance: f64,
 }
+
+/// Why a measure's formula is not written for others; nothing where it is.
+fn not_written(system: &crate::ir::ConstraintSystem, formula: crate::expr::ExprId) -> Option<&'static str> {
+    let is_varied = system.graph().dependence(formula).is_varied();
+    is_varied.then_some("a derivative by an input or parameter, which only a run computes")
+}

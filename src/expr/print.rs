@@ -10,6 +10,9 @@ use std::borrow::Cow;
 /// Parts smaller than this are written out wherever they stand.
 const SMALL: u32 = 12;
 
+/// A number that is shorter by more digits than this with 15 of them has them from rounding.
+const ROUNDING: usize = 3;
+
 /// How tightly a form binds; an operand that binds less tightly than its place needs parentheses.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Tightness {
@@ -96,12 +99,20 @@ pub struct Printer<'g, S: Fn(Symbol) -> String> {
     graph: &'g Graph,
     symbol: S,
     names: FxHashMap<ExprId, String>,
+    /// Whether it is for readers alone: signs are drawn together, and numbers lose the rounding of their last digits.
+    is_for_readers: bool,
 }
 
 impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
     /// A printer that writes symbols as it is told, and every part out.
     pub fn new(graph: &'g Graph, symbol: S) -> Printer<'g, S> {
-        Printer { graph, symbol, names: FxHashMap::default() }
+        Printer { graph, symbol, names: FxHashMap::default(), is_for_readers: false }
+    }
+
+    /// The same printer for readers: what it prints is the same formula, and need not read back to the same expression.
+    #[must_use]
+    pub fn for_readers(self) -> Printer<'g, S> {
+        Printer { is_for_readers: true, ..self }
     }
 
     /// The same printer with names for some parts.
@@ -151,14 +162,14 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
     /// A formula as text.
     #[must_use]
     pub fn text(&self, root: ExprId) -> String {
-        self.written(vec![Part::Formula(root, Tightness::Conditional)])
+        self.written(vec![Part::Formula(root, Tightness::Conditional, false)])
     }
 
     /// The formula behind a name that [`Printer::name_shared`] gave, written out one level.
     #[must_use]
     pub fn definition(&self, id: ExprId) -> String {
         let mut parts = Parts::default();
-        self.write_node(id, Tightness::Conditional, &mut parts);
+        self.write_node(id, Tightness::Conditional, false, &mut parts);
         parts.0.reverse();
         self.written(parts.0)
     }
@@ -171,11 +182,11 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         while let Some(part) = open.pop() {
             match part {
                 Part::Text(text) => out.push_str(&text),
-                Part::Formula(id, wanted) => {
+                Part::Formula(id, wanted, is_negated) => {
                     if let Some(name) = self.names.get(&id) {
                         out.push_str(name);
                     } else {
-                        self.write_node(id, wanted, &mut parts);
+                        self.write_node(id, wanted, is_negated, &mut parts);
                         open.extend(parts.0.drain(..).rev());
                     }
                 }
@@ -184,12 +195,13 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         out
     }
 
-    fn write_node(&self, id: ExprId, wanted: Tightness, out: &mut Parts) {
-        let needs_parentheses = self.tightness(id) < wanted;
+    /// Writes a formula, or, of one that begins with a negative number, its negative.
+    fn write_node(&self, id: ExprId, wanted: Tightness, is_negated: bool, out: &mut Parts) {
+        let needs_parentheses = self.tightness(id) < wanted && !(is_negated && self.graph.as_const(id).is_some());
         if needs_parentheses {
             out.text("(");
         }
-        self.write_bare(id, out);
+        self.write_bare(id, is_negated, out);
         if needs_parentheses {
             out.text(")");
         }
@@ -213,19 +225,28 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         }
     }
 
-    fn write_bare(&self, id: ExprId, out: &mut Parts) {
+    fn write_bare(&self, id: ExprId, is_negated: bool, out: &mut Parts) {
         match self.graph.node(id) {
-            Node::Const(bits) => out.text(number(f64::from_bits(bits))),
+            Node::Const(bits) => {
+                let value = f64::from_bits(bits);
+                out.text(self.number(if is_negated { -value } else { value }));
+            }
             Node::Symbol(symbol) => out.text((self.symbol)(symbol)),
             Node::Add(a, b) => self.write_sum(a, b, out),
-            Node::Sub(a, b) => Self::write_pair(a, " - ", b, [Tightness::Sum, Tightness::Product], out),
+            Node::Sub(a, b) => self.write_difference(a, b, out),
             Node::Mul(a, b) => {
                 let (first, second) = self.factors(a, b);
                 let is_scaled = self.graph.as_const(first).is_some() && self.is_row_of_products(second);
                 let wanted = if is_scaled { Tightness::Product } else { Tightness::Negation };
-                Self::write_pair(first, " * ", second, [Tightness::Product, wanted], out);
+                out.signed(first, Tightness::Product, is_negated);
+                out.text(" * ");
+                out.formula(second, wanted);
             }
-            Node::Div(a, b) => Self::write_pair(a, " / ", b, [Tightness::Product, Tightness::Negation], out),
+            Node::Div(a, b) => {
+                out.signed(a, Tightness::Product, is_negated);
+                out.text(" / ");
+                out.formula(b, Tightness::Negation);
+            }
             Node::Neg(a) => {
                 out.text("-");
                 let wanted = if self.takes_sign_in_front(a) { Tightness::Product } else { Tightness::Negation };
@@ -281,11 +302,46 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         let (first, second) = if swap { (b, a) } else { (a, b) };
         out.formula(first, Tightness::Sum);
         if let Some(value) = self.graph.as_const(second).filter(|value| *value < 0.0) {
-            out.text(format!(" - {}", number(-value)));
+            out.text(format!(" - {}", self.number(-value)));
+        } else if self.is_for_readers && self.begins_with_a_sign(second) {
+            out.text(" - ");
+            out.signed(second, Tightness::Product, true);
         } else {
             out.text(" + ");
             out.formula(second, Tightness::Product);
         }
+    }
+
+    fn write_difference(&self, a: ExprId, b: ExprId, out: &mut Parts) {
+        let is_sum = self.is_for_readers && self.begins_with_a_sign(b);
+        out.formula(a, Tightness::Sum);
+        out.text(if is_sum { " + " } else { " - " });
+        out.signed(b, Tightness::Product, is_sum);
+    }
+
+    /// Whether a negative number is the first of a row of factors, or stands alone.
+    fn begins_with_a_sign(&self, id: ExprId) -> bool {
+        let mut first = id;
+        loop {
+            if self.names.contains_key(&first) {
+                return false;
+            }
+            first = match self.graph.node(first) {
+                Node::Const(bits) => return f64::from_bits(bits) < 0.0,
+                Node::Mul(a, b) => self.factors(a, b).0,
+                Node::Div(a, _) => a,
+                _ => return false,
+            };
+        }
+    }
+
+    fn number(&self, value: f64) -> String {
+        let exact = number(value);
+        if !self.is_for_readers {
+            return exact;
+        }
+        let rounded = format!("{value:.14e}").parse().map_or_else(|_| exact.clone(), number);
+        if rounded.len() + ROUNDING < exact.len() { rounded } else { exact }
     }
 
     fn write_pair(a: ExprId, operator: &'static str, b: ExprId, wanted: [Tightness; 2], out: &mut Parts) {
@@ -355,8 +411,8 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
 /// A piece of a text that is still to be written.
 enum Part {
     Text(Cow<'static, str>),
-    /// A formula in a place that wants at least some tightness.
-    Formula(ExprId, Tightness),
+    /// A formula in a place that wants at least some tightness; whether its negative is written.
+    Formula(ExprId, Tightness, bool),
 }
 
 /// Pieces in the order of the text.
@@ -369,7 +425,11 @@ impl Parts {
     }
 
     fn formula(&mut self, id: ExprId, wanted: Tightness) {
-        self.0.push(Part::Formula(id, wanted));
+        self.signed(id, wanted, false);
+    }
+
+    fn signed(&mut self, id: ExprId, wanted: Tightness, is_negated: bool) {
+        self.0.push(Part::Formula(id, wanted, is_negated));
     }
 }
 

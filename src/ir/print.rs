@@ -48,7 +48,7 @@ impl ConstraintSystem {
 /// Every coordinate, every row of `Φ` with the declaration that wrote it, the entries of `Φ_q`, `ν`, `γ`, the measures.
 impl std::fmt::Display for ConstraintSystem {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let mut printer = Printer::new(&self.graph, |symbol| self.symbol_name(symbol));
+        let mut printer = Printer::new(&self.graph, |symbol| self.symbol_name(symbol)).for_readers();
         let prefix = self.prefix_of_shared();
         let shared = printer.name_shared(&self.printed(), |k| format!("{prefix}{}", k + 1));
         let text = |id: ExprId| printer.text(id);

@@ -115,7 +115,8 @@ impl Text<'_> {
             Symbol::Coordinate { .. } | Symbol::Varied { .. } => "q".to_owned(),
             Symbol::Multiplier(_) | Symbol::VariedMultiplier { .. } => "lambda".to_owned(),
         })
-        .with_names(&self.names);
+        .with_names(&self.names)
+        .for_readers();
         if whole { printer.definition(id) } else { printer.text(id) }
     }
 

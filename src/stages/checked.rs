@@ -10,6 +10,7 @@ use super::{Compiled, Parsed, Redundant};
 use crate::cancel::Cancel;
 use crate::check::{self, Given, Library, Setting, Surroundings, Symbols, TableFiles, UNTIL};
 use crate::diag::{Applies, Code, Diagnostic, Diagnostics, Fix, nearest};
+use crate::emit;
 use crate::model::Mechanism;
 use crate::source::{FileId, Sources, Span};
 use crate::syntax::{self, ast};
@@ -354,6 +355,22 @@ impl Checked {
     #[must_use]
     pub fn equations_text(&self) -> Option<String> {
         self.model.as_ref().map(|model| lowered(model).to_string())
+    }
+
+    /// The equations typeset for a report, be they too many or too few; nothing where it is not sound. The file is named in it.
+    #[must_use]
+    pub fn latex(&self, file: &str) -> Option<String> {
+        let mut system = lowered(self.model.as_ref()?);
+        let mechanics = system.mechanics();
+        Some(emit::latex(&system, mechanics.as_ref(), false, file))
+    }
+
+    /// Its constraint system as data for other programs, likewise.
+    #[must_use]
+    pub fn json(&self, file: &str) -> Option<String> {
+        let mut system = lowered(self.model.as_ref()?);
+        let mechanics = system.mechanics();
+        Some(emit::json(&system, mechanics.as_ref(), false, self.sources(), file))
     }
 
     /// Proves that it is determined, and compiles it; with what is to be said of that. Nothing where it is not sound, or not

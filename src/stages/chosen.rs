@@ -30,6 +30,12 @@ fn chosen(patterns: &[String], columns: &[String]) -> Result<Vec<usize>, Box<Dia
         }
         if !found {
             let said = Diagnostic::new(Code::E0706, format!("there is no column `{}`", pattern.trim()));
+            let parts: Vec<&str> = pattern.split(',').map(str::trim).collect();
+            let is_there = |part: &&str| columns.iter().any(|column| WildMatch::new(part).matches(column));
+            if parts.len() > 1 && parts.iter().all(is_there) {
+                let repeated: Vec<String> = parts.iter().map(|part| format!("--columns '{part}'")).collect();
+                return Err(Box::new(said.help(format!("repeat the option: `{}`", repeated.join(" ")))));
+            }
             let meant = nearest(pattern.trim(), columns.iter().map(String::as_str));
             let help = match meant {
                 Some(name) => format!("was `{name}` meant?"),
@@ -57,6 +63,8 @@ mod tests {
         let of = |patterns: &[&str]| {
             chosen(&patterns.iter().map(|&pattern| pattern.to_owned()).collect::<Vec<_>>(), &columns).ok()
         };
+        let why = chosen(&["rod.x,leg[1].x".to_owned()], &columns).expect_err("one pattern is one name");
+        assert_eq!(why.help, ["repeat the option: `--columns 'rod.x' --columns 'leg[1].x'`"]);
         assert_eq!(of(&[]), Some(vec![0, 1, 2, 3, 4]));
         assert_eq!(of(&["rod.x"]), Some(vec![0, 1]));
         assert_eq!(of(&["rod.*", "t"]), Some(vec![0, 1, 2]));

@@ -238,14 +238,14 @@ impl Compiled {
     #[must_use]
     pub fn latex(&self, file: &str) -> String {
         let (system, mechanics) = self.with_mechanics();
-        emit::latex(&system, mechanics.as_ref(), file)
+        emit::latex(&system, mechanics.as_ref(), true, file)
     }
 
     /// The whole constraint system as data for other programs; the file is named in it.
     #[must_use]
     pub fn json(&self, file: &str) -> String {
         let (system, mechanics) = self.with_mechanics();
-        emit::json(&system, mechanics.as_ref(), &self.sources, file)
+        emit::json(&system, mechanics.as_ref(), true, &self.sources, file)
     }
 
     /// The system with all that joints exert, and what that follows from, where it has masses and loads.

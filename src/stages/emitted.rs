@@ -88,48 +88,19 @@ impl Compiled {
         }
     }
 
-    /// Whether it can be written as JSON or LaTeX.
-    ///
-    /// # Errors
-    /// A measure holds a derivative by an input or parameter, which only `run` and Rust code compute.
-    pub fn has_no_variations(&self) -> Result<(), Box<Diagnostic>> {
-        self.has_no_varied_forces()?;
-        self.no_measure_holds(
-            Dependence::is_varied,
-            "a derivative by an input or parameter",
-            "is for `run` and Rust code",
-            "`mechc run` and emitted Rust compute it; leave the measure out here",
-        )
-    }
-
     /// Whether it can be written as code.
     ///
     /// # Errors
     /// A measure holds how a force changes with an input or parameter, which only `run` computes.
     fn has_no_varied_forces(&self) -> Result<(), Box<Diagnostic>> {
-        self.no_measure_holds(
-            |on| on.on(Dependence::VARIED_MULTIPLIERS),
-            "the derivative of a force",
-            "is for `run` alone",
-            "leave the measure out here; `mechc run` computes it",
-        )
-    }
-
-    /// Whether no measure depends on something; else what that is, who has it, and what to do.
-    fn no_measure_holds(
-        &self,
-        is_it: impl Fn(Dependence) -> bool,
-        what: &str,
-        label: &str,
-        help: &str,
-    ) -> Result<(), Box<Diagnostic>> {
         let system = self.system();
-        let Some(measure) = system.measures().iter().find(|of| is_it(system.graph().dependence(of.value))) else {
+        let is_it = |id| system.graph().dependence(id).on(Dependence::VARIED_MULTIPLIERS);
+        let Some(measure) = system.measures().iter().find(|of| is_it(of.value)) else {
             return Ok(());
         };
-        let message = format!("measure `{}` holds {what}", measure.name);
-        let diagnostic = Diagnostic::new(Code::E0706, message).at(measure.span, label);
-        Err(Box::new(diagnostic.help(help)))
+        let message = format!("measure `{}` holds the derivative of a force", measure.name);
+        let diagnostic = Diagnostic::new(Code::E0706, message).at(measure.span, "is for `run` alone");
+        Err(Box::new(diagnostic.help("leave the measure out here; `mechc run` computes it")))
     }
 
     /// The mechanism with its inputs as signals, where it has any and is to be solved.

@@ -107,11 +107,23 @@ impl Reading<'_> {
     fn take_in(&mut self, path: &Path) -> Result<usize, Box<Diagnostic>> {
         let id = world::text_of(self.world, path, &mut self.sources)?;
         let read = Arc::new(syntax::parse(&self.sources, id));
+        let holds_nothing = read.tree.mechanisms.is_empty() && read.tree.uses.is_empty();
+        if holds_nothing && !read.faults.is_empty() {
+            // it may be anything: what stands in it is nobody's business
+            return Err(Box::new(no_mechanisms(&self.world.shown(path))));
+        }
         self.said.extend(read.faults.clone());
         self.said.extend(check::check_file(&read.tree));
         self.files.push(KnownFile { id, path: path.to_owned(), read, uses: Vec::new() });
         Ok(self.files.len() - 1)
     }
+}
+
+/// A file that is read and holds neither mechanisms nor the names of others.
+fn no_mechanisms(shown: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0101, format!("`{shown}` holds no mechanism")).help(format!(
+        "a file that is used begins with `use` or `mechanism`: `mechc check {shown}` says where it does not"
+    ))
 }
 
 /// Why a file cannot be read, with the place that names it.

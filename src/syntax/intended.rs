@@ -173,7 +173,7 @@ impl<'a> Intent<'a> {
         let end = self.rest.iter().take_while(is_inside).last()?.end();
         let written = &self.text[start..end];
         let is_direction = self.expects(Rule::paren) && last.text == "along";
-        let is_list = written.contains(',') && (is_direction || self.found == ",");
+        let is_list = between_commas(written).len() > 1 && (is_direction || self.found == ",");
         if !is_list && !is_direction {
             return None;
         }
@@ -181,7 +181,10 @@ impl<'a> Intent<'a> {
             let edits = vec![self.edit(start..start, "("), self.edit(end..end, ")")];
             Intent::change(format!("{what} in parentheses: `({written})`"), edits)
         } else {
-            let pair = format!("(cos({written}), sin({written}))");
+            // of a place given by its distance and angle only the angle counts
+            let polar = written.strip_prefix("polar(").and_then(|rest| rest.strip_suffix(')'));
+            let angle = polar.and_then(|rest| between_commas(rest).get(1).copied()).unwrap_or(written).trim();
+            let pair = format!("(cos({angle}), sin({angle}))");
             Intent::change(format!("{what}; that of an angle is `{pair}`"), vec![self.edit(start..end, &pair)])
         })
     }
@@ -310,4 +313,18 @@ fn is_rate(words: &[Token<'_>]) -> bool {
         [number, unit, "/", per] => number.parse::<f64>().is_ok() && Unit::named(unit).is_some() && per == "s",
         _ => false,
     }
+}
+
+/// What stands between the commas of a list, those inside parentheses aside.
+fn between_commas(list: &str) -> Vec<&str> {
+    let mut depth = 0_usize;
+    let parted = list.split(|c| {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        c == ',' && depth == 0
+    });
+    parted.collect()
 }

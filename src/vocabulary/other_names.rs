@@ -1,6 +1,6 @@
 //! Names that one would choose where the name is a word of the language.
 
-use super::{is_called, is_taken};
+use super::{Dimension, is_called, is_taken};
 
 /// What a name is to be the name of.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -15,6 +15,10 @@ pub enum KindOfName {
     Feature,
     /// A parameter or measure.
     Value,
+    /// A parameter that is a mass.
+    Mass,
+    /// A parameter that is a time.
+    Time,
     /// A function or table.
     Function,
     /// The argument of a function or curve.
@@ -35,6 +39,16 @@ impl KindOfName {
         }
     }
 
+    /// Of a parameter whose value has the dimension of its first unit.
+    #[must_use]
+    pub fn of_value(dimension: Option<Dimension>) -> KindOfName {
+        match dimension {
+            Some(dimension) if dimension.is(Dimension::MASS) => KindOfName::Mass,
+            Some(dimension) if dimension.is(Dimension::TIME) => KindOfName::Time,
+            _ => KindOfName::Value,
+        }
+    }
+
     /// Names that say nothing but that.
     fn names(self) -> &'static [&'static str] {
         match self {
@@ -43,6 +57,8 @@ impl KindOfName {
             KindOfName::Equation => &["motor", "feed", "coupling"],
             KindOfName::Feature => &["tip", "center", "edge", "heel"],
             KindOfName::Value => &["size", "offset", "width", "height"],
+            KindOfName::Mass => &["m1", "payload", "ballast"],
+            KindOfName::Time => &["period", "delay", "duration"],
             KindOfName::Function => &["law", "lift", "shape"],
             KindOfName::Argument => &["u", "v", "w", "x", "y", "z"],
         }
@@ -92,11 +108,13 @@ const OTHERS: &[(&str, [&str; 3])] = &[
 
 /// A free name for what cannot have the name of a word of the language.
 pub fn another_name(word: &str, kind: KindOfName, is_free: impl Fn(&str) -> bool) -> Option<&'static str> {
-    let own = OTHERS.iter().find(|(other, _)| *other == word).map(|(_, names)| match kind {
-        KindOfName::Body => names[0],
-        KindOfName::Joint | KindOfName::Equation => names[1],
-        KindOfName::Feature | KindOfName::Value | KindOfName::Function => names[2],
-        KindOfName::Argument => "u",
+    let own = OTHERS.iter().find(|(other, _)| *other == word).and_then(|(_, names)| match kind {
+        KindOfName::Body => Some(names[0]),
+        KindOfName::Joint | KindOfName::Equation => Some(names[1]),
+        KindOfName::Feature | KindOfName::Value | KindOfName::Function => Some(names[2]),
+        KindOfName::Argument => Some("u"),
+        // what else the word is the name of is mostly a length
+        KindOfName::Mass | KindOfName::Time => None,
     });
     own.into_iter()
         .chain(kind.names().iter().copied())
@@ -111,7 +129,9 @@ mod tests {
     #[test]
     fn every_proposed_name_can_be_declared() {
         let general = ["body", "joint", "driver", "point", "param", "fn"].map(KindOfName::behind);
-        let names = OTHERS.iter().flat_map(|(_, names)| names).chain(general.iter().flat_map(|kind| kind.names()));
+        let values = [KindOfName::Mass, KindOfName::Time];
+        let kinds = general.iter().chain(&values).flat_map(|kind| kind.names());
+        let names = OTHERS.iter().flat_map(|(_, names)| names).chain(kinds);
         for name in names {
             let is_word = is_taken(name) || is_called(name) || Unit::named(name).is_some();
             assert!(!is_word && Keyword::named(name).is_none(), "`{name}` is a word of the language");
@@ -125,5 +145,6 @@ mod tests {
         assert_eq!(another_name("s", kind, |name| name != "slide"), Some("arm"));
         assert_eq!(another_name("cosh", kind, |name| !["arm", "slide"].contains(&name)), Some("link"));
         assert_eq!(another_name("s", kind, |_| false), None);
+        assert_eq!(another_name("m", KindOfName::Mass, |_| true), Some("m1"));
     }
 }

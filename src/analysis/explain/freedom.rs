@@ -6,7 +6,7 @@ use super::free_motion::motion_in_words;
 use super::orthonormal::Orthonormal;
 use super::proposals::Proposals;
 use super::redundancy::basis_of;
-use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, IdVec};
+use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationKind, IdVec};
 use crate::structure::Subsystem;
 use crate::tolerances::determinacy::freedom::{ANGLE_SHARE, ASSEMBLED, LOOSE, MOVES, TOLD};
 use nalgebra::DVector;
@@ -32,6 +32,10 @@ pub struct Freedom {
     drivers: Vec<String>,
     /// Joints that may have been forgotten, as text to write.
     joints: Vec<String>,
+    /// The same of joints that slide.
+    guides: Vec<String>,
+    /// Whether the mechanism has a driver.
+    is_driven: bool,
 }
 
 impl Freedom {
@@ -62,9 +66,12 @@ impl Freedom {
         let loose = bodies_where(with_share(LOOSE), 3);
         let moving = bodies_where(with_share(MOVES), 1);
         let motions = motions_beside(system, part, taken);
-        let mut freedom = Freedom { motions, loose, moving, drivers: Vec::new(), joints: Vec::new() };
+        let is_driven = system.declarations().iter().any(|one| one.kind == DeclarationKind::Driver);
+        let mut freedom =
+            Freedom { motions, loose, moving, drivers: Vec::new(), joints: Vec::new(), guides: Vec::new(), is_driven };
         let proposals = Proposals { evaluator, motions: &freedom.motions, moving: &freedom.moving };
-        (freedom.drivers, freedom.joints) = (proposals.drivers(), proposals.joints());
+        (freedom.drivers, freedom.joints, freedom.guides) =
+            (proposals.drivers(), proposals.joints(), proposals.guides());
         Some(freedom)
     }
 
@@ -120,6 +127,10 @@ impl Freedom {
                 self.joints.join(", ")
             ));
         }
+        if !self.guides.is_empty() {
+            helps
+                .push(format!("a joint is missing? No joint takes these axes of one name: {}", self.guides.join(", ")));
+        }
         let one = if helps.is_empty() { "add" } else { "or add" };
         match (self.drivers.as_slice(), self.degrees()) {
             ([], _) => {}
@@ -134,6 +145,9 @@ impl Freedom {
                 let drivers: Vec<String> = drivers.iter().enumerate().map(named).collect();
                 helps.push(format!("{one} {how_many}: {}", errors::cut_list(&drivers)));
             }
+        }
+        if !self.is_driven {
+            helps.push("free motion is not computed: a driver prescribes each degree of freedom over time".to_owned());
         }
         helps
     }

@@ -2,7 +2,9 @@
 
 use super::evaluator::Evaluator;
 use super::orthonormal::Orthonormal;
-use crate::ir::{BodyId, ConstraintSystem, Declaration, DeclarationKind, IdVec, JointKind, PointId};
+use crate::ir::{
+    Axis, AxisId, BodyId, ConstraintSystem, Declaration, DeclarationKind, IdVec, JointKind, Point, PointId,
+};
 use crate::math;
 use crate::tolerances::determinacy::freedom::{COINCIDE, DANGLING, MOST_POINTS, SUGGESTED, TAKEN};
 use nalgebra::DVector;
@@ -125,6 +127,35 @@ impl Proposals<'_, '_> {
         pairs.iter().filter_map(text).take(SUGGESTED.min(usize::max(self.motions.len() / 2, 1))).collect()
     }
 
+    /// Axes of one name that no joint takes, of bodies that move on each other: a slider's way is missing.
+    pub fn guides(&self) -> Vec<String> {
+        let system = self.evaluator.system;
+        let is_free = |axis: AxisId| !system.declarations().iter().any(|one| one.axes.contains(&axis));
+        let free: Vec<&Axis> = system.axes().pairs().filter(|&(id, _)| is_free(id)).map(|(_, axis)| axis).collect();
+        let body_of = |axis: &Axis| system.points()[axis.origin].body;
+        let own_name = |axis: &Axis| axis.name.rsplit('.').next().map(str::to_owned);
+        let mut told = Vec::new();
+        for (k, one) in free.iter().enumerate() {
+            let moves = |other: &&&Axis| {
+                let bodies = [body_of(one), body_of(other)];
+                bodies[0] != bodies[1] && bodies.iter().flatten().any(|body| self.moving.contains(body))
+            };
+            let fits = |other: &&&Axis| own_name(one) == own_name(other) && moves(other);
+            let others = free[k + 1..].iter().filter(fits);
+            told.extend(others.map(|other| format!("`joint NAME: translational({}, {})`", one.name, other.name)));
+        }
+        told.truncate(SUGGESTED);
+        told
+    }
+
+    /// Whether it is known where a point is drawn: what lies at the origin of a body without a pose lies at no place of a drawing.
+    fn has_place(&self, point: PointId) -> bool {
+        let system = self.evaluator.system;
+        let Point { body, at, .. } = &system.points()[point];
+        let is_origin = || at.iter().all(|&id| system.value_at(id, &[]) == 0.0);
+        body.is_none_or(|body| system.bodies()[body].pose_span.is_some() || !is_origin())
+    }
+
     /// Such points, and how far they are drawn apart (m).
     fn pairs_drawn_together(&self, pinned: &IdVec<PointId, PointId>) -> Vec<(f64, PointId, PointId)> {
         let system = self.evaluator.system;
@@ -141,7 +172,9 @@ impl Proposals<'_, '_> {
             for q in system.points().ids().skip(p.index() + 1) {
                 let bodies = bodies_of(p, q);
                 let moves = bodies.iter().flatten().any(|body| self.moving.contains(body));
-                if bodies[0] == bodies[1] || !moves {
+                let is_drawn =
+                    self.has_place(p) && self.has_place(q) || system.points()[p].name == system.points()[q].name;
+                if bodies[0] == bodies[1] || !moves || !is_drawn {
                     continue;
                 }
                 let (a, b) = (drawn.place_of(p), drawn.place_of(q));

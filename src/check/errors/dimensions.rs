@@ -2,7 +2,7 @@
 
 use crate::check::mends::{is_bare_number, with_factors, with_unit};
 use crate::check::rates::{Part, polar, rate_mended};
-use crate::diag::{Code, Diagnostic, readable};
+use crate::diag::{Applies, Code, Diagnostic, Fix, readable};
 use crate::model::Dimension;
 use crate::source::Span;
 use crate::syntax::ast::Name;
@@ -10,8 +10,14 @@ use crate::syntax::ast::Name;
 /// Places of one kind that are shown beside the first one, at most.
 pub(super) const MOST_PLACES: usize = 4;
 
-/// The text of a part is told where it is a bare number.
-pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time: bool) -> Diagnostic {
+/// The text of a part is told where it is a bare number; a factor is proposed where the second one may take it.
+pub fn unlike(
+    what: &str,
+    [first, second]: [Part; 2],
+    texts: [&str; 2],
+    has_time: bool,
+    takes_factor: bool,
+) -> Diagnostic {
     let [one, other] = [(first, texts[0]), (second, texts[1])];
     let fix = [(one, other), (other, one)].into_iter().find_map(|((one, text), (other, other_text))| {
         if !one.dimension.is(Dimension::PURE) {
@@ -25,7 +31,10 @@ pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time:
     });
     let mended =
         rate_mended(first.dimension, second, texts[1]).or_else(|| rate_mended(second.dimension, first, texts[0]));
-    let fix = mended.filter(|_| has_time).or(fix);
+    let upside_down =
+        || unit_above(first.dimension, second, texts[1]).or_else(|| unit_above(second.dimension, first, texts[0]));
+    let fix = mended.filter(|_| has_time).or_else(upside_down).or(fix);
+    let fix = fix.or_else(|| scaled(first.dimension, second, texts[1]).filter(|_| takes_factor));
     let polar = polar(first, second, texts).filter(|_| what.starts_with("the coordinates"));
     // where time may not stand it is no more than an explanation
     let is_factor = fix.as_ref().is_some_and(|fix| fix.message.ends_with("t`"));
@@ -36,6 +45,44 @@ pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time:
         .fix_if(fix)
         .help_if(help)
         .help_if(polar)
+}
+
+/// `1/3 s` that is to be like a time: a unit binds more tightly than what divides.
+fn unit_above(like: Dimension, term: Part, text: &str) -> Option<Fix> {
+    let (above, below) = text.split_once('/')?;
+    let (number, unit) = below.trim().split_once(' ')?;
+    let is_number = |text: &str| text.trim().parse::<f64>().is_ok();
+    let is_so = is_number(above) && is_number(number) && like.times(term.dimension).is(Dimension::PURE);
+    let mended = format!("{} {} / {number}", above.trim(), unit.trim());
+    let message = format!("a unit belongs to the number before it: `{mended}`");
+    is_so.then(|| Fix::replace(term.span, &mended, message, Applies::Probably))
+}
+
+/// Texts of more characters than this are left out of a message.
+const LONGEST_SHOWN: usize = 40;
+
+/// A term with the factor that makes it like another one.
+fn scaled(like: Dimension, term: Part, text: &str) -> Option<Fix> {
+    let factor = like.over(term.dimension);
+    let is_whole = [factor.length, factor.time, factor.mass].iter().all(|power| (power - power.round()).abs() < 1e-9);
+    let unit = usual_factor(factor);
+    let [before, behind] = match unit.strip_prefix("1/") {
+        Some(divisor) => {
+            let divisor = divisor.trim_start_matches('(').trim_end_matches(')');
+            let one = if divisor.contains(['*', '/']) { format!("(1 {divisor})") } else { format!("1 {divisor}") };
+            [String::new(), format!(" / {one}")]
+        }
+        None => [format!("1 {unit} * "), String::new()],
+    };
+    let shown = if text.chars().count() <= LONGEST_SHOWN && !text.contains(['+', '-', '\n']) { text } else { "(…)" };
+    let words = format!("a factor makes {} of it: `{before}{shown}{behind}`", like.in_words());
+    is_whole.then(|| with_factors(term.span, text, [&before, &behind], &words))
+}
+
+/// The unit of a factor; a rate is one of an angle.
+fn usual_factor(factor: Dimension) -> String {
+    let unit = factor.unit();
+    if factor.is(Dimension::RATE) { "rad/s".to_owned() } else { unit }
 }
 
 /// What a quantity is usually written in.
@@ -117,6 +164,15 @@ pub fn not_finite(span: Span, value: f64) -> Diagnostic {
     Diagnostic::new(Code::E0404, format!("this constant is {what}"))
         .at(span, what)
         .help("look for a division by zero, a root or logarithm of what is not positive, or a number beyond 1.8e308")
+}
+
+/// `acos` of what is beyond 1.
+pub fn no_such_angle(argument: Span, function: &str, value: f64) -> Diagnostic {
+    let number = readable(value);
+    let which = if function == "acos" { "cosine" } else { "sine" };
+    Diagnostic::new(Code::E0404, format!("no angle has the {which} {number}"))
+        .at(argument, format!("{number}, and the {which} of an angle is between -1 and 1"))
+        .help("a triangle with these lengths does not close: one side is longer than the other two together, or a ratio is upside down")
 }
 
 pub fn zero_direction(span: Span) -> Diagnostic {

@@ -1,7 +1,7 @@
 //! What is said of bodies as they are drawn, of times, and of units that were forgotten.
 
 use super::dimensions::{MOST_PLACES, told};
-use crate::check::mends::is_bare_number;
+use crate::check::mends::{is_bare_number, with_factors};
 use crate::diag::{Applies, Code, Diagnostic, Edit, Fix, readable};
 use crate::model::Dimension;
 use crate::source::Span;
@@ -100,6 +100,52 @@ pub fn degrees(span: Span, value: f64, text: &str) -> Diagnostic {
         .help(words)
         .change(is_bare.then(|| unit("deg")))
         .change(is_bare.then(|| unit("rad")))
+}
+
+/// Something else in the place of a direction; the text of its angle, where it has one.
+pub fn no_direction(span: Span, found: &str, angle: Option<&str>) -> Diagnostic {
+    let pair = |angle: &str| format!("(cos({angle}), sin({angle}))");
+    let fix = angle.map(|angle| {
+        let message = format!("the direction of an angle is `{}`", pair(angle));
+        Fix::replace(span, pair(angle), message, Applies::Probably)
+    });
+    Diagnostic::new(Code::E0302, format!("expected a direction `(dx, dy)`, found {found}"))
+        .at(span, format!("this is {found}"))
+        .fix_if(fix)
+}
+
+/// A term that is a bare number beside a measure which is printed in a unit of angle; where the unit would be written, and both texts.
+pub fn number_beside_degrees(
+    [term, number]: [Span; 2],
+    [text, number_text]: [&str; 2],
+    measure: Span,
+    unit: &str,
+) -> Diagnostic {
+    let is_number = is_bare_number(number_text);
+    let written = |unit: &str| {
+        if is_number { format!("`{number_text} {unit}`") } else { format!("`({text}) * 1 {unit}`") }
+    };
+    let fix = |unit: &str| {
+        let message = format!("write {}", written(unit));
+        if is_number {
+            Fix::append(number, format!(" {unit}"), message, Applies::Probably)
+        } else {
+            with_factors(term, text, ["", &format!(" * 1 {unit}")], &message)
+        }
+    };
+    let radians = if unit.contains('/') || unit == "rpm" { "rad/s" } else { "rad" };
+    let diagnostic = Diagnostic::new(
+        Code::W0401,
+        format!("the bare number `{text}` is in {radians}, beside what is printed in {unit}"),
+    )
+    .at(term, format!("in {radians}"))
+    .also(measure, format!("printed in {unit}"));
+    let declared = (number != term).then_some(number);
+    let diagnostic = declared.into_iter().fold(diagnostic, |said, number| said.also(number, "this number"));
+    diagnostic
+        .help(format!("write {}, or {} if radians are meant", written(unit), written(radians)))
+        .change(Some(fix(unit)))
+        .change(Some(fix(radians)))
 }
 
 /// A length whose formula holds no unit, and where that would be written.

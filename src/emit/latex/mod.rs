@@ -9,6 +9,7 @@ mod letters;
 mod pieces;
 mod symbols;
 
+use super::not_written;
 use crate::expr::{ExprId, Node, Table};
 use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, IdVec, Mechanics};
 use formula::Formulas;
@@ -51,9 +52,9 @@ const PREAMBLE: &str = r"\documentclass[a4paper,10pt,fleqn]{article}
 
 /// One document; `file` is the name of the source for its head.
 #[must_use]
-pub fn latex(system: &ConstraintSystem, mechanics: Option<&Mechanics>, file: &str) -> String {
+pub fn latex(system: &ConstraintSystem, mechanics: Option<&Mechanics>, is_determined: bool, file: &str) -> String {
     let mut writer = Writer { system, formulas: Formulas::new(system, &roots(system, mechanics)), text: String::new() };
-    writer.head(file);
+    writer.head(file, is_determined);
     writer.coordinates();
     writer.params();
     writer.inputs();
@@ -82,7 +83,8 @@ fn roots(system: &ConstraintSystem, mechanics: Option<&Mechanics>) -> Vec<ExprId
     roots.extend(system.phi_q().entries().iter().map(|&(_, id)| id));
     roots.extend(system.nu().iter().chain(system.gamma()));
     roots.extend(system.inputs().iter().map(|input| input.formulas[0]));
-    roots.extend(system.measures().iter().map(|measure| where_it_has_a_value(system, measure.value)));
+    let measures = system.measures().iter().filter(|measure| not_written(system, measure.value).is_none());
+    roots.extend(measures.map(|measure| where_it_has_a_value(system, measure.value)));
     if let Some(Mechanics { mass_matrix, applied }) = mechanics {
         roots.extend(mass_matrix.entries().iter().map(|&(_, id)| id).chain(applied.iter().copied()));
         roots.extend(system.reactions().iter().map(|of| of.value));
@@ -98,7 +100,7 @@ struct Writer<'s> {
 }
 
 impl Writer<'_> {
-    fn head(&mut self, file: &str) {
+    fn head(&mut self, file: &str, is_determined: bool) {
         let system = self.system;
         let (n, m) = (system.coordinates().len(), system.rows().len());
         self.text += &format!("% Written by mechc {}; pdflatex sets it.\n{PREAMBLE}\n", env!("CARGO_PKG_VERSION"));
@@ -115,6 +117,9 @@ impl Writer<'_> {
         self.text += "Of $\\Phi_q$ the columns are given that do not vanish.\n";
         self.text +=
             "Each $\\mathcal{T}_k$ stands for a part of a formula, and is written out where it is met first.\n";
+        if !is_determined {
+            self.text += "The equations do not determine the mechanism.\n";
+        }
         let left_out = system.checks().chunk_by(|a, b| a.declaration == b.declaration).map(|of| {
             let name = words(&system.declarations()[of[0].declaration].name);
             format!("{} of \\textbf{{{name}}}", of.len())
@@ -342,8 +347,13 @@ impl Writer<'_> {
             self.section("Measures");
         }
         for (k, measure) in self.system.measures().iter().enumerate() {
+            let name = symbol(&measure.name, Style::Italic, k).text;
+            if let Some(reason) = not_written(self.system, measure.value) {
+                self.entry(&name, &format!("\\text{{{reason}}}"));
+                continue;
+            }
             let text = self.formulas.text(where_it_has_a_value(self.system, measure.value));
-            self.entry(&symbol(&measure.name, Style::Italic, k).text, &text);
+            self.entry(&name, &text);
             self.terms();
         }
     }
