@@ -18,6 +18,24 @@ pub mod redundancy {
     pub const NEARBY: [f64; 3] = [1.3e-3, 3.1e-3, 7.7e-3];
 }
 
+/// Forces that redundant equations share (`analysis/explain/sharing.rs`).
+pub mod sharing {
+    /// The first step along the motion, as a part of the span.
+    pub const FIRST_STEP: f64 = 1e-3;
+    /// The longest step, as a part of the span: what rests for a while is waited for.
+    pub const LONGEST_STEP: f64 = 1.0 / 32.0;
+    /// A step may move no coordinate by more than this, scaled.
+    pub const LARGEST_STEP: f64 = 0.3;
+    /// A step may end no farther than this, scaled, from where the one before it leads: else it is on another branch.
+    pub const APART: f64 = 0.1;
+    /// Positions are looked at this far from each other, scaled.
+    pub const FRESH: f64 = 0.03;
+    /// Steps are no more than this: the whole motion of what turns once or twice.
+    pub const MOST_STEPS: usize = 200;
+    /// Steps are no more than do this work, which is rows times the square of coordinates: about a second.
+    pub const MOST_WORK: usize = 1_000_000_000;
+}
+
 /// Free motions, and what is proposed to take them (`analysis/explain/freedom.rs`, `analysis/explain/proposals.rs`).
 pub mod freedom {
     /// A residual above this is not assembled: motions would be told of no position.

@@ -7,6 +7,7 @@ use super::errors;
 use super::evaluator::Evaluator;
 use super::freedom::{FreeMotion, Freedom, motions_as_drawn};
 use super::redundancy::{Dependent, dependents, times_nearby};
+use super::sharing::shared;
 use crate::analysis::state::Horizon;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::ir::{Check, ConstraintSystem, DeclarationKind, JointKind, Row};
@@ -33,8 +34,10 @@ pub fn determine(
         return Err(explain(refused, &anatomy));
     }
     let mut system = refused.system;
-    system.retain_forces(|value, graph| !errors::is_shared(graph, &anatomy.dependents, value));
-    if let Some(why) = errors::force_in_a_loop(&system, &anatomy.dependents) {
+    let formulas = system.formulas_with_forces();
+    let shared = shared(&system, &refused.too_many, anatomy.dependents.len(), horizon, formulas.into_iter());
+    system.retain_forces(|value| shared.iter().all(|shared| shared.formula != value));
+    if let Some(why) = errors::shared_force(&system, &shared) {
         return Err(why.into());
     }
     let said = errors::left_out(&system, &anatomy.dependents);

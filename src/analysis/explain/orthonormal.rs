@@ -68,8 +68,8 @@ pub struct Basis {
     pub span: Orthonormal,
     /// Which of the vectors given are independent.
     pub kept: Vec<usize>,
-    /// The others, and which of the kept ones each depends on.
-    pub dependent: Vec<(usize, Vec<usize>)>,
+    /// The others, and which of the kept ones each depends on, with the weights that make it up.
+    pub dependent: Vec<(usize, Vec<(usize, f64)>)>,
 }
 
 impl Basis {
@@ -90,7 +90,7 @@ impl Basis {
             }
             let weights = factors.view((0, 0), (rank, rank)).solve_upper_triangular(&shares).unwrap_or(shares);
             let on = basis.kept.iter().zip(&weights).filter(|(_, weight)| weight.abs() > weighs);
-            basis.dependent.push((k, on.map(|(&k, _)| k).collect()));
+            basis.dependent.push((k, on.map(|(&k, &weight)| (k, weight)).collect()));
         }
         basis
     }
@@ -113,7 +113,11 @@ mod tests {
         ];
         let basis = Basis::of(rows.as_flattened(), 4, [1e-6, 1e-6]);
         assert_eq!(basis.kept, [0, 1, 2]);
-        assert_eq!(basis.dependent, [(3, vec![0, 1]), (4, vec![2])]);
+        let on = |k: usize| basis.dependent[k].1.iter().map(|&(k, _)| k).collect::<Vec<usize>>();
+        assert_eq!([(basis.dependent[0].0, on(0)), (basis.dependent[1].0, on(1))], [(3, vec![0, 1]), (4, vec![2])]);
+        // (0, 1, 0, 0) = (1/half) (half, half, 0, 0) − (1, 0, 0, 0)
+        let weights: Vec<f64> = basis.dependent[0].1.iter().map(|&(_, weight)| weight).collect();
+        assert!((weights[0] + 1.0).abs() < 1e-15 && (weights[1] * half - 1.0).abs() < 1e-15);
         let left = basis.span.shares_left();
         assert!((left - DVector::from_column_slice(&[0.0, 0.0, 0.0, 1.0])).norm() < 1e-15);
     }

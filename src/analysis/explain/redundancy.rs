@@ -29,7 +29,7 @@ pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
     let mut dependents: Vec<Dependent> = basis
         .dependent
         .iter()
-        .map(|(k, on)| Dependent { row: row(*k), on: on.iter().map(|&k| row(k)).collect(), open: None })
+        .map(|(k, on)| Dependent { row: row(*k), on: on.iter().map(|&(k, _)| row(k)).collect(), open: None })
         .collect();
     let kept: Vec<u32> = basis.kept.iter().map(|&k| part.rows[k]).collect();
     for t in times_nearby(t, span) {
@@ -103,7 +103,7 @@ fn add_hidden(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64, dependent
     let beside = basis_of(&linear.jacobian, part.columns.len()).dependent;
     for dependent in dependents.iter_mut().filter(|dependent| dependent.open.is_some()) {
         let found = beside.iter().find(|(k, _)| part.rows[*k] as usize == dependent.row);
-        let on = found.into_iter().flat_map(|(_, on)| on).map(|&k| part.rows[k] as usize);
+        let on = found.into_iter().flat_map(|(_, on)| on).map(|&(k, _)| part.rows[k] as usize);
         dependent.on.extend(on);
         dependent.on.sort_unstable();
         dependent.on.dedup();

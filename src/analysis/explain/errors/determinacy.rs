@@ -3,8 +3,9 @@
 use super::{LISTED, at, degrees, gap_kind, length, with_places};
 use crate::analysis::explain::freedom::Freedom;
 use crate::analysis::explain::redundancy::Dependent;
+use crate::analysis::explain::sharing::Shared;
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::expr::{ExprId, Graph, Symbol};
+use crate::expr::ExprId;
 use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, JointKind, PointId};
 
 /// Equations that depend on others: a message for each declaration that wrote them.
@@ -249,31 +250,15 @@ pub fn left_out(system: &ConstraintSystem, dependents: &[Dependent]) -> Diagnost
     diagnostics
 }
 
-/// Whether an equation is redundant, or one of those from which others follow.
-fn is_in_loop(dependents: &[Dependent], row: usize) -> bool {
-    dependents.iter().any(|one| one.row == row || one.on.contains(&row))
-}
-
-/// Whether a formula holds forces that are not determined if redundant equations are left out: these and those from which they follow can
-/// share what they exert among them in any way.
-pub fn is_shared(graph: &Graph, dependents: &[Dependent], formula: ExprId) -> bool {
-    graph.symbols(formula).into_iter().any(|symbol| match symbol {
-        Symbol::Multiplier(row) | Symbol::VariedMultiplier { row, .. } => is_in_loop(dependents, row as usize),
-        _ => false,
-    })
-}
-
-/// The first force that is asked for and is not determined if redundant equations are left out.
-pub fn force_in_a_loop(system: &ConstraintSystem, dependents: &[Dependent]) -> Option<Diagnostic> {
-    let is_open = |id: ExprId| is_shared(system.graph(), dependents, id);
+/// The first force that is asked for and is not determined.
+pub fn shared_force(system: &ConstraintSystem, shared: &[Shared]) -> Option<Diagnostic> {
     let reactions = system.reactions().iter().map(|of| (of.value, format!("`{}`", of.name), of.span));
     let measures = system.measures().iter().map(|of| (of.value, format!("measure `{}`", of.name), of.span));
     let results = system.results().reductions.iter().map(|of| (of.of, "what a result asks for".to_owned(), of.span));
-    let (_, name, span) = reactions.chain(measures).chain(results).find(|(value, ..)| is_open(*value))?;
-    let mut of_loop: Vec<DeclarationId> = (0..system.rows().len())
-        .filter(|&row| is_in_loop(dependents, row))
-        .map(|row| system.rows()[row].declaration)
-        .collect();
+    let of = |value: ExprId| shared.iter().find(|shared| shared.formula == value);
+    let mut asked = reactions.chain(measures).chain(results);
+    let (shared, name, span) = asked.find_map(|(value, name, span)| Some((of(value)?, name, span)))?;
+    let mut of_loop: Vec<DeclarationId> = shared.rows.iter().map(|&row| system.rows()[row].declaration).collect();
     of_loop.dedup();
     of_loop.retain(|&declaration| system.declarations()[declaration].span != span);
     let message = format!("{name} is not determined: its loop has redundant equations");
