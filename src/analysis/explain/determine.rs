@@ -10,7 +10,7 @@ use super::redundancy::{Dependent, dependents, times_nearby};
 use super::sharing::shared;
 use crate::analysis::state::Horizon;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::ir::{Check, ConstraintSystem, DeclarationKind, JointKind, Row};
+use crate::ir::{ConstraintSystem, DeclarationKind, JointKind};
 use crate::structure::{self, Determined, Refused, Subsystem};
 use crate::tolerances::determinacy::determine::LARGEST;
 
@@ -41,8 +41,9 @@ pub fn determine(
         return Err(why.into());
     }
     let said = errors::left_out(&system, &anatomy.dependents);
-    leave_out(&mut system, &anatomy.dependents);
-    match structure::prove(system) {
+    let mut rows: Vec<usize> = anatomy.dependents.iter().map(|dependent| dependent.row).collect();
+    rows.sort_unstable();
+    match Determined::without(system, rows) {
         Ok(determined) => Ok((determined, said)),
         Err(refused) => Err(refused.diagnostic.into()),
     }
@@ -195,25 +196,4 @@ fn everything(system: &ConstraintSystem) -> Subsystem {
         rows: (0..system.rows().len() as u32).collect(),
         columns: (0..system.coordinates().len() as u32).collect(),
     }
-}
-
-/// Makes checks of the equations that are left out.
-fn leave_out(system: &mut ConstraintSystem, dependents: &[Dependent]) {
-    let q: Vec<f64> = system.coordinates().iter().map(|coordinate| system.value_at(coordinate.estimate, &[])).collect();
-    let mut rows: Vec<usize> = dependents.iter().map(|dependent| dependent.row).collect();
-    rows.sort_unstable();
-    let checks =
-        rows.iter()
-            .map(|&row| {
-                let slopes =
-                    system.phi_q().row(row).iter().map(|&(column, slope)| {
-                        system.value_at(slope, &q) * system.coordinates()[column as usize].scale
-                    });
-                let norm = slopes.filter(|slope| slope.is_finite()).map(|slope| slope * slope).sum::<f64>().sqrt();
-                let scale = if norm > 0.0 { norm } else { 1.0 };
-                let Row { declaration, phi, unit } = system.rows()[row];
-                Check { phi, unit, declaration, scale }
-            })
-            .collect();
-    system.leave_out(&rows, checks);
 }
