@@ -12,6 +12,15 @@ pub mod redundancy {
     pub const DEPENDENT: f64 = 1e-6;
     /// An equation takes part in a dependency if its share is above this.
     pub const TAKES_PART: f64 = 1e-6;
+    /// Rows that others depend on with a larger weight than this are taken last: without them the others are far from dependent.
+    pub const HEAVY: f64 = 5.0;
+    /// Rows are exchanged so many times at most.
+    pub const MOST_EXCHANGES: usize = 30;
+    /// How much less than the others those equations weigh of which it is asked how far they are off where that is least: the others are off by
+    /// the square of this less.
+    pub const YIELDING: f64 = 100.0;
+    /// Least squares begin anew so many times there.
+    pub const PASSES: usize = 4;
     /// What is open by more than this, scaled, does not hold.
     pub const OPEN: f64 = 1e-8;
     /// Times at which the equations are looked at beside the first one, as parts of the span.

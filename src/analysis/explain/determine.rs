@@ -71,6 +71,9 @@ fn explain(refused: Refused, anatomy: &Anatomy) -> Diagnostics {
 /// that cannot be told.
 pub fn explain_dependent(system: &ConstraintSystem, horizon: Horizon) -> Option<Diagnostic> {
     let Anatomy { dependents, freedom } = Anatomy::of(system, &everything(system), horizon);
+    if let Some(touching) = dependents.iter().find(|dependent| dependent.touches) {
+        return Some(errors::touching(system, touching, horizon.from));
+    }
     let freedom = freedom.filter(|freedom| freedom.degrees() > 0)?;
     (!dependents.is_empty()).then(|| errors::too_many_and_too_few(system, &dependents, &freedom))
 }
@@ -138,7 +141,8 @@ fn surplus(evaluator: &mut Evaluator<'_>, mut part: Subsystem, times: [f64; 2]) 
         let Some(mut dependents) = dependents(evaluator, &part, times) else {
             return found;
         };
-        if let Some(driver) = stuck_driver(system, &dependents) {
+        let leaves_none = part.rows.len() - dependents.len() == part.columns.len();
+        if let Some(driver) = stuck_driver(system, &dependents).filter(|_| leaves_none) {
             // the joints do not fit beside it: the one that closes the loop is to be named
             part.rows.sort_by_key(|&row| (row as usize != driver, suspicion(system, row as usize)));
             dependents = self::dependents(evaluator, &part, times).unwrap_or(dependents);

@@ -8,7 +8,7 @@ use super::errors;
 use super::evaluator::Evaluator;
 use super::orthonormal::Basis;
 use crate::structure::Subsystem;
-use crate::tolerances::determinacy::redundancy::{DEPENDENT, NEARBY, OPEN, TAKES_PART};
+use crate::tolerances::determinacy::redundancy::{HEAVY, MOST_EXCHANGES, PASSES, YIELDING, DEPENDENT, NEARBY, OPEN, TAKES_PART};
 
 /// An equation that depends on others.
 #[derive(Clone, Debug)]
@@ -19,6 +19,8 @@ pub struct Dependent {
     pub on: Vec<usize>,
     /// How far it is open with the others met (m or rad, by its coordinates), and when first (s); none if it holds.
     pub open: Option<(f64, f64)>,
+    /// Whether it holds, but not wherever the others let the mechanism go: it fixes something, though it has no slope of its own where it does.
+    pub touches: bool,
 }
 
 /// The equations of a part that depend on those before them, from the start at `t` on over a span of time (s); none where
@@ -29,7 +31,7 @@ pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
     let mut dependents: Vec<Dependent> = basis
         .dependent
         .iter()
-        .map(|(k, on)| Dependent { row: row(*k), on: on.iter().map(|&(k, _)| row(k)).collect(), open: None })
+        .map(|(k, on)| Dependent { row: row(*k), on: on.iter().map(|&(k, _)| row(k)).collect(), open: None, touches: false })
         .collect();
     let kept: Vec<u32> = basis.kept.iter().map(|&k| part.rows[k]).collect();
     for t in times_nearby(t, span) {
@@ -40,12 +42,14 @@ pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
         let is_met = met.residual.iter().all(|open| open.abs() <= limit);
         for dependent in dependents.iter_mut().filter(|dependent| dependent.open.is_none()) {
             let open = evaluator.linear(&[dependent.row as u32], &part.columns, None, t)?.residual[0].abs();
-            if !is_met {
-                // those of its equations that depend on no others do not hold either
-                dependent.open = Some((gap_of_declaration(evaluator, part, dependent.row, t)?, t));
-            } else if open > limit {
-                dependent.open = Some((evaluator.gap(dependent.row), t));
+            if is_met && open <= limit {
+                continue;
             }
+            if is_met && closes(evaluator, (&kept, dependent.row), part, t)? {
+                dependent.touches = true;
+                continue;
+            }
+            dependent.open = Some((gap_of_declaration(evaluator, part, dependent.row, t)?, t));
         }
     }
     if dependents.iter().any(|dependent| dependent.open.is_some()) {
@@ -54,15 +58,41 @@ pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
     Some(dependents)
 }
 
-/// How far all that the declaration of a row asks for is off, with all other equations met.
+/// Whether an equation can be met along a motion that others leave free, though it changes with it in second order alone; the position goes
+/// there.
+fn closes(
+    evaluator: &mut Evaluator<'_>,
+    (kept, row): (&[u32], usize),
+    part: &Subsystem,
+    t: f64,
+) -> Option<bool> {
+    if kept.len() >= part.columns.len() {
+        return Some(false);
+    }
+    let q = evaluator.q.clone();
+    let all: Vec<u32> = kept.iter().copied().chain([row as u32]).collect();
+    let met = evaluator.assemble(&all, &part.columns, None, t)?;
+    let closes = met.residual.iter().all(|open| open.abs() <= OPEN);
+    if !closes {
+        evaluator.q = q;
+    }
+    Some(closes)
+}
+
+/// How far all that the declaration of a row asks for is off where it is least, with all other equations met.
 fn gap_of_declaration(evaluator: &mut Evaluator<'_>, part: &Subsystem, row: usize, t: f64) -> Option<f64> {
     let system = evaluator.system;
     let is_own = |other: &u32| system.rows()[*other as usize].declaration == system.rows()[row].declaration;
-    let (own, others): (Vec<u32>, Vec<u32>) = part.rows.iter().copied().partition(is_own);
+    let own = part.rows.iter().filter(|row| is_own(row));
     let q = evaluator.q.clone();
-    evaluator.assemble(&others, &part.columns, None, t)?;
+    let weights = evaluator.linear(&part.rows, &part.columns, None, t)?.weights;
+    let weight = |(row, weight): (&u32, &f64)| if is_own(row) { weight * YIELDING } else { *weight };
+    let weights: Vec<f64> = part.rows.iter().zip(&weights).map(weight).collect();
+    for _ in 0..PASSES {
+        evaluator.assemble(&part.rows, &part.columns, Some(&weights), t)?;
+    }
     let kind = errors::gap_kind(system, row);
-    let of_kind = own.iter().map(|&own| own as usize).filter(|&own| errors::gap_kind(system, own) == kind);
+    let of_kind = own.map(|&own| own as usize).filter(|&own| errors::gap_kind(system, own) == kind);
     let gap = of_kind.map(|own| evaluator.gap(own)).map(|gap| gap * gap).sum::<f64>().sqrt();
     evaluator.q = q;
     Some(gap)
@@ -85,12 +115,45 @@ fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
         let jacobian = evaluator.linear(&part.rows, &part.columns, None, t)?.jacobian;
         let basis = basis_of(&jacobian, part.columns.len());
         if best.as_ref().is_none_or(|(known, _)| basis.kept.len() > known.kept.len()) {
-            best = Some((basis, evaluator.q.clone()));
+            let is_driver = |k: usize| evaluator.system.is_driver(part.rows[k] as usize);
+            best = Some((well_chosen(basis, &jacobian, part.columns.len(), is_driver), evaluator.q.clone()));
         }
     }
     let (basis, q) = best?;
     evaluator.q = q;
     Some(basis)
+}
+
+/// The same basis, but for rows that others depend on with a large weight, without which less is nearly dependent; drivers stay.
+fn well_chosen(mut basis: Basis, jacobian: &[f64], n: usize, is_driver: impl Fn(usize) -> bool) -> Basis {
+    let mut order: Vec<usize> = (0..jacobian.len() / n.max(1)).collect();
+    for _ in 0..MOST_EXCHANGES {
+        let weights = basis.dependent.iter().flat_map(|(_, on)| on);
+        let heavy = weights.filter(|(k, weight)| weight.abs() > HEAVY && !is_driver(*k));
+        let Some(&(heaviest, _)) = heavy.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs())) else {
+            break;
+        };
+        order.retain(|&k| k != heaviest);
+        order.push(heaviest);
+        let lines: Vec<f64> = order.iter().flat_map(|&k| &jacobian[k * n..(k + 1) * n]).copied().collect();
+        let other = basis_of(&lines, n);
+        if other.kept.len() != basis.kept.len() {
+            break;
+        }
+        let named = |k: usize| order[k];
+        let mut kept: Vec<usize> = other.kept.iter().map(|&k| named(k)).collect();
+        kept.sort_unstable();
+        let on = |on: Vec<(usize, f64)>| {
+            let mut on: Vec<(usize, f64)> = on.into_iter().map(|(k, weight)| (named(k), weight)).collect();
+            on.sort_unstable_by_key(|&(k, _)| k);
+            on
+        };
+        let mut dependent: Vec<(usize, Vec<(usize, f64)>)> =
+            other.dependent.into_iter().map(|(k, weights)| (named(k), on(weights))).collect();
+        dependent.sort_unstable_by_key(|&(k, _)| k);
+        basis = Basis { span: other.span, kept, dependent };
+    }
+    basis
 }
 
 /// What conflicts may do so with equations that have no part in it where they are looked at: a driven crank that is just in

@@ -188,7 +188,7 @@ fn conflicting(system: &ConstraintSystem, group: &[Dependent], one: &Dependent, 
     let on = depends_on(system, group);
     let index = system.rows()[one.row].declaration;
     let declaration = &system.declarations()[index];
-    let diagnostic = Diagnostic::new(Code::E0507, headline_of_conflict(system, group))
+    let diagnostic = Diagnostic::new(Code::E0507, headline_of_conflict(system, group, false))
         .at(declaration.span, gap_in_words(system, one.row, by, t));
     let diagnostic = with_places(diagnostic, system, &on, ["", ""]);
     let help = if on.is_empty() {
@@ -201,13 +201,14 @@ fn conflicting(system: &ConstraintSystem, group: &[Dependent], one: &Dependent, 
     count_data(diagnostic, system, index).help(help).datum("t", t).datum("open", by)
 }
 
-fn headline_of_conflict(system: &ConstraintSystem, group: &[Dependent]) -> String {
+/// What is the matter with declarations that conflict; `is_free` is whether anything can move.
+fn headline_of_conflict(system: &ConstraintSystem, group: &[Dependent], is_free: bool) -> String {
     let on = depends_on(system, group);
     let declaration = &system.declarations()[declaration_of(system, group)];
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
     match on.len() {
         0 => format!("no motion of the bodies changes {noun} `{name}`, which does not hold"),
-        _ if is_stuck(system, group) => {
+        _ if !is_free && is_stuck(system, group) => {
             let leave = if on.len() == 1 { "leaves" } else { "leave" };
             format!("{noun} `{name}` has nothing to move: {} {leave} no motion", by_kinds(system, &on))
         }
@@ -268,6 +269,22 @@ pub fn shared_force(system: &ConstraintSystem, shared: &[Shared]) -> Option<Diag
         diagnostic
             .help("replace a redundant joint by one that leaves more freedom, or ask for forces outside of the loop"),
     )
+}
+
+/// An equation that holds, but where it does no small motion changes it, and none of the equations that it should follow from makes it hold.
+pub fn touching(system: &ConstraintSystem, dependent: &Dependent, t: f64) -> Diagnostic {
+    let group = std::slice::from_ref(dependent);
+    let (index, on) = (declaration_of(system, group), depends_on(system, group));
+    let declaration = &system.declarations()[index];
+    let (noun, name) = (declaration.kind.noun(), &declaration.name);
+    let message = format!("the equations are not independent, at {} or at any other time", at(t));
+    let diagnostic = Diagnostic::new(Code::E0504, message)
+        .at(declaration.span, "holds, but no small motion of any body changes it there");
+    let diagnostic = with_places(diagnostic, system, &on, ["beside this", "beside these"]);
+    count_data(diagnostic, system, index)
+        .note(format!("what {noun} `{name}` fixes it fixes at the end of its reach, where the motion is not determined"))
+        .help(format!("change a length, so that {noun} `{name}` is not stretched out; or put a joint in its place"))
+        .datum("t", t)
 }
 
 /// An equation that was left out and does not follow from the others any more.
@@ -373,7 +390,7 @@ fn fault_of(system: &ConstraintSystem, group: &[Dependent]) -> Culprit {
     let declaration = declaration_of(system, group);
     let widest = group.iter().filter_map(|one| Some((one, one.open?))).max_by(|a, b| a.1.0.total_cmp(&b.1.0));
     let (headline, label) = match widest {
-        Some((one, (by, t))) => (headline_of_conflict(system, group), gap_in_words(system, one.row, by, t)),
+        Some((one, (by, t))) => (headline_of_conflict(system, group, true), gap_in_words(system, one.row, by, t)),
         None => (headline_of_redundant(system, group), "says nothing new".to_owned()),
     };
     Culprit { declaration, headline, label }
