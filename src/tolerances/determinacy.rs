@@ -4,6 +4,8 @@
 pub mod determine {
     /// Larger parts are not looked at with values: their equations would be a dense matrix.
     pub const LARGEST: usize = 600;
+    /// The same where redundant equations are allowed: that takes some seconds.
+    pub const LARGEST_ALLOWED: usize = 1500;
 }
 
 /// Equations that depend on others (`analysis/explain/redundancy.rs`).

@@ -12,7 +12,7 @@ use crate::analysis::state::Horizon;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::ir::{ConstraintSystem, DeclarationKind, JointKind};
 use crate::structure::{self, Determined, Refused, Subsystem};
-use crate::tolerances::determinacy::determine::LARGEST;
+use crate::tolerances::determinacy::determine::{LARGEST, LARGEST_ALLOWED};
 
 /// Shows that a system is determined, where need be without the equations that are redundant.
 ///
@@ -27,21 +27,29 @@ pub fn determine(
         Ok(determined) => return Ok((determined, Diagnostics::default())),
         Err(refused) => *refused,
     };
-    let anatomy = Anatomy::of(&refused.system, &refused.too_many, horizon);
-    let is_enough = anatomy.dependents.len().cast_signed() == -refused.system.ndof();
-    let holds = anatomy.dependents.iter().all(|dependent| dependent.open.is_none());
+    let limit = if allow_redundant { LARGEST_ALLOWED } else { LARGEST };
+    let times = [horizon.from, horizon.span];
+    let mut evaluator = Evaluator::new(&refused.system);
+    let dependents = surplus_within(&mut evaluator, &refused.too_many, times, limit);
+    let is_enough = dependents.len().cast_signed() == -refused.system.ndof();
+    let holds = dependents.iter().all(|dependent| dependent.open.is_none());
     if !(allow_redundant && holds && is_enough && refused.too_few.columns.is_empty()) {
+        let anatomy = Anatomy::beside(&mut evaluator, dependents, times);
+        let size = refused.too_many.rows.len();
+        if allow_redundant && size > limit {
+            return Err(errors::too_large(refused.diagnostic, size, limit).into());
+        }
         return Err(explain(refused, &anatomy));
     }
     let mut system = refused.system;
     let formulas = system.formulas_with_forces();
-    let shared = shared(&system, &refused.too_many, anatomy.dependents.len(), horizon, formulas.into_iter());
+    let shared = shared(&system, &refused.too_many, dependents.len(), horizon, formulas.into_iter());
     system.retain_forces(|value| shared.iter().all(|shared| shared.formula != value));
     if let Some(why) = errors::shared_force(&system, &shared) {
         return Err(why.into());
     }
-    let said = errors::left_out(&system, &anatomy.dependents);
-    let mut rows: Vec<usize> = anatomy.dependents.iter().map(|dependent| dependent.row).collect();
+    let said = errors::left_out(&system, &dependents);
+    let mut rows: Vec<usize> = dependents.iter().map(|dependent| dependent.row).collect();
     rows.sort_unstable();
     match Determined::without(system, rows) {
         Ok(determined) => Ok((determined, said)),
@@ -107,18 +115,26 @@ struct Anatomy {
 impl Anatomy {
     /// Of a system of which a part has too many equations.
     fn of(system: &ConstraintSystem, too_many: &Subsystem, horizon: Horizon) -> Anatomy {
-        let Horizon { from: t, span } = horizon;
+        let times = [horizon.from, horizon.span];
         let mut evaluator = Evaluator::new(system);
-        let mut found = Vec::new();
-        if !too_many.rows.is_empty() && too_many.rows.len() <= LARGEST {
-            found = surplus(&mut evaluator, too_many.clone(), [t, span]);
-        }
-        let mut kept = everything(system);
-        kept.rows.retain(|&row| found.iter().all(|dependent| dependent.row != row as usize));
-        let is_small = usize::max(kept.rows.len(), kept.columns.len()) <= LARGEST;
-        let freedom = if is_small { Anatomy::freedom(&mut evaluator, &kept, [t, span]) } else { None };
-        Anatomy { dependents: found, freedom }
+        let dependents = surplus_within(&mut evaluator, too_many, times, LARGEST);
+        Anatomy::beside(&mut evaluator, dependents, times)
     }
+
+    /// With equations of which it is known that they are too many.
+    fn beside(evaluator: &mut Evaluator<'_>, dependents: Vec<Dependent>, times: [f64; 2]) -> Anatomy {
+        let mut kept = everything(evaluator.system);
+        kept.rows.retain(|&row| dependents.iter().all(|dependent| dependent.row != row as usize));
+        let is_small = usize::max(kept.rows.len(), kept.columns.len()) <= LARGEST;
+        let freedom = if is_small { Anatomy::freedom(evaluator, &kept, times) } else { None };
+        Anatomy { dependents, freedom }
+    }
+}
+
+/// As [`surplus`]; none where the part is larger than a limit.
+fn surplus_within(evaluator: &mut Evaluator<'_>, part: &Subsystem, times: [f64; 2], limit: usize) -> Vec<Dependent> {
+    let is_looked_at = !part.rows.is_empty() && part.rows.len() <= limit;
+    if is_looked_at { surplus(evaluator, part.clone(), times) } else { Vec::new() }
 }
 
 /// The equations of a part that are too many. Where one conflicts its joint is taken away before the others are judged.

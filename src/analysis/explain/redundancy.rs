@@ -37,9 +37,15 @@ pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
     for t in times_nearby(t, span) {
         let met = evaluator.assemble(&kept, &part.columns, None, t)?;
         // a singular position is known to half the digits
-        let is_singular = basis_of(&met.jacobian, part.columns.len()).kept.len() < kept.len();
-        let limit = if is_singular { OPEN.sqrt() } else { OPEN };
-        let is_met = met.residual.iter().all(|open| open.abs() <= limit);
+        let is_singular = || basis_of(&met.jacobian, part.columns.len()).kept.len() < kept.len();
+        let holds = |limit: f64| met.residual.iter().all(|open| open.abs() <= limit);
+        let rows: Vec<u32> = dependents.iter().map(|dependent| dependent.row as u32).collect();
+        let all = evaluator.linear(&rows, &part.columns, None, t)?.residual;
+        if holds(OPEN) && all.iter().all(|open| open.abs() <= OPEN) {
+            continue;
+        }
+        let limit = if is_singular() { OPEN.sqrt() } else { OPEN };
+        let is_met = holds(limit);
         for dependent in dependents.iter_mut().filter(|dependent| dependent.open.is_none()) {
             let open = evaluator.linear(&[dependent.row as u32], &part.columns, None, t)?.residual[0].abs();
             if is_met && open <= limit {
@@ -116,7 +122,11 @@ fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
         let basis = basis_of(&jacobian, part.columns.len());
         if best.as_ref().is_none_or(|(known, _)| basis.kept.len() > known.kept.len()) {
             let is_driver = |k: usize| evaluator.system.is_driver(part.rows[k] as usize);
-            best = Some((well_chosen(basis, &jacobian, part.columns.len(), is_driver), evaluator.q.clone()));
+            let is_whole = basis.span.is_whole();
+            best = Some((well_chosen(basis, is_driver), evaluator.q.clone()));
+            if is_whole {
+                break;
+            }
         }
     }
     let (basis, q) = best?;
@@ -124,35 +134,18 @@ fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
     Some(basis)
 }
 
-/// The same basis, but for rows that others depend on with a large weight, without which less is nearly dependent; drivers stay.
-fn well_chosen(mut basis: Basis, jacobian: &[f64], n: usize, is_driver: impl Fn(usize) -> bool) -> Basis {
-    let mut order: Vec<usize> = (0..jacobian.len() / n.max(1)).collect();
+/// The same basis with other rows kept: none that is left has a large weight of a row that is kept, without which less would be nearly dependent.
+/// Drivers stay.
+fn well_chosen(mut basis: Basis, is_driver: impl Fn(usize) -> bool) -> Basis {
     for _ in 0..MOST_EXCHANGES {
-        let weights = basis.dependent.iter().flat_map(|(_, on)| on);
-        let heavy = weights.filter(|(k, weight)| weight.abs() > HEAVY && !is_driver(*k));
-        let Some(&(heaviest, _)) = heavy.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs())) else {
+        let weights = basis.dependent.iter().enumerate().flat_map(|(own, (_, on))| on.iter().map(move |on| (own, *on)));
+        let heavy = weights.filter(|(_, (k, weight))| weight.abs() > HEAVY && !is_driver(*k));
+        let Some((own, (heaviest, _))) = heavy.max_by(|(_, (_, a)), (_, (_, b))| a.abs().total_cmp(&b.abs())) else {
             break;
         };
-        order.retain(|&k| k != heaviest);
-        order.push(heaviest);
-        let lines: Vec<f64> = order.iter().flat_map(|&k| &jacobian[k * n..(k + 1) * n]).copied().collect();
-        let other = basis_of(&lines, n);
-        if other.kept.len() != basis.kept.len() {
-            break;
-        }
-        let named = |k: usize| order[k];
-        let mut kept: Vec<usize> = other.kept.iter().map(|&k| named(k)).collect();
-        kept.sort_unstable();
-        let on = |on: Vec<(usize, f64)>| {
-            let mut on: Vec<(usize, f64)> = on.into_iter().map(|(k, weight)| (named(k), weight)).collect();
-            on.sort_unstable_by_key(|&(k, _)| k);
-            on
-        };
-        let mut dependent: Vec<(usize, Vec<(usize, f64)>)> =
-            other.dependent.into_iter().map(|(k, weights)| (named(k), on(weights))).collect();
-        dependent.sort_unstable_by_key(|&(k, _)| k);
-        basis = Basis { span: other.span, kept, dependent };
+        basis.exchange(own, heaviest, TAKES_PART);
     }
+    basis.dependent.sort_unstable_by_key(|&(k, _)| k);
     basis
 }
 

@@ -271,6 +271,14 @@ pub fn shared_force(system: &ConstraintSystem, shared: &[Shared]) -> Option<Diag
     )
 }
 
+/// A part of so many equations that it is not looked for those that are redundant.
+pub fn too_large(mut diagnostic: Diagnostic, rows: usize, limit: usize) -> Diagnostic {
+    diagnostic.help.clear();
+    diagnostic
+        .note(format!("redundant equations are looked for among up to {limit} that hang together, and here are {rows}"))
+        .help("leave redundant joints away by hand; or drive parts of the mechanism on their own, so that fewer equations hang together")
+}
+
 /// An equation that holds, but where it does no small motion changes it, and none of the equations that it should follow from makes it hold.
 pub fn touching(system: &ConstraintSystem, dependent: &Dependent, t: f64) -> Diagnostic {
     let group = std::slice::from_ref(dependent);
