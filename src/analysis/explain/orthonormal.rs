@@ -63,6 +63,7 @@ impl Orthonormal {
 }
 
 /// Vectors as far as they are independent of those before them.
+#[derive(Clone)]
 pub struct Basis {
     /// What they span.
     pub span: Orthonormal,

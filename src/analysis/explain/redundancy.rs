@@ -8,7 +8,9 @@ use super::errors;
 use super::evaluator::Evaluator;
 use super::orthonormal::Basis;
 use crate::structure::Subsystem;
-use crate::tolerances::determinacy::redundancy::{HEAVY, MOST_EXCHANGES, PASSES, YIELDING, DEPENDENT, NEARBY, OPEN, TAKES_PART};
+use crate::tolerances::determinacy::redundancy::{
+    DEPENDENT, HEAVY, MOST_EXCHANGES, NEARBY, OPEN, PASSES, TAKES_PART, YIELDING,
+};
 
 /// An equation that depends on others.
 #[derive(Clone, Debug)]
@@ -24,14 +26,45 @@ pub struct Dependent {
 }
 
 /// The equations of a part that depend on those before them, from the start at `t` on over a span of time (s); none where
-/// they have no values.
-pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f64; 2]) -> Option<Vec<Dependent>> {
-    let basis = basis_of_start(evaluator, part, [t, span])?;
+/// they have no values. Where all hold, others may be told in place of some that the rest would nearly depend on without them.
+pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Subsystem, times: [f64; 2]) -> Option<Vec<Dependent>> {
+    let basis = basis_of_start(evaluator, part, times)?;
+    let start = evaluator.q.clone();
+    let dependents = judged(evaluator, part, &basis, times)?;
+    if dependents.iter().any(|dependent| dependent.touches) {
+        return Some(dependents);
+    }
+    let there = evaluator.q.clone();
+    let other = well_chosen(basis.clone(), |k| evaluator.system.is_driver(part.rows[k] as usize));
+    if other.kept == basis.kept {
+        return Some(dependents);
+    }
+    evaluator.q = start;
+    let others = judged(evaluator, part, &other, times)?;
+    if others.iter().all(|dependent| dependent.open.is_none() && !dependent.touches) {
+        return Some(others);
+    }
+    evaluator.q = there;
+    Some(dependents)
+}
+
+/// The equations that depend on those of a basis, and whether they hold beside them.
+fn judged(
+    evaluator: &mut Evaluator<'_>,
+    part: &Subsystem,
+    basis: &Basis,
+    [t, span]: [f64; 2],
+) -> Option<Vec<Dependent>> {
     let row = |k: usize| part.rows[k] as usize;
     let mut dependents: Vec<Dependent> = basis
         .dependent
         .iter()
-        .map(|(k, on)| Dependent { row: row(*k), on: on.iter().map(|&(k, _)| row(k)).collect(), open: None, touches: false })
+        .map(|(k, on)| Dependent {
+            row: row(*k),
+            on: on.iter().map(|&(k, _)| row(k)).collect(),
+            open: None,
+            touches: false,
+        })
         .collect();
     let kept: Vec<u32> = basis.kept.iter().map(|&k| part.rows[k]).collect();
     for t in times_nearby(t, span) {
@@ -66,12 +99,7 @@ pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
 
 /// Whether an equation can be met along a motion that others leave free, though it changes with it in second order alone; the position goes
 /// there.
-fn closes(
-    evaluator: &mut Evaluator<'_>,
-    (kept, row): (&[u32], usize),
-    part: &Subsystem,
-    t: f64,
-) -> Option<bool> {
+fn closes(evaluator: &mut Evaluator<'_>, (kept, row): (&[u32], usize), part: &Subsystem, t: f64) -> Option<bool> {
     if kept.len() >= part.columns.len() {
         return Some(false);
     }
@@ -121,9 +149,8 @@ fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f
         let jacobian = evaluator.linear(&part.rows, &part.columns, None, t)?.jacobian;
         let basis = basis_of(&jacobian, part.columns.len());
         if best.as_ref().is_none_or(|(known, _)| basis.kept.len() > known.kept.len()) {
-            let is_driver = |k: usize| evaluator.system.is_driver(part.rows[k] as usize);
             let is_whole = basis.span.is_whole();
-            best = Some((well_chosen(basis, is_driver), evaluator.q.clone()));
+            best = Some((basis, evaluator.q.clone()));
             if is_whole {
                 break;
             }

@@ -290,7 +290,9 @@ pub fn touching(system: &ConstraintSystem, dependent: &Dependent, t: f64) -> Dia
         .at(declaration.span, "holds, but no small motion of any body changes it there");
     let diagnostic = with_places(diagnostic, system, &on, ["beside this", "beside these"]);
     count_data(diagnostic, system, index)
-        .note(format!("what {noun} `{name}` fixes it fixes at the end of its reach, where the motion is not determined"))
+        .note(format!(
+            "what {noun} `{name}` fixes it fixes at the end of its reach, where the motion is not determined"
+        ))
         .help(format!("change a length, so that {noun} `{name}` is not stretched out; or put a joint in its place"))
         .datum("t", t)
 }
