@@ -5,7 +5,7 @@
 //! on the coordinates.
 
 use super::{Condition, ConstraintSystem, DeclarationId, SparseRows};
-use crate::expr::{ExprId, Graph, Symbol};
+use crate::expr::{Dependence, ExprId, Symbol};
 use crate::source::Span;
 use rustc_hash::FxHashMap;
 
@@ -129,11 +129,20 @@ impl ConstraintSystem {
         self.forces.as_ref().map_or(&[], |forces| &forces.presses)
     }
 
+    /// All that is told of forces: columns, measures, what results are of, and what contacts press with.
+    #[must_use]
+    pub fn formulas_with_forces(&self) -> Vec<ExprId> {
+        let columns = self.reactions().iter().map(|of| of.value).chain(self.presses().iter().map(|of| of.force));
+        let results = self.results.reductions.iter().map(|of| of.of);
+        let all = columns.chain(self.measures.iter().map(|of| of.value)).chain(results);
+        all.filter(|&id| self.graph.dependence(id).on(Dependence::FORCES)).collect()
+    }
+
     /// Leaves out what nobody asked for: columns of what is drawn, and what contacts press with.
-    pub fn retain_forces(&mut self, mut is_kept: impl FnMut(ExprId, &Graph) -> bool) {
+    pub fn retain_forces(&mut self, mut is_kept: impl FnMut(ExprId) -> bool) {
         if let Some(forces) = &mut self.forces {
-            forces.reactions.retain(|of| !forces.are_pictured || is_kept(of.value, &self.graph));
-            forces.presses.retain(|press| is_kept(press.force, &self.graph));
+            forces.reactions.retain(|of| !forces.are_pictured || is_kept(of.value));
+            forces.presses.retain(|press| is_kept(press.force));
         }
     }
 

@@ -182,8 +182,9 @@ impl ConstraintSystem {
         self.declaration_of(row).kind == DeclarationKind::Driver
     }
 
-    /// Takes rows out, which are checked from now on.
-    pub fn leave_out(&mut self, rows: &[usize], checks: Vec<Check>) {
+    /// Takes rows out, given ascending, which are checked from now on.
+    pub fn leave_out(&mut self, rows: &[usize]) {
+        let checks = self.checks_of(rows);
         let stays = |k: &usize| rows.binary_search(k).is_err();
         let kept: Vec<usize> = (0..self.rows.len()).filter(stays).collect();
         self.renumber_multipliers(&kept);
@@ -197,6 +198,23 @@ impl ConstraintSystem {
         self.leave_out_of_variations(&kept);
         self.derive_checks();
         debug_assert_eq!(self.validate(), Ok(()));
+    }
+
+    /// What some rows are checked by, judged by their slopes at the estimates.
+    fn checks_of(&self, rows: &[usize]) -> Vec<Check> {
+        let q: Vec<f64> = self.coordinates.iter().map(|coordinate| self.value_at(coordinate.estimate, &[])).collect();
+        let check = |&row: &usize| {
+            let slopes = self
+                .phi_q
+                .row(row)
+                .iter()
+                .map(|&(column, slope)| self.value_at(slope, &q) * self.coordinates[column as usize].scale);
+            let norm = slopes.filter(|slope| slope.is_finite()).map(|slope| slope * slope).sum::<f64>().sqrt();
+            let scale = if norm > 0.0 { norm } else { 1.0 };
+            let Row { declaration, phi, unit } = self.rows[row];
+            Check { phi, unit, declaration, scale }
+        };
+        rows.iter().map(check).collect()
     }
 
     /// The body that a coordinate is of, if it is of a body.

@@ -114,7 +114,7 @@ impl Compiled {
 
     /// The same mechanism, whose equations are differentiated by its parameters too.
     pub(super) fn by_params(&self) -> Result<Compiled, Diagnostics> {
-        let mut system = self.system().clone();
+        let mut system = self.determined.whole().clone();
         system.derive_by_params();
         let leading = self.leading.clone();
         let (compiled, said) = Compiled::of(

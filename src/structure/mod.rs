@@ -15,6 +15,7 @@ pub use order::{Step, order_of_solution, steps};
 use crate::diag::Diagnostic;
 use crate::expr::Symbol;
 use crate::ir::ConstraintSystem;
+use std::sync::Arc;
 
 /// Equations and coordinates that are solved together, each row beside the coordinate it is matched to.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -32,9 +33,54 @@ pub struct Block {
 pub struct Determined {
     system: ConstraintSystem,
     blocks: Vec<Block>,
+    /// All equations, where some are left out.
+    whole: Option<Arc<Whole>>,
+}
+
+/// More equations than are needed, which do not contradict each other.
+#[derive(Clone, Debug)]
+struct Whole {
+    system: ConstraintSystem,
+    /// The rows that are left out, ascending.
+    left_out: Vec<usize>,
 }
 
 impl Determined {
+    /// A system without some of its rows, given ascending, which are checked instead.
+    ///
+    /// # Errors
+    /// Why the others do not determine it.
+    pub fn without(whole: ConstraintSystem, left_out: Vec<usize>) -> Result<Determined, Box<Refused>> {
+        let mut system = whole.clone();
+        system.leave_out(&left_out);
+        let determined = prove(system)?;
+        Ok(Determined { whole: Some(Arc::new(Whole { system: whole, left_out })), ..determined })
+    }
+
+    /// The same mechanism where other rows of the whole are left out; none where the others do not determine it.
+    #[must_use]
+    pub fn leaving_out(&self, left_out: &[usize]) -> Option<Determined> {
+        Determined::without(self.whole().clone(), left_out.to_vec()).ok()
+    }
+
+    /// All equations, those that are left out among them.
+    #[must_use]
+    pub fn whole(&self) -> &ConstraintSystem {
+        self.whole.as_ref().map_or(&self.system, |whole| &whole.system)
+    }
+
+    /// The rows of the whole that are left out, ascending.
+    #[must_use]
+    pub fn left_out(&self) -> &[usize] {
+        self.whole.as_ref().map_or(&[], |whole| &whole.left_out)
+    }
+
+    /// The rows of the whole that are solved, in order.
+    #[must_use]
+    pub fn kept(&self) -> Vec<usize> {
+        (0..self.whole().rows().len()).filter(|row| self.left_out().binary_search(row).is_err()).collect()
+    }
+
     /// The equations.
     #[must_use]
     pub fn system(&self) -> &ConstraintSystem {
@@ -45,13 +91,16 @@ impl Determined {
     #[must_use]
     pub fn for_variations_of_results(&self) -> Option<Determined> {
         let system = self.system.for_variations_of_results()?;
-        Some(Determined { system, blocks: self.blocks.clone() })
+        Some(Determined { system, blocks: self.blocks.clone(), whole: None })
     }
 
     /// The same with other values of its parameters, of which neither count nor structure knows.
     #[must_use]
     pub fn with_values(&self, values: &[f64]) -> Determined {
-        Determined { system: self.system.with_values(values), blocks: self.blocks.clone() }
+        let whole = self.whole.as_deref().map(|Whole { system, left_out }| {
+            Arc::new(Whole { system: system.with_values(values), left_out: left_out.clone() })
+        });
+        Determined { system: self.system.with_values(values), blocks: self.blocks.clone(), whole }
     }
 
     /// The blocks, in an order of solution.
@@ -136,5 +185,5 @@ pub fn prove(system: ConstraintSystem) -> Result<Determined, Box<Refused>> {
     for block in &mut blocks {
         block.explicit = is_explicit(&system, block);
     }
-    Ok(Determined { system, blocks })
+    Ok(Determined { system, blocks, whole: None })
 }

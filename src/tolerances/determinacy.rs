@@ -4,6 +4,8 @@
 pub mod determine {
     /// Larger parts are not looked at with values: their equations would be a dense matrix.
     pub const LARGEST: usize = 600;
+    /// The same where redundant equations are allowed: that takes some seconds.
+    pub const LARGEST_ALLOWED: usize = 1500;
 }
 
 /// Equations that depend on others (`analysis/explain/redundancy.rs`).
@@ -12,10 +14,37 @@ pub mod redundancy {
     pub const DEPENDENT: f64 = 1e-6;
     /// An equation takes part in a dependency if its share is above this.
     pub const TAKES_PART: f64 = 1e-6;
+    /// Rows that others depend on with a larger weight than this are taken last: without them the others are far from dependent.
+    pub const HEAVY: f64 = 5.0;
+    /// Rows are exchanged so many times at most.
+    pub const MOST_EXCHANGES: usize = 30;
+    /// How much less than the others those equations weigh of which it is asked how far they are off where that is least: the others are off by
+    /// the square of this less.
+    pub const YIELDING: f64 = 100.0;
+    /// Least squares begin anew so many times there.
+    pub const PASSES: usize = 4;
     /// What is open by more than this, scaled, does not hold.
     pub const OPEN: f64 = 1e-8;
     /// Times at which the equations are looked at beside the first one, as parts of the span.
     pub const NEARBY: [f64; 3] = [1.3e-3, 3.1e-3, 7.7e-3];
+}
+
+/// Forces that redundant equations share (`analysis/explain/sharing.rs`).
+pub mod sharing {
+    /// The first step along the motion, as a part of the span.
+    pub const FIRST_STEP: f64 = 1e-3;
+    /// The longest step, as a part of the span: what rests for a while is waited for.
+    pub const LONGEST_STEP: f64 = 1.0 / 32.0;
+    /// A step may move no coordinate by more than this, scaled.
+    pub const LARGEST_STEP: f64 = 0.3;
+    /// A step may end no farther than this, scaled, from where the one before it leads: else it is on another branch.
+    pub const APART: f64 = 0.1;
+    /// Positions are looked at this far from each other, scaled.
+    pub const FRESH: f64 = 0.03;
+    /// Steps are no more than this: the whole motion of what turns once or twice.
+    pub const MOST_STEPS: usize = 200;
+    /// Steps are no more than do this work, which is rows times the square of coordinates: about a second.
+    pub const MOST_WORK: usize = 1_000_000_000;
 }
 
 /// Free motions, and what is proposed to take them (`analysis/explain/freedom.rs`, `analysis/explain/proposals.rs`).

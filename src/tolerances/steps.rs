@@ -1,5 +1,15 @@
 //! Steps, and what happens between their ends.
 
+/// Which equations are solved (`analysis/follow/choice.rs`).
+pub mod choice {
+    /// No step ends where a row has a larger weight than this in one that is left out, both scaled: digits are lost by no more than that.
+    pub const LARGEST_WEIGHT: f64 = 10.0;
+    /// There, and at a start, rows that have a larger weight than this are left out instead.
+    pub const HEAVY: f64 = 5.0;
+    /// Rows are exchanged so many times at most at one place.
+    pub const MOST_EXCHANGES: usize = 100;
+}
+
 /// Steps (`analysis/follow/step`).
 pub mod march {
     /// Largest first correction of a step, scaled. As all sizes that a step is judged by it is not that of a place which follows

@@ -7,11 +7,12 @@ use super::errors;
 use super::evaluator::Evaluator;
 use super::freedom::{FreeMotion, Freedom, motions_as_drawn};
 use super::redundancy::{Dependent, dependents, times_nearby};
+use super::sharing::shared;
 use crate::analysis::state::Horizon;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::ir::{Check, ConstraintSystem, DeclarationKind, JointKind, Row};
+use crate::ir::{ConstraintSystem, DeclarationKind, JointKind};
 use crate::structure::{self, Determined, Refused, Subsystem};
-use crate::tolerances::determinacy::determine::LARGEST;
+use crate::tolerances::determinacy::determine::{LARGEST, LARGEST_ALLOWED};
 
 /// Shows that a system is determined, where need be without the equations that are redundant.
 ///
@@ -26,20 +27,31 @@ pub fn determine(
         Ok(determined) => return Ok((determined, Diagnostics::default())),
         Err(refused) => *refused,
     };
-    let anatomy = Anatomy::of(&refused.system, &refused.too_many, horizon);
-    let is_enough = anatomy.dependents.len().cast_signed() == -refused.system.ndof();
-    let holds = anatomy.dependents.iter().all(|dependent| dependent.open.is_none());
+    let limit = if allow_redundant { LARGEST_ALLOWED } else { LARGEST };
+    let times = [horizon.from, horizon.span];
+    let mut evaluator = Evaluator::new(&refused.system);
+    let dependents = surplus_within(&mut evaluator, &refused.too_many, times, limit);
+    let is_enough = dependents.len().cast_signed() == -refused.system.ndof();
+    let holds = dependents.iter().all(|dependent| dependent.open.is_none());
     if !(allow_redundant && holds && is_enough && refused.too_few.columns.is_empty()) {
+        let anatomy = Anatomy::beside(&mut evaluator, dependents, times);
+        let size = refused.too_many.rows.len();
+        if allow_redundant && size > limit {
+            return Err(errors::too_large(refused.diagnostic, size, limit).into());
+        }
         return Err(explain(refused, &anatomy));
     }
     let mut system = refused.system;
-    system.retain_forces(|value, graph| !errors::is_shared(graph, &anatomy.dependents, value));
-    if let Some(why) = errors::force_in_a_loop(&system, &anatomy.dependents) {
+    let formulas = system.formulas_with_forces();
+    let shared = shared(&system, &refused.too_many, dependents.len(), horizon, formulas.into_iter());
+    system.retain_forces(|value| shared.iter().all(|shared| shared.formula != value));
+    if let Some(why) = errors::shared_force(&system, &shared) {
         return Err(why.into());
     }
-    let said = errors::left_out(&system, &anatomy.dependents);
-    leave_out(&mut system, &anatomy.dependents);
-    match structure::prove(system) {
+    let said = errors::left_out(&system, &dependents);
+    let mut rows: Vec<usize> = dependents.iter().map(|dependent| dependent.row).collect();
+    rows.sort_unstable();
+    match Determined::without(system, rows) {
         Ok(determined) => Ok((determined, said)),
         Err(refused) => Err(refused.diagnostic.into()),
     }
@@ -67,6 +79,9 @@ fn explain(refused: Refused, anatomy: &Anatomy) -> Diagnostics {
 /// that cannot be told.
 pub fn explain_dependent(system: &ConstraintSystem, horizon: Horizon) -> Option<Diagnostic> {
     let Anatomy { dependents, freedom } = Anatomy::of(system, &everything(system), horizon);
+    if let Some(touching) = dependents.iter().find(|dependent| dependent.touches) {
+        return Some(errors::touching(system, touching, horizon.from));
+    }
     let freedom = freedom.filter(|freedom| freedom.degrees() > 0)?;
     (!dependents.is_empty()).then(|| errors::too_many_and_too_few(system, &dependents, &freedom))
 }
@@ -100,18 +115,26 @@ struct Anatomy {
 impl Anatomy {
     /// Of a system of which a part has too many equations.
     fn of(system: &ConstraintSystem, too_many: &Subsystem, horizon: Horizon) -> Anatomy {
-        let Horizon { from: t, span } = horizon;
+        let times = [horizon.from, horizon.span];
         let mut evaluator = Evaluator::new(system);
-        let mut found = Vec::new();
-        if !too_many.rows.is_empty() && too_many.rows.len() <= LARGEST {
-            found = surplus(&mut evaluator, too_many.clone(), [t, span]);
-        }
-        let mut kept = everything(system);
-        kept.rows.retain(|&row| found.iter().all(|dependent| dependent.row != row as usize));
-        let is_small = usize::max(kept.rows.len(), kept.columns.len()) <= LARGEST;
-        let freedom = if is_small { Anatomy::freedom(&mut evaluator, &kept, [t, span]) } else { None };
-        Anatomy { dependents: found, freedom }
+        let dependents = surplus_within(&mut evaluator, too_many, times, LARGEST);
+        Anatomy::beside(&mut evaluator, dependents, times)
     }
+
+    /// With equations of which it is known that they are too many.
+    fn beside(evaluator: &mut Evaluator<'_>, dependents: Vec<Dependent>, times: [f64; 2]) -> Anatomy {
+        let mut kept = everything(evaluator.system);
+        kept.rows.retain(|&row| dependents.iter().all(|dependent| dependent.row != row as usize));
+        let is_small = usize::max(kept.rows.len(), kept.columns.len()) <= LARGEST;
+        let freedom = if is_small { Anatomy::freedom(evaluator, &kept, times) } else { None };
+        Anatomy { dependents, freedom }
+    }
+}
+
+/// As [`surplus`]; none where the part is larger than a limit.
+fn surplus_within(evaluator: &mut Evaluator<'_>, part: &Subsystem, times: [f64; 2], limit: usize) -> Vec<Dependent> {
+    let is_looked_at = !part.rows.is_empty() && part.rows.len() <= limit;
+    if is_looked_at { surplus(evaluator, part.clone(), times) } else { Vec::new() }
 }
 
 /// The equations of a part that are too many. Where one conflicts its joint is taken away before the others are judged.
@@ -134,7 +157,8 @@ fn surplus(evaluator: &mut Evaluator<'_>, mut part: Subsystem, times: [f64; 2]) 
         let Some(mut dependents) = dependents(evaluator, &part, times) else {
             return found;
         };
-        if let Some(driver) = stuck_driver(system, &dependents) {
+        let leaves_none = part.rows.len() - dependents.len() == part.columns.len();
+        if let Some(driver) = stuck_driver(system, &dependents).filter(|_| leaves_none) {
             // the joints do not fit beside it: the one that closes the loop is to be named
             part.rows.sort_by_key(|&row| (row as usize != driver, suspicion(system, row as usize)));
             dependents = self::dependents(evaluator, &part, times).unwrap_or(dependents);
@@ -192,25 +216,4 @@ fn everything(system: &ConstraintSystem) -> Subsystem {
         rows: (0..system.rows().len() as u32).collect(),
         columns: (0..system.coordinates().len() as u32).collect(),
     }
-}
-
-/// Makes checks of the equations that are left out.
-fn leave_out(system: &mut ConstraintSystem, dependents: &[Dependent]) {
-    let q: Vec<f64> = system.coordinates().iter().map(|coordinate| system.value_at(coordinate.estimate, &[])).collect();
-    let mut rows: Vec<usize> = dependents.iter().map(|dependent| dependent.row).collect();
-    rows.sort_unstable();
-    let checks =
-        rows.iter()
-            .map(|&row| {
-                let slopes =
-                    system.phi_q().row(row).iter().map(|&(column, slope)| {
-                        system.value_at(slope, &q) * system.coordinates()[column as usize].scale
-                    });
-                let norm = slopes.filter(|slope| slope.is_finite()).map(|slope| slope * slope).sum::<f64>().sqrt();
-                let scale = if norm > 0.0 { norm } else { 1.0 };
-                let Row { declaration, phi, unit } = system.rows()[row];
-                Check { phi, unit, declaration, scale }
-            })
-            .collect();
-    system.leave_out(&rows, checks);
 }

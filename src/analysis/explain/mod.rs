@@ -9,6 +9,7 @@ pub mod open_loop;
 mod orthonormal;
 mod proposals;
 mod redundancy;
+mod sharing;
 pub mod singular;
 
 pub use determine::{determine, free_motions};

@@ -63,13 +63,14 @@ impl Orthonormal {
 }
 
 /// Vectors as far as they are independent of those before them.
+#[derive(Clone)]
 pub struct Basis {
     /// What they span.
     pub span: Orthonormal,
     /// Which of the vectors given are independent.
     pub kept: Vec<usize>,
-    /// The others, and which of the kept ones each depends on.
-    pub dependent: Vec<(usize, Vec<usize>)>,
+    /// The others, and which of the kept ones each depends on, with the weights that make it up.
+    pub dependent: Vec<(usize, Vec<(usize, f64)>)>,
 }
 
 impl Basis {
@@ -90,9 +91,40 @@ impl Basis {
             }
             let weights = factors.view((0, 0), (rank, rank)).solve_upper_triangular(&shares).unwrap_or(shares);
             let on = basis.kept.iter().zip(&weights).filter(|(_, weight)| weight.abs() > weighs);
-            basis.dependent.push((k, on.map(|(&k, _)| k).collect()));
+            basis.dependent.push((k, on.map(|(&k, &weight)| (k, weight)).collect()));
         }
         basis
+    }
+
+    /// Keeps a vector that depends on others, by its number among the dependent ones, in place of one of those. Weights are told above a limit.
+    pub fn exchange(&mut self, own: usize, kept: usize, weighs: f64) {
+        let (vector, on) = self.dependent[own].clone();
+        let Some(&(_, pivot)) = on.iter().find(|(k, _)| *k == kept) else {
+            return;
+        };
+        // vector = pivot · kept + the others
+        let mut replaced: Vec<(usize, f64)> =
+            on.iter().filter(|(k, _)| *k != kept).map(|&(k, weight)| (k, -weight / pivot)).collect();
+        replaced.push((vector, 1.0 / pivot));
+        for (_, other) in self.dependent.iter_mut() {
+            let Some(place) = other.iter().position(|(k, _)| *k == kept) else {
+                continue;
+            };
+            let (_, share) = other.remove(place);
+            for &(k, weight) in &replaced {
+                match other.iter_mut().find(|(own, _)| *own == k) {
+                    Some((_, sum)) => *sum += share * weight,
+                    None => other.push((k, share * weight)),
+                }
+            }
+            other.retain(|(_, weight)| weight.abs() > weighs);
+            other.sort_unstable_by_key(|&(k, _)| k);
+        }
+        replaced.retain(|(_, weight)| weight.abs() > weighs);
+        replaced.sort_unstable_by_key(|&(k, _)| k);
+        self.dependent[own] = (kept, replaced);
+        self.kept.iter_mut().filter(|k| **k == kept).for_each(|k| *k = vector);
+        self.kept.sort_unstable();
     }
 }
 
@@ -113,9 +145,28 @@ mod tests {
         ];
         let basis = Basis::of(rows.as_flattened(), 4, [1e-6, 1e-6]);
         assert_eq!(basis.kept, [0, 1, 2]);
-        assert_eq!(basis.dependent, [(3, vec![0, 1]), (4, vec![2])]);
+        let on = |k: usize| basis.dependent[k].1.iter().map(|&(k, _)| k).collect::<Vec<usize>>();
+        assert_eq!([(basis.dependent[0].0, on(0)), (basis.dependent[1].0, on(1))], [(3, vec![0, 1]), (4, vec![2])]);
+        // (0, 1, 0, 0) = (1/half) (half, half, 0, 0) − (1, 0, 0, 0)
+        let weights: Vec<f64> = basis.dependent[0].1.iter().map(|&(_, weight)| weight).collect();
+        assert!((weights[0] + 1.0).abs() < 1e-15 && (weights[1] * half - 1.0).abs() < 1e-15);
         let left = basis.span.shares_left();
         assert!((left - DVector::from_column_slice(&[0.0, 0.0, 0.0, 1.0])).norm() < 1e-15);
+    }
+
+    #[test]
+    fn a_dependent_vector_takes_the_place_of_one_that_it_depends_on() {
+        let rows = [[1.0, 0.0], [0.8, 0.6], [0.6, 0.8], [0.0, 1.0]];
+        let mut basis = Basis::of(rows.as_flattened(), 2, [1e-6, 1e-6]);
+        assert_eq!(basis.kept, [0, 1]);
+        basis.exchange(1, 0, 1e-6);
+        assert_eq!(basis.kept, [1, 3]);
+        for (k, on) in &basis.dependent {
+            for axis in 0..2 {
+                let sum: f64 = on.iter().map(|&(own, weight)| weight * rows[own][axis]).sum();
+                assert!((sum - rows[*k][axis]).abs() < 1e-12, "{k} {on:?}");
+            }
+        }
     }
 
     #[test]

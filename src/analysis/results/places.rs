@@ -1,7 +1,7 @@
 //! States within a stretch of the motion, solved for where they are asked for.
 
 use super::varying::Varying;
-use crate::analysis::follow::{Alone, Stretch, quintic_between, state_of_row};
+use crate::analysis::follow::{Alone, Chosen, Stretch, quintic_between, state_of_row};
 use crate::analysis::state::{Kinematics, State};
 use crate::math::along;
 use crate::program::{Ranges, Register, Stage};
@@ -12,6 +12,10 @@ use std::sync::Arc;
 /// What solves for states between the ends of stretches.
 pub(super) struct Places {
     kinematics: Kinematics,
+    /// The equations that are solved, if they are others than those at the start.
+    chosen: Option<Arc<Chosen>>,
+    /// Those at the start, with what solves them.
+    first: (Kinematics, Option<Arc<Solver>>),
     solver: Option<(Arc<Solver>, Alone)>,
     curve: Vec<[f64; 6]>,
     delta: Vec<f64>,
@@ -33,6 +37,7 @@ impl Places {
         let registers: Vec<Register> = kinematics.signals().iter().map(|signal| signal.register).collect();
         let (program, values) = kinematics.program();
         let signals = Ranges::new(program, values, &registers, Stage::Time, true);
+        let first = (kinematics.clone(), solver.clone());
         let solver = solver.map(|solver| {
             let alone = Alone::new(&kinematics, &solver);
             (solver, alone)
@@ -47,6 +52,8 @@ impl Places {
             solver,
             is_plain: kinematics.is_plain(),
             varying: Varying::of(&kinematics),
+            chosen: None,
+            first,
             kinematics,
         }
     }
@@ -58,10 +65,34 @@ impl Places {
 
     /// Goes over to a stretch.
     pub fn enter(&mut self, stretch: &Stretch) {
+        self.change_equations(stretch);
         self.kinematics.freeze(true, true);
         self.kinematics.set_switches(&stretch.switches);
         self.has_bounds = false;
         self.enter_where(&stretch.switches);
+    }
+
+    /// Goes over to the equations that are solved in a stretch.
+    fn change_equations(&mut self, stretch: &Stretch) {
+        let is_same = match (&self.chosen, &stretch.chosen) {
+            (Some(own), Some(other)) => Arc::ptr_eq(own, other),
+            (None, None) => true,
+            _ => false,
+        };
+        if is_same {
+            return;
+        }
+        let (first, solver) = self.first.clone();
+        let other = match &stretch.chosen {
+            Some(chosen) => {
+                let mut kinematics = chosen.kinematics(&first);
+                kinematics.restore(&stretch.from);
+                kinematics.choose_orders();
+                Places::new(kinematics, chosen.solver.clone())
+            }
+            None => Places::new(first.clone(), solver.clone()),
+        };
+        *self = Places { chosen: stretch.chosen.clone(), first: (first, solver), ..other };
     }
 
     /// Goes over to where the switches of the equations have some results, for variations alone.
@@ -83,14 +114,21 @@ impl Places {
         self.kinematics.vary_at(state);
     }
 
-    /// The multiplier of a row, which has been found; none at a position where it cannot be trusted.
+    /// The multiplier of a row of the equations at the start, which has been found; none at a position where it cannot be trusted.
     pub fn multiplier(&self, row: usize) -> f64 {
-        self.kinematics.multiplier(row)
+        self.row(row).map_or(0.0, |row| self.kinematics.multiplier(row))
+    }
+
+    /// A row of the equations at the start among those that are solved; none where it is left out.
+    fn row(&self, row: usize) -> Option<usize> {
+        let first = self.first.0.determined();
+        self.chosen.as_ref().map_or(Some(row), |chosen| chosen.row_in_place_of(row, &first))
     }
 
     /// How the multiplier of a row changes in a variation, which has been found.
     pub fn varied_multiplier(&self, number: u32, row: usize) -> f64 {
-        self.varying.as_ref().map_or(f64::NAN, |varying| varying.varied_multiplier(number, row))
+        let of = |varying: &Varying| self.row(row).map_or(0.0, |row| varying.varied_multiplier(number, row));
+        self.varying.as_ref().map_or(f64::NAN, of)
     }
 
     /// How a coordinate, its velocity and its acceleration change in a variation, which has been found.

@@ -3,8 +3,9 @@
 use super::{LISTED, at, degrees, gap_kind, length, with_places};
 use crate::analysis::explain::freedom::Freedom;
 use crate::analysis::explain::redundancy::Dependent;
+use crate::analysis::explain::sharing::Shared;
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::expr::{ExprId, Graph, Symbol};
+use crate::expr::ExprId;
 use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, JointKind, PointId};
 
 /// Equations that depend on others: a message for each declaration that wrote them.
@@ -187,7 +188,7 @@ fn conflicting(system: &ConstraintSystem, group: &[Dependent], one: &Dependent, 
     let on = depends_on(system, group);
     let index = system.rows()[one.row].declaration;
     let declaration = &system.declarations()[index];
-    let diagnostic = Diagnostic::new(Code::E0507, headline_of_conflict(system, group))
+    let diagnostic = Diagnostic::new(Code::E0507, headline_of_conflict(system, group, false))
         .at(declaration.span, gap_in_words(system, one.row, by, t));
     let diagnostic = with_places(diagnostic, system, &on, ["", ""]);
     let help = if on.is_empty() {
@@ -200,13 +201,14 @@ fn conflicting(system: &ConstraintSystem, group: &[Dependent], one: &Dependent, 
     count_data(diagnostic, system, index).help(help).datum("t", t).datum("open", by)
 }
 
-fn headline_of_conflict(system: &ConstraintSystem, group: &[Dependent]) -> String {
+/// What is the matter with declarations that conflict; `is_free` is whether anything can move.
+fn headline_of_conflict(system: &ConstraintSystem, group: &[Dependent], is_free: bool) -> String {
     let on = depends_on(system, group);
     let declaration = &system.declarations()[declaration_of(system, group)];
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
     match on.len() {
         0 => format!("no motion of the bodies changes {noun} `{name}`, which does not hold"),
-        _ if is_stuck(system, group) => {
+        _ if !is_free && is_stuck(system, group) => {
             let leave = if on.len() == 1 { "leaves" } else { "leave" };
             format!("{noun} `{name}` has nothing to move: {} {leave} no motion", by_kinds(system, &on))
         }
@@ -249,31 +251,15 @@ pub fn left_out(system: &ConstraintSystem, dependents: &[Dependent]) -> Diagnost
     diagnostics
 }
 
-/// Whether an equation is redundant, or one of those from which others follow.
-fn is_in_loop(dependents: &[Dependent], row: usize) -> bool {
-    dependents.iter().any(|one| one.row == row || one.on.contains(&row))
-}
-
-/// Whether a formula holds forces that are not determined if redundant equations are left out: these and those from which they follow can
-/// share what they exert among them in any way.
-pub fn is_shared(graph: &Graph, dependents: &[Dependent], formula: ExprId) -> bool {
-    graph.symbols(formula).into_iter().any(|symbol| match symbol {
-        Symbol::Multiplier(row) | Symbol::VariedMultiplier { row, .. } => is_in_loop(dependents, row as usize),
-        _ => false,
-    })
-}
-
-/// The first force that is asked for and is not determined if redundant equations are left out.
-pub fn force_in_a_loop(system: &ConstraintSystem, dependents: &[Dependent]) -> Option<Diagnostic> {
-    let is_open = |id: ExprId| is_shared(system.graph(), dependents, id);
+/// The first force that is asked for and is not determined.
+pub fn shared_force(system: &ConstraintSystem, shared: &[Shared]) -> Option<Diagnostic> {
     let reactions = system.reactions().iter().map(|of| (of.value, format!("`{}`", of.name), of.span));
     let measures = system.measures().iter().map(|of| (of.value, format!("measure `{}`", of.name), of.span));
     let results = system.results().reductions.iter().map(|of| (of.of, "what a result asks for".to_owned(), of.span));
-    let (_, name, span) = reactions.chain(measures).chain(results).find(|(value, ..)| is_open(*value))?;
-    let mut of_loop: Vec<DeclarationId> = (0..system.rows().len())
-        .filter(|&row| is_in_loop(dependents, row))
-        .map(|row| system.rows()[row].declaration)
-        .collect();
+    let of = |value: ExprId| shared.iter().find(|shared| shared.formula == value);
+    let mut asked = reactions.chain(measures).chain(results);
+    let (shared, name, span) = asked.find_map(|(value, name, span)| Some((of(value)?, name, span)))?;
+    let mut of_loop: Vec<DeclarationId> = shared.rows.iter().map(|&row| system.rows()[row].declaration).collect();
     of_loop.dedup();
     of_loop.retain(|&declaration| system.declarations()[declaration].span != span);
     let message = format!("{name} is not determined: its loop has redundant equations");
@@ -283,6 +269,32 @@ pub fn force_in_a_loop(system: &ConstraintSystem, dependents: &[Dependent]) -> O
         diagnostic
             .help("replace a redundant joint by one that leaves more freedom, or ask for forces outside of the loop"),
     )
+}
+
+/// A part of so many equations that it is not looked for those that are redundant.
+pub fn too_large(mut diagnostic: Diagnostic, rows: usize, limit: usize) -> Diagnostic {
+    diagnostic.help.clear();
+    diagnostic
+        .note(format!("redundant equations are looked for among up to {limit} that hang together, and here are {rows}"))
+        .help("leave redundant joints away by hand; or drive parts of the mechanism on their own, so that fewer equations hang together")
+}
+
+/// An equation that holds, but where it does no small motion changes it, and none of the equations that it should follow from makes it hold.
+pub fn touching(system: &ConstraintSystem, dependent: &Dependent, t: f64) -> Diagnostic {
+    let group = std::slice::from_ref(dependent);
+    let (index, on) = (declaration_of(system, group), depends_on(system, group));
+    let declaration = &system.declarations()[index];
+    let (noun, name) = (declaration.kind.noun(), &declaration.name);
+    let message = format!("the equations are not independent, at {} or at any other time", at(t));
+    let diagnostic = Diagnostic::new(Code::E0504, message)
+        .at(declaration.span, "holds, but no small motion of any body changes it there");
+    let diagnostic = with_places(diagnostic, system, &on, ["beside this", "beside these"]);
+    count_data(diagnostic, system, index)
+        .note(format!(
+            "what {noun} `{name}` fixes it fixes at the end of its reach, where the motion is not determined"
+        ))
+        .help(format!("change a length, so that {noun} `{name}` is not stretched out; or put a joint in its place"))
+        .datum("t", t)
 }
 
 /// An equation that was left out and does not follow from the others any more.
@@ -388,7 +400,7 @@ fn fault_of(system: &ConstraintSystem, group: &[Dependent]) -> Culprit {
     let declaration = declaration_of(system, group);
     let widest = group.iter().filter_map(|one| Some((one, one.open?))).max_by(|a, b| a.1.0.total_cmp(&b.1.0));
     let (headline, label) = match widest {
-        Some((one, (by, t))) => (headline_of_conflict(system, group), gap_in_words(system, one.row, by, t)),
+        Some((one, (by, t))) => (headline_of_conflict(system, group, true), gap_in_words(system, one.row, by, t)),
         None => (headline_of_redundant(system, group), "says nothing new".to_owned()),
     };
     Culprit { declaration, headline, label }

@@ -21,7 +21,7 @@ pub fn no_value(system: &ConstraintSystem, fault: Fault, t: f64) -> Diagnostic {
         Fault::Condition { index } => condition(system, &system.conditions()[index], t),
         Fault::Watch { index } => no_contact(system, index, t),
         Fault::Check { index } => ceases_to_hold(system, index, t),
-        Fault::Singular | Fault::Uncertain | Fault::TooFar | Fault::Rim | Fault::Edge { .. } => {
+        Fault::Singular | Fault::Uncertain | Fault::TooFar | Fault::Choice | Fault::Rim | Fault::Edge { .. } => {
             cannot_follow(system, t, None)
         }
     }

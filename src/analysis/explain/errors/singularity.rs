@@ -83,11 +83,6 @@ pub fn bifurcation(system: &ConstraintSystem, joints: &[DeclarationId], columns:
     );
     let diagnostic = with_places(diagnostic, system, joints, ["this leaves it open", "these leave it open"])
         .note(owners(system, columns, "could go either way"));
-    let diagnostic = match system.checks().first() {
-        Some(check) => diagnostic
-            .note(format!("`{}`, which was left out, may decide", system.declarations()[check.declaration].name)),
-        None => diagnostic,
-    };
     diagnostic
         .help("go on along the branch that continues smoothly with `--pass-bifurcations`; or change a length a little")
         .datum("t", t)

@@ -152,7 +152,7 @@ impl Crossing {
         (fault, h, target): (Fault, f64, f64),
         remarks: &mut Remarks,
     ) -> Result<(), Box<Diagnostic>> {
-        let is_singular = matches!(fault, Fault::Singular | Fault::TooFar | Fault::Watch { .. });
+        let is_singular = matches!(fault, Fault::Singular | Fault::Choice | Fault::TooFar | Fault::Watch { .. });
         self.fold = None;
         let bridge = if is_singular { self.bridge_ahead(kinematics, step) } else { None };
         let Some(bridge) = bridge else {

@@ -11,6 +11,7 @@ mod leap;
 mod stretches;
 
 use super::bookmark::Bookmark;
+use super::choice::Choice;
 use super::crossing::{Crossing, is_clear};
 use super::edges::{Edge, Edges};
 use super::remarks::Remarks;
@@ -22,7 +23,7 @@ use crate::analysis::state::{Fault, Kinematics, State, Times, Trust, behind_star
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::solver::Solver;
 use crate::tolerances::UNTOLD_SPAN;
-use crate::tolerances::steps::march::MOST_STEPS;
+use crate::tolerances::steps::march::{FEWEST_STEPS_NEAR, MOST_STEPS};
 use std::sync::Arc;
 pub use stretches::Stretch;
 
@@ -33,6 +34,8 @@ pub struct Follower {
     edges: Edges,
     crossing: Crossing,
     rows: Rows,
+    /// None where all equations are needed.
+    choice: Option<Choice>,
     /// None where there are no contacts and loads, or nobody asks for forces.
     forces: Option<ForceWatch>,
     remarks: Remarks,
@@ -43,6 +46,8 @@ pub struct Follower {
     /// The time that the steps are measured against, and the last time (s).
     span: f64,
     last: f64,
+    /// Up to when edges are looked for (s).
+    edges_end: f64,
 }
 
 impl Started {
@@ -59,7 +64,8 @@ impl Follower {
     pub fn new((mut kinematics, state, solver): (Kinematics, State, Option<Arc<Solver>>), times: Times) -> Follower {
         let last = times.last();
         let span = if times.span() > 0.0 { times.span() } else { UNTOLD_SPAN };
-        let edges = Edges::new(&mut kinematics, &state, span, times.end());
+        let edges_end = times.end();
+        let edges = Edges::new(&mut kinematics, &state, span, edges_end);
         let crossing = Crossing::new(&state, span, last);
         let forces = ForceWatch::of(&kinematics, &state);
         let step = Step::new(&kinematics, state, times.span());
@@ -67,7 +73,23 @@ impl Follower {
         let leap = solver.map(|solver| Leap::new(&kinematics, solver, origin(), span));
         let rows = Rows::new(&kinematics, leap, times);
         let remarks = Remarks::new(kinematics.system());
-        Follower { kinematics, step, edges, crossing, rows, forces, remarks, begun: false, edge: None, span, last }
+        let choice = Choice::of(&kinematics);
+        let (begun, edge) = (false, None);
+        Follower {
+            kinematics,
+            step,
+            edges,
+            crossing,
+            rows,
+            choice,
+            forces,
+            remarks,
+            begun,
+            edge,
+            span,
+            last,
+            edges_end,
+        }
     }
 
     /// Goes on beyond bifurcations, along the branch that continues smoothly, with a remark each time.
@@ -160,6 +182,7 @@ impl Follower {
         if std::mem::replace(&mut self.begun, true) {
             return Ok(true);
         }
+        self.choose_equations();
         let Follower { kinematics, step, .. } = self;
         kinematics.restore(step.state());
         if !kinematics.switches().is_empty() {
@@ -180,6 +203,30 @@ impl Follower {
     fn settle(&mut self) {
         let after = behind_start(self.step.t(), self.span);
         self.edges.settle(&mut self.kinematics, self.step.state(), Some(after));
+    }
+
+    /// Chooses anew which equations are solved where the motion is, if all are not needed; says whether they are others.
+    fn choose_equations(&mut self) -> bool {
+        let Follower { kinematics, step, edges, rows, choice, forces, .. } = self;
+        let Some(choice) = choice else {
+            return false;
+        };
+        if !choice.choose(kinematics, step.state()) {
+            return false;
+        }
+        let met = edges.met();
+        *edges = Edges::new(kinematics, step.state(), self.span, self.edges_end);
+        edges.go_back(met);
+        if let Some(forces) = forces {
+            forces.change_equations(kinematics);
+        }
+        let origin = Bookmark::new(step, edges, &self.crossing);
+        rows.change_solver(choice.leap(kinematics, origin, self.span));
+        if !self.kinematics.switches().is_empty() {
+            self.settle();
+        }
+        self.kinematics.restore(self.step.state());
+        self.step.change_equations(&mut self.kinematics, self.span / FEWEST_STEPS_NEAR).is_ok()
     }
 
     /// Why the state where the motion is has no row.
@@ -245,7 +292,7 @@ impl Follower {
 
     /// A step of length `h` to time `t`, whose row is written if it is wanted.
     fn try_step(&mut self, h: f64, t: f64, wanted: bool) -> Result<Accepted, Fault> {
-        let Follower { kinematics, step, edges, crossing, rows, .. } = self;
+        let Follower { kinematics, step, edges, crossing, rows, choice, .. } = self;
         let to_edge_of_motion = edges.is_met_by(t);
         let motion = step.predict(kinematics, h, t)?;
         let first_correction = step.correct(kinematics)?;
@@ -254,6 +301,9 @@ impl Follower {
         }
         step.same_branch(kinematics)?;
         keep_away(kinematics)?;
+        if choice.as_mut().is_some_and(|choice| !choice.is_good(kinematics, step.trial())) {
+            return Err(Fault::Choice);
+        }
         step.derive_trial(kinematics)?;
         if wanted {
             rows.take(kinematics, step.trial(), |kinematics| crossing.passes() && !is_clear(kinematics));
@@ -274,7 +324,7 @@ impl Follower {
 
     /// What there is to do where a step of length `h` on the way to `target` was refused.
     fn give_way(&mut self, h: f64, fault: Fault, target: f64) -> Result<(), Box<Diagnostic>> {
-        let Follower { kinematics, step, edges, crossing, remarks, .. } = self;
+        let Follower { kinematics, step, edges, remarks, .. } = self;
         match fault {
             Fault::Edge { t, switch } if edges.rests(kinematics, step, switch) => {
                 edges.leave_alone(switch, t);
@@ -284,9 +334,10 @@ impl Follower {
             Fault::Rim => return edges.cross_rim(kinematics, step, remarks),
             _ => {}
         }
-        if !step.halve(h) {
+        if !step.halve(h) || fault == Fault::Choice && self.choose_equations() {
             return Ok(());
         }
+        let Follower { kinematics, step, edges, crossing, remarks, .. } = self;
         match edges.end_at_rim(kinematics, step, h, remarks) {
             Some(why) => Err(why),
             None => crossing.pass_or_explain(kinematics, step, (fault, h, target), remarks),

@@ -3,10 +3,12 @@
 //! They do not depend on which rows are asked for, and end at the edges of the equations.
 
 use super::Follower;
+use crate::analysis::follow::choice::{Choice, Chosen};
 use crate::analysis::follow::crossing::Bridge;
 use crate::analysis::state::State;
 use crate::diag::Diagnostic;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// A part of the motion between two states.
 pub struct Stretch {
@@ -16,6 +18,8 @@ pub struct Stretch {
     pub to: State,
     /// The results of the equations' switches.
     pub switches: Rc<[f64]>,
+    /// The equations that are solved there, if they are others than those at the start.
+    pub chosen: Option<Arc<Chosen>>,
     /// The way over a singular position, if it is one.
     pub bridge: Option<Bridge>,
     /// Whether it begins behind an edge, or at the start.
@@ -59,7 +63,8 @@ impl Follower {
         let bridge = self.crossing.bridge_to(to.t).cloned();
         let middle = if bridge.is_some() { None } else { self.middle_of_leap() };
         let ends_at_edge = self.edge.is_some() || to.t >= self.last;
-        Stretch { from, middle, to, switches: self.switches(), bridge, begins_at_edge, ends_at_edge }
+        let chosen = self.choice.as_ref().and_then(Choice::current).cloned();
+        Stretch { from, middle, to, switches: self.switches(), chosen, bridge, begins_at_edge, ends_at_edge }
     }
 
     /// The state in the middle of the step that was accepted last, if that was a leap and can be solved for there.

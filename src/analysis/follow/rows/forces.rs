@@ -90,6 +90,18 @@ impl ForceWatch {
         Some(ForceWatch { kinematics, program, registers, presses, has_pulled, sides, loads, coordinates, state })
     }
 
+    /// Goes on with other equations, which exert the same.
+    pub fn change_equations(&mut self, kinematics: &Kinematics) {
+        if let Some(other) = ForceWatch::of(kinematics, &self.state) {
+            let told: Vec<bool> = self.loads.iter().map(|load| load.is_told).collect();
+            let (has_pulled, sides) = (std::mem::take(&mut self.has_pulled), std::mem::take(&mut self.sides));
+            *self = ForceWatch { has_pulled, sides, ..other };
+            for (load, is_told) in self.loads.iter_mut().zip(told) {
+                load.is_told = is_told;
+            }
+        }
+    }
+
     /// Looks at a row: warns once of each contact that pulls there, with a part of the row's largest force that is no rounding; where no curve
     /// tells its side, of one that presses to the other side than before. A load that has no value is why there is none.
     pub fn look(&mut self, row: &[f64], remarks: &mut Remarks) -> Result<(), Box<Diagnostic>> {

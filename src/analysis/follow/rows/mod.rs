@@ -146,6 +146,11 @@ impl Rows {
         leap.as_mut().map(|leap| (leap, (&*times, *next)))
     }
 
+    /// From now on rows are solved for otherwise.
+    pub fn change_solver(&mut self, leap: Option<Leap>) {
+        self.leap = leap;
+    }
+
     /// The step that was gone over last holds no rows.
     pub fn close_leap(&mut self) {
         self.leap.iter_mut().for_each(Leap::close);

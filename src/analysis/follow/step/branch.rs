@@ -9,17 +9,21 @@ pub struct Signs {
     determinants: Vec<Determinant>,
     /// The sign of what is watched.
     sides: Vec<bool>,
+    /// The equations that are left out: determinants are of the others.
+    left_out: Vec<usize>,
 }
 
 impl Signs {
     fn new(kinematics: &Kinematics) -> Signs {
         let determinants = vec![Determinant::ONE; kinematics.linear().blocks()];
-        Signs { determinants, sides: vec![true; kinematics.system().watches().len()] }
+        let left_out = kinematics.determined().left_out().to_vec();
+        Signs { determinants, sides: vec![true; kinematics.system().watches().len()], left_out }
     }
 
     pub fn copy_from(&mut self, other: &Signs) {
-        self.determinants.copy_from_slice(&other.determinants);
-        self.sides.copy_from_slice(&other.sides);
+        self.determinants.clone_from(&other.determinants);
+        self.sides.clone_from(&other.sides);
+        self.left_out.clone_from(&other.left_out);
     }
 
     /// The determinant of each block.
@@ -72,8 +76,11 @@ impl Branch {
         &self.now
     }
 
+    /// Takes signs that are of the same equations.
     pub fn take_signs(&mut self, signs: &Signs) {
-        self.now.copy_from(signs);
+        if self.now.left_out == signs.left_out {
+            self.now.copy_from(signs);
+        }
     }
 
     /// Takes the determinants where the state was factored, there being none before to compare with.

@@ -79,6 +79,15 @@ impl Step {
         }
     }
 
+    /// Goes on from the same state with other equations, by steps of a length (s) at first.
+    pub fn change_equations(&mut self, kinematics: &mut Kinematics, h: f64) -> Result<(), Fault> {
+        self.branch = Branch::new(kinematics);
+        self.begin_branch(kinematics);
+        self.branch.take_sides(kinematics);
+        self.length.set(h);
+        self.derive_state(kinematics)
+    }
+
     /// Where the motion is.
     pub fn state(&self) -> &State {
         &self.state

@@ -17,6 +17,8 @@ pub enum Fault {
     Check { index: usize },
     /// Derivatives would be more rounding than digits.
     Uncertain,
+    /// The equations that are solved come near to depending on each other where all equations together do not.
+    Choice,
     /// The step goes over a rim, of which a note has been taken.
     Rim,
     /// The step goes over an edge of a switch, by its number, which lies before a time (s).

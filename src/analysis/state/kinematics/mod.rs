@@ -119,6 +119,13 @@ impl Kinematics {
         }
     }
 
+    /// The same motion where other equations are left out. Allocates.
+    #[must_use]
+    pub fn with_equations(&self, determined: Arc<Determined>, program: Arc<Program>) -> Kinematics {
+        let other = Kinematics::new(determined, program, self.span, self.tolerance, self.cancel.clone());
+        Kinematics { vectors: self.vectors, other_estimates: self.other_estimates.clone(), ..other }
+    }
+
     /// What rows are solved for with: the widest vector instructions there are, if not told otherwise.
     pub fn vectors(&self) -> Vectors {
         self.vectors
@@ -267,6 +274,11 @@ impl Kinematics {
     /// Solves `Φ_q x = right` with the factors there are.
     pub fn solve(&mut self, right: &[f64], x: &mut [f64]) {
         self.linear.solve(|row| right[row], x);
+    }
+
+    /// Solves `Φ_qᵀ λ = needed` with the factors there are.
+    pub fn solve_for_multipliers(&mut self, needed: &[f64], multipliers: &mut [f64]) {
+        self.linear.solve_for_multipliers(|column| needed[column], multipliers);
     }
 
     /// The correction of those coordinates that follow without iteration from the others, and its largest scaled entry.
