@@ -29,6 +29,7 @@ mod springs;
 mod symbols;
 mod teeth;
 mod torques;
+mod track;
 mod whole;
 
 pub use catalogue::catalogue;
@@ -42,6 +43,7 @@ pub use plane::{
     minus, plus, polar, times, unit,
 };
 pub use torques::Torque;
+pub use track::{Stretch, Track};
 
 use crate::model::Mechanism;
 use crate::source::Span;

@@ -15,10 +15,10 @@ use super::report::Reporter;
 use super::times;
 use crate::analysis::Times;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::layout::ColumnKind;
+use crate::layout::{ColumnKind, ColumnUnit};
 use crate::live::page;
-use crate::scene::Motion;
-use crate::stages::{Checked, Choice, Compiled, RunOptions, Seen};
+use crate::scene::{Motion, Pen, distance};
+use crate::stages::{Checked, Choice, Closely, Compiled, RunOptions, Seen};
 use crate::view::dxf;
 use crate::view::svg::{self, Options, Plot};
 use form::Form;
@@ -28,6 +28,12 @@ use std::path::Path;
 
 /// Of more rows some are left out.
 const MOST_ROWS: usize = 2000;
+
+/// How far what is drawn may be off the motion: what is cut (m of paper), and a picture, as a part of its size.
+const OFF_TO_CUT: f64 = 1e-7;
+const OFF_OF_PICTURE: f64 = 1e-5;
+/// How many places of a plot there are from one time to the next at which the motion is known.
+const PLACES_BETWEEN: u32 = 6;
 
 /// What is said where `--forces` has nothing to show.
 const NO_FORCES: &str =
@@ -69,9 +75,15 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
         }
         (seen, said) => reporter.settle(seen, said)?,
     };
+    // a film shows the rows, and so does a picture of a single one
+    let rows = (target.frames.is_some() || seen.motion.len() == 1).then(|| seen.motion.clone());
+    if form != Form::Page {
+        let closely = target.closely(&seen)?;
+        checked.look_closely(&compiled, &whole, &options, &mut seen, &closely);
+    }
     let is_alone = target.leave_alone(&mut seen)?;
     let (moments, stopped) = match listed.filter(|_| !is_alone && form != Form::Page) {
-        None => (None, seen.stopped.clone()),
+        None => (rows.filter(|_| !is_alone && form == Form::Picture), seen.stopped.clone()),
         Some(times) => {
             let (motion, stopped) = moments((&checked, &compiled), &times, &options, &seen)?;
             (Some(motion), stopped)
@@ -111,6 +123,22 @@ impl Target<'_> {
     /// That nothing is written, in words.
     fn not_written(&self) -> String {
         if self.output == "-" { "nothing is written".to_owned() } else { format!("`{}` is not written", self.output) }
+    }
+
+    /// How closely the motion has to be known for what is drawn.
+    fn closely(&self, seen: &Seen) -> Result<Closely, Failure> {
+        let ViewArguments { scale, trace, .. } = self.arguments;
+        let pens = trace.iter().map(|path| Ok(Pen::Point(wanted::trace(&seen.scene, path)?.1)));
+        let pens = pens.collect::<Result<_, Failure>>()?;
+        let [low, high] = seen.scene.extent;
+        let to_cut = OFF_TO_CUT / scale.unwrap_or(1.0).max(1.0);
+        let off = match (self.form, scale) {
+            (Form::Dxf, _) | (Form::Picture, Some(_)) => to_cut,
+            _ => OFF_OF_PICTURE * distance(low, high),
+        };
+        let columns =
+            if self.form == Form::Plots { plotted(seen).map(|(name, _)| name.clone()).collect() } else { Vec::new() };
+        Ok(Closely { pens, off, columns })
     }
 
     /// Leaves the one body that was asked for, if one was.
@@ -183,22 +211,20 @@ impl Drawn<'_> {
     }
 
     /// Plots of all measures; of efforts, reactions and loads behind them, where these are asked for.
-    fn plots(&self) -> Result<String, Failure> {
-        let Seen { scene, motion, columns, units, kinds, .. } = self.seen;
-        let measures = scene.declarations.iter().filter(|declaration| declaration.kind == "measure");
-        let forces = columns.iter().zip(kinds).filter(|(_, kind)| **kind == ColumnKind::Reaction);
-        let plot = |name: &'_ str| {
-            let (column, unit) = columns.iter().zip(units).find(|(column, _)| *column == name)?;
-            let values = motion.column(column)?.map(|value| unit.printed(value)).collect();
-            Some(Plot { name: column, unit: &unit.text, values })
+    fn plots<'s>(&'s self) -> Result<String, Failure> {
+        let Seen { scene, motion, .. } = self.seen;
+        let times = motion.times_between(PLACES_BETWEEN);
+        let plot = |(name, unit): (&'s String, &'s ColumnUnit)| Plot {
+            name,
+            unit: &unit.text,
+            values: motion.column_at(name, &times).into_iter().map(|value| unit.printed(value)).collect(),
         };
-        let names = measures.map(|measure| &measure.name).chain(forces.map(|(column, _)| column));
-        let plots: Vec<Plot> = names.filter_map(|name| plot(name)).collect();
+        let plots: Vec<Plot> = plotted(self.seen).map(plot).collect();
         if plots.is_empty() {
             let help = "say what is to be plotted, as in `measure lift = y(slider.P)`; the page, `-o OUT.html`, plots any column";
             return Err(unusable("there is no measure to plot".to_owned()).help(help).into());
         }
-        Ok(svg::plots(scene, &motion.times, &plots, self.pictured))
+        Ok(svg::plots(scene, &times, &plots, self.pictured))
     }
 
     /// A picture of each row. Each is written whole or not at all, and none if one of them is a file that was read.
@@ -218,6 +244,16 @@ impl Drawn<'_> {
         }
         Ok(())
     }
+}
+
+/// The columns that are plotted, with their units: all measures, and what forces are asked for.
+fn plotted(seen: &Seen) -> impl Iterator<Item = (&String, &ColumnUnit)> {
+    let Seen { scene, columns, units, kinds, .. } = seen;
+    let measures = scene.declarations.iter().filter(|declaration| declaration.kind == "measure");
+    let named = move |name: &String| columns.iter().zip(units).find(|(column, _)| *column == name);
+    let measures = measures.filter_map(move |measure| named(&measure.name));
+    let forces = columns.iter().zip(units).zip(kinds).filter(|(_, kind)| **kind == ColumnKind::Reaction);
+    measures.chain(forces.map(|(column, _)| column))
 }
 
 /// The moments that are asked for, and why the last of them are missing, if they are; where all are, the last one before that.

@@ -21,7 +21,7 @@ const WIDTH_WITH_MESSAGE: f64 = 480.0;
 const LARGEST_UNIT: f64 = 30.0;
 
 /// Pixels in a metre of paper, and millimetres of paper in a pixel.
-const PER_METER: f64 = 96.0 / 0.0254;
+pub(super) const PER_METER: f64 = 96.0 / 0.0254;
 const MILLIMETERS: f64 = 25.4 / 96.0;
 /// Decimals of pixels, and of degrees.
 pub(super) const PIXELS: usize = 2;
