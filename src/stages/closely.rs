@@ -30,7 +30,8 @@ const STRETCHES: u32 = 96;
 const SHORTEST: f64 = 1e-13;
 /// How often they are parted at most.
 const DEEPEST: u32 = 24;
-/// So many numbers are kept at most.
+/// So many times are looked at together, with so many numbers at most.
+const MOST_TIMES: usize = 200_000;
 const MOST_NUMBERS: usize = 20_000_000;
 /// Rows of the table that are looked at, too.
 const MOST_ROWS: u64 = 2000;
@@ -38,16 +39,18 @@ const MOST_ROWS: u64 = 2000;
 const FAR: f64 = 1000.0;
 /// Bodies may be off by this part of the mechanism's size.
 const BODIES: f64 = 2e-5;
-/// Lines need not be better than this part of their size, or of how far away they are; columns than this part of their range.
+/// Lines need not be better than this part of their size, or of how far away they are; columns than this part of the range that they are
+/// mostly in, or of how far they are from the middle of it.
 const OF_SIZE: f64 = 1e-7;
 const OF_PLACE: f64 = 1e-10;
-const OF_RANGE: f64 = 1e-4;
+const OF_RANGE: f64 = 2e-4;
+const OF_VALUE: f64 = 1e-3;
 
 /// What is followed between two times.
 struct Followed {
     track: Track,
-    /// What it may be off.
-    off: f64,
+    /// What it may be off, and as a part of how far it is from the middle.
+    off: [f64; 2],
     /// What is farther from the middle than this is on its way to infinity.
     far: f64,
     middle: Vector,
@@ -111,7 +114,7 @@ impl Search<'_> {
                 .filter(|(_, known)| is_open(known))
                 .flat_map(|(ends, _)| LOOKED_AT.map(|part| ends[0] + part * (ends[1] - ends[0])))
                 .collect();
-            if asked.is_empty() || motion.len() + asked.len() > most {
+            if asked.is_empty() || motion.len() + asked.len() > most.min(MOST_TIMES) {
                 break;
             }
             let Some(between) = self.at(asked) else { break };
@@ -175,7 +178,7 @@ impl Search<'_> {
         });
         let of_body = |pen: Pen| Followed {
             track: motion.track(&pen),
-            off: BODIES * size,
+            off: [BODIES * size, 0.0],
             far: f64::INFINITY,
             middle,
             name: None,
@@ -195,17 +198,18 @@ impl Search<'_> {
                 Pen::Point(_) => None,
                 Pen::Columns { name, .. } => Some(name.clone()),
             };
-            Followed { track, off: self.closely.off.max(OF_SIZE * own), far, middle, name }
+            Followed { track, off: [self.closely.off.max(OF_SIZE * own), OF_PLACE], far, middle, name }
         };
         let of_column = |name: &String| {
             let track = motion.track_of_column(name);
-            let values: Vec<f64> =
+            let mut values: Vec<f64> =
                 (0..motion.len()).map(|row| track.in_row(motion, row)[0]).filter(|value| value.is_finite()).collect();
-            let middle = median(values.clone());
-            let range = median(values.iter().map(|value| (value - middle).abs()).collect());
-            let range = if range > 0.0 { range } else { middle.abs() };
-            let far = if range > 0.0 { FAR * FAR * range } else { f64::INFINITY };
-            Followed { track, off: OF_RANGE * range, far, middle: [middle, 0.0], name: Some(name.clone()) }
+            values.sort_by(f64::total_cmp);
+            let at = |part: usize| values.get(part * values.len().saturating_sub(1) / 10).copied().unwrap_or(0.0);
+            // what runs to infinity has a range, too
+            let range = if at(9) > at(1) { at(9) - at(1) } else { at(10) - at(0) };
+            let (middle, name) = ([at(5), 0.0], Some(name.clone()));
+            Followed { track, off: [OF_RANGE * range, OF_VALUE], far: f64::INFINITY, middle, name }
         };
         let pens = scene.traces.iter().map(|trace| &trace.pen).chain(&self.closely.pens).map(of_pen);
         bodies.map(of_body).chain(pens).chain(self.closely.columns.iter().map(of_column)).collect()
@@ -258,6 +262,12 @@ fn parted(
 }
 
 impl Followed {
+    /// What it may be off at a place.
+    fn off(&self, place: Vector) -> f64 {
+        let [off, part] = self.off;
+        off.max(part * distance(place, self.middle))
+    }
+
     /// What is known of a stretch of the motion, behind a row, after a look between its ends.
     fn judged(
         &self,
@@ -274,7 +284,7 @@ impl Followed {
         }
         let holds = |(t, place): &(f64, Vector)| {
             let drawn = self.track.between(motion, row, *t)[0];
-            distance(drawn, *place) <= self.off.max(OF_PLACE * length(*place))
+            distance(drawn, *place) <= self.off(*place)
         };
         if ends.iter().copied().all(is_finite) && places.iter().all(holds) {
             return Known::Held;
@@ -284,11 +294,11 @@ impl Followed {
         let is_at_end = ends.iter().any(|end| !is_finite(*end)) && {
             let near = if is_finite(ends[0]) { (row, from) } else { (row + 1, to) };
             let way = length(self.track.between(motion, near.0.min(row), near.1)[1]) * (to - from);
-            way <= self.off && !places.iter().any(|(_, place)| is_finite(*place))
+            way <= self.off[0] && !places.iter().any(|(_, place)| is_finite(*place))
         };
         match (is_short, is_at_end) {
             (false, false) => Known::Open,
-            (true, false) if distance(ends[0], ends[1]) <= 4.0 * self.off => Known::Held,
+            (true, false) if distance(ends[0], ends[1]) <= 4.0 * self.off(ends[0]) => Known::Held,
             _ => Known::Gap,
         }
     }

@@ -1,11 +1,11 @@
-//! DXF for cutting: traces, lines that contacts run along, outlines of what has teeth, and where pins are, in millimetres.
+//! DXF for cutting: traces, lines that contacts run along, pitch circles, and where pins are, in millimetres.
 //!
 //! The form is that of R12, the oldest that is still read by everything, of which polylines and points are all that is needed. Written
 //! here, for the same input has to give the same bytes: libraries write the time and identities of their own making.
 
 use super::text::number;
 use crate::scene::{
-    Anchor, Motion, Path, Pen, Pose, Scene, Segment, Vector, bounds, direction, distance, is_finite, minus, plus,
+    Anchor, Motion, Path, Pen, Pin, Pose, Scene, Segment, Vector, bounds, direction, distance, is_finite, minus, plus,
     polar, times,
 };
 use std::f64::consts::TAU;
@@ -57,7 +57,7 @@ pub fn written(
     let off = OFF / scale.max(1.0);
     let mut sheet = Sheet { scene, poses, scale: 1000.0 * scale, off, layers: Vec::new(), entities: Vec::new() };
     sheet.add_profiles();
-    sheet.add_outlines();
+    sheet.add_pitch_lines();
     sheet.add_traces(motion);
     for (name, anchor) in traces {
         let declaration = scene.point_named(name).map_or(anchor.frame, |point| point.declaration);
@@ -130,13 +130,13 @@ impl Sheet<'_> {
         }
     }
 
-    fn add_outlines(&mut self) {
+    fn add_pitch_lines(&mut self) {
         let scene = self.scene;
-        for outline in &scene.outlines {
-            let pose = self.poses[outline.frame];
-            for (places, is_closed) in polylines(&outline.path(self.off), self.off) {
+        for line in &scene.pitch_lines {
+            let pose = self.poses[line.frame];
+            for (places, is_closed) in polylines(&line.path, self.off) {
                 let places: Vec<Vector> = places.into_iter().map(|place| pose.placed(place)).collect();
-                self.add(outline.declaration, &places, if is_closed { Kind::Closed } else { Kind::Open });
+                self.add(line.declaration, &places, if is_closed { Kind::Closed } else { Kind::Open });
             }
         }
     }
@@ -178,6 +178,14 @@ impl Sheet<'_> {
         for point in scene.points.iter().filter(|point| point.is_pin) {
             let place = self.poses[point.frame].placed(point.at);
             self.add(point.declaration, &[place], Kind::Point);
+        }
+        // a joint may take hold of a place that has no name
+        let is_named = |pin: &Pin| {
+            let named = scene.points.iter().filter(|point| point.is_pin && point.frame == pin.anchor.frame);
+            named.map(|point| distance(point.at, pin.anchor.at)).any(|apart| apart <= SAME * scene.unit)
+        };
+        for pin in scene.pins.iter().filter(|pin| !is_named(pin)) {
+            self.add(pin.declaration, &[pin.anchor.placed(self.poses)], Kind::Point);
         }
     }
 

@@ -29,6 +29,9 @@ use std::path::Path;
 /// Of more rows some are left out.
 const MOST_ROWS: usize = 2000;
 
+/// What is said where a DXF shows gears.
+const NO_TEETH: &str = "gears and racks are drawn as their pitch circles and lines alone: the text does not say how many teeth they have\n";
+
 /// How far what is drawn may be off the motion: what is cut (m of paper), and a picture, as a part of its size.
 const OFF_TO_CUT: f64 = 1e-7;
 const OFF_OF_PICTURE: f64 = 1e-5;
@@ -98,10 +101,15 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     target.write(file, &drawn, reporter)?;
     let is_without_arrows = arguments.vectors && !svg::has_vectors(&seen.scene, &pictured.traces, &seen.motion);
     let is_without_forces = arguments.forces && seen.scene.forces.is_empty() && seen.scene.torques.is_empty();
-    for (is_without, words) in [(is_without_arrows, NO_ARROWS), (is_without_forces, NO_FORCES)] {
-        if is_without && form == Form::Picture && !reporter.is_for_programs() {
-            Reporter::say(words);
-        }
+    let is_without_teeth = form == Form::Dxf && !seen.scene.pitch_lines.is_empty();
+    let is_picture = form == Form::Picture;
+    let remarks = [
+        (is_without_arrows && is_picture, NO_ARROWS),
+        (is_without_forces && is_picture, NO_FORCES),
+        (is_without_teeth, NO_TEETH),
+    ];
+    for (_, words) in remarks.into_iter().filter(|(is_due, _)| *is_due && !reporter.is_for_programs()) {
+        Reporter::say(words);
     }
     stopped.map_or(Ok(()), |why| Err(why.into()))
 }
@@ -203,7 +211,7 @@ impl Drawn<'_> {
             (Form::Dxf, _) => {
                 let poses = moments.unwrap_or(motion).poses(0);
                 dxf::written(scene, motion, poses, &pictured.traces, pictured.scale.unwrap_or(1.0)).ok_or_else(|| {
-                    let help = "traces, the lines of cams, the outlines of gears and the places of pins are";
+                    let help = "traces, the lines of cams, the pitch circles of gears and the places of pins are";
                     unusable("there is nothing to cut".to_owned()).help(help).into()
                 })
             }
