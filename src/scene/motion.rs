@@ -1,9 +1,13 @@
 //! Where all frames are, row by row and between the rows.
 
-use super::plane::{Pose, Vector, plus, times};
+use super::plane::{Pose, Vector, minus, plus, times};
 use crate::math;
 use rustc_hash::FxHashMap;
 
+/// Between rows that are no farther apart than this part of the motion all goes straight.
+const SHORT: f64 = 2e-12;
+/// What lines may be off between rows (m), unless more is known.
+const OFF: f64 = 1e-7;
 /// The part of a step by which an even time may be short of a row.
 const SLACK: f64 = 1e-6;
 
@@ -22,6 +26,8 @@ pub struct Motion {
     /// Row by row, all columns, in SI.
     rows: Vec<Vec<f64>>,
     columns: FxHashMap<String, usize>,
+    /// What lines may be off between rows (m).
+    pub off: f64,
     /// By the name of a trace or column: the times of the rows behind which it goes to infinity, jumps or has no value.
     gaps: FxHashMap<String, Vec<f64>>,
 }
@@ -46,7 +52,7 @@ impl Motion {
         let times = rows.iter().map(|row| row[0]).collect();
         let [poses, rates, accelerations] = [0, 1, 2].map(poses_of);
         let (frames, gaps) = (bodies.len() + 1, FxHashMap::default());
-        Motion { times, edges, frames, poses, rates, accelerations, rows, columns: named, gaps }
+        Motion { times, edges, frames, poses, rates, accelerations, rows, columns: named, off: OFF, gaps }
     }
 
     /// A single moment without velocities, as a mechanism is drawn.
@@ -76,6 +82,7 @@ impl Motion {
             rows: rows.iter().filter_map(|&row| self.rows.get(row).cloned()).collect(),
             edges: Vec::new(),
             columns: self.columns.clone(),
+            off: self.off,
             gaps: FxHashMap::default(),
         }
     }
@@ -107,6 +114,7 @@ impl Motion {
             accelerations: of(Motion::accelerations),
             rows: all.iter().filter_map(|(one, row)| one.rows.get(*row).cloned()).collect(),
             columns: self.columns.clone(),
+            off: self.off,
             gaps: self.gaps.clone(),
         }
     }
@@ -201,6 +209,12 @@ impl Motion {
         (0..self.len()).map(move |row| self.poses(row)[frame].placed(at))
     }
 
+    /// Whether the next row comes so soon that derivatives, which may be endless there, lead nowhere.
+    pub(super) fn is_short(&self, row: usize) -> bool {
+        let span = self.times.last().copied().unwrap_or(0.0) - self.times.first().copied().unwrap_or(0.0);
+        self.times.get(row + 1).is_some_and(|next| next - self.times[row] <= SHORT * span)
+    }
+
     /// The row at a time (s), or the last before it.
     #[must_use]
     pub fn row_at(&self, t: f64) -> usize {
@@ -221,6 +235,9 @@ impl Motion {
         let from = state(row);
         let Some(&end) = self.times.get(row + 1).filter(|_| t > begin) else { return [from[0], from[1]] };
         let (to, h) = (state(row + 1), end - begin);
+        if self.is_short(row) {
+            return chord(from[0], to[0], h, (t - begin) / h);
+        }
         match self.edges.iter().find(|&&edge| begin < edge && edge < end) {
             None => quintic(from, to, h, (t - begin) / h),
             // from either side as its row tells it
@@ -228,6 +245,13 @@ impl Motion {
             Some(_) => taylor(to, t - end),
         }
     }
+}
+
+/// Straight from one pose to another, `h` (s) apart, at a part of the way; and the rate.
+fn chord(from: Pose, to: Pose, h: f64, part: f64) -> [Pose; 2] {
+    let (way, turn) = (minus(to.at, from.at), to.phi - from.phi);
+    let pose = Pose { at: plus(from.at, times(part, way)), phi: from.phi + part * turn };
+    [pose, Pose { at: times(1.0 / h, way), phi: turn / h }]
 }
 
 /// A pose and its rate so much time (s) later, by its velocity and acceleration.

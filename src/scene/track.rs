@@ -62,7 +62,16 @@ fn column_between(motion: &Motion, columns: [Option<usize>; 3], row: usize, t: f
     let next = (row + 1).min(motion.len().saturating_sub(1));
     let [from, to] = [row, next].map(|row| columns.map(|column| cell(motion, column, row)));
     let h = motion.times[next] - motion.times[row];
-    if h > 0.0 { between([from, to], h, (t - motion.times[row]) / h) } else { [from[0], from[1]] }
+    // in a row it is what the row says, whatever comes behind that
+    let part = (t - motion.times[row]) / h;
+    match part > 0.0 {
+        true if motion.is_short(row) => {
+            let way = to[0] - from[0];
+            [from[0] + part * way, way / h]
+        }
+        true => between([from, to], h, part),
+        false => [from[0], from[1]],
+    }
 }
 
 /// A value and its derivative at a part of the way between two rows, `h` (s) apart, each with its derivatives as far as they are known.
@@ -95,18 +104,13 @@ pub struct Stretch {
 const LOOKED_AT: u32 = 8;
 /// Halvings by which the moment is found at which a line closes.
 const HALVINGS: u32 = 60;
-/// A line closes if it comes as near to where it begins as this part of its size, and as this (m), once it has been farther away than that
-/// part of its size.
-const CLOSED: f64 = 1e-7;
-const CLOSED_AT_MOST: f64 = 2e-7;
+/// A line closes if it comes nearer to where it begins than this many times what it may be off, once it has been farther away than this
+/// part of its size. What is drawn once more may be off the closed line by so many times what it may be off.
+const CLOSED: f64 = 2.0;
 const AWAY: f64 = 1e-3;
-/// What is drawn once more may be off the closed line by this part of its size.
-const ONCE_MORE: f64 = 1e-6;
-
-/// How near a line of a size (m) comes to where it begins if it is closed.
-fn closed(size: f64) -> f64 {
-    f64::min(CLOSED * size, CLOSED_AT_MOST)
-}
+const ONCE_MORE: f64 = 7.0;
+/// Lines are never more off than this part of their size.
+const OFF: f64 = 1e-5;
 
 impl Motion {
     /// What tells where a pen is.
@@ -189,9 +193,10 @@ impl Motion {
         let mut away: Vec<f64> = pieces.map(|[_, t]| distance(at(*t), start)).collect();
         away.sort_by(f64::total_cmp);
         let size = 2.0 * away.get(away.len() / 2).copied().unwrap_or(0.0);
+        let off = self.off.min(OFF * size);
         if stretches.len() > 1 {
             // the motion comes back to where it began in the middle of a stretch
-            let is_back = distance(start, at(*end)) <= closed(size);
+            let is_back = distance(start, at(*end)) <= CLOSED * off;
             if is_back && let Some(mut last) = stretches.pop() {
                 last.pieces.append(&mut stretches[0].pieces);
                 stretches[0] = last;
@@ -199,13 +204,13 @@ impl Motion {
             return stretches;
         }
         if let Some(stretch) = stretches.first_mut() {
-            self.close_one(track, stretch, size);
+            self.close_one(track, stretch, [size, off]);
         }
         stretches
     }
 
     /// Ends a stretch where it has come back to where it began, if all behind that is on the line so far.
-    fn close_one(&self, track: &Track, stretch: &mut Stretch, size: f64) {
+    fn close_one(&self, track: &Track, stretch: &mut Stretch, [size, off]: [f64; 2]) {
         let at = |t: f64| track.at(self, t)[0];
         let Some(&[begin, _]) = stretch.pieces.first() else { return };
         let start = at(begin);
@@ -220,17 +225,17 @@ impl Motion {
                     continue;
                 }
                 let reach = distance(at(before), at(t));
-                if distance(at(t), start).min(distance(at(before), start)) > 2.0 * reach + closed(size) {
+                if distance(at(t), start).min(distance(at(before), start)) > 2.0 * reach + CLOSED * off {
                     continue;
                 }
                 let back = self.nearest(track, start, [before, t]);
-                if distance(at(back), start) > closed(size) {
+                if distance(at(back), start) > CLOSED * off {
                     continue;
                 }
                 let mut loop_so_far: Vec<[f64; 2]> = stretch.pieces[..number].to_vec();
                 loop_so_far.extend((back > from).then_some([from, back]));
                 let rest = [back, to].into_iter().chain(stretch.pieces[number + 1..].iter().flatten().copied());
-                if self.goes_on_along(track, &loop_so_far, rest, ONCE_MORE * size) {
+                if self.goes_on_along(track, &loop_so_far, rest, ONCE_MORE * off) {
                     *stretch = Stretch { pieces: loop_so_far, is_closed: true };
                     return;
                 }

@@ -16,12 +16,30 @@ use crate::scene::{Motion, Pen, Track, Vector, bounds, distance, is_finite, leng
 pub struct Closely {
     /// Points beside the traces of the text.
     pub pens: Vec<Pen>,
-    /// What lines may be off (m); no less than a ten-millionth of their size.
+    /// What lines may be off (m).
     pub off: f64,
     /// Columns that are plotted.
     pub columns: Vec<String>,
 }
 
+impl Closely {
+    /// As closely as a picture of what was seen needs it.
+    #[must_use]
+    pub fn of_picture(seen: &Seen, pens: Vec<Pen>) -> Closely {
+        let [low, high] = seen.scene.extent;
+        Closely { pens, off: OFF_OF_PICTURE * distance(low, high), columns: Vec::new() }
+    }
+
+    /// As closely as what is cut needs it, where a length of 1 becomes `scale`.
+    #[must_use]
+    pub fn to_cut(scale: f64, pens: Vec<Pen>) -> Closely {
+        Closely { pens, off: OFF_TO_CUT / scale.max(1.0), columns: Vec::new() }
+    }
+}
+
+/// How far what is drawn may be off the motion: what is cut (m of paper), and a picture, as a part of its size.
+const OFF_TO_CUT: f64 = 1e-7;
+const OFF_OF_PICTURE: f64 = 1e-5;
 /// Where a stretch is looked at, as parts of it: not evenly, so that what repeats itself is not met in one place again and again.
 const LOOKED_AT: [f64; 3] = [0.23, 0.52, 0.76];
 /// The motion is looked at in so many stretches at least.
@@ -41,7 +59,7 @@ const FAR: f64 = 1000.0;
 const BODIES: f64 = 2e-5;
 /// Lines need not be better than this part of their size, or of how far away they are; columns than this part of the range that they are
 /// mostly in, or of how far they are from the middle of it.
-const OF_SIZE: f64 = 1e-7;
+const OF_SIZE: f64 = 2e-11;
 const OF_PLACE: f64 = 1e-10;
 const OF_RANGE: f64 = 2e-4;
 const OF_VALUE: f64 = 1e-3;
@@ -126,6 +144,7 @@ impl Search<'_> {
             let gaps = gaps.map(|(t, _)| *t).collect();
             motion.set_gaps(name.clone(), gaps);
         }
+        motion.off = self.closely.off;
         Some(motion)
     }
 
@@ -198,7 +217,13 @@ impl Search<'_> {
                 Pen::Point(_) => None,
                 Pen::Columns { name, .. } => Some(name.clone()),
             };
-            Followed { track, off: [self.closely.off.max(OF_SIZE * own), OF_PLACE], far, middle, name }
+            Followed {
+                track,
+                off: [self.closely.off.min(OFF_OF_PICTURE * own).max(OF_SIZE * own), OF_PLACE],
+                far,
+                middle,
+                name,
+            }
         };
         let of_column = |name: &String| {
             let track = motion.track_of_column(name);

@@ -17,7 +17,7 @@ use crate::analysis::Times;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::layout::{ColumnKind, ColumnUnit};
 use crate::live::page;
-use crate::scene::{Motion, Pen, distance};
+use crate::scene::{Motion, Pen};
 use crate::stages::{Checked, Choice, Closely, Compiled, RunOptions, Seen};
 use crate::view::dxf;
 use crate::view::svg::{self, Options, Plot};
@@ -32,9 +32,6 @@ const MOST_ROWS: usize = 2000;
 /// What is said where a DXF shows gears.
 const NO_TEETH: &str = "gears and racks are drawn as their pitch circles and lines alone: the text does not say how many teeth they have\n";
 
-/// How far what is drawn may be off the motion: what is cut (m of paper), and a picture, as a part of its size.
-const OFF_TO_CUT: f64 = 1e-7;
-const OFF_OF_PICTURE: f64 = 1e-5;
 /// How many places of a plot there are from one time to the next at which the motion is known.
 const PLACES_BETWEEN: u32 = 6;
 
@@ -138,15 +135,12 @@ impl Target<'_> {
         let ViewArguments { scale, trace, .. } = self.arguments;
         let pens = trace.iter().map(|path| Ok(Pen::Point(wanted::trace(&seen.scene, path)?.1)));
         let pens = pens.collect::<Result<_, Failure>>()?;
-        let [low, high] = seen.scene.extent;
-        let to_cut = OFF_TO_CUT / scale.unwrap_or(1.0).max(1.0);
-        let off = match (self.form, scale) {
-            (Form::Dxf, _) | (Form::Picture, Some(_)) => to_cut,
-            _ => OFF_OF_PICTURE * distance(low, high),
+        let closely = match (self.form, scale) {
+            (Form::Dxf, _) | (Form::Picture, Some(_)) => Closely::to_cut(scale.unwrap_or(1.0), pens),
+            _ => Closely::of_picture(seen, pens),
         };
-        let columns =
-            if self.form == Form::Plots { plotted(seen).map(|(name, _)| name.clone()).collect() } else { Vec::new() };
-        Ok(Closely { pens, off, columns })
+        let plotted = plotted(seen).filter(|_| self.form == Form::Plots);
+        Ok(Closely { columns: plotted.map(|(name, _)| name.clone()).collect(), ..closely })
     }
 
     /// Leaves the one body that was asked for, if one was.

@@ -2,7 +2,7 @@
 
 use super::picture::{PER_METER, Picture};
 use super::style::TRACE_COLORS;
-use crate::scene::{Motion, Pen, Stretch, Track, Vector, bounds, distance, minus, plus, times};
+use crate::scene::{Motion, Pen, Stretch, Track, Vector, bounds, distance, is_finite, minus, plus, times};
 use crate::view::text::{escaped, number};
 
 /// What a curve may be off (px), and the same as a part of the picture's shorter side; where paper is cut, in metres of it.
@@ -61,7 +61,8 @@ impl Picture<'_> {
             decimals += 1;
         }
         let node = |t: f64| {
-            let [at, [x, y]] = track.at(motion, t);
+            let [at, velocity] = track.at(motion, t);
+            let [x, y] = if is_finite(velocity) { velocity } else { [0.0; 2] };
             Node { t, at: self.placed(at), velocity: [self.scale * x, -self.scale * y] }
         };
         let text = curve(&stretch.pieces, &node, off, decimals);
