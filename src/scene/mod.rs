@@ -488,25 +488,6 @@ pub enum Pen {
     },
 }
 
-impl Trace {
-    /// Its places (m), row by row; where there is none, coordinates are not finite.
-    #[must_use]
-    pub fn path(&self, motion: &Motion) -> Vec<Vector> {
-        match &self.pen {
-            Pen::Point(anchor) => motion.path(anchor.frame, anchor.at).collect(),
-            Pen::Columns { name, frame, pose, is_mirrored } => {
-                let columns = ["x", "y"].map(|part| motion.column(&format!("{name}.{part}")));
-                let [Some(x), Some(y)] = columns else { return Vec::new() };
-                let placed = |(row, (x, y)): (usize, (f64, f64))| {
-                    let local = pose.placed([x, if *is_mirrored { -y } else { y }]);
-                    motion.poses(row)[*frame].placed(local)
-                };
-                x.zip(y).enumerate().map(placed).collect()
-            }
-        }
-    }
-}
-
 /// What a wheel, ring or rack rolls on.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PitchLine {

@@ -1,6 +1,6 @@
 //! Where all frames are, row by row and between the rows.
 
-use super::plane::{Pose, Vector, minus, plus, times};
+use super::plane::{Pose, minus, plus, times};
 use crate::math;
 use rustc_hash::FxHashMap;
 
@@ -202,11 +202,6 @@ impl Motion {
             rows.dedup();
         }
         rows.into_iter()
-    }
-
-    /// The path of a point of a frame, row by row.
-    pub fn path(&self, frame: usize, at: Vector) -> impl Iterator<Item = Vector> + '_ {
-        (0..self.len()).map(move |row| self.poses(row)[frame].placed(at))
     }
 
     /// Whether the next row comes so soon that derivatives, which may be endless there, lead nowhere.

@@ -1,11 +1,14 @@
 //! What is cut is what the mechanism does, whatever its output times are: random mechanisms whose traces are known in closed form, drawn as
 //! DXF and read back.
 
-use super::{Polyline, read_dxf, seen_to_cut};
+use super::{Polyline, attribute, boxes, numbers, one_row, read_dxf, seen_closely, seen_text, seen_to_cut};
 use crate::support::random::Random;
+use mechc::Closely;
 use mechc::rooms::scene::{Vector, distance, minus, plus, polar, times};
 use mechc::rooms::view::dxf;
+use mechc::rooms::view::svg::{Options, Plot, plots, still};
 use std::f64::consts::TAU;
+use std::path::Path;
 
 /// A mechanism, and where its trace is (m) at an angle of what drives it.
 struct Known {
@@ -218,7 +221,7 @@ fn traces_are_cut_as_the_motion_goes_whatever_the_output_times() {
         let angles: Vec<f64> = (0..=6000).map(angle).collect();
         let known: Vec<Vector> = angles.iter().map(|angle| place(*angle)).collect();
         let sides: Vec<[Vector; 2]> = lines.iter().flat_map(sides).collect();
-        for [from, to] in sides.iter().step_by(1 + sides.len() / 300) {
+        for [from, to] in sides.iter().step_by(1 + sides.len() / 150) {
             for part in [0.0, 0.5, 0.8] {
                 let at = plus(*from, times(part, minus(*to, *from)));
                 let off = off_trace(at, &*place, &angles, &known);
@@ -233,4 +236,139 @@ fn traces_are_cut_as_the_motion_goes_whatever_the_output_times() {
             assert!(off < 1e-6, "the line leaves out {at:?} by {off} m:\n{text}");
         }
     }
+}
+
+/// Two bars on a pin that is made of three places, each joint of which names them in its own order.
+const BARS: &str = "mechanism bars {
+    ground { point A = (0, 0) }
+    body one { point A = (0, 0) point B = (50 mm, 0) }
+    body two at (50 mm, 0, 0) { point B = (0, 0) point C = (50 mm, 0) }
+    body three at (100 mm, 0, 0) { point C = (0, 0) point D = (20 mm, 0) }
+    joint a: revolute(ground.A, one.A)
+    joint b: revolute(one.B, two.B)
+    joint c: revolute(three.C, two.C)
+    driver m1: rotation(a) = 1 rad/s * t
+    driver m2: rotation(b) = 1 rad/s * t
+    driver m3: rotation(c) = 1 rad/s * t
+    analysis from 0 s to 1 s every 0.1 s
+}";
+
+#[test]
+fn a_body_alone_has_all_its_holes() {
+    let seen = seen_text(BARS);
+    for (frame, wanted) in [(1, vec![0.0, 0.05]), (2, vec![0.0, 0.05]), (3, vec![0.0])] {
+        let (scene, rest) = seen.scene.alone(frame);
+        let file = still(&scene, &rest, &rest, &Options { scale: Some(1.0), ..Options::default() });
+        assert_eq!(file.matches("class=\"pin\"").count(), wanted.len(), "{frame}: {file}");
+        let text = dxf::written(&scene, &rest, rest.poses(0), &[], 1.0).expect("pins");
+        let mut holes: Vec<f64> = read_dxf(&text).1.into_iter().map(|(_, [x, _])| x).collect();
+        holes.sort_by(f64::total_cmp);
+        assert_eq!(holes, wanted, "{frame}");
+    }
+}
+
+/// A crank, whose instant centre with something that hardly turns runs to infinity twice a turn.
+fn crank(every: f64) -> String {
+    format!(
+        "mechanism m {{
+            ground {{ point O = (0, 0) }}
+            body crank {{ point O = (0, 0) point P = (0.1, 0) }}
+            joint main: revolute(ground.O, crank.O)
+            driver motor: rotation(main) = 0.3 + 1 rev/s * t
+            trace far = (x(crank.P), 0.01 * 0.1 / y(crank.P))
+            trace path = crank.P
+            measure pole = 0.1 / y(crank.P)
+            analysis from 0 s to 1 s every {every} s
+        }}"
+    )
+}
+
+fn pictured(every: f64) -> String {
+    let seen = seen_closely(Path::new("m.mech"), &crank(every), |seen| Closely::of_picture(seen, Vec::new()));
+    still(&seen.scene, &seen.motion, &seen.motion.moment(0), &Options::default())
+}
+
+#[test]
+fn what_runs_to_infinity_decides_no_frame() {
+    let file = pictured(0.01);
+    let scale: f64 = attribute(&file, "data-scale").expect("a scale").parse().expect("a number");
+    // the crank's circle is as large as the picture allows, and the other line is broken where it leaves
+    assert!(scale * 0.2 > 250.0, "the circle has {} px", scale * 0.2);
+    let line = file.split('<').find(|tag| tag.contains("data-name=\"far\"")).expect("a line");
+    assert_eq!(attribute(line, "d").expect("its path").matches('M').count(), 2, "{line}");
+}
+
+#[test]
+fn pictures_show_the_same_lines_however_few_rows_there_are() {
+    for file in [pictured(0.01), pictured(0.7)] {
+        let scale: f64 = attribute(&file, "data-scale").expect("a scale").parse().expect("a number");
+        let origin = numbers(attribute(&file, "data-origin").expect("an origin"));
+        let line = file.split('<').find(|tag| tag.contains("data-name=\"path\"")).expect("a line");
+        let d = attribute(line, "d").expect("its path");
+        assert!(d.ends_with('Z'), "{d}");
+        let at: Vec<Vector> = numbers(d).chunks(2).map(|pair| [pair[0] - origin[0], pair[1] - origin[1]]).collect();
+        let side = 0.2 * scale;
+        for ends in at[..].windows(4).step_by(3) {
+            for k in 0..=20 {
+                let s = f64::from(k) / 20.0;
+                let weights = [
+                    (1.0 - s) * (1.0 - s) * (1.0 - s),
+                    3.0 * s * (1.0 - s) * (1.0 - s),
+                    3.0 * s * s * (1.0 - s),
+                    s * s * s,
+                ];
+                let place =
+                    ends.iter().zip(weights).fold([0.0; 2], |sum, (end, weight)| plus(sum, times(weight, *end)));
+                let off = (distance(place, [0.0; 2]) - 0.1 * scale).abs();
+                assert!(off < 1e-4 * side, "{off} px of {side} px");
+            }
+        }
+    }
+}
+
+#[test]
+fn poles_squash_no_plot() {
+    let wanted =
+        |seen: &mechc::Seen| Closely { columns: vec!["pole".to_owned()], ..Closely::of_picture(seen, Vec::new()) };
+    let seen = seen_closely(Path::new("m.mech"), &crank(0.01), wanted);
+    let rows = seen.motion.times_between(6);
+    let plot = Plot { name: "pole", unit: "1", values: seen.motion.column_at("pole", &rows) };
+    let file = plots(&seen.scene, &rows, &[plot], &Options::default());
+    let line = file.split('<').find(|tag| tag.starts_with("path class=\"curve")).expect("a curve");
+    let d = attribute(line, "d").expect("its path");
+    let stretches: Vec<Vec<f64>> = d.split('M').skip(1).map(|stretch| numbers(&stretch.replace('L', " "))).collect();
+    assert_eq!(stretches.len(), 3, "two poles: {d}");
+    let heights = || stretches.iter().flat_map(|stretch| stretch.iter().skip(1).step_by(2).copied());
+    let [top, bottom] = heights().fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], y| [low.min(y), high.max(y)]);
+    assert!(top >= 33.0 && bottom <= 185.0, "from {top} to {bottom} px");
+    // the range that it is mostly in has its part of the plot: 1 is the least that it is on one side
+    let marks: Vec<&str> = file.split("class=\"beside\"").skip(1).collect();
+    assert!(
+        marks.iter().any(|mark| mark.contains(">5<") || mark.contains(">2<") || mark.contains(">10<")),
+        "{marks:?}"
+    );
+}
+
+#[test]
+fn a_name_on_another_body_has_a_line_to_its_own() {
+    // three long bars on each other, the names of which are longer than the room between them
+    let text = "mechanism stack {
+        ground { point O = (0, 0) }
+        body the_first_of_all_of_them at (0, 0, 90 deg) { point O = (0, 0) point P = (60 mm, 0) }
+        body the_second_of_all_of_them at (0, 0, 80 deg) { point O = (0, 0) point P = (60 mm, 0) }
+        body the_third_of_all_of_them at (0, 0, 100 deg) { point O = (0, 0) point P = (60 mm, 0) }
+        joint a: revolute(ground.O, the_first_of_all_of_them.O)
+        joint b: revolute(ground.O, the_second_of_all_of_them.O)
+        joint c: revolute(ground.O, the_third_of_all_of_them.O)
+        driver m1: rotation(a) = 90 deg + 1 rad/s * t
+        driver m2: rotation(b) = 80 deg + 1 rad/s * t
+        driver m3: rotation(c) = 100 deg + 1 rad/s * t
+        analysis from 0 s to 0.1 s every 0.05 s
+    }";
+    let seen = seen_text(text);
+    let options = Options { labels: true, size: Some([320.0, 320.0]), ..Options::default() };
+    let file = still(&seen.scene, &seen.motion, &one_row(&seen, 0), &options);
+    let named = boxes(&file).into_iter().filter(|(name, _)| name.starts_with("the_")).count();
+    let leaders = file.matches("class=\"leader\"").count();
+    assert!(named >= 2 && leaders >= 1, "{named} names, {leaders} lines: {file}");
 }
