@@ -4,32 +4,57 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
+#[path = "pictures/exports.rs"]
+mod exports;
 mod support;
 
 use mechc::rooms::analysis::{FreeMotion, Horizon, free_motions};
 use mechc::rooms::scene::{
-    Anchor, Look, Motion, Path as Drawn, Place, Pose, Scene, Segment, Torque, Vector, catalogue, distance, dot, minus,
-    plus, polar, times,
+    Anchor, Look, Motion, Path as Drawn, Pen, Place, Pose, Scene, Segment, Torque, Vector, catalogue, distance, dot,
+    minus, plus, polar, times,
 };
 use mechc::rooms::view::svg::{Options, Plot, Theme, animated, has_vectors, plots, still};
 use mechc::rooms::view::{dxf, first_sentence};
 use mechc::rooms::{check, lower, syntax};
-use mechc::{Cancel, Choice, Code, Diagnostic, Parsed, Redundant, RunOptions, Seen, Sources, Times};
+use mechc::{
+    Cancel, Checked, Choice, Closely, Code, Compiled, Diagnostic, Parsed, Redundant, RunOptions, Seen, Sources, Times,
+};
 use std::fs;
 use std::path::Path;
 use support::random::Random;
 use support::{Disk, files, stem};
 
-fn seen_as(path: &Path, text: &str, times: Option<Times>) -> Seen {
+fn compiled(path: &Path, text: &str) -> (Checked, Compiled) {
     let mut sources = Sources::default();
     let file = sources.add(path.display().to_string(), text);
     let parsed = Parsed::of_source(sources, file, path);
     let checked = parsed.check(&Choice::default(), &Disk::default());
     let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
     let compiled = compiled.unwrap_or_else(|| panic!("{}: {said:?}", path.display()));
+    (checked, compiled)
+}
+
+fn seen_as(path: &Path, text: &str, times: Option<Times>) -> Seen {
+    let (checked, compiled) = compiled(path, text);
     let times = times.or_else(|| compiled.times()).expect("an analysis");
     let (seen, said) = checked.seen(&compiled, &times, &RunOptions::default(), 2000);
     seen.unwrap_or_else(|| panic!("{}: {said:?}", path.display()))
+}
+
+/// With the motion as closely as it is wanted for what is seen.
+fn seen_closely(path: &Path, text: &str, wanted: impl Fn(&Seen) -> Closely) -> Seen {
+    let (checked, compiled) = compiled(path, text);
+    let (times, options) = (compiled.times().expect("an analysis"), RunOptions::default());
+    let (seen, said) = checked.seen(&compiled, &times, &options, 2000);
+    let mut seen = seen.unwrap_or_else(|| panic!("{}: {said:?}", path.display()));
+    let wanted = wanted(&seen);
+    checked.look_closely(&compiled, &times, &options, &mut seen, &wanted);
+    seen
+}
+
+/// A text as it is cut at its own size.
+fn seen_to_cut(text: &str) -> Seen {
+    seen_closely(Path::new("test.mech"), text, |_| Closely::to_cut(1.0, Vec::new()))
 }
 
 fn seen_text(text: &str) -> Seen {
@@ -864,20 +889,31 @@ fn traces_are_cut_between_rows_too() {
 }
 
 #[test]
-fn gears_are_cut_with_their_teeth() {
+fn gears_are_cut_as_their_pitch_circles() {
     let seen = example("planetary_gear");
     let text = dxf::written(&seen.scene, &seen.motion, seen.motion.poses(0), &[], 1.0).expect("something");
     let (polylines, _) = read_dxf(&text);
-    let toothed = polylines.iter().filter(|(_, places, is_closed)| *is_closed && places.len() > 1000);
-    assert!(
-        toothed.count() >= 3,
-        "{:?}",
-        polylines.iter().map(|(layer, places, _)| (layer, places.len())).collect::<Vec<_>>()
-    );
-    let text = dxf::written(&seen.scene, &seen.motion, seen.motion.poses(0), &[], 16.0).expect("something");
-    let finer = read_dxf(&text).0;
-    let chords = |lines: &[Polyline]| lines.iter().map(|(_, places, _)| places.len()).sum::<usize>();
-    assert!(chords(&finer) > 3 * chords(&polylines), "{} and {}", chords(&finer), chords(&polylines));
+    let wheels = polylines.iter().filter(|(layer, _, is_closed)| *is_closed && layer != "path");
+    let mut radii: Vec<f64> = wheels
+        .map(|(layer, places, _)| {
+            let [low, high] = places.iter().fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], at| {
+                [[low[0].min(at[0]), low[1].min(at[1])], [high[0].max(at[0]), high[1].max(at[1])]]
+            });
+            let (center, radius) = (times(0.5, plus(low, high)), 0.5 * (high[0] - low[0]));
+            let off = off_circle(places, center, radius);
+            assert!(off < 1e-6, "{layer} is {off} m off a circle");
+            radius
+        })
+        .collect();
+    radii.sort_by(f64::total_cmp);
+    let circles = seen.scene.pitch_lines.iter().map(|line| match line.path {
+        Drawn::Circle { radius, .. } => radius,
+        Drawn::Lines(_) => panic!("a line among {:?}", seen.scene.pitch_lines),
+    });
+    let mut wanted: Vec<f64> = circles.collect();
+    wanted.sort_by(f64::total_cmp);
+    assert!(radii.len() == wanted.len() && radii.len() >= 3, "{radii:?}, not {wanted:?}");
+    assert!(radii.iter().zip(&wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-6), "{radii:?}");
 }
 
 /// Runs `mechc view` in a folder of its own, which holds `a.mech`.
@@ -942,12 +978,18 @@ to play with.
 /// The page of all examples, and their pictures.
 fn gallery() -> Vec<(String, String)> {
     let (mut page, mut pictures) = (GALLERY_INTRODUCTION.to_owned(), Vec::new());
-    for (name, seen) in examples() {
+    for path in files("examples", "mech") {
+        let name = stem(&path);
         let traced = TRACED.iter().find(|(example, _)| *example == name).map(|(_, path)| *path);
-        let anchored = traced.map(|path| {
-            let point = seen.scene.point_named(path).expect("a point of the example");
-            (path.to_owned(), Anchor { frame: point.frame, at: point.at })
+        let anchor = |seen: &Seen| {
+            let point = seen.scene.point_named(traced?).expect("a point of the example");
+            Some(Anchor { frame: point.frame, at: point.at })
+        };
+        let text = fs::read_to_string(&path).expect("an example");
+        let seen = seen_closely(&path, &text, |seen| {
+            Closely::of_picture(seen, anchor(seen).map(Pen::Point).into_iter().collect())
         });
+        let anchored = anchor(&seen).zip(traced).map(|(anchor, path)| (path.to_owned(), anchor));
         let options = Options { traces: anchored.into_iter().collect(), ..Options::default() };
         pictures.push((format!("{GALLERY}/{name}.svg"), animated(&seen.scene, &seen.motion, &options)));
         let title = name[..1].to_uppercase() + &name[1..].replace('_', " ");

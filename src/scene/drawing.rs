@@ -54,9 +54,10 @@ pub(super) struct Drawing<'m> {
     pub outlines: Vec<Outline>,
     /// Where pins stand on the ground (m).
     pub feet: Vec<Vector>,
+    pub pins: Vec<super::Pin>,
     pub profiles: Vec<Profile>,
-    /// Of what has teeth.
-    pub fine: Vec<super::Outline>,
+    /// Of wheels, rings and racks.
+    pub pitch_lines: Vec<super::PitchLine>,
     /// The number of each model point among the points of the scene.
     pub numbers: Vec<Option<usize>>,
     /// The declarations of the first joint, equation, circle and curve.

@@ -9,7 +9,7 @@ use super::guides::height;
 use super::plane::{Contour, Path, Segment, direction, dot, minus, plus, polar};
 use super::symbols::Symbols;
 use super::teeth::{DEDENDUM, Rack, Wheel, offset, to_whole};
-use super::{Edge, Look, Outline, Shape};
+use super::{Look, PitchLine, Shape};
 use crate::math;
 use crate::model::{AxisId, CircleId, JointKind};
 use std::f64::consts::{PI, TAU};
@@ -270,7 +270,8 @@ impl Trains {
         };
         let layer = if line.frame == 0 { Layer::Ground } else { Layer::Slots };
         let path = Path::Lines(vec![outline]);
-        drawing.fine.push(Outline { declaration, frame: line.frame, edge: Edge::Path(path.clone()) });
+        let ends = [from, to].map(|along| plus(line.at, super::times(along, line.along)));
+        drawing.pitch_lines.push(PitchLine { declaration, frame: line.frame, path: Path::line(ends) });
         drawing.add_fixed(layer, declaration, line.frame, vec![shape(Look::Rack, path)]);
         drawing.outlines[line.frame].is_shown = true;
     }
@@ -308,17 +309,13 @@ impl Trains {
 /// A wheel or ring; without teeth a disc with a mark, so that it is seen to turn.
 fn wheel(drawing: &mut Drawing, toothed: &Toothed, disc: &Disc, teeth: Option<&Teeth>) {
     let (unit, at, radius) = (drawing.unit, disc.center.at, disc.radius);
-    let mut fine = Vec::new();
     let shapes: Vec<Shape> = match teeth {
         Some(teeth) => {
             let wheel = Wheel { at, radius, teeth: teeth.count, phase: teeth.phase };
             if toothed.is_ring {
                 let rim = radius + DEDENDUM * wheel.module() + (1.2 * wheel.module()).max(0.6 * unit).min(0.2 * radius);
-                fine.push(Edge::Gaps(wheel));
-                fine.push(Edge::Path(Path::Circle { at, radius: rim }));
                 vec![Symbols::ring(wheel.inner_outline(), at, rim, Look::Gear)]
             } else {
-                fine.push(Edge::Teeth(wheel));
                 vec![shape(Look::Gear, Path::Lines(vec![wheel.outline()]))]
             }
         }
@@ -333,11 +330,8 @@ fn wheel(drawing: &mut Drawing, toothed: &Toothed, disc: &Disc, teeth: Option<&T
             vec![shape(Look::Gear, Path::Circle { at, radius }), shape(Look::Pitch, Path::line(mark))]
         }
     };
-    if teeth.is_none() {
-        fine.push(Edge::Path(Path::Circle { at, radius }));
-    }
-    let own = |edge| Outline { declaration: toothed.frame, frame: toothed.frame, edge };
-    drawing.fine.extend(fine.into_iter().map(own));
+    let path = Path::Circle { at, radius };
+    drawing.pitch_lines.push(PitchLine { declaration: toothed.frame, frame: toothed.frame, path });
     let layer = match toothed.frame {
         0 => Layer::Ground,
         _ if radius < SMALL * unit => Layer::Slots,

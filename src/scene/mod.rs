@@ -29,6 +29,7 @@ mod springs;
 mod symbols;
 mod teeth;
 mod torques;
+mod track;
 mod whole;
 
 pub use catalogue::catalogue;
@@ -42,10 +43,13 @@ pub use plane::{
     minus, plus, polar, times, unit,
 };
 pub use torques::Torque;
+pub use track::{Stretch, Track};
 
 use crate::model::Mechanism;
 use crate::source::Span;
-use teeth::Wheel;
+
+/// Pins of one body that are no farther apart than this, in units, are one.
+const SAME_PLACE: f64 = 1e-6;
 
 /// All that there is to draw.
 #[derive(Clone, Debug)]
@@ -61,6 +65,8 @@ pub struct Scene {
     pub frames: Vec<usize>,
     /// Points that have a name.
     pub points: Vec<Point>,
+    /// What turns about a pin, each body by itself; the ground too.
+    pub pins: Vec<Pin>,
     /// From the one that is drawn first, below all others, to the last.
     pub nodes: Vec<Node>,
     /// Paths of points that the text asks for.
@@ -73,8 +79,8 @@ pub struct Scene {
     pub forces: Vec<ForceVector>,
     /// Torques, likewise.
     pub torques: Vec<Torque>,
-    /// Of what has teeth, finer than they are drawn.
-    pub outlines: Vec<Outline>,
+    /// The circles and lines on which wheels, rings and racks roll. Their teeth are symbols: a text does not say how many there are.
+    pub pitch_lines: Vec<PitchLine>,
     /// The size of symbols (m): a pin is a little smaller, a block a little larger.
     pub unit: f64,
     /// The least and the greatest coordinates of all that is drawn along the motion (m).
@@ -117,28 +123,55 @@ impl Scene {
         for shape in nodes.iter_mut().flat_map(|node| &mut node.shapes) {
             shape.point = shape.point.and_then(|number| numbers[number]);
         }
+        let pins: Vec<Pin> = self.pins.iter().filter(|pin| pin.anchor.frame == frame).cloned().collect();
+        for pin in &pins {
+            self.add_pin(&mut nodes, pin, &points);
+        }
         let places = nodes.iter().flat_map(|node| &node.shapes).flat_map(|shape| shape.path.places());
         let margin = [0.5 * self.unit; 2];
         let extent = bounds(places).map_or(self.extent, |[low, high]| [minus(low, margin), plus(high, margin)]);
         let profiles = self.profiles.iter().filter(|profile| profile.frame == frame).cloned().collect();
-        let outlines = self.outlines.iter().filter(|outline| outline.frame == frame).cloned().collect();
+        let pitch_lines = self.pitch_lines.iter().filter(|line| line.frame == frame).cloned().collect();
         let (traces, contacts, forces, torques) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let (named, remarks) = (Vec::new(), Vec::new());
         let scene = Scene {
             points,
+            pins,
             nodes,
             traces,
             profiles,
             contacts,
             forces,
             torques,
-            outlines,
+            pitch_lines,
             extent,
             named,
             remarks,
             ..self.clone()
         };
         (scene, Motion::still(vec![Pose::default(); self.frames.len()]))
+    }
+
+    /// Adds a pin that is drawn with another body, unless there is one in its place.
+    fn add_pin(&self, nodes: &mut Vec<Node>, pin: &Pin, points: &[Point]) {
+        let Anchor { frame, at } = pin.anchor;
+        let is_here = |other: Vector| distance(other, at) <= SAME_PLACE * self.unit;
+        let is_there = |shape: &Shape| match shape.path {
+            Path::Circle { at, .. } => shape.look == Look::Pin && is_here(at),
+            Path::Lines(_) => false,
+        };
+        if nodes.iter().flat_map(|node| &node.shapes).any(is_there) {
+            return;
+        }
+        let point = points.iter().position(|point| is_here(point.at));
+        let shape = symbols::Symbols { unit: self.unit }.pin(at, point);
+        nodes.push(Node { declaration: pin.declaration, place: Place::Fixed(frame), shapes: vec![shape] });
+    }
+
+    /// The least and the greatest coordinates of all that is drawn at the moments of a motion (m); none where there is nothing.
+    #[must_use]
+    pub fn reach(&self, moments: &Motion) -> Option<[Vector; 2]> {
+        whole::reach(&self.nodes, moments, self.unit)
     }
 
     /// Takes away what shows what messages name.
@@ -179,6 +212,15 @@ pub struct Point {
     pub at: Vector,
     /// Whether a joint takes hold there.
     pub is_pin: bool,
+}
+
+/// A place in which a pin is.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Pin {
+    /// The joint or equation.
+    pub declaration: usize,
+    /// Where it is in one of those that it joins.
+    pub anchor: Anchor,
 }
 
 /// Words of a message that belong to a place.
@@ -446,57 +488,15 @@ pub enum Pen {
     },
 }
 
-impl Trace {
-    /// Its places (m), row by row; where there is none, coordinates are not finite.
-    #[must_use]
-    pub fn path(&self, motion: &Motion) -> Vec<Vector> {
-        match &self.pen {
-            Pen::Point(anchor) => motion.path(anchor.frame, anchor.at).collect(),
-            Pen::Columns { name, frame, pose, is_mirrored } => {
-                let columns = ["x", "y"].map(|part| motion.column(&format!("{name}.{part}")));
-                let [Some(x), Some(y)] = columns else { return Vec::new() };
-                let placed = |(row, (x, y)): (usize, (f64, f64))| {
-                    let local = pose.placed([x, if *is_mirrored { -y } else { y }]);
-                    motion.poses(row)[*frame].placed(local)
-                };
-                x.zip(y).enumerate().map(placed).collect()
-            }
-        }
-    }
-}
-
-/// The outline of a wheel, ring or rack.
+/// What a wheel, ring or rack rolls on.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Outline {
+pub struct PitchLine {
     /// Whose it is.
     pub declaration: usize,
     /// The number of its frame.
     pub frame: usize,
     /// In the frame (m).
-    edge: Edge,
-}
-
-/// What an outline is.
-#[derive(Clone, PartialEq, Debug)]
-enum Edge {
-    /// A path.
-    Path(Path),
-    /// The teeth of a wheel.
-    Teeth(Wheel),
-    /// The teeth of a ring, whose gaps are those of a wheel.
-    Gaps(Wheel),
-}
-
-impl Outline {
-    /// In the frame (m): its chords are off by so much (m) at the most, or by a ten-millionth of the radius.
-    #[must_use]
-    pub fn path(&self, off: f64) -> Path {
-        match &self.edge {
-            Edge::Path(path) => path.clone(),
-            Edge::Teeth(wheel) => Path::Lines(vec![wheel.fine_outline(off)]),
-            Edge::Gaps(wheel) => Path::Lines(vec![wheel.fine_inner_outline(off)]),
-        }
-    }
+    pub path: Path,
 }
 
 /// A line that contacts run along.

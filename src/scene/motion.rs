@@ -1,8 +1,15 @@
 //! Where all frames are, row by row and between the rows.
 
-use super::plane::{Pose, Vector, plus, times};
+use super::plane::{Pose, minus, plus, times};
 use crate::math;
 use rustc_hash::FxHashMap;
+
+/// Between rows that are no farther apart than this part of the motion all goes straight.
+const SHORT: f64 = 2e-12;
+/// What lines may be off between rows (m), unless more is known.
+const OFF: f64 = 1e-7;
+/// The part of a step by which an even time may be short of a row.
+const SLACK: f64 = 1e-6;
 
 /// The poses of all frames at some times, with their first and second derivatives, and what else a picture asks of the table.
 #[derive(Clone, Debug, Default)]
@@ -19,6 +26,10 @@ pub struct Motion {
     /// Row by row, all columns, in SI.
     rows: Vec<Vec<f64>>,
     columns: FxHashMap<String, usize>,
+    /// What lines may be off between rows (m).
+    pub off: f64,
+    /// By the name of a trace or column: the times of the rows behind which it goes to infinity, jumps or has no value.
+    gaps: FxHashMap<String, Vec<f64>>,
 }
 
 impl Motion {
@@ -40,7 +51,8 @@ impl Motion {
         };
         let times = rows.iter().map(|row| row[0]).collect();
         let [poses, rates, accelerations] = [0, 1, 2].map(poses_of);
-        Motion { times, edges, frames: bodies.len() + 1, poses, rates, accelerations, rows, columns: named }
+        let (frames, gaps) = (bodies.len() + 1, FxHashMap::default());
+        Motion { times, edges, frames, poses, rates, accelerations, rows, columns: named, off: OFF, gaps }
     }
 
     /// A single moment without velocities, as a mechanism is drawn.
@@ -70,6 +82,8 @@ impl Motion {
             rows: rows.iter().filter_map(|&row| self.rows.get(row).cloned()).collect(),
             edges: Vec::new(),
             columns: self.columns.clone(),
+            off: self.off,
+            gaps: FxHashMap::default(),
         }
     }
 
@@ -81,6 +95,44 @@ impl Motion {
         self.rates.extend_from_slice(other.rates(last));
         self.accelerations.extend_from_slice(other.accelerations(last));
         self.rows.extend(other.rows.get(last).cloned());
+    }
+
+    /// This motion with the rows of another one of the same frames and columns at other times.
+    #[must_use]
+    pub fn merged(&self, other: &Motion) -> Motion {
+        let mut all: Vec<(&Motion, usize)> =
+            [self, other].iter().flat_map(|one| (0..one.len()).map(|row| (*one, row))).collect();
+        all.sort_by(|(a, row), (b, other)| a.times[*row].total_cmp(&b.times[*other]));
+        let of =
+            |list: fn(&Motion, usize) -> &[Pose]| all.iter().flat_map(|(one, row)| list(one, *row)).copied().collect();
+        Motion {
+            times: all.iter().map(|(one, row)| one.times[*row]).collect(),
+            edges: self.edges.clone(),
+            frames: self.frames,
+            poses: of(Motion::poses),
+            rates: of(Motion::rates),
+            accelerations: of(Motion::accelerations),
+            rows: all.iter().filter_map(|(one, row)| one.rows.get(*row).cloned()).collect(),
+            columns: self.columns.clone(),
+            off: self.off,
+            gaps: self.gaps.clone(),
+        }
+    }
+
+    /// Tells behind which rows, by their times (s), a trace or column goes to infinity, jumps or has no value.
+    pub fn set_gaps(&mut self, name: String, gaps: Vec<f64>) {
+        self.gaps.insert(name, gaps);
+    }
+
+    /// The times (s) of the rows behind which a trace or column is known to have a gap.
+    #[must_use]
+    pub fn gaps(&self, name: &str) -> &[f64] {
+        self.gaps.get(name).map_or(&[], Vec::as_slice)
+    }
+
+    /// Where a column, its rate and its acceleration stand in a row.
+    pub(super) fn derivatives(&self, name: &str) -> [Option<usize>; 3] {
+        ["", ".d", ".dd"].map(|order| self.columns.get(&format!("{name}{order}")).copied())
     }
 
     /// How many rows there are.
@@ -139,15 +191,23 @@ impl Motion {
         &self.rows
     }
 
-    /// At most so many rows, evenly spread, the first and the last among them.
+    /// At most so many rows, evenly spread in time, the first and the last among them.
     pub fn sampled(&self, most: usize) -> impl Iterator<Item = usize> + use<> {
         let (count, last) = (self.len().min(most.max(1)), self.len().saturating_sub(1));
-        (0..count).map(move |k| if count == 1 { 0 } else { k * last / (count - 1) })
+        let mut rows: Vec<usize> = (0..count).map(|k| k * last / (count - 1).max(1)).collect();
+        if count < self.len() && count > 1 {
+            let [from, to] = [self.times[0], self.times[last]];
+            let each = (to - from) / (count - 1) as f64;
+            rows = (0..count).map(|k| self.row_at(from + (k as f64 + SLACK) * each)).collect();
+            rows.dedup();
+        }
+        rows.into_iter()
     }
 
-    /// The path of a point of a frame, row by row.
-    pub fn path(&self, frame: usize, at: Vector) -> impl Iterator<Item = Vector> + '_ {
-        (0..self.len()).map(move |row| self.poses(row)[frame].placed(at))
+    /// Whether the next row comes so soon that derivatives, which may be endless there, lead nowhere.
+    pub(super) fn is_short(&self, row: usize) -> bool {
+        let span = self.times.last().copied().unwrap_or(0.0) - self.times.first().copied().unwrap_or(0.0);
+        self.times.get(row + 1).is_some_and(|next| next - self.times[row] <= SHORT * span)
     }
 
     /// The row at a time (s), or the last before it.
@@ -160,39 +220,51 @@ impl Motion {
     pub fn write_poses(&self, t: f64, poses: &mut Vec<Pose>) {
         poses.clear();
         let row = self.row_at(t);
-        let Some(&begin) = self.times.get(row) else { return };
-        let Some(&end) = self.times.get(row + 1).filter(|_| t > begin) else {
-            poses.extend_from_slice(self.poses(row));
-            return;
-        };
-        let h = end - begin;
-        let edge = self.edges.iter().find(|&&edge| begin < edge && edge < end);
-        for frame in 0..self.frames {
-            let from = [self.poses(row)[frame], self.rates(row)[frame], self.accelerations(row)[frame]];
-            let to = [self.poses(row + 1)[frame], self.rates(row + 1)[frame], self.accelerations(row + 1)[frame]];
-            poses.push(match edge {
-                None => quintic(from, to, h, (t - begin) / h),
-                // from either side as its row tells it
-                Some(&edge) if t <= edge => taylor(from, t - begin),
-                Some(_) => taylor(to, t - end),
-            });
+        poses.extend((0..self.frames).map(|frame| self.pose_between(frame, row, t)[0]));
+    }
+
+    /// Where a frame is at a time (s) that is not before a row and not behind the next one, and its rate there.
+    pub(super) fn pose_between(&self, frame: usize, row: usize, t: f64) -> [Pose; 2] {
+        let state = |row: usize| [self.poses(row)[frame], self.rates(row)[frame], self.accelerations(row)[frame]];
+        let Some(&begin) = self.times.get(row) else { return [Pose::default(); 2] };
+        let from = state(row);
+        let Some(&end) = self.times.get(row + 1).filter(|_| t > begin) else { return [from[0], from[1]] };
+        let (to, h) = (state(row + 1), end - begin);
+        if self.is_short(row) {
+            return chord(from[0], to[0], h, (t - begin) / h);
+        }
+        match self.edges.iter().find(|&&edge| begin < edge && edge < end) {
+            None => quintic(from, to, h, (t - begin) / h),
+            // from either side as its row tells it
+            Some(&edge) if t <= edge => taylor(from, t - begin),
+            Some(_) => taylor(to, t - end),
         }
     }
 }
 
-/// A pose so much time (s) later, by its velocity and acceleration.
-fn taylor([pose, rate, acceleration]: [Pose; 3], h: f64) -> Pose {
-    let at = plus(pose.at, times(h, plus(rate.at, times(0.5 * h, acceleration.at))));
-    Pose { at, phi: math::predicted([pose.phi, rate.phi, acceleration.phi], h) }
+/// Straight from one pose to another, `h` (s) apart, at a part of the way; and the rate.
+fn chord(from: Pose, to: Pose, h: f64, part: f64) -> [Pose; 2] {
+    let (way, turn) = (minus(to.at, from.at), to.phi - from.phi);
+    let pose = Pose { at: plus(from.at, times(part, way)), phi: from.phi + part * turn };
+    [pose, Pose { at: times(1.0 / h, way), phi: turn / h }]
 }
 
-/// The quintic through two poses with velocities and accelerations, `h` (s) apart, at a part of the way.
-fn quintic(from: [Pose; 3], to: [Pose; 3], h: f64, part: f64) -> Pose {
+/// A pose and its rate so much time (s) later, by its velocity and acceleration.
+fn taylor([pose, rate, acceleration]: [Pose; 3], h: f64) -> [Pose; 2] {
+    let at = plus(pose.at, times(h, plus(rate.at, times(0.5 * h, acceleration.at))));
+    let later = Pose { at, phi: math::predicted([pose.phi, rate.phi, acceleration.phi], h) };
+    [later, Pose { at: plus(rate.at, times(h, acceleration.at)), phi: rate.phi + h * acceleration.phi }]
+}
+
+/// The quintic through two poses with velocities and accelerations, `h` (s) apart, at a part of the way; and its rate.
+fn quintic(from: [Pose; 3], to: [Pose; 3], h: f64, part: f64) -> [Pose; 2] {
     let coordinate = |of: fn(&Pose) -> f64| {
         let [from, to] = [&from, &to].map(|end| end.each_ref().map(of));
-        math::along(&math::quintic(from, to, h), part)
+        let [value, slope, _] = math::value_and_slopes(&math::quintic(from, to, h), part);
+        [value, slope / h]
     };
-    Pose { at: [coordinate(|pose| pose.at[0]), coordinate(|pose| pose.at[1])], phi: coordinate(|pose| pose.phi) }
+    let parts = [coordinate(|pose| pose.at[0]), coordinate(|pose| pose.at[1]), coordinate(|pose| pose.phi)];
+    [0, 1].map(|order| Pose { at: [parts[0][order], parts[1][order]], phi: parts[2][order] })
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::drawing::{Drawing, Layer, shape};
 use super::plane::{Path, Vector, distance, rectangle};
 use super::symbols::{Symbols, THIN_BAR};
-use super::{Anchor, Held, Look, Node, Place};
+use super::{Anchor, Held, Look, Node, Pin, Place};
 use crate::model::PointId;
 
 /// Two supports are one if they are no farther apart than this, in units.
@@ -13,6 +13,7 @@ pub(super) fn revolute(drawing: &mut Drawing, declaration: usize, [p, q]: [Point
     pin(drawing, declaration, [p, q], drawing.features.point(p));
     let (p, q) = (drawing.features.point(p), drawing.features.point(q));
     for anchor in [p, q] {
+        drawing.pins.push(Pin { declaration, anchor });
         if anchor.frame == 0 {
             foot(drawing, declaration, anchor.at);
         }
@@ -34,6 +35,7 @@ pub(super) fn single_pin(drawing: &mut Drawing, declaration: usize, point: Point
     let shown = drawing.shown(&[point]);
     let pin = Symbols { unit: drawing.unit }.pin(at.at, shown);
     drawing.add_fixed(Layer::Pins, declaration, at.frame, vec![pin]);
+    drawing.pins.push(Pin { declaration, anchor: at });
     if at.frame == 0 {
         foot(drawing, declaration, at.at);
     }

@@ -11,8 +11,6 @@ pub(super) const ADDENDUM: f64 = 0.8;
 pub(super) const DEDENDUM: f64 = 1.0;
 /// The part of a pitch by which a tooth is thinner than a gap.
 const BACKLASH: f64 = 0.03;
-/// What a chord of a fine flank may be off, as a part of the wheel's radius.
-const FINE_PART: f64 = 1e-7;
 /// Places on a flank.
 const ON_FLANK: u32 = 4;
 
@@ -53,16 +51,6 @@ impl Wheel {
         self.bumps(&self.gaps_of_ring())
     }
 
-    /// Its teeth as they are, with arcs at tips and feet; chords may be so much off (m).
-    pub fn fine_outline(&self, off: f64) -> Contour {
-        self.fine_bumps(&self.teeth_of_wheel(), off)
-    }
-
-    /// The same of a ring's inner side.
-    pub fn fine_inner_outline(&self, off: f64) -> Contour {
-        self.fine_bumps(&self.gaps_of_ring(), off)
-    }
-
     fn teeth_of_wheel(&self) -> Bumps {
         let module = self.module();
         let radii = [self.radius - DEDENDUM * module, self.radius + ADDENDUM * module];
@@ -73,42 +61,6 @@ impl Wheel {
         let module = self.module();
         let radii = [self.radius - ADDENDUM * module, self.radius + DEDENDUM * module];
         Bumps { radii, thickness: 1.0 + 2.0 * BACKLASH, phase: self.phase + PI / f64::from(self.teeth) }
-    }
-
-    fn fine_bumps(&self, bumps: &Bumps, off: f64) -> Contour {
-        let Bumps { radii: [low, high], thickness, phase } = *bumps;
-        let base = self.radius * math::cos(PRESSURE);
-        // by the angle that the thread of an involute has unrolled; a chord's height is that radius of curvature times its square / 8
-        let unrolled = |radius: f64| (radius * radius / (base * base) - 1.0).max(0.0).sqrt();
-        let involute = |rolled: f64| rolled - math::atan2(rolled, 1.0);
-        let [from, to] = [low.max(base), high].map(unrolled);
-        let off = off.max(FINE_PART * self.radius);
-        let wanted = (to - from) * (base * to / (8.0 * off)).sqrt();
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // clamped
-        let count = math::floor(wanted.clamp(1.0, 5000.0)) as u32 + 1;
-        let half = thickness * PI / (2.0 * f64::from(self.teeth)) + involute(unrolled(self.radius));
-        let flank = |k: u32| {
-            let rolled = from + (to - from) * f64::from(k) / f64::from(count);
-            [base * (1.0 + rolled * rolled).sqrt(), half - involute(rolled)]
-        };
-        let mut flank: Vec<[f64; 2]> = (0..=count).map(flank).collect();
-        if low < base {
-            flank.insert(0, [low, flank[0][1]]);
-        }
-        let [foot, tip] = [flank[0][1], flank[flank.len() - 1][1]];
-        let place = |radius: f64, angle: f64| plus(self.at, polar(radius, angle));
-        let pitch = TAU / f64::from(self.teeth);
-        let arc = |radius: f64, angle: f64| Segment::Arc { to: place(radius, angle), radius, is_left: true };
-        let mut segments = Vec::with_capacity(2 * (flank.len() + 1) * self.teeth as usize);
-        for tooth in 0..self.teeth {
-            let middle = phase + pitch * f64::from(tooth);
-            segments.extend(flank.iter().skip(1).map(|[radius, off]| Segment::Line(place(*radius, middle - off))));
-            segments.push(arc(high, middle + tip));
-            segments
-                .extend(flank.iter().rev().skip(1).map(|[radius, off]| Segment::Line(place(*radius, middle + off))));
-            segments.push(arc(low, middle + pitch - foot));
-        }
-        Contour { start: place(low, phase - foot), segments, is_closed: true }
     }
 
     fn bumps(&self, bumps: &Bumps) -> Contour {
@@ -237,36 +189,8 @@ mod tests {
     use super::*;
     use crate::scene::plane::{Path, Pose};
 
-    const FINE: f64 = 0.25e-6;
-
     fn corners(contour: Contour, pose: &Pose) -> Vec<Vector> {
         Path::Lines(vec![contour]).moved(pose).places()
-    }
-
-    #[test]
-    fn fine_flanks_are_involutes() {
-        let wheel = Wheel { at: [0.0; 2], radius: 0.05, teeth: 25, phase: 0.2 };
-        let base = wheel.radius * math::cos(PRESSURE);
-        let pitch = TAU / f64::from(wheel.teeth);
-        let involute = |radius: f64| math::tan(math::acos(base / radius)) - math::acos(base / radius);
-        let half = (1.0 - 2.0 * BACKLASH) * 0.25 * pitch + involute(wheel.radius);
-        let fine = wheel.fine_outline(FINE);
-        let (mut from, mut flanks) = (fine.start, 0);
-        for segment in &fine.segments {
-            let middle = times(0.5, plus(from, segment.end()));
-            let radius = crate::scene::length(middle);
-            if matches!(segment, Segment::Line(_)) && radius > base * (1.0 + 1e-9) {
-                let angle = crate::scene::direction(middle) - wheel.phase;
-                let off =
-                    ((angle / pitch - math::floor(angle / pitch + 0.5)) * pitch).abs() - (half - involute(radius));
-                // across the flank, which leans by the pressure angle there
-                assert!((off * base).abs() < 1.1 * FINE, "{off} rad off at {radius} m");
-                flanks += 1;
-            }
-            from = segment.end();
-        }
-        assert!(flanks > 500, "{flanks} chords");
-        assert!(crate::scene::distance(from, fine.start) < 1e-12, "it is closed");
     }
 
     #[test]

@@ -26,9 +26,10 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Sc
     }
     add_idle_points(&features, &mut outlines);
     let unit = size.unwrap_or_else(|| sizes::unit(&features, motion, &outlines));
-    let (feet, profiles, fine, nodes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (feet, pins, profiles, pitch_lines, nodes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let contacts = contacts::contacts(&features, first.joints);
-    let mut drawing = Drawing { features, motion, unit, outlines, feet, profiles, fine, numbers, first, nodes };
+    let mut drawing =
+        Drawing { features, motion, unit, outlines, feet, pins, profiles, pitch_lines, numbers, first, nodes };
     gears::draw(&mut drawing);
     joints::draw(&mut drawing);
     drivers::draw(&mut drawing);
@@ -38,7 +39,7 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Sc
     let torques = torques::torques(&drawing);
     let forces = forces::vectors(&drawing, !torques.is_empty());
     drawing.mark_pens(&traces);
-    let Drawing { mut nodes, profiles, fine: outlines, .. } = drawing;
+    let Drawing { mut nodes, pins, profiles, pitch_lines, .. } = drawing;
     nodes.sort_by_key(|(layer, _): &(Layer, Node)| *layer);
     let nodes: Vec<Node> = nodes.into_iter().map(|(_, node)| node).collect();
     let extent = extent(&nodes, motion, unit);
@@ -51,13 +52,14 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Sc
         declarations,
         frames,
         points,
+        pins,
         nodes,
         traces,
         profiles,
         contacts,
         forces,
         torques,
-        outlines,
+        pitch_lines,
         unit,
         extent,
         named,
@@ -162,8 +164,14 @@ pub(super) fn places_of_bodies(model: &Mechanism) -> Vec<PointId> {
     points
 }
 
-/// The least and greatest coordinates of all nodes along the motion.
+/// The least and greatest coordinates of all nodes along the motion, with some room around them.
 pub(super) fn extent(nodes: &[Node], motion: &Motion, unit: f64) -> [Vector; 2] {
+    let margin = [0.5 * unit; 2];
+    reach(nodes, motion, unit).map_or([[-unit; 2], [unit; 2]], |[low, high]| [minus(low, margin), plus(high, margin)])
+}
+
+/// The least and greatest coordinates of all nodes along the motion; none where there is nothing.
+pub(super) fn reach(nodes: &[Node], motion: &Motion, unit: f64) -> Option<[Vector; 2]> {
     let mut all: Option<[Vector; 2]> = None;
     let places: Vec<Vec<Vector>> =
         nodes.iter().map(|node| node.shapes.iter().flat_map(|shape| shape.path.places()).collect()).collect();
@@ -181,6 +189,5 @@ pub(super) fn extent(nodes: &[Node], motion: &Motion, unit: f64) -> [Vector; 2] 
             }
         }
     }
-    let margin = [0.5 * unit; 2];
-    all.map_or([[-unit; 2], [unit; 2]], |[low, high]| [minus(low, margin), plus(high, margin)])
+    all
 }

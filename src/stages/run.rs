@@ -342,6 +342,18 @@ impl Run {
         self.motion.edges()
     }
 
+    /// The times (s) at which the steps of the motion end, to its last time or as far as it gets, in place of its rows.
+    pub(super) fn ends_of_steps(mut self) -> Vec<f64> {
+        let mut ends = Vec::new();
+        while let Ok(Some(stretch)) = self.motion.next_stretch() {
+            if self.cancel.is_cancelled() {
+                return ends;
+            }
+            ends.push(stretch.to.t);
+        }
+        ends
+    }
+
     /// What there is to say beside the rows so far, each thing once.
     pub fn take_remarks(&mut self) -> Diagnostics {
         self.used_at.told(self.motion.take_remarks())

@@ -141,10 +141,21 @@ impl Checked {
     #[must_use]
     pub fn drawn_with_symbols(&self, seen: &Seen, unit: f64) -> Option<Scene> {
         let model = self.model()?;
-        let mut scene = Scene::with_symbols(model, &seen.motion, unit);
+        Some(self.with_places(Scene::with_symbols(model, &seen.motion, unit), seen))
+    }
+
+    /// What there is to draw of a motion that was seen; nothing where it is not sound.
+    pub(super) fn drawn_anew(&self, seen: &Seen) -> Option<Scene> {
+        let model = self.model()?;
+        Some(self.with_places(Scene::of(model, &seen.motion), seen))
+    }
+
+    fn with_places(&self, mut scene: Scene, seen: &Seen) -> Scene {
         self.widen_places(&mut scene);
-        show_stop(&mut scene, model, &seen.motion, seen.stopped.as_ref());
-        Some(scene)
+        if let Some(model) = self.model() {
+            show_stop(&mut scene, model, &seen.motion, seen.stopped.as_ref());
+        }
+        scene
     }
 
     /// What there is to see of one that is sound and has no motion, for what was said of it. One that is not determined is as it is

@@ -1,11 +1,11 @@
-//! DXF for cutting: traces, lines that contacts run along, outlines of what has teeth, and where pins are, in millimetres.
+//! DXF for cutting: traces, lines that contacts run along, pitch circles, and where pins are, in millimetres.
 //!
 //! The form is that of R12, the oldest that is still read by everything, of which polylines and points are all that is needed. Written
 //! here, for the same input has to give the same bytes: libraries write the time and identities of their own making.
 
 use super::text::number;
 use crate::scene::{
-    Anchor, Motion, Path, Pen, Pose, Scene, Segment, Vector, bounds, direction, distance, is_finite, minus, plus,
+    Anchor, Motion, Path, Pen, Pin, Pose, Scene, Segment, Vector, bounds, direction, distance, is_finite, minus, plus,
     polar, times,
 };
 use std::f64::consts::TAU;
@@ -13,10 +13,17 @@ use std::fmt::Write;
 
 /// What a polyline may be off from the line that it stands for, as it is cut (m).
 const OFF: f64 = 0.25e-6;
+/// Places that are no farther apart than this part of a line's size are one.
+const SAME: f64 = 1e-9;
 /// How often a piece is halved at most, to keep to that.
 const DEEPEST: u32 = 14;
-/// Decimals of millimetres.
+/// The same of what is very small, as a part of its size.
+const OFF_OF_SIZE: f64 = 5e-5;
+/// The widest angle of a chord of a circle (rad), however small that is.
+const WIDEST: f64 = 0.02;
+/// Decimals of millimetres; and of a drawing that is no larger than a millimetre.
 const DECIMALS: usize = 6;
+const DECIMALS_OF_SMALL: usize = 9;
 /// Names of layers are no longer.
 const LONGEST: usize = 31;
 
@@ -50,12 +57,12 @@ pub fn written(
     let off = OFF / scale.max(1.0);
     let mut sheet = Sheet { scene, poses, scale: 1000.0 * scale, off, layers: Vec::new(), entities: Vec::new() };
     sheet.add_profiles();
-    sheet.add_outlines();
+    sheet.add_pitch_lines();
     sheet.add_traces(motion);
     for (name, anchor) in traces {
         let declaration = scene.point_named(name).map_or(anchor.frame, |point| point.declaration);
         if scene.traces.iter().all(|trace| trace.pen != Pen::Point(*anchor)) {
-            sheet.add_stretches(declaration, &path(anchor, motion, off));
+            sheet.add_trace(declaration, &Pen::Point(*anchor), motion);
         }
     }
     sheet.add_pins();
@@ -123,13 +130,13 @@ impl Sheet<'_> {
         }
     }
 
-    fn add_outlines(&mut self) {
+    fn add_pitch_lines(&mut self) {
         let scene = self.scene;
-        for outline in &scene.outlines {
-            let pose = self.poses[outline.frame];
-            for (places, is_closed) in polylines(&outline.path(self.off), self.off) {
+        for line in &scene.pitch_lines {
+            let pose = self.poses[line.frame];
+            for (places, is_closed) in polylines(&line.path, self.off) {
                 let places: Vec<Vector> = places.into_iter().map(|place| pose.placed(place)).collect();
-                self.add(outline.declaration, &places, if is_closed { Kind::Closed } else { Kind::Open });
+                self.add(line.declaration, &places, if is_closed { Kind::Closed } else { Kind::Open });
             }
         }
     }
@@ -137,18 +144,32 @@ impl Sheet<'_> {
     fn add_traces(&mut self, motion: &Motion) {
         let scene = self.scene;
         for trace in &scene.traces {
-            let places = match &trace.pen {
-                Pen::Point(anchor) => path(anchor, motion, self.off),
-                Pen::Columns { .. } => trace.path(motion),
-            };
-            self.add_stretches(trace.declaration, &places);
+            self.add_trace(trace.declaration, &trace.pen, motion);
         }
     }
 
-    /// A trace, with gaps where it has no place.
-    fn add_stretches(&mut self, declaration: usize, places: &[Vector]) {
-        for stretch in places.split(|place| !is_finite(*place)).filter(|stretch| stretch.len() > 1) {
-            self.add(declaration, stretch, Kind::Open);
+    /// What a pen draws: closed lines as such, with gaps where it has no place, and a point where it rests.
+    fn add_trace(&mut self, declaration: usize, pen: &Pen, motion: &Motion) {
+        let track = motion.track(pen);
+        let place = |t: f64| track.at(motion, t)[0];
+        for stretch in motion.stretches(pen) {
+            let ends = || stretch.pieces.iter().flatten().map(|t| place(*t));
+            let size = bounds(ends()).map_or(0.0, |[low, high]| distance(low, high));
+            let off = self.off.min(OFF_OF_SIZE * size);
+            let mut places: Vec<Vector> = ends().take(1).collect();
+            for [from, to] in &stretch.pieces {
+                flatten(&mut |part| place(from + part * (to - from)), off, &mut places);
+            }
+            // a line that rests for a while has one corner there
+            places.dedup_by(|next, last| distance(*next, *last) <= SAME * size);
+            if stretch.is_closed && places.len() > 2 {
+                places.pop();
+                self.add(declaration, &places, Kind::Closed);
+            } else if places.len() > 1 {
+                self.add(declaration, &places, Kind::Open);
+            } else {
+                self.add(declaration, &places, Kind::Point);
+            }
         }
     }
 
@@ -158,15 +179,24 @@ impl Sheet<'_> {
             let place = self.poses[point.frame].placed(point.at);
             self.add(point.declaration, &[place], Kind::Point);
         }
+        // a joint may take hold of a place that has no name
+        let is_named = |pin: &Pin| {
+            let named = scene.points.iter().filter(|point| point.is_pin && point.frame == pin.anchor.frame);
+            named.map(|point| distance(point.at, pin.anchor.at)).any(|apart| apart <= SAME * scene.unit)
+        };
+        for pin in scene.pins.iter().filter(|pin| !is_named(pin)) {
+            self.add(pin.declaration, &[pin.anchor.placed(self.poses)], Kind::Point);
+        }
     }
 
     /// The whole file.
     fn text(&self) -> String {
         let all = self.entities.iter().flat_map(|entity| entity.places.iter().copied());
         let [low, high] = bounds(all).unwrap_or_default();
+        let decimals = if distance(low, high) > 1.0 { DECIMALS } else { DECIMALS_OF_SMALL };
         let mut text = String::from("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$INSUNITS\n70\n4\n");
         for (name, place) in [("$EXTMIN", low), ("$EXTMAX", high)] {
-            let _ = write!(text, "9\n{name}\n{}", placed(place));
+            let _ = write!(text, "9\n{name}\n{}", placed(place, decimals));
         }
         text += "0\nENDSEC\n0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLTYPE\n70\n1\n0\nLTYPE\n2\nCONTINUOUS\n70\n0\n3\nSolid line\n72\n65\n73\n0\n40\n0.0\n\
                  0\nENDTAB\n";
@@ -175,49 +205,36 @@ impl Sheet<'_> {
             let _ = write!(text, "0\nLAYER\n2\n{layer}\n70\n0\n62\n7\n6\nCONTINUOUS\n");
         }
         text += "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
-        self.entities.iter().for_each(|entity| entity.add_to(&mut text));
+        self.entities.iter().for_each(|entity| entity.add_to(&mut text, decimals));
         text + "0\nENDSEC\n0\nEOF\n"
     }
 }
 
 impl Entity {
-    fn add_to(&self, text: &mut String) {
+    fn add_to(&self, text: &mut String, decimals: usize) {
         let Entity { layer, places, kind } = self;
         if *kind == Kind::Point {
             for place in places {
-                let _ = write!(text, "0\nPOINT\n8\n{layer}\n{}", placed(*place));
+                let _ = write!(text, "0\nPOINT\n8\n{layer}\n{}", placed(*place, decimals));
             }
             return;
         }
         let flag = u8::from(*kind == Kind::Closed);
-        let _ = write!(text, "0\nPOLYLINE\n8\n{layer}\n66\n1\n70\n{flag}\n{}", placed([0.0; 2]));
+        let _ = write!(text, "0\nPOLYLINE\n8\n{layer}\n66\n1\n70\n{flag}\n{}", placed([0.0; 2], decimals));
         for place in places {
-            let _ = write!(text, "0\nVERTEX\n8\n{layer}\n{}", placed(*place));
+            let _ = write!(text, "0\nVERTEX\n8\n{layer}\n{}", placed(*place, decimals));
         }
         let _ = write!(text, "0\nSEQEND\n8\n{layer}\n");
     }
 }
 
 /// A place as a file has it.
-fn placed([x, y]: Vector) -> String {
+fn placed([x, y]: Vector, decimals: usize) -> String {
     let written = |value: f64| {
-        let text = number(value, DECIMALS);
+        let text = number(value, decimals);
         if text.contains('.') { text } else { text + ".0" }
     };
     format!("10\n{}\n20\n{}\n30\n0.0\n", written(x), written(y))
-}
-
-/// The path of a point along the motion, which may be so much off (m).
-fn path(anchor: &Anchor, motion: &Motion, off: f64) -> Vec<Vector> {
-    let (mut poses, mut places) = (Vec::new(), vec![anchor.placed(motion.poses(0))]);
-    for ends in motion.times.windows(2) {
-        let mut at = |part: f64| {
-            motion.write_poses(ends[0] + part * (ends[1] - ends[0]), &mut poses);
-            anchor.placed(&poses)
-        };
-        flatten(&mut at, off, &mut places);
-    }
-    places
 }
 
 /// The places that a line from part 0 to part 1 takes as a polyline, without the first.
@@ -302,7 +319,7 @@ fn add_arc(places: &mut Vec<Vector>, [from, to]: [Vector; 2], (radius, is_left):
 
 /// How many chords a turn takes.
 fn steps(radius: f64, turn: f64, off: f64) -> u32 {
-    let each = (8.0 * off / radius.max(off)).sqrt().min(0.5);
+    let each = (8.0 * off / radius.max(off)).sqrt().min(WIDEST);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // clamped
     let count = crate::math::floor((turn / each).clamp(1.0, 1e5)) as u32 + 1;
     count.max(3)

@@ -140,7 +140,7 @@ pub(super) enum Command {
         last one strong and the others pale.\n\n\
         A file called plots.svg, or NAME.plots.svg, holds plots of all measures over time, in the units of the file; --plots does so under \
         any name. A number in the name, as in frames/%04d.svg, asks for a picture of each row, counted from 0, for a film; their folder is \
-        made. OUT.dxf holds traces, the lines of cams, the outlines of gears as polylines within 1 µm, and the places of pins, in \
+        made. OUT.dxf holds traces, the lines of cams and the pitch circles of gears as polylines within 1 µm, and the places of pins, in \
         millimetres, a layer for each declaration: for cutting. --scale draws true to scale, --body one body alone. OUT.html is a page \
         that needs nothing else: the mechanism moves as its reader likes, beside plots of any column, vectors, results and the text.\n\n\
         --vary gives that page a slider for a param, or for two. The mechanism is solved for each value beforehand, and the page holds \

@@ -88,16 +88,38 @@ fn is_called_plots(output: &str) -> bool {
     stem.is_some_and(|stem| stem.rsplit('.').next() == Some("plots"))
 }
 
+/// Forms that other programs make of what is drawn here: their endings, what is to be drawn for them, and how it becomes one of them.
+/// `NAME` stands for the name of the file without its ending, `END` for the ending.
+const OF_OTHERS: [(&[&str], &str, &str); 4] = [
+    (
+        &["png", "pdf", "ps", "eps"],
+        "NAME.svg --at T",
+        "`rsvg-convert NAME.svg -f END -o NAME.END` or `inkscape NAME.svg -o NAME.END`",
+    ),
+    (&["jpg", "jpeg", "webp", "tif", "tiff", "bmp"], "NAME.svg --at T", "`magick NAME.svg NAME.END`"),
+    (
+        &["gif", "mp4", "webm", "apng", "avi", "mov"],
+        "NAME/%04d.svg",
+        "`rsvg-convert` for each picture, and `ffmpeg -framerate 25 -i NAME/%04d.png NAME.END` for all",
+    ),
+    (&["dwg"], "NAME.dxf", "any program for drawings, which reads DXF"),
+];
+
 /// What a file of such a name holds.
 fn form_of_ending(output: &str) -> Result<Form, Failure> {
     endings::known(output, &FORMS).ok_or_else(|| {
-        let said = match Path::new(output).extension() {
-            Some(ending) => {
-                format!("`{output}` ends in `.{}`, which is nothing that `view` writes", ending.to_string_lossy())
-            }
-            None => format!("`{output}` has no ending, and so it is not said what to draw"),
+        let (path, listed) = (Path::new(output), format!("the endings are {}", endings::listed(&FORMS)));
+        let Some(ending) = path.extension().map(|ending| ending.to_string_lossy()) else {
+            let said = format!("`{output}` has no ending, and so it is not said what to draw");
+            return unusable(said).help(listed).into();
         };
-        unusable(said).help(format!("the endings are {}", endings::listed(&FORMS))).into()
+        let said =
+            unusable(format!("`{output}` ends in `.{ending}`, which is nothing that `view` writes")).help(listed);
+        let made = OF_OTHERS.iter().find(|(endings, ..)| endings.iter().any(|one| ending.eq_ignore_ascii_case(one)));
+        let Some((_, drawn, how)) = made else { return said.into() };
+        let name = path.with_extension("");
+        let filled = |text: &str| text.replace("NAME", &name.to_string_lossy()).replace("END", &ending.to_lowercase());
+        said.help(format!("write `-o {}`, and have it converted: {}", filled(drawn), filled(how))).into()
     })
 }
 

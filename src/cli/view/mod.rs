@@ -15,10 +15,10 @@ use super::report::Reporter;
 use super::times;
 use crate::analysis::Times;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::layout::ColumnKind;
+use crate::layout::{ColumnKind, ColumnUnit};
 use crate::live::page;
-use crate::scene::Motion;
-use crate::stages::{Checked, Choice, Compiled, RunOptions, Seen};
+use crate::scene::{Motion, Pen};
+use crate::stages::{Checked, Choice, Closely, Compiled, RunOptions, Seen};
 use crate::view::dxf;
 use crate::view::svg::{self, Options, Plot};
 use form::Form;
@@ -28,6 +28,12 @@ use std::path::Path;
 
 /// Of more rows some are left out.
 const MOST_ROWS: usize = 2000;
+
+/// What is said where a DXF shows gears.
+const NO_TEETH: &str = "gears and racks are drawn as their pitch circles and lines alone: the text does not say how many teeth they have\n";
+
+/// How many places of a plot there are from one time to the next at which the motion is known.
+const PLACES_BETWEEN: u32 = 6;
 
 /// What is said where `--forces` has nothing to show.
 const NO_FORCES: &str =
@@ -69,9 +75,15 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
         }
         (seen, said) => reporter.settle(seen, said)?,
     };
+    // a film shows the rows, and so does a picture of a single one
+    let rows = (target.frames.is_some() || seen.motion.len() == 1).then(|| seen.motion.clone());
+    if form != Form::Page {
+        let closely = target.closely(&seen)?;
+        checked.look_closely(&compiled, &whole, &options, &mut seen, &closely);
+    }
     let is_alone = target.leave_alone(&mut seen)?;
     let (moments, stopped) = match listed.filter(|_| !is_alone && form != Form::Page) {
-        None => (None, seen.stopped.clone()),
+        None => (rows.filter(|_| !is_alone && form == Form::Picture), seen.stopped.clone()),
         Some(times) => {
             let (motion, stopped) = moments((&checked, &compiled), &times, &options, &seen)?;
             (Some(motion), stopped)
@@ -86,10 +98,15 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     target.write(file, &drawn, reporter)?;
     let is_without_arrows = arguments.vectors && !svg::has_vectors(&seen.scene, &pictured.traces, &seen.motion);
     let is_without_forces = arguments.forces && seen.scene.forces.is_empty() && seen.scene.torques.is_empty();
-    for (is_without, words) in [(is_without_arrows, NO_ARROWS), (is_without_forces, NO_FORCES)] {
-        if is_without && form == Form::Picture && !reporter.is_for_programs() {
-            Reporter::say(words);
-        }
+    let is_without_teeth = form == Form::Dxf && !seen.scene.pitch_lines.is_empty();
+    let is_picture = form == Form::Picture;
+    let remarks = [
+        (is_without_arrows && is_picture, NO_ARROWS),
+        (is_without_forces && is_picture, NO_FORCES),
+        (is_without_teeth, NO_TEETH),
+    ];
+    for (_, words) in remarks.into_iter().filter(|(is_due, _)| *is_due && !reporter.is_for_programs()) {
+        Reporter::say(words);
     }
     stopped.map_or(Ok(()), |why| Err(why.into()))
 }
@@ -111,6 +128,19 @@ impl Target<'_> {
     /// That nothing is written, in words.
     fn not_written(&self) -> String {
         if self.output == "-" { "nothing is written".to_owned() } else { format!("`{}` is not written", self.output) }
+    }
+
+    /// How closely the motion has to be known for what is drawn.
+    fn closely(&self, seen: &Seen) -> Result<Closely, Failure> {
+        let ViewArguments { scale, trace, .. } = self.arguments;
+        let pens = trace.iter().map(|path| Ok(Pen::Point(wanted::trace(&seen.scene, path)?.1)));
+        let pens = pens.collect::<Result<_, Failure>>()?;
+        let closely = match (self.form, scale) {
+            (Form::Dxf, _) | (Form::Picture, Some(_)) => Closely::to_cut(scale.unwrap_or(1.0), pens),
+            _ => Closely::of_picture(seen, pens),
+        };
+        let plotted = plotted(seen).filter(|_| self.form == Form::Plots);
+        Ok(Closely { columns: plotted.map(|(name, _)| name.clone()).collect(), ..closely })
     }
 
     /// Leaves the one body that was asked for, if one was.
@@ -175,7 +205,7 @@ impl Drawn<'_> {
             (Form::Dxf, _) => {
                 let poses = moments.unwrap_or(motion).poses(0);
                 dxf::written(scene, motion, poses, &pictured.traces, pictured.scale.unwrap_or(1.0)).ok_or_else(|| {
-                    let help = "traces, the lines of cams, the outlines of gears and the places of pins are";
+                    let help = "traces, the lines of cams, the pitch circles of gears and the places of pins are";
                     unusable("there is nothing to cut".to_owned()).help(help).into()
                 })
             }
@@ -183,22 +213,20 @@ impl Drawn<'_> {
     }
 
     /// Plots of all measures; of efforts, reactions and loads behind them, where these are asked for.
-    fn plots(&self) -> Result<String, Failure> {
-        let Seen { scene, motion, columns, units, kinds, .. } = self.seen;
-        let measures = scene.declarations.iter().filter(|declaration| declaration.kind == "measure");
-        let forces = columns.iter().zip(kinds).filter(|(_, kind)| **kind == ColumnKind::Reaction);
-        let plot = |name: &'_ str| {
-            let (column, unit) = columns.iter().zip(units).find(|(column, _)| *column == name)?;
-            let values = motion.column(column)?.map(|value| unit.printed(value)).collect();
-            Some(Plot { name: column, unit: &unit.text, values })
+    fn plots<'s>(&'s self) -> Result<String, Failure> {
+        let Seen { scene, motion, .. } = self.seen;
+        let times = motion.times_between(PLACES_BETWEEN);
+        let plot = |(name, unit): (&'s String, &'s ColumnUnit)| Plot {
+            name,
+            unit: &unit.text,
+            values: motion.column_at(name, &times).into_iter().map(|value| unit.printed(value)).collect(),
         };
-        let names = measures.map(|measure| &measure.name).chain(forces.map(|(column, _)| column));
-        let plots: Vec<Plot> = names.filter_map(|name| plot(name)).collect();
+        let plots: Vec<Plot> = plotted(self.seen).map(plot).collect();
         if plots.is_empty() {
             let help = "say what is to be plotted, as in `measure lift = y(slider.P)`; the page, `-o OUT.html`, plots any column";
             return Err(unusable("there is no measure to plot".to_owned()).help(help).into());
         }
-        Ok(svg::plots(scene, &motion.times, &plots, self.pictured))
+        Ok(svg::plots(scene, &times, &plots, self.pictured))
     }
 
     /// A picture of each row. Each is written whole or not at all, and none if one of them is a file that was read.
@@ -218,6 +246,16 @@ impl Drawn<'_> {
         }
         Ok(())
     }
+}
+
+/// The columns that are plotted, with their units: all measures, and what forces are asked for.
+fn plotted(seen: &Seen) -> impl Iterator<Item = (&String, &ColumnUnit)> {
+    let Seen { scene, columns, units, kinds, .. } = seen;
+    let measures = scene.declarations.iter().filter(|declaration| declaration.kind == "measure");
+    let named = move |name: &String| columns.iter().zip(units).find(|(column, _)| *column == name);
+    let measures = measures.filter_map(move |measure| named(&measure.name));
+    let forces = columns.iter().zip(units).zip(kinds).filter(|(_, kind)| **kind == ColumnKind::Reaction);
+    measures.chain(forces.map(|(column, _)| column))
 }
 
 /// The moments that are asked for, and why the last of them are missing, if they are; where all are, the last one before that.

@@ -34,7 +34,7 @@ fn meant<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<String>
 }
 
 /// A point by its path.
-fn trace(scene: &Scene, path: &str) -> Result<(String, Anchor), Failure> {
+pub(super) fn trace(scene: &Scene, path: &str) -> Result<(String, Anchor), Failure> {
     let path: String = path.chars().filter(|c| !c.is_whitespace()).collect();
     if let Some(point) = scene.point_named(&path) {
         return Ok((path, Anchor { frame: point.frame, at: point.at }));

@@ -1,14 +1,19 @@
-//! Traces: smooth curves through the rows, by places and velocities.
+//! Traces: smooth curves along the motion, by places and velocities, in as few pieces as they need.
 
-use super::picture::Picture;
+use super::picture::{PER_METER, Picture};
 use super::style::TRACE_COLORS;
-use crate::scene::{Anchor, Motion, Pen, Vector, distance, is_finite, minus, plus, times};
+use crate::scene::{Motion, Pen, Stretch, Track, Vector, bounds, distance, is_finite, minus, plus, times};
 use crate::view::text::{escaped, number};
 
-/// What a curve may be off from the rows that it does not name (px).
-const OFF: f64 = 0.15;
-/// Rows that one piece goes over at most.
+/// What a curve may be off (px), and the same as a part of the picture's shorter side; where paper is cut, in metres of it.
+const OFF: f64 = 0.03;
+const OFF_OF_SIDE: f64 = 4e-5;
+const OFF_OF_PAPER: f64 = 0.4e-6;
+/// Pieces that one curve goes over at most, and how often one is halved.
 const LONGEST: usize = 64;
+const DEEPEST: u32 = 16;
+/// What moves no farther than this (px) rests.
+const AT_REST: f64 = 0.15;
 
 impl Picture<'_> {
     /// The paths that the text asks for, and those that the picture does.
@@ -17,16 +22,13 @@ impl Picture<'_> {
         let mut color = 0;
         for trace in &scene.traces {
             let name = self.name(trace.declaration);
-            let d = match &trace.pen {
-                Pen::Point(anchor) => self.path_of(*anchor, motion),
-                Pen::Columns { .. } => self.polyline(&trace.path(motion)),
-            };
+            let d = self.path_of(&trace.pen, motion);
             self.add_trace(name, &d, &mut color);
         }
         for (name, anchor) in &self.options.traces {
             let is_known = scene.traces.iter().any(|trace| trace.pen == Pen::Point(*anchor));
             if !is_known {
-                let d = self.path_of(*anchor, motion);
+                let d = self.path_of(&Pen::Point(*anchor), motion);
                 self.add_trace(name, &d, &mut color);
             }
         }
@@ -42,73 +44,115 @@ impl Picture<'_> {
         self.body += &format!("<path class=\"trace t{number}\" data-name=\"{}\" d=\"{d}\"/>\n", escaped(name));
     }
 
-    /// The path of a point of a frame.
-    fn path_of(&self, anchor: Anchor, motion: &Motion) -> String {
-        let turned = |[x, y]: Vector| [self.scale * x, -self.scale * y];
-        let place = |row: usize| self.placed(motion.poses(row)[anchor.frame].placed(anchor.at));
-        let velocity = |row: usize| {
-            let (pose, rate) = (&motion.poses(row)[anchor.frame], &motion.rates(row)[anchor.frame]);
-            turned(rate.velocity(pose, anchor.at))
-        };
-        let places: Vec<Vector> = (0..motion.len()).map(place).collect();
-        let velocities: Vec<Vector> = (0..motion.len()).map(velocity).collect();
-        curve(&places, &velocities, &motion.times, self.pixels)
+    /// The path of a pen.
+    fn path_of(&self, pen: &Pen, motion: &Motion) -> String {
+        let track = motion.track(pen);
+        let stretches = motion.stretches(pen);
+        stretches.iter().map(|stretch| self.curve_of(&track, stretch, motion)).collect()
     }
 
-    /// A path of which nothing but places is known; with gaps where there is none.
-    fn polyline(&self, places: &[Vector]) -> String {
-        let mut text = String::new();
-        let (mut is_down, mut last) = (false, [f64::NAN; 2]);
-        for place in places {
-            if !is_finite(*place) {
-                is_down = false;
-                continue;
-            }
-            let at = self.placed(*place);
-            if is_down && distance(at, last) < 2.0 * OFF {
-                continue;
-            }
-            text += &format!("{}{}", if is_down { "L" } else { "M" }, pair(at, self.pixels));
-            (is_down, last) = (true, at);
+    fn curve_of(&self, track: &Track, stretch: &Stretch, motion: &Motion) -> String {
+        let [width, height] = self.room();
+        let (mut off, mut decimals) = (OFF.min(OFF_OF_SIDE * width.min(height)), self.pixels);
+        if self.options.scale.is_some() {
+            off = OFF_OF_PAPER * PER_METER;
         }
-        text
+        while decimals < 9 && number_step(decimals) > 0.5 * off {
+            decimals += 1;
+        }
+        let node = |t: f64| {
+            let [at, velocity] = track.at(motion, t);
+            let [x, y] = if is_finite(velocity) { velocity } else { [0.0; 2] };
+            Node { t, at: self.placed(at), velocity: [self.scale * x, -self.scale * y] }
+        };
+        let text = curve(&stretch.pieces, &node, off, decimals);
+        if stretch.is_closed && !text.is_empty() { text + "Z" } else { text }
     }
 }
 
-/// A smooth curve through places (px) with velocities (px/s) at times (s), in as few pieces as it takes.
-fn curve(places: &[Vector], velocities: &[Vector], times_of: &[f64], decimals: usize) -> String {
-    let pair = |place| pair(place, decimals);
-    let Some(first) = places.first() else { return String::new() };
-    let handles = |from: usize, to: usize| {
-        let third = (times_of[to] - times_of[from]) / 3.0;
-        [plus(places[from], times(third, velocities[from])), minus(places[to], times(third, velocities[to]))]
+/// The last decimal of a number.
+fn number_step(decimals: usize) -> f64 {
+    (0..decimals).fold(1.0, |step, _| 0.1 * step)
+}
+
+/// A place of a curve (px) at a time (s), with its velocity (px/s).
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    t: f64,
+    at: Vector,
+    velocity: Vector,
+}
+
+/// The handles of the cubic from one node to another.
+fn handles(from: &Node, to: &Node) -> [Vector; 2] {
+    let third = (to.t - from.t) / 3.0;
+    [plus(from.at, times(third, from.velocity)), minus(to.at, times(third, to.velocity))]
+}
+
+/// Whether the cubic between two nodes is so near (px) to a third one at its time.
+fn holds([from, to]: [&Node; 2], node: &Node, off: f64) -> bool {
+    let [b, c] = handles(from, to);
+    let s = (node.t - from.t) / (to.t - from.t);
+    let r = 1.0 - s;
+    let mix = |part: usize| {
+        let ends = r * r * r * from.at[part] + s * s * s * to.at[part];
+        ends + 3.0 * r * s * (r * b[part] + s * c[part])
     };
-    let holds = |from: usize, to: usize| {
-        let [b, c] = handles(from, to);
-        (from + 1..to).all(|k| {
-            let s = (times_of[k] - times_of[from]) / (times_of[to] - times_of[from]);
-            let r = 1.0 - s;
-            let mix = |part: usize| {
-                let ends = r * r * r * places[from][part] + s * s * s * places[to][part];
-                ends + 3.0 * r * s * (r * b[part] + s * c[part])
-            };
-            distance([mix(0), mix(1)], places[k]) <= OFF
-        })
-    };
-    let mut text = format!("M{}", pair(*first));
-    let (mut from, last) = (0, places.len() - 1);
-    let mut has_moved = false;
-    while from < last {
-        let mut to = from + 1;
-        while to < last && to - from < LONGEST && holds(from, to + 1) {
-            to += 1;
-        }
-        let [b, c] = handles(from, to);
-        has_moved |= [b, c, places[to]].iter().any(|place| distance(*place, *first) > OFF);
-        text += &format!("C{} {} {}", pair(b), pair(c), pair(places[to]));
-        from = to;
+    distance([mix(0), mix(1)], node.at) <= off
+}
+
+/// The nodes of a piece behind its first: so many that cubics between them are no more off (px) than they may be.
+fn add_nodes(of: &dyn Fn(f64) -> Node, [from, to]: [Node; 2], (off, depth): (f64, u32), nodes: &mut Vec<Node>) {
+    let time = |part: f64| from.t + part * (to.t - from.t);
+    let is_met = [0.25, 0.5, 0.75].into_iter().all(|part| holds([&from, &to], &of(time(part)), off));
+    if is_met || depth >= DEEPEST {
+        nodes.push(to);
+        return;
     }
-    if has_moved { text } else { String::new() }
+    let middle = of(time(0.5));
+    add_nodes(of, [from, middle], (off, depth + 1), nodes);
+    add_nodes(of, [middle, to], (off, depth + 1), nodes);
+}
+
+/// A smooth curve along pieces of time (s), in as few cubics as it takes.
+fn curve(pieces: &[[f64; 2]], of: &dyn Fn(f64) -> Node, off: f64, decimals: usize) -> String {
+    let pair = |place| pair(place, decimals);
+    let Some([begin, _]) = pieces.first() else { return String::new() };
+    // times go on from piece to piece, though the motion may begin anew in between
+    let mut parts: Vec<Vec<Node>> = vec![vec![of(*begin)]];
+    for ends @ [from, _] in pieces {
+        let is_new = parts.last().and_then(|part| part.last()).is_none_or(|last| (last.t - from).abs() > 0.0);
+        if is_new {
+            parts.push(vec![of(*from)]);
+        }
+        if let Some(part) = parts.last_mut() {
+            add_nodes(of, ends.map(of), (0.5 * off, 0), part);
+        }
+    }
+    let all = || parts.iter().flatten();
+    let is_at_rest = bounds(all().map(|node| node.at)).is_none_or(|[low, high]| distance(low, high) <= AT_REST);
+    if is_at_rest {
+        return String::new();
+    }
+    let mut text = all().next().map_or_else(String::new, |first| format!("M{}", pair(first.at)));
+    for nodes in &parts {
+        let (mut from, last) = (0, nodes.len() - 1);
+        while from < last {
+            let goes = |to: usize| {
+                let between = nodes[from + 1..to].iter().copied();
+                let middles = nodes[from..=to].windows(2).map(|ends| of(0.5 * (ends[0].t + ends[1].t)));
+                between.chain(middles).all(|node| holds([&nodes[from], &nodes[to]], &node, off))
+            };
+            let mut to = from + 1;
+            while to < last && to - from < LONGEST && goes(to + 1) {
+                to += 1;
+            }
+            let [b, c] = handles(&nodes[from], &nodes[to]);
+            text += &format!("C{} {} {}", pair(b), pair(c), pair(nodes[to].at));
+            from = to;
+        }
+    }
+    text
 }
 
 fn pair([x, y]: Vector, decimals: usize) -> String {
@@ -117,18 +161,21 @@ fn pair([x, y]: Vector, decimals: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::curve;
+    use super::{Node, curve};
+    use crate::scene::polar;
+    use std::f64::consts::PI;
 
     #[test]
     fn a_circle_takes_few_pieces() {
-        let rows: Vec<f64> = (0..=100).map(|k| f64::from(k) * 0.01).collect();
-        let turn = |t: &f64| 2.0 * std::f64::consts::PI * t;
-        let places: Vec<[f64; 2]> = rows.iter().map(|t| crate::scene::polar(100.0, turn(t))).collect();
-        let velocities: Vec<[f64; 2]> =
-            rows.iter().map(|t| crate::scene::polar(200.0 * std::f64::consts::PI, turn(t) + turn(&0.25))).collect();
-        let d = curve(&places, &velocities, &rows, 2);
-        let pieces = d.matches('C').count();
-        assert!((4..=10).contains(&pieces), "{pieces} pieces: {d}");
-        assert!(curve(&[[1.0, 1.0]; 5], &[[0.0; 2]; 5], &rows[..5], 2).is_empty(), "what rests has no path");
+        let turn = |t: f64| 2.0 * PI * t;
+        let node = |t: f64| Node { t, at: polar(100.0, turn(t)), velocity: polar(200.0 * PI, turn(t) + 0.5 * PI) };
+        let pieces: Vec<[f64; 2]> = (0..100).map(|k| [f64::from(k), f64::from(k + 1)].map(|t| 0.01 * t)).collect();
+        for pieces in [&pieces[..], &[[0.0, 1.0]]] {
+            let d = curve(pieces, &node, 0.02, 2);
+            let count = d.matches('C').count();
+            assert!((8..=20).contains(&count), "{count} pieces: {d}");
+        }
+        let rest = |t: f64| Node { t, at: [1.0; 2], velocity: [0.0; 2] };
+        assert!(curve(&pieces, &rest, 0.02, 2).is_empty(), "what rests has no path");
     }
 }

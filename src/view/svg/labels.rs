@@ -1,9 +1,10 @@
 //! The names of bodies and pins, and what messages say of places, beside what they name: no label lies on another at any moment that is
-//! shown, and on lines only where there is no room beside them. One that finds no place is left out; bodies tell their names as titles too.
+//! shown, and on lines and on other bodies only where there is no room beside them. One that might be taken for the name of something else
+//! has a line to what it names. One that finds no place is left out; bodies tell their names as titles too.
 
 use super::letters::{COLUMN, columns, letters};
 use super::picture::{PIXELS, Picture};
-use crate::scene::{Anchor, Look, Node, Path, Place, Pose, Vector, bounds, distance, plus, times};
+use crate::scene::{Anchor, Look, Node, Path, Place, Pose, Vector, bounds, distance, dot, hull, minus, plus, times};
 use crate::view::text::{escaped, number};
 
 /// Longer names are cut.
@@ -17,13 +18,19 @@ const BESIDE_BODY: f64 = 0.66;
 /// How much of a pin is not to be covered, in sizes of symbols.
 const PIN: f64 = 0.34;
 /// Rings of places around what is named: how far away, in half heights of a label, and what that costs.
-const RINGS: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.2], [1.0, 0.5], [2.6, 1.2]];
+const RINGS: [[f64; 2]; 5] = [[0.0, 0.0], [0.5, 0.2], [1.0, 0.5], [2.6, 1.2], [5.0, 1.9]];
 /// What each direction costs more than the one before it.
 const NEXT_DIRECTION: f64 = 0.03;
 /// What a label costs that covers a pin; one full of lines; one full of lines that are looked at.
 const ON_PIN: f64 = 1.0;
 const ON_LINES: f64 = 1.0;
 const ON_STRONG_LINES: f64 = 1.5;
+/// What it costs to be taken for the name of something else.
+const MISTAKEN: f64 = 0.8;
+/// What is farther away than this, in half heights of a label, has a line to it.
+const FAR: f64 = 2.5;
+/// The part of a label's width that letters take up at least.
+const LETTERS: f64 = 0.85;
 /// A line that is so near to a label (px) is on it: names between the two sides of a bar are better beside it.
 const NEAR_LINE: f64 = 3.0;
 /// A label is full of a line that is so many times as long as it is high.
@@ -37,6 +44,9 @@ const NO_LINES: [Look; 6] = [Look::Pin, Look::Dot, Look::Hatching, Look::Pitch, 
 /// Lines that are looked at.
 const STRONG: [Look; 7] =
     [Look::Arrow, Look::ArrowHead, Look::Free, Look::FreeHead, Look::Gap, Look::GapEnd, Look::Named];
+
+/// What is filled, so that a name on it is its own.
+const FILLED: [Look; 6] = [Look::Link, Look::Gear, Look::Rack, Look::Cam, Look::Roller, Look::Block];
 
 /// What a label is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -58,6 +68,8 @@ pub(super) struct Label {
     /// Half the width and the height of its box (px).
     pub half: Vector,
     kind: Kind,
+    /// Whether a line leads from it to what it names.
+    has_leader: bool,
 }
 
 impl Label {
@@ -75,15 +87,117 @@ impl Label {
             Kind::Body => "body-name",
             Kind::Point => "point-name",
         };
+        let leader = if self.has_leader { self.leader(at) } else { String::new() };
         let (x, y) = (number(x, PIXELS), number(y + 0.35 * size, PIXELS));
-        format!("<text class=\"{class}\" x=\"{x}\" y=\"{y}\">{}</text>", escaped(&self.text))
+        format!("{leader}<text class=\"{class}\" x=\"{x}\" y=\"{y}\">{}</text>", escaped(&self.text))
     }
+}
+
+impl Label {
+    /// Whether it is too far away at one of some moments to be seen to belong to what it names.
+    fn is_far(&self, at: &[Vector], field: &Field) -> bool {
+        let most = FAR * self.half[1];
+        at.iter().zip(&field.moments).any(|(at, obstacles)| {
+            let own = obstacles.regions.iter().filter(|region| region.frame == self.anchor.frame);
+            let here @ [low, high] = self.bounds(*at);
+            let to_place = distance([0, 1].map(|part| at[part].clamp(low[part], high[part])), *at);
+            match self.kind {
+                Kind::Remark => false,
+                Kind::Point => to_place > most,
+                Kind::Body => own.map(|region| region.distance(here)).fold(to_place, f64::min) > most,
+            }
+        })
+    }
+
+    /// For which part of some moments it might be taken for the name of something else: a body's on another one, or nearer to that; a
+    /// point's nearer to another pin.
+    fn mistaken(&self, at: &[Vector], field: &Field) -> f64 {
+        let is_mistaken = |at: &Vector, obstacles: &Obstacles| {
+            let here @ [low, high] = self.bounds(*at);
+            let away = |place: &Vector| distance([0, 1].map(|part| place[part].clamp(low[part], high[part])), *place);
+            match self.kind {
+                Kind::Remark => false,
+                Kind::Point => {
+                    let own = away(at);
+                    obstacles.pins.iter().any(|pin| distance(*pin, *at) > 1.0 && away(pin) < own)
+                }
+                Kind::Body => {
+                    let nearest = |is_own: bool| {
+                        let regions = obstacles.regions.iter();
+                        let regions = regions.filter(|region| (region.frame == self.anchor.frame) == is_own);
+                        regions.map(|region| region.distance(here)).fold(f64::INFINITY, f64::min)
+                    };
+                    let (own, other) = (nearest(true).min(away(at)), nearest(false));
+                    other <= 0.0 || other < own
+                }
+            }
+        };
+        let count = at.iter().zip(&field.moments).filter(|(at, obstacles)| is_mistaken(at, obstacles)).count();
+        count as f64 / at.len().max(1) as f64
+    }
+
+    /// The line from what it names to the nearest place of its box, if that is not there.
+    fn leader(&self, at: Vector) -> String {
+        let middle = plus(at, self.offset);
+        // letters are narrower than their box
+        let half = [LETTERS * self.half[0], self.half[1]];
+        let end = [0, 1].map(|part| at[part].clamp(middle[part] - half[part], middle[part] + half[part]));
+        if distance(end, at) <= 0.0 {
+            return String::new();
+        }
+        let [x, y, to_x, to_y] = [at[0], at[1], end[0], end[1]].map(|part| number(part, PIXELS));
+        format!("<path class=\"leader\" d=\"M{x} {y}L{to_x} {to_y}\"/>")
+    }
+}
+
+/// What a body fills, by its corners (px); it is taken to be convex.
+struct Region {
+    frame: usize,
+    corners: Vec<Vector>,
+}
+
+impl Region {
+    /// How far a box is away from it, 0 if they meet.
+    fn distance(&self, [low, high]: [Vector; 2]) -> f64 {
+        let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
+        let sides = |places: &[Vector]| -> Vec<[Vector; 2]> {
+            (0..places.len()).map(|k| [places[k], places[(k + 1) % places.len()]]).collect()
+        };
+        let (own, of_box) = (sides(&self.corners), sides(&corners));
+        // two convex shapes are apart if a side of one has all of the other beyond it
+        let is_apart = |sides: &[[Vector; 2]], others: &[Vector], places: &[Vector]| {
+            sides.iter().any(|[from, to]| {
+                let across = crate::scene::left(minus(*to, *from));
+                let height = |place: &Vector| dot(across, minus(*place, *from));
+                let [least, most] =
+                    places.iter().map(height).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
+                        [low.min(height), high.max(height)]
+                    });
+                others.iter().all(|place| height(place) > most) || others.iter().all(|place| height(place) < least)
+            })
+        };
+        if !is_apart(&own, &corners, &self.corners) && !is_apart(&of_box, &self.corners, &corners) {
+            return 0.0;
+        }
+        let to_own = corners.iter().flat_map(|place| own.iter().map(|side| from_side(*place, *side)));
+        let to_box = self.corners.iter().flat_map(|place| of_box.iter().map(|side| from_side(*place, *side)));
+        to_own.chain(to_box).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// How far a place is from a side.
+fn from_side(place: Vector, [from, to]: [Vector; 2]) -> f64 {
+    let way = minus(to, from);
+    let square = dot(way, way);
+    let part = if square > 0.0 { (dot(minus(place, from), way) / square).clamp(0.0, 1.0) } else { 0.0 };
+    distance(place, plus(from, times(part, way)))
 }
 
 /// What labels are not to lie on, at one moment (px).
 #[derive(Default)]
 struct Obstacles {
     pins: Vec<Vector>,
+    regions: Vec<Region>,
     /// Places on lines, evenly spread.
     lines: Vec<Vector>,
     strong_lines: Vec<Vector>,
@@ -95,7 +209,21 @@ impl Obstacles {
         let inside = |places: &[Vector]| -> Vec<Vector> {
             places.iter().copied().filter(|place| is_within(*place, [low, high])).collect()
         };
-        Obstacles { pins: inside(&self.pins), lines: inside(&self.lines), strong_lines: inside(&self.strong_lines) }
+        let meets = |region: &&Region| {
+            bounds(region.corners.iter().copied())
+                .is_some_and(|[least, most]| (0..2).all(|part| low[part] <= most[part] && least[part] <= high[part]))
+        };
+        let regions = self
+            .regions
+            .iter()
+            .filter(meets)
+            .map(|Region { frame, corners }| Region { frame: *frame, corners: corners.clone() });
+        Obstacles {
+            pins: inside(&self.pins),
+            regions: regions.collect(),
+            lines: inside(&self.lines),
+            strong_lines: inside(&self.strong_lines),
+        }
     }
 }
 
@@ -127,6 +255,7 @@ impl Picture<'_> {
     pub fn add_label(&mut self, label: &Label, at: Vector, attributes: Option<&str>) {
         self.used.labels = Some(self.letters());
         self.used.has_remarks |= label.kind == Kind::Remark;
+        self.used.has_leaders |= label.has_leader;
         let size = self.letters();
         self.body += &match attributes {
             None => format!("{}\n", label.element(at, size)),
@@ -159,9 +288,11 @@ impl Picture<'_> {
             let near = self.near(&field, &at, half, reach);
             let mut best: Option<(f64, Label)> = None;
             for (own, offset) in offsets(half, reach, kind != Kind::Point) {
-                let label = Label { text: text.clone(), anchor, offset, half, kind };
+                let mut label = Label { text: text.clone(), anchor, offset, half, kind, has_leader: false };
                 let Some(cost) = self.cost(&label, &at, &found, &near) else { continue };
-                let cost = cost + own;
+                let mistaken = label.mistaken(&at, &near);
+                label.has_leader = mistaken > 0.0 || label.is_far(&at, &near);
+                let cost = cost + own + MISTAKEN * mistaken;
                 if best.as_ref().is_none_or(|(least, _)| cost < *least) {
                     best = Some((cost, label));
                 }
@@ -242,9 +373,12 @@ impl Picture<'_> {
             if frame == 0 || !is_own || is_told {
                 continue;
             }
-            let places = node.shapes.iter().flat_map(|shape| shape.path.places());
-            if let Some([low, high]) = bounds(places) {
-                let at = times(0.5, plus(low, high));
+            let places: Vec<Vector> = node.shapes.iter().flat_map(|shape| shape.path.places()).collect();
+            let corners = hull(&places, 1.0 / self.scale);
+            if !corners.is_empty() {
+                // on the body, though that be thin and slanting
+                let sum = corners.iter().copied().fold([0.0; 2], plus);
+                let at = times(1.0 / corners.len() as f64, sum);
                 named.push((Anchor { frame, at }, cut(self.name(node.declaration)), Kind::Body));
             }
         }
@@ -254,6 +388,7 @@ impl Picture<'_> {
     /// What labels are not to lie on.
     fn field(&self, moments: &[&[Pose]]) -> Field {
         let shapes: Vec<Shown> = self.scene.nodes.iter().flat_map(|node| self.shown(node)).collect();
+        let filled: Vec<(usize, Vec<Vector>)> = self.scene.nodes.iter().flat_map(|node| self.filled(node)).collect();
         let count: usize = shapes.iter().map(|shown| shown.places.len()).sum();
         let every = (count * moments.len()).div_ceil(MOST_PLACES).max(1);
         let at = |poses: &&[Pose]| {
@@ -269,9 +404,23 @@ impl Picture<'_> {
                     _ => obstacles.lines.extend(places.iter().step_by(every).copied().map(placed)),
                 }
             }
+            let corners = |(frame, corners): &(usize, Vec<Vector>)| Region {
+                frame: *frame,
+                corners: corners.iter().map(|corner| self.placed(poses[*frame].placed(*corner))).collect(),
+            };
+            obstacles.regions = filled.iter().map(corners).collect();
             obstacles
         };
         Field { moments: moments.iter().map(at).collect(), step: STEP * every as f64 }
+    }
+
+    /// What of a body is filled, by its corners in its frame (m). A ring is not: there is room in it.
+    fn filled(&self, node: &Node) -> Vec<(usize, Vec<Vector>)> {
+        let Place::Fixed(frame) = node.place else { return Vec::new() };
+        let is_filled = |path: &Path| !matches!(path, Path::Lines(contours) if contours.len() != 1);
+        let shapes = node.shapes.iter().filter(|shape| FILLED.contains(&shape.look) && is_filled(&shape.path));
+        let corners = shapes.map(|shape| (frame, hull(&shape.path.places(), 1.0 / self.scale)));
+        corners.filter(|(frame, corners)| *frame > 0 && corners.len() > 2).collect()
     }
 
     /// The pins of a node by their middles, and its lines by places on them.

@@ -60,7 +60,7 @@ pub struct Options {
 /// The mechanism at some moments, the rows of `moments`; of several the last one stands out. Traces are those of the whole motion.
 #[must_use]
 pub fn still(scene: &Scene, motion: &Motion, moments: &Motion, options: &Options) -> String {
-    let mut picture = Picture::new(scene, motion, options);
+    let mut picture = Picture::new(scene, [motion, moments], options);
     let count = moments.len();
     for row in 0..count {
         picture.add_moment(moments, row, row + 1 == count);
@@ -84,7 +84,7 @@ pub fn animated(scene: &Scene, motion: &Motion, options: &Options) -> String {
     if motion.len() < 2 {
         return still(scene, motion, motion, options);
     }
-    let mut picture = Picture::new(scene, motion, options);
+    let mut picture = Picture::new(scene, [motion, motion], options);
     picture.add_motion(motion);
     picture.finish()
 }

@@ -3,7 +3,7 @@
 use super::said::Lines;
 use super::style::{self, Used};
 use super::{Options, Theme};
-use crate::scene::{Anchor, Motion, Pose, Scene, Vector, bounds};
+use crate::scene::{Anchor, Motion, Pen, Pose, Scene, Vector, bounds, distance, is_finite};
 use crate::view::text::{escaped, number};
 use std::fmt::Write;
 
@@ -17,11 +17,14 @@ const WIDTHS: [f64; 2] = [320.0, 800.0];
 const HEIGHTS: [f64; 2] = [220.0, 760.0];
 /// How wide one with a message below it is at least.
 const WIDTH_WITH_MESSAGE: f64 = 480.0;
+/// A trace that is larger than so many times all else that is drawn runs away; as near as this part of that size it is shown.
+const AWAY: f64 = 20.0;
+const AROUND: f64 = 0.35;
 /// Symbols are no larger than this (px), unless the size of the picture is said.
 const LARGEST_UNIT: f64 = 30.0;
 
 /// Pixels in a metre of paper, and millimetres of paper in a pixel.
-const PER_METER: f64 = 96.0 / 0.0254;
+pub(super) const PER_METER: f64 = 96.0 / 0.0254;
 const MILLIMETERS: f64 = 25.4 / 96.0;
 /// Decimals of pixels, and of degrees.
 pub(super) const PIXELS: usize = 2;
@@ -70,8 +73,8 @@ fn degrees_to_cut([width, height]: [f64; 2]) -> usize {
 }
 
 impl<'s> Picture<'s> {
-    pub fn new(scene: &'s Scene, motion: &Motion, options: &'s Options) -> Picture<'s> {
-        let [low, high] = with_traces(scene, motion, options);
+    pub fn new(scene: &'s Scene, [motion, moments]: [&Motion; 2], options: &'s Options) -> Picture<'s> {
+        let [low, high] = framed(scene, motion, moments, options);
         let extent = [high[0] - low[0], high[1] - low[1]].map(|side| side.max(4.0 * scene.unit));
         let is_labelled = options.labels || options.vectors || !scene.remarks.is_empty();
         let margin = if options.forces && !(scene.forces.is_empty() && scene.torques.is_empty()) {
@@ -210,9 +213,32 @@ impl<'s> Picture<'s> {
     }
 }
 
-/// What has to be in the picture: the mechanism and all traces.
-fn with_traces(scene: &Scene, motion: &Motion, options: &Options) -> [Vector; 2] {
-    let own = scene.traces.iter().flat_map(|trace| trace.path(motion));
-    let asked = options.traces.iter().flat_map(|(_, anchor)| motion.path(anchor.frame, anchor.at));
-    bounds(scene.extent.into_iter().chain(own).chain(asked)).unwrap_or(scene.extent)
+/// What has to be in the picture: the mechanism along its motion and at the moments that are shown, and all traces; of those that run
+/// away what is near to all else.
+fn framed(scene: &Scene, motion: &Motion, moments: &Motion, options: &Options) -> [Vector; 2] {
+    let shown = scene.reach(moments).into_iter().flatten();
+    let mut all = bounds(scene.extent.into_iter().chain(shown)).unwrap_or(scene.extent);
+    let own = scene.traces.iter().map(|trace| trace.pen.clone());
+    let pens: Vec<Pen> = own.chain(options.traces.iter().map(|(_, anchor)| Pen::Point(*anchor))).collect();
+    let places = |pen: &Pen| -> Vec<Vector> {
+        let track = motion.track(pen);
+        (0..motion.len()).map(|row| track.in_row(motion, row)).filter(|place| is_finite(*place)).collect()
+    };
+    for pen in pens.iter().filter(|pen| matches!(pen, Pen::Point(_))) {
+        all = bounds(all.into_iter().chain(places(pen))).unwrap_or(all);
+    }
+    let [low, high] = all;
+    let size = distance(low, high);
+    let around =
+        [low, high].into_iter().zip([-1.0, 1.0]).map(|(corner, way)| corner.map(|part| part + way * AROUND * size));
+    let around: Vec<Vector> = around.collect();
+    for pen in pens.iter().filter(|pen| matches!(pen, Pen::Columns { .. })) {
+        let places = places(pen);
+        let is_near =
+            |place: &Vector| (0..2).all(|part| around[0][part] <= place[part] && place[part] <= around[1][part]);
+        let runs_away = bounds(places.iter().copied()).is_some_and(|[low, high]| distance(low, high) > AWAY * size);
+        let near: Vec<Vector> = places.iter().copied().filter(|place| !runs_away || is_near(place)).collect();
+        all = bounds(all.into_iter().chain(near)).unwrap_or(all);
+    }
+    all
 }

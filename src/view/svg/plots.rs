@@ -32,6 +32,12 @@ const OFF: f64 = 0.1;
 /// What changes by less than this, in its unit or as a part of itself, does not change.
 const AT_REST: f64 = 1e-12;
 
+/// What is beyond this many times the range that a column is mostly in runs to infinity, and is shown so far beyond that range; it is in
+/// that range but for this part of the time below it, and above it.
+const FAR: f64 = 40.0;
+const BEYOND: f64 = 0.5;
+const MOSTLY: f64 = 0.08;
+
 /// All of some columns over time (s).
 #[must_use]
 pub fn plots(scene: &Scene, rows: &[f64], plots: &[Plot], options: &Options) -> String {
@@ -64,7 +70,8 @@ pub fn plots(scene: &Scene, rows: &[f64], plots: &[Plot], options: &Options) -> 
 
 /// One plot, whose frame begins so far down and is so wide and high (px).
 fn add_plot(body: &mut String, (k, plot): (usize, &Plot), rows: &[f64], time: &Axis, [top, wide, high]: [f64; 3]) {
-    let values = Axis::of(plot.values.iter().copied(), (high / 28.0).max(2.0), 0.05);
+    let [low_end, high_end] = shown(rows, &plot.values);
+    let values = Axis::of([low_end, high_end].into_iter(), (high / 28.0).max(2.0), 0.05);
     let name = escaped(plot.name);
     let unit = if plot.unit == "1" { String::new() } else { format!(" [{}]", escaped(plot.unit)) };
     let _ = writeln!(body, "<g data-name=\"{name}\"><title>{name}{unit}</title>");
@@ -94,7 +101,9 @@ fn add_plot(body: &mut String, (k, plot): (usize, &Plot), rows: &[f64], time: &A
     );
     let placed = |(t, value): (&f64, &f64)| [LEFT + time.part(*t) * wide, top + (1.0 - values.part(*value)) * high];
     let places: Vec<Vector> = rows.iter().zip(&plot.values).map(placed).collect();
-    let d: String = places.split(|[_, y]| !y.is_finite()).map(stretch).collect();
+    let stretches = places.split(|[_, y]| !y.is_finite());
+    let within = stretches.flat_map(|places| clipped(places, [top, top + high]));
+    let d: String = within.map(|places| stretch(&places)).collect();
     let _ = writeln!(body, "<path class=\"curve t{}\" d=\"{d}\"/>", k % TRACE_COLORS);
     let _ = writeln!(
         body,
@@ -102,6 +111,66 @@ fn add_plot(body: &mut String, (k, plot): (usize, &Plot), rows: &[f64], time: &A
         number(LEFT, 2),
         number(top - 9.0, 2)
     );
+}
+
+/// The least and the greatest value that a plot shows, by values at times: all but what runs to infinity.
+fn shown(rows: &[f64], values: &[f64]) -> [f64; 2] {
+    // each value counts for the time around it
+    let time = |k: usize| {
+        let (before, behind) = (rows[k.saturating_sub(1)], rows[(k + 1).min(rows.len() - 1)]);
+        0.5 * (behind - before)
+    };
+    let finite = rows.iter().zip(values).enumerate().filter(|(_, (_, value))| value.is_finite());
+    let mut weighed: Vec<(f64, f64)> = finite.map(|(k, (_, value))| (*value, time(k))).collect();
+    weighed.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (Some(least), Some(greatest)) = (weighed.first(), weighed.last()) else { return [f64::NAN; 2] };
+    let (least, greatest) = (least.0, greatest.0);
+    let all: f64 = weighed.iter().map(|(_, time)| time).sum();
+    let at_part = |part: f64| {
+        let mut sum = 0.0;
+        let found = weighed.iter().find(|(_, time)| {
+            sum += time;
+            sum >= part * all
+        });
+        found.map_or(greatest, |(value, _)| *value)
+    };
+    let [low, high] = [MOSTLY, 1.0 - MOSTLY].map(at_part);
+    let range = high - low;
+    let is_far = |value: f64| (value - low).abs() > FAR * range && range > AT_REST * low.abs().max(high.abs());
+    [
+        if is_far(least) { least.max(low - BEYOND * range) } else { least },
+        if is_far(greatest) { greatest.min(high + BEYOND * range) } else { greatest },
+    ]
+}
+
+/// The parts of a line (px) that are not above or below its plot.
+fn clipped(places: &[Vector], [top, bottom]: [f64; 2]) -> Vec<Vec<Vector>> {
+    let mut parts: Vec<Vec<Vector>> = Vec::new();
+    let is_in = |[_, y]: Vector| top <= y && y <= bottom;
+    if let [only] = places {
+        return if is_in(*only) { vec![vec![*only]] } else { Vec::new() };
+    }
+    let mut is_open = false;
+    for ends in places.windows(2) {
+        let [from, to] = [ends[0], ends[1]];
+        let rise = to[1] - from[1];
+        let crossings = [top, bottom].map(|y| (y - from[1]) / rise);
+        let [first, last] = [crossings[0].min(crossings[1]), crossings[0].max(crossings[1])];
+        let [first, last] = if rise.abs() > 0.0 { [first.max(0.0), last.min(1.0)] } else { [0.0, 1.0] };
+        if first > last || (rise.abs() <= 0.0 && !is_in(from)) {
+            is_open = false;
+            continue;
+        }
+        let at = |part: f64| if part >= 1.0 { to } else { plus(from, times(part, minus(to, from))) };
+        if !(is_open && first <= 0.0) {
+            parts.push(vec![at(first)]);
+        }
+        if let Some(part) = parts.last_mut() {
+            part.push(at(last));
+        }
+        is_open = last >= 1.0;
+    }
+    parts
 }
 
 /// A line through places (px), without those that it passes anyway; a dot for a single one.

@@ -27,6 +27,8 @@ pub(super) struct Used {
     pub is_named: bool,
     /// Whether a message says something of a place.
     pub has_remarks: bool,
+    /// Whether a line leads from a name to what it names.
+    pub has_leaders: bool,
     /// The size of letters of what is said below (px), if anything is.
     pub said: Option<f64>,
 }
@@ -240,6 +242,9 @@ fn colors(used: &Used, palette: &Palette) -> String {
     }
     if used.labels.is_some() {
         rules += &format!("text{{fill:{ink};stroke:{paper}}}\n");
+    }
+    if used.has_leaders {
+        rules += &format!(".leader{{fill:none;stroke:{ink};stroke-width:1}}\n");
     }
     if used.has_remarks {
         rules += &format!(".remark{{fill:{wrong}}}\n");
