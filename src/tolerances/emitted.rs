@@ -17,7 +17,7 @@ pub mod close {
     /// How often one is made half as long before it is taken as it is.
     pub const MOST_SHORTER: usize = 6;
     /// A correction that is so small, scaled, is the last one.
-    pub const NEAR: f64 = 1e-3;
+    pub const NEAR: f64 = 0.02;
 }
 
 /// Steps (`emit/runtime/step.rs`).

@@ -140,7 +140,7 @@ pub fn look_at_rim<M: Timed>(state: &mut State<M>, rim: usize, t: f64, work: &mu
     if let Some(passed) = state.passed.as_mut().get_mut(rim) {
         *passed = t;
     }
-    let (mut before, mut after) = (state.at().clone(), state.at().clone());
+    let (mut before, mut after) = (*state.at(), *state.at());
     let (mut at, mut distance) = (Solution::ZERO, LEAD * M::SPAN);
     let mut looks = Looks {
         count: 0,

@@ -155,7 +155,7 @@ impl Writer<'_> {
             let changes = self.largest_changes().into_iter().map(literal).collect::<Vec<_>>().join(", ");
             page.line(&format!("const LARGEST_CHANGE: [f64; SIGNALS] = [{changes}];\n"));
             let head = Head { kind: "fn", name: "new", arguments: &[("way", "&Way")], result: "Self" };
-            page.function(&head, |page| Self::making(solution, "way", "way.clone()", page));
+            page.function(&head, |page| Self::making(solution, "way", "*way", page));
             let head = Head { kind: "fn", name: "way", arguments: &[("&self", "")], result: "&Way" };
             page.function(&head, |page| page.line("&self.way"));
             let head = Head { kind: "fn", name: "way_mut", arguments: &[("&mut self", "")], result: "&mut Way" };
