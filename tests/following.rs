@@ -336,6 +336,72 @@ fn main() {
     assert_eq!(lines.len(), 8);
 }
 
+/// What becomes of a four-bar with other parameters: most of all that can be assembled is, by a bounded amount of work, and says how.
+const FAR: &str = r#"
+mod random;
+use random::Random;
+
+fn main() {
+    let mut random = Random::new(7);
+    let (mut led, mut drawn) = (0, 0);
+    for k in 0..300 {
+        let mut length = || random.between(0.1, 0.6);
+        let mut p = Params { r1: length(), r2: length(), r3: length(), r4: length(), start: random.between(-3.0, 3.0) };
+        if k == 0 {
+            p = Params { r1: 0.1, r2: 0.3, r3: 0.4, r4: 0.5, start: -45_f64.to_radians() };
+        }
+        let mut work = Work::default();
+        let state = counted::assemble(&p, &mut work);
+        assert!(work.evaluations <= MOST_WORK_TO_ASSEMBLE, "{p:?}: {work:?}");
+        // the distance that rod and rocker have to span
+        let gap = (p.r1 * p.r1 + p.r2 * p.r2 - 2.0 * p.r1 * p.r2 * p.start.cos()).sqrt();
+        let can_close = gap < 0.98 * (p.r3 + p.r4) && gap > 1.02 * (p.r3 - p.r4).abs() + 0.01;
+        let Ok(state) = state else {
+            assert!(!can_close, "{p:?}");
+            continue;
+        };
+        assert!(phi(state.q(), START_TIME, &p).iter().all(|left| left.abs() < 1e-9), "{p:?}");
+        match state.assembly() {
+            Assembly::Led => led += 1,
+            Assembly::Drawn => {
+                assert!(work.evaluations < 80, "{p:?}: {work:?}");
+                drawn += 1;
+            }
+        }
+        if k == 0 {
+            assert_eq!(state.assembly(), Assembly::Drawn);
+            assert!(work.evaluations <= 40, "{work:?}");
+            println!("{:?}", state.q());
+        }
+    }
+    println!("{led} {drawn}");
+}
+"#;
+
+#[test]
+fn parameters_that_no_short_way_leads_to_are_assembled_as_the_file_draws_them() {
+    let text = fs::read_to_string("tests/emitted/four.mech").expect("a text");
+    let lines = printed(&emitted(&text).text(None), &with_random(FAR));
+    let [led, drawn] = numbers(&lines[1])[..] else { panic!("{lines:?}") };
+    assert!(led > 30.0 && drawn > 30.0, "{led} and {drawn}");
+    // what is set in the text is assembled from there
+    let set = [("0.5 m", "0.1 m"), ("0.25 m", "0.3 m"), ("r3 = 0.45 m", "r3 = 0.4 m"), ("r4 = 0.45 m", "r4 = 0.5 m")];
+    let text = set.into_iter().fold(text, |text, (from, to)| text.replacen(from, to, 1)).replace("70 deg", "-45 deg");
+    let compiled = emitted(&text).compiled;
+    let (rows, _) = all_rows(&compiled, &compiled.times().expect("times"));
+    let q = numbers(&lines[0].replace(['[', ']', ','], " "));
+    for (k, (a, b)) in q.iter().zip(&rows[0][1..]).enumerate() {
+        let turns = if k % 3 == 2 { ((a - b) / std::f64::consts::TAU).round() } else { 0.0 };
+        assert!((a - b - turns * std::f64::consts::TAU).abs() < 1e-12, "{a} is not {b}");
+    }
+}
+
+/// A program with random numbers of its own.
+fn with_random(program: &str) -> String {
+    let random = include_str!("support/random.rs").replace("//!", "//");
+    program.replace("mod random;", &format!("mod random {{\n{random}\n}}"))
+}
+
 /// A five-bar between two motors, of lengths in m, with the angles at which it is drawn.
 fn five_bar([base, left, right, fore]: [f64; 4]) -> String {
     format!(
@@ -435,8 +501,6 @@ fn main() {
 
 #[test]
 fn no_call_does_more_work_than_it_says_and_none_that_is_refused_leaves_a_trace() {
-    let random = include_str!("support/random.rs");
-    let random = random.replace("mod random", "").replace("//!", "//");
     let fields = |names: &[&str]| {
         names.iter().map(|name| format!("wanted.{name} = signal(&mut random, now.{name});")).collect::<String>()
     };
@@ -452,7 +516,7 @@ fn no_call_does_more_work_than_it_says_and_none_that_is_refused_leaves_a_trace()
     ];
     for (number, (text, names)) in texts.into_iter().enumerate() {
         let program = WORK.replace("SIGNALS", &fields(names)).replace("SEED", &number.to_string());
-        let program = program.replace("CALLS", "1500").replace("mod random;", &format!("mod random {{\n{random}\n}}"));
+        let program = with_random(&program.replace("CALLS", "1500"));
         let lines = printed(&emitted(&text).text(None), &program);
         let [refused, on_the_way, most, bound] = numbers(&lines[0])[..] else { panic!("{lines:?}") };
         assert!(refused > 50.0 && on_the_way > 50.0, "{text}: {refused} and {on_the_way}");

@@ -2680,16 +2680,6 @@ impl<M: Solved> Checkpoint<M> {
         Self { t: track.at().t, is_second, is_smooth, stride, other: *track.other(), now: None }
     }
 
-    /// The step that went well then.
-    pub fn stride(&self) -> f64 {
-        self.stride
-    }
-
-    /// Whether a step has been taken since.
-    pub fn has_moved(&self) -> bool {
-        self.now.is_some()
-    }
-
     /// Keeps the solution of then, which stands beside that of now after the first step.
     #[inline]
     pub fn keep(&mut self, track: &Track<M>) {
@@ -4583,7 +4573,7 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         let (mut before, way) = (Checkpoint::of(&self.track), *self.model.way());
         self.model.way_mut().turn(&from, signals);
         self.track.at_mut().t = 0.0;
-        let (goal, stride) = self.unfinished;
+        let ((goal, stride), usual) = (self.unfinished, self.track.stride);
         let goes_on = goal == signals[0];
         if goes_on {
             self.track.stride = stride;
@@ -4597,9 +4587,9 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         }
         if why == Some(Error::TooFar) && !is_whole {
             self.unfinished = (signals[0], self.track.stride);
-            if before.has_moved() {
+            if self.at().t > 0.0 {
                 // what goes well elsewhere is not what goes well here
-                self.track.stride = before.stride();
+                self.track.stride = usual;
                 return Ok(Progress::part(self.at().t, 1.0));
             }
             why = None;

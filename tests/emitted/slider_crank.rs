@@ -1840,16 +1840,6 @@ impl<M: Solved> Checkpoint<M> {
         Self { t: track.at().t, is_second, is_smooth, stride, other: *track.other(), now: None }
     }
 
-    /// The step that went well then.
-    pub fn stride(&self) -> f64 {
-        self.stride
-    }
-
-    /// Whether a step has been taken since.
-    pub fn has_moved(&self) -> bool {
-        self.now.is_some()
-    }
-
     /// Keeps the solution of then, which stands beside that of now after the first step.
     #[inline]
     pub fn keep(&mut self, track: &Track<M>) {

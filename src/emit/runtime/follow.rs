@@ -250,7 +250,7 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         let (mut before, way) = (Checkpoint::of(&self.track), *self.model.way());
         self.model.way_mut().turn(&from, signals);
         self.track.at_mut().t = 0.0;
-        let (goal, stride) = self.unfinished;
+        let ((goal, stride), usual) = (self.unfinished, self.track.stride);
         let goes_on = goal == signals[0];
         if goes_on {
             self.track.stride = stride;
@@ -264,9 +264,9 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         }
         if why == Some(Error::TooFar) && !is_whole {
             self.unfinished = (signals[0], self.track.stride);
-            if before.has_moved() {
+            if self.at().t > 0.0 {
                 // what goes well elsewhere is not what goes well here
-                self.track.stride = before.stride();
+                self.track.stride = usual;
                 return Ok(Progress::part(self.at().t, 1.0));
             }
             why = None;
