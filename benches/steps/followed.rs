@@ -4633,7 +4633,6 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
                         return None;
                     }
                     before.keep(&self.track);
-                    refused = None;
                 }
                 Err(Fault::NotSmooth) => return Some(Error::NotSmooth),
                 Err(fault) => {
@@ -4657,10 +4656,12 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         }
         // so short a step is not refused for its length
         match refused {
-            Some((fault, next, size)) if size < SHORT => match self.explain(fault, next, steepness, work) {
-                Error::Divergence => Some(Error::TooFar),
-                error => Some(error),
-            },
+            Some((fault, next, size)) if size < SHORT && self.track.stride < 4.0 * SHORT => {
+                match self.explain(fault, next, steepness, work) {
+                    Error::Divergence => Some(Error::TooFar),
+                    error => Some(error),
+                }
+            }
             _ => Some(Error::TooFar),
         }
     }
@@ -5016,7 +5017,7 @@ pub const POSITION_JUMP: f64 = 1e-9;
 /// A speed below this part of one per span is rest, scaled.
 pub const REST: f64 = 0.001;
 /// A step that is shorter than this, by a signal's change, is not refused for its length.
-pub const SHORT: f64 = 1e-6;
+pub const SHORT: f64 = 0.0001;
 /// The shortest step, as a part of the way of signals; of a long one, as a change of a signal.
 pub const SHORTEST_STEP: f64 = 1e-12;
 /// Where steps become too small, this is steep enough for a singular position to be the reason.

@@ -71,7 +71,7 @@ pub mod follow {
     /// A dead point that is so near by a signal's change, while a longer step is refused, is not passed.
     pub const NEAREST_TURN: f64 = 1e-6;
     /// A step that is shorter than this, by a signal's change, is not refused for its length.
-    pub const SHORT: f64 = 1e-6;
+    pub const SHORT: f64 = 1e-4;
     /// The shortest step, as a part of the way; of a long one, as a change of a signal.
     pub const SHORTEST_STEP: f64 = 1e-12;
     /// Signals go straight on if the square of what leads aside is no larger part of that of the whole.

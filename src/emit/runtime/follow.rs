@@ -310,7 +310,6 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
                         return None;
                     }
                     before.keep(&self.track);
-                    refused = None;
                 }
                 Err(Fault::NotSmooth) => return Some(Error::NotSmooth),
                 Err(fault) => {
@@ -334,10 +333,12 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         }
         // so short a step is not refused for its length
         match refused {
-            Some((fault, next, size)) if size < SHORT => match self.explain(fault, next, steepness, work) {
-                Error::Divergence => Some(Error::TooFar),
-                error => Some(error),
-            },
+            Some((fault, next, size)) if size < SHORT && self.track.stride < 4.0 * SHORT => {
+                match self.explain(fault, next, steepness, work) {
+                    Error::Divergence => Some(Error::TooFar),
+                    error => Some(error),
+                }
+            }
             _ => Some(Error::TooFar),
         }
     }
