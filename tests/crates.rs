@@ -160,8 +160,15 @@ fn a_folder_is_made_and_what_mechc_wrote_is_replaced() {
     let name = target.to_string_lossy();
     assert_eq!(emit_crate(&[SLIDER_CRANK, "--crate", &name], 0), "");
     let manifest = fs::read_to_string(target.join("Cargo.toml")).unwrap();
-    let wanted =
-        ["Cargo.toml", "README.md", "benches/steps.rs", "src/lib.rs", "src/mechanism.rs", "tests/reference.rs"];
+    let wanted = [
+        "Cargo.toml",
+        "README.md",
+        "benches/steps.rs",
+        "examples/work.rs",
+        "src/lib.rs",
+        "src/mechanism.rs",
+        "tests/reference.rs",
+    ];
     assert_eq!(inside(&target), wanted);
     fs::write(target.join("src/more.rs"), "mine").unwrap();
     emit_crate(&[SLIDER_CRANK, "--crate", &name, "--set", "rod_length=200mm"], 0);
@@ -222,7 +229,15 @@ fn what_an_earlier_crate_has_and_this_one_has_not_is_removed() {
     assert!(fs::read_to_string(&header).unwrap().contains("mechanism trammel"));
     let said = emit_crate(&["examples/trammel.mech", "--crate", &name], 0);
     assert!(said.contains("include/a_crate.h`") && said.contains("src/unsafe_c.rs`"), "{said}");
-    let left = ["Cargo.toml", "README.md", "benches/steps.rs", "include/mine.h", "src/lib.rs", "src/mechanism.rs"];
+    let left = [
+        "Cargo.toml",
+        "README.md",
+        "benches/steps.rs",
+        "examples/work.rs",
+        "include/mine.h",
+        "src/lib.rs",
+        "src/mechanism.rs",
+    ];
     assert_eq!(inside(&target), [&left[..], &["tests/reference.rs"]].concat());
     fs::remove_file(target.join("include/mine.h")).unwrap();
     emit_crate(&[SLIDER_CRANK, "--crate", &name, "--ffi"], 0);

@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use support::{all_rows, compile_number};
 
-const C: [&str; 5] = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-pedantic"];
-const CPP: [&str; 5] = ["-std=c++11", "-Wall", "-Wextra", "-Werror", "-pedantic"];
+const C: [&str; 6] = ["-std=c99", "-Wall", "-Wextra", "-Wconversion", "-Werror", "-pedantic"];
+const CPP: [&str; 6] = ["-std=c++11", "-Wall", "-Wextra", "-Wconversion", "-Werror", "-pedantic"];
 
 /// A mechanism as a crate for C, in a folder of its own.
 struct Crate {
@@ -128,6 +128,7 @@ static double list[M_COLUMNS + 1];
 
 int main(void) {
     double t, value;
+    int32_t assembly;
     HELD
     CHECK(1, m_step(&state, 0.0) == M_NOT_ASSEMBLED);
     CHECK(2, m_assemble(NULLPARAMS_BEHIND) == M_BAD_POINTER);
@@ -142,7 +143,13 @@ int main(void) {
     CHECK(11, m_value(&state, M_COLUMNS, &value) == M_NO_SUCH_COLUMN);
     CHECK(12, m_value(&state, M_COLUMN_T, NULL) == M_BAD_POINTER);
     CHECK(13, m_value(&state, M_COLUMN_T, &value) == M_OK && value == M_START_TIME);
-    CHECK(14, m_step_within(&state, M_START_TIME + 1000 * M_LONGEST_STEP, 0) == M_TOO_FAR);
+    CHECK(14, m_step_within(&state, M_START_TIME + 1000 * M_LONGEST_STEP, 0) == M_ON_THE_WAY);
+    CHECK(16, m_most_work(M_MOST_STEPS) == M_MOST_WORK && M_MOST_WORK_TO_ASSEMBLE < M_MOST_WORK);
+    CHECK(17, m_assembly(&state, &assembly) == M_OK && assembly == M_ASSEMBLY_LED);
+    /* after an error all of a state is as it was */
+    none = state;
+    CHECK(18, m_step(&state, 1e300) == M_TOO_FAR && memcmp(&state, &none, sizeof state) == 0);
+    memset(&none, 0, sizeof none);
     CHECK(15, strlen(m_message(M_LOCK_UP)) > 0 && strlen(m_message(-1)) > 0);
     FOLLOW
     while (scanf("%lf", &t) == 1) {
@@ -165,7 +172,8 @@ const FOLLOW: &str = r"
     {
         m_inputs inputs;
         static double by[M_INPUTS * M_COORDINATES];
-        m_state led = state;
+        m_state led = state, copy;
+        double changes[M_INPUTS];
         CHECK(20, m_inputs_at(NAN, PARAMS_BEFORE&inputs) == M_NOT_A_NUMBER);
         CHECK(21, m_inputs_at(M_START_TIME, PARAMS_BEFORENULL) == M_BAD_POINTER);
         CHECK(22, m_inputs_at(M_START_TIME + 0.01, PARAMS_BEFORE&inputs) == M_OK);
@@ -176,6 +184,14 @@ const FOLLOW: &str = r"
         CHECK(27, m_influence(&led, by, 1) == M_WRONG_LENGTH);
         CHECK(28, m_influence(&led, by, M_INPUTS * M_COORDINATES) == M_OK);
         CHECK(29, m_inputs_of(&led, &inputs) == M_OK && m_step(&state, M_START_TIME) == M_OK);
+        for (int k = 0; k < M_INPUTS; k++) changes[k] = 0.0;
+        CHECK(33, m_set_largest_change(&led, changes, M_INPUTS + 1) == M_WRONG_LENGTH);
+        CHECK(34, m_set_largest_change(&led, changes, M_INPUTS) == M_OK);
+        CHECK(35, m_follow_within(&led, &inputs, 0) == M_ON_THE_WAY && m_follow(&led, &inputs) == M_OK);
+        CHECK(36, m_inputs_at(M_START_TIME + 0.02, PARAMS_BEFORE&inputs) == M_OK);
+        copy = led;
+        CHECK(37, m_follow(&led, &inputs) == M_TOO_FAR && memcmp(&led, &copy, sizeof led) == 0);
+        CHECK(38, M_MOST_WORK_TO_FOLLOW < m_most_work(M_MOST_STEPS_TO_FOLLOW));
     }";
 
 /// Mechanisms with what is rare: odd names, tables, formulas with branches, parts with params and inputs, none at all.

@@ -22,6 +22,7 @@ use runtime::grid::on_grid;
 use runtime::limits::ITERATIONS;
 use runtime::newton::Newton;
 use runtime::pivoting::Pivoting;
+use runtime::pivoting::close;
 use runtime::pivoting::solve_with_pivoting;
 use runtime::sine_and_cosine::sin_cos;
 use runtime::solution::Solved;
@@ -653,6 +654,8 @@ pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {
 
 pub use runtime::error::Error;
 pub use runtime::limits::MOST_STEPS;
+pub use runtime::state::Assembly;
+pub use runtime::work::{Progress, Work};
 
 /// The mechanism at a time.
 pub type State = runtime::state::State<Model>;
@@ -677,36 +680,78 @@ impl State {
     }
 }
 
-/// Brings the mechanism to its first time with some parameters, along the branch that the file's
-/// parameters give.
+/// Evaluations that any call takes at most that is not told how many steps it may take.
+pub const MOST_WORK: usize = most_work(MOST_STEPS);
+
+/// Evaluations that [`assemble`] takes at most.
+pub const MOST_WORK_TO_ASSEMBLE: usize = runtime::assemble::most_work::<Model>();
+
+/// Evaluations that a call takes at most that may take so many steps.
+#[must_use]
+pub const fn most_work(most: usize) -> usize {
+    runtime::step::most_work::<Model>(most)
+}
+
+/// Brings the mechanism to its first time with some parameters: along the branch that the file's
+/// parameters give, where a short way leads there; else from the poses that the file draws with these
+/// parameters, as `mechc run --set` does. [`State::assembly`] says which way it went.
 ///
 /// # Errors
-/// It cannot be assembled with these, or not on that branch.
+/// It cannot be assembled with these.
 pub fn assemble(params: &Params) -> Result<State, Error> {
-    runtime::assemble::assemble(params)
+    counted::assemble(params, &mut Work::default())
 }
 
 /// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
 /// and acceleration are those of the branch that it is on, whichever way `t` lies.
 ///
-/// It takes [`MOST_STEPS`] steps at most, and mostly one; [`step_within`] takes as many as it is
-/// allowed. What a driver does and undoes within a
+/// It takes [`MOST_STEPS`] steps at most, and mostly one: [`MOST_WORK`] evaluations, whatever it is
+/// given. What a driver does and undoes within a
 /// step, by formulas without branches, is not seen: no step is longer than [`LONGEST_STEP`].
 ///
 /// # Errors
-/// Why it cannot get there; the state stays at the last time that it could reach.
+/// Why it cannot get there; the state is then bit for bit as it was.
 pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
-    step_within(t, state, MOST_STEPS)
+    counted::step(t, state, &mut Work::default())
 }
 
-/// As [`step`], in so many steps at most, for those who have a deadline: each solves the equations
-/// about once, and one that has to be made shorter counts as well.
+/// As [`step`], in so many steps at most, for those who have a deadline: [`most_work`] says how many
+/// evaluations that are. A step that has to be made shorter counts as well. What these steps do not
+/// reach is on its way: the same call goes on from there.
 ///
 /// # Errors
-/// Why it cannot get there; the state stays at the last time that it could reach. Where that is
-/// [`Error::TooFar`] the same call goes on from there.
-pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> {
-    runtime::step::step_within(t, state, most)
+/// Why it cannot get there; the state is then bit for bit as it was.
+pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<Progress, Error> {
+    counted::step_within(t, state, most, &mut Work::default())
+}
+
+/// The same functions, which add the evaluations that they do to those of a [`Work`]: for tests of a
+/// deadline, and for tables of what calls cost.
+#[rustfmt::skip]
+pub mod counted {
+    #![allow(clippy::missing_errors_doc)] // they are those of the functions outside
+
+    use super::*;
+
+    /// As [`assemble`](super::assemble).
+    pub fn assemble(params: &Params, work: &mut Work) -> Result<State, Error> {
+        runtime::assemble::assemble(params, work)
+    }
+
+    /// As [`step`](super::step).
+    pub fn step(t: f64, state: &mut State, work: &mut Work) -> Result<(), Error> {
+        runtime::step::step(t, state, MOST_STEPS, work)
+    }
+
+    /// As [`step_within`](super::step_within).
+    pub fn step_within(
+        t: f64,
+        state: &mut State,
+        most: usize,
+        work: &mut Work,
+    ) -> Result<Progress, Error> {
+        runtime::step::step_within(t, state, most, work)
+    }
 }
 
 /// Number of results at a time.
@@ -747,7 +792,7 @@ static START: [f64; N] = [
 ];
 
 /// The mechanism with its parameters.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Model {
     params: Params,
 }
@@ -1352,6 +1397,32 @@ impl Pivoting for Model {
     fn measured(&self, _orders: [&Q; 4], _varied: &[f64; 0], _multipliers: &Q, _t: f64) {}
 }
 
+/// Where the file's poses put the coordinates, roughly: what is not closed yet.
+///
+/// 0 operations.
+fn drawn(_p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    out[2] = -0.061086523819801536;
+    out[3] = 0.007;
+    out[5] = -0.061086523819801536;
+    out[6] = -0.036;
+    out[7] = 0.033;
+    out[8] = 0.45378560551852565;
+    out[9] = -0.034;
+    out[10] = 0.016;
+    out[11] = 0.7155849933176751;
+    out[12] = -0.069;
+    out[13] = -0.0023;
+    out[14] = 0.4886921905584123;
+    out[15] = -0.032;
+    out[16] = -0.016;
+    out[17] = 1.0122909661567112;
+    out[18] = -0.069;
+    out[19] = -0.0023;
+    out[20] = 1.239183768915974;
+    out
+}
+
 impl Timed for Model {
     type Params = Params;
     type Lead = ();
@@ -1373,6 +1444,14 @@ impl Timed for Model {
 
     fn start() -> &'static Q {
         &START
+    }
+
+    fn drawn(&self) -> Q {
+        drawn(&self.params)
+    }
+
+    fn closed(&self, q: &Q, t: f64, work: &mut Work) -> Option<Q> {
+        close(self, q, t, work)
     }
 }
 
@@ -1414,6 +1493,24 @@ pub fn largest<N: Numbers>(values: &N, scales: &N) -> f64 {
 /// The larger one; not a number if one is not.
 pub fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
+}
+
+/// Adds a zero for each value, which one that is not finite turns into no number: all are looked at without a branch for each.
+#[inline(always)]
+#[allow(clippy::inline_always)] // a call would cost more than it does
+pub fn add_zeros<N: Numbers>(values: &N, sums: &mut [f64; 4]) {
+    let chunks = values.as_ref().chunks_exact(4);
+    for value in chunks.remainder() {
+        sums[0] += 0.0 * value;
+    }
+    for chunk in chunks {
+        if let [a, b, c, d] = chunk {
+            sums[0] += 0.0 * a;
+            sums[1] += 0.0 * b;
+            sums[2] += 0.0 * c;
+            sums[3] += 0.0 * d;
+        }
+    }
 }
 
 /// What leads from some numbers to others.
@@ -1507,7 +1604,7 @@ use super::numbers::{Flags, Numbers};
 use core::fmt::Debug;
 
 /// The equations `phi = 0` and what follows from them.
-pub trait Equations: Clone + Debug {
+pub trait Equations: Copy + Debug {
     /// A number for each coordinate, and for each equation.
     type Q: Numbers;
     /// One for each entry of `phi_q` that does not vanish.
@@ -1636,13 +1733,85 @@ impl Measured for () {
 }
 }
 
+pub mod work {
+//! How much work a call does, and how far it comes.
+
+use super::equations::Branches;
+use super::limits::{MOST_BRANCHES, MOST_HALVINGS};
+
+/// Evaluations that a call has done. One is a solution of the equations at a place, with all that is checked there: by the operations
+/// that were written for that, or by elimination with partial pivoting where these lose digits. A look at formulas of time that decide a
+/// branch, or at whether they end, is one too.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// How many there were.
+    pub evaluations: usize,
+}
+
+impl Work {
+    /// Counts some more.
+    pub fn add(&mut self, evaluations: usize) {
+        self.evaluations = self.evaluations.wrapping_add(evaluations);
+    }
+}
+
+/// How far a call has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// The part of the way that is done: 1 at its end, and only there; 0 if the state has not moved yet.
+    pub fraction: f64,
+}
+
+impl Progress {
+    /// The end is reached.
+    pub const REACHED: Self = Self { fraction: 1.0 };
+
+    /// A part of the way, which is not all of it.
+    pub fn part(done: f64, all: f64) -> Self {
+        Self { fraction: f64::min(done / all, 1.0 - f64::EPSILON) }
+    }
+
+    /// Whether the end is reached; if not, the same call goes on from here.
+    #[must_use]
+    pub fn is_reached(self) -> bool {
+        self.fraction >= 1.0
+    }
+}
+
+/// Evaluations that a solution takes at most whose branches of formulas are known: by the operations, by pivoting, and by the operations
+/// once more.
+pub const OF_FINDING: usize = 3;
+
+/// Evaluations that the branches of formulas of time take.
+pub const fn of_sides<M: Branches>() -> usize {
+    if M::OF_TIME { 1 } else { 0 }
+}
+
+/// Evaluations that a solution takes at most.
+pub const fn of_reaching<M: Branches>() -> usize {
+    let branches = if M::OF_MOTION { MOST_BRANCHES } else { 1 };
+    of_sides::<M>() + branches * OF_FINDING
+}
+
+/// Evaluations that the search for the first edge of a step takes at most.
+pub const fn of_edge<M: Branches>() -> usize {
+    (2 + MOST_HALVINGS) * of_sides::<M>()
+}
+
+/// Evaluations that one step takes at most, from the search for its end to the look at both sides of an edge.
+pub const fn of_step<M: Branches>() -> usize {
+    let rounding = 1;
+    of_edge::<M>() + of_reaching::<M>() + rounding + OF_FINDING * of_sides::<M>()
+}
+}
+
 pub mod solution {
 //! What solves the equations at a time, and what that is found by.
 
 use super::equations::{Branches, Checks};
 use super::error::Fault;
 use super::measured::Measured;
-use super::numbers::{Flags, Numbers};
+use super::numbers::{Flags, Numbers, add_zeros};
 use core::fmt::Debug;
 
 /// Equations with the operations that solve them.
@@ -1684,7 +1853,7 @@ pub trait Solved: Branches + Checks {
 }
 
 /// What a motion goes along, with what a solution holds of that.
-pub trait Along<M: Solved>: Clone + Debug {
+pub trait Along<M: Solved>: Copy + Debug {
     /// Nothing is known yet.
     const ZERO: Self;
 
@@ -1710,7 +1879,7 @@ pub trait Along<M: Solved>: Clone + Debug {
 }
 
 /// What solves the equations at a time.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Solution<M: Solved> {
     /// The time (s), or the place on a way.
     pub t: f64,
@@ -1742,6 +1911,14 @@ pub struct Solution<M: Solved> {
     /// One over the smallest pivot, scaled.
     pub steepest: f64,
 }
+
+impl<M: Solved> Clone for Solution<M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M: Solved> Copy for Solution<M> {}
 
 impl<M: Solved> Solution<M> {
     /// Nothing is solved yet.
@@ -1784,9 +1961,102 @@ impl<M: Solved> Solution<M> {
 
     /// Whether all of it is numbers; measures may be none.
     pub fn is_finite(&self) -> bool {
-        let are_finite = |list: &M::Q| list.as_ref().iter().all(|value| value.is_finite());
-        let lists = are_finite(&self.q) && are_finite(&self.qd) && are_finite(&self.qdd);
-        lists && self.along.slopes().iter().all(are_finite)
+        let mut sums = [0.0; 4];
+        add_zeros(&self.q, &mut sums);
+        add_zeros(&self.qd, &mut sums);
+        add_zeros(&self.qdd, &mut sums);
+        for slopes in self.along.slopes() {
+            add_zeros(slopes, &mut sums);
+        }
+        sums == [0.0; 4]
+    }
+}
+}
+
+pub mod track {
+//! Where something is on its way.
+
+use super::solution::{Solution, Solved};
+
+/// The solution of now, and the one before it or the next one in the making.
+#[derive(Clone, Copy, Debug)]
+pub struct Track<M: Solved> {
+    pub(super) solutions: [Solution<M>; 2],
+    /// Whether that of now is the second.
+    pub(super) is_second: bool,
+    /// Whether the one before lies on the same smooth motion.
+    pub(super) is_smooth: bool,
+    /// The step that goes well: a time (s), or a change of a signal.
+    pub(super) stride: f64,
+}
+
+impl<M: Solved> Track<M> {
+    /// The solution of now.
+    #[inline]
+    pub fn at(&self) -> &Solution<M> {
+        let [first, second] = &self.solutions;
+        if self.is_second { second } else { first }
+    }
+
+    /// The same, to be written.
+    #[inline]
+    pub fn at_mut(&mut self) -> &mut Solution<M> {
+        let [first, second] = &mut self.solutions;
+        if self.is_second { second } else { first }
+    }
+
+    /// The one before, or the next one in the making.
+    #[inline]
+    pub fn other(&self) -> &Solution<M> {
+        let [first, second] = &self.solutions;
+        if self.is_second { first } else { second }
+    }
+
+    /// Both: that of now, and the other one, to be written.
+    #[inline]
+    pub fn both(&mut self) -> (&Solution<M>, &mut Solution<M>) {
+        let [first, second] = &mut self.solutions;
+        if self.is_second { (second, first) } else { (first, second) }
+    }
+}
+
+/// What a track was before a call, which an error gives back bit for bit.
+pub struct Checkpoint<M: Solved> {
+    /// The time or place of the solution of then.
+    t: f64,
+    is_second: bool,
+    is_smooth: bool,
+    stride: f64,
+    other: Solution<M>,
+    /// The solution of then, once a second step is about to write over it.
+    now: Option<Solution<M>>,
+}
+
+impl<M: Solved> Checkpoint<M> {
+    /// What a track is now.
+    #[inline]
+    pub fn of(track: &Track<M>) -> Self {
+        let Track { is_second, is_smooth, stride, .. } = *track;
+        Self { t: track.at().t, is_second, is_smooth, stride, other: *track.other(), now: None }
+    }
+
+    /// Keeps the solution of then, which stands beside that of now after the first step.
+    #[inline]
+    pub fn keep(&mut self, track: &Track<M>) {
+        if self.now.is_none() {
+            self.now = Some(*track.other());
+        }
+    }
+
+    /// Gives back what was.
+    #[cold]
+    pub fn restore(&self, track: &mut Track<M>) {
+        (track.is_second, track.is_smooth, track.stride) = (self.is_second, self.is_smooth, self.stride);
+        if let Some(now) = self.now {
+            *track.at_mut() = now;
+        }
+        track.at_mut().t = self.t;
+        *track.both().1 = self.other;
     }
 }
 }
@@ -1994,10 +2264,12 @@ use super::equations::Branches;
 use super::limits::{MOST_HALVINGS, SLACK};
 use super::neighbours::{bisect, shortly_after};
 use super::solution::{Along, Solution, Solved};
+use super::work::{Work, of_sides};
 
 /// The branches of formulas of time at a time: the later ones where they change just then, but at the end of the file's analysis
 /// the earlier ones.
-pub fn sides_at<M: Branches>(t: f64, m: &M) -> M::Sides {
+pub fn sides_at<M: Branches>(t: f64, m: &M, work: &mut Work) -> M::Sides {
+    work.add(of_sides::<M>());
     match M::END {
         Some(end) if t <= end && shortly_after(t, SLACK) >= end => {
             m.sides_of_time(end - 2.0 * (shortly_after(end, SLACK) - end))
@@ -2007,18 +2279,18 @@ pub fn sides_at<M: Branches>(t: f64, m: &M) -> M::Sides {
 }
 
 /// The first time of a step at which formulas of time take other branches than at its beginning; its end if they do not.
-pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M) -> f64 {
-    let here = sides_at(from, m);
-    if sides_at(to, m) == here {
+pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M, work: &mut Work) -> f64 {
+    let here = sides_at(from, m, work);
+    if sides_at(to, m, work) == here {
         return to;
     }
-    let [_, edge] = bisect([from, to], MOST_HALVINGS, |t| sides_at(t, m) == here);
+    let [_, edge] = bisect([from, to], MOST_HALVINGS, |t| sides_at(t, m, work) == here);
     edge
 }
 
 /// The branches at a position that is next to one that is looked for.
-pub fn sides_near<M: Branches>(q: &M::Q, t: f64, m: &M) -> M::Sides {
-    m.sides_of_motion(q, t, &sides_at(t, m))
+pub fn sides_near<M: Branches>(q: &M::Q, t: f64, m: &M, work: &mut Work) -> M::Sides {
+    m.sides_of_motion(q, t, &sides_at(t, m, work))
 }
 
 /// The branches with those of time exchanged.
@@ -2049,6 +2321,7 @@ use super::limits::{ACCURACY, MOST_BRANCHES, STEEP, STEEPEST};
 use super::measured::Measured;
 use super::numbers::{larger, largest};
 use super::solution::{Along, Solution, Solved};
+use super::work::Work;
 
 /// Solves at a time, from a guess; `from` is where the motion comes from.
 pub fn reach<M: Solved>(
@@ -2057,15 +2330,16 @@ pub fn reach<M: Solved>(
     t: f64,
     m: &M,
     at: &mut Solution<M>,
+    work: &mut Work,
 ) -> Result<(), Fault> {
-    let of_time = sides_at(t, m);
+    let of_time = sides_at(t, m, work);
     if !M::OF_MOTION {
-        return find(guess, from, t, m, &of_time, at);
+        return find(guess, from, t, m, &of_time, at, work);
     }
     let mut sides = from.sides;
     for _ in 0..MOST_BRANCHES {
         sides = with_time::<M>(&sides, &of_time);
-        find(guess, from, t, m, &sides, at)?;
+        find(guess, from, t, m, &sides, at, work)?;
         let now = sides_ahead(at, m);
         if now == sides {
             return Ok(());
@@ -2083,9 +2357,12 @@ pub fn find<M: Solved>(
     m: &M,
     sides: &M::Sides,
     at: &mut Solution<M>,
+    work: &mut Work,
 ) -> Result<(), Fault> {
+    work.add(1);
     m.solve(guess, t, sides, at);
     if !at.is_settled || !at.holds {
+        work.add(2);
         find_with_pivoting(from, t, m, sides, at)?;
     }
     if !m.conditions_hold(&at.q, t, sides) {
@@ -2151,6 +2428,7 @@ pub fn stays_on_branch<M: Solved>(
     m: &M,
     is_wanted: bool,
     steepness: f64,
+    work: &mut Work,
 ) -> bool {
     let steepest = at.steepest / steepness;
     if at.watched != from.watched || at.is_negative != from.is_negative || steepest > STEEPEST {
@@ -2159,7 +2437,11 @@ pub fn stays_on_branch<M: Solved>(
     if steepest > STEEP {
         at.measures.leave_varied_out();
     }
-    let is_in_doubt = is_wanted && steepest > STEEP && steepest * rounding(at, m) > ACCURACY;
+    if !is_wanted || steepest <= STEEP {
+        return true;
+    }
+    work.add(1);
+    let is_in_doubt = steepest * rounding(at, m) > ACCURACY;
     !is_in_doubt
 }
 }
@@ -2172,6 +2454,8 @@ use super::limits::{AHEAD, FARTHEST_AHEAD, LONGEST_AHEAD};
 use super::measured::Measured;
 use super::numbers::{Numbers, largest, predicted};
 use super::solution::{Along, Solution, Solved};
+use super::track::Track;
+use super::work::Work;
 use core::fmt::Debug;
 
 /// What can be set of a mechanism.
@@ -2203,6 +2487,8 @@ pub trait Timed: Solved<Along = Time> {
     const LONGEST_STEP: f64;
     /// The shortest step (s).
     const SMALLEST_STEP: f64;
+    /// Evaluations that the rims of a step take at most.
+    const WORK_OF_RIMS: usize = 0;
 
     /// The mechanism with some parameters.
     fn new(params: &Self::Params) -> Self;
@@ -2213,38 +2499,52 @@ pub trait Timed: Solved<Along = Time> {
     /// The assembled position with the file's parameters.
     fn start() -> &'static Self::Q;
 
+    /// Where the file's poses put the coordinates with its parameters, roughly: what is not closed yet.
+    fn drawn(&self) -> Self::Q;
+
+    /// Solves at a place from far away; nothing where that does not arrive, or blocks are too large for it.
+    fn closed(&self, _q: &Self::Q, _t: f64, _work: &mut Work) -> Option<Self::Q> {
+        None
+    }
+
     /// The first rim of a step that was not looked at yet, with its time.
-    fn first_rim(&self, _from: f64, _to: f64, _passed: &Self::Passed) -> Option<(usize, f64)> {
+    fn first_rim(&self, _from: f64, _to: f64, _passed: &Self::Passed, _work: &mut Work) -> Option<(usize, f64)> {
         None
     }
 
     /// Looks at both sides of a rim next to the state.
-    fn look_at_rim(_state: &mut State<Self>, _rim: usize, _t: f64) -> Result<(), Error> {
+    fn look_at_rim(_state: &mut State<Self>, _rim: usize, _t: f64, _work: &mut Work) -> Result<(), Error> {
         Ok(())
     }
 }
 
 /// What leads a mechanism by its inputs.
-pub trait Lead<M: Timed>: Clone + Debug {
+pub trait Lead<M: Timed>: Copy + Debug {
+    /// Evaluations that taking up the time takes at most beside its steps, and each of these.
+    const WORK: [usize; 2];
+
     /// Nothing is led yet.
     fn new(params: &M::Params) -> Self;
 
     /// Whether inputs have led to where the mechanism is, rather than the time.
     fn is_leading(&self) -> bool;
 
-    /// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its time.
-    fn take_up_time(state: &mut State<M>, most: usize) -> Result<(), Error>;
+    /// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its time, in so many steps at most;
+    /// gives how many of them are left, or nothing where it is still on its way.
+    fn take_up_time(state: &mut State<M>, most: usize, work: &mut Work) -> Result<Option<usize>, Error>;
 }
 
 impl<M: Timed> Lead<M> for () {
+    const WORK: [usize; 2] = [0, 0];
+
     fn new(_: &M::Params) -> Self {}
 
     fn is_leading(&self) -> bool {
         false
     }
 
-    fn take_up_time(_: &mut State<M>, _: usize) -> Result<(), Error> {
-        Ok(())
+    fn take_up_time(_: &mut State<M>, most: usize, _: &mut Work) -> Result<Option<usize>, Error> {
+        Ok(Some(most))
     }
 }
 
@@ -2267,20 +2567,26 @@ impl<M: Timed> Along<M> for Time {
     }
 }
 
+/// How a mechanism was assembled with its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Assembly {
+    /// It was led from the assembled position of the file's own parameters, along its branch.
+    Led,
+    /// No way led there: the equations were solved from the poses that the file draws with these parameters, as `mechc run --set` does.
+    /// It may be another branch.
+    Drawn,
+}
+
 /// A mechanism at a time.
 #[derive(Clone, Debug)]
 pub struct State<M: Timed> {
     pub(super) model: M,
-    /// The solution of now and the one before, or the next one in the making.
-    pub(super) solutions: [Solution<M>; 2],
-    /// Whether that of now is the second.
-    pub(super) is_second: bool,
-    /// Whether the one before lies on the same smooth motion.
-    pub(super) is_smooth: bool,
+    /// Where it is along the time.
+    pub(super) track: Track<M>,
     /// How much steeper these parameters make the equations than the file's.
     pub(super) steepness: f64,
-    /// The step that goes well (s).
-    pub(super) step: f64,
+    /// How it was assembled.
+    pub(super) assembly: Assembly,
     /// What leads by inputs.
     pub(super) lead: M::Lead,
     /// By rim: the time at which it was looked at last (s).
@@ -2290,8 +2596,13 @@ pub struct State<M: Timed> {
 impl<M: Timed> State<M> {
     /// The solution of now.
     pub(super) fn at(&self) -> &Solution<M> {
-        let [first, second] = &self.solutions;
-        if self.is_second { second } else { first }
+        self.track.at()
+    }
+
+    /// How it was assembled with its parameters.
+    #[must_use]
+    pub fn assembly(&self) -> Assembly {
+        self.assembly
     }
 
     /// The time (s).
@@ -2358,64 +2669,118 @@ pub mod assemble {
 
 use super::branches::sides_near;
 use super::error::{Error, Fault};
-use super::limits::{LARGEST_CORRECTION, MOST_PARTS, SMALLEST_PART};
+use super::limits::{FIRST_PARTS, LARGEST_CORRECTION, MOST_PARTS, MOST_SHORTER, MOST_TRIALS, SMALLEST_PART};
 use super::numbers::Numbers;
 use super::reach::reach;
 use super::solution::Solution;
-use super::state::{Lead, Parameters, State, Timed};
+use super::state::{Assembly, Lead, Parameters, State, Timed};
+use super::track::Track;
+use super::work::{Work, of_reaching, of_sides};
 
-/// Brings the mechanism to its first time with some parameters, along the branch that the file's parameters give.
-pub fn assemble<M: Timed>(params: &M::Params) -> Result<State<M>, Error> {
+/// Evaluations that it takes at most.
+pub const fn most_work<M: Timed>() -> usize {
+    let of_start = of_sides::<M>() + of_reaching::<M>();
+    (2 + FIRST_PARTS + MOST_PARTS) * (of_start + of_sides::<M>() + 1)
+        + of_sides::<M>()
+        + (1 + MOST_SHORTER) * MOST_TRIALS
+}
+
+/// Brings the mechanism to its first time with some parameters: along the branch that the file's parameters give where a short way
+/// leads there, else from the poses that the file draws with these parameters, and only then along a long way.
+pub fn assemble<M: Timed>(params: &M::Params, work: &mut Work) -> Result<State<M>, Error> {
     if !params.is_finite() {
         return Err(Error::NotANumber);
     }
-    let file = M::Params::default();
-    let mut at = Solution::ZERO;
-    start(M::start(), &M::new(&file), &mut at).map_err(Fault::at_start)?;
-    let mut found = at.clone();
-    let usual = at.steepest;
-    let mut why = Error::Divergence;
-    // the part of the way from the file's parameters to those that are wanted
-    let (mut done, mut part) = (0.0, 1.0);
-    for _ in 0..MOST_PARTS {
-        let next = f64::min(done + part, 1.0);
-        let params = if next < 1.0 { file.towards(params, next) } else { *params };
-        let model = M::new(&params);
-        let result = start(&at.q, &model, &mut found);
-        if result.is_ok() && found.is_negative == at.is_negative {
-            if next >= 1.0 {
-                let ratio = found.steepest / usual;
-                let mut passed = M::Passed::ZERO;
-                passed.as_mut().fill(f64::NEG_INFINITY);
-                return Ok(State {
-                    steepness: if ratio > 0.0 { ratio } else { 1.0 },
-                    lead: M::Lead::new(&params),
-                    model,
-                    solutions: [found, at],
-                    is_second: false,
-                    is_smooth: false,
-                    step: M::LONGEST_STEP,
-                    passed,
-                });
+    let mut way = Way::<M>::new(work)?;
+    let model = M::new(params);
+    match way.lead(params, FIRST_PARTS, work) {
+        Ok(at) => return Ok(way.state(model, at, Assembly::Led)),
+        Err(Error::NotANumber) => return Err(Error::NotANumber),
+        Err(_) => {}
+    }
+    let mut at = way.at;
+    let drawn = model.closed(&model.drawn(), M::START_TIME, work);
+    if drawn.is_some_and(|q| start(&q, &model, &mut at, work).is_ok()) {
+        return Ok(way.state(model, at, Assembly::Drawn));
+    }
+    let at = way.lead(params, MOST_PARTS, work)?;
+    Ok(way.state(model, at, Assembly::Led))
+}
+
+/// The way from the file's parameters to others.
+struct Way<M: Timed> {
+    /// How steep the equations are with the file's.
+    usual: f64,
+    /// The solution where it has come to.
+    at: Solution<M>,
+    /// The part that is done, and the next one that is tried.
+    done: f64,
+    part: f64,
+}
+
+impl<M: Timed> Way<M> {
+    /// Its beginning.
+    fn new(work: &mut Work) -> Result<Self, Error> {
+        let mut at = Solution::ZERO;
+        start(M::start(), &M::new(&M::Params::default()), &mut at, work).map_err(Fault::at_start)?;
+        Ok(Self { usual: at.steepest, at, done: 0.0, part: 1.0 })
+    }
+
+    /// Goes on to the end, in so many trials at most.
+    fn lead(&mut self, params: &M::Params, most: usize, work: &mut Work) -> Result<Solution<M>, Error> {
+        let (file, mut found, mut why) = (M::Params::default(), self.at, Error::Divergence);
+        for _ in 0..most {
+            let next = f64::min(self.done + self.part, 1.0);
+            let is_last = next >= 1.0;
+            let params = if is_last { *params } else { file.towards(params, next) };
+            let model = M::new(&params);
+            let is_far = self.part < 1.0 && is_far(&self.at.q, &model, &mut found, work);
+            let result = if is_far { Err(Fault::TooFar) } else { start(&self.at.q, &model, &mut found, work) };
+            if result.is_ok() && found.is_negative == self.at.is_negative {
+                if is_last {
+                    return Ok(found);
+                }
+                (self.at, self.done, self.part) = (found, next, 2.0 * self.part);
+            } else {
+                why = result.err().map_or(Error::Divergence, Fault::at_start);
+                self.part *= 0.5;
             }
-            at.clone_from(&found);
-            (done, part) = (next, 2.0 * part);
-        } else {
-            why = result.err().map_or(Error::Divergence, Fault::at_start);
-            part *= 0.5;
+            if self.part < SMALLEST_PART {
+                break;
+            }
         }
-        if part < SMALLEST_PART {
-            break;
+        Err(why)
+    }
+
+    /// The state at a solution.
+    fn state(&self, model: M, at: Solution<M>, assembly: Assembly) -> State<M> {
+        let ratio = at.steepest / self.usual;
+        let mut passed = M::Passed::ZERO;
+        passed.as_mut().fill(f64::NEG_INFINITY);
+        State {
+            steepness: if ratio > 0.0 { ratio } else { 1.0 },
+            lead: M::Lead::new(model.params()),
+            model,
+            track: Track { solutions: [at, self.at], is_second: false, is_smooth: false, stride: M::LONGEST_STEP },
+            assembly,
+            passed,
         }
     }
-    Err(why)
+}
+
+/// Whether a position is too far away to solve from, by the operations alone: to try harder costs many times as much.
+fn is_far<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>, work: &mut Work) -> bool {
+    let sides = sides_near(q, M::START_TIME, m, work);
+    work.add(1);
+    m.solve(&M::tears(q), M::START_TIME, &sides, at);
+    !at.is_settled && at.first > LARGEST_CORRECTION
 }
 
 /// Solves at the first time, from a position nearby.
-fn start<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>) -> Result<(), Fault> {
+fn start<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>, work: &mut Work) -> Result<(), Fault> {
     let mut near = Solution::near(q, M::START_TIME);
-    near.sides = sides_near(q, M::START_TIME, m);
-    reach(&M::tears(q), &near, M::START_TIME, m, at)?;
+    near.sides = sides_near(q, M::START_TIME, m, work);
+    reach(&M::tears(q), &near, M::START_TIME, m, at, work)?;
     if at.first <= LARGEST_CORRECTION { Ok(()) } else { Err(Fault::TooFar) }
 }
 }
@@ -2424,15 +2789,17 @@ pub mod explain {
 //! Why a motion cannot go on.
 
 use super::branches::sides_at;
+use super::equations::Branches;
 use super::error::{Error, Fault};
 use super::limits::{NEAR_FOLD, SINGULAR};
 use super::solution::{Solution, Solved};
 use super::state::{State, Timed};
+use super::work::{Work, of_sides};
 
 /// Why even the shortest step from a state towards a time is refused.
-pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64) -> Error {
+pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64, work: &mut Work) -> Error {
     let at = state.at();
-    if let Some(error) = regular(at, fault, t, &state.model) {
+    if let Some(error) = regular(at, fault, t, &state.model, work) {
         return error;
     }
     if at.steepest < SINGULAR * state.steepness {
@@ -2442,14 +2809,20 @@ pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64) -> Error {
     meeting(if t < at.t { -left } else { left }, M::SPAN)
 }
 
+/// Evaluations that it takes to tell why, at most.
+pub const fn of_regular<M: Branches>() -> usize {
+    1 + 2 * of_sides::<M>()
+}
+
 /// Why it is, if that has nothing to do with how near the position is to a singular one.
-pub fn regular<M: Solved>(at: &Solution<M>, fault: Fault, t: f64, m: &M) -> Option<Error> {
+pub fn regular<M: Solved>(at: &Solution<M>, fault: Fault, t: f64, m: &M, work: &mut Work) -> Option<Error> {
+    work.add(1);
     let values = m.phi(&at.q, t, &at.sides);
     if fault == Fault::NotANumber || values.as_ref().iter().any(|value| !value.is_finite()) {
         return Some(Error::NotANumber);
     }
     // a position that jumps far is not even found on the other side
-    let is_at_edge = || sides_at(at.t, m) != sides_at(t, m);
+    let mut is_at_edge = || sides_at(at.t, m, work) != sides_at(t, m, work);
     let jumps = fault == Fault::NotSmooth || (fault == Fault::TooFar && is_at_edge());
     jumps.then_some(Error::NotSmooth)
 }
@@ -2475,7 +2848,7 @@ pub mod step {
 
 use super::branches::first_edge;
 use super::error::{Error, Fault};
-use super::explain::explain;
+use super::explain::{explain, of_regular};
 use super::hermite::bend_ahead;
 use super::limits::{
     CALM_BETWEEN, CALM_CORRECTION, CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD,
@@ -2485,79 +2858,151 @@ use super::numbers::{Numbers, difference, largest};
 use super::reach::{find, reach, stays_on_branch};
 use super::solution::{Solution, Solved};
 use super::state::{Lead, State, Timed};
+use super::track::Checkpoint;
+use super::work::{Progress, Work, of_step};
 
-/// Moves a state to time `t` (s) in so many steps at most, each as short as the motion asks for: position, velocity and acceleration
-/// are those of the branch that it is on, whichever way `t` lies.
-pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize) -> Result<(), Error> {
+/// Evaluations that a call of so many steps takes at most.
+pub const fn most_work<M: Timed>(most: usize) -> usize {
+    let [of_lead, of_its_step] = M::Lead::WORK;
+    let of_step = of_step::<M>() + M::WORK_OF_RIMS;
+    let of_step = if of_its_step > of_step { of_its_step } else { of_step };
+    most.saturating_mul(of_step).saturating_add(of_lead + of_regular::<M>())
+}
+
+/// Moves a state to time `t` (s), in so many steps at most, each as short as the motion asks for: position, velocity and acceleration
+/// are those of the branch that it is on, whichever way `t` lies. After an error the state is as it was; what so many steps do not
+/// reach is one.
+pub fn step<M: Timed>(t: f64, state: &mut State<M>, most: usize, work: &mut Work) -> Result<(), Error> {
+    let is_beyond = (t - state.at().t).abs() > M::LONGEST_STEP * most as f64;
+    if is_beyond && t.is_finite() {
+        return Err(Error::TooFar);
+    }
+    go(t, state, most, true, work).map(|_| ())
+}
+
+/// The same, but what so many steps do not reach is on its way.
+pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize, work: &mut Work) -> Result<Progress, Error> {
+    go(t, state, most, false, work)
+}
+
+fn go<M: Timed>(t: f64, state: &mut State<M>, most: usize, is_whole: bool, work: &mut Work) -> Result<Progress, Error> {
     if !(t - state.at().t).is_finite() {
         return Err(Error::NotANumber);
     }
-    if state.is_led() {
-        M::Lead::take_up_time(state, most)?;
+    if state.is_led() { take_up(t, state, most, is_whole, work) } else { march(t, state, most, is_whole, work) }
+}
+
+/// Goes on by the time from where inputs have led.
+#[cold]
+#[inline(never)]
+fn take_up<M: Timed>(
+    t: f64,
+    state: &mut State<M>,
+    most: usize,
+    is_whole: bool,
+    work: &mut Work,
+) -> Result<Progress, Error> {
+    let (lead, track) = (state.lead, state.track);
+    let result = match M::Lead::take_up_time(state, most, work) {
+        Ok(Some(left)) => march(t, state, left, is_whole, work),
+        Ok(None) if is_whole => Err(Error::TooFar),
+        Ok(None) => Ok(Progress { fraction: 0.0 }),
+        Err(error) => Err(error),
+    };
+    if result.is_err() {
+        (state.lead, state.track) = (lead, track);
     }
+    result
+}
+
+/// Steps from time to time.
+fn march<M: Timed>(
+    t: f64,
+    state: &mut State<M>,
+    most: usize,
+    is_whole: bool,
+    work: &mut Work,
+) -> Result<Progress, Error> {
+    let (mut before, passed, from) = (Checkpoint::of(&state.track), state.passed, state.at().t);
+    let mut why = Error::TooFar;
     for _ in 0..most {
         let now = state.at().t;
         let left = t - now;
         if left == 0.0 {
-            return Ok(());
+            return Ok(Progress::REACHED);
         }
-        let wanted = if state.step >= CRUMB * left.abs() { t } else { now + state.step.copysign(left) };
+        let stride = state.track.stride;
+        let wanted = if stride >= CRUMB * left.abs() { t } else { now + stride.copysign(left) };
         // what is fast may be over before the step's end
-        let edge = first_edge(now, wanted, &state.model);
-        let next = match state.model.first_rim(now, edge, &state.passed) {
+        let edge = first_edge(now, wanted, &state.model, work);
+        let next = match state.model.first_rim(now, edge, &state.passed, work) {
             None => edge,
             Some((rim, at)) => {
                 let before = at - (LEAD * M::SPAN).copysign(left);
                 if (before - now) * left <= 0.0 {
-                    M::look_at_rim(state, rim, at)?;
+                    if let Err(error) = M::look_at_rim(state, rim, at, work) {
+                        why = error;
+                        break;
+                    }
                     continue;
                 }
                 before
             }
         };
         let (is_last, size) = (next == t, (next - now).abs());
-        match advance(state, next, is_last) {
+        match advance(state, next, is_last, work) {
             Ok(is_calm) => {
-                let longest = if is_calm { state.step.max(2.0 * size) } else { state.step.min(size) };
-                state.step = longest.min(M::LONGEST_STEP);
+                let longest = if is_calm { stride.max(2.0 * size) } else { stride.min(size) };
+                state.track.stride = longest.min(M::LONGEST_STEP);
                 if is_last {
-                    return Ok(());
+                    return Ok(Progress::REACHED);
                 }
+                before.keep(&state.track);
             }
             Err(fault) => {
-                state.step = 0.5 * size;
-                state.is_smooth = false;
-                if state.step < M::SMALLEST_STEP || now + state.step == now {
-                    state.step = M::SMALLEST_STEP;
-                    return Err(explain(state, fault, next));
+                let half = 0.5 * size;
+                (state.track.stride, state.track.is_smooth) = (half, false);
+                if half < M::SMALLEST_STEP || now + half == now {
+                    why = explain(state, fault, next, work);
+                    break;
                 }
             }
         }
     }
-    if state.at().t == t { Ok(()) } else { Err(Error::TooFar) }
+    let now = state.at().t;
+    if now == t {
+        return Ok(Progress::REACHED);
+    }
+    if why == Error::TooFar && !is_whole {
+        return Ok(Progress::part(now - from, t - from));
+    }
+    before.restore(&mut state.track);
+    state.passed = passed;
+    Err(why)
 }
 
 /// One step to a time; says whether a longer one would do as well.
-fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool) -> Result<bool, Fault> {
-    let [first, second] = &mut state.solutions;
-    let (from, at) = if state.is_second { (second, first) } else { (first, second) };
-    let (from, m) = (&*from, &state.model);
+fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool, work: &mut Work) -> Result<bool, Fault> {
+    let is_smooth = state.track.is_smooth;
+    let (from, at) = state.track.both();
+    let m = &state.model;
     let h = t - from.t;
     let (v, a) = (M::tears(&from.qd), M::tears(&from.qdd));
-    let mut way = if state.is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
+    let mut way = if is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
     for (way, (v, a)) in way.as_mut().iter_mut().zip(v.as_ref().iter().zip(a.as_ref())) {
         // Taylor
         *way += h * (v + 0.5 * h * a);
     }
-    let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, h))?;
-    if !stays_on_branch(from, at, m, is_wanted, state.steepness) {
+    let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, h), work)?;
+    if !stays_on_branch(from, at, m, is_wanted, state.steepness, work) {
         return Err(Fault::Singular);
     }
-    if M::OF_TIME && at.sides != from.sides && jumps(from, at, m) {
+    if M::OF_TIME && at.sides != from.sides && jumps(from, at, m, work) {
         return Err(Fault::NotSmooth);
     }
-    state.is_smooth = at.sides == from.sides;
-    state.is_second = !state.is_second;
+    let is_smooth = at.sides == from.sides;
+    state.track.is_smooth = is_smooth;
+    state.track.is_second = !state.track.is_second;
     Ok(is_calm)
 }
 
@@ -2570,6 +3015,7 @@ pub fn tried<M: Solved>(
     m: &M,
     at: &mut Solution<M>,
     gap: impl FnOnce(&Solution<M>) -> f64,
+    work: &mut Work,
 ) -> Result<bool, Fault> {
     // what is not a number is not small either
     let is_short = largest(way, M::tear_scales()) <= LARGEST_MOTION;
@@ -2580,7 +3026,7 @@ pub fn tried<M: Solved>(
     for (guess, way) in guess.as_mut().iter_mut().zip(way.as_ref()) {
         *guess += *way;
     }
-    reach(&guess, from, t, m, at)?;
+    reach(&guess, from, t, m, at, work)?;
     let gap = gap(at);
     let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
     if !is_near {
@@ -2624,9 +3070,9 @@ fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears 
 
 /// Whether position or velocity differ on the two sides of a time at which formulas change their branches: `at` is the later side, and
 /// `from` has the branches of the earlier one.
-fn jumps<M: Timed>(from: &Solution<M>, at: &Solution<M>, m: &M) -> bool {
-    let mut before = at.clone();
-    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before).is_err() {
+fn jumps<M: Timed>(from: &Solution<M>, at: &Solution<M>, m: &M, work: &mut Work) -> bool {
+    let mut before = *at;
+    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before, work).is_err() {
         return true;
     }
     let (way, change) = (difference(&at.q, &before.q), difference(&at.qd, &before.qd));
@@ -2804,11 +3250,13 @@ pub mod pivoting {
 //! Solving by elimination with partial pivoting, where the order that `solve` has loses digits.
 
 use super::blocks::{self, Blocks};
+use super::branches::sides_near;
 use super::error::Fault;
 use super::grid::{bound_at_first, going_on, next_point, on_grid};
-use super::limits::{BORDER, ITERATIONS};
-use super::numbers::{Flags, Numbers, largest};
+use super::limits::{BORDER, ITERATIONS, MOST_SHORTER, MOST_TRIALS, NEAR};
+use super::numbers::{Flags, Numbers, larger, largest};
 use super::solution::{Along, Solution, Solved};
+use super::work::Work;
 
 /// Equations that can be solved by elimination with partial pivoting.
 pub trait Pivoting: Solved {
@@ -2906,6 +3354,55 @@ pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Side
         *turned = negative.get(*block).copied().unwrap_or(false);
     }
     if at.holds { Ok(at) } else { Err(Fault::TooFar) }
+}
+
+/// Newton's iteration from far away, for which an equation counts by what a change of its coordinates makes of it: each correction is
+/// so short that nothing moves by more than its scale, and that the equations come nearer to holding. Nothing where it does not arrive.
+pub fn close<M: Pivoting>(m: &M, q: &M::Q, t: f64, work: &mut Work) -> Option<M::Q> {
+    let (mut q, mut elimination) = (*q, Elimination::<M>::new());
+    let mut sides = sides_near(&q, t, m, work);
+    for _ in 0..MOST_TRIALS {
+        let (slopes, residual) = (m.phi_q(&q, t, &sides), m.phi(&q, t, &sides));
+        let norms = norms::<M>(&slopes);
+        let mut right = residual;
+        right.as_mut().iter_mut().for_each(|value| *value = -*value);
+        let (x, _) = elimination.solve(&slopes, &right);
+        work.add(1);
+        let size = largest(&x, M::scales());
+        if !size.is_finite() {
+            return None;
+        }
+        let left = largest(&residual, &norms);
+        let mut part = f64::min(1.0, 1.0 / size);
+        let mut next = q;
+        for _ in 0..MOST_SHORTER {
+            next = q;
+            next.as_mut().iter_mut().zip(x.as_ref()).for_each(|(q, x)| *q += part * x);
+            if size <= NEAR {
+                return Some(next);
+            }
+            work.add(1);
+            sides = m.sides_of_motion(&next, t, &sides);
+            if largest(&m.phi(&next, t, &sides), &norms) < (1.0 - 0.25 * part) * left {
+                break;
+            }
+            part *= 0.5;
+        }
+        q = next;
+    }
+    None
+}
+
+/// What a change of the coordinates by their scales makes of each equation at most.
+fn norms<M: Pivoting>(slopes: &M::Entries) -> M::Q {
+    let mut norms = M::Q::ZERO;
+    norms.as_mut().fill(f64::MIN_POSITIVE);
+    for (&(row, column), slope) in M::pattern().iter().zip(slopes.as_ref()) {
+        if let (Some(norm), Some(scale)) = (norms.as_mut().get_mut(row), M::scales().as_ref().get(column)) {
+            *norm = larger(*norm, slope.abs() * scale);
+        }
+    }
+    norms
 }
 
 /// Newton's iteration; whether it has arrived.
@@ -3209,6 +3706,8 @@ pub const CRUMB: f64 = 0.999;
 pub const FARTHEST_AHEAD: f64 = 1e-7;
 /// The step before tells of one that is so many times as long at most.
 pub const FARTHEST_BEND: f64 = 4.0;
+/// Trials on the way from the file's parameters to others before its poses are tried.
+pub const FIRST_PARTS: usize = 4;
 /// Iterations of Newton at most.
 pub const ITERATIONS: usize = 8;
 /// Newton's first correction at most, beside the size of a body or 1 rad.
@@ -3225,10 +3724,16 @@ pub const LONGEST_AHEAD: f64 = 1e-9;
 pub const MOST_BRANCHES: usize = 8;
 /// Halvings until two times are neighbours.
 pub const MOST_HALVINGS: usize = 100;
-/// Trials on the way from the file's parameters to others at most.
-pub const MOST_PARTS: usize = 10_000;
-/// Steps that one call takes at most that has no bound of its own.
-pub const MOST_STEPS: usize = 1_000_000;
+/// Trials on it at most where these have not helped either.
+pub const MOST_PARTS: usize = 200;
+/// How often a correction is made half as long before it is taken as it is.
+pub const MOST_SHORTER: usize = 6;
+/// Steps that `step` takes at most.
+pub const MOST_STEPS: usize = 10_000;
+/// Corrections at most from far away.
+pub const MOST_TRIALS: usize = 30;
+/// A correction that is so small, scaled, is the last one from far away.
+pub const NEAR: f64 = 0.02;
 /// A dead point is no further off than this part of the span.
 pub const NEAR_FOLD: f64 = 1e-5;
 /// A position that changes by more than this at an edge jumps, scaled.

@@ -25,6 +25,7 @@ use runtime::limits::ITERATIONS;
 use runtime::measured::Measured;
 use runtime::newton::Newton;
 use runtime::pivoting::Pivoting;
+use runtime::pivoting::close;
 use runtime::pivoting::solve_with_pivoting;
 use runtime::sine_and_cosine::sin_cos;
 use runtime::solution::Solved;
@@ -598,6 +599,8 @@ fn all_measures(
 
 pub use runtime::error::Error;
 pub use runtime::limits::MOST_STEPS;
+pub use runtime::state::Assembly;
+pub use runtime::work::{Progress, Work};
 
 /// The mechanism at a time.
 pub type State = runtime::state::State<Model>;
@@ -628,36 +631,93 @@ impl State {
     }
 }
 
-/// Brings the mechanism to its first time with some parameters, along the branch that the file's
-/// parameters give.
+/// Evaluations that any call takes at most that is not told how many steps it may take.
+pub const MOST_WORK: usize = most_work(MOST_STEPS);
+
+/// Evaluations that [`assemble`] takes at most.
+pub const MOST_WORK_TO_ASSEMBLE: usize = runtime::assemble::most_work::<Model>();
+
+/// Evaluations that a call takes at most that may take so many steps.
+#[must_use]
+pub const fn most_work(most: usize) -> usize {
+    runtime::step::most_work::<Model>(most)
+}
+
+/// Brings the mechanism to its first time with some parameters: along the branch that the file's
+/// parameters give, where a short way leads there; else from the poses that the file draws with these
+/// parameters, as `mechc run --set` does. [`State::assembly`] says which way it went.
 ///
 /// # Errors
-/// It cannot be assembled with these, or not on that branch.
+/// It cannot be assembled with these.
 pub fn assemble(params: &Params) -> Result<State, Error> {
-    runtime::assemble::assemble(params)
+    counted::assemble(params, &mut Work::default())
 }
 
 /// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
 /// and acceleration are those of the branch that it is on, whichever way `t` lies.
 ///
-/// It takes [`MOST_STEPS`] steps at most, and mostly one; [`step_within`] takes as many as it is
-/// allowed. What a driver does and undoes within a
+/// It takes [`MOST_STEPS`] steps at most, and mostly one: [`MOST_WORK`] evaluations, whatever it is
+/// given. What a driver does and undoes within a
 /// step, by formulas without branches, is not seen: no step is longer than [`LONGEST_STEP`].
 ///
 /// # Errors
-/// Why it cannot get there; the state stays at the last time that it could reach.
+/// Why it cannot get there; the state is then bit for bit as it was.
 pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
-    step_within(t, state, MOST_STEPS)
+    counted::step(t, state, &mut Work::default())
 }
 
-/// As [`step`], in so many steps at most, for those who have a deadline: each solves the equations
-/// about once, and one that has to be made shorter counts as well.
+/// As [`step`], in so many steps at most, for those who have a deadline: [`most_work`] says how many
+/// evaluations that are. A step that has to be made shorter counts as well. What these steps do not
+/// reach is on its way: the same call goes on from there.
 ///
 /// # Errors
-/// Why it cannot get there; the state stays at the last time that it could reach. Where that is
-/// [`Error::TooFar`] the same call goes on from there.
-pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> {
-    runtime::step::step_within(t, state, most)
+/// Why it cannot get there; the state is then bit for bit as it was.
+pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<Progress, Error> {
+    counted::step_within(t, state, most, &mut Work::default())
+}
+
+/// The same functions, which add the evaluations that they do to those of a [`Work`]: for tests of a
+/// deadline, and for tables of what calls cost.
+#[rustfmt::skip]
+pub mod counted {
+    #![allow(clippy::missing_errors_doc)] // they are those of the functions outside
+
+    use super::*;
+
+    /// As [`assemble`](super::assemble).
+    pub fn assemble(params: &Params, work: &mut Work) -> Result<State, Error> {
+        runtime::assemble::assemble(params, work)
+    }
+
+    /// As [`step`](super::step).
+    pub fn step(t: f64, state: &mut State, work: &mut Work) -> Result<(), Error> {
+        runtime::step::step(t, state, MOST_STEPS, work)
+    }
+
+    /// As [`step_within`](super::step_within).
+    pub fn step_within(
+        t: f64,
+        state: &mut State,
+        most: usize,
+        work: &mut Work,
+    ) -> Result<Progress, Error> {
+        runtime::step::step_within(t, state, most, work)
+    }
+
+    /// As [`follow`](super::follow).
+    pub fn follow(inputs: &Inputs, state: &mut State, work: &mut Work) -> Result<(), Error> {
+        runtime::follow::follow(&inputs.signals(), state, MOST_STEPS_TO_FOLLOW, work)
+    }
+
+    /// As [`follow_within`](super::follow_within).
+    pub fn follow_within(
+        inputs: &Inputs,
+        state: &mut State,
+        most: usize,
+        work: &mut Work,
+    ) -> Result<Progress, Error> {
+        runtime::follow::follow_within(&inputs.signals(), state, most, work)
+    }
 }
 
 /// Number of results at a time.
@@ -708,7 +768,7 @@ impl Measured for Measures {
 }
 
 /// The mechanism with its parameters.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Model {
     params: Params,
 }
@@ -1135,6 +1195,21 @@ impl Pivoting for Model {
     }
 }
 
+/// Where the file's poses put the coordinates, roughly: what is not closed yet.
+///
+/// 0 operations.
+fn drawn(_p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    out[2] = 0.5235987755982988;
+    out[3] = 0.88;
+    out[4] = 0.48;
+    out[5] = 0.78;
+    out[6] = 3.7;
+    out[7] = 1.5;
+    out[8] = 1.8;
+    out
+}
+
 impl Timed for Model {
     type Params = Params;
     type Lead = Leading<following::Model, SIGNALS>;
@@ -1156,6 +1231,14 @@ impl Timed for Model {
 
     fn start() -> &'static Q {
         &START
+    }
+
+    fn drawn(&self) -> Q {
+        drawn(&self.params)
+    }
+
+    fn closed(&self, q: &Q, t: f64, work: &mut Work) -> Option<Q> {
+        close(self, q, t, work)
     }
 }
 
@@ -1217,28 +1300,52 @@ impl runtime::follow::Follows<following::Model, SIGNALS> for Model {
     const HAS_TIME: bool = false;
 }
 
+pub use runtime::limits::MOST_STEPS_TO_FOLLOW;
+
+/// Evaluations that [`follow`] takes at most.
+pub const MOST_WORK_TO_FOLLOW: usize = runtime::follow::most_work::<following::Model, SIGNALS>(MOST_STEPS_TO_FOLLOW);
+
 /// Leads a state from its inputs to others, along the straight line between them, in as many steps
 /// as the branch asks for; their rates and accelerations there decide velocities and accelerations.
 ///
-/// It takes [`MOST_STEPS`] steps at most, and mostly one; [`follow_within`] takes as many as it is
-/// allowed. A kink of a formula on the way is passed. What a measure makes of more than the
-/// accelerations of inputs has no value. [`step`] goes on by the text's formulas: it first leads
-/// back to what these say of the inputs at the state's time.
+/// It takes [`MOST_STEPS_TO_FOLLOW`] steps at most, and mostly one: [`MOST_WORK_TO_FOLLOW`]
+/// evaluations, whatever it is given. A kink of a formula on the way is passed. What a measure makes
+/// of more than the accelerations of inputs has no value. [`step`] goes on by the text's formulas: it
+/// first leads back to what these say of the inputs at the state's time.
 ///
 /// # Errors
-/// Why it cannot get there; the state stays as it was, but for [`Error::TooFar`].
+/// Why it cannot get there; the state is then bit for bit as it was. [`Error::TooFar`] is told at
+/// once of an input that changes by more than [`State::largest_change`].
 pub fn follow(inputs: &Inputs, state: &mut State) -> Result<(), Error> {
-    follow_within(inputs, state, MOST_STEPS)
+    counted::follow(inputs, state, &mut Work::default())
 }
 
-/// As [`follow`], in so many steps at most, for those who have a deadline: each solves the
-/// equations about once, and one that has to be made shorter counts as well.
+/// As [`follow`], in so many steps at most, for those who have a deadline: [`most_work`] says how
+/// many evaluations that are. A step that has to be made shorter counts as well. What these steps do
+/// not reach is on its way: the same call goes on from there, and inputs, coordinates and measures of
+/// the state are those of the place that it has come to.
 ///
 /// # Errors
-/// Why it cannot get there; the state stays as it was. But after [`Error::TooFar`] it is on its
-/// way, and the same call goes on from there.
-pub fn follow_within(inputs: &Inputs, state: &mut State, most: usize) -> Result<(), Error> {
-    runtime::follow::follow_within(&inputs.signals(), state, most)
+/// Why it cannot get there; the state is then bit for bit as it was.
+pub fn follow_within(inputs: &Inputs, state: &mut State, most: usize) -> Result<Progress, Error> {
+    counted::follow_within(inputs, state, most, &mut Work::default())
+}
+
+impl State {
+    /// By input: the largest change that a call takes, by the numbers in [`input`]. One that asks for
+    /// more is refused at once, as a value that an encoder never had. At first half a turn of an angle,
+    /// and of a length twice the largest body; infinite where an input is neither.
+    #[must_use]
+    pub fn largest_change(&self) -> [f64; INPUTS] {
+        let all = runtime::follow::largest_change(self);
+        *all
+    }
+
+    /// Sets it; a state keeps that, and its clones do.
+    pub fn set_largest_change(&mut self, largest: [f64; INPUTS]) {
+        let all = runtime::follow::largest_change_mut(self);
+        *all = largest;
+    }
 }
 
 /// The derivatives of the coordinates by each input, by the numbers in [`input`]: for a constant
@@ -1336,7 +1443,7 @@ mod following {
     }
 
     /// The mechanism with its way, and what follows from these alone.
-    #[derive(Clone, Debug)]
+    #[derive(Clone, Copy, Debug)]
     pub struct Model {
         way: Way,
         known: [f64; KNOWN],
@@ -1963,9 +2070,11 @@ mod following {
     impl Led<SIGNALS> for Model {
         type Params = Params;
 
+        const LARGEST_CHANGE: [f64; SIGNALS] = [3.141592653589793];
+
         fn new(way: &Way) -> Self {
             Self {
-                way: way.clone(),
+                way: *way,
                 known: known(way),
             }
         }
@@ -2024,6 +2133,24 @@ pub fn largest<N: Numbers>(values: &N, scales: &N) -> f64 {
 /// The larger one; not a number if one is not.
 pub fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
+}
+
+/// Adds a zero for each value, which one that is not finite turns into no number: all are looked at without a branch for each.
+#[inline(always)]
+#[allow(clippy::inline_always)] // a call would cost more than it does
+pub fn add_zeros<N: Numbers>(values: &N, sums: &mut [f64; 4]) {
+    let chunks = values.as_ref().chunks_exact(4);
+    for value in chunks.remainder() {
+        sums[0] += 0.0 * value;
+    }
+    for chunk in chunks {
+        if let [a, b, c, d] = chunk {
+            sums[0] += 0.0 * a;
+            sums[1] += 0.0 * b;
+            sums[2] += 0.0 * c;
+            sums[3] += 0.0 * d;
+        }
+    }
 }
 
 /// What leads from some numbers to others.
@@ -2117,7 +2244,7 @@ use super::numbers::{Flags, Numbers};
 use core::fmt::Debug;
 
 /// The equations `phi = 0` and what follows from them.
-pub trait Equations: Clone + Debug {
+pub trait Equations: Copy + Debug {
     /// A number for each coordinate, and for each equation.
     type Q: Numbers;
     /// One for each entry of `phi_q` that does not vanish.
@@ -2246,13 +2373,85 @@ impl Measured for () {
 }
 }
 
+pub mod work {
+//! How much work a call does, and how far it comes.
+
+use super::equations::Branches;
+use super::limits::{MOST_BRANCHES, MOST_HALVINGS};
+
+/// Evaluations that a call has done. One is a solution of the equations at a place, with all that is checked there: by the operations
+/// that were written for that, or by elimination with partial pivoting where these lose digits. A look at formulas of time that decide a
+/// branch, or at whether they end, is one too.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// How many there were.
+    pub evaluations: usize,
+}
+
+impl Work {
+    /// Counts some more.
+    pub fn add(&mut self, evaluations: usize) {
+        self.evaluations = self.evaluations.wrapping_add(evaluations);
+    }
+}
+
+/// How far a call has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// The part of the way that is done: 1 at its end, and only there; 0 if the state has not moved yet.
+    pub fraction: f64,
+}
+
+impl Progress {
+    /// The end is reached.
+    pub const REACHED: Self = Self { fraction: 1.0 };
+
+    /// A part of the way, which is not all of it.
+    pub fn part(done: f64, all: f64) -> Self {
+        Self { fraction: f64::min(done / all, 1.0 - f64::EPSILON) }
+    }
+
+    /// Whether the end is reached; if not, the same call goes on from here.
+    #[must_use]
+    pub fn is_reached(self) -> bool {
+        self.fraction >= 1.0
+    }
+}
+
+/// Evaluations that a solution takes at most whose branches of formulas are known: by the operations, by pivoting, and by the operations
+/// once more.
+pub const OF_FINDING: usize = 3;
+
+/// Evaluations that the branches of formulas of time take.
+pub const fn of_sides<M: Branches>() -> usize {
+    if M::OF_TIME { 1 } else { 0 }
+}
+
+/// Evaluations that a solution takes at most.
+pub const fn of_reaching<M: Branches>() -> usize {
+    let branches = if M::OF_MOTION { MOST_BRANCHES } else { 1 };
+    of_sides::<M>() + branches * OF_FINDING
+}
+
+/// Evaluations that the search for the first edge of a step takes at most.
+pub const fn of_edge<M: Branches>() -> usize {
+    (2 + MOST_HALVINGS) * of_sides::<M>()
+}
+
+/// Evaluations that one step takes at most, from the search for its end to the look at both sides of an edge.
+pub const fn of_step<M: Branches>() -> usize {
+    let rounding = 1;
+    of_edge::<M>() + of_reaching::<M>() + rounding + OF_FINDING * of_sides::<M>()
+}
+}
+
 pub mod solution {
 //! What solves the equations at a time, and what that is found by.
 
 use super::equations::{Branches, Checks};
 use super::error::Fault;
 use super::measured::Measured;
-use super::numbers::{Flags, Numbers};
+use super::numbers::{Flags, Numbers, add_zeros};
 use core::fmt::Debug;
 
 /// Equations with the operations that solve them.
@@ -2294,7 +2493,7 @@ pub trait Solved: Branches + Checks {
 }
 
 /// What a motion goes along, with what a solution holds of that.
-pub trait Along<M: Solved>: Clone + Debug {
+pub trait Along<M: Solved>: Copy + Debug {
     /// Nothing is known yet.
     const ZERO: Self;
 
@@ -2320,7 +2519,7 @@ pub trait Along<M: Solved>: Clone + Debug {
 }
 
 /// What solves the equations at a time.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Solution<M: Solved> {
     /// The time (s), or the place on a way.
     pub t: f64,
@@ -2352,6 +2551,14 @@ pub struct Solution<M: Solved> {
     /// One over the smallest pivot, scaled.
     pub steepest: f64,
 }
+
+impl<M: Solved> Clone for Solution<M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M: Solved> Copy for Solution<M> {}
 
 impl<M: Solved> Solution<M> {
     /// Nothing is solved yet.
@@ -2394,9 +2601,102 @@ impl<M: Solved> Solution<M> {
 
     /// Whether all of it is numbers; measures may be none.
     pub fn is_finite(&self) -> bool {
-        let are_finite = |list: &M::Q| list.as_ref().iter().all(|value| value.is_finite());
-        let lists = are_finite(&self.q) && are_finite(&self.qd) && are_finite(&self.qdd);
-        lists && self.along.slopes().iter().all(are_finite)
+        let mut sums = [0.0; 4];
+        add_zeros(&self.q, &mut sums);
+        add_zeros(&self.qd, &mut sums);
+        add_zeros(&self.qdd, &mut sums);
+        for slopes in self.along.slopes() {
+            add_zeros(slopes, &mut sums);
+        }
+        sums == [0.0; 4]
+    }
+}
+}
+
+pub mod track {
+//! Where something is on its way.
+
+use super::solution::{Solution, Solved};
+
+/// The solution of now, and the one before it or the next one in the making.
+#[derive(Clone, Copy, Debug)]
+pub struct Track<M: Solved> {
+    pub(super) solutions: [Solution<M>; 2],
+    /// Whether that of now is the second.
+    pub(super) is_second: bool,
+    /// Whether the one before lies on the same smooth motion.
+    pub(super) is_smooth: bool,
+    /// The step that goes well: a time (s), or a change of a signal.
+    pub(super) stride: f64,
+}
+
+impl<M: Solved> Track<M> {
+    /// The solution of now.
+    #[inline]
+    pub fn at(&self) -> &Solution<M> {
+        let [first, second] = &self.solutions;
+        if self.is_second { second } else { first }
+    }
+
+    /// The same, to be written.
+    #[inline]
+    pub fn at_mut(&mut self) -> &mut Solution<M> {
+        let [first, second] = &mut self.solutions;
+        if self.is_second { second } else { first }
+    }
+
+    /// The one before, or the next one in the making.
+    #[inline]
+    pub fn other(&self) -> &Solution<M> {
+        let [first, second] = &self.solutions;
+        if self.is_second { first } else { second }
+    }
+
+    /// Both: that of now, and the other one, to be written.
+    #[inline]
+    pub fn both(&mut self) -> (&Solution<M>, &mut Solution<M>) {
+        let [first, second] = &mut self.solutions;
+        if self.is_second { (second, first) } else { (first, second) }
+    }
+}
+
+/// What a track was before a call, which an error gives back bit for bit.
+pub struct Checkpoint<M: Solved> {
+    /// The time or place of the solution of then.
+    t: f64,
+    is_second: bool,
+    is_smooth: bool,
+    stride: f64,
+    other: Solution<M>,
+    /// The solution of then, once a second step is about to write over it.
+    now: Option<Solution<M>>,
+}
+
+impl<M: Solved> Checkpoint<M> {
+    /// What a track is now.
+    #[inline]
+    pub fn of(track: &Track<M>) -> Self {
+        let Track { is_second, is_smooth, stride, .. } = *track;
+        Self { t: track.at().t, is_second, is_smooth, stride, other: *track.other(), now: None }
+    }
+
+    /// Keeps the solution of then, which stands beside that of now after the first step.
+    #[inline]
+    pub fn keep(&mut self, track: &Track<M>) {
+        if self.now.is_none() {
+            self.now = Some(*track.other());
+        }
+    }
+
+    /// Gives back what was.
+    #[cold]
+    pub fn restore(&self, track: &mut Track<M>) {
+        (track.is_second, track.is_smooth, track.stride) = (self.is_second, self.is_smooth, self.stride);
+        if let Some(now) = self.now {
+            *track.at_mut() = now;
+        }
+        track.at_mut().t = self.t;
+        *track.both().1 = self.other;
     }
 }
 }
@@ -2604,10 +2904,12 @@ use super::equations::Branches;
 use super::limits::{MOST_HALVINGS, SLACK};
 use super::neighbours::{bisect, shortly_after};
 use super::solution::{Along, Solution, Solved};
+use super::work::{Work, of_sides};
 
 /// The branches of formulas of time at a time: the later ones where they change just then, but at the end of the file's analysis
 /// the earlier ones.
-pub fn sides_at<M: Branches>(t: f64, m: &M) -> M::Sides {
+pub fn sides_at<M: Branches>(t: f64, m: &M, work: &mut Work) -> M::Sides {
+    work.add(of_sides::<M>());
     match M::END {
         Some(end) if t <= end && shortly_after(t, SLACK) >= end => {
             m.sides_of_time(end - 2.0 * (shortly_after(end, SLACK) - end))
@@ -2617,18 +2919,18 @@ pub fn sides_at<M: Branches>(t: f64, m: &M) -> M::Sides {
 }
 
 /// The first time of a step at which formulas of time take other branches than at its beginning; its end if they do not.
-pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M) -> f64 {
-    let here = sides_at(from, m);
-    if sides_at(to, m) == here {
+pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M, work: &mut Work) -> f64 {
+    let here = sides_at(from, m, work);
+    if sides_at(to, m, work) == here {
         return to;
     }
-    let [_, edge] = bisect([from, to], MOST_HALVINGS, |t| sides_at(t, m) == here);
+    let [_, edge] = bisect([from, to], MOST_HALVINGS, |t| sides_at(t, m, work) == here);
     edge
 }
 
 /// The branches at a position that is next to one that is looked for.
-pub fn sides_near<M: Branches>(q: &M::Q, t: f64, m: &M) -> M::Sides {
-    m.sides_of_motion(q, t, &sides_at(t, m))
+pub fn sides_near<M: Branches>(q: &M::Q, t: f64, m: &M, work: &mut Work) -> M::Sides {
+    m.sides_of_motion(q, t, &sides_at(t, m, work))
 }
 
 /// The branches with those of time exchanged.
@@ -2659,6 +2961,7 @@ use super::limits::{ACCURACY, MOST_BRANCHES, STEEP, STEEPEST};
 use super::measured::Measured;
 use super::numbers::{larger, largest};
 use super::solution::{Along, Solution, Solved};
+use super::work::Work;
 
 /// Solves at a time, from a guess; `from` is where the motion comes from.
 pub fn reach<M: Solved>(
@@ -2667,15 +2970,16 @@ pub fn reach<M: Solved>(
     t: f64,
     m: &M,
     at: &mut Solution<M>,
+    work: &mut Work,
 ) -> Result<(), Fault> {
-    let of_time = sides_at(t, m);
+    let of_time = sides_at(t, m, work);
     if !M::OF_MOTION {
-        return find(guess, from, t, m, &of_time, at);
+        return find(guess, from, t, m, &of_time, at, work);
     }
     let mut sides = from.sides;
     for _ in 0..MOST_BRANCHES {
         sides = with_time::<M>(&sides, &of_time);
-        find(guess, from, t, m, &sides, at)?;
+        find(guess, from, t, m, &sides, at, work)?;
         let now = sides_ahead(at, m);
         if now == sides {
             return Ok(());
@@ -2693,9 +2997,12 @@ pub fn find<M: Solved>(
     m: &M,
     sides: &M::Sides,
     at: &mut Solution<M>,
+    work: &mut Work,
 ) -> Result<(), Fault> {
+    work.add(1);
     m.solve(guess, t, sides, at);
     if !at.is_settled || !at.holds {
+        work.add(2);
         find_with_pivoting(from, t, m, sides, at)?;
     }
     if !m.conditions_hold(&at.q, t, sides) {
@@ -2761,6 +3068,7 @@ pub fn stays_on_branch<M: Solved>(
     m: &M,
     is_wanted: bool,
     steepness: f64,
+    work: &mut Work,
 ) -> bool {
     let steepest = at.steepest / steepness;
     if at.watched != from.watched || at.is_negative != from.is_negative || steepest > STEEPEST {
@@ -2769,7 +3077,11 @@ pub fn stays_on_branch<M: Solved>(
     if steepest > STEEP {
         at.measures.leave_varied_out();
     }
-    let is_in_doubt = is_wanted && steepest > STEEP && steepest * rounding(at, m) > ACCURACY;
+    if !is_wanted || steepest <= STEEP {
+        return true;
+    }
+    work.add(1);
+    let is_in_doubt = steepest * rounding(at, m) > ACCURACY;
     !is_in_doubt
 }
 }
@@ -2782,6 +3094,8 @@ use super::limits::{AHEAD, FARTHEST_AHEAD, LONGEST_AHEAD};
 use super::measured::Measured;
 use super::numbers::{Numbers, largest, predicted};
 use super::solution::{Along, Solution, Solved};
+use super::track::Track;
+use super::work::Work;
 use core::fmt::Debug;
 
 /// What can be set of a mechanism.
@@ -2813,6 +3127,8 @@ pub trait Timed: Solved<Along = Time> {
     const LONGEST_STEP: f64;
     /// The shortest step (s).
     const SMALLEST_STEP: f64;
+    /// Evaluations that the rims of a step take at most.
+    const WORK_OF_RIMS: usize = 0;
 
     /// The mechanism with some parameters.
     fn new(params: &Self::Params) -> Self;
@@ -2823,38 +3139,52 @@ pub trait Timed: Solved<Along = Time> {
     /// The assembled position with the file's parameters.
     fn start() -> &'static Self::Q;
 
+    /// Where the file's poses put the coordinates with its parameters, roughly: what is not closed yet.
+    fn drawn(&self) -> Self::Q;
+
+    /// Solves at a place from far away; nothing where that does not arrive, or blocks are too large for it.
+    fn closed(&self, _q: &Self::Q, _t: f64, _work: &mut Work) -> Option<Self::Q> {
+        None
+    }
+
     /// The first rim of a step that was not looked at yet, with its time.
-    fn first_rim(&self, _from: f64, _to: f64, _passed: &Self::Passed) -> Option<(usize, f64)> {
+    fn first_rim(&self, _from: f64, _to: f64, _passed: &Self::Passed, _work: &mut Work) -> Option<(usize, f64)> {
         None
     }
 
     /// Looks at both sides of a rim next to the state.
-    fn look_at_rim(_state: &mut State<Self>, _rim: usize, _t: f64) -> Result<(), Error> {
+    fn look_at_rim(_state: &mut State<Self>, _rim: usize, _t: f64, _work: &mut Work) -> Result<(), Error> {
         Ok(())
     }
 }
 
 /// What leads a mechanism by its inputs.
-pub trait Lead<M: Timed>: Clone + Debug {
+pub trait Lead<M: Timed>: Copy + Debug {
+    /// Evaluations that taking up the time takes at most beside its steps, and each of these.
+    const WORK: [usize; 2];
+
     /// Nothing is led yet.
     fn new(params: &M::Params) -> Self;
 
     /// Whether inputs have led to where the mechanism is, rather than the time.
     fn is_leading(&self) -> bool;
 
-    /// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its time.
-    fn take_up_time(state: &mut State<M>, most: usize) -> Result<(), Error>;
+    /// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its time, in so many steps at most;
+    /// gives how many of them are left, or nothing where it is still on its way.
+    fn take_up_time(state: &mut State<M>, most: usize, work: &mut Work) -> Result<Option<usize>, Error>;
 }
 
 impl<M: Timed> Lead<M> for () {
+    const WORK: [usize; 2] = [0, 0];
+
     fn new(_: &M::Params) -> Self {}
 
     fn is_leading(&self) -> bool {
         false
     }
 
-    fn take_up_time(_: &mut State<M>, _: usize) -> Result<(), Error> {
-        Ok(())
+    fn take_up_time(_: &mut State<M>, most: usize, _: &mut Work) -> Result<Option<usize>, Error> {
+        Ok(Some(most))
     }
 }
 
@@ -2877,20 +3207,26 @@ impl<M: Timed> Along<M> for Time {
     }
 }
 
+/// How a mechanism was assembled with its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Assembly {
+    /// It was led from the assembled position of the file's own parameters, along its branch.
+    Led,
+    /// No way led there: the equations were solved from the poses that the file draws with these parameters, as `mechc run --set` does.
+    /// It may be another branch.
+    Drawn,
+}
+
 /// A mechanism at a time.
 #[derive(Clone, Debug)]
 pub struct State<M: Timed> {
     pub(super) model: M,
-    /// The solution of now and the one before, or the next one in the making.
-    pub(super) solutions: [Solution<M>; 2],
-    /// Whether that of now is the second.
-    pub(super) is_second: bool,
-    /// Whether the one before lies on the same smooth motion.
-    pub(super) is_smooth: bool,
+    /// Where it is along the time.
+    pub(super) track: Track<M>,
     /// How much steeper these parameters make the equations than the file's.
     pub(super) steepness: f64,
-    /// The step that goes well (s).
-    pub(super) step: f64,
+    /// How it was assembled.
+    pub(super) assembly: Assembly,
     /// What leads by inputs.
     pub(super) lead: M::Lead,
     /// By rim: the time at which it was looked at last (s).
@@ -2900,8 +3236,13 @@ pub struct State<M: Timed> {
 impl<M: Timed> State<M> {
     /// The solution of now.
     pub(super) fn at(&self) -> &Solution<M> {
-        let [first, second] = &self.solutions;
-        if self.is_second { second } else { first }
+        self.track.at()
+    }
+
+    /// How it was assembled with its parameters.
+    #[must_use]
+    pub fn assembly(&self) -> Assembly {
+        self.assembly
     }
 
     /// The time (s).
@@ -2968,64 +3309,118 @@ pub mod assemble {
 
 use super::branches::sides_near;
 use super::error::{Error, Fault};
-use super::limits::{LARGEST_CORRECTION, MOST_PARTS, SMALLEST_PART};
+use super::limits::{FIRST_PARTS, LARGEST_CORRECTION, MOST_PARTS, MOST_SHORTER, MOST_TRIALS, SMALLEST_PART};
 use super::numbers::Numbers;
 use super::reach::reach;
 use super::solution::Solution;
-use super::state::{Lead, Parameters, State, Timed};
+use super::state::{Assembly, Lead, Parameters, State, Timed};
+use super::track::Track;
+use super::work::{Work, of_reaching, of_sides};
 
-/// Brings the mechanism to its first time with some parameters, along the branch that the file's parameters give.
-pub fn assemble<M: Timed>(params: &M::Params) -> Result<State<M>, Error> {
+/// Evaluations that it takes at most.
+pub const fn most_work<M: Timed>() -> usize {
+    let of_start = of_sides::<M>() + of_reaching::<M>();
+    (2 + FIRST_PARTS + MOST_PARTS) * (of_start + of_sides::<M>() + 1)
+        + of_sides::<M>()
+        + (1 + MOST_SHORTER) * MOST_TRIALS
+}
+
+/// Brings the mechanism to its first time with some parameters: along the branch that the file's parameters give where a short way
+/// leads there, else from the poses that the file draws with these parameters, and only then along a long way.
+pub fn assemble<M: Timed>(params: &M::Params, work: &mut Work) -> Result<State<M>, Error> {
     if !params.is_finite() {
         return Err(Error::NotANumber);
     }
-    let file = M::Params::default();
-    let mut at = Solution::ZERO;
-    start(M::start(), &M::new(&file), &mut at).map_err(Fault::at_start)?;
-    let mut found = at.clone();
-    let usual = at.steepest;
-    let mut why = Error::Divergence;
-    // the part of the way from the file's parameters to those that are wanted
-    let (mut done, mut part) = (0.0, 1.0);
-    for _ in 0..MOST_PARTS {
-        let next = f64::min(done + part, 1.0);
-        let params = if next < 1.0 { file.towards(params, next) } else { *params };
-        let model = M::new(&params);
-        let result = start(&at.q, &model, &mut found);
-        if result.is_ok() && found.is_negative == at.is_negative {
-            if next >= 1.0 {
-                let ratio = found.steepest / usual;
-                let mut passed = M::Passed::ZERO;
-                passed.as_mut().fill(f64::NEG_INFINITY);
-                return Ok(State {
-                    steepness: if ratio > 0.0 { ratio } else { 1.0 },
-                    lead: M::Lead::new(&params),
-                    model,
-                    solutions: [found, at],
-                    is_second: false,
-                    is_smooth: false,
-                    step: M::LONGEST_STEP,
-                    passed,
-                });
+    let mut way = Way::<M>::new(work)?;
+    let model = M::new(params);
+    match way.lead(params, FIRST_PARTS, work) {
+        Ok(at) => return Ok(way.state(model, at, Assembly::Led)),
+        Err(Error::NotANumber) => return Err(Error::NotANumber),
+        Err(_) => {}
+    }
+    let mut at = way.at;
+    let drawn = model.closed(&model.drawn(), M::START_TIME, work);
+    if drawn.is_some_and(|q| start(&q, &model, &mut at, work).is_ok()) {
+        return Ok(way.state(model, at, Assembly::Drawn));
+    }
+    let at = way.lead(params, MOST_PARTS, work)?;
+    Ok(way.state(model, at, Assembly::Led))
+}
+
+/// The way from the file's parameters to others.
+struct Way<M: Timed> {
+    /// How steep the equations are with the file's.
+    usual: f64,
+    /// The solution where it has come to.
+    at: Solution<M>,
+    /// The part that is done, and the next one that is tried.
+    done: f64,
+    part: f64,
+}
+
+impl<M: Timed> Way<M> {
+    /// Its beginning.
+    fn new(work: &mut Work) -> Result<Self, Error> {
+        let mut at = Solution::ZERO;
+        start(M::start(), &M::new(&M::Params::default()), &mut at, work).map_err(Fault::at_start)?;
+        Ok(Self { usual: at.steepest, at, done: 0.0, part: 1.0 })
+    }
+
+    /// Goes on to the end, in so many trials at most.
+    fn lead(&mut self, params: &M::Params, most: usize, work: &mut Work) -> Result<Solution<M>, Error> {
+        let (file, mut found, mut why) = (M::Params::default(), self.at, Error::Divergence);
+        for _ in 0..most {
+            let next = f64::min(self.done + self.part, 1.0);
+            let is_last = next >= 1.0;
+            let params = if is_last { *params } else { file.towards(params, next) };
+            let model = M::new(&params);
+            let is_far = self.part < 1.0 && is_far(&self.at.q, &model, &mut found, work);
+            let result = if is_far { Err(Fault::TooFar) } else { start(&self.at.q, &model, &mut found, work) };
+            if result.is_ok() && found.is_negative == self.at.is_negative {
+                if is_last {
+                    return Ok(found);
+                }
+                (self.at, self.done, self.part) = (found, next, 2.0 * self.part);
+            } else {
+                why = result.err().map_or(Error::Divergence, Fault::at_start);
+                self.part *= 0.5;
             }
-            at.clone_from(&found);
-            (done, part) = (next, 2.0 * part);
-        } else {
-            why = result.err().map_or(Error::Divergence, Fault::at_start);
-            part *= 0.5;
+            if self.part < SMALLEST_PART {
+                break;
+            }
         }
-        if part < SMALLEST_PART {
-            break;
+        Err(why)
+    }
+
+    /// The state at a solution.
+    fn state(&self, model: M, at: Solution<M>, assembly: Assembly) -> State<M> {
+        let ratio = at.steepest / self.usual;
+        let mut passed = M::Passed::ZERO;
+        passed.as_mut().fill(f64::NEG_INFINITY);
+        State {
+            steepness: if ratio > 0.0 { ratio } else { 1.0 },
+            lead: M::Lead::new(model.params()),
+            model,
+            track: Track { solutions: [at, self.at], is_second: false, is_smooth: false, stride: M::LONGEST_STEP },
+            assembly,
+            passed,
         }
     }
-    Err(why)
+}
+
+/// Whether a position is too far away to solve from, by the operations alone: to try harder costs many times as much.
+fn is_far<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>, work: &mut Work) -> bool {
+    let sides = sides_near(q, M::START_TIME, m, work);
+    work.add(1);
+    m.solve(&M::tears(q), M::START_TIME, &sides, at);
+    !at.is_settled && at.first > LARGEST_CORRECTION
 }
 
 /// Solves at the first time, from a position nearby.
-fn start<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>) -> Result<(), Fault> {
+fn start<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>, work: &mut Work) -> Result<(), Fault> {
     let mut near = Solution::near(q, M::START_TIME);
-    near.sides = sides_near(q, M::START_TIME, m);
-    reach(&M::tears(q), &near, M::START_TIME, m, at)?;
+    near.sides = sides_near(q, M::START_TIME, m, work);
+    reach(&M::tears(q), &near, M::START_TIME, m, at, work)?;
     if at.first <= LARGEST_CORRECTION { Ok(()) } else { Err(Fault::TooFar) }
 }
 }
@@ -3034,15 +3429,17 @@ pub mod explain {
 //! Why a motion cannot go on.
 
 use super::branches::sides_at;
+use super::equations::Branches;
 use super::error::{Error, Fault};
 use super::limits::{NEAR_FOLD, SINGULAR};
 use super::solution::{Solution, Solved};
 use super::state::{State, Timed};
+use super::work::{Work, of_sides};
 
 /// Why even the shortest step from a state towards a time is refused.
-pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64) -> Error {
+pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64, work: &mut Work) -> Error {
     let at = state.at();
-    if let Some(error) = regular(at, fault, t, &state.model) {
+    if let Some(error) = regular(at, fault, t, &state.model, work) {
         return error;
     }
     if at.steepest < SINGULAR * state.steepness {
@@ -3052,14 +3449,20 @@ pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64) -> Error {
     meeting(if t < at.t { -left } else { left }, M::SPAN)
 }
 
+/// Evaluations that it takes to tell why, at most.
+pub const fn of_regular<M: Branches>() -> usize {
+    1 + 2 * of_sides::<M>()
+}
+
 /// Why it is, if that has nothing to do with how near the position is to a singular one.
-pub fn regular<M: Solved>(at: &Solution<M>, fault: Fault, t: f64, m: &M) -> Option<Error> {
+pub fn regular<M: Solved>(at: &Solution<M>, fault: Fault, t: f64, m: &M, work: &mut Work) -> Option<Error> {
+    work.add(1);
     let values = m.phi(&at.q, t, &at.sides);
     if fault == Fault::NotANumber || values.as_ref().iter().any(|value| !value.is_finite()) {
         return Some(Error::NotANumber);
     }
     // a position that jumps far is not even found on the other side
-    let is_at_edge = || sides_at(at.t, m) != sides_at(t, m);
+    let mut is_at_edge = || sides_at(at.t, m, work) != sides_at(t, m, work);
     let jumps = fault == Fault::NotSmooth || (fault == Fault::TooFar && is_at_edge());
     jumps.then_some(Error::NotSmooth)
 }
@@ -3085,7 +3488,7 @@ pub mod step {
 
 use super::branches::first_edge;
 use super::error::{Error, Fault};
-use super::explain::explain;
+use super::explain::{explain, of_regular};
 use super::hermite::bend_ahead;
 use super::limits::{
     CALM_BETWEEN, CALM_CORRECTION, CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD,
@@ -3095,79 +3498,151 @@ use super::numbers::{Numbers, difference, largest};
 use super::reach::{find, reach, stays_on_branch};
 use super::solution::{Solution, Solved};
 use super::state::{Lead, State, Timed};
+use super::track::Checkpoint;
+use super::work::{Progress, Work, of_step};
 
-/// Moves a state to time `t` (s) in so many steps at most, each as short as the motion asks for: position, velocity and acceleration
-/// are those of the branch that it is on, whichever way `t` lies.
-pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize) -> Result<(), Error> {
+/// Evaluations that a call of so many steps takes at most.
+pub const fn most_work<M: Timed>(most: usize) -> usize {
+    let [of_lead, of_its_step] = M::Lead::WORK;
+    let of_step = of_step::<M>() + M::WORK_OF_RIMS;
+    let of_step = if of_its_step > of_step { of_its_step } else { of_step };
+    most.saturating_mul(of_step).saturating_add(of_lead + of_regular::<M>())
+}
+
+/// Moves a state to time `t` (s), in so many steps at most, each as short as the motion asks for: position, velocity and acceleration
+/// are those of the branch that it is on, whichever way `t` lies. After an error the state is as it was; what so many steps do not
+/// reach is one.
+pub fn step<M: Timed>(t: f64, state: &mut State<M>, most: usize, work: &mut Work) -> Result<(), Error> {
+    let is_beyond = (t - state.at().t).abs() > M::LONGEST_STEP * most as f64;
+    if is_beyond && t.is_finite() {
+        return Err(Error::TooFar);
+    }
+    go(t, state, most, true, work).map(|_| ())
+}
+
+/// The same, but what so many steps do not reach is on its way.
+pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize, work: &mut Work) -> Result<Progress, Error> {
+    go(t, state, most, false, work)
+}
+
+fn go<M: Timed>(t: f64, state: &mut State<M>, most: usize, is_whole: bool, work: &mut Work) -> Result<Progress, Error> {
     if !(t - state.at().t).is_finite() {
         return Err(Error::NotANumber);
     }
-    if state.is_led() {
-        M::Lead::take_up_time(state, most)?;
+    if state.is_led() { take_up(t, state, most, is_whole, work) } else { march(t, state, most, is_whole, work) }
+}
+
+/// Goes on by the time from where inputs have led.
+#[cold]
+#[inline(never)]
+fn take_up<M: Timed>(
+    t: f64,
+    state: &mut State<M>,
+    most: usize,
+    is_whole: bool,
+    work: &mut Work,
+) -> Result<Progress, Error> {
+    let (lead, track) = (state.lead, state.track);
+    let result = match M::Lead::take_up_time(state, most, work) {
+        Ok(Some(left)) => march(t, state, left, is_whole, work),
+        Ok(None) if is_whole => Err(Error::TooFar),
+        Ok(None) => Ok(Progress { fraction: 0.0 }),
+        Err(error) => Err(error),
+    };
+    if result.is_err() {
+        (state.lead, state.track) = (lead, track);
     }
+    result
+}
+
+/// Steps from time to time.
+fn march<M: Timed>(
+    t: f64,
+    state: &mut State<M>,
+    most: usize,
+    is_whole: bool,
+    work: &mut Work,
+) -> Result<Progress, Error> {
+    let (mut before, passed, from) = (Checkpoint::of(&state.track), state.passed, state.at().t);
+    let mut why = Error::TooFar;
     for _ in 0..most {
         let now = state.at().t;
         let left = t - now;
         if left == 0.0 {
-            return Ok(());
+            return Ok(Progress::REACHED);
         }
-        let wanted = if state.step >= CRUMB * left.abs() { t } else { now + state.step.copysign(left) };
+        let stride = state.track.stride;
+        let wanted = if stride >= CRUMB * left.abs() { t } else { now + stride.copysign(left) };
         // what is fast may be over before the step's end
-        let edge = first_edge(now, wanted, &state.model);
-        let next = match state.model.first_rim(now, edge, &state.passed) {
+        let edge = first_edge(now, wanted, &state.model, work);
+        let next = match state.model.first_rim(now, edge, &state.passed, work) {
             None => edge,
             Some((rim, at)) => {
                 let before = at - (LEAD * M::SPAN).copysign(left);
                 if (before - now) * left <= 0.0 {
-                    M::look_at_rim(state, rim, at)?;
+                    if let Err(error) = M::look_at_rim(state, rim, at, work) {
+                        why = error;
+                        break;
+                    }
                     continue;
                 }
                 before
             }
         };
         let (is_last, size) = (next == t, (next - now).abs());
-        match advance(state, next, is_last) {
+        match advance(state, next, is_last, work) {
             Ok(is_calm) => {
-                let longest = if is_calm { state.step.max(2.0 * size) } else { state.step.min(size) };
-                state.step = longest.min(M::LONGEST_STEP);
+                let longest = if is_calm { stride.max(2.0 * size) } else { stride.min(size) };
+                state.track.stride = longest.min(M::LONGEST_STEP);
                 if is_last {
-                    return Ok(());
+                    return Ok(Progress::REACHED);
                 }
+                before.keep(&state.track);
             }
             Err(fault) => {
-                state.step = 0.5 * size;
-                state.is_smooth = false;
-                if state.step < M::SMALLEST_STEP || now + state.step == now {
-                    state.step = M::SMALLEST_STEP;
-                    return Err(explain(state, fault, next));
+                let half = 0.5 * size;
+                (state.track.stride, state.track.is_smooth) = (half, false);
+                if half < M::SMALLEST_STEP || now + half == now {
+                    why = explain(state, fault, next, work);
+                    break;
                 }
             }
         }
     }
-    if state.at().t == t { Ok(()) } else { Err(Error::TooFar) }
+    let now = state.at().t;
+    if now == t {
+        return Ok(Progress::REACHED);
+    }
+    if why == Error::TooFar && !is_whole {
+        return Ok(Progress::part(now - from, t - from));
+    }
+    before.restore(&mut state.track);
+    state.passed = passed;
+    Err(why)
 }
 
 /// One step to a time; says whether a longer one would do as well.
-fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool) -> Result<bool, Fault> {
-    let [first, second] = &mut state.solutions;
-    let (from, at) = if state.is_second { (second, first) } else { (first, second) };
-    let (from, m) = (&*from, &state.model);
+fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool, work: &mut Work) -> Result<bool, Fault> {
+    let is_smooth = state.track.is_smooth;
+    let (from, at) = state.track.both();
+    let m = &state.model;
     let h = t - from.t;
     let (v, a) = (M::tears(&from.qd), M::tears(&from.qdd));
-    let mut way = if state.is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
+    let mut way = if is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
     for (way, (v, a)) in way.as_mut().iter_mut().zip(v.as_ref().iter().zip(a.as_ref())) {
         // Taylor
         *way += h * (v + 0.5 * h * a);
     }
-    let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, h))?;
-    if !stays_on_branch(from, at, m, is_wanted, state.steepness) {
+    let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, h), work)?;
+    if !stays_on_branch(from, at, m, is_wanted, state.steepness, work) {
         return Err(Fault::Singular);
     }
-    if M::OF_TIME && at.sides != from.sides && jumps(from, at, m) {
+    if M::OF_TIME && at.sides != from.sides && jumps(from, at, m, work) {
         return Err(Fault::NotSmooth);
     }
-    state.is_smooth = at.sides == from.sides;
-    state.is_second = !state.is_second;
+    let is_smooth = at.sides == from.sides;
+    state.track.is_smooth = is_smooth;
+    state.track.is_second = !state.track.is_second;
     Ok(is_calm)
 }
 
@@ -3180,6 +3655,7 @@ pub fn tried<M: Solved>(
     m: &M,
     at: &mut Solution<M>,
     gap: impl FnOnce(&Solution<M>) -> f64,
+    work: &mut Work,
 ) -> Result<bool, Fault> {
     // what is not a number is not small either
     let is_short = largest(way, M::tear_scales()) <= LARGEST_MOTION;
@@ -3190,7 +3666,7 @@ pub fn tried<M: Solved>(
     for (guess, way) in guess.as_mut().iter_mut().zip(way.as_ref()) {
         *guess += *way;
     }
-    reach(&guess, from, t, m, at)?;
+    reach(&guess, from, t, m, at, work)?;
     let gap = gap(at);
     let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
     if !is_near {
@@ -3234,9 +3710,9 @@ fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears 
 
 /// Whether position or velocity differ on the two sides of a time at which formulas change their branches: `at` is the later side, and
 /// `from` has the branches of the earlier one.
-fn jumps<M: Timed>(from: &Solution<M>, at: &Solution<M>, m: &M) -> bool {
-    let mut before = at.clone();
-    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before).is_err() {
+fn jumps<M: Timed>(from: &Solution<M>, at: &Solution<M>, m: &M, work: &mut Work) -> bool {
+    let mut before = *at;
+    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before, work).is_err() {
         return true;
     }
     let (way, change) = (difference(&at.q, &before.q), difference(&at.qd, &before.qd));
@@ -3414,11 +3890,13 @@ pub mod pivoting {
 //! Solving by elimination with partial pivoting, where the order that `solve` has loses digits.
 
 use super::blocks::{self, Blocks};
+use super::branches::sides_near;
 use super::error::Fault;
 use super::grid::{bound_at_first, going_on, next_point, on_grid};
-use super::limits::{BORDER, ITERATIONS};
-use super::numbers::{Flags, Numbers, largest};
+use super::limits::{BORDER, ITERATIONS, MOST_SHORTER, MOST_TRIALS, NEAR};
+use super::numbers::{Flags, Numbers, larger, largest};
 use super::solution::{Along, Solution, Solved};
+use super::work::Work;
 
 /// Equations that can be solved by elimination with partial pivoting.
 pub trait Pivoting: Solved {
@@ -3516,6 +3994,55 @@ pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Side
         *turned = negative.get(*block).copied().unwrap_or(false);
     }
     if at.holds { Ok(at) } else { Err(Fault::TooFar) }
+}
+
+/// Newton's iteration from far away, for which an equation counts by what a change of its coordinates makes of it: each correction is
+/// so short that nothing moves by more than its scale, and that the equations come nearer to holding. Nothing where it does not arrive.
+pub fn close<M: Pivoting>(m: &M, q: &M::Q, t: f64, work: &mut Work) -> Option<M::Q> {
+    let (mut q, mut elimination) = (*q, Elimination::<M>::new());
+    let mut sides = sides_near(&q, t, m, work);
+    for _ in 0..MOST_TRIALS {
+        let (slopes, residual) = (m.phi_q(&q, t, &sides), m.phi(&q, t, &sides));
+        let norms = norms::<M>(&slopes);
+        let mut right = residual;
+        right.as_mut().iter_mut().for_each(|value| *value = -*value);
+        let (x, _) = elimination.solve(&slopes, &right);
+        work.add(1);
+        let size = largest(&x, M::scales());
+        if !size.is_finite() {
+            return None;
+        }
+        let left = largest(&residual, &norms);
+        let mut part = f64::min(1.0, 1.0 / size);
+        let mut next = q;
+        for _ in 0..MOST_SHORTER {
+            next = q;
+            next.as_mut().iter_mut().zip(x.as_ref()).for_each(|(q, x)| *q += part * x);
+            if size <= NEAR {
+                return Some(next);
+            }
+            work.add(1);
+            sides = m.sides_of_motion(&next, t, &sides);
+            if largest(&m.phi(&next, t, &sides), &norms) < (1.0 - 0.25 * part) * left {
+                break;
+            }
+            part *= 0.5;
+        }
+        q = next;
+    }
+    None
+}
+
+/// What a change of the coordinates by their scales makes of each equation at most.
+fn norms<M: Pivoting>(slopes: &M::Entries) -> M::Q {
+    let mut norms = M::Q::ZERO;
+    norms.as_mut().fill(f64::MIN_POSITIVE);
+    for (&(row, column), slope) in M::pattern().iter().zip(slopes.as_ref()) {
+        if let (Some(norm), Some(scale)) = (norms.as_mut().get_mut(row), M::scales().as_ref().get(column)) {
+            *norm = larger(*norm, slope.abs() * scale);
+        }
+    }
+    norms
 }
 
 /// Newton's iteration; whether it has arrived.
@@ -3655,7 +4182,7 @@ use super::state::Parameters;
 pub type Signals<const K: usize> = [[f64; K]; 3];
 
 /// A way of the signals: a straight line from 0 to 1.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Way<P, const K: usize> {
     /// The parameters of the mechanism.
     pub params: P,
@@ -3713,6 +4240,9 @@ pub trait Led<const K: usize>: Solved<Along = Slopes<<Self as Equations>::Q, K>>
     /// Its parameters.
     type Params: Parameters;
 
+    /// By signal: the largest change that a call takes, if nobody says otherwise.
+    const LARGEST_CHANGE: [f64; K];
+
     /// The mechanism on a way.
     fn new(way: &Way<Self::Params, K>) -> Self;
 
@@ -3730,7 +4260,7 @@ pub trait Led<const K: usize>: Solved<Along = Slopes<<Self as Equations>::Q, K>>
 }
 
 /// The motion goes along signals: the derivatives of the coordinates by each, and what these are.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Slopes<Q, const K: usize> {
     /// By signal: how the coordinates change with it.
     pub by_signal: [Q; K],
@@ -3794,28 +4324,31 @@ pub mod follow {
 //! What follows inputs.
 
 use super::branches::{first_edge, sides_near};
+use super::equations::Branches;
 use super::error::{Error, Fault};
-use super::explain::{meeting, regular, until_turn};
-use super::limits::{CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_TURN, POSITION_JUMP, SHORTEST_STEP, SINGULAR};
-use super::numbers::{Numbers, difference, larger, largest};
+use super::explain::{meeting, of_regular, regular, until_turn};
+use super::limits::{
+    CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_TURN, NEAREST_TURN, POSITION_JUMP, SHORT, SHORTEST_STEP, SINGULAR,
+};
+use super::numbers::{Numbers, add_zeros, difference, larger, largest};
 use super::reach::{find, reach, stays_on_branch};
 use super::solution::{Solution, Solved};
 use super::state::{Lead, State, Timed};
 use super::step::tried;
+use super::track::{Checkpoint, Track};
 use super::way::{Led, Signals, Way, sum};
+use super::work::{Progress, Work, of_reaching, of_sides, of_step};
 
 /// What leads a mechanism by its inputs.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Leading<E: Led<K>, const K: usize> {
     pub(super) model: E,
-    /// The solution of now and the one before, or the next one in the making; their times are places of the way.
-    solutions: [Solution<E>; 2],
-    /// Whether that of now is the second.
-    is_second: bool,
-    /// Whether the one before lies on the same smooth motion.
-    is_smooth: bool,
-    /// The change of a signal that goes well in a step.
-    stride: f64,
+    /// Where it is; times are places of the way, and steps are changes of a signal.
+    pub(super) track: Track<E>,
+    /// The largest change of each signal that a call takes.
+    largest_change: [f64; K],
+    /// Where a way leads that was left before its end, and the change that goes well on it.
+    unfinished: ([f64; K], f64),
     /// Whether inputs have led to where the mechanism is, rather than the time.
     is_leading: bool,
 }
@@ -3829,6 +4362,9 @@ pub trait Follows<E: Led<K>, const K: usize>:
 }
 
 impl<E: Led<K>, M: Follows<E, K>, const K: usize> Lead<M> for Leading<E, K> {
+    // beside the way, the solution of the time
+    const WORK: [usize; 2] = [most_work::<E, K>(0) + of_beginning::<M>(), of_step::<E>() + 1];
+
     fn new(params: &M::Params) -> Self {
         Self::with(params)
     }
@@ -3837,45 +4373,128 @@ impl<E: Led<K>, M: Follows<E, K>, const K: usize> Lead<M> for Leading<E, K> {
         self.is_leading
     }
 
-    fn take_up_time(state: &mut State<M>, most: usize) -> Result<(), Error> {
+    fn take_up_time(state: &mut State<M>, most: usize, work: &mut Work) -> Result<Option<usize>, Error> {
         let t = state.at().t;
-        follow_within(&E::by_text(state.params(), t), state, most)?;
+        work.add(1);
+        let wanted = E::by_text(state.params(), t);
+        let mut left = most;
+        let come = state.lead.go(&wanted, &mut left, false, state.steepness, work);
+        state.take_over();
+        if !come?.is_reached() {
+            return Ok(None);
+        }
         let q = state.at().q;
         let mut near = Solution::near(&q, t);
-        near.sides = sides_near(&q, t, &state.model);
-        let [first, second] = &mut state.solutions;
-        let at = if state.is_second { second } else { first };
-        reach(&M::tears(&q), &near, t, &state.model, at).map_err(Fault::at_start)?;
-        (state.lead.is_leading, state.is_smooth) = (false, false);
-        Ok(())
+        near.sides = sides_near(&q, t, &state.model, work);
+        reach(&M::tears(&q), &near, t, &state.model, state.track.at_mut(), work).map_err(Fault::at_start)?;
+        (state.lead.is_leading, state.track.is_smooth) = (false, false);
+        Ok(Some(left))
     }
 }
 
-/// Leads a state from its inputs to others in so many steps at most, along the straight line between them.
+/// Evaluations that a call of so many steps takes at most.
+pub const fn most_work<E: Led<K>, const K: usize>(most: usize) -> usize {
+    // that of the turn where a step is refused
+    most.saturating_mul(of_step::<E>() + 1)
+        .saturating_add(of_beginning::<E>() + of_regular::<E>() + of_reaching::<E>() + 1)
+}
+
+/// Evaluations that it takes to begin where the time has led, or to go on from there.
+const fn of_beginning<E: Branches>() -> usize {
+    1 + of_sides::<E>() + of_reaching::<E>()
+}
+
+/// Leads a state from its inputs to others in so many steps at most, along the straight line between them. After an error the state is
+/// as it was; what so many steps do not reach is one.
+pub fn follow<E: Led<K>, M: Follows<E, K>, const K: usize>(
+    signals: &Signals<K>,
+    state: &mut State<M>,
+    most: usize,
+    work: &mut Work,
+) -> Result<(), Error> {
+    lead(signals, state, most, true, work).map(|_| ())
+}
+
+/// The same, but what so many steps do not reach is on its way.
 pub fn follow_within<E: Led<K>, M: Follows<E, K>, const K: usize>(
     signals: &Signals<K>,
     state: &mut State<M>,
     most: usize,
-) -> Result<(), Error> {
-    if !signals.iter().flatten().all(|value| value.is_finite()) {
+    work: &mut Work,
+) -> Result<Progress, Error> {
+    lead(signals, state, most, false, work)
+}
+
+fn lead<E: Led<K>, M: Follows<E, K>, const K: usize>(
+    signals: &Signals<K>,
+    state: &mut State<M>,
+    most: usize,
+    is_whole: bool,
+    work: &mut Work,
+) -> Result<Progress, Error> {
+    let mut sums = [0.0; 4];
+    signals.iter().for_each(|of| add_zeros(of, &mut sums));
+    if sums != [0.0; 4] {
         return Err(Error::NotANumber);
     }
-    if !state.is_led() {
-        let at = state.at();
-        let (q, t) = (at.q, at.t);
-        state.lead.begin(&q, t)?;
+    if state.is_led() {
+        state.lead.takes(&state.lead.at().along.signals, signals)?;
+        let come = state.lead.go(signals, &mut { most }, is_whole, state.steepness, work)?;
+        state.take_over();
+        return Ok(come);
     }
-    let result = state.lead.go(signals, most, state.steepness);
-    if matches!(result, Ok(()) | Err(Error::TooFar)) {
-        state.lead.is_leading = true;
-        let State { lead, solutions: [first, second], is_second, .. } = state;
-        let (at, to) = (lead.at(), if *is_second { second } else { first });
+    begin(signals, state, most, is_whole, work)
+}
+
+/// Leads a state that inputs have not led yet.
+#[cold]
+#[inline(never)]
+fn begin<E: Led<K>, M: Follows<E, K>, const K: usize>(
+    signals: &Signals<K>,
+    state: &mut State<M>,
+    most: usize,
+    is_whole: bool,
+    work: &mut Work,
+) -> Result<Progress, Error> {
+    let (before, q, t) = (state.lead, state.at().q, state.at().t);
+    let [now, ..] = E::by_text(state.params(), t);
+    work.add(1);
+    state.lead.takes(&now, signals)?;
+    let lead = &mut state.lead;
+    let come = lead.begin(&q, t, work).and_then(|()| lead.go(signals, &mut { most }, is_whole, state.steepness, work));
+    match come {
+        Ok(come) if come.fraction > 0.0 => {
+            state.lead.is_leading = true;
+            state.take_over();
+        }
+        Ok(_) => state.lead = Leading { unfinished: state.lead.unfinished, ..before },
+        Err(_) => state.lead = before,
+    }
+    come
+}
+
+impl<M: Timed> State<M> {
+    /// Takes over where its inputs have led.
+    fn take_over<E: Led<K>, const K: usize>(&mut self)
+    where
+        M: Follows<E, K>,
+    {
+        let (at, to) = (self.lead.at(), self.track.at_mut());
         (to.q, to.qd, to.qdd, to.measures) = (at.q, at.qd, at.qdd, at.measures);
         if let (true, [.., t]) = (M::HAS_TIME, at.along.signals.as_slice()) {
             to.t = *t;
         }
     }
-    result
+}
+
+/// By signal: the largest change that a call takes.
+pub fn largest_change<E: Led<K>, M: Follows<E, K>, const K: usize>(state: &State<M>) -> &[f64; K] {
+    &state.lead.largest_change
+}
+
+/// The same, to be written.
+pub fn largest_change_mut<E: Led<K>, M: Follows<E, K>, const K: usize>(state: &mut State<M>) -> &mut [f64; K] {
+    &mut state.lead.largest_change
 }
 
 /// The signals at a state: what they were followed to, or what their formulas say at its time.
@@ -3900,133 +4519,182 @@ pub fn influence<E: Led<K>, M: Follows<E, K>, const K: usize>(state: &State<M>) 
         return Ok(at(&state.lead));
     }
     let mut lead = Leading::with(state.params());
-    lead.begin(state.q(), state.t())?;
+    lead.begin(state.q(), state.t(), &mut Work::default())?;
     Ok(at(&lead))
 }
 
 impl<E: Led<K>, const K: usize> Leading<E, K> {
     fn with(params: &E::Params) -> Self {
+        let solutions = [Solution::ZERO, Solution::ZERO];
         Self {
             model: E::new(&Way::new(params)),
-            solutions: [Solution::ZERO, Solution::ZERO],
-            is_second: false,
-            is_smooth: false,
-            stride: f64::INFINITY,
+            track: Track { solutions, is_second: false, is_smooth: false, stride: f64::INFINITY },
+            largest_change: E::LARGEST_CHANGE,
+            unfinished: ([f64::NAN; K], f64::INFINITY),
             is_leading: false,
         }
     }
 
     /// The solution of now.
     pub(super) fn at(&self) -> &Solution<E> {
-        let [first, second] = &self.solutions;
-        if self.is_second { second } else { first }
+        self.track.at()
     }
 
-    /// The same, to be written; with the mechanism.
-    fn at_mut(&mut self) -> (&E, &mut Solution<E>) {
-        let [first, second] = &mut self.solutions;
-        (&self.model, if self.is_second { second } else { first })
-    }
-
-    /// The one before, or the next one in the making.
-    fn other(&self) -> &Solution<E> {
-        let [first, second] = &self.solutions;
-        if self.is_second { first } else { second }
+    /// Whether no signal changes by more than is taken.
+    fn takes(&self, from: &[f64; K], [to, ..]: &Signals<K>) -> Result<(), Error> {
+        let mut changes = from.iter().zip(to).zip(&self.largest_change);
+        if changes.all(|((from, to), largest)| (to - from).abs() <= *largest) { Ok(()) } else { Err(Error::TooFar) }
     }
 
     /// Begins at a position that the text's formulas give at a time (s).
-    fn begin(&mut self, q: &E::Q, t: f64) -> Result<(), Error> {
+    fn begin(&mut self, q: &E::Q, t: f64, work: &mut Work) -> Result<(), Error> {
         let way = self.model.way_mut();
         let signals = E::by_text(&way.params, t);
         way.turn(&signals[0], &signals);
         let mut near = Solution::near(q, 1.0);
-        near.sides = sides_near(q, 1.0, &self.model);
-        self.is_smooth = false;
-        let (model, now) = self.at_mut();
-        reach(&E::tears(q), &near, 1.0, model, now).map_err(Fault::at_start)?;
+        near.sides = sides_near(q, 1.0, &self.model, work);
+        self.track.is_smooth = false;
+        let now = self.track.at_mut();
+        reach(&E::tears(q), &near, 1.0, &self.model, now, work).map_err(Fault::at_start)?;
         if now.first <= LARGEST_CORRECTION { Ok(()) } else { Err(Error::Divergence) }
     }
 
-    /// Goes from the signals of now to others.
-    fn go(&mut self, signals: &Signals<K>, most: usize, steepness: f64) -> Result<(), Error> {
+    /// Goes from the signals of now to others in so many steps at most, of which it leaves what it does not take. After an error, all
+    /// is as it was.
+    fn go(
+        &mut self,
+        signals: &Signals<K>,
+        left: &mut usize,
+        is_whole: bool,
+        steepness: f64,
+        work: &mut Work,
+    ) -> Result<Progress, Error> {
         let from = self.at().along.signals;
-        let before = self.model.way().clone();
+        let (mut before, way) = (Checkpoint::of(&self.track), *self.model.way());
         self.model.way_mut().turn(&from, signals);
-        self.at_mut().1.t = 0.0;
+        self.track.at_mut().t = 0.0;
+        let ((goal, stride), usual) = (self.unfinished, self.track.stride);
+        let goes_on = goal == signals[0];
+        if goes_on {
+            self.track.stride = stride;
+        }
+        let mut why = self.march(left, &mut before, steepness, work);
+        if why.is_none() {
+            if goes_on {
+                self.unfinished = ([f64::NAN; K], f64::INFINITY);
+            }
+            return Ok(Progress::REACHED);
+        }
+        if why == Some(Error::TooFar) && !is_whole {
+            self.unfinished = (signals[0], self.track.stride);
+            if self.at().t > 0.0 {
+                // what goes well elsewhere is not what goes well here
+                self.track.stride = usual;
+                return Ok(Progress::part(self.at().t, 1.0));
+            }
+            why = None;
+        }
+        before.restore(&mut self.track);
+        *self.model.way_mut() = way;
+        why.map_or(Ok(Progress { fraction: 0.0 }), Err)
+    }
+
+    /// Steps from place to place to the end of the way; why it ends before, if it does.
+    #[inline(always)]
+    #[allow(clippy::inline_always)] // a call would keep everything in memory
+    fn march(
+        &mut self,
+        left: &mut usize,
+        before: &mut Checkpoint<E>,
+        steepness: f64,
+        work: &mut Work,
+    ) -> Option<Error> {
         let length = self.model.way().length();
         // the branch asks for steps of the same change on any way
         let smallest = SHORTEST_STEP / larger(length, 1.0);
-        let stride = self.stride;
-        // the solution at the beginning, once it is behind the one before
-        let mut home = None;
-        for _ in 0..most {
+        let mut refused = None;
+        while *left > 0 {
+            *left -= 1;
             let now = self.at().t;
-            let step = f64::max(self.stride / length, smallest);
+            let step = f64::max(self.track.stride / length, smallest);
             // a way without length is one step
             let wanted = if step < CRUMB * (1.0 - now) { now + step } else { 1.0 };
-            let next = first_edge(now, wanted, &self.model);
+            let next = first_edge(now, wanted, &self.model, work);
             let (is_last, size) = (next >= 1.0, next - now);
-            match self.advance(next, is_last, steepness) {
+            match self.advance(next, is_last, steepness, work) {
                 Ok(is_calm) => {
+                    let stride = self.track.stride;
                     if is_calm {
-                        self.stride = f64::max(self.stride, 2.0 * size * length);
+                        self.track.stride = f64::max(stride, 2.0 * size * length);
                     } else if length > 0.0 {
-                        self.stride = f64::min(self.stride, size * length);
+                        self.track.stride = f64::min(stride, size * length);
                     }
                     if is_last {
-                        return Ok(());
+                        return None;
                     }
-                    if home.is_none() {
-                        home = Some(self.other().clone());
-                    }
+                    before.keep(&self.track);
                 }
+                Err(Fault::NotSmooth) => return Some(Error::NotSmooth),
                 Err(fault) => {
                     let half = 0.5 * size;
-                    self.stride = half * length;
-                    self.is_smooth = false;
+                    self.track.is_smooth = false;
                     if half < smallest || now + half == now {
-                        let why = self.explain(fault, next, steepness);
-                        self.stride = stride;
-                        *self.model.way_mut() = before;
-                        if let Some(home) = home {
-                            *self.at_mut().1 = home;
+                        return Some(self.explain(fault, next, steepness, work));
+                    }
+                    refused = Some((fault, next, half * length));
+                    let turn = self.turn(fault, steepness, work);
+                    if turn < size * length {
+                        if turn < NEAREST_TURN {
+                            return Some(Error::LockUp);
                         }
-                        return Err(why);
+                        self.track.stride = 0.9 * turn;
+                    } else {
+                        self.track.stride = half * length;
                     }
                 }
             }
         }
-        Err(Error::TooFar)
+        // so short a step is not refused for its length
+        match refused {
+            Some((fault, next, size)) if size < SHORT && self.track.stride < 4.0 * SHORT => {
+                match self.explain(fault, next, steepness, work) {
+                    Error::Divergence => Some(Error::TooFar),
+                    error => Some(error),
+                }
+            }
+            _ => Some(Error::TooFar),
+        }
     }
 
     /// One step to a place of the way; says whether a longer one would do as well.
-    fn advance(&mut self, t: f64, is_wanted: bool, steepness: f64) -> Result<bool, Fault> {
-        let [first, second] = &mut self.solutions;
-        let (from, at) = if self.is_second { (second, first) } else { (first, second) };
-        let (from, m) = (&*from, &self.model);
+    fn advance(&mut self, t: f64, is_wanted: bool, steepness: f64, work: &mut Work) -> Result<bool, Fault> {
+        let is_smooth = self.track.is_smooth;
+        let (from, at) = self.track.both();
+        let m = &self.model;
         let h = t - from.t;
         let change = m.way().direction().map(|rate| h * rate);
         let v = tears_along(from, &change);
-        let mut way = if self.is_smooth { bend(from, at, &v, &change) } else { E::Tears::ZERO };
+        let mut way = if is_smooth { bend(from, at, &v, &change) } else { E::Tears::ZERO };
         for (way, v) in way.as_mut().iter_mut().zip(v.as_ref()) {
             *way += v;
         }
-        let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, &v, &change))?;
-        if !stays_on_branch(from, at, m, is_wanted, steepness) {
+        let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, &v, &change), work)?;
+        if !stays_on_branch(from, at, m, is_wanted, steepness, work) {
             return Err(Fault::Singular);
         }
-        if E::OF_TIME && at.sides != from.sides && jumps(from, at, m) {
+        if E::OF_TIME && at.sides != from.sides && jumps(from, at, m, work) {
             return Err(Fault::NotSmooth);
         }
-        self.is_smooth = at.sides == from.sides;
-        self.is_second = !self.is_second;
+        let is_smooth = at.sides == from.sides;
+        self.track.is_smooth = is_smooth;
+        self.track.is_second = !self.track.is_second;
         Ok(is_calm)
     }
 
     /// Why even the shortest step towards a place of the way is refused.
-    fn explain(&self, fault: Fault, t: f64, steepness: f64) -> Error {
+    fn explain(&self, fault: Fault, t: f64, steepness: f64, work: &mut Work) -> Error {
         let (at, m) = (self.at(), &self.model);
-        if let Some(error) = regular(at, fault, t, m) {
+        if let Some(error) = regular(at, fault, t, m, work) {
             return error;
         }
         if at.steepest < SINGULAR * steepness {
@@ -4034,18 +4702,32 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
                 return Error::Inconsistent;
             }
             // a formula may jump without a branch of its own
-            let mut beyond = at.clone();
-            let is_there = fault == Fault::TooFar && reach(&E::tears(&at.q), at, t, m, &mut beyond).is_ok();
+            let mut beyond = *at;
+            let is_there = fault == Fault::TooFar && reach(&E::tears(&at.q), at, t, m, &mut beyond, work).is_ok();
             return if is_there { Error::NotSmooth } else { Error::Divergence };
         }
-        // all by the signal that changes most; a way may be short itself
+        meeting(self.until_turn(work), 1.0 + m.way().length())
+    }
+
+    /// The change of a signal that is left to a dead point, where a step was refused so near to a singular position that this can be
+    /// told; infinite otherwise.
+    fn turn(&self, fault: Fault, steepness: f64, work: &mut Work) -> f64 {
+        let is_near = self.at().steepest >= SINGULAR * steepness && matches!(fault, Fault::TooFar | Fault::Singular);
+        let left = if is_near { self.until_turn(work) } else { f64::INFINITY };
+        if left > 0.0 { left } else { f64::INFINITY }
+    }
+
+    /// The change of the signal that changes most, all others with it, to a dead point.
+    fn until_turn(&self, work: &mut Work) -> f64 {
+        let (at, m) = (self.at(), &self.model);
         let longest = m.way().length();
-        let mut along = m.clone();
+        let mut along = *m;
         along.way_mut().rates = m.way().direction().map(|change| change / longest);
         along.way_mut().accelerations = [0.0; K];
-        let mut moving = at.clone();
+        let mut moving = *at;
+        work.add(1);
         along.solve(&E::tears(&at.q), at.t, &at.sides, &mut moving);
-        meeting(until_turn(&moving), 1.0 + longest)
+        until_turn(&moving)
     }
 }
 
@@ -4108,9 +4790,9 @@ fn bend<E: Led<K>, const K: usize>(
 
 /// Whether a position differs on the two sides of a place at which formulas change their branches: `at` is the later side, and `from`
 /// has the branches of the earlier one.
-fn jumps<M: Solved>(from: &Solution<M>, at: &Solution<M>, m: &M) -> bool {
-    let mut before = at.clone();
-    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before).is_err() {
+fn jumps<M: Solved>(from: &Solution<M>, at: &Solution<M>, m: &M, work: &mut Work) -> bool {
+    let mut before = *at;
+    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before, work).is_err() {
         return true;
     }
     largest(&difference(&at.q, &before.q), M::scales()) > POSITION_JUMP
@@ -4294,6 +4976,8 @@ pub const CRUMB: f64 = 0.999;
 pub const FARTHEST_AHEAD: f64 = 1e-7;
 /// The step before tells of one that is so many times as long at most.
 pub const FARTHEST_BEND: f64 = 4.0;
+/// Trials on the way from the file's parameters to others before its poses are tried.
+pub const FIRST_PARTS: usize = 4;
 /// Iterations of Newton at most.
 pub const ITERATIONS: usize = 8;
 /// Newton's first correction at most, beside the size of a body or 1 rad.
@@ -4312,16 +4996,28 @@ pub const LONGEST_AHEAD: f64 = 1e-9;
 pub const MOST_BRANCHES: usize = 8;
 /// Halvings until two times are neighbours.
 pub const MOST_HALVINGS: usize = 100;
-/// Trials on the way from the file's parameters to others at most.
-pub const MOST_PARTS: usize = 10_000;
-/// Steps that one call takes at most that has no bound of its own.
-pub const MOST_STEPS: usize = 1_000_000;
+/// Trials on it at most where these have not helped either.
+pub const MOST_PARTS: usize = 200;
+/// How often a correction is made half as long before it is taken as it is.
+pub const MOST_SHORTER: usize = 6;
+/// Steps that `step` takes at most.
+pub const MOST_STEPS: usize = 10_000;
+/// Steps that `follow` takes at most.
+pub const MOST_STEPS_TO_FOLLOW: usize = 64;
+/// Corrections at most from far away.
+pub const MOST_TRIALS: usize = 30;
+/// A correction that is so small, scaled, is the last one from far away.
+pub const NEAR: f64 = 0.02;
+/// A dead point that is so near by a signal's change, while a longer step is refused, is not passed.
+pub const NEAREST_TURN: f64 = 1e-6;
 /// A dead point is no further off than this part of the span.
 pub const NEAR_FOLD: f64 = 1e-5;
 /// A position that changes by more than this at an edge jumps, scaled.
 pub const POSITION_JUMP: f64 = 1e-9;
 /// A speed below this part of one per span is rest, scaled.
 pub const REST: f64 = 0.001;
+/// A step that is shorter than this, by a signal's change, is not refused for its length.
+pub const SHORT: f64 = 0.0001;
 /// The shortest step, as a part of the way of signals; of a long one, as a change of a signal.
 pub const SHORTEST_STEP: f64 = 1e-12;
 /// Where steps become too small, this is steep enough for a singular position to be the reason.

@@ -36,36 +36,39 @@ files! {
     "error" at "runtime/error.rs": [], [];
     "equations" at "runtime/equations.rs": ["numbers"], [];
     "measured" at "runtime/measured.rs": [], [];
+    "work" at "runtime/work.rs": ["equations"], [MOST_BRANCHES, MOST_HALVINGS];
     "solution" at "runtime/solution.rs": ["numbers", "error", "equations", "measured"], [];
+    "track" at "runtime/track.rs": ["solution"], [];
     "so_far" at "runtime/so_far.rs": [], [];
     "pivots" at "runtime/pivots.rs": ["so_far", "solution"], [];
     "grid" at "../math/grid.rs": [], [];
     "hermite" at "../math/hermite.rs": [], [];
     "neighbours" at "../math/neighbours.rs": [], [];
     "newton" at "runtime/newton.rs": ["numbers", "so_far", "solution", "grid"], [BORDER, LARGEST_CORRECTION];
-    "branches" at "runtime/branches.rs": ["equations", "solution", "neighbours"], [MOST_HALVINGS, SLACK];
+    "branches" at "runtime/branches.rs": ["equations", "solution", "neighbours", "work"], [MOST_HALVINGS, SLACK];
     "watched" at "runtime/watched.rs": ["numbers"], [];
     "left_out" at "runtime/left_out.rs": [], [LARGEST_OPENING];
     "hold_apart" at "runtime/hold_apart.rs": ["numbers", "equations"], [MISSES];
-    "reach" at "runtime/reach.rs": ["numbers", "error", "measured", "solution", "branches"],
+    "reach" at "runtime/reach.rs": ["numbers", "error", "measured", "solution", "branches", "work"],
         [ACCURACY, MOST_BRANCHES, STEEP, STEEPEST];
-    "state" at "runtime/state.rs": ["numbers", "error", "measured", "solution"], [AHEAD, FARTHEST_AHEAD, LONGEST_AHEAD];
-    "assemble" at "runtime/assemble.rs": ["numbers", "error", "solution", "branches", "reach", "state"],
-        [LARGEST_CORRECTION, MOST_PARTS, SMALLEST_PART];
-    "explain" at "runtime/explain.rs": ["error", "solution", "branches", "state"], [NEAR_FOLD, SINGULAR];
-    "step" at "runtime/step.rs": ["numbers", "error", "solution", "hermite", "branches", "reach", "state", "explain"],
+    "state" at "runtime/state.rs": ["numbers", "error", "measured", "solution", "track", "work"], [AHEAD, FARTHEST_AHEAD, LONGEST_AHEAD];
+    "assemble" at "runtime/assemble.rs": ["numbers", "error", "solution", "branches", "reach", "state", "track", "work"],
+        [FIRST_PARTS, LARGEST_CORRECTION, MOST_PARTS, MOST_SHORTER, MOST_TRIALS, SMALLEST_PART];
+    "explain" at "runtime/explain.rs": ["equations", "error", "solution", "branches", "state", "work"], [NEAR_FOLD, SINGULAR];
+    "step" at "runtime/step.rs": ["numbers", "error", "solution", "hermite", "branches", "reach", "state", "explain", "track", "work"],
         [CALM_BETWEEN, CALM_CORRECTION, CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD,
             POSITION_JUMP, REST, VELOCITY_JUMP];
-    "rims" at "runtime/rims.rs": ["numbers", "error", "solution", "neighbours", "reach", "state"],
+    "rims" at "runtime/rims.rs": ["numbers", "error", "solution", "neighbours", "reach", "state", "work"],
         [FEWEST_LOOKS, GROWTH, LEAD, MOMENT, MOST_HALVINGS, MOST_LOOKS, PASSED, ROUNDING, SLOW, SPEED_JUMP];
     "blocks" at "../math/blocks.rs": [], [];
-    "pivoting" at "runtime/pivoting.rs": ["numbers", "error", "solution", "grid", "blocks"], [BORDER, ITERATIONS];
+    "pivoting" at "runtime/pivoting.rs": ["numbers", "error", "solution", "branches", "grid", "blocks", "work"],
+        [BORDER, ITERATIONS, MOST_SHORTER, MOST_TRIALS, NEAR];
     "pivoted_slopes" at "runtime/pivoted_slopes.rs": ["error", "solution", "pivoting"], [];
     "way" at "runtime/way.rs": ["numbers", "equations", "solution", "state"], [FARTHEST_AHEAD];
     "way_list" at "runtime/way_list.rs": ["state", "way"], [];
     "follow" at "runtime/follow.rs":
-        ["numbers", "error", "solution", "branches", "reach", "state", "explain", "step", "way"],
-        [CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_TURN, POSITION_JUMP, SHORTEST_STEP, SINGULAR];
+        ["numbers", "equations", "error", "solution", "branches", "reach", "state", "explain", "step", "way", "track", "work"],
+        [CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_TURN, NEAREST_TURN, POSITION_JUMP, SHORT, SHORTEST_STEP, SINGULAR];
     "sensitivity" at "runtime/sensitivity.rs": ["numbers", "error", "solution", "state"], [];
     "sensitivity_led" at "runtime/sensitivity_led.rs": ["error", "state", "way", "follow", "sensitivity"], [];
     "forces" at "runtime/forces.rs": ["numbers", "error", "solution", "state"], [STEEP];
@@ -76,9 +79,9 @@ files! {
     "lane_pivots" at "runtime/lane_pivots.rs": ["so_far", "lane_solutions"], [];
     "lane_newton" at "runtime/lane_newton.rs": ["so_far", "lane_solutions", "grid"], [BORDER, LARGEST_CORRECTION];
     "lanes" at "runtime/lanes.rs":
-        ["numbers", "so_far", "error", "hermite", "branches", "state", "assemble", "step", "lane_solutions"],
+        ["numbers", "so_far", "error", "hermite", "branches", "state", "assemble", "step", "lane_solutions", "track", "work"],
         [CALM_BETWEEN, CALM_CORRECTION, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP];
-    "lane_follow" at "runtime/lane_follow.rs": ["error", "way", "follow", "lane_solutions", "lanes"], [MOST_STEPS];
+    "lane_follow" at "runtime/lane_follow.rs": ["error", "way", "follow", "lane_solutions", "lanes", "work"], [MOST_STEPS_TO_FOLLOW];
     "sine_and_cosine" at "../math/sin_cos.rs": [], [];
     "without_branches" at "../math/without_branches.rs": ["sine_and_cosine"], [],
         "use super::sine_and_cosine::{cos_near_zero, reduce_small, sin_near_zero};\n";

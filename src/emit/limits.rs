@@ -1,7 +1,7 @@
 //! The limits that emitted code names, as `tolerances` has them.
 
 use super::text::{documented, literal};
-use crate::tolerances::emitted::{assemble, explain, follow, reach, rims as looks, step};
+use crate::tolerances::emitted::{assemble, close, explain, follow, reach, rims as looks, step};
 use crate::tolerances::singular::reasons;
 use crate::tolerances::solving::{lanes, solver, trust};
 use crate::tolerances::steps::{edges, limits as sides, march, rims};
@@ -50,6 +50,8 @@ limits! {
     Number FARTHEST_AHEAD = edges::FARTHEST_AHEAD, "Nothing may move farther than this meanwhile, scaled.";
     Number FARTHEST_BEND = step::FARTHEST_BEND,
         "The step before tells of one that is so many times as long at most.";
+    Count FIRST_PARTS = assemble::FIRST_PARTS,
+        "Trials on the way from the file's parameters to others before its poses are tried.";
     Count FEWEST_LOOKS = looks::FEWEST_LOOKS, "How often both sides of a rim are looked at at least.";
     Number GROWTH = sides::GROWTH, "What grows by so much with each look has no bound.";
     Count ITERATIONS = lanes::ITERATIONS, "Iterations of Newton at most.";
@@ -72,13 +74,20 @@ limits! {
     Count MOST_HALVINGS = rims::MOST_HALVINGS, "Halvings until two times are neighbours.";
     Count MOST_LOOKS = looks::MOST_LOOKS,
         "How often both sides of a rim are looked at, each time at a quarter of the distance.";
-    Count MOST_PARTS = assemble::MOST_PARTS, "Trials on the way from the file's parameters to others at most.";
-    Count MOST_STEPS = march::MOST_STEPS as usize, "Steps that one call takes at most that has no bound of its own.";
+    Count MOST_PARTS = assemble::MOST_PARTS, "Trials on it at most where these have not helped either.";
+    Count MOST_SHORTER = close::MOST_SHORTER, "How often a correction is made half as long before it is taken as it is.";
+    Count MOST_STEPS = step::MOST_STEPS, "Steps that `step` takes at most.";
+    Count MOST_STEPS_TO_FOLLOW = follow::MOST_STEPS_TO_FOLLOW, "Steps that `follow` takes at most.";
+    Count MOST_TRIALS = close::MOST_TRIALS, "Corrections at most from far away.";
+    Number NEAR = close::NEAR, "A correction that is so small, scaled, is the last one from far away.";
+    Number NEAREST_TURN = follow::NEAREST_TURN,
+        "A dead point that is so near by a signal's change, while a longer step is refused, is not passed.";
     Number NEAR_FOLD = reasons::NEAR_FOLD, "A dead point is no further off than this part of the span.";
     Number PASSED = looks::PASSED, "A rim within this part of the span is one that was looked at.";
     Number POSITION_JUMP = jumps::POSITION_JUMP, "A position that changes by more than this at an edge jumps, scaled.";
     Number REST = jumps::REST, "A speed below this part of one per span is rest, scaled.";
     Number ROUNDING = rims::ROUNDING, "A gauge is zero that is no more than so many units in the last place.";
+    Number SHORT = follow::SHORT, "A step that is shorter than this, by a signal's change, is not refused for its length.";
     Number SHORTEST_STEP = follow::SHORTEST_STEP,
         "The shortest step, as a part of the way of signals; of a long one, as a change of a signal.";
     Number SINGULAR = explain::SINGULAR,

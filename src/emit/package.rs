@@ -8,7 +8,7 @@ use super::names::{Case, Namer, is_keyword};
 use super::params::Params;
 use super::rust;
 use super::text::{lines, literal, one_line, unit};
-use super::{CrateFile, MARK, TranslationUnit, c};
+use super::{CrateFile, LARGEST_STRAIGHT, MARK, TranslationUnit, c};
 use crate::ir::Measure;
 use std::fmt::Display;
 
@@ -56,7 +56,7 @@ pub struct Reference {
 pub fn package(unit: &TranslationUnit<'_>, reference: &Reference, folder: &str) -> Vec<CrateFile> {
     let module = rust::module(unit);
     let name = crate_name(folder);
-    let writer = Writer { unit, reference, library: name.replace('-', "_"), name, needs_libm: module.needs_libm };
+    let writer = Writer { unit, reference, library: name.replace('-', "_"), name, module: &module };
     let file = |path: &str, text: String| CrateFile { path: path.to_owned(), text };
     let mut files = vec![
         file("Cargo.toml", writer.manifest()),
@@ -64,6 +64,7 @@ pub fn package(unit: &TranslationUnit<'_>, reference: &Reference, folder: &str) 
         file("src/lib.rs", writer.library()),
         file("tests/reference.rs", writer.test()),
         file("benches/steps.rs", writer.benchmark()),
+        file("examples/work.rs", writer.example()),
     ];
     if unit.for_c {
         files.extend(c::files(unit, &module, &writer.library, &writer.mark()));
@@ -104,9 +105,23 @@ panic = \"abort\"
 const STD: &str = "#[cfg(feature = \"std\")]\nextern crate std;\n\n";
 const C: &str = "#[allow(unsafe_code)] // what C calls\n#[rustfmt::skip]\nmod unsafe_c;\n";
 
+/// What an example counts of inputs.
+const WORK_OF_FOLLOW: &str = "    for change in [1e-3, 1.0, 3.0, 1e6] {
+        let (mut state, mut work) = (before.clone(), Work::default());
+        let mut inputs = Inputs::at(START_TIME, &PARAMS);
+        SIGNALS
+        let result = counted::follow(&inputs, &mut state, &mut work);
+        println!(
+            \"follow by {change}: {} of {MOST_WORK_TO_FOLLOW}, {result:?}\",
+            work.evaluations
+        );
+    }
+";
+
 /// What a page says of inputs.
 const INPUTS: &str = "Each is a `Signal`: its `value`, its `rate` and its `acceleration`, in SI. `step` takes what the text's formulas say of
-them, `follow` what it is given; after an error the state is as it was. Where formulas hold the time too, it is a plain number `t`.
+them, `follow` what it is given. An input that changes by more than `state.largest_change()` is `TooFar` at once; `set_largest_change` sets that.
+Where formulas hold the time too, it is a plain number `t`.
 ";
 
 struct Writer<'w> {
@@ -116,7 +131,7 @@ struct Writer<'w> {
     name: String,
     /// What it is called in code.
     library: String,
-    needs_libm: bool,
+    module: &'w rust::Module,
 }
 
 impl Writer<'_> {
@@ -131,7 +146,7 @@ impl Writer<'_> {
     }
 
     fn manifest(&self) -> String {
-        let dependencies = if self.needs_libm {
+        let dependencies = if self.module.needs_libm {
             format!("# The very version that mechc computes with: the same bits.\nlibm = \"={LIBM}\"\n")
         } else {
             String::new()
@@ -196,6 +211,61 @@ impl Writer<'_> {
         )
     }
 
+    /// What counts evaluations.
+    fn example(&self) -> String {
+        let (uses, follow) = if let Some(following) = &self.unit.following {
+            let inputs = following.unit.system.inputs();
+            let names = Case::Snake.names_of_inputs(inputs).into_iter().zip(inputs).filter(|(_, of)| !of.is_time());
+            let shifts: Vec<String> = names.map(|(name, _)| format!("inputs.{name}.value += change;")).collect();
+            let text = WORK_OF_FOLLOW.replace("PARAMS", self.params()).replace("SIGNALS", &shifts.join("\n        "));
+            (", Inputs, MOST_WORK_TO_FOLLOW", text)
+        } else {
+            ("", String::new())
+        };
+        format!(
+            include_str!("package/work.rs.txt"),
+            mark = self.mark(),
+            library = self.library,
+            uses = uses,
+            params = self.params(),
+            follow = follow,
+            steps = self.reference.steps.clamp(1, u64::from(u32::MAX)),
+            every = literal(self.reference.every),
+            last = literal(self.times().last().copied().unwrap_or_default()),
+        )
+    }
+
+    /// How much work calls are, and how much memory they take.
+    fn work(&self) -> String {
+        let bound = |name: &str| self.module.bounds.iter().find(|(of, _)| *of == name).map_or(0, |(_, bound)| *bound);
+        let operations =
+            |unit: &TranslationUnit<'_>| unit.motion.as_ref().map_or(0, |motion| motion.solver.instructions().len());
+        let (bytes, of_step) = (8 * self.module.words, operations(self.unit));
+        let mut rows = format!(
+            "| an evaluation | about {of_step} operations, a few of them twice or three times; by pivoting, where digits get lost, several times that |\n\
+             | `step`, mostly | 1 evaluation |\n\
+             | `step`, at most | `MOST_WORK` = {} evaluations, in `MOST_STEPS` = {} steps |\n\
+             | `assemble`, at most | `MOST_WORK_TO_ASSEMBLE` = {} evaluations |\n",
+            bound("MOST_WORK"),
+            bound("MOST_STEPS"),
+            bound("MOST_WORK_TO_ASSEMBLE"),
+        );
+        if let Some(following) = &self.unit.following {
+            rows += &format!(
+                "| an evaluation of `follow` | about {} operations |\n\
+                 | `follow`, mostly | 1 evaluation |\n\
+                 | `follow`, at most | `MOST_WORK_TO_FOLLOW` = {} evaluations, in `MOST_STEPS_TO_FOLLOW` = {} steps |\n",
+                operations(&following.unit),
+                bound("MOST_WORK_TO_FOLLOW"),
+                bound("MOST_STEPS_TO_FOLLOW"),
+            );
+        }
+        rows + &format!(
+            "| a state | {bytes} bytes |\n| the stack | about {} bytes, of a release on x86-64; `assemble` takes most |\n",
+            6 * bytes + 8 * of_step.min(LARGEST_STRAIGHT) / 4
+        )
+    }
+
     fn benchmark(&self) -> String {
         format!(
             include_str!("package/steps.rs.txt"),
@@ -217,7 +287,7 @@ impl Writer<'_> {
     fn page(&self) -> String {
         let stopped = self.reference.stopped.as_deref();
         let end = stopped.map(|why| format!("\nThe motion ends before the file's analysis does: {}.", in_prose(why)));
-        let needs = if self.needs_libm { WITH_LIBM } else { "It asks for no other crate." };
+        let needs = if self.module.needs_libm { WITH_LIBM } else { "It asks for no other crate." };
         let (imports, shown) = self.shown();
         let times = self.times();
         let some = match times.as_slice() {
@@ -245,6 +315,7 @@ impl Writer<'_> {
             coordinates = self.coordinates(),
             measures = self.measures() + &self.forces(),
             errors = errors.collect::<String>(),
+            work = self.work(),
             end = end.unwrap_or_default(),
             c = self.for_c(),
         )
@@ -294,7 +365,7 @@ impl Writer<'_> {
             text += "| `state.measures()` | the measures with their first and second time derivatives |\n";
         }
         if self.unit.following.is_some() {
-            text += "| `follow(&inputs, &mut state)` | leads a state to `Inputs`, along the straight line between them; `follow_within` in so many steps at most |\n";
+            text += "| `follow(&inputs, &mut state)` | leads a state to `Inputs`, along the straight line between them; `follow_within` in so many steps at most: `Progress { fraction }` |\n";
             text += "| `Inputs::at(t, &params)`, `state.inputs()` | what the text's formulas say at a time; where a state is |\n";
             text += "| `influence(&state)` | the derivatives of the coordinates by each input, by the numbers in `input` |\n";
         }

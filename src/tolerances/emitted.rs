@@ -2,14 +2,28 @@
 
 /// Other parameters than those of the file (`emit/runtime/assemble.rs`).
 pub mod assemble {
-    /// Trials on the way to them at most.
-    pub const MOST_PARTS: usize = 10_000;
+    /// Trials on the way to them before the file's poses are tried.
+    pub const FIRST_PARTS: usize = 4;
+    /// Trials on it at most where these have not helped either.
+    pub const MOST_PARTS: usize = 200;
     /// The smallest part of it.
     pub const SMALLEST_PART: f64 = 1e-6;
 }
 
+/// Closing from far away (`emit/runtime/pivoting.rs`).
+pub mod close {
+    /// Corrections at most.
+    pub const MOST_TRIALS: usize = 30;
+    /// How often one is made half as long before it is taken as it is.
+    pub const MOST_SHORTER: usize = 6;
+    /// A correction that is so small, scaled, is the last one.
+    pub const NEAR: f64 = 0.02;
+}
+
 /// Steps (`emit/runtime/step.rs`).
 pub mod step {
+    /// Steps that `step` takes at most: some analyses of the file.
+    pub const MOST_STEPS: usize = 10_000;
     /// The step before tells of one that is so many times as long at most.
     pub const FARTHEST_BEND: f64 = 4.0;
     /// How far velocities may lead elsewhere than positions, scaled: more is another branch.
@@ -48,6 +62,16 @@ pub mod rims {
 
 /// The way of inputs (`emit/runtime/follow.rs`).
 pub mod follow {
+    /// Steps that `follow` takes at most: as many as a change by half a turn asks for, and few enough for a control loop.
+    pub const MOST_STEPS_TO_FOLLOW: usize = 64;
+    /// The largest change of an angle in a call (rad): beyond half a turn nobody can say which way it went.
+    pub const LARGEST_TURN_OF_INPUT: f64 = std::f64::consts::PI;
+    /// The largest change of a length, beside the largest scale of a coordinate.
+    pub const LARGEST_SHIFT_OF_INPUT: f64 = 2.0;
+    /// A dead point that is so near by a signal's change, while a longer step is refused, is not passed.
+    pub const NEAREST_TURN: f64 = 1e-6;
+    /// A step that is shorter than this, by a signal's change, is not refused for its length.
+    pub const SHORT: f64 = 1e-4;
     /// The shortest step, as a part of the way; of a long one, as a change of a signal.
     pub const SHORTEST_STEP: f64 = 1e-12;
     /// Signals go straight on if the square of what leads aside is no larger part of that of the whole.

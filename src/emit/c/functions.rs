@@ -15,7 +15,9 @@ pub(super) enum Of {
     Inputs,
     InputsToWrite,
     Number,
+    Numbers,
     NumbersToWrite,
+    WholeToWrite,
     Count,
     Code,
 }
@@ -26,6 +28,7 @@ pub(super) enum Gives {
     Code,
     Message,
     Params,
+    Count,
 }
 
 /// A function of the header.
@@ -47,7 +50,9 @@ impl Of {
             Of::Inputs => "*const Inputs",
             Of::InputsToWrite => "*mut Inputs",
             Of::Number => "f64",
+            Of::Numbers => "*const f64",
             Of::NumbersToWrite => "*mut f64",
+            Of::WholeToWrite => "*mut i32",
             Of::Count => "usize",
             Of::Code => "i32",
         }
@@ -62,7 +67,9 @@ impl Of {
             Of::Inputs => format!("const {prefix}_inputs *{name}"),
             Of::InputsToWrite => format!("{prefix}_inputs *{name}"),
             Of::Number => format!("double {name}"),
+            Of::Numbers => format!("const double *{name}"),
             Of::NumbersToWrite => format!("double *{name}"),
+            Of::WholeToWrite => format!("int32_t *{name}"),
             Of::Count => format!("size_t {name}"),
             Of::Code => format!("int32_t {name}"),
         }
@@ -75,6 +82,7 @@ impl Gives {
             Gives::Code => "i32",
             Gives::Message => "*const c_char",
             Gives::Params => "Params",
+            Gives::Count => "usize",
         }
     }
 }
@@ -82,13 +90,16 @@ impl Gives {
 const PARAMS_DEFAULT: &str = "The parameters of the file.";
 const MESSAGE: &str = "What a code means, in English; never null.";
 const ASSEMBLE: &str =
-    "Brings the mechanism to its first time, START_TIME. Whatever the state was, it is a new one; after an error it
-is none.";
+    "Brings the mechanism to its first time, START_TIME: along the branch of the file's parameters where a short way
+leads there, else from the poses that the file draws with these. Whatever the state was, it is a new one; after an
+error it is what it was. MOST_WORK_TO_ASSEMBLE evaluations at most.";
+const ASSEMBLY: &str = "Which way that went: ASSEMBLY_LED or ASSEMBLY_DRAWN.";
 const STEP: &str =
-    "Takes a state to a time t (s), forwards or back, on the branch of the motion that it is on. After an error it
-stays at the last time that it could reach.";
+    "Takes a state to a time t (s), forwards or back, on the branch of the motion that it is on, in MOST_STEPS steps
+and MOST_WORK evaluations at most. After an error it is bit for bit what it was.";
 const STEP_WITHIN: &str =
-    "The same in so many steps at most, for those who have a deadline; after TOO_FAR the same call goes on.";
+    "The same in so many steps at most, for those who have a deadline. What these do not reach is answered with
+ON_THE_WAY, which is no error: the state is at a time between, and the same call goes on.";
 const ROW: &str =
     "All results, in SI, in the order of the columns of `mechc run`; the length of the list is COLUMNS. A measure
 without a value is NAN.";
@@ -96,10 +107,16 @@ const VALUE: &str = "One of them, by its column.";
 const INPUTS_AT: &str = "What the text's formulas say of the inputs at a time t (s).";
 const INPUTS: &str = "The inputs of a state: what they were followed to, or what their formulas say at its time.";
 const FOLLOW: &str =
-    "Leads a state from its inputs to others, along the straight line between them. After an error it stays as it
-was.";
+    "Leads a state from its inputs to others, along the straight line between them, in MOST_STEPS_TO_FOLLOW steps and
+MOST_WORK_TO_FOLLOW evaluations at most. After an error it is bit for bit what it was. A change beyond the largest
+is TOO_FAR at once.";
 const FOLLOW_WITHIN: &str =
-    "The same in so many steps at most; after TOO_FAR the state is on its way, and the same call goes on.";
+    "The same in so many steps at most. What these do not reach is answered with ON_THE_WAY, which is no error: the
+state, its inputs and its row are those of a place between, and the same call goes on.";
+const SET_LARGEST_CHANGE: &str =
+    "Sets the largest change of each input that a call takes, by their numbers: at first half a turn of an angle, of a
+length twice the largest body, and none of what is neither. A state keeps it. The length of the list is INPUTS.";
+const MOST_WORK: &str = "How many evaluations step_within and follow_within take at most that may take so many steps.";
 const INFLUENCE: &str =
     "The derivatives of the coordinates by each input: that of coordinate c by input i stands at i * COORDINATES + c.
 The length of the list is INPUTS * COORDINATES.";
@@ -135,9 +152,18 @@ impl Interface<'_> {
             let does = "given_to_write(state)?.hold(|| Ok(assemble(&Params)?))";
             all.push(function("assemble", ASSEMBLE, &[to_write], does));
         }
+        let assembly = [state, ("assembly", Of::WholeToWrite)];
+        all.push(function(
+            "assembly",
+            ASSEMBLY,
+            &assembly,
+            "write_whole(assembly, state_of(state)?.assembly() as i32)",
+        ));
+        let most_work = function("most_work", MOST_WORK, &[most], "most_work(most)");
+        all.push(Function { gives: Gives::Count, ..most_work });
         let does = "Ok(step(t, state_to_write(state)?)?)";
         all.push(function("step", STEP, &[to_write, t], does));
-        let does = "Ok(step_within(t, state_to_write(state)?, most)?)";
+        let does = "reached(step_within(t, state_to_write(state)?, most)?)";
         all.push(function("step_within", STEP_WITHIN, &[to_write, t, most], does));
         let does = "write(list, length, &state_of(state)?.row())";
         all.push(function("row", ROW, &[state, list, length], does));
@@ -155,8 +181,11 @@ impl Interface<'_> {
             all.push(function("inputs_of", INPUTS, &[state, to_inputs], does));
             let does = "Ok(follow(given(inputs)?, state_to_write(state)?)?)";
             all.push(function("follow", FOLLOW, &[to_write, inputs], does));
-            let does = "Ok(follow_within(given(inputs)?, state_to_write(state)?, most)?)";
+            let does = "reached(follow_within(given(inputs)?, state_to_write(state)?, most)?)";
             all.push(function("follow_within", FOLLOW_WITHIN, &[to_write, inputs, most], does));
+            let does = "read(list, length, |all| state_to_write(state).map(|state| state.set_largest_change(all)))";
+            let arguments = [to_write, ("list", Of::Numbers), ("length", Of::Count)];
+            all.push(function("set_largest_change", SET_LARGEST_CHANGE, &arguments, does));
             let does = "write(list, length, influence(state_of(state)?)?.as_flattened())";
             all.push(function("influence", INFLUENCE, &[state, list, length], does));
         }
@@ -177,9 +206,9 @@ impl Interface<'_> {
 
     /// What the functions call, by its name in the crate.
     fn used(&self) -> Vec<&'static str> {
-        let mut used = vec!["Error", "Params", "State", "assemble", "step", "step_within"];
+        let mut used = vec!["Error", "Params", "Progress", "State", "assemble", "most_work", "step", "step_within"];
         if self.has_inputs() {
-            used.extend(["Inputs", "follow", "follow_within", "influence"]);
+            used.extend(["INPUTS", "Inputs", "follow", "follow_within", "influence"]);
         }
         if self.has_sensitivity() {
             used.push("sensitivity");
@@ -209,6 +238,11 @@ impl Interface<'_> {
             page.blank();
         }
         page.constant("Words of 8 bytes that a state takes.", "const WORDS: usize", &self.words.to_string());
+        page.line("// what the header says of steps and work is what this crate does");
+        for (name, value) in self.bounds {
+            page.line(&format!("const _: () = assert!(super::{name} == {value});"));
+        }
+        page.blank();
         let docs = "What the first word of a state says, of this mechanism alone.";
         page.constant(docs, "const SIGN: u64", &format!("{:#x}", self.sign()));
         of_codes(&mut page);
@@ -259,7 +293,7 @@ impl Interface<'_> {
 /// Codes and what they mean.
 fn of_codes(page: &mut Page) {
     let codes = codes();
-    for (number, code) in codes.iter().filter(|(number, code)| *number > 0 && code.error.is_none()) {
+    for (number, code) in codes.iter().filter(|(number, code)| *number != 0 && code.error.is_none()) {
         page.docs(&format!("{}.", capital(code.says)));
         // not every mechanism has lists of all kinds
         page.line(&format!("const {}: Status = Status({number});", code.name));

@@ -19,7 +19,11 @@ A state is a plain value. One that is static, or set to 0, is none yet, and is r
 has made it one; memory that was never written may be anything, and must be set to 0 first. Copying a state
 by assignment keeps it for a try.
 
-Functions answer with a code, 0 (OK) if all went well. A pointer that is null or not aligned, a list of
+Functions answer with a code, 0 (OK) if all went well; one below 0 is no error. No call does more than a bounded
+amount of work, whatever it is given, and all do all or nothing: after an error, which is a code above 0, a state is
+bit for bit what it was. Work is counted in evaluations of the equations; what one costs, the crate's page says.
+
+A pointer that is null or not aligned, a list of
 another length, a state that was not assembled and a number that is not one are refused with a code, and
 change nothing. That a list is as long as is said, and that a pointer leads somewhere, C alone can know.";
 
@@ -31,7 +35,7 @@ impl Interface<'_> {
         page.line(&comment(self.mark));
         page.blank();
         page.line("/*");
-        page.text(&format!("Kinematics of the mechanism {name}, for C11 and later, and for C++.\n\n{ABOUT}"));
+        page.text(&format!("Kinematics of the mechanism {name}, for C99 and later, and for C++.\n\n{ABOUT}"));
         page.line("*/");
         page.blank();
         page.text(&format!("#ifndef {guard}\n#define {guard}\n\n#include <stddef.h>\n#include <stdint.h>\n"));
@@ -108,6 +112,14 @@ impl Interface<'_> {
         page.line("/* The first time of the file's analysis (s), and the longest step of the motion (s). */");
         page.line(&format!("#define {constants}_START_TIME {}", literal(motion.from)));
         page.line(&format!("#define {constants}_LONGEST_STEP {}", literal(span / FEWEST_STEPS)));
+        page.blank();
+        page.line("/* How many steps calls take at most, and how many evaluations these are: no call does more. */");
+        for (name, value) in self.bounds {
+            page.line(&format!("#define {constants}_{name} {value}"));
+        }
+        page.blank();
+        page.line("/* Which way a state was assembled: led along the branch of the file's parameters, or from its drawn poses. */");
+        page.line(&format!("enum {{ {constants}_ASSEMBLY_LED = 0, {constants}_ASSEMBLY_DRAWN = 1 }};"));
         page.blank();
     }
 
@@ -193,6 +205,7 @@ impl Interface<'_> {
             Gives::Code => "int32_t ".to_owned(),
             Gives::Message => "const char *".to_owned(),
             Gives::Params => format!("{prefix}_params "),
+            Gives::Count => "size_t ".to_owned(),
         };
         page.line(&format!("{gives}{prefix}_{}({arguments});", function.name));
         page.blank();

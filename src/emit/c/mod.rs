@@ -24,11 +24,13 @@ struct Interface<'i> {
     mark: &'i str,
     /// Words of 8 bytes that a state takes.
     words: usize,
+    /// How many steps calls take at most, and how many evaluations these are.
+    bounds: &'i [(&'static str, usize)],
 }
 
 /// The header and the functions of a crate's library, whose name all names begin with.
 pub(super) fn files(unit: &TranslationUnit<'_>, module: &Module, library: &str, mark: &str) -> Vec<CrateFile> {
-    let interface = Interface { unit, prefix: library, mark, words: module.words + 1 };
+    let interface = Interface { unit, prefix: library, mark, words: module.words + 1, bounds: &module.bounds };
     vec![
         CrateFile { path: format!("include/{library}.h"), text: interface.header() },
         CrateFile { path: "src/unsafe_c.rs".to_owned(), text: interface.functions() },
@@ -45,7 +47,9 @@ struct Code {
 }
 
 /// What only C can do wrong; their codes come behind those of errors, from this number on.
-const FIRST_OF_C: usize = 101;
+const FIRST_OF_C: i32 = 101;
+/// What is no error, and has a number below 0.
+const ON_THE_WAY: &str = "the state is on its way, and the same call goes on";
 const OF_C: [(&str, &str); 4] = [
     ("BAD_POINTER", "a pointer is null or not aligned"),
     ("NOT_ASSEMBLED", "the state is not one that was assembled for this mechanism"),
@@ -53,13 +57,15 @@ const OF_C: [(&str, &str); 4] = [
     ("NO_SUCH_COLUMN", "there is no such column"),
 ];
 
-/// All codes with their numbers, 0 among them.
-fn codes() -> Vec<(usize, Code)> {
+/// All codes with their numbers, that of no error and 0 among them.
+fn codes() -> Vec<(i32, Code)> {
     let fine = Code { name: "OK".to_owned(), says: "all went well", error: None };
     let errors = ERRORS.iter().map(|told| Code { name: apart(told.name), says: told.says, error: Some(told.name) });
     let of_c = OF_C.iter().map(|(name, says)| Code { name: (*name).to_owned(), says, error: None });
-    let numbers = (0..=ERRORS.len()).chain(FIRST_OF_C..);
-    numbers.zip(std::iter::once(fine).chain(errors).chain(of_c)).collect()
+    let numbers = (0..=ERRORS.len() as i32).chain(FIRST_OF_C..);
+    let on_the_way = Code { name: "ON_THE_WAY".to_owned(), says: ON_THE_WAY, error: None };
+    let all = numbers.zip(std::iter::once(fine).chain(errors).chain(of_c));
+    std::iter::once((-1, on_the_way)).chain(all).collect()
 }
 
 /// `NOT_A_NUMBER` of `NotANumber`.
@@ -122,8 +128,8 @@ mod tests {
     fn codes_have_names_and_numbers_of_their_own() {
         let codes = codes();
         let names: Vec<&str> = codes.iter().map(|(_, code)| code.name.as_str()).collect();
-        assert_eq!(names[..3], ["OK", "NOT_A_NUMBER", "LOCK_UP"]);
-        assert!(codes.iter().take(8).enumerate().all(|(k, (number, _))| k == *number));
-        assert_eq!(codes[8].0, FIRST_OF_C);
+        assert_eq!(names[..4], ["ON_THE_WAY", "OK", "NOT_A_NUMBER", "LOCK_UP"]);
+        assert!((-1..8).zip(&codes).all(|(k, (number, _))| k == *number));
+        assert_eq!(codes[9].0, FIRST_OF_C);
     }
 }

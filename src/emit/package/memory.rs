@@ -13,9 +13,8 @@ const _: () = assert!(size_of::<State>() <= 8 * (WORDS - 1));
 const _: () = assert!(align_of::<State>() <= align_of::<Memory>());
 
 impl Memory {
-    /// Holds a state from now on, if there is one.
+    /// Holds a state from now on; without one, all stays as it is.
     fn hold(&mut self, state: impl FnOnce() -> Result<State, Status>) -> Result<(), Status> {
-        self.sign = 0;
         let state = state()?;
         // SAFETY: it has room and is aligned, as is said above
         unsafe { self.state.as_mut_ptr().cast::<State>().write(state) };
@@ -24,8 +23,13 @@ impl Memory {
     }
 }
 
-/// A code for what is wrong.
+/// A code for what is wrong, or for a state that is on its way.
 struct Status(i32);
+
+/// Whether the end of a way is reached.
+fn reached(progress: Progress) -> Result<(), Status> {
+    if progress.is_reached() { Ok(()) } else { Err(ON_THE_WAY) }
+}
 
 /// What a function answers: 0 if all went well.
 fn answer(work: impl FnOnce() -> Result<(), Status>) -> i32 {
@@ -72,6 +76,16 @@ unsafe fn write(list: *mut f64, length: usize, values: &[f64]) -> Result<(), Sta
     }
     // SAFETY: it is so long; what it holds yet may be anything
     unsafe { core::ptr::copy(values.as_ptr(), list, length) };
+    Ok(())
+}
+
+/// Writes a whole number.
+unsafe fn write_whole(to: *mut i32, value: i32) -> Result<(), Status> {
+    if to.is_null() || !to.is_aligned() {
+        return Err(BAD_POINTER);
+    }
+    // SAFETY: it is a place for one; what it holds yet may be anything
+    unsafe { to.write(value) };
     Ok(())
 }
 

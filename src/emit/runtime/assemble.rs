@@ -2,63 +2,117 @@
 
 use super::branches::sides_near;
 use super::error::{Error, Fault};
-use super::limits::{LARGEST_CORRECTION, MOST_PARTS, SMALLEST_PART};
+use super::limits::{FIRST_PARTS, LARGEST_CORRECTION, MOST_PARTS, MOST_SHORTER, MOST_TRIALS, SMALLEST_PART};
 use super::numbers::Numbers;
 use super::reach::reach;
 use super::solution::Solution;
-use super::state::{Lead, Parameters, State, Timed};
+use super::state::{Assembly, Lead, Parameters, State, Timed};
+use super::track::Track;
+use super::work::{Work, of_reaching, of_sides};
 
-/// Brings the mechanism to its first time with some parameters, along the branch that the file's parameters give.
-pub fn assemble<M: Timed>(params: &M::Params) -> Result<State<M>, Error> {
+/// Evaluations that it takes at most.
+pub const fn most_work<M: Timed>() -> usize {
+    let of_start = of_sides::<M>() + of_reaching::<M>();
+    (2 + FIRST_PARTS + MOST_PARTS) * (of_start + of_sides::<M>() + 1)
+        + of_sides::<M>()
+        + (1 + MOST_SHORTER) * MOST_TRIALS
+}
+
+/// Brings the mechanism to its first time with some parameters: along the branch that the file's parameters give where a short way
+/// leads there, else from the poses that the file draws with these parameters, and only then along a long way.
+pub fn assemble<M: Timed>(params: &M::Params, work: &mut Work) -> Result<State<M>, Error> {
     if !params.is_finite() {
         return Err(Error::NotANumber);
     }
-    let file = M::Params::default();
-    let mut at = Solution::ZERO;
-    start(M::start(), &M::new(&file), &mut at).map_err(Fault::at_start)?;
-    let mut found = at.clone();
-    let usual = at.steepest;
-    let mut why = Error::Divergence;
-    // the part of the way from the file's parameters to those that are wanted
-    let (mut done, mut part) = (0.0, 1.0);
-    for _ in 0..MOST_PARTS {
-        let next = f64::min(done + part, 1.0);
-        let params = if next < 1.0 { file.towards(params, next) } else { *params };
-        let model = M::new(&params);
-        let result = start(&at.q, &model, &mut found);
-        if result.is_ok() && found.is_negative == at.is_negative {
-            if next >= 1.0 {
-                let ratio = found.steepest / usual;
-                let mut passed = M::Passed::ZERO;
-                passed.as_mut().fill(f64::NEG_INFINITY);
-                return Ok(State {
-                    steepness: if ratio > 0.0 { ratio } else { 1.0 },
-                    lead: M::Lead::new(&params),
-                    model,
-                    solutions: [found, at],
-                    is_second: false,
-                    is_smooth: false,
-                    step: M::LONGEST_STEP,
-                    passed,
-                });
+    let mut way = Way::<M>::new(work)?;
+    let model = M::new(params);
+    match way.lead(params, FIRST_PARTS, work) {
+        Ok(at) => return Ok(way.state(model, at, Assembly::Led)),
+        Err(Error::NotANumber) => return Err(Error::NotANumber),
+        Err(_) => {}
+    }
+    let mut at = way.at;
+    let drawn = model.closed(&model.drawn(), M::START_TIME, work);
+    if drawn.is_some_and(|q| start(&q, &model, &mut at, work).is_ok()) {
+        return Ok(way.state(model, at, Assembly::Drawn));
+    }
+    let at = way.lead(params, MOST_PARTS, work)?;
+    Ok(way.state(model, at, Assembly::Led))
+}
+
+/// The way from the file's parameters to others.
+struct Way<M: Timed> {
+    /// How steep the equations are with the file's.
+    usual: f64,
+    /// The solution where it has come to.
+    at: Solution<M>,
+    /// The part that is done, and the next one that is tried.
+    done: f64,
+    part: f64,
+}
+
+impl<M: Timed> Way<M> {
+    /// Its beginning.
+    fn new(work: &mut Work) -> Result<Self, Error> {
+        let mut at = Solution::ZERO;
+        start(M::start(), &M::new(&M::Params::default()), &mut at, work).map_err(Fault::at_start)?;
+        Ok(Self { usual: at.steepest, at, done: 0.0, part: 1.0 })
+    }
+
+    /// Goes on to the end, in so many trials at most.
+    fn lead(&mut self, params: &M::Params, most: usize, work: &mut Work) -> Result<Solution<M>, Error> {
+        let (file, mut found, mut why) = (M::Params::default(), self.at, Error::Divergence);
+        for _ in 0..most {
+            let next = f64::min(self.done + self.part, 1.0);
+            let is_last = next >= 1.0;
+            let params = if is_last { *params } else { file.towards(params, next) };
+            let model = M::new(&params);
+            let is_far = self.part < 1.0 && is_far(&self.at.q, &model, &mut found, work);
+            let result = if is_far { Err(Fault::TooFar) } else { start(&self.at.q, &model, &mut found, work) };
+            if result.is_ok() && found.is_negative == self.at.is_negative {
+                if is_last {
+                    return Ok(found);
+                }
+                (self.at, self.done, self.part) = (found, next, 2.0 * self.part);
+            } else {
+                why = result.err().map_or(Error::Divergence, Fault::at_start);
+                self.part *= 0.5;
             }
-            at.clone_from(&found);
-            (done, part) = (next, 2.0 * part);
-        } else {
-            why = result.err().map_or(Error::Divergence, Fault::at_start);
-            part *= 0.5;
+            if self.part < SMALLEST_PART {
+                break;
+            }
         }
-        if part < SMALLEST_PART {
-            break;
+        Err(why)
+    }
+
+    /// The state at a solution.
+    fn state(&self, model: M, at: Solution<M>, assembly: Assembly) -> State<M> {
+        let ratio = at.steepest / self.usual;
+        let mut passed = M::Passed::ZERO;
+        passed.as_mut().fill(f64::NEG_INFINITY);
+        State {
+            steepness: if ratio > 0.0 { ratio } else { 1.0 },
+            lead: M::Lead::new(model.params()),
+            model,
+            track: Track { solutions: [at, self.at], is_second: false, is_smooth: false, stride: M::LONGEST_STEP },
+            assembly,
+            passed,
         }
     }
-    Err(why)
+}
+
+/// Whether a position is too far away to solve from, by the operations alone: to try harder costs many times as much.
+fn is_far<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>, work: &mut Work) -> bool {
+    let sides = sides_near(q, M::START_TIME, m, work);
+    work.add(1);
+    m.solve(&M::tears(q), M::START_TIME, &sides, at);
+    !at.is_settled && at.first > LARGEST_CORRECTION
 }
 
 /// Solves at the first time, from a position nearby.
-fn start<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>) -> Result<(), Fault> {
+fn start<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>, work: &mut Work) -> Result<(), Fault> {
     let mut near = Solution::near(q, M::START_TIME);
-    near.sides = sides_near(q, M::START_TIME, m);
-    reach(&M::tears(q), &near, M::START_TIME, m, at)?;
+    near.sides = sides_near(q, M::START_TIME, m, work);
+    reach(&M::tears(q), &near, M::START_TIME, m, at, work)?;
     if at.first <= LARGEST_CORRECTION { Ok(()) } else { Err(Fault::TooFar) }
 }

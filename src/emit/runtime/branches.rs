@@ -4,10 +4,12 @@ use super::equations::Branches;
 use super::limits::{MOST_HALVINGS, SLACK};
 use super::neighbours::{bisect, shortly_after};
 use super::solution::{Along, Solution, Solved};
+use super::work::{Work, of_sides};
 
 /// The branches of formulas of time at a time: the later ones where they change just then, but at the end of the file's analysis
 /// the earlier ones.
-pub fn sides_at<M: Branches>(t: f64, m: &M) -> M::Sides {
+pub fn sides_at<M: Branches>(t: f64, m: &M, work: &mut Work) -> M::Sides {
+    work.add(of_sides::<M>());
     match M::END {
         Some(end) if t <= end && shortly_after(t, SLACK) >= end => {
             m.sides_of_time(end - 2.0 * (shortly_after(end, SLACK) - end))
@@ -17,18 +19,18 @@ pub fn sides_at<M: Branches>(t: f64, m: &M) -> M::Sides {
 }
 
 /// The first time of a step at which formulas of time take other branches than at its beginning; its end if they do not.
-pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M) -> f64 {
-    let here = sides_at(from, m);
-    if sides_at(to, m) == here {
+pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M, work: &mut Work) -> f64 {
+    let here = sides_at(from, m, work);
+    if sides_at(to, m, work) == here {
         return to;
     }
-    let [_, edge] = bisect([from, to], MOST_HALVINGS, |t| sides_at(t, m) == here);
+    let [_, edge] = bisect([from, to], MOST_HALVINGS, |t| sides_at(t, m, work) == here);
     edge
 }
 
 /// The branches at a position that is next to one that is looked for.
-pub fn sides_near<M: Branches>(q: &M::Q, t: f64, m: &M) -> M::Sides {
-    m.sides_of_motion(q, t, &sides_at(t, m))
+pub fn sides_near<M: Branches>(q: &M::Q, t: f64, m: &M, work: &mut Work) -> M::Sides {
+    m.sides_of_motion(q, t, &sides_at(t, m, work))
 }
 
 /// The branches with those of time exchanged.

@@ -4,7 +4,7 @@ use super::numbers::{Flags, Numbers};
 use core::fmt::Debug;
 
 /// The equations `phi = 0` and what follows from them.
-pub trait Equations: Clone + Debug {
+pub trait Equations: Copy + Debug {
     /// A number for each coordinate, and for each equation.
     type Q: Numbers;
     /// One for each entry of `phi_q` that does not vanish.

@@ -1,15 +1,17 @@
 //! Why a motion cannot go on.
 
 use super::branches::sides_at;
+use super::equations::Branches;
 use super::error::{Error, Fault};
 use super::limits::{NEAR_FOLD, SINGULAR};
 use super::solution::{Solution, Solved};
 use super::state::{State, Timed};
+use super::work::{Work, of_sides};
 
 /// Why even the shortest step from a state towards a time is refused.
-pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64) -> Error {
+pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64, work: &mut Work) -> Error {
     let at = state.at();
-    if let Some(error) = regular(at, fault, t, &state.model) {
+    if let Some(error) = regular(at, fault, t, &state.model, work) {
         return error;
     }
     if at.steepest < SINGULAR * state.steepness {
@@ -19,14 +21,20 @@ pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64) -> Error {
     meeting(if t < at.t { -left } else { left }, M::SPAN)
 }
 
+/// Evaluations that it takes to tell why, at most.
+pub const fn of_regular<M: Branches>() -> usize {
+    1 + 2 * of_sides::<M>()
+}
+
 /// Why it is, if that has nothing to do with how near the position is to a singular one.
-pub fn regular<M: Solved>(at: &Solution<M>, fault: Fault, t: f64, m: &M) -> Option<Error> {
+pub fn regular<M: Solved>(at: &Solution<M>, fault: Fault, t: f64, m: &M, work: &mut Work) -> Option<Error> {
+    work.add(1);
     let values = m.phi(&at.q, t, &at.sides);
     if fault == Fault::NotANumber || values.as_ref().iter().any(|value| !value.is_finite()) {
         return Some(Error::NotANumber);
     }
     // a position that jumps far is not even found on the other side
-    let is_at_edge = || sides_at(at.t, m) != sides_at(t, m);
+    let mut is_at_edge = || sides_at(at.t, m, work) != sides_at(t, m, work);
     let jumps = fault == Fault::NotSmooth || (fault == Fault::TooFar && is_at_edge());
     jumps.then_some(Error::NotSmooth)
 }

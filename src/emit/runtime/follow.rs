@@ -1,28 +1,31 @@
 //! What follows inputs.
 
 use super::branches::{first_edge, sides_near};
+use super::equations::Branches;
 use super::error::{Error, Fault};
-use super::explain::{meeting, regular, until_turn};
-use super::limits::{CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_TURN, POSITION_JUMP, SHORTEST_STEP, SINGULAR};
-use super::numbers::{Numbers, difference, larger, largest};
+use super::explain::{meeting, of_regular, regular, until_turn};
+use super::limits::{
+    CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_TURN, NEAREST_TURN, POSITION_JUMP, SHORT, SHORTEST_STEP, SINGULAR,
+};
+use super::numbers::{Numbers, add_zeros, difference, larger, largest};
 use super::reach::{find, reach, stays_on_branch};
 use super::solution::{Solution, Solved};
 use super::state::{Lead, State, Timed};
 use super::step::tried;
+use super::track::{Checkpoint, Track};
 use super::way::{Led, Signals, Way, sum};
+use super::work::{Progress, Work, of_reaching, of_sides, of_step};
 
 /// What leads a mechanism by its inputs.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Leading<E: Led<K>, const K: usize> {
     pub(super) model: E,
-    /// The solution of now and the one before, or the next one in the making; their times are places of the way.
-    solutions: [Solution<E>; 2],
-    /// Whether that of now is the second.
-    is_second: bool,
-    /// Whether the one before lies on the same smooth motion.
-    is_smooth: bool,
-    /// The change of a signal that goes well in a step.
-    stride: f64,
+    /// Where it is; times are places of the way, and steps are changes of a signal.
+    pub(super) track: Track<E>,
+    /// The largest change of each signal that a call takes.
+    largest_change: [f64; K],
+    /// Where a way leads that was left before its end, and the change that goes well on it.
+    unfinished: ([f64; K], f64),
     /// Whether inputs have led to where the mechanism is, rather than the time.
     is_leading: bool,
 }
@@ -36,6 +39,9 @@ pub trait Follows<E: Led<K>, const K: usize>:
 }
 
 impl<E: Led<K>, M: Follows<E, K>, const K: usize> Lead<M> for Leading<E, K> {
+    // beside the way, the solution of the time
+    const WORK: [usize; 2] = [most_work::<E, K>(0) + of_beginning::<M>(), of_step::<E>() + 1];
+
     fn new(params: &M::Params) -> Self {
         Self::with(params)
     }
@@ -44,45 +50,128 @@ impl<E: Led<K>, M: Follows<E, K>, const K: usize> Lead<M> for Leading<E, K> {
         self.is_leading
     }
 
-    fn take_up_time(state: &mut State<M>, most: usize) -> Result<(), Error> {
+    fn take_up_time(state: &mut State<M>, most: usize, work: &mut Work) -> Result<Option<usize>, Error> {
         let t = state.at().t;
-        follow_within(&E::by_text(state.params(), t), state, most)?;
+        work.add(1);
+        let wanted = E::by_text(state.params(), t);
+        let mut left = most;
+        let come = state.lead.go(&wanted, &mut left, false, state.steepness, work);
+        state.take_over();
+        if !come?.is_reached() {
+            return Ok(None);
+        }
         let q = state.at().q;
         let mut near = Solution::near(&q, t);
-        near.sides = sides_near(&q, t, &state.model);
-        let [first, second] = &mut state.solutions;
-        let at = if state.is_second { second } else { first };
-        reach(&M::tears(&q), &near, t, &state.model, at).map_err(Fault::at_start)?;
-        (state.lead.is_leading, state.is_smooth) = (false, false);
-        Ok(())
+        near.sides = sides_near(&q, t, &state.model, work);
+        reach(&M::tears(&q), &near, t, &state.model, state.track.at_mut(), work).map_err(Fault::at_start)?;
+        (state.lead.is_leading, state.track.is_smooth) = (false, false);
+        Ok(Some(left))
     }
 }
 
-/// Leads a state from its inputs to others in so many steps at most, along the straight line between them.
+/// Evaluations that a call of so many steps takes at most.
+pub const fn most_work<E: Led<K>, const K: usize>(most: usize) -> usize {
+    // that of the turn where a step is refused
+    most.saturating_mul(of_step::<E>() + 1)
+        .saturating_add(of_beginning::<E>() + of_regular::<E>() + of_reaching::<E>() + 1)
+}
+
+/// Evaluations that it takes to begin where the time has led, or to go on from there.
+const fn of_beginning<E: Branches>() -> usize {
+    1 + of_sides::<E>() + of_reaching::<E>()
+}
+
+/// Leads a state from its inputs to others in so many steps at most, along the straight line between them. After an error the state is
+/// as it was; what so many steps do not reach is one.
+pub fn follow<E: Led<K>, M: Follows<E, K>, const K: usize>(
+    signals: &Signals<K>,
+    state: &mut State<M>,
+    most: usize,
+    work: &mut Work,
+) -> Result<(), Error> {
+    lead(signals, state, most, true, work).map(|_| ())
+}
+
+/// The same, but what so many steps do not reach is on its way.
 pub fn follow_within<E: Led<K>, M: Follows<E, K>, const K: usize>(
     signals: &Signals<K>,
     state: &mut State<M>,
     most: usize,
-) -> Result<(), Error> {
-    if !signals.iter().flatten().all(|value| value.is_finite()) {
+    work: &mut Work,
+) -> Result<Progress, Error> {
+    lead(signals, state, most, false, work)
+}
+
+fn lead<E: Led<K>, M: Follows<E, K>, const K: usize>(
+    signals: &Signals<K>,
+    state: &mut State<M>,
+    most: usize,
+    is_whole: bool,
+    work: &mut Work,
+) -> Result<Progress, Error> {
+    let mut sums = [0.0; 4];
+    signals.iter().for_each(|of| add_zeros(of, &mut sums));
+    if sums != [0.0; 4] {
         return Err(Error::NotANumber);
     }
-    if !state.is_led() {
-        let at = state.at();
-        let (q, t) = (at.q, at.t);
-        state.lead.begin(&q, t)?;
+    if state.is_led() {
+        state.lead.takes(&state.lead.at().along.signals, signals)?;
+        let come = state.lead.go(signals, &mut { most }, is_whole, state.steepness, work)?;
+        state.take_over();
+        return Ok(come);
     }
-    let result = state.lead.go(signals, most, state.steepness);
-    if matches!(result, Ok(()) | Err(Error::TooFar)) {
-        state.lead.is_leading = true;
-        let State { lead, solutions: [first, second], is_second, .. } = state;
-        let (at, to) = (lead.at(), if *is_second { second } else { first });
+    begin(signals, state, most, is_whole, work)
+}
+
+/// Leads a state that inputs have not led yet.
+#[cold]
+#[inline(never)]
+fn begin<E: Led<K>, M: Follows<E, K>, const K: usize>(
+    signals: &Signals<K>,
+    state: &mut State<M>,
+    most: usize,
+    is_whole: bool,
+    work: &mut Work,
+) -> Result<Progress, Error> {
+    let (before, q, t) = (state.lead, state.at().q, state.at().t);
+    let [now, ..] = E::by_text(state.params(), t);
+    work.add(1);
+    state.lead.takes(&now, signals)?;
+    let lead = &mut state.lead;
+    let come = lead.begin(&q, t, work).and_then(|()| lead.go(signals, &mut { most }, is_whole, state.steepness, work));
+    match come {
+        Ok(come) if come.fraction > 0.0 => {
+            state.lead.is_leading = true;
+            state.take_over();
+        }
+        Ok(_) => state.lead = Leading { unfinished: state.lead.unfinished, ..before },
+        Err(_) => state.lead = before,
+    }
+    come
+}
+
+impl<M: Timed> State<M> {
+    /// Takes over where its inputs have led.
+    fn take_over<E: Led<K>, const K: usize>(&mut self)
+    where
+        M: Follows<E, K>,
+    {
+        let (at, to) = (self.lead.at(), self.track.at_mut());
         (to.q, to.qd, to.qdd, to.measures) = (at.q, at.qd, at.qdd, at.measures);
         if let (true, [.., t]) = (M::HAS_TIME, at.along.signals.as_slice()) {
             to.t = *t;
         }
     }
-    result
+}
+
+/// By signal: the largest change that a call takes.
+pub fn largest_change<E: Led<K>, M: Follows<E, K>, const K: usize>(state: &State<M>) -> &[f64; K] {
+    &state.lead.largest_change
+}
+
+/// The same, to be written.
+pub fn largest_change_mut<E: Led<K>, M: Follows<E, K>, const K: usize>(state: &mut State<M>) -> &mut [f64; K] {
+    &mut state.lead.largest_change
 }
 
 /// The signals at a state: what they were followed to, or what their formulas say at its time.
@@ -107,133 +196,182 @@ pub fn influence<E: Led<K>, M: Follows<E, K>, const K: usize>(state: &State<M>) 
         return Ok(at(&state.lead));
     }
     let mut lead = Leading::with(state.params());
-    lead.begin(state.q(), state.t())?;
+    lead.begin(state.q(), state.t(), &mut Work::default())?;
     Ok(at(&lead))
 }
 
 impl<E: Led<K>, const K: usize> Leading<E, K> {
     fn with(params: &E::Params) -> Self {
+        let solutions = [Solution::ZERO, Solution::ZERO];
         Self {
             model: E::new(&Way::new(params)),
-            solutions: [Solution::ZERO, Solution::ZERO],
-            is_second: false,
-            is_smooth: false,
-            stride: f64::INFINITY,
+            track: Track { solutions, is_second: false, is_smooth: false, stride: f64::INFINITY },
+            largest_change: E::LARGEST_CHANGE,
+            unfinished: ([f64::NAN; K], f64::INFINITY),
             is_leading: false,
         }
     }
 
     /// The solution of now.
     pub(super) fn at(&self) -> &Solution<E> {
-        let [first, second] = &self.solutions;
-        if self.is_second { second } else { first }
+        self.track.at()
     }
 
-    /// The same, to be written; with the mechanism.
-    fn at_mut(&mut self) -> (&E, &mut Solution<E>) {
-        let [first, second] = &mut self.solutions;
-        (&self.model, if self.is_second { second } else { first })
-    }
-
-    /// The one before, or the next one in the making.
-    fn other(&self) -> &Solution<E> {
-        let [first, second] = &self.solutions;
-        if self.is_second { first } else { second }
+    /// Whether no signal changes by more than is taken.
+    fn takes(&self, from: &[f64; K], [to, ..]: &Signals<K>) -> Result<(), Error> {
+        let mut changes = from.iter().zip(to).zip(&self.largest_change);
+        if changes.all(|((from, to), largest)| (to - from).abs() <= *largest) { Ok(()) } else { Err(Error::TooFar) }
     }
 
     /// Begins at a position that the text's formulas give at a time (s).
-    fn begin(&mut self, q: &E::Q, t: f64) -> Result<(), Error> {
+    fn begin(&mut self, q: &E::Q, t: f64, work: &mut Work) -> Result<(), Error> {
         let way = self.model.way_mut();
         let signals = E::by_text(&way.params, t);
         way.turn(&signals[0], &signals);
         let mut near = Solution::near(q, 1.0);
-        near.sides = sides_near(q, 1.0, &self.model);
-        self.is_smooth = false;
-        let (model, now) = self.at_mut();
-        reach(&E::tears(q), &near, 1.0, model, now).map_err(Fault::at_start)?;
+        near.sides = sides_near(q, 1.0, &self.model, work);
+        self.track.is_smooth = false;
+        let now = self.track.at_mut();
+        reach(&E::tears(q), &near, 1.0, &self.model, now, work).map_err(Fault::at_start)?;
         if now.first <= LARGEST_CORRECTION { Ok(()) } else { Err(Error::Divergence) }
     }
 
-    /// Goes from the signals of now to others.
-    fn go(&mut self, signals: &Signals<K>, most: usize, steepness: f64) -> Result<(), Error> {
+    /// Goes from the signals of now to others in so many steps at most, of which it leaves what it does not take. After an error, all
+    /// is as it was.
+    fn go(
+        &mut self,
+        signals: &Signals<K>,
+        left: &mut usize,
+        is_whole: bool,
+        steepness: f64,
+        work: &mut Work,
+    ) -> Result<Progress, Error> {
         let from = self.at().along.signals;
-        let before = self.model.way().clone();
+        let (mut before, way) = (Checkpoint::of(&self.track), *self.model.way());
         self.model.way_mut().turn(&from, signals);
-        self.at_mut().1.t = 0.0;
+        self.track.at_mut().t = 0.0;
+        let ((goal, stride), usual) = (self.unfinished, self.track.stride);
+        let goes_on = goal == signals[0];
+        if goes_on {
+            self.track.stride = stride;
+        }
+        let mut why = self.march(left, &mut before, steepness, work);
+        if why.is_none() {
+            if goes_on {
+                self.unfinished = ([f64::NAN; K], f64::INFINITY);
+            }
+            return Ok(Progress::REACHED);
+        }
+        if why == Some(Error::TooFar) && !is_whole {
+            self.unfinished = (signals[0], self.track.stride);
+            if self.at().t > 0.0 {
+                // what goes well elsewhere is not what goes well here
+                self.track.stride = usual;
+                return Ok(Progress::part(self.at().t, 1.0));
+            }
+            why = None;
+        }
+        before.restore(&mut self.track);
+        *self.model.way_mut() = way;
+        why.map_or(Ok(Progress { fraction: 0.0 }), Err)
+    }
+
+    /// Steps from place to place to the end of the way; why it ends before, if it does.
+    #[inline(always)]
+    #[allow(clippy::inline_always)] // a call would keep everything in memory
+    fn march(
+        &mut self,
+        left: &mut usize,
+        before: &mut Checkpoint<E>,
+        steepness: f64,
+        work: &mut Work,
+    ) -> Option<Error> {
         let length = self.model.way().length();
         // the branch asks for steps of the same change on any way
         let smallest = SHORTEST_STEP / larger(length, 1.0);
-        let stride = self.stride;
-        // the solution at the beginning, once it is behind the one before
-        let mut home = None;
-        for _ in 0..most {
+        let mut refused = None;
+        while *left > 0 {
+            *left -= 1;
             let now = self.at().t;
-            let step = f64::max(self.stride / length, smallest);
+            let step = f64::max(self.track.stride / length, smallest);
             // a way without length is one step
             let wanted = if step < CRUMB * (1.0 - now) { now + step } else { 1.0 };
-            let next = first_edge(now, wanted, &self.model);
+            let next = first_edge(now, wanted, &self.model, work);
             let (is_last, size) = (next >= 1.0, next - now);
-            match self.advance(next, is_last, steepness) {
+            match self.advance(next, is_last, steepness, work) {
                 Ok(is_calm) => {
+                    let stride = self.track.stride;
                     if is_calm {
-                        self.stride = f64::max(self.stride, 2.0 * size * length);
+                        self.track.stride = f64::max(stride, 2.0 * size * length);
                     } else if length > 0.0 {
-                        self.stride = f64::min(self.stride, size * length);
+                        self.track.stride = f64::min(stride, size * length);
                     }
                     if is_last {
-                        return Ok(());
+                        return None;
                     }
-                    if home.is_none() {
-                        home = Some(self.other().clone());
-                    }
+                    before.keep(&self.track);
                 }
+                Err(Fault::NotSmooth) => return Some(Error::NotSmooth),
                 Err(fault) => {
                     let half = 0.5 * size;
-                    self.stride = half * length;
-                    self.is_smooth = false;
+                    self.track.is_smooth = false;
                     if half < smallest || now + half == now {
-                        let why = self.explain(fault, next, steepness);
-                        self.stride = stride;
-                        *self.model.way_mut() = before;
-                        if let Some(home) = home {
-                            *self.at_mut().1 = home;
+                        return Some(self.explain(fault, next, steepness, work));
+                    }
+                    refused = Some((fault, next, half * length));
+                    let turn = self.turn(fault, steepness, work);
+                    if turn < size * length {
+                        if turn < NEAREST_TURN {
+                            return Some(Error::LockUp);
                         }
-                        return Err(why);
+                        self.track.stride = 0.9 * turn;
+                    } else {
+                        self.track.stride = half * length;
                     }
                 }
             }
         }
-        Err(Error::TooFar)
+        // so short a step is not refused for its length
+        match refused {
+            Some((fault, next, size)) if size < SHORT && self.track.stride < 4.0 * SHORT => {
+                match self.explain(fault, next, steepness, work) {
+                    Error::Divergence => Some(Error::TooFar),
+                    error => Some(error),
+                }
+            }
+            _ => Some(Error::TooFar),
+        }
     }
 
     /// One step to a place of the way; says whether a longer one would do as well.
-    fn advance(&mut self, t: f64, is_wanted: bool, steepness: f64) -> Result<bool, Fault> {
-        let [first, second] = &mut self.solutions;
-        let (from, at) = if self.is_second { (second, first) } else { (first, second) };
-        let (from, m) = (&*from, &self.model);
+    fn advance(&mut self, t: f64, is_wanted: bool, steepness: f64, work: &mut Work) -> Result<bool, Fault> {
+        let is_smooth = self.track.is_smooth;
+        let (from, at) = self.track.both();
+        let m = &self.model;
         let h = t - from.t;
         let change = m.way().direction().map(|rate| h * rate);
         let v = tears_along(from, &change);
-        let mut way = if self.is_smooth { bend(from, at, &v, &change) } else { E::Tears::ZERO };
+        let mut way = if is_smooth { bend(from, at, &v, &change) } else { E::Tears::ZERO };
         for (way, v) in way.as_mut().iter_mut().zip(v.as_ref()) {
             *way += v;
         }
-        let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, &v, &change))?;
-        if !stays_on_branch(from, at, m, is_wanted, steepness) {
+        let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, &v, &change), work)?;
+        if !stays_on_branch(from, at, m, is_wanted, steepness, work) {
             return Err(Fault::Singular);
         }
-        if E::OF_TIME && at.sides != from.sides && jumps(from, at, m) {
+        if E::OF_TIME && at.sides != from.sides && jumps(from, at, m, work) {
             return Err(Fault::NotSmooth);
         }
-        self.is_smooth = at.sides == from.sides;
-        self.is_second = !self.is_second;
+        let is_smooth = at.sides == from.sides;
+        self.track.is_smooth = is_smooth;
+        self.track.is_second = !self.track.is_second;
         Ok(is_calm)
     }
 
     /// Why even the shortest step towards a place of the way is refused.
-    fn explain(&self, fault: Fault, t: f64, steepness: f64) -> Error {
+    fn explain(&self, fault: Fault, t: f64, steepness: f64, work: &mut Work) -> Error {
         let (at, m) = (self.at(), &self.model);
-        if let Some(error) = regular(at, fault, t, m) {
+        if let Some(error) = regular(at, fault, t, m, work) {
             return error;
         }
         if at.steepest < SINGULAR * steepness {
@@ -241,18 +379,32 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
                 return Error::Inconsistent;
             }
             // a formula may jump without a branch of its own
-            let mut beyond = at.clone();
-            let is_there = fault == Fault::TooFar && reach(&E::tears(&at.q), at, t, m, &mut beyond).is_ok();
+            let mut beyond = *at;
+            let is_there = fault == Fault::TooFar && reach(&E::tears(&at.q), at, t, m, &mut beyond, work).is_ok();
             return if is_there { Error::NotSmooth } else { Error::Divergence };
         }
-        // all by the signal that changes most; a way may be short itself
+        meeting(self.until_turn(work), 1.0 + m.way().length())
+    }
+
+    /// The change of a signal that is left to a dead point, where a step was refused so near to a singular position that this can be
+    /// told; infinite otherwise.
+    fn turn(&self, fault: Fault, steepness: f64, work: &mut Work) -> f64 {
+        let is_near = self.at().steepest >= SINGULAR * steepness && matches!(fault, Fault::TooFar | Fault::Singular);
+        let left = if is_near { self.until_turn(work) } else { f64::INFINITY };
+        if left > 0.0 { left } else { f64::INFINITY }
+    }
+
+    /// The change of the signal that changes most, all others with it, to a dead point.
+    fn until_turn(&self, work: &mut Work) -> f64 {
+        let (at, m) = (self.at(), &self.model);
         let longest = m.way().length();
-        let mut along = m.clone();
+        let mut along = *m;
         along.way_mut().rates = m.way().direction().map(|change| change / longest);
         along.way_mut().accelerations = [0.0; K];
-        let mut moving = at.clone();
+        let mut moving = *at;
+        work.add(1);
         along.solve(&E::tears(&at.q), at.t, &at.sides, &mut moving);
-        meeting(until_turn(&moving), 1.0 + longest)
+        until_turn(&moving)
     }
 }
 
@@ -315,9 +467,9 @@ fn bend<E: Led<K>, const K: usize>(
 
 /// Whether a position differs on the two sides of a place at which formulas change their branches: `at` is the later side, and `from`
 /// has the branches of the earlier one.
-fn jumps<M: Solved>(from: &Solution<M>, at: &Solution<M>, m: &M) -> bool {
-    let mut before = at.clone();
-    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before).is_err() {
+fn jumps<M: Solved>(from: &Solution<M>, at: &Solution<M>, m: &M, work: &mut Work) -> bool {
+    let mut before = *at;
+    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before, work).is_err() {
         return true;
     }
     largest(&difference(&at.q, &before.q), M::scales()) > POSITION_JUMP

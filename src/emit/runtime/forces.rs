@@ -36,7 +36,7 @@ pub trait Forced: Solved {
 /// The forces next to a solution, where these parameters make the equations so much steeper than the file's. Close to a singular
 /// position there are none.
 pub fn forces_at<M: Forced>(m: &M, from: &Solution<M>, steepness: f64) -> M::Forces {
-    let (mut at, mut forces) = (from.clone(), M::Forces::ZERO);
+    let (mut at, mut forces) = (*from, M::Forces::ZERO);
     m.solve_with_forces(&M::tears(&from.q), from.t, &from.sides, &mut at, &mut forces);
     let is_solved = at.is_settled && at.holds;
     let is_known = is_solved || m.pivoted_forces(from, &mut at, &mut forces).is_ok();

@@ -1,11 +1,12 @@
 //! Lanes that are led by their inputs.
 
 use super::error::Error;
-use super::follow::{Follows, follow_within};
+use super::follow::{Follows, follow};
 use super::lane_solutions::Laned;
 use super::lanes::{States, put};
-use super::limits::MOST_STEPS;
+use super::limits::MOST_STEPS_TO_FOLLOW;
 use super::way::{Led, Signals};
+use super::work::Work;
 
 /// Leads every lane to signals of its own, each with the bits that it would have alone, one after the other. Says of each lane whether it
 /// has got there, and if not, why; it stays as it was.
@@ -18,7 +19,7 @@ pub fn follow_each<E: Led<K>, M: Follows<E, K> + Laned<L>, const K: usize, const
         let Some(mut state) = states.get(lane) else {
             continue;
         };
-        *result = follow_within(signals, &mut state, MOST_STEPS);
+        *result = follow(signals, &mut state, MOST_STEPS_TO_FOLLOW, &mut Work::default());
         states.both().0.set_lane(lane, state.at());
         put(&mut states.lead, lane, &state.lead);
         put(&mut states.is_smooth, lane, &false);

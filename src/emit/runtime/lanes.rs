@@ -14,8 +14,10 @@ use super::limits::{
 };
 use super::numbers::Numbers;
 use super::so_far::larger_so_far;
-use super::state::{Lead, State};
-use super::step::step_within;
+use super::state::{Assembly, Lead, State};
+use super::step::step;
+use super::track::Track;
+use super::work::Work;
 
 /// As many mechanisms, each with its own parameters, at a time of its own.
 #[derive(Clone, Debug)]
@@ -28,6 +30,7 @@ pub struct States<M: Laned<L>, const L: usize> {
     pub(super) is_smooth: [bool; L],
     pub(super) steepness: [f64; L],
     pub(super) step: [f64; L],
+    pub(super) assembly: [Assembly; L],
     pub(super) sides: [M::Sides; L],
     pub(super) watched: [M::Watched; L],
     /// What leads each lane by inputs.
@@ -80,7 +83,7 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
     /// A lane on its own; none where there is no such lane.
     #[must_use]
     pub fn get(&self, lane: usize) -> Option<State<M>> {
-        let (model, lead) = (self.models.get(lane)?.clone(), self.lead.get(lane)?.clone());
+        let (model, lead) = (*self.models.get(lane)?, *self.lead.get(lane)?);
         let mut solutions = [self.now().lane(lane), self.other().lane(lane)];
         for at in &mut solutions {
             at.sides = *self.sides.get(lane)?;
@@ -90,11 +93,14 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
         passed.as_mut().fill(f64::NEG_INFINITY);
         Some(State {
             model,
-            solutions,
-            is_second: false,
-            is_smooth: *self.is_smooth.get(lane)?,
+            track: Track {
+                solutions,
+                is_second: false,
+                is_smooth: *self.is_smooth.get(lane)?,
+                stride: *self.step.get(lane)?,
+            },
             steepness: *self.steepness.get(lane)?,
-            step: *self.step.get(lane)?,
+            assembly: *self.assembly.get(lane)?,
             lead,
             passed,
         })
@@ -102,7 +108,7 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
 
     /// Takes over where a lane on its own has come to.
     fn set(&mut self, lane: usize, state: &State<M>) {
-        put(&mut self.step, lane, &state.step);
+        put(&mut self.step, lane, &state.track.stride);
         put(&mut self.sides, lane, &state.at().sides);
         put(&mut self.watched, lane, &state.at().watched);
         put(&mut self.lead, lane, &state.lead);
@@ -115,8 +121,8 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
             return Ok(());
         };
         // where the solution before was, the one that has been tried is now
-        state.is_smooth = false;
-        let result = step_within(t, &mut state, MOST_STEPS);
+        state.track.is_smooth = false;
+        let result = step(t, &mut state, MOST_STEPS, &mut Work::default());
         self.both().1.set_lane(lane, state.at());
         self.set(lane, &state);
         result
@@ -180,10 +186,11 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
             return false;
         };
         let (from, mut at) = (self.now().t.get(lane).copied().unwrap_or(f64::NAN), self.other().lane(lane));
-        let (t, of_time) = (at.t, sides_at(at.t, model));
+        let work = &mut Work::default();
+        let (t, of_time) = (at.t, sides_at(at.t, model, work));
         let mut passed = M::Passed::ZERO;
         passed.as_mut().fill(f64::NEG_INFINITY);
-        if model.first_rim(from, t, &passed).is_some() {
+        if model.first_rim(from, t, &passed, work).is_some() {
             return false;
         }
         at.sides = of_time;
@@ -204,27 +211,30 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
 pub fn assemble_each<M: Laned<L>, const L: usize>(
     params: &[M::Params; L],
 ) -> Result<(States<M, L>, [Result<(), Error>; L]), Error> {
-    let one = assemble::<M>(&M::Params::default())?;
+    let work = &mut Work::default();
+    let one = assemble::<M>(&M::Params::default(), work)?;
     let mut states = States {
-        models: core::array::from_fn(|_| one.model.clone()),
+        models: [one.model; L],
         solutions: [Solutions::ZERO, Solutions::ZERO],
         is_second: false,
         is_smooth: [false; L],
         steepness: [one.steepness; L],
         step: [M::LONGEST_STEP; L],
+        assembly: [one.assembly; L],
         sides: [one.at().sides; L],
         watched: [one.at().watched; L],
-        lead: core::array::from_fn(|_| one.lead.clone()),
+        lead: [one.lead; L],
     };
     let mut results = [Ok(()); L];
     for (k, (params, result)) in params.iter().zip(&mut results).enumerate() {
-        let found = assemble(params);
+        let found = assemble(params, work);
         *result = found.as_ref().map(|_| ()).map_err(|error| *error);
         let state = found.unwrap_or_else(|_| one.clone());
         states.both().0.set_lane(k, state.at());
         states.set(k, &state);
         put(&mut states.models, k, &state.model);
         put(&mut states.steepness, k, &state.steepness);
+        put(&mut states.assembly, k, &state.assembly);
     }
     Ok((states, results))
 }

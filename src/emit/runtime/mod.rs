@@ -40,9 +40,11 @@ pub mod solution;
 pub mod state;
 pub mod step;
 pub mod tables;
+pub mod track;
 pub mod watched;
 pub mod way;
 pub mod way_list;
+pub mod work;
 
 #[path = "functions/either.rs"]
 pub mod either;

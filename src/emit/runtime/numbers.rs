@@ -34,6 +34,24 @@ pub fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
 
+/// Adds a zero for each value, which one that is not finite turns into no number: all are looked at without a branch for each.
+#[inline(always)]
+#[allow(clippy::inline_always)] // a call would cost more than it does
+pub fn add_zeros<N: Numbers>(values: &N, sums: &mut [f64; 4]) {
+    let chunks = values.as_ref().chunks_exact(4);
+    for value in chunks.remainder() {
+        sums[0] += 0.0 * value;
+    }
+    for chunk in chunks {
+        if let [a, b, c, d] = chunk {
+            sums[0] += 0.0 * a;
+            sums[1] += 0.0 * b;
+            sums[2] += 0.0 * c;
+            sums[3] += 0.0 * d;
+        }
+    }
+}
+
 /// What leads from some numbers to others.
 pub fn difference<N: Numbers>(to: &N, from: &N) -> N {
     let mut way = *to;

@@ -1,11 +1,13 @@
 //! Solving by elimination with partial pivoting, where the order that `solve` has loses digits.
 
 use super::blocks::{self, Blocks};
+use super::branches::sides_near;
 use super::error::Fault;
 use super::grid::{bound_at_first, going_on, next_point, on_grid};
-use super::limits::{BORDER, ITERATIONS};
-use super::numbers::{Flags, Numbers, largest};
+use super::limits::{BORDER, ITERATIONS, MOST_SHORTER, MOST_TRIALS, NEAR};
+use super::numbers::{Flags, Numbers, larger, largest};
 use super::solution::{Along, Solution, Solved};
+use super::work::Work;
 
 /// Equations that can be solved by elimination with partial pivoting.
 pub trait Pivoting: Solved {
@@ -103,6 +105,55 @@ pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Side
         *turned = negative.get(*block).copied().unwrap_or(false);
     }
     if at.holds { Ok(at) } else { Err(Fault::TooFar) }
+}
+
+/// Newton's iteration from far away, for which an equation counts by what a change of its coordinates makes of it: each correction is
+/// so short that nothing moves by more than its scale, and that the equations come nearer to holding. Nothing where it does not arrive.
+pub fn close<M: Pivoting>(m: &M, q: &M::Q, t: f64, work: &mut Work) -> Option<M::Q> {
+    let (mut q, mut elimination) = (*q, Elimination::<M>::new());
+    let mut sides = sides_near(&q, t, m, work);
+    for _ in 0..MOST_TRIALS {
+        let (slopes, residual) = (m.phi_q(&q, t, &sides), m.phi(&q, t, &sides));
+        let norms = norms::<M>(&slopes);
+        let mut right = residual;
+        right.as_mut().iter_mut().for_each(|value| *value = -*value);
+        let (x, _) = elimination.solve(&slopes, &right);
+        work.add(1);
+        let size = largest(&x, M::scales());
+        if !size.is_finite() {
+            return None;
+        }
+        let left = largest(&residual, &norms);
+        let mut part = f64::min(1.0, 1.0 / size);
+        let mut next = q;
+        for _ in 0..MOST_SHORTER {
+            next = q;
+            next.as_mut().iter_mut().zip(x.as_ref()).for_each(|(q, x)| *q += part * x);
+            if size <= NEAR {
+                return Some(next);
+            }
+            work.add(1);
+            sides = m.sides_of_motion(&next, t, &sides);
+            if largest(&m.phi(&next, t, &sides), &norms) < (1.0 - 0.25 * part) * left {
+                break;
+            }
+            part *= 0.5;
+        }
+        q = next;
+    }
+    None
+}
+
+/// What a change of the coordinates by their scales makes of each equation at most.
+fn norms<M: Pivoting>(slopes: &M::Entries) -> M::Q {
+    let mut norms = M::Q::ZERO;
+    norms.as_mut().fill(f64::MIN_POSITIVE);
+    for (&(row, column), slope) in M::pattern().iter().zip(slopes.as_ref()) {
+        if let (Some(norm), Some(scale)) = (norms.as_mut().get_mut(row), M::scales().as_ref().get(column)) {
+            *norm = larger(*norm, slope.abs() * scale);
+        }
+    }
+    norms
 }
 
 /// Newton's iteration; whether it has arrived.

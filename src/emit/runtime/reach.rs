@@ -6,6 +6,7 @@ use super::limits::{ACCURACY, MOST_BRANCHES, STEEP, STEEPEST};
 use super::measured::Measured;
 use super::numbers::{larger, largest};
 use super::solution::{Along, Solution, Solved};
+use super::work::Work;
 
 /// Solves at a time, from a guess; `from` is where the motion comes from.
 pub fn reach<M: Solved>(
@@ -14,15 +15,16 @@ pub fn reach<M: Solved>(
     t: f64,
     m: &M,
     at: &mut Solution<M>,
+    work: &mut Work,
 ) -> Result<(), Fault> {
-    let of_time = sides_at(t, m);
+    let of_time = sides_at(t, m, work);
     if !M::OF_MOTION {
-        return find(guess, from, t, m, &of_time, at);
+        return find(guess, from, t, m, &of_time, at, work);
     }
     let mut sides = from.sides;
     for _ in 0..MOST_BRANCHES {
         sides = with_time::<M>(&sides, &of_time);
-        find(guess, from, t, m, &sides, at)?;
+        find(guess, from, t, m, &sides, at, work)?;
         let now = sides_ahead(at, m);
         if now == sides {
             return Ok(());
@@ -40,9 +42,12 @@ pub fn find<M: Solved>(
     m: &M,
     sides: &M::Sides,
     at: &mut Solution<M>,
+    work: &mut Work,
 ) -> Result<(), Fault> {
+    work.add(1);
     m.solve(guess, t, sides, at);
     if !at.is_settled || !at.holds {
+        work.add(2);
         find_with_pivoting(from, t, m, sides, at)?;
     }
     if !m.conditions_hold(&at.q, t, sides) {
@@ -108,6 +113,7 @@ pub fn stays_on_branch<M: Solved>(
     m: &M,
     is_wanted: bool,
     steepness: f64,
+    work: &mut Work,
 ) -> bool {
     let steepest = at.steepest / steepness;
     if at.watched != from.watched || at.is_negative != from.is_negative || steepest > STEEPEST {
@@ -116,6 +122,10 @@ pub fn stays_on_branch<M: Solved>(
     if steepest > STEEP {
         at.measures.leave_varied_out();
     }
-    let is_in_doubt = is_wanted && steepest > STEEP && steepest * rounding(at, m) > ACCURACY;
+    if !is_wanted || steepest <= STEEP {
+        return true;
+    }
+    work.add(1);
+    let is_in_doubt = steepest * rounding(at, m) > ACCURACY;
     !is_in_doubt
 }

@@ -9,6 +9,12 @@ use super::numbers::{Numbers, difference, larger, largest, predicted};
 use super::reach::reach;
 use super::solution::Solution;
 use super::state::{State, Timed};
+use super::work::{Work, of_reaching};
+
+/// Evaluations that the search for so many rims takes at most, and then the look at one.
+pub const fn of_rims<M: Timed>(rims: usize) -> usize {
+    2 + rims * (MOST_HALVINGS + 3) + 2 * MOST_LOOKS * of_reaching::<M>()
+}
 
 /// A mechanism whose formulas of time may end.
 pub trait Rimmed: Timed {
@@ -21,7 +27,8 @@ pub trait Rimmed: Timed {
 
 /// The first time of a step at which the gauge of a rim comes to zero and was not looked at yet, with the rim: it changes its sign, or
 /// goes down to zero and up again.
-pub fn first_rim<M: Rimmed>(m: &M, from: f64, to: f64, passed: &M::Passed) -> Option<(usize, f64)> {
+pub fn first_rim<M: Rimmed>(m: &M, from: f64, to: f64, passed: &M::Passed, work: &mut Work) -> Option<(usize, f64)> {
+    work.add(2);
     let (first, last) = (m.gauges(from), m.gauges(to));
     let rims = passed.as_ref().len();
     let ends = first.as_ref().iter().zip(last.as_ref());
@@ -36,13 +43,13 @@ pub fn first_rim<M: Rimmed>(m: &M, from: f64, to: f64, passed: &M::Passed) -> Op
             continue;
         }
         let is_before = |t: f64| {
-            let (value, slope) = gauge(rim, t, m);
+            let (value, slope) = gauge(rim, t, m, work);
             if is_crossed { sign * value > 0.0 } else { way * slope < 0.0 }
         };
         let [_, at] = bisect([from, to], MOST_HALVINGS, is_before);
         let is_new = (at - passed).abs() > PASSED * M::SPAN;
         let is_first = found.is_none_or(|(_, known): (usize, f64)| (at - known) * (to - from) < 0.0);
-        if is_new && is_first && is_zero(rim, at, m) {
+        if is_new && is_first && is_zero(rim, at, m, work) {
             found = Some((rim, at));
         }
     }
@@ -50,7 +57,8 @@ pub fn first_rim<M: Rimmed>(m: &M, from: f64, to: f64, passed: &M::Passed) -> Op
 }
 
 /// The gauge of a rim and its slope.
-fn gauge<M: Rimmed>(rim: usize, t: f64, m: &M) -> (f64, f64) {
+fn gauge<M: Rimmed>(rim: usize, t: f64, m: &M, work: &mut Work) -> (f64, f64) {
+    work.add(1);
     let all = m.gauges(t);
     let all = all.as_ref();
     let of = |k: usize| all.get(k).copied().unwrap_or(f64::NAN);
@@ -58,11 +66,11 @@ fn gauge<M: Rimmed>(rim: usize, t: f64, m: &M) -> (f64, f64) {
 }
 
 /// Whether a gauge is zero at a time, as far as numbers can tell.
-fn is_zero<M: Rimmed>(rim: usize, t: f64, m: &M) -> bool {
+fn is_zero<M: Rimmed>(rim: usize, t: f64, m: &M, work: &mut Work) -> bool {
     let moment = MOMENT * f64::EPSILON * t.abs() + f64::MIN_POSITIVE;
-    let (here, _) = gauge(rim, t, m);
-    let changes = |t: f64| {
-        let ratio = gauge(rim, t, m).0 / here;
+    let (here, _) = gauge(rim, t, m, work);
+    let mut changes = |t: f64| {
+        let ratio = gauge(rim, t, m, work).0 / here;
         let is_alike = ratio > 0.5 && ratio < 2.0;
         !is_alike
     };
@@ -128,11 +136,11 @@ impl Looks {
 }
 
 /// Looks at both sides of a rim, next to the state: whether the motion goes on smoothly.
-pub fn look_at_rim<M: Timed>(state: &mut State<M>, rim: usize, t: f64) -> Result<(), Error> {
+pub fn look_at_rim<M: Timed>(state: &mut State<M>, rim: usize, t: f64, work: &mut Work) -> Result<(), Error> {
     if let Some(passed) = state.passed.as_mut().get_mut(rim) {
         *passed = t;
     }
-    let (mut before, mut after) = (state.at().clone(), state.at().clone());
+    let (mut before, mut after) = (*state.at(), *state.at());
     let (mut at, mut distance) = (Solution::ZERO, LEAD * M::SPAN);
     let mut looks = Looks {
         count: 0,
@@ -144,14 +152,14 @@ pub fn look_at_rim<M: Timed>(state: &mut State<M>, rim: usize, t: f64) -> Result
         rest: 0.0,
     };
     for _ in 0..MOST_LOOKS {
-        let found = look(t - distance, &before, &state.model, &mut at);
+        let found = look(t - distance, &before, &state.model, &mut at, work);
         if found {
             before.clone_from(&at);
             if looks.count == 0 {
                 after.clone_from(&at);
             }
         }
-        if found && look(t + distance, &after, &state.model, &mut at) {
+        if found && look(t + distance, &after, &state.model, &mut at, work) {
             after.clone_from(&at);
             looks.add(&before, &after, distance);
         }
@@ -161,8 +169,8 @@ pub fn look_at_rim<M: Timed>(state: &mut State<M>, rim: usize, t: f64) -> Result
 }
 
 /// Solves at a time close to a solution; whether it could.
-fn look<M: Timed>(t: f64, near: &Solution<M>, m: &M, at: &mut Solution<M>) -> bool {
+fn look<M: Timed>(t: f64, near: &Solution<M>, m: &M, at: &mut Solution<M>, work: &mut Work) -> bool {
     let tears = [&near.q, &near.qd, &near.qdd].map(M::tears);
     let guess = predicted(&tears[0], &tears[1], &tears[2], t - near.t);
-    reach(&guess, near, t, m, at).is_ok()
+    reach(&guess, near, t, m, at, work).is_ok()
 }

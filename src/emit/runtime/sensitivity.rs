@@ -34,7 +34,7 @@ pub trait Sensitive<const K: usize>: Solved {
 
 /// The derivatives of the coordinates by each parameter, next to a solution.
 pub fn by_params<M: Sensitive<K>, const K: usize>(m: &M, from: &Solution<M>) -> Result<[M::Q; K], Error> {
-    let (mut at, mut by) = (from.clone(), [M::Q::ZERO; K]);
+    let (mut at, mut by) = (*from, [M::Q::ZERO; K]);
     m.solve_by_params(&M::tears(&from.q), from.t, &from.sides, &mut at, &mut by);
     if !at.is_settled || !at.holds {
         m.pivoted_by_params(from, &mut at, &mut by).map_err(Fault::at_start)?;

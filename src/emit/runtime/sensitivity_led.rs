@@ -21,6 +21,6 @@ where
     if !params.is_finite() {
         return Err(Error::NotANumber);
     }
-    let way = Way { params: *params, ..state.lead.model.way().clone() };
+    let way = Way { params: *params, ..*state.lead.model.way() };
     by_params(&E::new(&way), state.lead.at())
 }

@@ -3,7 +3,7 @@
 use super::equations::{Branches, Checks};
 use super::error::Fault;
 use super::measured::Measured;
-use super::numbers::{Flags, Numbers};
+use super::numbers::{Flags, Numbers, add_zeros};
 use core::fmt::Debug;
 
 /// Equations with the operations that solve them.
@@ -45,7 +45,7 @@ pub trait Solved: Branches + Checks {
 }
 
 /// What a motion goes along, with what a solution holds of that.
-pub trait Along<M: Solved>: Clone + Debug {
+pub trait Along<M: Solved>: Copy + Debug {
     /// Nothing is known yet.
     const ZERO: Self;
 
@@ -71,7 +71,7 @@ pub trait Along<M: Solved>: Clone + Debug {
 }
 
 /// What solves the equations at a time.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Solution<M: Solved> {
     /// The time (s), or the place on a way.
     pub t: f64,
@@ -103,6 +103,14 @@ pub struct Solution<M: Solved> {
     /// One over the smallest pivot, scaled.
     pub steepest: f64,
 }
+
+impl<M: Solved> Clone for Solution<M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M: Solved> Copy for Solution<M> {}
 
 impl<M: Solved> Solution<M> {
     /// Nothing is solved yet.
@@ -145,8 +153,13 @@ impl<M: Solved> Solution<M> {
 
     /// Whether all of it is numbers; measures may be none.
     pub fn is_finite(&self) -> bool {
-        let are_finite = |list: &M::Q| list.as_ref().iter().all(|value| value.is_finite());
-        let lists = are_finite(&self.q) && are_finite(&self.qd) && are_finite(&self.qdd);
-        lists && self.along.slopes().iter().all(are_finite)
+        let mut sums = [0.0; 4];
+        add_zeros(&self.q, &mut sums);
+        add_zeros(&self.qd, &mut sums);
+        add_zeros(&self.qdd, &mut sums);
+        for slopes in self.along.slopes() {
+            add_zeros(slopes, &mut sums);
+        }
+        sums == [0.0; 4]
     }
 }

@@ -5,6 +5,8 @@ use super::limits::{AHEAD, FARTHEST_AHEAD, LONGEST_AHEAD};
 use super::measured::Measured;
 use super::numbers::{Numbers, largest, predicted};
 use super::solution::{Along, Solution, Solved};
+use super::track::Track;
+use super::work::Work;
 use core::fmt::Debug;
 
 /// What can be set of a mechanism.
@@ -36,6 +38,8 @@ pub trait Timed: Solved<Along = Time> {
     const LONGEST_STEP: f64;
     /// The shortest step (s).
     const SMALLEST_STEP: f64;
+    /// Evaluations that the rims of a step take at most.
+    const WORK_OF_RIMS: usize = 0;
 
     /// The mechanism with some parameters.
     fn new(params: &Self::Params) -> Self;
@@ -46,38 +50,52 @@ pub trait Timed: Solved<Along = Time> {
     /// The assembled position with the file's parameters.
     fn start() -> &'static Self::Q;
 
+    /// Where the file's poses put the coordinates with its parameters, roughly: what is not closed yet.
+    fn drawn(&self) -> Self::Q;
+
+    /// Solves at a place from far away; nothing where that does not arrive, or blocks are too large for it.
+    fn closed(&self, _q: &Self::Q, _t: f64, _work: &mut Work) -> Option<Self::Q> {
+        None
+    }
+
     /// The first rim of a step that was not looked at yet, with its time.
-    fn first_rim(&self, _from: f64, _to: f64, _passed: &Self::Passed) -> Option<(usize, f64)> {
+    fn first_rim(&self, _from: f64, _to: f64, _passed: &Self::Passed, _work: &mut Work) -> Option<(usize, f64)> {
         None
     }
 
     /// Looks at both sides of a rim next to the state.
-    fn look_at_rim(_state: &mut State<Self>, _rim: usize, _t: f64) -> Result<(), Error> {
+    fn look_at_rim(_state: &mut State<Self>, _rim: usize, _t: f64, _work: &mut Work) -> Result<(), Error> {
         Ok(())
     }
 }
 
 /// What leads a mechanism by its inputs.
-pub trait Lead<M: Timed>: Clone + Debug {
+pub trait Lead<M: Timed>: Copy + Debug {
+    /// Evaluations that taking up the time takes at most beside its steps, and each of these.
+    const WORK: [usize; 2];
+
     /// Nothing is led yet.
     fn new(params: &M::Params) -> Self;
 
     /// Whether inputs have led to where the mechanism is, rather than the time.
     fn is_leading(&self) -> bool;
 
-    /// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its time.
-    fn take_up_time(state: &mut State<M>, most: usize) -> Result<(), Error>;
+    /// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its time, in so many steps at most;
+    /// gives how many of them are left, or nothing where it is still on its way.
+    fn take_up_time(state: &mut State<M>, most: usize, work: &mut Work) -> Result<Option<usize>, Error>;
 }
 
 impl<M: Timed> Lead<M> for () {
+    const WORK: [usize; 2] = [0, 0];
+
     fn new(_: &M::Params) -> Self {}
 
     fn is_leading(&self) -> bool {
         false
     }
 
-    fn take_up_time(_: &mut State<M>, _: usize) -> Result<(), Error> {
-        Ok(())
+    fn take_up_time(_: &mut State<M>, most: usize, _: &mut Work) -> Result<Option<usize>, Error> {
+        Ok(Some(most))
     }
 }
 
@@ -100,20 +118,26 @@ impl<M: Timed> Along<M> for Time {
     }
 }
 
+/// How a mechanism was assembled with its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Assembly {
+    /// It was led from the assembled position of the file's own parameters, along its branch.
+    Led,
+    /// No way led there: the equations were solved from the poses that the file draws with these parameters, as `mechc run --set` does.
+    /// It may be another branch.
+    Drawn,
+}
+
 /// A mechanism at a time.
 #[derive(Clone, Debug)]
 pub struct State<M: Timed> {
     pub(super) model: M,
-    /// The solution of now and the one before, or the next one in the making.
-    pub(super) solutions: [Solution<M>; 2],
-    /// Whether that of now is the second.
-    pub(super) is_second: bool,
-    /// Whether the one before lies on the same smooth motion.
-    pub(super) is_smooth: bool,
+    /// Where it is along the time.
+    pub(super) track: Track<M>,
     /// How much steeper these parameters make the equations than the file's.
     pub(super) steepness: f64,
-    /// The step that goes well (s).
-    pub(super) step: f64,
+    /// How it was assembled.
+    pub(super) assembly: Assembly,
     /// What leads by inputs.
     pub(super) lead: M::Lead,
     /// By rim: the time at which it was looked at last (s).
@@ -123,8 +147,13 @@ pub struct State<M: Timed> {
 impl<M: Timed> State<M> {
     /// The solution of now.
     pub(super) fn at(&self) -> &Solution<M> {
-        let [first, second] = &self.solutions;
-        if self.is_second { second } else { first }
+        self.track.at()
+    }
+
+    /// How it was assembled with its parameters.
+    #[must_use]
+    pub fn assembly(&self) -> Assembly {
+        self.assembly
     }
 
     /// The time (s).

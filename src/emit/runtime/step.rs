@@ -2,7 +2,7 @@
 
 use super::branches::first_edge;
 use super::error::{Error, Fault};
-use super::explain::explain;
+use super::explain::{explain, of_regular};
 use super::hermite::bend_ahead;
 use super::limits::{
     CALM_BETWEEN, CALM_CORRECTION, CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD,
@@ -12,79 +12,151 @@ use super::numbers::{Numbers, difference, largest};
 use super::reach::{find, reach, stays_on_branch};
 use super::solution::{Solution, Solved};
 use super::state::{Lead, State, Timed};
+use super::track::Checkpoint;
+use super::work::{Progress, Work, of_step};
 
-/// Moves a state to time `t` (s) in so many steps at most, each as short as the motion asks for: position, velocity and acceleration
-/// are those of the branch that it is on, whichever way `t` lies.
-pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize) -> Result<(), Error> {
+/// Evaluations that a call of so many steps takes at most.
+pub const fn most_work<M: Timed>(most: usize) -> usize {
+    let [of_lead, of_its_step] = M::Lead::WORK;
+    let of_step = of_step::<M>() + M::WORK_OF_RIMS;
+    let of_step = if of_its_step > of_step { of_its_step } else { of_step };
+    most.saturating_mul(of_step).saturating_add(of_lead + of_regular::<M>())
+}
+
+/// Moves a state to time `t` (s), in so many steps at most, each as short as the motion asks for: position, velocity and acceleration
+/// are those of the branch that it is on, whichever way `t` lies. After an error the state is as it was; what so many steps do not
+/// reach is one.
+pub fn step<M: Timed>(t: f64, state: &mut State<M>, most: usize, work: &mut Work) -> Result<(), Error> {
+    let is_beyond = (t - state.at().t).abs() > M::LONGEST_STEP * most as f64;
+    if is_beyond && t.is_finite() {
+        return Err(Error::TooFar);
+    }
+    go(t, state, most, true, work).map(|_| ())
+}
+
+/// The same, but what so many steps do not reach is on its way.
+pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize, work: &mut Work) -> Result<Progress, Error> {
+    go(t, state, most, false, work)
+}
+
+fn go<M: Timed>(t: f64, state: &mut State<M>, most: usize, is_whole: bool, work: &mut Work) -> Result<Progress, Error> {
     if !(t - state.at().t).is_finite() {
         return Err(Error::NotANumber);
     }
-    if state.is_led() {
-        M::Lead::take_up_time(state, most)?;
+    if state.is_led() { take_up(t, state, most, is_whole, work) } else { march(t, state, most, is_whole, work) }
+}
+
+/// Goes on by the time from where inputs have led.
+#[cold]
+#[inline(never)]
+fn take_up<M: Timed>(
+    t: f64,
+    state: &mut State<M>,
+    most: usize,
+    is_whole: bool,
+    work: &mut Work,
+) -> Result<Progress, Error> {
+    let (lead, track) = (state.lead, state.track);
+    let result = match M::Lead::take_up_time(state, most, work) {
+        Ok(Some(left)) => march(t, state, left, is_whole, work),
+        Ok(None) if is_whole => Err(Error::TooFar),
+        Ok(None) => Ok(Progress { fraction: 0.0 }),
+        Err(error) => Err(error),
+    };
+    if result.is_err() {
+        (state.lead, state.track) = (lead, track);
     }
+    result
+}
+
+/// Steps from time to time.
+fn march<M: Timed>(
+    t: f64,
+    state: &mut State<M>,
+    most: usize,
+    is_whole: bool,
+    work: &mut Work,
+) -> Result<Progress, Error> {
+    let (mut before, passed, from) = (Checkpoint::of(&state.track), state.passed, state.at().t);
+    let mut why = Error::TooFar;
     for _ in 0..most {
         let now = state.at().t;
         let left = t - now;
         if left == 0.0 {
-            return Ok(());
+            return Ok(Progress::REACHED);
         }
-        let wanted = if state.step >= CRUMB * left.abs() { t } else { now + state.step.copysign(left) };
+        let stride = state.track.stride;
+        let wanted = if stride >= CRUMB * left.abs() { t } else { now + stride.copysign(left) };
         // what is fast may be over before the step's end
-        let edge = first_edge(now, wanted, &state.model);
-        let next = match state.model.first_rim(now, edge, &state.passed) {
+        let edge = first_edge(now, wanted, &state.model, work);
+        let next = match state.model.first_rim(now, edge, &state.passed, work) {
             None => edge,
             Some((rim, at)) => {
                 let before = at - (LEAD * M::SPAN).copysign(left);
                 if (before - now) * left <= 0.0 {
-                    M::look_at_rim(state, rim, at)?;
+                    if let Err(error) = M::look_at_rim(state, rim, at, work) {
+                        why = error;
+                        break;
+                    }
                     continue;
                 }
                 before
             }
         };
         let (is_last, size) = (next == t, (next - now).abs());
-        match advance(state, next, is_last) {
+        match advance(state, next, is_last, work) {
             Ok(is_calm) => {
-                let longest = if is_calm { state.step.max(2.0 * size) } else { state.step.min(size) };
-                state.step = longest.min(M::LONGEST_STEP);
+                let longest = if is_calm { stride.max(2.0 * size) } else { stride.min(size) };
+                state.track.stride = longest.min(M::LONGEST_STEP);
                 if is_last {
-                    return Ok(());
+                    return Ok(Progress::REACHED);
                 }
+                before.keep(&state.track);
             }
             Err(fault) => {
-                state.step = 0.5 * size;
-                state.is_smooth = false;
-                if state.step < M::SMALLEST_STEP || now + state.step == now {
-                    state.step = M::SMALLEST_STEP;
-                    return Err(explain(state, fault, next));
+                let half = 0.5 * size;
+                (state.track.stride, state.track.is_smooth) = (half, false);
+                if half < M::SMALLEST_STEP || now + half == now {
+                    why = explain(state, fault, next, work);
+                    break;
                 }
             }
         }
     }
-    if state.at().t == t { Ok(()) } else { Err(Error::TooFar) }
+    let now = state.at().t;
+    if now == t {
+        return Ok(Progress::REACHED);
+    }
+    if why == Error::TooFar && !is_whole {
+        return Ok(Progress::part(now - from, t - from));
+    }
+    before.restore(&mut state.track);
+    state.passed = passed;
+    Err(why)
 }
 
 /// One step to a time; says whether a longer one would do as well.
-fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool) -> Result<bool, Fault> {
-    let [first, second] = &mut state.solutions;
-    let (from, at) = if state.is_second { (second, first) } else { (first, second) };
-    let (from, m) = (&*from, &state.model);
+fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool, work: &mut Work) -> Result<bool, Fault> {
+    let is_smooth = state.track.is_smooth;
+    let (from, at) = state.track.both();
+    let m = &state.model;
     let h = t - from.t;
     let (v, a) = (M::tears(&from.qd), M::tears(&from.qdd));
-    let mut way = if state.is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
+    let mut way = if is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
     for (way, (v, a)) in way.as_mut().iter_mut().zip(v.as_ref().iter().zip(a.as_ref())) {
         // Taylor
         *way += h * (v + 0.5 * h * a);
     }
-    let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, h))?;
-    if !stays_on_branch(from, at, m, is_wanted, state.steepness) {
+    let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, h), work)?;
+    if !stays_on_branch(from, at, m, is_wanted, state.steepness, work) {
         return Err(Fault::Singular);
     }
-    if M::OF_TIME && at.sides != from.sides && jumps(from, at, m) {
+    if M::OF_TIME && at.sides != from.sides && jumps(from, at, m, work) {
         return Err(Fault::NotSmooth);
     }
-    state.is_smooth = at.sides == from.sides;
-    state.is_second = !state.is_second;
+    let is_smooth = at.sides == from.sides;
+    state.track.is_smooth = is_smooth;
+    state.track.is_second = !state.track.is_second;
     Ok(is_calm)
 }
 
@@ -97,6 +169,7 @@ pub fn tried<M: Solved>(
     m: &M,
     at: &mut Solution<M>,
     gap: impl FnOnce(&Solution<M>) -> f64,
+    work: &mut Work,
 ) -> Result<bool, Fault> {
     // what is not a number is not small either
     let is_short = largest(way, M::tear_scales()) <= LARGEST_MOTION;
@@ -107,7 +180,7 @@ pub fn tried<M: Solved>(
     for (guess, way) in guess.as_mut().iter_mut().zip(way.as_ref()) {
         *guess += *way;
     }
-    reach(&guess, from, t, m, at)?;
+    reach(&guess, from, t, m, at, work)?;
     let gap = gap(at);
     let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
     if !is_near {
@@ -151,9 +224,9 @@ fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears 
 
 /// Whether position or velocity differ on the two sides of a time at which formulas change their branches: `at` is the later side, and
 /// `from` has the branches of the earlier one.
-fn jumps<M: Timed>(from: &Solution<M>, at: &Solution<M>, m: &M) -> bool {
-    let mut before = at.clone();
-    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before).is_err() {
+fn jumps<M: Timed>(from: &Solution<M>, at: &Solution<M>, m: &M, work: &mut Work) -> bool {
+    let mut before = *at;
+    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before, work).is_err() {
         return true;
     }
     let (way, change) = (difference(&at.q, &before.q), difference(&at.qd, &before.qd));

@@ -10,7 +10,8 @@ use super::numbers::{larger, largest};
 use super::rims::{Rimmed, first_rim};
 use super::solution::{Solution, Solved};
 use super::state::{Parameters, State, Time, Timed};
-use super::step::step_within;
+use super::step::{step, step_within};
+use super::work::{Progress, Work};
 
 /// The cells of the grid, a power of two.
 const CELL: f64 = 1.0 / 134_217_728.0;
@@ -36,7 +37,7 @@ impl Parameters for Speed {
 }
 
 /// The point: `x² + y² = 1`, and `y = speed t`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 struct Circle {
     speed: Speed,
 }
@@ -141,6 +142,10 @@ impl Timed for Circle {
     fn start() -> &'static Self::Q {
         &[1.0, 0.0]
     }
+
+    fn drawn(&self) -> Self::Q {
+        [1.0, 0.0]
+    }
 }
 
 impl Rimmed for Circle {
@@ -152,7 +157,7 @@ impl Rimmed for Circle {
 }
 
 fn started(speed: f64) -> Result<State<Circle>, Error> {
-    assemble(&Speed(speed))
+    assemble(&Speed(speed), &mut Work::default())
 }
 
 fn is_near(a: f64, b: f64) -> bool {
@@ -163,7 +168,7 @@ fn is_near(a: f64, b: f64) -> bool {
 fn a_motion_is_followed_forwards_and_back() {
     let mut state = started(1.0).unwrap();
     for t in [0.5_f64, 0.8, 0.3, 0.0] {
-        assert_eq!(step_within(t, &mut state, 100), Ok(()), "{t}");
+        assert_eq!(step(t, &mut state, 100, &mut Work::default()), Ok(()), "{t}");
         let [x, y] = *state.q();
         assert!(is_near(x, (1.0 - t * t).sqrt()) && is_near(y, t), "({x}, {y}) at {t}");
         assert!(is_near(state.qd()[0], -t / x), "at {t}");
@@ -174,38 +179,57 @@ fn a_motion_is_followed_forwards_and_back() {
 #[test]
 fn bits_do_not_depend_on_the_way() {
     let (mut one, mut other) = (started(1.0).unwrap(), started(1.0).unwrap());
-    step_within(0.7, &mut one, 100).unwrap();
+    step(0.7, &mut one, 100, &mut Work::default()).unwrap();
     for t in [0.2, 0.9, 0.65, 0.7] {
-        step_within(t, &mut other, 100).unwrap();
+        step(t, &mut other, 100, &mut Work::default()).unwrap();
     }
     assert_eq!(one.row().map(f64::to_bits), other.row().map(f64::to_bits));
 }
 
+/// All of a state, to the last bit.
+fn all_of(state: &State<Circle>) -> String {
+    format!("{state:?}")
+}
+
 #[test]
-fn at_its_highest_place_it_locks_up() {
+fn at_its_highest_place_it_locks_up_and_stays_where_it_was() {
     let mut state = started(1.0).unwrap();
-    assert_eq!(step_within(1.5, &mut state, 1000), Err(Error::LockUp));
-    assert!(state.t() < 1.0 && state.t() > 0.999, "{}", state.t());
+    step(0.5, &mut state, 100, &mut Work::default()).unwrap();
+    let before = all_of(&state);
+    let mut work = Work::default();
+    assert_eq!(step(1.5, &mut state, 1000, &mut work), Err(Error::LockUp));
+    assert_eq!(all_of(&state), before);
+    assert!(work.evaluations <= super::step::most_work::<Circle>(1000), "{work:?}");
+    assert_eq!(step_within(1.5, &mut state, 1000, &mut work), Err(Error::LockUp));
+    assert_eq!(all_of(&state), before);
 }
 
 #[test]
 fn what_is_no_number_is_refused_and_too_few_steps_are_told() {
     assert_eq!(started(f64::NAN).err(), Some(Error::NotANumber));
     let mut state = started(0.5).unwrap();
-    assert_eq!(step_within(f64::NAN, &mut state, 9), Err(Error::NotANumber));
-    assert_eq!(step_within(1.0, &mut state, 2), Err(Error::TooFar));
-    assert!(state.t() > 0.0 && state.t() < 1.0);
-    assert_eq!(step_within(1.0, &mut state, 100), Ok(()));
+    let (before, mut work) = (all_of(&state), Work::default());
+    for most in [0, 9] {
+        assert_eq!(step(f64::NAN, &mut state, most, &mut work), Err(Error::NotANumber));
+        assert_eq!(step_within(f64::INFINITY, &mut state, most, &mut work), Err(Error::NotANumber));
+    }
+    assert_eq!(step(1.0, &mut state, 2, &mut work), Err(Error::TooFar));
+    assert_eq!(step(1e300, &mut state, 1000, &mut work), Err(Error::TooFar));
+    assert_eq!((all_of(&state), work.evaluations), (before, 0), "what cannot be reached is not tried");
+    let Progress { fraction } = step_within(1.0, &mut state, 2, &mut work).unwrap();
+    assert!(fraction > 0.0 && fraction < 1.0 && is_near(fraction, state.t()), "{fraction}");
+    assert_eq!(step_within(1.0, &mut state, 100, &mut work), Ok(Progress::REACHED));
+    assert_eq!(state.t(), 1.0);
 }
 
 #[test]
 fn a_rim_is_met_once() {
-    let model = Circle::new(&Speed(1.0));
+    let (model, work) = (Circle::new(&Speed(1.0)), &mut Work::default());
     let never = [f64::NEG_INFINITY];
-    let (rim, t) = first_rim(&model, 0.0, 0.5, &never).unwrap();
+    let (rim, t) = first_rim(&model, 0.0, 0.5, &never, work).unwrap();
     assert!(rim == 0 && is_near(t, 0.25), "{t}");
-    assert_eq!(first_rim(&model, 0.0, 0.5, &[t]), None, "it was looked at");
-    assert_eq!(first_rim(&model, 0.3, 0.5, &never), None);
+    assert_eq!(first_rim(&model, 0.0, 0.5, &[t], work), None, "it was looked at");
+    assert_eq!(first_rim(&model, 0.3, 0.5, &never, work), None);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use super::state::Parameters;
 pub type Signals<const K: usize> = [[f64; K]; 3];
 
 /// A way of the signals: a straight line from 0 to 1.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Way<P, const K: usize> {
     /// The parameters of the mechanism.
     pub params: P,
@@ -68,6 +68,9 @@ pub trait Led<const K: usize>: Solved<Along = Slopes<<Self as Equations>::Q, K>>
     /// Its parameters.
     type Params: Parameters;
 
+    /// By signal: the largest change that a call takes, if nobody says otherwise.
+    const LARGEST_CHANGE: [f64; K];
+
     /// The mechanism on a way.
     fn new(way: &Way<Self::Params, K>) -> Self;
 
@@ -85,7 +88,7 @@ pub trait Led<const K: usize>: Solved<Along = Slopes<<Self as Equations>::Q, K>>
 }
 
 /// The motion goes along signals: the derivatives of the coordinates by each, and what these are.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Slopes<Q, const K: usize> {
     /// By signal: how the coordinates change with it.
     pub by_signal: [Q; K],

@@ -4,6 +4,7 @@
 //! places go from 0 to 1; it stands in a module of its own, so that nothing else changes.
 
 use super::indices::numbered;
+use super::words::Work;
 use super::{Writer, equations};
 use crate::emit::Following;
 use crate::emit::equations::{Equations, Given, Wanted};
@@ -13,9 +14,10 @@ use crate::emit::params::Params;
 use crate::emit::print::{Head, Page};
 use crate::emit::solution::Solution;
 use crate::emit::tables::Tables;
-use crate::emit::text::{one_line, unit};
+use crate::emit::text::{literal, one_line, unit};
 use crate::ir::Input;
 use crate::program::Register;
+use crate::tolerances::emitted::follow::{LARGEST_SHIFT_OF_INPUT, LARGEST_TURN_OF_INPUT};
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
 
@@ -23,26 +25,34 @@ use std::cell::RefCell;
 const FOLLOW: &str = "Leads a state from its inputs to others, along the straight line between them, in as many steps
 as the branch asks for; their rates and accelerations there decide velocities and accelerations.
 
-It takes [`MOST_STEPS`] steps at most, and mostly one; [`follow_within`] takes as many as it is
-allowed. A kink of a formula on the way is passed. What a measure makes of more than the
-accelerations of inputs has no value. [`step`] goes on by the text's formulas: it first leads
-back to what these say of the inputs at the state's time.
+It takes [`MOST_STEPS_TO_FOLLOW`] steps at most, and mostly one: [`MOST_WORK_TO_FOLLOW`]
+evaluations, whatever it is given. A kink of a formula on the way is passed. What a measure makes
+of more than the accelerations of inputs has no value. [`step`] goes on by the text's formulas: it
+first leads back to what these say of the inputs at the state's time.
 
 # Errors
-Why it cannot get there; the state stays as it was, but for [`Error::TooFar`].";
+Why it cannot get there; the state is then bit for bit as it was. [`Error::TooFar`] is told at
+once of an input that changes by more than [`State::largest_change`].";
 
-const FOLLOW_WITHIN: &str = "As [`follow`], in so many steps at most, for those who have a deadline: each solves the
-equations about once, and one that has to be made shorter counts as well.
+const FOLLOW_WITHIN: &str =
+    "As [`follow`], in so many steps at most, for those who have a deadline: [`most_work`] says how
+many evaluations that are. A step that has to be made shorter counts as well. What these steps do
+not reach is on its way: the same call goes on from there, and inputs, coordinates and measures of
+the state are those of the place that it has come to.
 
 # Errors
-Why it cannot get there; the state stays as it was. But after [`Error::TooFar`] it is on its
-way, and the same call goes on from there.";
+Why it cannot get there; the state is then bit for bit as it was.";
 
-/// The inputs, and the module that follows them; what that uses, and the words that it takes of a state.
-pub(super) fn module(following: &Following<'_>, page: &mut Page) -> (Uses, usize) {
+const LARGEST_CHANGE: &str =
+    "By input: the largest change that a call takes, by the numbers in [`input`]. One that asks for
+more is refused at once, as a value that an encoder never had. At first half a turn of an angle,
+and of a length twice the largest body; infinite where an input is neither.";
+
+/// The inputs, and the module that follows them; what that uses, the words that it takes of a state, and the work of a step.
+pub(super) fn module(following: &Following<'_>, page: &mut Page) -> (Uses, usize, Option<Work>) {
     let unit = &*following.unit;
     let Some(motion) = &unit.motion else {
-        return (Uses::default(), 0);
+        return (Uses::default(), 0, None);
     };
     let tables = Tables::new(unit.program);
     let names = Names::new(unit.system, Params::new(unit.system).paths, &tables.variables());
@@ -66,7 +76,8 @@ pub(super) fn module(following: &Following<'_>, page: &mut Page) -> (Uses, usize
         page.text(&body.done());
     });
     uses.file("follow");
-    (uses, words)
+    uses.limit("MOST_STEPS_TO_FOLLOW");
+    (uses, words, Some(writer.work()))
 }
 
 /// What the text says of inputs: their values, rates and accelerations by its formulas. Gives what that uses.
@@ -121,14 +132,30 @@ impl Writer<'_> {
         self.equations.print_book(page);
     }
 
+    /// By signal: the largest change that a call takes at first.
+    fn largest_changes(&self) -> Vec<f64> {
+        let system = self.unit.system;
+        let lengths = system.coordinates().iter().filter(|of| of.kind.unit() == "m").map(|of| of.scale);
+        let longest = lengths.fold(0.0, f64::max);
+        let of = |input: &Input| match input.unit.as_str() {
+            _ if input.is_time() => f64::INFINITY,
+            "rad" | "1" => LARGEST_TURN_OF_INPUT,
+            "m" if longest > 0.0 => LARGEST_SHIFT_OF_INPUT * longest,
+            _ => f64::INFINITY,
+        };
+        system.inputs().iter().map(of).collect()
+    }
+
     /// The motion along signals.
     fn along_signals(&self, solution: &Solution<'_>, page: &mut Page) {
         self.uses("way", "Led");
         self.uses("way", "Signals");
         page.item("impl Led<SIGNALS> for Model", |page| {
             page.line("type Params = Params;\n");
+            let changes = self.largest_changes().into_iter().map(literal).collect::<Vec<_>>().join(", ");
+            page.line(&format!("const LARGEST_CHANGE: [f64; SIGNALS] = [{changes}];\n"));
             let head = Head { kind: "fn", name: "new", arguments: &[("way", "&Way")], result: "Self" };
-            page.function(&head, |page| Self::making(solution, "way", "way.clone()", page));
+            page.function(&head, |page| Self::making(solution, "way", "*way", page));
             let head = Head { kind: "fn", name: "way", arguments: &[("&self", "")], result: "&Way" };
             page.function(&head, |page| page.line("&self.way"));
             let head = Head { kind: "fn", name: "way_mut", arguments: &[("&mut self", "")], result: "&mut Way" };
@@ -260,13 +287,35 @@ impl Inputs<'_> {
         });
         let arguments = [("inputs", "&Inputs"), ("state", "&mut State"), ("most", "usize")];
         let head = |name, arguments, result| Head { kind: "pub fn", name, arguments, result };
+        page.line("pub use runtime::limits::MOST_STEPS_TO_FOLLOW;\n");
+        let docs = "Evaluations that [`follow`] takes at most.";
+        let value = "runtime::follow::most_work::<following::Model, SIGNALS>(MOST_STEPS_TO_FOLLOW)";
+        page.constant(docs, "pub const MOST_WORK_TO_FOLLOW: usize", value);
         page.docs(FOLLOW);
         let follow = head("follow", &arguments[..2], "Result<(), Error>");
-        page.function(&follow, |page| page.line("follow_within(inputs, state, MOST_STEPS)"));
+        page.function(&follow, |page| page.line("counted::follow(inputs, state, &mut Work::default())"));
         page.docs(FOLLOW_WITHIN);
-        let follow_within = head("follow_within", &arguments, "Result<(), Error>");
+        let follow_within = head("follow_within", &arguments, "Result<Progress, Error>");
         page.function(&follow_within, |page| {
-            page.line("runtime::follow::follow_within(&inputs.signals(), state, most)");
+            page.line("counted::follow_within(inputs, state, most, &mut Work::default())");
+        });
+        page.item("impl State", |page| {
+            page.docs(LARGEST_CHANGE);
+            page.line("#[must_use]");
+            let head =
+                Head { kind: "pub fn", name: "largest_change", arguments: &[("&self", "")], result: "[f64; INPUTS]" };
+            let given = if self.has_time() { "[all @ .., _]" } else { "all" };
+            page.function(&head, |page| {
+                page.line(&format!("let {given} = runtime::follow::largest_change(self);"));
+                page.line("*all");
+            });
+            page.docs("Sets it; a state keeps that, and its clones do.");
+            let arguments = [("&mut self", ""), ("largest", "[f64; INPUTS]")];
+            let head = Head { kind: "pub fn", name: "set_largest_change", arguments: &arguments, result: "" };
+            page.function(&head, |page| {
+                page.line(&format!("let {given} = runtime::follow::largest_change_mut(self);"));
+                page.line("*all = largest;");
+            });
         });
         page.docs(
             "The derivatives of the coordinates by each input, by the numbers in [`input`]: for a constant\n\

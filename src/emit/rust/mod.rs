@@ -27,6 +27,7 @@ use super::text::one_line;
 use crate::program::{Column, STAGES};
 use crate::source::Span;
 use std::cell::RefCell;
+use words::Bounds;
 
 /// A Rust module.
 pub(super) struct Module {
@@ -35,6 +36,8 @@ pub(super) struct Module {
     pub needs_libm: bool,
     /// Words of 8 bytes that a state takes; 0 where nothing is solved.
     pub words: usize,
+    /// How many steps calls take at most, and how many evaluations these are.
+    pub bounds: Bounds,
 }
 
 /// One Rust module, self-contained but for the `libm` crate where a formula asks for it.
@@ -54,7 +57,7 @@ pub(super) fn module(unit: &TranslationUnit<'_>) -> Module {
     writer.indices(&mut body);
     writer.tables(&mut body);
     writer.functions(&mut body);
-    let mut words = 0;
+    let (mut words, mut lead) = (0, None);
     if let Some(motion) = &unit.motion {
         let solution = Solution::new(unit, motion, &equations);
         writer.doors(&mut body);
@@ -64,17 +67,19 @@ pub(super) fn module(unit: &TranslationUnit<'_>) -> Module {
     }
     equations.print_book(&mut body);
     if let Some(following) = &unit.following {
-        let (uses, words_of_lead) = following::module(following, &mut body);
+        let (uses, words_of_lead, work) = following::module(following, &mut body);
         words += words_of_lead;
+        lead = work;
         equations.uses.borrow_mut().include(&uses);
     }
+    let bounds = if unit.motion.is_some() { writer.bounds(lead) } else { Bounds::new() };
     let uses = equations.uses.take();
     let mut page = Page::default();
     writer.header(uses.needs_libm(), &mut page);
     uses.print("runtime", &mut page);
     page.text(&body.done());
     uses.goods(&mut page);
-    Module { text: page.done().trim_end().to_owned() + "\n", needs_libm: uses.needs_libm(), words }
+    Module { text: page.done().trim_end().to_owned() + "\n", needs_libm: uses.needs_libm(), words, bounds }
 }
 
 /// What the functions of a unit's equations are written from; led ones are given their inputs.

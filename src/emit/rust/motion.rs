@@ -194,7 +194,7 @@ impl Writer<'_> {
         }
         let more = if registers.is_empty() { "" } else { ", and what follows from these alone" };
         page.docs(&format!("The mechanism with its {what}{more}."));
-        page.line("#[derive(Clone, Debug)]");
+        page.line("#[derive(Clone, Copy, Debug)]");
         page.item("pub struct Model", |page| {
             page.line(&format!("{field}: {of},"));
             if !registers.is_empty() {
@@ -217,6 +217,10 @@ impl Writer<'_> {
 
     /// The motion along time.
     fn timed(&self, solution: &Solution<'_>, page: &mut Page) {
+        let estimates = &self.unit.program.outputs.estimates;
+        let docs = "Where the file's poses put the coordinates, roughly: what is not closed yet.";
+        let wanted = Wanted::of("drawn", docs, estimates, "N");
+        self.equations.function(&Wanted { has_time: false, given: Given::None, ..wanted }, page);
         self.uses("state", "Timed");
         let lead = match &self.unit.following {
             Some(_) => {
@@ -233,6 +237,9 @@ impl Writer<'_> {
             for name in ["START_TIME", "SPAN", "LONGEST_STEP", "SMALLEST_STEP"] {
                 page.line(&format!("const {name}: f64 = {name};"));
             }
+            if self.has_rims() {
+                page.line("const WORK_OF_RIMS: usize = runtime::rims::of_rims::<Self>(RIMS);");
+            }
             page.blank();
             let head = Head { kind: "fn", name: "new", arguments: &[("params", "&Params")], result: "Self" };
             page.function(&head, |page| Self::making(solution, "params", "*params", page));
@@ -240,6 +247,14 @@ impl Writer<'_> {
             page.function(&head, |page| page.line("&self.params"));
             let head = Head { kind: "fn", name: "start", arguments: &[], result: "&'static Q" };
             page.function(&head, |page| page.line("&START"));
+            let head = Head { kind: "fn", name: "drawn", arguments: &[("&self", "")], result: "Q" };
+            page.function(&head, |page| page.line("drawn(&self.params)"));
+            if solution.motion.blocks.is_some() {
+                self.uses("pivoting", "close");
+                let arguments = [("&self", ""), ("q", "&Q"), ("t", "f64"), ("work", "&mut Work")];
+                let head = Head { kind: "fn", name: "closed", arguments: &arguments, result: "Option<Q>" };
+                page.function(&head, |page| page.line("close(self, q, t, work)"));
+            }
             if self.has_rims() {
                 self.rims_along(page);
             }
@@ -249,11 +264,12 @@ impl Writer<'_> {
     fn rims_along(&self, page: &mut Page) {
         self.uses("rims", "first_rim");
         self.uses("rims", "look_at_rim");
-        let arguments = [("&self", ""), ("from", "f64"), ("to", "f64"), ("passed", "&Self::Passed")];
+        let arguments =
+            [("&self", ""), ("from", "f64"), ("to", "f64"), ("passed", "&Self::Passed"), ("work", "&mut Work")];
         let head = Head { kind: "fn", name: "first_rim", arguments: &arguments, result: "Option<(usize, f64)>" };
-        page.function(&head, |page| page.line("first_rim(self, from, to, passed)"));
-        let arguments = [("state", "&mut State"), ("rim", "usize"), ("t", "f64")];
+        page.function(&head, |page| page.line("first_rim(self, from, to, passed, work)"));
+        let arguments = [("state", "&mut State"), ("rim", "usize"), ("t", "f64"), ("work", "&mut Work")];
         let head = Head { kind: "fn", name: "look_at_rim", arguments: &arguments, result: "Result<(), Error>" };
-        page.function(&head, |page| page.line("look_at_rim(state, rim, t)"));
+        page.function(&head, |page| page.line("look_at_rim(state, rim, t, work)"));
     }
 }

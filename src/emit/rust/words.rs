@@ -1,25 +1,35 @@
-//! How much memory a state takes, for those who reserve it without asking Rust.
+//! How much memory a state takes, and how much work a call, for those who reserve both without asking Rust.
 //!
 //! All in it are numbers of 8 bytes and answers of one, so that it is the same everywhere. The code for C does not compile where this is
 //! too little.
 
 use super::Writer;
 use crate::emit::solution::Solution;
+use crate::tolerances::emitted::assemble::{FIRST_PARTS, MOST_PARTS};
+use crate::tolerances::emitted::close::{MOST_SHORTER, MOST_TRIALS};
+use crate::tolerances::emitted::follow::MOST_STEPS_TO_FOLLOW;
+use crate::tolerances::emitted::reach::MOST_BRANCHES;
+use crate::tolerances::emitted::rims::MOST_LOOKS;
+use crate::tolerances::emitted::step::MOST_STEPS;
+use crate::tolerances::steps::rims::MOST_HALVINGS;
 
 /// Bytes of a word.
 const WORD: usize = 8;
 
 impl Writer<'_> {
-    /// Words of a state, but for what leads it: the mechanism, two solutions, how far steps go, which rims were passed.
+    /// Words of a state, but for what leads it: the mechanism, two solutions, how far steps go, which rims were passed, how it was
+    /// assembled.
     pub fn words(&self, solution: &Solution<'_>) -> usize {
         let of_model = self.unit.system.params().len() + solution.known.len();
-        of_model + 2 * self.words_of_solution(solution) + self.rims().count() + 2 + words_of(2)
+        of_model + 2 * self.words_of_solution(solution) + self.rims().count() + 2 + words_of(2) + words_of(1)
     }
 
-    /// Words of what leads it: the mechanism on a way of signals, two solutions, how far it goes.
+    /// Words of what leads it: the mechanism on a way of signals, two solutions, how far it goes, what it takes, where it was going.
     pub fn words_of_lead(&self, solution: &Solution<'_>) -> usize {
-        let of_way = self.unit.system.params().len() + 4 * self.unit.system.inputs().len();
-        of_way + solution.known.len() + 2 * self.words_of_solution(solution) + 1 + words_of(3)
+        let signals = self.unit.system.inputs().len();
+        let of_way = self.unit.system.params().len() + 4 * signals;
+        let of_track = 2 * self.words_of_solution(solution) + 1 + words_of(2);
+        of_way + solution.known.len() + of_track + signals + (signals + 1) + words_of(1)
     }
 
     fn words_of_solution(&self, solution: &Solution<'_>) -> usize {
@@ -29,6 +39,53 @@ impl Writer<'_> {
         let answers = outputs.watches.len() + solution.motion.solver.turns().len() + 2;
         let numbers = 3 + 3 * n + of_measures + solution.joined.len() + self.equations.sides.len();
         numbers + signals * (n + 1) + words_of(answers)
+    }
+}
+
+/// How many steps calls take at most, and how many evaluations these are, by the names of their constants; the same as `work.rs` and
+/// its like in `runtime` say, for those who do not ask Rust.
+pub(in crate::emit) type Bounds = Vec<(&'static str, usize)>;
+
+/// Evaluations that steps take at most.
+#[derive(Clone, Copy)]
+pub(super) struct Work {
+    of_sides: usize,
+    of_reaching: usize,
+    of_regular: usize,
+    pub of_step: usize,
+}
+
+impl Writer<'_> {
+    /// Evaluations of a step along time, or along signals.
+    pub fn work(&self) -> Work {
+        const OF_FINDING: usize = 3;
+        let (of_time, of_motion) = self.switches();
+        let of_sides = usize::from(of_time);
+        let of_reaching = of_sides + OF_FINDING * if of_motion { MOST_BRANCHES } else { 1 };
+        let of_edge = (2 + MOST_HALVINGS) * of_sides;
+        let of_step = of_edge + of_reaching + 1 + OF_FINDING * of_sides;
+        Work { of_sides, of_reaching, of_regular: 1 + 2 * of_sides, of_step }
+    }
+
+    /// The bounds of a mechanism, with what its inputs take.
+    pub fn bounds(&self, lead: Option<Work>) -> Bounds {
+        let own = self.work();
+        let of_rims = self.rims().count() * (MOST_HALVINGS + 3) + 2 + 2 * MOST_LOOKS * own.of_reaching;
+        let of_own_step = own.of_step + if self.has_rims() { of_rims } else { 0 };
+        let of_lead_step = lead.map_or(0, |lead| lead.of_step + 1);
+        let to_follow = |lead: Work| 1 + lead.of_sides + lead.of_reaching + lead.of_regular + lead.of_reaching + 1;
+        let to_take_up = lead.map_or(0, |lead| to_follow(lead) + 1 + own.of_sides + own.of_reaching);
+        let of_parts = (2 + FIRST_PARTS + MOST_PARTS) * (2 * own.of_sides + own.of_reaching + 1);
+        let mut bounds = vec![
+            ("MOST_STEPS", MOST_STEPS),
+            ("MOST_WORK", MOST_STEPS * of_own_step.max(of_lead_step) + to_take_up + own.of_regular),
+            ("MOST_WORK_TO_ASSEMBLE", of_parts + own.of_sides + (1 + MOST_SHORTER) * MOST_TRIALS),
+        ];
+        if let Some(lead) = lead {
+            bounds.push(("MOST_STEPS_TO_FOLLOW", MOST_STEPS_TO_FOLLOW));
+            bounds.push(("MOST_WORK_TO_FOLLOW", MOST_STEPS_TO_FOLLOW * of_lead_step + to_follow(lead)));
+        }
+        bounds
     }
 }
 

@@ -19,6 +19,7 @@ use runtime::equations::Checks;
 use runtime::equations::Equations;
 use runtime::error::Fault;
 use runtime::pivoting::Pivoting;
+use runtime::pivoting::close;
 use runtime::pivoting::solve_with_pivoting;
 use runtime::select::select;
 use runtime::solution::Solved;
@@ -262,6 +263,8 @@ pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {
 
 pub use runtime::error::Error;
 pub use runtime::limits::MOST_STEPS;
+pub use runtime::state::Assembly;
+pub use runtime::work::{Progress, Work};
 
 /// The mechanism at a time.
 pub type State = runtime::state::State<Model>;
@@ -286,36 +289,78 @@ impl State {
     }
 }
 
-/// Brings the mechanism to its first time with some parameters, along the branch that the file's
-/// parameters give.
+/// Evaluations that any call takes at most that is not told how many steps it may take.
+pub const MOST_WORK: usize = most_work(MOST_STEPS);
+
+/// Evaluations that [`assemble`] takes at most.
+pub const MOST_WORK_TO_ASSEMBLE: usize = runtime::assemble::most_work::<Model>();
+
+/// Evaluations that a call takes at most that may take so many steps.
+#[must_use]
+pub const fn most_work(most: usize) -> usize {
+    runtime::step::most_work::<Model>(most)
+}
+
+/// Brings the mechanism to its first time with some parameters: along the branch that the file's
+/// parameters give, where a short way leads there; else from the poses that the file draws with these
+/// parameters, as `mechc run --set` does. [`State::assembly`] says which way it went.
 ///
 /// # Errors
-/// It cannot be assembled with these, or not on that branch.
+/// It cannot be assembled with these.
 pub fn assemble(params: &Params) -> Result<State, Error> {
-    runtime::assemble::assemble(params)
+    counted::assemble(params, &mut Work::default())
 }
 
 /// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
 /// and acceleration are those of the branch that it is on, whichever way `t` lies.
 ///
-/// It takes [`MOST_STEPS`] steps at most, and mostly one; [`step_within`] takes as many as it is
-/// allowed. What a driver does and undoes within a
+/// It takes [`MOST_STEPS`] steps at most, and mostly one: [`MOST_WORK`] evaluations, whatever it is
+/// given. What a driver does and undoes within a
 /// step, by formulas without branches, is not seen: no step is longer than [`LONGEST_STEP`].
 ///
 /// # Errors
-/// Why it cannot get there; the state stays at the last time that it could reach.
+/// Why it cannot get there; the state is then bit for bit as it was.
 pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
-    step_within(t, state, MOST_STEPS)
+    counted::step(t, state, &mut Work::default())
 }
 
-/// As [`step`], in so many steps at most, for those who have a deadline: each solves the equations
-/// about once, and one that has to be made shorter counts as well.
+/// As [`step`], in so many steps at most, for those who have a deadline: [`most_work`] says how many
+/// evaluations that are. A step that has to be made shorter counts as well. What these steps do not
+/// reach is on its way: the same call goes on from there.
 ///
 /// # Errors
-/// Why it cannot get there; the state stays at the last time that it could reach. Where that is
-/// [`Error::TooFar`] the same call goes on from there.
-pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> {
-    runtime::step::step_within(t, state, most)
+/// Why it cannot get there; the state is then bit for bit as it was.
+pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<Progress, Error> {
+    counted::step_within(t, state, most, &mut Work::default())
+}
+
+/// The same functions, which add the evaluations that they do to those of a [`Work`]: for tests of a
+/// deadline, and for tables of what calls cost.
+#[rustfmt::skip]
+pub mod counted {
+    #![allow(clippy::missing_errors_doc)] // they are those of the functions outside
+
+    use super::*;
+
+    /// As [`assemble`](super::assemble).
+    pub fn assemble(params: &Params, work: &mut Work) -> Result<State, Error> {
+        runtime::assemble::assemble(params, work)
+    }
+
+    /// As [`step`](super::step).
+    pub fn step(t: f64, state: &mut State, work: &mut Work) -> Result<(), Error> {
+        runtime::step::step(t, state, MOST_STEPS, work)
+    }
+
+    /// As [`step_within`](super::step_within).
+    pub fn step_within(
+        t: f64,
+        state: &mut State,
+        most: usize,
+        work: &mut Work,
+    ) -> Result<Progress, Error> {
+        runtime::step::step_within(t, state, most, work)
+    }
 }
 
 /// Number of results at a time.
@@ -346,7 +391,7 @@ static START: [f64; N] = [
 ];
 
 /// The mechanism with its parameters.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Model {
     params: Params,
 }
@@ -661,6 +706,13 @@ impl Pivoting for Model {
     fn measured(&self, _orders: [&Q; 4], _varied: &[f64; 0], _multipliers: &Q, _t: f64) {}
 }
 
+/// Where the file's poses put the coordinates, roughly: what is not closed yet.
+///
+/// 0 operations.
+fn drawn(_p: &Params) -> [f64; N] {
+    [0.0; N]
+}
+
 impl Timed for Model {
     type Params = Params;
     type Lead = ();
@@ -682,5 +734,13 @@ impl Timed for Model {
 
     fn start() -> &'static Q {
         &START
+    }
+
+    fn drawn(&self) -> Q {
+        drawn(&self.params)
+    }
+
+    fn closed(&self, q: &Q, t: f64, work: &mut Work) -> Option<Q> {
+        close(self, q, t, work)
     }
 }

@@ -21,6 +21,7 @@ use runtime::equations::Equations;
 use runtime::error::Fault;
 use runtime::follow::Leading;
 use runtime::pivoting::Pivoting;
+use runtime::pivoting::close;
 use runtime::pivoting::solve_with_pivoting;
 use runtime::solution::Solved;
 use runtime::state::Parameters;
@@ -184,6 +185,8 @@ pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {
 
 pub use runtime::error::Error;
 pub use runtime::limits::MOST_STEPS;
+pub use runtime::state::Assembly;
+pub use runtime::work::{Progress, Work};
 
 /// The mechanism at a time.
 pub type State = runtime::state::State<Model>;
@@ -214,36 +217,93 @@ impl State {
     }
 }
 
-/// Brings the mechanism to its first time with some parameters, along the branch that the file's
-/// parameters give.
+/// Evaluations that any call takes at most that is not told how many steps it may take.
+pub const MOST_WORK: usize = most_work(MOST_STEPS);
+
+/// Evaluations that [`assemble`] takes at most.
+pub const MOST_WORK_TO_ASSEMBLE: usize = runtime::assemble::most_work::<Model>();
+
+/// Evaluations that a call takes at most that may take so many steps.
+#[must_use]
+pub const fn most_work(most: usize) -> usize {
+    runtime::step::most_work::<Model>(most)
+}
+
+/// Brings the mechanism to its first time with some parameters: along the branch that the file's
+/// parameters give, where a short way leads there; else from the poses that the file draws with these
+/// parameters, as `mechc run --set` does. [`State::assembly`] says which way it went.
 ///
 /// # Errors
-/// It cannot be assembled with these, or not on that branch.
+/// It cannot be assembled with these.
 pub fn assemble(params: &Params) -> Result<State, Error> {
-    runtime::assemble::assemble(params)
+    counted::assemble(params, &mut Work::default())
 }
 
 /// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
 /// and acceleration are those of the branch that it is on, whichever way `t` lies.
 ///
-/// It takes [`MOST_STEPS`] steps at most, and mostly one; [`step_within`] takes as many as it is
-/// allowed. What a driver does and undoes within a
+/// It takes [`MOST_STEPS`] steps at most, and mostly one: [`MOST_WORK`] evaluations, whatever it is
+/// given. What a driver does and undoes within a
 /// step, by formulas without branches, is not seen: no step is longer than [`LONGEST_STEP`].
 ///
 /// # Errors
-/// Why it cannot get there; the state stays at the last time that it could reach.
+/// Why it cannot get there; the state is then bit for bit as it was.
 pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
-    step_within(t, state, MOST_STEPS)
+    counted::step(t, state, &mut Work::default())
 }
 
-/// As [`step`], in so many steps at most, for those who have a deadline: each solves the equations
-/// about once, and one that has to be made shorter counts as well.
+/// As [`step`], in so many steps at most, for those who have a deadline: [`most_work`] says how many
+/// evaluations that are. A step that has to be made shorter counts as well. What these steps do not
+/// reach is on its way: the same call goes on from there.
 ///
 /// # Errors
-/// Why it cannot get there; the state stays at the last time that it could reach. Where that is
-/// [`Error::TooFar`] the same call goes on from there.
-pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> {
-    runtime::step::step_within(t, state, most)
+/// Why it cannot get there; the state is then bit for bit as it was.
+pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<Progress, Error> {
+    counted::step_within(t, state, most, &mut Work::default())
+}
+
+/// The same functions, which add the evaluations that they do to those of a [`Work`]: for tests of a
+/// deadline, and for tables of what calls cost.
+#[rustfmt::skip]
+pub mod counted {
+    #![allow(clippy::missing_errors_doc)] // they are those of the functions outside
+
+    use super::*;
+
+    /// As [`assemble`](super::assemble).
+    pub fn assemble(params: &Params, work: &mut Work) -> Result<State, Error> {
+        runtime::assemble::assemble(params, work)
+    }
+
+    /// As [`step`](super::step).
+    pub fn step(t: f64, state: &mut State, work: &mut Work) -> Result<(), Error> {
+        runtime::step::step(t, state, MOST_STEPS, work)
+    }
+
+    /// As [`step_within`](super::step_within).
+    pub fn step_within(
+        t: f64,
+        state: &mut State,
+        most: usize,
+        work: &mut Work,
+    ) -> Result<Progress, Error> {
+        runtime::step::step_within(t, state, most, work)
+    }
+
+    /// As [`follow`](super::follow).
+    pub fn follow(inputs: &Inputs, state: &mut State, work: &mut Work) -> Result<(), Error> {
+        runtime::follow::follow(&inputs.signals(), state, MOST_STEPS_TO_FOLLOW, work)
+    }
+
+    /// As [`follow_within`](super::follow_within).
+    pub fn follow_within(
+        inputs: &Inputs,
+        state: &mut State,
+        most: usize,
+        work: &mut Work,
+    ) -> Result<Progress, Error> {
+        runtime::follow::follow_within(&inputs.signals(), state, most, work)
+    }
 }
 
 /// Number of results at a time.
@@ -274,7 +334,7 @@ static START: [f64; N] = [
 ];
 
 /// The mechanism with its parameters.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Model {
     params: Params,
 }
@@ -443,6 +503,13 @@ impl Pivoting for Model {
     fn measured(&self, _orders: [&Q; 4], _varied: &[f64; 0], _multipliers: &Q, _t: f64) {}
 }
 
+/// Where the file's poses put the coordinates, roughly: what is not closed yet.
+///
+/// 0 operations.
+fn drawn(_p: &Params) -> [f64; N] {
+    [0.0; N]
+}
+
 impl Timed for Model {
     type Params = Params;
     type Lead = Leading<following::Model, SIGNALS>;
@@ -464,6 +531,14 @@ impl Timed for Model {
 
     fn start() -> &'static Q {
         &START
+    }
+
+    fn drawn(&self) -> Q {
+        drawn(&self.params)
+    }
+
+    fn closed(&self, q: &Q, t: f64, work: &mut Work) -> Option<Q> {
+        close(self, q, t, work)
     }
 }
 
@@ -525,28 +600,52 @@ impl runtime::follow::Follows<following::Model, SIGNALS> for Model {
     const HAS_TIME: bool = false;
 }
 
+pub use runtime::limits::MOST_STEPS_TO_FOLLOW;
+
+/// Evaluations that [`follow`] takes at most.
+pub const MOST_WORK_TO_FOLLOW: usize = runtime::follow::most_work::<following::Model, SIGNALS>(MOST_STEPS_TO_FOLLOW);
+
 /// Leads a state from its inputs to others, along the straight line between them, in as many steps
 /// as the branch asks for; their rates and accelerations there decide velocities and accelerations.
 ///
-/// It takes [`MOST_STEPS`] steps at most, and mostly one; [`follow_within`] takes as many as it is
-/// allowed. A kink of a formula on the way is passed. What a measure makes of more than the
-/// accelerations of inputs has no value. [`step`] goes on by the text's formulas: it first leads
-/// back to what these say of the inputs at the state's time.
+/// It takes [`MOST_STEPS_TO_FOLLOW`] steps at most, and mostly one: [`MOST_WORK_TO_FOLLOW`]
+/// evaluations, whatever it is given. A kink of a formula on the way is passed. What a measure makes
+/// of more than the accelerations of inputs has no value. [`step`] goes on by the text's formulas: it
+/// first leads back to what these say of the inputs at the state's time.
 ///
 /// # Errors
-/// Why it cannot get there; the state stays as it was, but for [`Error::TooFar`].
+/// Why it cannot get there; the state is then bit for bit as it was. [`Error::TooFar`] is told at
+/// once of an input that changes by more than [`State::largest_change`].
 pub fn follow(inputs: &Inputs, state: &mut State) -> Result<(), Error> {
-    follow_within(inputs, state, MOST_STEPS)
+    counted::follow(inputs, state, &mut Work::default())
 }
 
-/// As [`follow`], in so many steps at most, for those who have a deadline: each solves the
-/// equations about once, and one that has to be made shorter counts as well.
+/// As [`follow`], in so many steps at most, for those who have a deadline: [`most_work`] says how
+/// many evaluations that are. A step that has to be made shorter counts as well. What these steps do
+/// not reach is on its way: the same call goes on from there, and inputs, coordinates and measures of
+/// the state are those of the place that it has come to.
 ///
 /// # Errors
-/// Why it cannot get there; the state stays as it was. But after [`Error::TooFar`] it is on its
-/// way, and the same call goes on from there.
-pub fn follow_within(inputs: &Inputs, state: &mut State, most: usize) -> Result<(), Error> {
-    runtime::follow::follow_within(&inputs.signals(), state, most)
+/// Why it cannot get there; the state is then bit for bit as it was.
+pub fn follow_within(inputs: &Inputs, state: &mut State, most: usize) -> Result<Progress, Error> {
+    counted::follow_within(inputs, state, most, &mut Work::default())
+}
+
+impl State {
+    /// By input: the largest change that a call takes, by the numbers in [`input`]. One that asks for
+    /// more is refused at once, as a value that an encoder never had. At first half a turn of an angle,
+    /// and of a length twice the largest body; infinite where an input is neither.
+    #[must_use]
+    pub fn largest_change(&self) -> [f64; INPUTS] {
+        let all = runtime::follow::largest_change(self);
+        *all
+    }
+
+    /// Sets it; a state keeps that, and its clones do.
+    pub fn set_largest_change(&mut self, largest: [f64; INPUTS]) {
+        let all = runtime::follow::largest_change_mut(self);
+        *all = largest;
+    }
 }
 
 /// The derivatives of the coordinates by each input, by the numbers in [`input`]: for a constant
@@ -603,7 +702,7 @@ mod following {
     ];
 
     /// The mechanism with its way.
-    #[derive(Clone, Debug)]
+    #[derive(Clone, Copy, Debug)]
     pub struct Model {
         way: Way,
     }
@@ -846,8 +945,10 @@ mod following {
     impl Led<SIGNALS> for Model {
         type Params = Params;
 
+        const LARGEST_CHANGE: [f64; SIGNALS] = [3.141592653589793];
+
         fn new(way: &Way) -> Self {
-            Self { way: way.clone() }
+            Self { way: *way }
         }
 
         fn way(&self) -> &Way {
