@@ -2,7 +2,7 @@
 
 use super::failure::{Failure, unusable};
 use super::interrupts;
-use super::spared::{STANDARD_INPUT, Spared, is_same};
+use super::spared::{STANDARD_INPUT, Spared, behind_links, is_same};
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Sources};
 use crate::world::{self, Contents, World};
@@ -449,17 +449,4 @@ fn keep_rights(of: &Path, to: &File) -> io::Result<()> {
     let [mode, made] = [old.permissions().mode() & kept, to.metadata()?.permissions().mode() & 0o7777];
     // what the user's mask took is given back; a disk that has one mode for all files has nothing to give
     if mode == made { Ok(()) } else { to.set_permissions(fs::Permissions::from_mode(mode)) }
-}
-
-/// The file that a chain of links ends at: a link stays a link, what it points to is replaced.
-pub(super) fn behind_links(path: &Path) -> io::Result<PathBuf> {
-    let mut path = path.to_owned();
-    for _ in 0..40 {
-        match fs::read_link(&path) {
-            Ok(target) => path = path.parent().unwrap_or(Path::new("")).join(target),
-            // no link
-            Err(_) => return Ok(path),
-        }
-    }
-    Err(io::Error::other("its links go in a circle"))
 }

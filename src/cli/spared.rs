@@ -1,8 +1,9 @@
 //! What no output may be: a file that was read, or that a text names.
 
 use super::failure::{Failure, unusable};
-use super::files::behind_links;
 use crate::source::Sources;
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// What standard input is called in messages.
@@ -76,4 +77,17 @@ fn identity(path: &Path) -> Option<(u64, u64)> {
 #[cfg(not(unix))]
 fn identity(path: &Path) -> Option<PathBuf> {
     path.canonicalize().ok().filter(|path| path.is_file())
+}
+
+/// The file that a chain of links ends at: a link stays a link, what it points to is replaced.
+pub(super) fn behind_links(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..40 {
+        match fs::read_link(&path) {
+            Ok(target) => path = path.parent().unwrap_or(Path::new("")).join(target),
+            // no link
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(io::Error::other("its links go in a circle"))
 }
