@@ -2,6 +2,8 @@
 //! motions whose dead centres the equations that are left out decide.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
+#![allow(clippy::disallowed_methods)] // sines of its own are what makes it independent
+#![allow(clippy::single_match_else)] // a kind of joint beside all others reads as such
 
 mod support;
 
