@@ -250,7 +250,7 @@ impl Mechanism {
             )
             .unwrap();
         }
-        order.iter().for_each(|&k| text.push_str(&joints[k]));
+        text.extend(order.iter().map(|&k| joints[k].as_str()));
         for (k, &(joint, rate)) in self.drivers.iter().enumerate() {
             let [a, b] = self.joints[joint].bodies.map(|body| body.map_or(0.0, |body| self.bodies[body].pose[2]));
             let (what, start) = match self.joints[joint].kind {
