@@ -106,7 +106,7 @@ impl Basis {
         let mut replaced: Vec<(usize, f64)> =
             on.iter().filter(|(k, _)| *k != kept).map(|&(k, weight)| (k, -weight / pivot)).collect();
         replaced.push((vector, 1.0 / pivot));
-        for (_, other) in self.dependent.iter_mut() {
+        for (_, other) in &mut self.dependent {
             let Some(place) = other.iter().position(|(k, _)| *k == kept) else {
                 continue;
             };
