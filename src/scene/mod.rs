@@ -43,7 +43,7 @@ pub use plane::{
     minus, plus, polar, times, unit,
 };
 pub use torques::Torque;
-pub use track::{Stretch, Track};
+pub use track::{Stroke, Track};
 
 use crate::model::Mechanism;
 use crate::source::Span;

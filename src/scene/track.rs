@@ -93,7 +93,7 @@ fn between([from, to]: [[f64; 3]; 2], h: f64, part: f64) -> [f64; 2] {
 
 /// A part of what a pen draws, without a gap.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Stretch {
+pub struct Stroke {
     /// Stretches of time (s), none of which goes over a row; each begins where the one before it ends.
     pub pieces: Vec<[f64; 2]>,
     /// Whether it ends where it begins.
@@ -160,19 +160,19 @@ impl Motion {
 
     /// The stretches that a pen draws; where it retraces a closed line, that line once. Nothing of what rests.
     #[must_use]
-    pub fn stretches(&self, pen: &Pen) -> Vec<Stretch> {
+    pub fn strokes(&self, pen: &Pen) -> Vec<Stroke> {
         let track = self.track(pen);
         let gaps = match pen {
             Pen::Point(_) => &[][..],
             Pen::Columns { name, .. } => self.gaps(name),
         };
-        let mut stretches: Vec<Stretch> = Vec::new();
+        let mut stretches: Vec<Stroke> = Vec::new();
         let mut is_open = false;
         for (row, ends) in self.times.windows(2).enumerate() {
             let is_there = !gaps.iter().any(|gap| gap.total_cmp(&ends[0]).is_eq())
                 && [row, row + 1].into_iter().all(|row| is_finite(track.in_row(self, row)));
             if is_there && !is_open {
-                stretches.push(Stretch::default());
+                stretches.push(Stroke::default());
             }
             is_open = is_there;
             if let Some(stretch) = stretches.last_mut().filter(|_| is_there) {
@@ -183,7 +183,7 @@ impl Motion {
     }
 
     /// Joins what ends where it begins.
-    fn close(&self, track: &Track, mut stretches: Vec<Stretch>) -> Vec<Stretch> {
+    fn close(&self, track: &Track, mut stretches: Vec<Stroke>) -> Vec<Stroke> {
         let at = |t: f64| track.at(self, t)[0];
         let (Some(first), Some(last)) = (stretches.first(), stretches.last()) else { return stretches };
         let (Some([begin, _]), Some([_, end])) = (first.pieces.first(), last.pieces.last()) else { return stretches };
@@ -210,7 +210,7 @@ impl Motion {
     }
 
     /// Ends a stretch where it has come back to where it began, if all behind that is on the line so far.
-    fn close_one(&self, track: &Track, stretch: &mut Stretch, [size, off]: [f64; 2]) {
+    fn close_one(&self, track: &Track, stretch: &mut Stroke, [size, off]: [f64; 2]) {
         let at = |t: f64| track.at(self, t)[0];
         let Some(&[begin, _]) = stretch.pieces.first() else { return };
         let start = at(begin);
@@ -236,7 +236,7 @@ impl Motion {
                 loop_so_far.extend((back > from).then_some([from, back]));
                 let rest = [back, to].into_iter().chain(stretch.pieces[number + 1..].iter().flatten().copied());
                 if self.goes_on_along(track, &loop_so_far, rest, ONCE_MORE * off) {
-                    *stretch = Stretch { pieces: loop_so_far, is_closed: true };
+                    *stretch = Stroke { pieces: loop_so_far, is_closed: true };
                     return;
                 }
             }

@@ -152,7 +152,7 @@ impl Sheet<'_> {
     fn add_trace(&mut self, declaration: usize, pen: &Pen, motion: &Motion) {
         let track = motion.track(pen);
         let place = |t: f64| track.at(motion, t)[0];
-        for stretch in motion.stretches(pen) {
+        for stretch in motion.strokes(pen) {
             let ends = || stretch.pieces.iter().flatten().map(|t| place(*t));
             let size = bounds(ends()).map_or(0.0, |[low, high]| distance(low, high));
             let off = self.off.min(OFF_OF_SIZE * size);

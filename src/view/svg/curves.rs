@@ -2,7 +2,7 @@
 
 use super::picture::{PER_METER, Picture};
 use super::style::TRACE_COLORS;
-use crate::scene::{Motion, Pen, Stretch, Track, Vector, bounds, distance, is_finite, minus, plus, times};
+use crate::scene::{Motion, Pen, Stroke, Track, Vector, bounds, distance, is_finite, minus, plus, times};
 use crate::view::text::{escaped, number};
 
 /// What a curve may be off (px), and the same as a part of the picture's shorter side; where paper is cut, in metres of it.
@@ -47,11 +47,11 @@ impl Picture<'_> {
     /// The path of a pen.
     fn path_of(&self, pen: &Pen, motion: &Motion) -> String {
         let track = motion.track(pen);
-        let stretches = motion.stretches(pen);
+        let stretches = motion.strokes(pen);
         stretches.iter().map(|stretch| self.curve_of(&track, stretch, motion)).collect()
     }
 
-    fn curve_of(&self, track: &Track, stretch: &Stretch, motion: &Motion) -> String {
+    fn curve_of(&self, track: &Track, stretch: &Stroke, motion: &Motion) -> String {
         let [width, height] = self.room();
         let (mut off, mut decimals) = (OFF.min(OFF_OF_SIDE * width.min(height)), self.pixels);
         if self.options.scale.is_some() {
