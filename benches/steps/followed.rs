@@ -1303,6 +1303,7 @@ impl runtime::follow::Follows<following::Model, SIGNALS> for Model {
 pub use runtime::limits::MOST_STEPS_TO_FOLLOW;
 
 /// Evaluations that [`follow`] takes at most.
+#[rustfmt::skip]
 pub const MOST_WORK_TO_FOLLOW: usize = runtime::follow::most_work::<following::Model, SIGNALS>(MOST_STEPS_TO_FOLLOW);
 
 /// Leads a state from its inputs to others, along the straight line between them, in as many steps
