@@ -347,6 +347,11 @@ fn main() {
     for k in 0..300 {
         let mut length = || random.between(0.1, 0.6);
         let mut p = Params { r1: length(), r2: length(), r3: length(), r4: length(), start: random.between(-3.0, 3.0) };
+        if k % 2 == 1 {
+            let near = |random: &mut Random, value: f64| value * random.between(0.9, 1.1);
+            let Params { r1, r2, r3, r4, start } = Params::default();
+            p = Params { r1: near(&mut random, r1), r2: near(&mut random, r2), r3: near(&mut random, r3), r4, start };
+        }
         if k == 0 {
             p = Params { r1: 0.1, r2: 0.3, r3: 0.4, r4: 0.5, start: -45_f64.to_radians() };
         }

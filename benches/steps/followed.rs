@@ -684,17 +684,17 @@ pub mod counted {
 
     use super::*;
 
-    /// As [`assemble`](super::assemble).
+    /// The same, counted.
     pub fn assemble(params: &Params, work: &mut Work) -> Result<State, Error> {
         runtime::assemble::assemble(params, work)
     }
 
-    /// As [`step`](super::step).
+    /// The same, counted.
     pub fn step(t: f64, state: &mut State, work: &mut Work) -> Result<(), Error> {
         runtime::step::step(t, state, MOST_STEPS, work)
     }
 
-    /// As [`step_within`](super::step_within).
+    /// The same, counted.
     pub fn step_within(
         t: f64,
         state: &mut State,
@@ -704,12 +704,12 @@ pub mod counted {
         runtime::step::step_within(t, state, most, work)
     }
 
-    /// As [`follow`](super::follow).
+    /// The same, counted.
     pub fn follow(inputs: &Inputs, state: &mut State, work: &mut Work) -> Result<(), Error> {
         runtime::follow::follow(&inputs.signals(), state, MOST_STEPS_TO_FOLLOW, work)
     }
 
-    /// As [`follow_within`](super::follow_within).
+    /// The same, counted.
     pub fn follow_within(
         inputs: &Inputs,
         state: &mut State,
@@ -1303,6 +1303,7 @@ impl runtime::follow::Follows<following::Model, SIGNALS> for Model {
 pub use runtime::limits::MOST_STEPS_TO_FOLLOW;
 
 /// Evaluations that [`follow`] takes at most.
+#[rustfmt::skip]
 pub const MOST_WORK_TO_FOLLOW: usize = runtime::follow::most_work::<following::Model, SIGNALS>(MOST_STEPS_TO_FOLLOW);
 
 /// Leads a state from its inputs to others, along the straight line between them, in as many steps
@@ -4396,7 +4397,7 @@ impl<E: Led<K>, M: Follows<E, K>, const K: usize> Lead<M> for Leading<E, K> {
 pub const fn most_work<E: Led<K>, const K: usize>(most: usize) -> usize {
     // that of the turn where a step is refused
     most.saturating_mul(of_step::<E>() + 1)
-        .saturating_add(of_beginning::<E>() + of_regular::<E>() + of_reaching::<E>() + 1)
+        .saturating_add(of_beginning::<E>() + of_regular::<E>() + of_reaching::<E>() + 2)
 }
 
 /// Evaluations that it takes to begin where the time has led, or to go on from there.
@@ -4653,6 +4654,11 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
                     }
                 }
             }
+        }
+        work.add(1);
+        let at = self.at();
+        if self.model.phi(&at.q, 1.0, &at.sides).as_ref().iter().any(|value| !value.is_finite()) {
+            return Some(Error::NotANumber);
         }
         // so short a step is not refused for its length
         match refused {

@@ -516,17 +516,17 @@ pub mod counted {
 
     use super::*;
 
-    /// As [`assemble`](super::assemble).
+    /// The same, counted.
     pub fn assemble(params: &Params, work: &mut Work) -> Result<State, Error> {
         runtime::assemble::assemble(params, work)
     }
 
-    /// As [`step`](super::step).
+    /// The same, counted.
     pub fn step(t: f64, state: &mut State, work: &mut Work) -> Result<(), Error> {
         runtime::step::step(t, state, MOST_STEPS, work)
     }
 
-    /// As [`step_within`](super::step_within).
+    /// The same, counted.
     pub fn step_within(
         t: f64,
         state: &mut State,

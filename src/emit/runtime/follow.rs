@@ -73,7 +73,7 @@ impl<E: Led<K>, M: Follows<E, K>, const K: usize> Lead<M> for Leading<E, K> {
 pub const fn most_work<E: Led<K>, const K: usize>(most: usize) -> usize {
     // that of the turn where a step is refused
     most.saturating_mul(of_step::<E>() + 1)
-        .saturating_add(of_beginning::<E>() + of_regular::<E>() + of_reaching::<E>() + 1)
+        .saturating_add(of_beginning::<E>() + of_regular::<E>() + of_reaching::<E>() + 2)
 }
 
 /// Evaluations that it takes to begin where the time has led, or to go on from there.
@@ -330,6 +330,11 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
                     }
                 }
             }
+        }
+        work.add(1);
+        let at = self.at();
+        if self.model.phi(&at.q, 1.0, &at.sides).as_ref().iter().any(|value| !value.is_finite()) {
+            return Some(Error::NotANumber);
         }
         // so short a step is not refused for its length
         match refused {

@@ -85,7 +85,7 @@ impl Writer<'_> {
         let (state, most, work) = (("state", "&mut State"), ("most", "usize"), ("work", "&mut Work"));
         let [nothing, progress] = ["Result<(), Error>", "Result<Progress, Error>"];
         let mut function = |name, arguments: &[(&str, &str)], result, does: &str| {
-            page.docs(&format!("As [`{name}`](super::{name})."));
+            page.docs("The same, counted.");
             page.function(&Head { kind: "pub fn", name, arguments, result }, |page| page.line(does));
         };
         let assembled = "Result<State, Error>";

@@ -290,7 +290,9 @@ impl Inputs<'_> {
         page.line("pub use runtime::limits::MOST_STEPS_TO_FOLLOW;\n");
         let docs = "Evaluations that [`follow`] takes at most.";
         let value = "runtime::follow::most_work::<following::Model, SIGNALS>(MOST_STEPS_TO_FOLLOW)";
-        page.constant(docs, "pub const MOST_WORK_TO_FOLLOW: usize", value);
+        page.docs(docs);
+        page.line("#[rustfmt::skip]");
+        page.line(&format!("pub const MOST_WORK_TO_FOLLOW: usize = {value};\n"));
         page.docs(FOLLOW);
         let follow = head("follow", &arguments[..2], "Result<(), Error>");
         page.function(&follow, |page| page.line("counted::follow(inputs, state, &mut Work::default())"));

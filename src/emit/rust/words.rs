@@ -73,7 +73,7 @@ impl Writer<'_> {
         let of_rims = self.rims().count() * (MOST_HALVINGS + 3) + 2 + 2 * MOST_LOOKS * own.of_reaching;
         let of_own_step = own.of_step + if self.has_rims() { of_rims } else { 0 };
         let of_lead_step = lead.map_or(0, |lead| lead.of_step + 1);
-        let to_follow = |lead: Work| 1 + lead.of_sides + lead.of_reaching + lead.of_regular + lead.of_reaching + 1;
+        let to_follow = |lead: Work| 1 + lead.of_sides + lead.of_reaching + lead.of_regular + lead.of_reaching + 2;
         let to_take_up = lead.map_or(0, |lead| to_follow(lead) + 1 + own.of_sides + own.of_reaching);
         let of_parts = (2 + FIRST_PARTS + MOST_PARTS) * (2 * own.of_sides + own.of_reaching + 1);
         let mut bounds = vec![

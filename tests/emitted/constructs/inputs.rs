@@ -270,17 +270,17 @@ pub mod counted {
 
     use super::*;
 
-    /// As [`assemble`](super::assemble).
+    /// The same, counted.
     pub fn assemble(params: &Params, work: &mut Work) -> Result<State, Error> {
         runtime::assemble::assemble(params, work)
     }
 
-    /// As [`step`](super::step).
+    /// The same, counted.
     pub fn step(t: f64, state: &mut State, work: &mut Work) -> Result<(), Error> {
         runtime::step::step(t, state, MOST_STEPS, work)
     }
 
-    /// As [`step_within`](super::step_within).
+    /// The same, counted.
     pub fn step_within(
         t: f64,
         state: &mut State,
@@ -290,12 +290,12 @@ pub mod counted {
         runtime::step::step_within(t, state, most, work)
     }
 
-    /// As [`follow`](super::follow).
+    /// The same, counted.
     pub fn follow(inputs: &Inputs, state: &mut State, work: &mut Work) -> Result<(), Error> {
         runtime::follow::follow(&inputs.signals(), state, MOST_STEPS_TO_FOLLOW, work)
     }
 
-    /// As [`follow_within`](super::follow_within).
+    /// The same, counted.
     pub fn follow_within(
         inputs: &Inputs,
         state: &mut State,
@@ -603,6 +603,7 @@ impl runtime::follow::Follows<following::Model, SIGNALS> for Model {
 pub use runtime::limits::MOST_STEPS_TO_FOLLOW;
 
 /// Evaluations that [`follow`] takes at most.
+#[rustfmt::skip]
 pub const MOST_WORK_TO_FOLLOW: usize = runtime::follow::most_work::<following::Model, SIGNALS>(MOST_STEPS_TO_FOLLOW);
 
 /// Leads a state from its inputs to others, along the straight line between them, in as many steps
