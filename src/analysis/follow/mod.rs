@@ -14,6 +14,7 @@ mod crossing;
 mod edges;
 mod lead;
 mod march;
+mod misses;
 mod remarks;
 mod rows;
 mod step;
