@@ -352,14 +352,18 @@ fn a_row_at_a_switch_does_not_depend_on_the_other_times() {
 #[test]
 fn dwells_that_end_at_output_times_are_followed() {
     let text = std::fs::read_to_string("tests/edges/conjugate_cams.mech").expect("a text");
-    for (rpm, to, every) in
-        [("-60", 1.6, 0.005), ("-60", 1.2, 0.1), ("60", 1.6, 0.05), ("-120", 1.0, 0.025), ("-75", 1.6, 0.2)]
-    {
+    for (rpm, count, every) in [
+        ("-60", 320_u32, 0.005),
+        ("-60", 12_u32, 0.1),
+        ("60", 32_u32, 0.05),
+        ("-120", 40_u32, 0.025),
+        ("-75", 8_u32, 0.2),
+    ] {
         let text = text.replace("-60 rpm", &format!("{rpm} rpm"));
+        let to = f64::from(count) * every;
         // the span decides where steps end
         for span in [to, 30.0] {
             let (compiled, mut outcome) = compile_without_redundant("cams", &text);
-            let count = (to / every + 0.5) as u32;
             let mut times: Vec<f64> = (0..=count).map(|k| f64::from(k) * every).collect();
             times.push(span);
             times.truncate(if span > to { times.len() } else { count as usize + 1 });
