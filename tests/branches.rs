@@ -4,9 +4,12 @@
 
 mod support;
 
+use mechc::rooms::math;
+use mechc::{RunOptions, Times};
 use std::f64::consts::TAU;
 use std::fs;
-use support::{Span, run};
+use support::random::Random;
+use support::{Outcome, Span, run};
 
 fn crank_rocker(every: f64, to: f64) -> support::Outcome {
     let text = fs::read_to_string("tests/cases/four_bar.mech").expect("a text");
@@ -221,5 +224,101 @@ fn lazy_tongs_driven_at_their_far_end_are_one_block_and_no_lock_up() {
     let rows = run("tongs", &text, Span::default()).expect_success();
     for (t, phi) in rows.column("t").into_iter().zip(rows.column("a0.phi")) {
         assert!((phi - 0.5 - 0.3 * mechc::rooms::math::sin_cos(2.0 * t).0).abs() < 1e-9, "at t = {t}: {phi}");
+    }
+}
+
+/// A parallelogram of lengths [mm] that goes round once, with a rocker and a coupler that are too long by some (mm).
+fn near_parallelogram([crank, coupler]: [f64; 2], [rocker_off, coupler_off]: [f64; 2]) -> Outcome {
+    let text = format!(
+        "mechanism p {{
+            ground {{ point A = (0, 0) point B = ({coupler} mm, 0) }}
+            body crank at (0, 0, 60 deg) {{ point A = (0, 0) point C = ({crank} mm, 0) }}
+            body coupler at ({} mm, {} mm, 0) {{ point C = (0, 0) point D = ({} mm, 0) }}
+            body rocker at ({coupler} mm, 0, 60 deg) {{ point B = (0, 0) point D = ({} mm, 0) }}
+            joint A: revolute(ground.A, crank.A)
+            joint C: revolute(crank.C, coupler.C)
+            joint D: revolute(coupler.D, rocker.D)
+            joint B: revolute(ground.B, rocker.B)
+            driver motor: rotation(A) = 60 deg + 1 rad/s * t
+            analysis from 0 s to 3 s every 0.1 s
+        }}",
+        0.5 * crank,
+        0.866 * crank,
+        coupler + coupler_off,
+        crank + rocker_off,
+    );
+    run("p", &text, Span::default())
+}
+
+#[test]
+fn a_change_point_that_rounded_lengths_miss_is_told() {
+    let mut random = Random::new(3);
+    for _ in 0..12 {
+        let crank = random.between(40.0, 120.0);
+        let coupler = crank * random.between(1.2, 3.0);
+        let found = near_parallelogram([crank, coupler], [0.01, 0.0]);
+        assert_eq!(found.codes(), ["W0605"], "{crank}, {coupler}: {}", found.text());
+        let data =
+            |name: &str| found.diagnostics.iter().next().and_then(|told| told.data[name].as_f64()).expect("data");
+        // two thirds of a half turn after the start the links lie in line
+        assert!((data("t") - TAU / 3.0).abs() < 1e-3, "{}", data("t"));
+        let part = 0.01 / crank;
+        assert!((0.2..5.0).contains(&(data("within") / part)), "{} of {part}", data("within"));
+    }
+}
+
+#[test]
+fn who_is_clear_of_change_points_is_told_nothing() {
+    let mut random = Random::new(4);
+    for _ in 0..12 {
+        let crank = random.between(40.0, 120.0);
+        let coupler = crank * random.between(1.2, 3.0);
+        let off = crank * random.between(0.01, 0.2);
+        let found = near_parallelogram([crank, coupler], [off, 0.0]);
+        assert!(found.codes().is_empty(), "{crank}, {coupler}, {off}: {}", found.text());
+    }
+}
+
+/// A flat follower on a curve whose radius of curvature is `base + 4 + 32 cos(3 u)` [mm].
+fn wavy_cam(base: f64) -> String {
+    format!(
+        "mechanism cam {{
+            ground {{ point O = (0, 0) axis way = O along (0, 1) }}
+            body cam {{
+                point O = (0, 0)
+                curve flank(u) = (-({base} mm + 4 mm * (1 - cos(3 * u))) * sin(u) - 12 mm * sin(3 * u) * cos(u),
+                    ({base} mm + 4 mm * (1 - cos(3 * u))) * cos(u) - 12 mm * sin(3 * u) * sin(u)) at 0 deg
+            }}
+            body tappet at (0, {base} mm, 0) {{ axis face = (0, 0) along (1, 0) axis way = (0, 0) along (0, 1) }}
+            joint axle: revolute(ground.O, cam.O)
+            joint guide: translational(ground.way, tappet.way)
+            joint touch: flat_follower(cam.flank, tappet.face)
+            driver motor: rotation(axle) = 1 rev/s * t
+            analysis from 0 s to 1 s every 0.1 s
+        }}"
+    )
+}
+
+#[test]
+fn an_undercut_cam_is_told_and_never_passed() {
+    let mut random = Random::new(5);
+    for _ in 0..6 {
+        let base = random.between(15.0, 27.9);
+        let cusp = math::atan2(math::sqrt(32.0 * 32.0 - (base + 4.0) * (base + 4.0)), -(base + 4.0)) / (3.0 * TAU);
+        let outcomes = [false, true].map(|pass_bifurcations| {
+            let (compiled, mut outcome) = support::compile("cam", &wavy_cam(base));
+            let options = RunOptions { pass_bifurcations, ..RunOptions::default() };
+            let times = Times::grid(0.0, 1.0, 0.1).expect("a grid");
+            support::follow(&compiled.expect("determined"), &times, &options, &mut outcome);
+            outcome
+        });
+        for found in outcomes {
+            let why = found.stop().expect("undercut");
+            assert!(why.code.as_str() == "E0607" && why.message.contains("undercut"), "{base}: {}", found.text());
+            let t = why.data["t"].as_f64().expect("a time");
+            assert!((t - cusp).abs() < 1e-4, "{base}: {t}, not {cusp}");
+        }
+        let base = random.between(28.5, 60.0);
+        assert!(run("cam", &wavy_cam(base), Span::default()).succeeded(), "{base}");
     }
 }

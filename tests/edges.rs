@@ -4,10 +4,10 @@
 
 mod support;
 
-use mechc::Diagnostic;
 use mechc::rooms::math;
+use mechc::{Diagnostic, RunOptions, Times};
 use support::random::Random;
-use support::{Outcome, Span, run};
+use support::{Outcome, Span, compile_without_redundant, follow, run};
 
 /// A block on a slide that is driven, in metres, over two seconds in steps of a tenth.
 fn slide(declarations: &str, formula: &str) -> Outcome {
@@ -346,5 +346,30 @@ fn a_row_at_a_switch_does_not_depend_on_the_other_times() {
         let rows: Vec<Vec<f64>> = run.expect("it runs").map(|row| row.expect("a row")).collect();
         let row = rows.iter().find(|row| row[0] == 0.5).expect("a row");
         assert_eq!(row[9], wanted, "{asked:?}");
+    }
+}
+
+#[test]
+fn dwells_that_end_at_output_times_are_followed() {
+    let text = std::fs::read_to_string("tests/edges/conjugate_cams.mech").expect("a text");
+    for (rpm, count, every) in [
+        ("-60", 320_u32, 0.005),
+        ("-60", 12_u32, 0.1),
+        ("60", 32_u32, 0.05),
+        ("-120", 40_u32, 0.025),
+        ("-75", 8_u32, 0.2),
+    ] {
+        let text = text.replace("-60 rpm", &format!("{rpm} rpm"));
+        let to = f64::from(count) * every;
+        // the span decides where steps end
+        for span in [to, 30.0] {
+            let (compiled, mut outcome) = compile_without_redundant("cams", &text);
+            let mut times: Vec<f64> = (0..=count).map(|k| f64::from(k) * every).collect();
+            times.push(span);
+            times.truncate(if span > to { times.len() } else { count as usize + 1 });
+            let times = Times::listed(0.0, times);
+            assert!(follow(&compiled.expect("determined"), &times, &RunOptions::default(), &mut outcome));
+            assert!(outcome.stop().is_none(), "{rpm} rpm by {every} s: {}", outcome.text());
+        }
     }
 }

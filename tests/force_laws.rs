@@ -292,3 +292,40 @@ fn forces_change_by_params_as_differences_tell() {
         }
     }
 }
+
+/// A roller that its weight holds on a disc, with a load that lifts it for a moment: how much (N), when and for how long (s), in rows so far apart
+/// (s).
+fn lifted([force, at, width]: [f64; 3], every: f64) -> support::Outcome {
+    let text = format!(
+        "mechanism pulse {{
+            ground {{ point O = (0, 0) axis w = (0, 0) along (0, 1) }}
+            body d {{ point O = (0, 0) circle k = (10 mm, 0) radius 30 mm }}
+            body f at (0, 38 mm, 0) {{ axis w = (0, 0) along (0, 1) circle r = (0, 0) radius 8 mm mass 1 kg }}
+            gravity (0, -9.81 m/s^2)
+            joint m_: revolute(ground.O, d.O)
+            joint gd: translational(ground.w, f.w)
+            joint c: cam(d.k, f.r)
+            driver dr: rotation(m_) = 1 rad/s * t
+            load up: {force} N * exp(-((t - {at} s) / ({width} s))^2) on displacement(gd)
+            measure fy = force_y(c)
+            analysis from 0 s to 1 s every {every} s
+        }}"
+    );
+    support::run("pulse", &text, support::Span::default())
+}
+
+#[test]
+fn a_contact_that_pulls_between_rows_is_told() {
+    let mut random = support::random::Random::new(11);
+    for _ in 0..12 {
+        let (at, width) = (random.between(0.05, 0.45), random.between(0.002, 0.02));
+        let found = lifted([50.0, at, width], 0.5);
+        assert_eq!(found.codes(), ["W0604"], "{at}, {width}: {}", found.text());
+        let t = found.diagnostics.iter().next().and_then(|told| told.data["t"].as_f64()).expect("a time");
+        assert!((t - at).abs() < width, "{t}, not {at}");
+        // rows are what they are without a pull
+        let rows = lifted([5.0, at, width], 0.5);
+        assert_eq!(found.column("f.y"), rows.column("f.y"));
+        assert!(rows.codes().is_empty(), "{at}, {width}: {}", rows.text());
+    }
+}

@@ -6,6 +6,7 @@ mod support;
 
 use mechc::rooms::math::{atan2, hypot, sin_cos, sqrt};
 use std::f64::consts::{PI, TAU};
+use support::random::Random;
 use support::{Outcome, Span, run};
 
 /// How far a number may be from the closed form, as a part of the largest of its column.
@@ -280,4 +281,64 @@ fn a_function_or_table_of_that_name_hides_the_quantity() {
     let outcome = outcome(text);
     assert_eq!(outcome.column("a"), [9.0; 3]);
     holds(&outcome, &[("b", &|_| 20.0 / 3.0), ("pole", &|_| 0.0), ("pole_y.phi", &|t| 2.0 * t)]);
+}
+
+/// A body that turns, and another that rests relative to it, or turns against it, as a declaration says; with the pole of the second relative
+/// to the first.
+fn pair(random: &mut Random, declarations: &str) -> Outcome {
+    let (amplitude, pace, start) = (random.between(0.2, 2.0), random.between(0.5, 5.0), random.between(-3.0, 3.0));
+    let (x, y) = (random.between(-0.1, 0.1), random.between(-0.1, 0.1));
+    outcome(&format!(
+        "mechanism m {{
+            ground {{ point O = (0, 0) }}
+            body a {{ point O = (0, 0) point P = ({x}, {y}) axis w = P along ({y}, 1) }}
+            body c at ({x}, {y}, 0) {{ point P = (0, 0) axis w = P along ({y}, 1) }}
+            joint j: revolute(ground.O, a.O)
+            driver d: rotation(j) = {start} + {amplitude} * sin({pace} * t)
+            {declarations}
+            measure px = pole_x(c, a)
+            measure py = pole_y(c, a)
+            analysis from 0 to 1 every 0.01
+        }}"
+    ))
+}
+
+#[test]
+fn what_rests_relative_to_a_body_that_moves_has_no_pole() {
+    let mut random = Random::new(7);
+    for _ in 0..12 {
+        let far = random.between(0.0, 0.1);
+        for declarations in [
+            "joint g: weld(a.P, c.P)".to_owned(),
+            format!("joint g: translational(a.w, c.w) driver e: displacement(g) = step5(t, 0.2, 0, 0.5, {far})"),
+            format!("joint g: translational(a.w, c.w) driver e: displacement(g) = {far} * sin(9 * t)"),
+            format!("joint g: revolute(a.P, c.P) driver e: rotation(g) = {far}"),
+        ] {
+            let found = pair(&mut random, &declarations);
+            for name in ["px", "py"] {
+                assert!(
+                    found.column(name).iter().all(|value| value.is_nan()),
+                    "{declarations}: {:?}",
+                    found.column(name)
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn what_turns_slowly_has_a_pole() {
+    let mut random = Random::new(8);
+    for pace in [1e-3, 1e-6, 1e-9] {
+        for _ in 0..4 {
+            let found = pair(&mut random, &format!("joint g: revolute(a.P, c.P) driver e: rotation(g) = {pace} * t"));
+            let (x, y) = (found.column("c.x"), found.column("c.y"));
+            for (name, place) in [("px", x), ("py", y)] {
+                for (pole, place) in found.column(name).iter().zip(place) {
+                    // the rounding of the turning shows as much as that is slower than the whole
+                    assert!((pole - place).abs() <= 1e-14 / pace + 1e-12, "{pace}: {pole}, not {place}");
+                }
+            }
+        }
+    }
 }

@@ -2,6 +2,9 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
+#[path = "../fuzz/src/generate.rs"]
+#[allow(dead_code, clippy::pedantic, clippy::disallowed_methods)] // it is the fuzzer's
+mod generate;
 mod support;
 
 use mechc::rooms::analysis::{self, Horizon};
@@ -9,7 +12,9 @@ use mechc::rooms::program::Stage;
 use mechc::rooms::solver::{Batch, Bend, Lanes, Segment, Solver};
 use mechc::{Cancel, Compiled, TOLERANCE, Times, Vectors};
 use std::fs;
+use std::path::Path;
 use std::sync::Arc;
+use support::random::Random;
 use support::{all_rows, compile, compiled, files, stem};
 
 fn rows(compiled: &Compiled, times: &Times) -> Vec<Vec<f64>> {
@@ -62,6 +67,64 @@ fn a_row_has_the_same_bits_whichever_others_are_asked_for() {
             let bits = |row: &[f64]| row.iter().map(|value| value.to_bits()).collect::<Vec<u64>>();
             assert_eq!(bits(a), bits(b), "{name}, row {k}: {a:?}\n{b:?}");
         }
+    }
+}
+
+/// A random mechanism whose bodies have masses.
+fn made(seed: u64) -> String {
+    let mut random = Random::new(seed);
+    let bytes: Vec<u8> = (0..600).map(|_| random.below(255) as u8).collect();
+    let text = generate::text(&bytes);
+    let mut heavy = String::new();
+    for line in text.lines() {
+        heavy += line;
+        heavy += "\n";
+        if line.starts_with("body ") {
+            heavy += &format!("mass {} inertia {}\n", random.between(0.5, 2.0), random.between(0.1, 1.0));
+        }
+    }
+    let end = heavy.rfind('}').expect("a mechanism");
+    heavy.replace_range(end.., "gravity (1, -9.8)\n}\n");
+    heavy
+}
+
+/// Holds rows of some of so many times against the rows of all of them, bit by bit; gives how many there are of these.
+fn have_the_same_bits(name: &str, compiled: &Compiled, count: u32) -> usize {
+    let [from, to, _] = compiled.analysis().expect("an analysis");
+    let at = |k: u32| from + (to - from) * f64::from(k) / f64::from(count);
+    let (all, _) = all_rows(compiled, &Times::listed(from, (0..=count).map(at).collect()));
+    for (first, step) in [(1, 3), (2, 17), (5, count), (count / 2, count), (count - 1, count), (1, 1)] {
+        let reached = (first..=count).step_by(step as usize).map(at).filter(|t| all.iter().any(|row| row[0] == *t));
+        let (some, _) = all_rows(compiled, &Times::listed(from, reached.collect()));
+        for row in some {
+            let whole = all.iter().find(|whole| whole[0] == row[0]).expect("the same time");
+            for (k, (a, b)) in row.iter().zip(whole).enumerate() {
+                let (column, t) = (&compiled.columns()[k], row[0]);
+                assert_eq!(a.to_bits(), b.to_bits(), "{name}, {column} at {t}: {a} and {b}, from {first} by {step}");
+            }
+        }
+    }
+    all.len()
+}
+
+#[test]
+fn the_rows_of_random_mechanisms_have_the_same_bits_whichever_others_are_asked_for() {
+    let mut seen = 0;
+    for seed in 0..8 {
+        let text = made(seed);
+        if let Some(compiled) = support::compile_with_forces(Path::new("made"), &text, 0) {
+            seen += usize::from(have_the_same_bits(&text, &compiled, 40) > 1);
+        }
+    }
+    assert!(seen > 4, "{seen}");
+}
+
+#[test]
+fn rows_that_hold_rounding_of_great_numbers_have_the_same_bits_whichever_others_are_asked_for() {
+    let text = fs::read_to_string("tests/bits/gear_under_great_forces.mech").expect("a text");
+    let compiled = compiled("gear", &text);
+    for count in [20, 10, 2, 100] {
+        assert_eq!(have_the_same_bits("gear", &compiled, count), count as usize + 1);
     }
 }
 

@@ -969,3 +969,57 @@ fn what_rests_may_be_set_moving_by_a_param() {
     near(slopes("long")[0].expect("all its times go alike"), 1.0);
     near(slopes("stroke")[0].expect("nothing is moved by it"), 0.0);
 }
+
+/// An arm that turns as time goes, with a measure and a param `a`.
+fn stepped(measure: &str, a: f64) -> String {
+    format!(
+        "mechanism m {{
+            param a = {a}
+            ground {{ point O = (0, 0) }}
+            body b {{ point O = (0, 0) }}
+            joint main: revolute(ground.O, b.O)
+            driver d: rotation(main) = t
+            measure e = {measure}
+            analysis from 0 to 1 every 0.1
+        }}"
+    )
+}
+
+#[test]
+fn a_measure_that_jumps_at_a_time_which_goes_with_a_param_has_no_derivative() {
+    let measures = ["if rotation(main) < a then 1 else 2", "sign(rotation(main) - a)", "mod(rotation(main) - a, 1)"];
+    for measure in measures {
+        for a in [0.5, 0.35, 0.72] {
+            let (_, affected) = subject(&stepped(measure, a), &[]).affected(&["a=0.06"]);
+            assert_eq!((affected[0].name.as_str(), &affected[0].slopes), ("e", &vec![None]), "{measure}, {a}");
+        }
+    }
+    // at a corner it is on the other side of its jump
+    let (_, _, verified) = subject(&stepped(measures[0], 0.5), &[]).verified(&["a=0.06"]);
+    assert_eq!(verified.found[0], Some([-1.0, 0.0]));
+}
+
+#[test]
+fn a_measure_that_bends_or_jumps_elsewhere_has_its_derivative() {
+    let continuous = "if rotation(main) < a then a * rotation(main) else a * a";
+    for (measure, slope) in
+        [(continuous, 1.0), ("if rotation(main) < 0.5 then a else 2 * a", 2.0), ("a * sign(t - 0.3)", 1.0)]
+    {
+        let (_, affected) = subject(&stepped(measure, 0.52), &[]).affected(&["a=0.01"]);
+        let found = affected[0].slopes[0].expect("a derivative");
+        assert!((found.abs() - slope).abs() < 0.05, "{measure}: {found}");
+    }
+}
+
+#[test]
+fn what_is_far_away_and_constant_hides_no_derivative_of_an_extremum() {
+    for (formula, slope) in [("a * sin(3 * rotation(main))", 1.0), ("sin(3 * rotation(main) + a)", 0.0)] {
+        for other in ["-2", "-100", "-1e5"] {
+            let peak = format!("peak = max(if t < 0.8 then {formula} else {other})");
+            let (_, affected) = subject(&stepped("x(b.O)", 0.3), &[&peak]).affected(&["a=0.001"]);
+            let found = affected.iter().find(|of| of.name == "peak").expect("the result").slopes[0];
+            let found = found.unwrap_or_else(|| panic!("{formula}, {other}"));
+            assert!((found - slope).abs() < 1e-9, "{formula}, {other}: {found}");
+        }
+    }
+}

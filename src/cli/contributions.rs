@@ -206,6 +206,7 @@ impl Contributions {
                     None => {
                         "it is of an extremum that two times share, of a kink or jump that goes with the param, or of too many derivatives"
                     }
+                    Some(_) if of.unknown[0] == 0 => "it jumps at a time that goes with the param",
                     Some(_) => "it needs too many derivatives, or is too near a singular position at all times",
                 };
                 text += &format!("`{}` has no derivative by {}: {why}\n", of.name, unknown.join(", "));

@@ -138,6 +138,7 @@ catalogue! {
         W0602 Warning "a bifurcation that was passed"
         W0603 Warning "a measure without a value"
         W0604 Warning "a contact that would have to pull"
+        W0605 Warning "a change point that is nearly met"
         N0601 Note "the estimates were far from the assembled start"
         N0604 Note "a result without a value"
     }

@@ -8,7 +8,7 @@ use super::frames::Vector;
 use crate::expr::{Binary, Comparison, ExprId, Symbol, Unary};
 use crate::ir::ConstraintSystem;
 use crate::model::{Frame, JointId, JointKind, PartId, PointId, Profile, Quantity};
-use crate::tolerances::determinacy::velocities::NOTHING;
+use crate::tolerances::determinacy::velocities::{NOTHING, ROUNDING};
 use std::f64::consts::PI;
 
 /// Where two bodies touch.
@@ -187,10 +187,35 @@ impl Lowering<'_> {
                 let farthest = self.graph.constant(self.largest_size / NOTHING);
                 let (turning, speed) = (self.graph.unary(Unary::Abs, turning), self.length(velocity));
                 let limit = self.graph.mul(turning, farthest);
-                self.graph.sub(limit, speed)
+                let (is_near, rounding) = (self.graph.sub(limit, speed), self.rounding_of_turning());
+                let turns = self.graph.sub(turning, rounding);
+                self.graph.binary(Binary::Min, is_near, turns)
             }
             _ => self.graph.constant(1.0),
         }
+    }
+
+    /// What rounding may make of how fast a body turns (rad/s): all bodies are solved for together, so that one that rests has the rounding of
+    /// the fastest.
+    fn rounding_of_turning(&mut self) -> ExprId {
+        let mut fastest = self.graph.constant(0.0);
+        for body in self.model.body_ids() {
+            for (part, index) in self.numbering.pose(body).into_iter().enumerate() {
+                let rate = self.graph.symbol(Symbol::Coordinate { index, order: 1 });
+                let size = self.graph.unary(Unary::Abs, rate);
+                let size = if part == 2 { size } else { self.per_size(size) };
+                fastest = self.graph.binary(Binary::Max, fastest, size);
+            }
+        }
+        let part = self.graph.constant(ROUNDING * f64::EPSILON);
+        self.graph.mul(part, fastest)
+    }
+
+    /// A speed (m/s) as the turning (rad/s) of something as large as the mechanism.
+    fn per_size(&mut self, speed: ExprId) -> ExprId {
+        let size = if self.largest_size > 0.0 { self.largest_size } else { 1.0 };
+        let size = self.graph.constant(1.0 / size);
+        self.graph.mul(size, speed)
     }
 
     fn beyond(&mut self, value: ExprId, limit: f64) -> ExprId {

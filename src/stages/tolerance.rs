@@ -61,7 +61,7 @@ pub struct Affected {
     pub si: String,
     /// By tolerance: its derivative (SI); nothing where none is known.
     pub slopes: Vec<Option<f64>>,
-    /// At so many of so many times it has a value and no derivatives.
+    /// At so many of so many times it has a value and no derivatives; none of them where one is not known because of a jump.
     pub unknown: [u64; 2],
 }
 

@@ -7,6 +7,8 @@ use super::tolerance::{Affected, Tolerance, Verified};
 use super::varied::{Found, Reader, is_of_angles, number_and_unit, si_unit, spaceless, unusable};
 use super::{AskedTimes, Checked, Choice, Compiled, RunOptions, SweepOptions, Variants};
 use crate::diag::{Diagnostic, Diagnostics};
+use crate::expr::{Binary, Dependence, ExprId, Node, Unary};
+use crate::ir::Measure;
 use crate::layout::ColumnUnit;
 use crate::model::Dimension;
 use crate::sweep::{Levels, Method, Points, Sampling, Status, Swept, Varying};
@@ -154,14 +156,19 @@ impl Tolerancing<'_> {
         let by = self.tolerances.iter().map(|of| of.name.clone()).collect();
         // results that are asked for beside the text stand in it already
         let choice = Choice { by, slopes, lead: true, results: Vec::new(), ..self.choice.clone() };
-        let checked = self.checked.parsed.check(&choice, self.world);
+        let mut means = if self.tolerances.is_empty() { Means::default() } else { Means::of(compiled) };
+        let mut checked = self.checked.parsed.check(&Choice { results: means.texts(), ..choice.clone() }, self.world);
+        if !checked.is_sound() {
+            means = Means::default();
+            checked = self.checked.parsed.check(&choice, self.world);
+        }
         let refused = |said: &Diagnostics| (checked.sources().clone(), said.clone());
         if !checked.is_sound() {
             return Err(refused(checked.diagnostics()));
         }
         let (with_slopes, said) = checked.compile(options.redundant, &options.cancel);
         let with_slopes = with_slopes.ok_or_else(|| refused(&said))?;
-        let asked = self.asked_of(&with_slopes);
+        let asked = self.asked_of(&with_slopes, means);
         if asked.measures.is_empty() && asked.results.is_empty() {
             let why = unusable("there is no measure and no result that could be off".to_owned())
                 .help("add one to the file, or a result with `--result 'stroke = max(x(P)) - min(x(P))'`");
@@ -205,7 +212,7 @@ impl Tolerancing<'_> {
     }
 
     /// The columns and results that can be off, of what is compiled with their derivatives.
-    fn asked_of(&self, compiled: &Compiled) -> AskedOf {
+    fn asked_of(&self, compiled: &Compiled, means: Means) -> AskedOf {
         let (columns, units) = (compiled.columns(), compiled.units());
         let place = |name: &str| columns.iter().position(|column| column == name);
         let by = |name: &str| -> Vec<Option<usize>> {
@@ -218,8 +225,8 @@ impl Tolerancing<'_> {
         });
         let results = compiled.results().into_iter().zip(compiled.results_of_variants());
         let results = results.map(|((name, unit), (_, si))| (name, unit, si)).collect::<Vec<_>>();
-        let own = results.len() / (self.tolerances.len() + 1);
-        AskedOf { measures: measures.collect(), results: results[..own].to_vec() }
+        let own = results.len() / (self.tolerances.len() + 1) - means.of.len();
+        AskedOf { measures: measures.collect(), results: results[..own].to_vec(), means }
     }
 
     /// The variants that verify what derivatives say, with how many of them are corners of all.
@@ -309,6 +316,46 @@ fn why_not(compiled: &Compiled, options: &SweepOptions) -> Diagnostics {
 struct AskedOf {
     measures: Vec<AskedMeasure>,
     results: Vec<(String, ColumnUnit, String)>,
+    means: Means,
+}
+
+/// Means of measures that may jump, as further results behind all others: where a jump goes with a param, a measure has derivatives at all
+/// times but that one, of which they say nothing, while its mean has none.
+#[derive(Default)]
+struct Means {
+    /// Their measures.
+    of: Vec<String>,
+}
+
+impl Means {
+    fn of(compiled: &Compiled) -> Means {
+        let system = compiled.system();
+        let of_equations: Vec<ExprId> = system.rows().iter().map(|row| row.phi).collect();
+        let may_break = |roots: &[ExprId]| {
+            let graph = system.graph();
+            graph.reachable(roots).into_iter().any(|id| breaks(graph.node(id)))
+        };
+        let equations_bend = may_break(&of_equations);
+        // velocities and places do not jump where equations bend
+        let jumps = |measure: &&Measure| {
+            let dependence = system.graph().dependence(measure.value);
+            let is_driven = dependence.highest_order() >= Some(2) || dependence.on(Dependence::FORCES);
+            may_break(&[measure.value]) || (is_driven && (equations_bend || dependence.on(Dependence::FORCES)))
+        };
+        Means { of: system.measures().iter().filter(jumps).map(|measure| measure.name.clone()).collect() }
+    }
+
+    fn texts(&self) -> Vec<String> {
+        self.of.iter().enumerate().map(|(k, name)| format!("mean_that_may_jump_{k} = mean({name})")).collect()
+    }
+}
+
+/// Whether the value of a node may jump.
+fn breaks(node: Node) -> bool {
+    matches!(
+        node,
+        Node::Compare(..) | Node::Binary(Binary::Atan2 | Binary::Mod, ..) | Node::Unary(Unary::Floor | Unary::Sign, _)
+    )
 }
 
 struct AskedMeasure {
@@ -339,26 +386,57 @@ impl AskedOf {
     /// What there is of the nominal variant.
     fn affected(self, swept: &Swept, tolerances: &[Tolerance]) -> Vec<Affected> {
         let (mut columns, mut all) = (swept.columns.iter(), Vec::new());
+        let (own, count) = (self.results.len(), tolerances.len());
+        let number = |k: usize| Some(swept.results[k][0]).filter(|value| value.is_finite());
+        let all_results = own + self.means.of.len();
+        let jumps = |measure: &AskedMeasure| -> Vec<bool> {
+            let mean = self.means.of.iter().position(|of| *of == measure.name).filter(|k| number(own + k).is_some());
+            let slope = |k: usize, j: usize| number(all_results + (own + k) * count + j);
+            (0..count).map(|j| mean.is_some_and(|k| slope(k, j).is_none())).collect()
+        };
         if let Some(times) = columns.next() {
             for measure in self.measures {
                 let Some(values) = columns.next() else { break };
                 let slopes =
                     measure.by.iter().map(|by| by.and_then(|_| columns.next().map(|column| &**column))).collect();
-                all.push(where_it_is_worst(measure, &Rows { times, values, slopes }, tolerances));
+                let rows = Rows { times, values, slopes };
+                let jumps = jumps(&measure);
+                all.push(if jumps.contains(&true) {
+                    where_it_jumps(measure, &rows, &jumps)
+                } else {
+                    where_it_is_worst(measure, &rows, tolerances)
+                });
             }
         }
-        let (own, count) = (self.results.len(), tolerances.len());
-        let number = |k: usize| Some(swept.results[k][0]).filter(|value| value.is_finite());
         all.extend(self.results.into_iter().enumerate().map(|(k, (name, unit, si))| Affected {
             name,
             at: None,
             nominal: swept.results[k][0],
             unit,
             si,
-            slopes: (0..count).map(|j| number(own + k * count + j)).collect(),
+            slopes: (0..count).map(|j| number(all_results + k * count + j)).collect(),
             unknown: [0, 1],
         }));
         all
+    }
+}
+
+/// A measure behind its widest jump, with no derivatives by those that the jump goes with.
+fn where_it_jumps(measure: AskedMeasure, rows: &Rows<'_>, jumps: &[bool]) -> Affected {
+    let Rows { times, values, slopes } = rows;
+    let change = |row: &usize| (values[*row] - values[*row - 1]).abs();
+    let widest = (1..times.len()).filter(|row| change(row).is_finite()).max_by(|a, b| change(a).total_cmp(&change(b)));
+    let row = widest.or_else(|| values.iter().position(|value| value.is_finite()));
+    let number = |column: &[f64]| row.map(|row| column[row]).filter(|value| value.is_finite());
+    let slopes = slopes.iter().zip(jumps).map(|(slope, jumps)| slope.filter(|_| !jumps).and_then(number));
+    Affected {
+        at: row.map(|row| times[row]).or(times.first().copied()),
+        nominal: number(values).unwrap_or(f64::NAN),
+        slopes: slopes.collect(),
+        unknown: [0, times.len() as u64],
+        name: measure.name,
+        unit: measure.unit,
+        si: measure.si,
     }
 }
 

@@ -104,6 +104,8 @@ pub mod velocities {
     /// What is shorter than this part of the mechanism's size, or slower than this part of it in the time of the analysis, is nothing; and
     /// an instant centre that is farther away than so many sizes, the other way round, is nowhere.
     pub const NOTHING: f64 = 1e-9;
+    /// Bodies that turn against each other by no more than so many roundings of the fastest motion do not.
+    pub const ROUNDING: f64 = 64.0;
 }
 
 /// Gears that do not reach each other, and poses that are proposed (`analysis/assemble/errors.rs`).

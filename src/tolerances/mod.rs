@@ -47,6 +47,16 @@ pub mod contacts {
     pub const PLACES: u32 = 90;
     /// A contact pulls where it does so with more than this part of the largest force of the row: less is rounding.
     pub const PULLS: f64 = 1e-9;
+    /// Between rows a step is looked at in parts no wider than this one of it,
+    pub const WIDEST_BETWEEN: f64 = 0.125;
+    /// and in smaller ones where a load may leave the values at both ends of a part by more than this part of the largest that was met,
+    pub const STRIKES: f64 = 0.05;
+    /// but none smaller than this,
+    pub const FINEST_BETWEEN: f64 = 1.0 / 256.0;
+    /// and in so many at most.
+    pub const MOST_BETWEEN: usize = 128;
+    /// Corrections of a place on the curve of a step.
+    pub const CORRECTIONS: usize = 2;
 }
 
 /// Loads.

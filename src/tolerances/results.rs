@@ -157,6 +157,8 @@ pub mod slopes {
     /// the second part of that; or for the last digits of its value.
     pub const MOVED: f64 = 1e-6;
     pub const ALONE: f64 = 0.01;
+    /// A formula has a range of no more than so many standard deviations.
+    pub const DEVIATIONS: f64 = 4.0;
     /// Half a step leaves no more than this part of what a whole one ends off the straight line, where a formula of results is smooth: a quarter,
     /// and at a kink half.
     pub const LEFT_OF_HALF: f64 = 0.35;

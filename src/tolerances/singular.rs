@@ -6,6 +6,8 @@ pub mod reasons {
     pub const NEAR: f64 = 1e-2;
     /// A relative curvature below this is taken for none, beside a position that is singular.
     pub const FLAT: f64 = 1e-3;
+    /// A curve has a cusp where its radius of curvature is below this part of its body's size, and its tangent vanishes.
+    pub const CUSP: f64 = 1e-2;
     /// A fold is no further off than this part of the span.
     pub const NEAR_FOLD: f64 = 1e-5;
     /// A formula has come to the end of what its function takes, or to a pole, if no more than this part of its terms is left.
@@ -100,4 +102,18 @@ pub mod reach {
     pub const TAKES_PART: f64 = 0.1;
     /// So many times what may be left of the equations is not told from nothing.
     pub const MARGIN: f64 = 4.0;
+}
+
+/// Change points that are just missed (`analysis/follow/misses.rs`).
+pub mod misses {
+    /// A motion that comes as near to a change point as this part of the lengths is told of: drawings are rounded so.
+    pub const WITHIN: f64 = 5e-4;
+    /// The part that lengths are off by, of the square of the driver's way in which the motion turns away.
+    pub const OF_LENGTHS: f64 = 1.0 / 3.0;
+    /// What is farther from a singular position than this is far from it.
+    pub const FAR: f64 = 0.1;
+    /// The least singular value is at most this part of the largest before it: some mechanisms are never far.
+    pub const FALLS: f64 = 0.4;
+    /// Meanwhile the speed of drivers changes by no more than this part.
+    pub const EVEN: f64 = 0.3;
 }

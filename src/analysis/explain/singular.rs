@@ -5,10 +5,10 @@ use super::errors::{self, StartVerdict};
 use super::free_motion::motion_in_words;
 use crate::analysis::state::{Fault, Horizon, Kinematics, Singular, State};
 use crate::diag::Diagnostic;
-use crate::ir::{ConstraintSystem, DeclarationId, DeclarationKind, WatchKind};
+use crate::ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, Watch, WatchKind};
 use crate::program::PlacedRim;
 use crate::tolerances::singular::reasons::{
-    AT_HAND, FLAT, NEAR, NEAR_FOLD, PARABOLA, STEPS_AHEAD, TAKES_PART, TOLD, WEIGHTS,
+    AT_HAND, CUSP, FLAT, NEAR, NEAR_FOLD, PARABOLA, STEPS_AHEAD, TAKES_PART, TOLD, WEIGHTS,
 };
 
 /// The diagnosis at the last good state, where even a step as small as `h` (s) towards `target` (s) failed.
@@ -41,7 +41,7 @@ pub fn explain_fold(
     let residual = kinematics.largest_residual();
     let singular = kinematics.worst();
     if let Some(index) = contact_that_ends(kinematics, fault, singular.sigma) {
-        return errors::no_contact(system, index, state.t);
+        return explain_contact_that_ends(kinematics, index, state.t);
     }
     let diagnostic = if singular.sigma < NEAR {
         explain_position(kinematics, state, &singular, fold)
@@ -61,7 +61,7 @@ fn contact_that_ends(kinematics: &Kinematics, fault: Fault, sigma: f64) -> Optio
     match fault {
         // a curvature that comes to zero makes the position singular, one that jumps over it does not
         Fault::Watch { index } if watches[index].kind != WatchKind::Curvature || sigma > NEAR => Some(index),
-        _ => centers_that_meet(kinematics),
+        _ => centers_that_meet(kinematics).or_else(|| vanishing(kinematics, WatchKind::Tangents)),
     }
 }
 
@@ -88,6 +88,23 @@ fn time_of_fold(span: f64, state: &State, right: &[f64]) -> f64 {
     if left > 0.0 && left < NEAR_FOLD * span { state.t + left } else { state.t }
 }
 
+/// What is said of a contact that ends at a time (s), by the watch over it, at the position that was set or just behind it.
+pub fn explain_contact_that_ends(kinematics: &Kinematics, index: usize, t: f64) -> Diagnostic {
+    let system = kinematics.system();
+    let watches = system.watches();
+    let Watch { kind, declaration, .. } = watches[index];
+    let is_flat = system.declarations()[declaration].kind == DeclarationKind::Joint(JointKind::FlatFollower);
+    let of_contact = |k: &usize| watches[*k].kind == WatchKind::Curvature && watches[*k].declaration == declaration;
+    let curvature = (0..watches.len()).find(of_contact).map_or(0.0, |k| kinematics.watched(k).abs());
+    // with `T` the tangent and `B` its derivative the radius is T²/B across; where the argument alone rests it is no less than usual
+    let tangent = kinematics.watched(index);
+    if kind == WatchKind::Tangents && is_flat && tangent * tangent < CUSP * curvature {
+        errors::undercut(system, index, t)
+    } else {
+        errors::no_contact(system, index, t)
+    }
+}
+
 /// What is said of a singular position beyond which the motion goes on; `passed` is whether it does.
 pub fn explain_contact(kinematics: &mut Kinematics, state: &State, passed: bool) -> Diagnostic {
     kinematics.restore(state);
@@ -101,18 +118,31 @@ pub fn explain_contact(kinematics: &mut Kinematics, state: &State, passed: bool)
     }
 }
 
+/// What is said of a singular position that the motion has missed by a part of the lengths; at the state that is nearest to it. Nothing where no
+/// body could have gone another way: a contact may run fast along its curve.
+pub fn explain_miss(kinematics: &mut Kinematics, state: &State, within: f64, t: f64) -> Option<Diagnostic> {
+    kinematics.restore(state);
+    let singular = kinematics.worst();
+    let system = kinematics.system();
+    let (joints, columns) = (joints_in(system, &singular.left), columns_in(&singular.right));
+    let moves_bodies = columns.iter().any(|&column| system.body_of(column).is_some());
+    moves_bodies.then(|| errors::near_change_point(system, &joints, &columns, within, t))
+}
+
 /// The watch over a line of centres that vanishes, or nearly so, where the position was set.
 pub fn centers_that_meet(kinematics: &Kinematics) -> Option<usize> {
+    vanishing(kinematics, WatchKind::LineOfCenters)
+}
+
+/// The watch of a kind over what vanishes, or nearly so, where the position was set.
+fn vanishing(kinematics: &Kinematics, kind: WatchKind) -> Option<usize> {
     let watches = kinematics.system().watches();
-    let meet = |k: &usize| watches[*k].kind == WatchKind::LineOfCenters && kinematics.watched(*k).abs() < FLAT;
-    (0..watches.len()).find(meet)
+    (0..watches.len()).find(|&k| watches[k].kind == kind && kinematics.watched(k).abs() < FLAT)
 }
 
 /// The joint at whose contact the relative curvature vanishes, or nearly so, where the position was set.
 fn flat_contact(kinematics: &Kinematics) -> Option<DeclarationId> {
-    let watches = kinematics.system().watches();
-    let flat = |k: &usize| watches[*k].kind == WatchKind::Curvature && kinematics.watched(*k).abs() < FLAT;
-    (0..watches.len()).find(flat).map(|k| watches[k].declaration)
+    vanishing(kinematics, WatchKind::Curvature).map(|k| kinematics.system().watches()[k].declaration)
 }
 
 /// The diagnosis where so many steps did not get to `target`.

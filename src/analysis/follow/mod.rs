@@ -16,6 +16,7 @@ mod crossing;
 mod edges;
 mod lead;
 mod march;
+mod misses;
 mod remarks;
 mod rows;
 mod start;

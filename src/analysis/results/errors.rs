@@ -20,6 +20,10 @@ pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diag
             format!("result `{name}` has no value: the position at {} is too near to a singular one", at(t)),
             "more rounding than digits there",
         ),
+        None if outcome.unknown_is_false => (
+            format!("`{name}` is not known"),
+            "of an extremum that two times share, of a kink or jump that moves, or of too many derivatives",
+        ),
         None => (format!("result `{name}` has no value"), "its formula is infinite or undefined"),
     };
     let diagnostic = Diagnostic::new(Code::N0604, message).at(outcome.span, label);

@@ -19,4 +19,4 @@ pub use kinematics::{Fault, Kinematics, State, Unknown};
 pub use least_squares::{Evaluated, Linear, minimize};
 pub use linear::Singular;
 pub use times::{Horizon, Times, behind_start, shortly_after};
-pub use trust::{Trust, are_small};
+pub use trust::{Trust, are_alike, are_small};

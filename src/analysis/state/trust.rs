@@ -46,14 +46,34 @@ impl Trust {
 
 /// Whether what velocities and accelerations of a state may be off by is within limits.
 pub fn are_small(kinematics: &Kinematics, state: &State, off: [&[f64]; 2], limits: [f64; 2]) -> bool {
+    let off = |order: usize, k: usize| off[order - 1][k];
+    are_within(kinematics, [&state.qd, &state.qdd], off, limits)
+}
+
+/// Whether two states, each by its position, velocity and acceleration, differ by no more than a part of the motion. One coordinate that rests
+/// differs by the rounding of others that do not.
+pub fn are_alike(kinematics: &Kinematics, a: [&[f64]; 3], b: [&[f64]; 3], part: f64) -> bool {
+    let [q, qd, qdd] = a;
+    let scale = |k: usize| kinematics.linear().column_scale(k);
+    let is_place = q.iter().zip(b[0]).enumerate().all(|(k, (a, b))| (a - b).abs() <= part * (scale(k) + a.abs()));
+    is_place && are_within(kinematics, [qd, qdd], |order, k| a[order][k] - b[order][k], [part; 2])
+}
+
+/// Whether what velocities and accelerations are off by, told by its order and coordinate, is within limits.
+fn are_within(
+    kinematics: &Kinematics,
+    [qd, qdd]: [&[f64]; 2],
+    off: impl Fn(usize, usize) -> f64,
+    limits: [f64; 2],
+) -> bool {
     let linear = kinematics.linear();
-    let (speed, bend) = (linear.largest(&state.qd), linear.largest(&state.qdd));
+    let (speed, bend) = (linear.largest(qd), linear.largest(qdd));
     let is_small = |order: usize, x: &[f64], fastest: f64| {
         let is_small = |k: usize| {
-            let (off, size) = (off[order][k].abs() / linear.column_scale(k), x[k].abs() / linear.column_scale(k));
-            off <= limits[order] * f64::max(1.0 + size, SLOW * fastest)
+            let scale = linear.column_scale(k);
+            off(order, k).abs() / scale <= limits[order - 1] * f64::max(1.0 + x[k].abs() / scale, SLOW * fastest)
         };
         (0..x.len()).all(is_small)
     };
-    is_small(0, &state.qd, speed) && is_small(1, &state.qdd, bend.max(speed * speed))
+    is_small(1, qd, speed) && is_small(2, qdd, bend.max(speed * speed))
 }

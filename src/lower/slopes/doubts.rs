@@ -6,7 +6,7 @@ use crate::expr::{Binary, Comparison, ExprId, Graph, Symbol, Unary};
 use crate::ir::ReductionKind;
 use crate::lower::edges::Going;
 use crate::tolerances::results::slopes::{
-    ALONE, BESIDE, DIGITS, FLAT, LAST_DIGITS, LEAST_STEP, LEFT_OF_HALF, MOVED, NOTHING, SAME,
+    ALONE, BESIDE, DEVIATIONS, DIGITS, FLAT, LAST_DIGITS, LEAST_STEP, LEFT_OF_HALF, MOVED, NOTHING, SAME,
 };
 use rustc_hash::FxHashMap;
 
@@ -219,7 +219,8 @@ impl Slopes<'_, '_> {
         let by_of = self.lowering.only_where(holds, by);
         // how much it goes at the most is often not known to as many digits as are asked of results
         let square = self.lowering.graph.mul(by_of, by_of);
-        let (square, range) = (self.asked(ReductionKind::Mean, square), self.range(of));
+        let range = self.range_where_it_goes(of, square);
+        let square = self.asked(ReductionKind::Mean, square);
         let found = self.asked(kind, of);
         let graph = &mut self.lowering.graph;
         let usual = graph.unary(Unary::Sqrt, square);
@@ -248,8 +249,27 @@ impl Slopes<'_, '_> {
         let limit = graph.add(part, digits);
         let is_alone = graph.compare(Comparison::LessEqual, off, limit);
         let nothing = self.no_value();
-        let slope = self.lowering.graph.select(is_alone, slope, nothing);
+        let (slope, range) = (self.lowering.graph.select(is_alone, slope, nothing), self.range(of));
         self.where_it_goes((usual, range), going, slope)
+    }
+
+    /// The range of a formula where the variable changes it, by the squares of that: what never changes may be as far away as it likes.
+    fn range_where_it_goes(&mut self, of: ExprId, square: ExprId) -> ExprId {
+        let graph = &mut self.lowering.graph;
+        let once = graph.mul(square, of);
+        let twice = graph.mul(once, of);
+        let [all, once, twice] = [square, once, twice].map(|formula| self.asked(ReductionKind::Mean, formula));
+        let range = self.range(of);
+        let graph = &mut self.lowering.graph;
+        let [once, twice] = [once, twice].map(|sum| graph.div(sum, all));
+        let mean_squared = graph.mul(once, once);
+        let variance = graph.sub(twice, mean_squared);
+        let variance = graph.unary(Unary::Abs, variance);
+        let (deviation, part) = (graph.unary(Unary::Sqrt, variance), graph.constant(DEVIATIONS));
+        let spread = graph.mul(part, deviation);
+        // that is no number where nothing changes, and then nobody asks
+        let is_less = graph.compare(Comparison::Less, spread, range);
+        graph.select(is_less, spread, range)
     }
 
     /// A slope where the variable changes the formula at all, by more than rounding does: if it were so much as it is large; or what it bends

@@ -42,6 +42,20 @@ pub fn no_contact(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic
     }
 }
 
+/// A flat follower whose curve has a cusp where it touches.
+pub fn undercut(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
+    let joint = &system.declarations()[system.watches()[index].declaration];
+    let message = format!(
+        "the curve at the contact `{}` is undercut at {}: its radius of curvature comes down to 0 mm",
+        joint.name,
+        at(t)
+    );
+    Diagnostic::new(Code::E0607, message)
+        .at(joint.span, "the curve has a cusp there, and no face can touch what comes behind it")
+        .help("make the base circle larger or the rise gentler, so that the radius of curvature is positive all round")
+        .datum("t", t)
+}
+
 /// Why a contact is singular, and what to do about it.
 pub fn equal_curvatures(diagnostic: Diagnostic, system: &ConstraintSystem, joint: DeclarationId) -> Diagnostic {
     let name = &system.declarations()[joint].name;
@@ -117,6 +131,25 @@ pub fn passed(system: &ConstraintSystem, joints: &[DeclarationId], columns: &[us
     with_places(Diagnostic::new(Code::W0602, message), system, joints, ["this leaves it open", "these leave it open"])
         .note(owners(system, columns, "could have gone either way"))
         .datum("t", t)
+}
+
+/// A bifurcation that a motion has missed by a part of the lengths.
+pub fn near_change_point(
+    system: &ConstraintSystem,
+    joints: &[DeclarationId],
+    columns: &[usize],
+    within: f64,
+    t: f64,
+) -> Diagnostic {
+    let message = format!("the motion passes within {within:.0e} of a change point at {}", at(t));
+    let places = ["this nearly leaves it open", "these nearly leave it open"];
+    with_places(Diagnostic::new(Code::W0605, message), system, joints, places)
+        .note(owners(system, columns, "could nearly have gone either way"))
+        .help(
+            "a length that is off by such a part decides: where lengths are rounded and the branches should meet, make them equal and go on with `--pass-bifurcations`",
+        )
+        .datum("t", t)
+        .datum("within", within)
 }
 
 /// A position whose derivatives are more rounding than digits.

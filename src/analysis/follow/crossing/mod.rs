@@ -159,6 +159,14 @@ impl Crossing {
             let why = singular::explain_fold(kinematics, step.state(), fault, [h, target], self.fold);
             return Err(Box::new(why));
         };
+        kinematics.restore(&bridge.to);
+        if let Err(Fault::Watch { index }) = step.same_sides(kinematics) {
+            // beyond it two bodies would go through each other: no branch goes on there, however smooth the equations are
+            kinematics.restore(&bridge.state_at(bridge.at));
+            let why = singular::explain_contact_that_ends(kinematics, index, bridge.at);
+            self.bridge = Some(bridge);
+            return Err(Box::new(why));
+        }
         if !self.passes {
             let why = self.explain(kinematics, &bridge, bridge.at);
             // rows before the singular position may lie on it

@@ -14,6 +14,7 @@ use super::bookmark::Bookmark;
 use super::choice::Choice;
 use super::crossing::{Crossing, is_clear};
 use super::edges::{Edge, Edges};
+use super::misses::Misses;
 use super::remarks::Remarks;
 use super::rows::{ForceWatch, Leap, Place, Rows};
 use super::step::{Accepted, Step, keep_away};
@@ -38,6 +39,7 @@ pub struct Follower {
     choice: Option<Choice>,
     /// None where there are no contacts and loads, or nobody asks for forces.
     forces: Option<ForceWatch>,
+    misses: Misses,
     remarks: Remarks,
     /// Whether derivatives at the start are known.
     begun: bool,
@@ -68,6 +70,7 @@ impl Follower {
         let edges = Edges::new(&mut kinematics, &state, span, edges_end);
         let crossing = Crossing::new(&state, span, last);
         let forces = ForceWatch::of(&kinematics, &state);
+        let misses = Misses::new(&state);
         let step = Step::new(&kinematics, state, times.span());
         let origin = || Bookmark::new(&step, &edges, &crossing);
         let leap = solver.map(|solver| Leap::new(&kinematics, solver, origin(), span));
@@ -83,6 +86,7 @@ impl Follower {
             rows,
             choice,
             forces,
+            misses,
             remarks,
             begun,
             edge,
@@ -111,6 +115,10 @@ impl Follower {
     /// What there is to say beside the rows so far, each thing once.
     pub fn take_remarks(&mut self) -> Diagnostics {
         self.rows.say_what_is_missing(&self.kinematics, &mut self.remarks);
+        let Follower { kinematics, step, rows, misses, remarks, .. } = self;
+        if let Some(missed) = rows.last_time().and_then(|t| misses.tell(kinematics, step.state(), t)) {
+            remarks.push(missed);
+        }
         self.remarks.take()
     }
 
@@ -134,8 +142,8 @@ impl Follower {
                 return if self.kinematics.is_cancelled() { None } else { Some(Err(why)) };
             }
         };
-        let Follower { forces, rows, remarks, .. } = self;
-        if let Some(Err(why)) = forces.as_mut().map(|forces| forces.look(rows.row(place), remarks)) {
+        let Follower { kinematics, forces, rows, remarks, .. } = self;
+        if let Some(Err(why)) = forces.as_mut().map(|forces| forces.look(kinematics, rows.row(place), remarks)) {
             rows.stop();
             return Some(Err(why));
         }
@@ -315,11 +323,18 @@ impl Follower {
     }
 
     fn accept(&mut self, h: f64, accepted: &Accepted) {
-        let Follower { kinematics, step, edges, crossing, .. } = self;
+        let Follower { kinematics, step, edges, crossing, forces, misses, .. } = self;
+        if crossing.bridge_to(step.t()).is_some() {
+            misses.forget();
+        }
+        if let Some(forces) = forces {
+            forces.look_between(kinematics, [step.t(), h], step.curve());
+        }
         edges.take_pace(kinematics, step, h);
         step.accept(kinematics);
         crossing.keep_if_clear(kinematics, step.state());
         step.go_on(kinematics, h, accepted);
+        misses.take(kinematics, step.state());
     }
 
     /// What there is to do where a step of length `h` on the way to `target` was refused.
@@ -327,7 +342,8 @@ impl Follower {
         let Follower { kinematics, step, edges, remarks, .. } = self;
         match fault {
             Fault::Edge { t, switch } if edges.rests(kinematics, step, switch) => {
-                edges.leave_alone(switch, t);
+                // a step of a few units in the last place may have been refused at its very beginning
+                edges.leave_alone(switch, t.max(step.t().next_up()));
                 return Ok(());
             }
             Fault::Edge { t, .. } if edges.locate(kinematics, step, t) => return Ok(()),

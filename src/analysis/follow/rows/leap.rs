@@ -3,7 +3,7 @@
 use super::alone::Alone;
 use crate::analysis::follow::bookmark::Bookmark;
 use crate::analysis::follow::step::Step;
-use crate::analysis::state::{Kinematics, State, Times};
+use crate::analysis::state::{Kinematics, State, Times, are_alike};
 use crate::layout::RowLayout;
 use crate::math::{WIDE, to_next_line};
 use crate::solver::{Batch, Bend, Lanes, Pivoting, Solver};
@@ -339,15 +339,13 @@ impl Leap {
     /// Solves again for a row that was found otherwise, by the operations that all other rows come from: whichever way it was
     /// found, its bits are the same. The motion stays where it is, `here`.
     pub fn refine(&mut self, kinematics: &mut Kinematics, here: &State, t: f64, row: &mut [f64]) {
-        let printed = row.len();
         let is_solved = self.solve_at_rest(kinematics, t, row) || self.solve_pivoted(kinematics, here, t, row);
-        let refined = &self.alone.row()[..printed];
+        let (layout, refined) = (self.solver.layout(), self.alone.row());
+        let n = here.q.len();
+        let part = |order: usize| layout.coordinates[order] as usize..layout.coordinates[order] as usize + n;
+        let [found, solved] = [&*row, refined].map(|row| [0, 1, 2].map(|order| &row[part(order)]));
         // where both do not agree the position is too near to a singular one for the grid
-        // a measure may have no value, and what is varied does not decide about the row
-        let agrees = |(column, (a, b)): (usize, (&f64, &f64))| {
-            !a.is_finite() || kinematics.may_be_missing(column) || (a - b).abs() <= REFINED * (1.0 + a.abs())
-        };
-        if is_solved && row.iter().zip(refined).enumerate().all(agrees) {
+        if is_solved && are_alike(kinematics, found, solved, REFINED) {
             for (column, (cell, refined)) in row.iter_mut().zip(refined).enumerate() {
                 // what could not be trusted before cannot be now
                 if cell.is_finite() || !kinematics.may_be_missing(column) {

@@ -74,6 +74,11 @@ impl Rows {
         (!self.has_stopped && self.next < self.times.len()).then(|| self.upcoming())
     }
 
+    /// The time of the row that was handed out last (s).
+    pub fn last_time(&self) -> Option<f64> {
+        self.next.checked_sub(1).map(|number| self.times.at(number))
+    }
+
     /// The next output time (s), be it behind the last one.
     pub fn upcoming(&self) -> f64 {
         self.times.at(self.next)

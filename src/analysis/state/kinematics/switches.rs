@@ -41,6 +41,14 @@ impl Kinematics {
         }
     }
 
+    /// Gives the switches the results that they have elsewhere, and keeps them so.
+    pub fn take_switches(&mut self, of: &Kinematics) {
+        for switch in self.program.switches() {
+            self.registers.set(switch.to, of.switch(switch));
+        }
+        self.freeze(true, true);
+    }
+
     /// Where formulas come to the end of what their functions take.
     pub fn rims(&self) -> &[PlacedRim] {
         &self.program.outputs.rims
