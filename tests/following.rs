@@ -510,7 +510,8 @@ fn main() {
 #[test]
 fn no_call_does_more_work_than_it_says_and_none_that_is_refused_leaves_a_trace() {
     let fields = |names: &[&str]| {
-        names.iter().map(|name| format!("wanted.{name} = signal(&mut random, now.{name});")).collect::<String>()
+        let field = |name: &&str| format!("wanted.{name} = signal(&mut random, now.{name});");
+        names.iter().map(field).collect::<Vec<String>>().join("\n")
     };
     let mut draw = support::random::Random::new(50);
     let mut bars =

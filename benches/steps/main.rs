@@ -9,19 +9,19 @@
 #![allow(clippy::expect_used, clippy::panic)] // a bench fails by panicking
 #![allow(clippy::default_constructed_unit_structs)] // this four-bar has no parameters, others have
 
-#[allow(clippy::pedantic, dead_code)] // code of another hand
+#[allow(clippy::pedantic, dead_code, unused_imports)] // code of another hand
 #[rustfmt::skip]
 mod andrews;
 mod closed_form;
 mod copies;
-#[allow(clippy::pedantic, dead_code)] // code of another hand
+#[allow(clippy::pedantic, dead_code, unused_imports)] // code of another hand
 #[rustfmt::skip]
 mod four_bar;
-#[allow(clippy::pedantic, dead_code)]
+#[allow(clippy::pedantic, dead_code, unused_imports)]
 #[rustfmt::skip]
 mod followed;
 mod forces;
-#[allow(clippy::pedantic, dead_code)]
+#[allow(clippy::pedantic, dead_code, unused_imports)]
 #[rustfmt::skip]
 mod jansen;
 mod mechanisms;

@@ -40,11 +40,17 @@ impl ConstraintSystem {
             known[&id]
         };
         let mut rows = self.rows.clone();
-        rows.iter_mut().for_each(|row| row.phi = along(row.phi));
+        for row in &mut rows {
+            row.phi = along(row.phi);
+        }
         let mut conditions = self.conditions.clone();
-        conditions.iter_mut().for_each(|condition| condition.positive = along(condition.positive));
+        for condition in &mut conditions {
+            condition.positive = along(condition.positive);
+        }
         let mut watches = self.watches.clone();
-        watches.iter_mut().for_each(|watch| watch.value = along(watch.value));
+        for watch in &mut watches {
+            watch.value = along(watch.value);
+        }
         if let Homotopy::Residuals { lines, .. } = homotopy {
             for &(row, ends) in lines {
                 let ends = ends.map(|value| graph.constant(value));

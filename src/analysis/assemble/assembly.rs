@@ -59,9 +59,12 @@ pub fn assemble(kinematics: &mut Kinematics, t: f64, near: Option<&[f64]>) -> Re
     Ok(Assembled { state: State::new(t, q), moved, is_perturbed })
 }
 
+/// Rows of `Φ`, each with its value at some position.
+pub type Residuals = Vec<(usize, f64)>;
+
 /// What the drivers ask for and the estimates leave open at time `t`: by row, `Φ` there. None where that has no value, or is nothing, or
 /// leaves no choice: where every coordinate follows from others without iteration.
-pub fn left_by_drivers(kinematics: &mut Kinematics, t: f64) -> Option<Vec<(usize, f64)>> {
+pub fn left_by_drivers(kinematics: &mut Kinematics, t: f64) -> Option<Residuals> {
     let determined = kinematics.determined();
     if determined.system().has_signals() || determined.blocks().iter().all(|block| block.explicit) {
         return None;
@@ -72,7 +75,7 @@ pub fn left_by_drivers(kinematics: &mut Kinematics, t: f64) -> Option<Vec<(usize
 }
 
 /// `Φ` of the rows of drivers, and of others that time moves, at a position; none where one has no value. What was set is factored.
-fn residuals_of_drivers(kinematics: &mut Kinematics, t: f64, q: &[f64]) -> Option<Vec<(usize, f64)>> {
+fn residuals_of_drivers(kinematics: &mut Kinematics, t: f64, q: &[f64]) -> Option<Residuals> {
     set_start(kinematics, t);
     kinematics.set_position(q).ok()?;
     // blocks may well be singular there
@@ -88,7 +91,7 @@ fn driving_rows(system: &ConstraintSystem) -> Vec<usize> {
 }
 
 /// Where the estimates lead if drivers let go, and what these ask for and that leaves open; none if nothing closes there.
-pub fn closed_without_drivers(kinematics: &mut Kinematics, t: f64) -> Option<(Vec<f64>, Vec<(usize, f64)>)> {
+pub fn closed_without_drivers(kinematics: &mut Kinematics, t: f64) -> Option<(Vec<f64>, Residuals)> {
     let mut q = kinematics.estimates();
     if q.len() > LARGEST_DENSE {
         return None;

@@ -64,7 +64,7 @@ impl Unassembled {
     /// As [`Unassembled::close`].
     pub fn closed(&self, mut kinematics: Kinematics, solving: Solving) -> Result<Started, Box<Diagnostic>> {
         let Assembled { state, moved, is_perturbed } = assembly::assemble(&mut kinematics, self.horizon.from, None)?;
-        let mut started = self.started(kinematics, (state, moved), solving);
+        let mut started = Started::of(kinematics, (state, moved), solving);
         started.doubt = if is_perturbed {
             Some(Doubt::Perturbed)
         } else {
@@ -89,17 +89,7 @@ impl Unassembled {
     /// As [`Unassembled::close`].
     pub fn led(&self, mut kinematics: Kinematics, q: &[f64], solving: Solving) -> Result<Started, Box<Diagnostic>> {
         let Assembled { state, moved, .. } = assembly::assemble(&mut kinematics, self.horizon.from, Some(q))?;
-        Ok(self.started(kinematics, (state, moved), solving))
-    }
-
-    fn started(&self, mut kinematics: Kinematics, (state, moved): (State, Moved), solving: Solving) -> Started {
-        // by the position at the start, which is what was factored last
-        kinematics.choose_orders();
-        let solver = match solving {
-            Solving::New => kinematics.solver().map(Arc::new),
-            Solving::With(solver) => solver,
-        };
-        Started { kinematics, state, moved, doubt: None, solver }
+        Ok(Started::of(kinematics, (state, moved), solving))
     }
 
     /// What evaluates the equations, before they are assembled, with the estimates of the file or with others [m, rad].
@@ -123,6 +113,16 @@ impl Unassembled {
 }
 
 impl Started {
+    fn of(mut kinematics: Kinematics, (state, moved): (State, Moved), solving: Solving) -> Started {
+        // by the position at the start, which is what was factored last
+        kinematics.choose_orders();
+        let solver = match solving {
+            Solving::New => kinematics.solver().map(Arc::new),
+            Solving::With(solver) => solver,
+        };
+        Started { kinematics, state, moved, doubt: None, solver }
+    }
+
     /// What is to be said of the assembly: whether it moved bodies far, and whether gears fit.
     #[must_use]
     pub fn remarks(&self) -> Diagnostics {

@@ -62,7 +62,7 @@ fn codes() -> Vec<(i32, Code)> {
     let fine = Code { name: "OK".to_owned(), says: "all went well", error: None };
     let errors = ERRORS.iter().map(|told| Code { name: apart(told.name), says: told.says, error: Some(told.name) });
     let of_c = OF_C.iter().map(|(name, says)| Code { name: (*name).to_owned(), says, error: None });
-    let numbers = (0..=ERRORS.len() as i32).chain(FIRST_OF_C..);
+    let numbers = (0..).take(ERRORS.len() + 1).chain(FIRST_OF_C..);
     let on_the_way = Code { name: "ON_THE_WAY".to_owned(), says: ON_THE_WAY, error: None };
     let all = numbers.zip(std::iter::once(fine).chain(errors).chain(of_c));
     std::iter::once((-1, on_the_way)).chain(all).collect()

@@ -49,10 +49,14 @@ pub(in crate::emit) type Bounds = Vec<(&'static str, usize)>;
 /// Evaluations that steps take at most.
 #[derive(Clone, Copy)]
 pub(super) struct Work {
-    of_sides: usize,
-    of_reaching: usize,
-    of_regular: usize,
-    pub of_step: usize,
+    /// To look at the switches of time on both sides.
+    sides: usize,
+    /// To reach a state.
+    reaching: usize,
+    /// To see that a state is regular.
+    regular: usize,
+    /// To take a step.
+    pub step: usize,
 }
 
 impl Writer<'_> {
@@ -60,26 +64,26 @@ impl Writer<'_> {
     pub fn work(&self) -> Work {
         const OF_FINDING: usize = 3;
         let (of_time, of_motion) = self.switches();
-        let of_sides = usize::from(of_time);
-        let of_reaching = of_sides + OF_FINDING * if of_motion { MOST_BRANCHES } else { 1 };
-        let of_edge = (2 + MOST_HALVINGS) * of_sides;
-        let of_step = of_edge + of_reaching + 1 + OF_FINDING * of_sides;
-        Work { of_sides, of_reaching, of_regular: 1 + 2 * of_sides, of_step }
+        let sides = usize::from(of_time);
+        let reaching = sides + OF_FINDING * if of_motion { MOST_BRANCHES } else { 1 };
+        let of_edge = (2 + MOST_HALVINGS) * sides;
+        let step = of_edge + reaching + 1 + OF_FINDING * sides;
+        Work { sides, reaching, regular: 1 + 2 * sides, step }
     }
 
     /// The bounds of a mechanism, with what its inputs take.
     pub fn bounds(&self, lead: Option<Work>) -> Bounds {
         let own = self.work();
-        let of_rims = self.rims().count() * (MOST_HALVINGS + 3) + 2 + 2 * MOST_LOOKS * own.of_reaching;
-        let of_own_step = own.of_step + if self.has_rims() { of_rims } else { 0 };
-        let of_lead_step = lead.map_or(0, |lead| lead.of_step + 1);
-        let to_follow = |lead: Work| 1 + lead.of_sides + lead.of_reaching + lead.of_regular + lead.of_reaching + 2;
-        let to_take_up = lead.map_or(0, |lead| to_follow(lead) + 1 + own.of_sides + own.of_reaching);
-        let of_parts = (2 + FIRST_PARTS + MOST_PARTS) * (2 * own.of_sides + own.of_reaching + 1);
+        let of_rims = self.rims().count() * (MOST_HALVINGS + 3) + 2 + 2 * MOST_LOOKS * own.reaching;
+        let of_own_step = own.step + if self.has_rims() { of_rims } else { 0 };
+        let of_lead_step = lead.map_or(0, |lead| lead.step + 1);
+        let to_follow = |lead: Work| 1 + lead.sides + lead.reaching + lead.regular + lead.reaching + 2;
+        let to_take_up = lead.map_or(0, |lead| to_follow(lead) + 1 + own.sides + own.reaching);
+        let of_parts = (2 + FIRST_PARTS + MOST_PARTS) * (2 * own.sides + own.reaching + 1);
         let mut bounds = vec![
             ("MOST_STEPS", MOST_STEPS),
-            ("MOST_WORK", MOST_STEPS * of_own_step.max(of_lead_step) + to_take_up + own.of_regular),
-            ("MOST_WORK_TO_ASSEMBLE", of_parts + own.of_sides + (1 + MOST_SHORTER) * MOST_TRIALS),
+            ("MOST_WORK", MOST_STEPS * of_own_step.max(of_lead_step) + to_take_up + own.regular),
+            ("MOST_WORK_TO_ASSEMBLE", of_parts + own.sides + (1 + MOST_SHORTER) * MOST_TRIALS),
         ];
         if let Some(lead) = lead {
             bounds.push(("MOST_STEPS_TO_FOLLOW", MOST_STEPS_TO_FOLLOW));

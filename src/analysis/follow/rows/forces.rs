@@ -138,7 +138,7 @@ impl ForceWatch {
             let (has_pulled, sides) = (std::mem::take(&mut self.has_pulled), std::mem::take(&mut self.sides));
             let (has_begun, largest_load) = (self.has_begun, self.largest_load);
             let between = std::mem::take(&mut self.between);
-            *self = ForceWatch { has_pulled, sides, has_begun, largest_load, between, ..other };
+            *self = ForceWatch { has_pulled, sides, has_begun, between, largest_load, ..other };
             for (load, is_told) in self.loads.iter_mut().zip(told) {
                 load.is_told = is_told;
             }
