@@ -79,7 +79,7 @@ fn stage(name: &str) -> Emitted {
     Emitted::new(name.to_owned(), &stage_path(name), 0).expect("determined")
 }
 
-#[allow(clippy::pedantic, dead_code)] // code of another hand
+#[allow(clippy::pedantic, dead_code, unused_imports)] // code of another hand
 #[path = "emitted/slider_crank.rs"]
 #[rustfmt::skip]
 mod slider_crank;

@@ -497,7 +497,7 @@ fn what_is_typeset_has_the_values_of_the_system() {
 fn values_agree(name: &str, system: &ConstraintSystem, seed: u64) {
     let mut system = system.clone();
     let mechanics = system.mechanics();
-    let document = emit::latex(&system, mechanics.as_ref(), "f.mech");
+    let document = emit::latex(&system, mechanics.as_ref(), true, "f.mech");
     let value = |symbol: Symbol| match symbol {
         Symbol::Param(k) => system.params()[k as usize].value,
         symbol => some_number(symbol, seed),

@@ -1,6 +1,8 @@
 //! What is cut is what the mechanism does, whatever its output times are: random mechanisms whose traces are known in closed form, drawn as
 //! DXF and read back.
 
+#![allow(clippy::disallowed_methods)] // closed forms of its own are what makes it independent
+
 use super::{Polyline, attribute, boxes, numbers, one_row, read_dxf, seen_closely, seen_text, seen_to_cut};
 use crate::support::random::Random;
 use mechc::Closely;
@@ -109,7 +111,7 @@ fn planet(random: &mut Random, start: f64) -> Known {
     let turns = 1 + random.below(3);
     let teeth = loop {
         let teeth = turns * 2 + 1 + random.below(5);
-        if (2..=turns).all(|k| teeth % k != 0 || turns % k != 0) {
+        if (2..=turns).all(|k| !teeth.is_multiple_of(k) || !turns.is_multiple_of(k)) {
             break teeth;
         }
     };
