@@ -87,24 +87,11 @@ impl Cam {
         [r * angle.cos(), r * angle.sin()]
     }
 
-    /// The largest of a quantity over the profile, refined.
-    fn largest(&self, value: impl Fn(f64) -> f64) -> f64 {
-        const PLACES: usize = 2000;
-        let at = |k: usize| k as f64 * TAU / PLACES as f64;
-        let best = (0..PLACES).max_by(|&a, &b| value(at(a)).total_cmp(&value(at(b)))).expect("some");
-        let (mut low, mut high) = (at(best) - TAU / PLACES as f64, at(best) + TAU / PLACES as f64);
-        for _ in 0..100 {
-            let thirds = [low + (high - low) / 3.0, high - (high - low) / 3.0];
-            if value(thirds[0]) < value(thirds[1]) { low = thirds[0] } else { high = thirds[1] }
-        }
-        value((low + high) / 2.0)
-    }
-
     /// Where the follower first touches the cam turned by an angle, coming from outside: a height (mm), or an angle (rad) that falls
     /// towards the cam.
     fn touch(&self, turned: f64) -> f64 {
         match self.kind {
-            Kind::Roller { radius, offset } => self.largest(|u| {
+            Kind::Roller { radius, offset } => largest(|u| {
                 let [x, y] = self.point(u, turned);
                 let across = radius * radius - (offset - x) * (offset - x);
                 if across < 0.0 { -1e9 + across } else { y + across.sqrt() }
@@ -113,15 +100,15 @@ impl Cam {
                 // the profile is a star: its upper point above the offset is the one whose x is the offset
                 let (mut low, mut high) = (PI / 2.0 - 1.2, PI / 2.0 + 1.2);
                 for _ in 0..200 {
-                    let middle = (low + high) / 2.0;
+                    let middle = f64::midpoint(low, high);
                     if self.point(middle - turned, turned)[0] > offset { low = middle } else { high = middle }
                 }
-                self.point((low + high) / 2.0 - turned, turned)[1]
+                self.point(f64::midpoint(low, high) - turned, turned)[1]
             }
-            Kind::Flat => self.largest(|u| self.point(u, turned)[1]),
+            Kind::Flat => largest(|u| self.point(u, turned)[1]),
             Kind::Swinging { radius, arm, pivot } => {
                 // measured from the pivot, the arm's angle at which its end is a radius away from a point of the profile
-                -self.largest(|u| {
+                -largest(|u| {
                     let [x, y] = self.point(u, turned);
                     let (dx, dy) = (x - pivot, y);
                     let distance = dx.hypot(dy);
@@ -133,7 +120,7 @@ impl Cam {
                     -(toward - cosine.acos())
                 })
             }
-            Kind::SwingingFlat { pivot } => -self.largest(|u| {
+            Kind::SwingingFlat { pivot } => -largest(|u| {
                 let [x, y] = self.point(u, turned);
                 -y.atan2(x - pivot).rem_euclid(TAU)
             }),
@@ -218,6 +205,19 @@ impl Cam {
             }}"
         )
     }
+}
+
+/// The largest value of a function over one turn, refined.
+fn largest(value: impl Fn(f64) -> f64) -> f64 {
+    const PLACES: usize = 2000;
+    let at = |k: usize| k as f64 * TAU / PLACES as f64;
+    let best = (0..PLACES).max_by(|&a, &b| value(at(a)).total_cmp(&value(at(b)))).expect("some");
+    let (mut low, mut high) = (at(best) - TAU / PLACES as f64, at(best) + TAU / PLACES as f64);
+    for _ in 0..100 {
+        let thirds = [low + (high - low) / 3.0, high - (high - low) / 3.0];
+        if value(thirds[0]) < value(thirds[1]) { low = thirds[0] } else { high = thirds[1] }
+    }
+    value(f64::midpoint(low, high))
 }
 
 #[test]
