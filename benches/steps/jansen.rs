@@ -1687,11 +1687,11 @@ pub enum Error {
     Bifurcation,
     /// Newton's iteration does not arrive, however short the step.
     Divergence,
-    /// The steps that were allowed do not lead so far; nothing is wrong with the motion up to here.
+    /// The steps that are allowed do not lead so far, or an input changes by more than is allowed.
     TooFar,
     /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
     NotSmooth,
-    /// An equation that was left out as redundant does not hold beside the others.
+    /// An equation that was left out as redundant does not hold beside the others, or is needed where these are singular.
     Inconsistent,
 }
 
@@ -1704,7 +1704,7 @@ impl core::fmt::Display for Error {
             Error::Divergence => "the motion cannot be followed",
             Error::TooFar => "the time is too far away for so few steps",
             Error::NotSmooth => "a position or velocity jumps",
-            Error::Inconsistent => "an equation that was left out as redundant does not hold",
+            Error::Inconsistent => "an equation that was left out as redundant does not hold, or is needed",
         })
     }
 }
@@ -1803,6 +1803,9 @@ pub trait Branches: Equations {
 pub trait Checks: Equations {
     /// Which quantities that keep their signs along a branch are positive.
     type Watched: Flags;
+
+    /// Whether equations were left out as redundant.
+    const LEAVES_OUT: bool = false;
 
     /// Whether distances are positive, and places within their intervals and tables.
     fn conditions_hold(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
@@ -2930,7 +2933,7 @@ pub mod explain {
 //! Why a motion cannot go on.
 
 use super::branches::sides_at;
-use super::equations::Branches;
+use super::equations::{Branches, Checks};
 use super::error::{Error, Fault};
 use super::limits::{NEAR_FOLD, SINGULAR};
 use super::solution::{Solution, Solved};
@@ -2947,7 +2950,7 @@ pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64, work: &mut Work
         return if fault == Fault::LeftOut { Error::Inconsistent } else { Error::Divergence };
     }
     let left = until_turn(at);
-    meeting(if t < at.t { -left } else { left }, M::SPAN)
+    meeting::<M>(if t < at.t { -left } else { left }, M::SPAN)
 }
 
 /// Evaluations that it takes to tell why, at most.
@@ -2978,9 +2981,16 @@ pub fn until_turn<M: Solved>(at: &Solution<M>) -> f64 {
     rates.fold((0.0, 0.0), sooner).1
 }
 
-/// What the motion meets at a singular position: a dead point if that is so little of a span ahead.
-pub fn meeting(left: f64, span: f64) -> Error {
-    if left > 0.0 && left < NEAR_FOLD * span { Error::LockUp } else { Error::Bifurcation }
+/// What the motion meets at a singular position: a dead point if that is so little of a span ahead. Else equations that were left out may
+/// decide how it goes on.
+pub fn meeting<M: Checks>(left: f64, span: f64) -> Error {
+    if left > 0.0 && left < NEAR_FOLD * span {
+        Error::LockUp
+    } else if M::LEAVES_OUT {
+        Error::Inconsistent
+    } else {
+        Error::Bifurcation
+    }
 }
 }
 

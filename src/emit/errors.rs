@@ -20,12 +20,12 @@ pub(super) const ERRORS: [Told; 7] = [
     told("LockUp", "the mechanism locks up: its driver cannot go on", ""),
     told("Bifurcation", "two branches of the motion meet", ", and which one goes on is not determined"),
     told("NotSmooth", "a position or velocity jumps", ", where a formula of time goes over to another branch"),
+    told("TooFar", "the time is too far away for so few steps", ", or an input changes by more than is allowed"),
     told(
-        "TooFar",
-        "the time is too far away for so few steps",
-        ": the state is on its way, and nothing is wrong with it",
+        "Inconsistent",
+        "an equation that was left out as redundant does not hold, or is needed",
+        " where the others are singular",
     ),
-    told("Inconsistent", "an equation that was left out as redundant does not hold", " beside the others"),
     told(
         "Divergence",
         "the motion cannot be followed",

@@ -63,6 +63,9 @@ pub trait Checks: Equations {
     /// Which quantities that keep their signs along a branch are positive.
     type Watched: Flags;
 
+    /// Whether equations were left out as redundant.
+    const LEAVES_OUT: bool = false;
+
     /// Whether distances are positive, and places within their intervals and tables.
     fn conditions_hold(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
         true

@@ -12,11 +12,11 @@ pub enum Error {
     Bifurcation,
     /// Newton's iteration does not arrive, however short the step.
     Divergence,
-    /// The steps that were allowed do not lead so far; nothing is wrong with the motion up to here.
+    /// The steps that are allowed do not lead so far, or an input changes by more than is allowed.
     TooFar,
     /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
     NotSmooth,
-    /// An equation that was left out as redundant does not hold beside the others.
+    /// An equation that was left out as redundant does not hold beside the others, or is needed where these are singular.
     Inconsistent,
 }
 
@@ -29,7 +29,7 @@ impl core::fmt::Display for Error {
             Error::Divergence => "the motion cannot be followed",
             Error::TooFar => "the time is too far away for so few steps",
             Error::NotSmooth => "a position or velocity jumps",
-            Error::Inconsistent => "an equation that was left out as redundant does not hold",
+            Error::Inconsistent => "an equation that was left out as redundant does not hold, or is needed",
         })
     }
 }

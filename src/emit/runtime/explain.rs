@@ -1,7 +1,7 @@
 //! Why a motion cannot go on.
 
 use super::branches::sides_at;
-use super::equations::Branches;
+use super::equations::{Branches, Checks};
 use super::error::{Error, Fault};
 use super::limits::{NEAR_FOLD, SINGULAR};
 use super::solution::{Solution, Solved};
@@ -18,7 +18,7 @@ pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64, work: &mut Work
         return if fault == Fault::LeftOut { Error::Inconsistent } else { Error::Divergence };
     }
     let left = until_turn(at);
-    meeting(if t < at.t { -left } else { left }, M::SPAN)
+    meeting::<M>(if t < at.t { -left } else { left }, M::SPAN)
 }
 
 /// Evaluations that it takes to tell why, at most.
@@ -49,7 +49,14 @@ pub fn until_turn<M: Solved>(at: &Solution<M>) -> f64 {
     rates.fold((0.0, 0.0), sooner).1
 }
 
-/// What the motion meets at a singular position: a dead point if that is so little of a span ahead.
-pub fn meeting(left: f64, span: f64) -> Error {
-    if left > 0.0 && left < NEAR_FOLD * span { Error::LockUp } else { Error::Bifurcation }
+/// What the motion meets at a singular position: a dead point if that is so little of a span ahead. Else equations that were left out may
+/// decide how it goes on.
+pub fn meeting<M: Checks>(left: f64, span: f64) -> Error {
+    if left > 0.0 && left < NEAR_FOLD * span {
+        Error::LockUp
+    } else if M::LEAVES_OUT {
+        Error::Inconsistent
+    } else {
+        Error::Bifurcation
+    }
 }

@@ -388,7 +388,7 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
             let is_there = fault == Fault::TooFar && reach(&E::tears(&at.q), at, t, m, &mut beyond, work).is_ok();
             return if is_there { Error::NotSmooth } else { Error::Divergence };
         }
-        meeting(self.until_turn(work), 1.0 + m.way().length())
+        meeting::<E>(self.until_turn(work), 1.0 + m.way().length())
     }
 
     /// The change of a signal that is left to a dead point, where a step was refused so near to a singular position that this can be

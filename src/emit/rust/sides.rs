@@ -119,7 +119,11 @@ impl Writer<'_> {
             });
         };
         page.item("impl Checks for Model", |page| {
-            page.line(&format!("type Watched = [bool; {watches}];\n"));
+            page.line(&format!("type Watched = [bool; {watches}];"));
+            if !self.unit.system.checks().is_empty() {
+                page.line("const LEAVES_OUT: bool = true;");
+            }
+            page.blank();
             if !self.open_conditions().is_empty() {
                 let all = format!("let all = {};", call("conditions", Given::All));
                 answer(page, "conditions_hold", "bool", [&all, "all.iter().all(|value| *value > 0.0)"]);
