@@ -104,7 +104,7 @@ fn an_interrupted_crate_leaves_no_folder() {
         let _ = interrupt(&mut child, 2);
         let now = inside(folder.path());
         if now != before {
-            assert_eq!(now.keys().filter(|name| name.starts_with("enc/")).count(), 10, "{:?}", now.keys());
+            assert_eq!(now.keys().filter(|name| name.starts_with("enc/")).count(), 12, "{:?}", now.keys());
             fs::remove_dir_all(folder.path().join("enc")).unwrap();
         }
     }

@@ -449,7 +449,7 @@ proptest! {
                 of_curve.replace("NAME", "ARG").replace('u', "ARG"), over("1").replace("NAME", "2")
             ),
             // what is plain stays plain
-            "fn g(ARG) = 2 * ARG + ARG^2 measure NAME = g(angle(b)) + x(b.P)
+            "fn g(ARG) = 2 * ARG + ARG^2 measure NAME = g(angle(b)) + 3 * x(b.P)
              body c { point O = (0, 0) curve k(ARG) = (cos(ARG), 0.1 * sin(ARG)) }
              joint j: revolute(b.P, c.O) driver d: rotation(j) = 2"
                 .to_owned(),
