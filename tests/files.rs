@@ -147,7 +147,7 @@ fn faults_of_a_used_file_are_told_there_and_once() {
         ]
     );
     let empty = [("a.mech", format!("use \"d.mech\"\n{}", mechanism("a"))), ("d.mech", String::new())];
-    assert_eq!(said(&empty), ["E0104 d.mech:1:1 the file holds no mechanism"]);
+    assert_eq!(said(&empty), ["E0101 a.mech:1:5 `d.mech` holds no mechanism"]);
 }
 
 #[test]

@@ -150,7 +150,7 @@ impl Checker<'_> {
     /// The dimension of a pure number that a function makes of others. Of a number it is one again, and of what is no pure number it shows
     /// that numbers are missing.
     pub(super) fn made_of(&self, arguments: &[(Span, Value)]) -> Dim {
-        let is_plain = |value: &Value| !matches!(value.dim, Dim::Of(_)) && !self.is_of_quantities(value.id);
+        let is_plain = |value: &Value| !self.is_of_quantities(value.id);
         if arguments.iter().any(|(_, value)| !value.dim.fits()) {
             Dim::UNFIT
         } else if arguments.iter().any(|(_, value)| is_plain(value)) {

@@ -8,6 +8,8 @@ use super::report::Reporter;
 use crate::diag::{Diagnostics, visible};
 use crate::stages::Parsed;
 use similar::TextDiff;
+use std::borrow::Cow;
+use std::io::IsTerminal;
 use std::path::Path;
 
 /// A text that is not formatted, with what it is to be.
@@ -36,7 +38,9 @@ pub(super) fn fmt(arguments: &FmtArguments, reporter: &mut Reporter) -> Result<(
         }
     }
     if !diffs.is_empty() {
-        files::print(&visible(&diffs))?;
+        // who reads a diff from a pipe applies it
+        let is_seen = std::io::stdout().is_terminal();
+        files::print(&if is_seen { visible(&diffs) } else { Cow::Owned(diffs) })?;
         reporter.end_with(INPUT);
     }
     if faults.has_errors() { Err(faults.into()) } else { Ok(()) }

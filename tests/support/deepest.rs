@@ -80,7 +80,7 @@ fn parts_in_parts(levels: usize) -> String {
         let inner = level + 1;
         let first = if level == 0 { "input turn = 2 * t" } else { "input turn = t" };
         format!(
-            "mechanism m{level} {{ {first} part a: m{inner}(turn = turn) at (1, 0, 0.1) mirrored measure x{level} = a.x{inner} + angle(a.ground) }}\n"
+            "mechanism m{level} {{ {first} part a: m{inner}(turn = turn) at (1, 0, 0.1) mirrored measure x{level} = a.x{inner} + 2 * angle(a.ground) }}\n"
         )
     };
     let last = format!(
