@@ -645,7 +645,7 @@ pub const fn most_work(most: usize) -> usize {
 
 /// Brings the mechanism to its first time with some parameters: along the branch that the file's
 /// parameters give, where a short way leads there; else from the poses that the file draws with these
-/// parameters, as `mechc run --set` does. [`State::assembly`] says which way it went.
+/// parameters, as `mechc run --set` does. `State::assembly` says which way it went.
 ///
 /// # Errors
 /// It cannot be assembled with these.
@@ -1316,7 +1316,7 @@ pub const MOST_WORK_TO_FOLLOW: usize = runtime::follow::most_work::<following::M
 ///
 /// # Errors
 /// Why it cannot get there; the state is then bit for bit as it was. [`Error::TooFar`] is told at
-/// once of an input that changes by more than [`State::largest_change`].
+/// once of an input that changes by more than `State::largest_change`.
 pub fn follow(inputs: &Inputs, state: &mut State) -> Result<(), Error> {
     counted::follow(inputs, state, &mut Work::default())
 }

@@ -225,8 +225,7 @@ impl Writer<'_> {
         format!(
             include_str!("package/work.rs.txt"),
             mark = self.mark(),
-            library = self.library,
-            uses = uses,
+            uses = imported(&self.library, &format!("Error{uses}, Params, START_TIME, Work, assemble, counted")),
             params = self.params(),
             follow = follow,
             steps = self.reference.steps.clamp(1, u64::from(u32::MAX)),
@@ -508,6 +507,14 @@ fn array(row: &[f64]) -> String {
 fn line<T: Display>(cells: &[T]) -> String {
     let cells: Vec<String> = cells.iter().map(ToString::to_string).collect();
     format!("| {} |\n", cells.join(" | "))
+}
+
+/// The line that imports names from a crate, as rustfmt breaks it.
+fn imported(library: &str, names: &str) -> String {
+    /// Columns of rustfmt's default style.
+    const WIDTH: usize = 100;
+    let line = format!("use {library}::{{{names}}};");
+    if line.len() <= WIDTH { line } else { format!("use {library}::{{\n    {names},\n}};") }
 }
 
 #[cfg(test)]

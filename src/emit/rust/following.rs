@@ -32,7 +32,7 @@ first leads back to what these say of the inputs at the state's time.
 
 # Errors
 Why it cannot get there; the state is then bit for bit as it was. [`Error::TooFar`] is told at
-once of an input that changes by more than [`State::largest_change`].";
+once of an input that changes by more than `State::largest_change`.";
 
 const FOLLOW_WITHIN: &str =
     "As [`follow`], in so many steps at most, for those who have a deadline: [`most_work`] says how

@@ -276,7 +276,7 @@ pub const fn most_work(most: usize) -> usize {
 
 /// Brings the mechanism to its first time with some parameters: along the branch that the file's
 /// parameters give, where a short way leads there; else from the poses that the file draws with these
-/// parameters, as `mechc run --set` does. [`State::assembly`] says which way it went.
+/// parameters, as `mechc run --set` does. `State::assembly` says which way it went.
 ///
 /// # Errors
 /// It cannot be assembled with these.
