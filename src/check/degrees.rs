@@ -8,6 +8,9 @@ use crate::syntax::ast::{Expr, ExprKind, Factor, Name, WrittenUnit};
 use crate::vocabulary::Unit;
 use std::f64::consts::TAU;
 
+/// So many levels of a term are looked at: formulas nest deeper than a small stack has room for once more.
+const LEVELS: usize = 8;
+
 impl Checker<'_> {
     /// Warns of bare numbers beyond a turn among the terms of an angle.
     pub(super) fn warn_of_degrees_in(&mut self, e: &Expr) {
@@ -31,14 +34,17 @@ impl Checker<'_> {
 
     /// Warns of bare numbers among terms that have to be alike, where one of the others is printed in degrees or the like: they are in
     /// radians.
+    #[inline(never)] // its frame is not to stand on the stack of those who nest
     pub(super) fn warn_of_numbers_beside<'e>(
         &mut self,
         terms: impl Iterator<Item = &'e Expr> + Clone,
         context: &Context<'_>,
     ) {
-        let Some((measure, unit)) = terms.clone().find_map(|term| self.printed_unit(term, context)) else { return };
+        let Some((measure, unit)) = terms.clone().find_map(|term| self.printed_unit(term, context, LEVELS)) else {
+            return;
+        };
         for term in terms {
-            if self.is_bare(term) && self.common.beside_degrees.insert(term.span) {
+            if self.is_bare(term, LEVELS) && self.common.beside_degrees.insert(term.span) {
                 let root = self.root_of(term).filter(|root| root.is_number);
                 let number = root.map_or(term.span, |root| root.span);
                 let texts = [term.span, number].map(|span| self.sources.text(span));
@@ -48,12 +54,17 @@ impl Checker<'_> {
     }
 
     /// A number without a unit, or what is made of such alone, through params too; a zero fits anything.
-    fn is_bare(&self, e: &Expr) -> bool {
+    fn is_bare(&self, e: &Expr, levels: usize) -> bool {
+        let Some(levels) = levels.checked_sub(1) else { return false };
         match &e.kind {
             ExprKind::Literal { value, unit: None } => *value != 0.0,
-            ExprKind::Paren(inner) | ExprKind::Negate(inner) => self.is_bare(inner),
-            ExprKind::Sum(first, rest) => self.is_bare(first) && rest.iter().all(|(_, term)| self.is_bare(term)),
-            ExprKind::Product(first, rest) => self.is_bare(first) && rest.iter().all(|(_, term)| self.is_bare(term)),
+            ExprKind::Paren(inner) | ExprKind::Negate(inner) => self.is_bare(inner, levels),
+            ExprKind::Sum(first, rest) => {
+                self.is_bare(first, levels) && rest.iter().all(|(_, term)| self.is_bare(term, levels))
+            }
+            ExprKind::Product(first, rest) => {
+                self.is_bare(first, levels) && rest.iter().all(|(_, term)| self.is_bare(term, levels))
+            }
             ExprKind::Name(name) => match self.entity(name) {
                 Some(Entity::Param(k)) => self.params.get(k).is_some_and(|param| {
                     param.angle == 0 && param.value.is_some_and(|value| matches!(value.dim, Dim::Plain { .. }))
@@ -65,9 +76,10 @@ impl Checker<'_> {
     }
 
     /// The measure that makes a formula an angle printed in degrees or the like, and that unit.
-    fn printed_unit(&self, e: &Expr, context: &Context<'_>) -> Option<(Span, String)> {
+    fn printed_unit(&self, e: &Expr, context: &Context<'_>, levels: usize) -> Option<(Span, String)> {
+        let levels = levels.checked_sub(1)?;
         match &e.kind {
-            ExprKind::Paren(inner) | ExprKind::Negate(inner) => self.printed_unit(inner, context),
+            ExprKind::Paren(inner) | ExprKind::Negate(inner) => self.printed_unit(inner, context, levels),
             ExprKind::Name(name) => {
                 let argument = context.argument.filter(|(argument, _)| *argument == name.text);
                 let unit = match argument {
@@ -80,28 +92,28 @@ impl Checker<'_> {
             }
             ExprKind::Sum(first, rest) => {
                 let mut terms = std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term));
-                terms.find_map(|term| self.printed_unit(term, context))
+                terms.find_map(|term| self.printed_unit(term, context, levels))
             }
             ExprKind::Product(first, rest) => {
-                let is_scaled = |factor: Factor, e: &Expr| factor == Factor::Times && !self.is_bare(e);
+                let is_scaled = |factor: Factor, e: &Expr| factor == Factor::Times && !self.is_bare(e, levels);
                 let mut factors = std::iter::once((Factor::Times, &**first)).chain(rest.iter().map(|(f, e)| (*f, e)));
                 let (_, scaled) = factors.clone().find(|(factor, e)| is_scaled(*factor, e))?;
-                let others = factors.all(|(_, e)| std::ptr::eq(e, scaled) || self.is_bare(e));
-                self.printed_unit(scaled, context).filter(|_| others)
+                let others = factors.all(|(_, e)| std::ptr::eq(e, scaled) || self.is_bare(e, levels));
+                self.printed_unit(scaled, context, levels).filter(|_| others)
             }
             ExprKind::If { arms, otherwise } => {
                 let mut values = arms.iter().map(|(_, value)| value).chain(std::iter::once(&**otherwise));
-                values.find_map(|value| self.printed_unit(value, context))
+                values.find_map(|value| self.printed_unit(value, context, levels))
             }
             ExprKind::Call { name, arguments } => match (name.text.as_str(), arguments.as_slice()) {
                 ("der", [of]) => {
-                    let (measure, unit) = self.printed_unit(of, context)?;
+                    let (measure, unit) = self.printed_unit(of, context, levels)?;
                     (!unit.contains('/')).then(|| (measure, format!("{unit}/s")))
                 }
                 ("abs" | "min" | "max" | "mod" | "mean" | "rms" | "first" | "last", arguments) => {
-                    arguments.iter().find_map(|argument| self.printed_unit(argument, context))
+                    arguments.iter().find_map(|argument| self.printed_unit(argument, context, levels))
                 }
-                ("at", [of, _]) => self.printed_unit(of, context),
+                ("at", [of, _]) => self.printed_unit(of, context, levels),
                 _ => None,
             },
             _ => None,
