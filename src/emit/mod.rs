@@ -19,6 +19,8 @@ mod package;
 mod params;
 mod print;
 #[cfg(test)]
+// it is written for crates whose lints are the usual ones; only generic types copy themselves by hand
+#[allow(clippy::expl_impl_clone_on_copy, clippy::needless_for_each)]
 mod runtime;
 mod rust;
 mod solution;

@@ -162,9 +162,9 @@ mod tests {
         basis.exchange(1, 0, 1e-6);
         assert_eq!(basis.kept, [1, 3]);
         for (k, on) in &basis.dependent {
-            for axis in 0..2 {
+            for (axis, wanted) in rows[*k].iter().enumerate() {
                 let sum: f64 = on.iter().map(|&(own, weight)| weight * rows[own][axis]).sum();
-                assert!((sum - rows[*k][axis]).abs() < 1e-12, "{k} {on:?}");
+                assert!((sum - wanted).abs() < 1e-12, "{k} {on:?}");
             }
         }
     }
