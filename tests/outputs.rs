@@ -101,10 +101,11 @@ fn an_interrupted_crate_leaves_no_folder() {
         let mut child =
             command.args(["emit", "a.mech", "--crate", "enc"]).stderr(Stdio::null()).spawn().expect("it runs");
         sleep(Duration::from_millis(3 * moment));
-        let _ = interrupt(&mut child, 2);
+        let status = interrupt(&mut child, 2);
         let now = inside(folder.path());
         if now != before {
-            assert_eq!(now.keys().filter(|name| name.starts_with("enc/")).count(), 12, "{:?}", now.keys());
+            let written = now.keys().filter(|name| name.starts_with("enc/")).count();
+            assert_eq!(written, 12, "{status}, signal after {} ms: {:?}", 3 * moment, now.keys());
             fs::remove_dir_all(folder.path().join("enc")).unwrap();
         }
     }

@@ -299,9 +299,18 @@ pub(super) fn write_all<'f>(
             .into());
         }
     }
+    let result = written_beside(folder, &files, spared).and_then(put_in_place);
+    if result.is_err() {
+        interrupts::take_away(&mut interrupts::unfinished());
+    }
+    result
+}
+
+/// Writes files of a folder, which is made if it is not there, beside their places.
+fn written_beside(folder: &str, files: &[(PathBuf, &str)], spared: &Spared<'_>) -> Result<Vec<Written>, Failure> {
     make_folder(Path::new(folder)).map_err(|error| cannot_write(folder, &error))?;
-    let mut outputs = Vec::new();
-    for (path, text) in &files {
+    let mut outputs: Vec<Written> = Vec::new();
+    for (path, text) in files {
         let name = path.to_string_lossy();
         path.parent().map_or(Ok(()), make_folder).map_err(|error| cannot_write(&name, &error))?;
         let mut output = Output::open(&name, spared)?;
@@ -314,7 +323,7 @@ pub(super) fn write_all<'f>(
             return Err(unusable(said).help("remove the link; nothing was touched").into());
         }
     }
-    put_in_place(outputs)
+    Ok(outputs)
 }
 
 /// Removes what an earlier crate has left in a folder where this one was written: files in the given folders, with the given endings, that

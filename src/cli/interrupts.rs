@@ -1,11 +1,12 @@
 //! What is half done when the user interrupts it is taken away: temporary files, and folders that are still empty.
 
 use crate::cancel::Cancel;
+use std::fs;
 use std::path::PathBuf;
+#[cfg(unix)]
+use std::process;
 use std::sync::atomic::{AtomicI32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-#[cfg(unix)]
-use std::{fs, process};
 
 /// Files and folders that are not yet what they are meant to be, in the order in which they were made.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -81,12 +82,17 @@ fn is_ignored(signal: i32) -> bool {
 /// Takes away what is unfinished, and ends the process as shells know it of one that a signal has ended.
 #[cfg(unix)]
 fn abandon(signal: i32) {
-    let unfinished = unfinished();
-    for path in unfinished.iter().rev() {
-        if fs::remove_file(path).is_err() {
+    let mut unfinished = unfinished();
+    take_away(&mut unfinished);
+    process::exit(128 + signal);
+}
+
+/// Takes away what is unfinished.
+pub(super) fn take_away(unfinished: &mut Vec<PathBuf>) {
+    for path in unfinished.drain(..).rev() {
+        if fs::remove_file(&path).is_err() {
             // a folder; if something else is in it, it stays
-            let _ = fs::remove_dir(path);
+            let _ = fs::remove_dir(&path);
         }
     }
-    process::exit(128 + signal);
 }

@@ -1,8 +1,7 @@
 //! Equations along a homotopy: its parameter, which goes from 0 to 1, stands in the place of time.
 
 use super::{ConstraintSystem, Written};
-use crate::expr::{ExprId, Symbol};
-use rustc_hash::FxHashMap;
+use crate::expr::Symbol;
 
 /// What a homotopy changes along a straight line, `s` being its parameter.
 #[derive(Clone, PartialEq, Debug)]
@@ -23,7 +22,30 @@ impl ConstraintSystem {
     /// looked at.
     #[must_use]
     pub fn along(&self, homotopy: &Homotopy) -> ConstraintSystem {
-        let (mut graph, mut known) = (self.graph.clone(), FxHashMap::default());
+        let mut written = Written {
+            name: self.name.clone(),
+            span: self.span,
+            graph: self.graph.clone(),
+            params: self.params.clone(),
+            has_signals: false,
+            bodies: self.bodies.clone(),
+            points: self.points.clone(),
+            coordinates: self.coordinates.clone(),
+            declarations: self.declarations.clone(),
+            rows: self.rows.clone(),
+            forces: None,
+            variations: None,
+            measures: Vec::new(),
+            conditions: self.conditions.clone(),
+            watches: self.watches.clone(),
+            open_contacts: Vec::new(),
+            fits: self.fits.clone(),
+            parts: Vec::new(),
+            asking_parts: Vec::new(),
+            length: self.length,
+            analysis: None,
+        };
+        let graph = &mut written.graph;
         let s = graph.symbol(Symbol::Time);
         let time = match homotopy {
             Homotopy::Residuals { t, .. } => graph.constant(*t),
@@ -32,55 +54,19 @@ impl ConstraintSystem {
                 graph.line(ends, s)
             }
         };
-        let mut along = |id: ExprId| {
-            graph.import(&self.graph, &[id], &mut known, |graph, symbol| match symbol {
-                Symbol::Time => time,
-                other => graph.symbol(other),
-            });
-            known[&id]
-        };
-        let mut rows = self.rows.clone();
-        for row in &mut rows {
-            row.phi = along(row.phi);
-        }
-        let mut conditions = self.conditions.clone();
-        for condition in &mut conditions {
-            condition.positive = along(condition.positive);
-        }
-        let mut watches = self.watches.clone();
-        for watch in &mut watches {
-            watch.value = along(watch.value);
-        }
+        written.substitute(|graph, symbol| match symbol {
+            Symbol::Time => time,
+            other => graph.symbol(other),
+        });
         if let Homotopy::Residuals { lines, .. } = homotopy {
+            let graph = &mut written.graph;
             for &(row, ends) in lines {
                 let ends = ends.map(|value| graph.constant(value));
                 let left = graph.line(ends, s);
-                rows[row].phi = graph.sub(rows[row].phi, left);
+                let phi = &mut written.rows[row].phi;
+                *phi = graph.sub(*phi, left);
             }
         }
-        let written = Written {
-            name: self.name.clone(),
-            span: self.span,
-            graph,
-            params: self.params.clone(),
-            has_signals: false,
-            bodies: self.bodies.clone(),
-            points: self.points.clone(),
-            coordinates: self.coordinates.clone(),
-            declarations: self.declarations.clone(),
-            rows,
-            forces: None,
-            variations: None,
-            measures: Vec::new(),
-            conditions,
-            watches,
-            open_contacts: Vec::new(),
-            fits: self.fits.clone(),
-            parts: Vec::new(),
-            asking_parts: Vec::new(),
-            length: self.length,
-            analysis: None,
-        };
         let mut system = ConstraintSystem::of(written, false);
         (system.axes, system.circles) = (self.axes.clone(), self.circles.clone());
         debug_assert_eq!(system.validate(), Ok(()));

@@ -4,8 +4,9 @@ use super::{
     AskingPart, Body, BodyId, CheckSlopes, Condition, ConstraintSystem, Coordinate, Declaration, DeclarationId, Fit,
     Forces, IdVec, Measure, OpenContact, Param, PartStart, Point, PointId, Results, Row, SparseRows, Variations, Watch,
 };
-use crate::expr::Graph;
+use crate::expr::{ExprId, Graph, Symbol};
 use crate::source::Span;
+use rustc_hash::FxHashMap;
 
 /// Equations with all that is said of them.
 #[derive(Debug)]
@@ -96,5 +97,20 @@ impl ConstraintSystem {
         system.derive_variations();
         system.find_rims();
         system
+    }
+}
+
+impl Written {
+    /// Puts other expressions in the place of symbols, in all that holds on a motion: rows, conditions and watches.
+    pub fn substitute(&mut self, mut expression: impl FnMut(&mut Graph, Symbol) -> ExprId) {
+        let (before, mut known) = (self.graph.clone(), FxHashMap::default());
+        let Written { graph, rows, conditions, watches, .. } = self;
+        let rows = rows.iter_mut().map(|row| &mut row.phi);
+        let conditions = conditions.iter_mut().map(|condition| &mut condition.positive);
+        let watches = watches.iter_mut().map(|watch| &mut watch.value);
+        for id in rows.chain(conditions).chain(watches) {
+            graph.import(&before, &[*id], &mut known, &mut expression);
+            *id = known[id];
+        }
     }
 }

@@ -64,22 +64,14 @@ impl Lines {
 
     /// In all that holds on the way. Estimates keep the values with which it begins, and so do tables, whose cells are numbers.
     fn stand_for_all(&self, written: &mut Written) {
-        let (before, mut known) = (written.graph.clone(), FxHashMap::default());
-        let graph = &mut written.graph;
-        let mut led = |id: &mut ExprId| {
-            graph.import(&before, &[*id], &mut known, |graph, symbol| match symbol {
-                Symbol::Param(from) if self.ends.contains_key(&from) => line(graph, [from, self.ends[&from]]),
-                Symbol::Time => match self.clock {
-                    Clock::Still(t) => graph.constant(t),
-                    Clock::Goes => line(graph, self.times),
-                },
-                other => graph.symbol(other),
-            });
-            *id = known[id];
-        };
-        written.rows.iter_mut().for_each(|row| led(&mut row.phi));
-        written.conditions.iter_mut().for_each(|condition| led(&mut condition.positive));
-        written.watches.iter_mut().for_each(|watch| led(&mut watch.value));
+        written.substitute(|graph, symbol| match symbol {
+            Symbol::Param(from) if self.ends.contains_key(&from) => line(graph, [from, self.ends[&from]]),
+            Symbol::Time => match self.clock {
+                Clock::Still(t) => graph.constant(t),
+                Clock::Goes => line(graph, self.times),
+            },
+            other => graph.symbol(other),
+        });
     }
 }
 

@@ -8,7 +8,7 @@
 use super::options::RunOptions;
 use super::seen::Seen;
 use super::{Checked, Compiled};
-use crate::analysis::Times;
+use crate::analysis::{Follower, Horizon, Started, Times};
 use crate::scene::{Motion, Pen, Track, Vector, bounds, distance, is_finite, length};
 
 /// What is looked at, and how closely.
@@ -98,7 +98,14 @@ impl Checked {
         if seen.motion.rows().is_empty() {
             return;
         }
-        let Some(motion) = (Search { compiled, times, options, seen, closely }).found() else { return };
+        // each look at the motion begins where this one does
+        let (Ok(mut started), _) = compiled.start(Horizon::of(times), options) else { return };
+        // what a run tells of its start looks at the same factors
+        let _ = started.conditioning();
+        started.use_vectors(options.vectors);
+        let pass_bifurcations = options.pass_bifurcations;
+        let search = Search { compiled, started, pass_bifurcations, times, seen, closely };
+        let Some(motion) = search.found() else { return };
         seen.motion = motion;
         if let Some(scene) = self.drawn_anew(seen) {
             seen.scene = scene;
@@ -108,8 +115,9 @@ impl Checked {
 
 struct Search<'s> {
     compiled: &'s Compiled,
+    started: Started,
+    pass_bifurcations: bool,
     times: &'s Times,
-    options: &'s RunOptions,
     seen: &'s Seen,
     closely: &'s Closely,
 }
@@ -148,12 +156,23 @@ impl Search<'_> {
         Some(motion)
     }
 
+    /// The motion from its start, a row for each of some times.
+    fn motion(&self, times: &Times) -> Follower {
+        let mut motion = self.started.clone().into_motion(times);
+        if self.pass_bifurcations {
+            motion.pass_bifurcations();
+        }
+        motion
+    }
+
     /// The ends of the motion's steps, more where these are few, and the output times; towards where it stops closer and closer.
     fn first_times(&self) -> Vec<f64> {
         let (from, last) = (self.times.from(), self.times.last());
         let whole = Times::listed(from, vec![last]).within_analysis_to(Some(self.times.end()));
-        let (run, _) = self.compiled.run(&whole, self.options);
-        let mut times = run.map_or_else(Vec::new, super::Run::ends_of_steps);
+        let (mut steps, mut times) = (self.motion(&whole), Vec::new());
+        while let Ok(Some(stretch)) = steps.next_stretch() {
+            times.push(stretch.to.t);
+        }
         let end = if self.seen.stopped.is_none() { last } else { times.iter().copied().fold(from, f64::max) };
         times.extend((0..=STRETCHES).map(|k| from + (end - from) * f64::from(k) / f64::from(STRETCHES)));
         if self.times.len() <= MOST_ROWS {
@@ -175,8 +194,10 @@ impl Search<'_> {
         let asked = times.clone();
         times.push(self.times.last());
         let listed = Times::listed(self.times.from(), times).within_analysis_to(Some(self.times.end()));
-        let (run, _) = self.compiled.run(&listed, self.options);
-        let mut rows: Vec<Vec<f64>> = run?.map_while(Result::ok).collect();
+        let (mut motion, mut rows) = (self.motion(&listed), Vec::new());
+        while let Some(Ok(row)) = motion.next_row() {
+            rows.push(row.to_vec());
+        }
         if !asked.iter().any(|t| t.total_cmp(&self.times.last()).is_eq()) {
             rows.retain(|row| row[0] < self.times.last());
         }

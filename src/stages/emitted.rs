@@ -164,7 +164,7 @@ impl Compiled {
     ) -> Result<EmittedMotion, Box<Diagnostic>> {
         let horizon = Horizon::of_analysis(self.analysis());
         let mut started = if let Some(q) = begin {
-            self.unassembled(horizon, &RunOptions::default()).at(q, Solving::New)?
+            self.unassembled(horizon, &RunOptions::default()).assemble_at(q, Solving::New)?
         } else {
             let (started, remarks) = self.start(horizon, &RunOptions::default());
             said.extend(remarks);

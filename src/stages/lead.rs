@@ -44,12 +44,12 @@ pub(super) enum Outset {
     Estimates,
 }
 
-/// Where a mechanism begins [m, rad].
+/// What a mechanism is assembled from [m, rad].
 pub(super) enum Begin {
-    /// It was led there.
-    Led(Vec<f64>),
-    /// It is drawn so, its parts where they begin; where the text's estimates have it, if there is nothing else.
-    Drawn(Option<Vec<f64>>),
+    /// The position that it was led to.
+    Position(Vec<f64>),
+    /// Estimates with its parts where they begin; those of the text, if there is nothing else.
+    Estimates(Option<Vec<f64>>),
 }
 
 impl Leading {
@@ -89,9 +89,9 @@ impl Leading {
                 let settings = &self.surroundings.settings;
                 let has_parts = !determined.system().parts().is_empty();
                 let drawn = has_parts.then(|| starts.with_parts((determined, program), horizon, settings));
-                Begin::Drawn(drawn)
+                Begin::Estimates(drawn)
             },
-            Begin::Led,
+            Begin::Position,
         );
         (begin, starts.said)
     }

@@ -144,8 +144,8 @@ impl Compiled {
         let (beginning, mut said) = self.begins(horizon, options);
         let started = match beginning {
             Beginning::Started(started) => return (*started, said),
-            Beginning::At(Begin::Led(q), at) => self.unassembled(at, options).at(&q, solving),
-            Beginning::At(Begin::Drawn(drawn), at) => {
+            Beginning::At(Begin::Position(q), at) => self.unassembled(at, options).assemble_at(&q, solving),
+            Beginning::At(Begin::Estimates(drawn), at) => {
                 let whole = self.unassembled(at, options);
                 // where no way leads to what is told or set, the estimates alone are tried
                 let started = if said.has_errors() {
@@ -173,8 +173,8 @@ impl Compiled {
         let horizon = Horizon::of_analysis(self.analysis()).beginning(t);
         let (from, at) = match self.begins(horizon, options).0 {
             Beginning::Started(started) => (started.ok().map(|started| started.q().to_vec()), horizon),
-            Beginning::At(Begin::Led(q), at) => (Some(q), at),
-            Beginning::At(Begin::Drawn(drawn), at) => (drawn, at),
+            Beginning::At(Begin::Position(q), at) => (Some(q), at),
+            Beginning::At(Begin::Estimates(drawn), at) => (drawn, at),
         };
         self.unassembled(at, options).nearest(from.as_deref())
     }
@@ -208,7 +208,9 @@ impl Compiled {
         // inputs that are told may have no value at the text's own first time
         let is_there = is_told || self.first_time().total_cmp(&horizon.from).is_eq();
         let at = if is_there { horizon } else { Horizon::of_analysis(self.analysis()).beginning(self.first_time()) };
-        let Some((leading, leave_out)) = self.leading() else { return (Beginning::At(Begin::Drawn(None), at), said) };
+        let Some((leading, leave_out)) = self.leading() else {
+            return (Beginning::At(Begin::Estimates(None), at), said);
+        };
         let (begin, more) = leading.begin((self.determined(), self.program()), at, &outset, leave_out, options);
         said.extend(more);
         (Beginning::At(begin, at), said)
@@ -340,18 +342,6 @@ impl Run {
     #[must_use]
     pub fn edges(&self) -> Vec<f64> {
         self.motion.edges()
-    }
-
-    /// The times (s) at which the steps of the motion end, to its last time or as far as it gets, in place of its rows.
-    pub(super) fn ends_of_steps(mut self) -> Vec<f64> {
-        let mut ends = Vec::new();
-        while let Ok(Some(stretch)) = self.motion.next_stretch() {
-            if self.cancel.is_cancelled() {
-                return ends;
-            }
-            ends.push(stretch.to.t);
-        }
-        ends
     }
 
     /// What there is to say beside the rows so far, each thing once.

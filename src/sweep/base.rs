@@ -115,10 +115,10 @@ impl Base {
         let whole = Unassembled { determined: variant, program, horizon, tolerance, cancel: cancel.clone() };
         let solving = Solving::With(self.stands.solver.clone());
         if is_there {
-            let started = whole.at(&q, solving).map_err(Lost::There)?;
+            let started = whole.assemble_at(&q, solving).map_err(Lost::There)?;
             return Ok(Arrived { started, passed, said: Diagnostics::default() });
         }
-        let begun = Unassembled { horizon: horizon.beginning(own), ..whole.clone() }.at(&q, solving);
+        let begun = Unassembled { horizon: horizon.beginning(own), ..whole.clone() }.assemble_at(&q, solving);
         let followed = begun.and_then(|begun| analysis::follow_to(&whole, (begun, own), pass_bifurcations));
         let (started, said) = followed.map_err(Lost::There)?;
         Ok(Arrived { started, passed, said })

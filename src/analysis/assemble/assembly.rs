@@ -64,7 +64,7 @@ pub type Residuals = Vec<(usize, f64)>;
 
 /// What the drivers ask for and the estimates leave open at time `t`: by row, `Φ` there. None where that has no value, or is nothing, or
 /// leaves no choice: where every coordinate follows from others without iteration.
-pub fn left_by_drivers(kinematics: &mut Kinematics, t: f64) -> Option<Residuals> {
+pub fn driver_residuals(kinematics: &mut Kinematics, t: f64) -> Option<Residuals> {
     let determined = kinematics.determined();
     if determined.system().has_signals() || determined.blocks().iter().all(|block| block.explicit) {
         return None;
@@ -91,7 +91,7 @@ fn driving_rows(system: &ConstraintSystem) -> Vec<usize> {
 }
 
 /// Where the estimates lead if drivers let go, and what these ask for and that leaves open; none if nothing closes there.
-pub fn closed_without_drivers(kinematics: &mut Kinematics, t: f64) -> Option<(Vec<f64>, Residuals)> {
+pub fn close_without_drivers(kinematics: &mut Kinematics, t: f64) -> Option<(Vec<f64>, Residuals)> {
     let mut q = kinematics.estimates();
     if q.len() > LARGEST_DENSE {
         return None;

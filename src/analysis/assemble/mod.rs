@@ -7,7 +7,7 @@ mod parts;
 mod search;
 mod started;
 
-pub use assembly::{Moved, closed_without_drivers, left_by_drivers};
+pub use assembly::{Moved, close_without_drivers, driver_residuals};
 pub use branches::Doubt;
 pub use parts::{Request, with_parts};
 pub use started::{Solving, Started, Unassembled};

@@ -55,14 +55,14 @@ impl Unassembled {
     /// # Errors
     /// It cannot be assembled, starts in a singular position, or a formula has no value there.
     pub fn close(&self, estimates: Option<&[f64]>, solving: Solving) -> Result<Started, Box<Diagnostic>> {
-        self.closed(self.kinematics(estimates), solving)
+        self.close_with(self.kinematics(estimates), solving)
     }
 
     /// Closes the equations from the estimates of what evaluates them.
     ///
     /// # Errors
     /// As [`Unassembled::close`].
-    pub fn closed(&self, mut kinematics: Kinematics, solving: Solving) -> Result<Started, Box<Diagnostic>> {
+    pub fn close_with(&self, mut kinematics: Kinematics, solving: Solving) -> Result<Started, Box<Diagnostic>> {
         let Assembled { state, moved, is_perturbed } = assembly::assemble(&mut kinematics, self.horizon.from, None)?;
         let mut started = Started::of(kinematics, (state, moved), solving);
         started.doubt = if is_perturbed {
@@ -79,15 +79,20 @@ impl Unassembled {
     ///
     /// # Errors
     /// As [`Unassembled::close`].
-    pub fn at(&self, q: &[f64], solving: Solving) -> Result<Started, Box<Diagnostic>> {
-        self.led(self.kinematics(Some(q)), q, solving)
+    pub fn assemble_at(&self, q: &[f64], solving: Solving) -> Result<Started, Box<Diagnostic>> {
+        self.assemble_at_with(self.kinematics(Some(q)), q, solving)
     }
 
     /// The same, of what evaluates the equations, whose estimates may be others.
     ///
     /// # Errors
     /// As [`Unassembled::close`].
-    pub fn led(&self, mut kinematics: Kinematics, q: &[f64], solving: Solving) -> Result<Started, Box<Diagnostic>> {
+    pub fn assemble_at_with(
+        &self,
+        mut kinematics: Kinematics,
+        q: &[f64],
+        solving: Solving,
+    ) -> Result<Started, Box<Diagnostic>> {
         let Assembled { state, moved, .. } = assembly::assemble(&mut kinematics, self.horizon.from, Some(q))?;
         Ok(Started::of(kinematics, (state, moved), solving))
     }

@@ -30,6 +30,14 @@ pub struct LeadOptions {
     pub cancel: Cancel,
 }
 
+impl LeadOptions {
+    /// The options of one that is to be assembled.
+    pub(super) fn of(unassembled: &Unassembled, t: f64, pass_bifurcations: bool) -> LeadOptions {
+        let Unassembled { tolerance, ref cancel, .. } = *unassembled;
+        LeadOptions { tolerance, pass_bifurcations, t, cancel: cancel.clone() }
+    }
+}
+
 /// How far a mechanism was led.
 pub struct Way {
     /// The coordinates [m, rad] at the parts of the way that were asked for, as far as it got.
@@ -52,7 +60,7 @@ pub fn before_ways(
     stands: &[f64],
     options: &LeadOptions,
 ) -> Result<Started, Box<Diagnostic>> {
-    Leader::new(determined, program, Solving::New, options).whole(WAY).at(stands, Solving::New)
+    Leader::new(determined, program, Solving::New, options).whole(WAY).assemble_at(stands, Solving::New)
 }
 
 /// As [`lead`], to the end of the way alone, from where one of the same mechanism was begun by [`before_ways`], and by the solver of that.
@@ -67,7 +75,7 @@ pub fn lead_again(
 ) -> Result<Way, Box<Diagnostic>> {
     let solving = Solving::With(solver);
     let leader = Leader::new(determined, program, solving.clone(), options);
-    let started = leader.whole(WAY).at(stands, solving)?;
+    let started = leader.whole(WAY).assemble_at(stands, solving)?;
     Ok(leader.lead(started, &[1.0]))
 }
 
@@ -130,7 +138,7 @@ impl<'l> Leader<'l> {
 
     /// Assembled at a part of the way, where it stands.
     fn at(&self, part: f64, q: &[f64]) -> Option<Started> {
-        self.whole(WAY.beginning(part)).at(q, self.solving.clone()).ok()
+        self.whole(WAY.beginning(part)).assemble_at(q, self.solving.clone()).ok()
     }
 
     /// The start just behind a place where a velocity jumps, with its part of the way; none where the position is another one there.

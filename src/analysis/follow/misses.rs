@@ -19,6 +19,8 @@ pub struct Misses {
     beside: State,
     /// The largest singular value since the last least one.
     highest: f64,
+    /// Whether rows are handed out, beside which it is told; a motion that is followed for its results alone is not watched.
+    is_watching: bool,
     is_told: bool,
     found: Option<Miss>,
 }
@@ -51,9 +53,15 @@ impl Misses {
             nearest: state.clone(),
             beside: state.clone(),
             highest: 0.0,
+            is_watching: false,
             is_told: false,
             found: None,
         }
+    }
+
+    /// From now on rows are handed out.
+    pub fn watch(&mut self) {
+        self.is_watching = true;
     }
 
     /// What comes next does not lie on the way from here.
@@ -64,7 +72,7 @@ impl Misses {
     /// Looks at a state that was just come to, where it was factored, with what it was factored with left as it is.
     pub fn take(&mut self, kinematics: &mut Kinematics, state: &State) {
         // where equations were left out, those that are solved near singular positions at which all together do not
-        if self.is_told || !kinematics.system().checks().is_empty() {
+        if !self.is_watching || self.is_told || !kinematics.system().checks().is_empty() {
             return;
         }
         if state.t <= self.last[1].t {

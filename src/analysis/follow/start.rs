@@ -4,7 +4,7 @@
 //! then the drivers are led to where they begin, along that branch. To any other first time the motion is followed from there.
 
 use super::lead::{LeadOptions, Leader, WAY, Way};
-use crate::analysis::assemble::{Doubt, Solving, Started, Unassembled, closed_without_drivers, left_by_drivers};
+use crate::analysis::assemble::{Doubt, Solving, Started, Unassembled, close_without_drivers, driver_residuals};
 use crate::analysis::explain::errors::{at, cannot_follow, short};
 use crate::analysis::state::{Horizon, Times};
 use crate::cancel::Cancel;
@@ -47,13 +47,13 @@ pub fn start_from(
     solving: Solving,
 ) -> Result<Started, Box<Diagnostic>> {
     let (mut kinematics, t) = (whole.kinematics(estimates), whole.horizon.from);
-    let Some(residuals) = left_by_drivers(&mut kinematics, t) else { return whole.closed(kinematics, solving) };
+    let Some(residuals) = driver_residuals(&mut kinematics, t) else { return whole.close_with(kinematics, solving) };
     let drawn = kinematics.estimates();
     let closed = close_and_drive(whole, &drawn, &residuals);
     if let Some(Closed { q, doubt, .. }) = closed.as_ref().filter(|closed| closed.moved <= AS_DRAWN) {
-        return Ok(whole.led(kinematics, q, solving)?.with_doubt(*doubt));
+        return Ok(whole.assemble_at_with(kinematics, q, solving)?.with_doubt(*doubt));
     }
-    let begun = whole.closed(kinematics.clone(), Solving::With(None));
+    let begun = whole.close_with(kinematics.clone(), Solving::With(None));
     let begun =
         begun.map(|begun| Closed { moved: begun.moved_in_loops(), doubt: begun.doubt(), q: begun.q().to_vec() });
     let is_better = |begun: &&Closed| match &closed {
@@ -63,14 +63,14 @@ pub fn start_from(
     };
     let better = begun.as_ref().ok().filter(is_better);
     if let Some(Closed { q, doubt, .. }) = better.or(closed.as_ref()) {
-        return Ok(whole.led(kinematics, q, solving)?.with_doubt(*doubt));
+        return Ok(whole.assemble_at_with(kinematics, q, solving)?.with_doubt(*doubt));
     }
-    let free = closed_without_drivers(&mut kinematics, t);
+    let free = close_without_drivers(&mut kinematics, t);
     let (q, doubt) = match free.and_then(|(q, residuals)| close_and_drive(whole, &q, &residuals)) {
         Some(closed) => (closed.q, Doubt::DriversLeftOut),
         None => (begun?.q, Doubt::NotLed),
     };
-    Ok(whole.led(kinematics, &q, solving)?.with_doubt(Some(doubt)))
+    Ok(whole.assemble_at_with(kinematics, &q, solving)?.with_doubt(Some(doubt)))
 }
 
 /// Follows a mechanism, in whose equations a straight way from 0 to 1 stands for time, from its estimates, or from where it stands, to some
@@ -87,7 +87,7 @@ pub fn lead(
 ) -> Result<Way, Box<Diagnostic>> {
     let leader = Leader::new(determined, program, Solving::New, options);
     let started = match stands {
-        Some(q) => leader.whole(WAY).at(q, Solving::New)?,
+        Some(q) => leader.whole(WAY).assemble_at(q, Solving::New)?,
         None => start_from(&leader.whole(WAY), None, Solving::New)?,
     };
     Ok(leader.lead(started, parts))
@@ -106,8 +106,7 @@ struct Closed {
 /// Closes a mechanism with these residuals of rows of `Φ` as it is drawn [m, rad], and leads it to where they vanish; none where it does not
 /// close there, or no way leads on.
 fn close_and_drive(whole: &Unassembled, drawn: &[f64], residuals: &[(usize, f64)]) -> Option<Closed> {
-    let Unassembled { ref determined, horizon, tolerance, ref cancel, .. } = *whole;
-    let system = determined.system();
+    let (system, t) = (whole.determined.system(), whole.horizon.from);
     // further turns are left to the last step of the assembly, which turns what follows without iteration
     let left = |row: usize, from: f64| {
         let is_angle = system.rows()[row].unit == RowUnit::ANGLE;
@@ -115,11 +114,10 @@ fn close_and_drive(whole: &Unassembled, drawn: &[f64], residuals: &[(usize, f64)
         (TAU * turns).copysign(from)
     };
     let lines = residuals.iter().map(|&(row, from)| (row, [from, left(row, from)])).collect();
-    let on_its_way = structure::prove(system.along(&Homotopy::Residuals { t: horizon.from, lines })).ok()?;
-    let (program, determined) = (Arc::new(Program::new(on_its_way.system())), Arc::new(on_its_way));
-    let options = LeadOptions { tolerance, pass_bifurcations: false, t: horizon.from, cancel: cancel.clone() };
-    let leader = Leader::new(&determined, &program, Solving::With(None), &options);
-    let closed = leader.whole(WAY).close(Some(drawn), Solving::With(None)).ok()?;
+    let way = along(whole, &Homotopy::Residuals { t, lines }).ok()?;
+    let options = LeadOptions::of(&way, t, false);
+    let leader = Leader::new(&way.determined, &way.program, Solving::With(None), &options);
+    let closed = way.close(Some(drawn), Solving::With(None)).ok()?;
     let (doubt, moved) = (closed.doubt(), closed.moved_in_loops());
     if doubt == Some(Doubt::Perturbed) {
         return None;
@@ -157,7 +155,7 @@ pub fn follow_to(
     };
     let mut said = Diagnostics::default();
     said.extend(passed);
-    Ok((whole.at(&q, Solving::With(solver))?, said))
+    Ok((whole.assemble_at(&q, Solving::With(solver))?, said))
 }
 
 /// Where a motion comes from [m, rad], at a time before its start: it is followed back, along a straight line of time.
@@ -167,17 +165,14 @@ fn follow_back(
     own: f64,
     pass_bifurcations: bool,
 ) -> Result<(Vec<f64>, Vec<Diagnostic>), Box<Diagnostic>> {
-    let Unassembled { ref determined, horizon, tolerance, ref cancel, .. } = *whole;
-    let ends = [own, horizon.from];
-    let back =
-        structure::prove(determined.system().along(&Homotopy::Time(ends))).map_err(|refused| refused.diagnostic)?;
-    let (program, determined) = (Arc::new(Program::new(back.system())), Arc::new(back));
-    let options = LeadOptions { tolerance, pass_bifurcations, t: own, cancel: cancel.clone() };
-    let leader = Leader::new(&determined, &program, Solving::With(None), &options);
-    let mut way = leader.lead(leader.whole(WAY).at(started.q(), Solving::With(None))?, &[1.0]);
+    let to = whole.horizon.from;
+    let back = along(whole, &Homotopy::Time([own, to]))?;
+    let options = LeadOptions::of(&back, own, pass_bifurcations);
+    let leader = Leader::new(&back.determined, &back.program, Solving::With(None), &options);
+    let mut way = leader.lead(back.assemble_at(started.q(), Solving::With(None))?, &[1.0]);
     // its words and numbers speak of the part of the way that is gone
     let told = |part: f64, what: Diagnostic| {
-        let t = own + (horizon.from - own) * part;
+        let t = own + (to - own) * part;
         let message = format!("there is {} at {}", what.code.title(), at(t));
         let word = |is_primary: bool| if is_primary { "here" } else { "" }.to_owned();
         let labels = what.labels.into_iter().map(|label| Label { text: word(label.primary), ..label }).collect();
@@ -188,6 +183,17 @@ fn follow_back(
         (None, Some((part, why))) => Err(Box::new(told(part, *why))),
         (None, None) => Err(Box::new(cannot_follow(whole.determined.system(), own, None))),
     }
+}
+
+/// A mechanism whose equations go along a homotopy, from 0 to 1 in place of time.
+///
+/// # Errors
+/// These equations do not determine it.
+fn along(whole: &Unassembled, homotopy: &Homotopy) -> Result<Unassembled, Box<Diagnostic>> {
+    let determined =
+        structure::prove(whole.determined.system().along(homotopy)).map_err(|refused| refused.diagnostic)?;
+    let program = Arc::new(Program::new(determined.system()));
+    Ok(Unassembled { determined: Arc::new(determined), program, horizon: WAY, ..whole.clone() })
 }
 
 /// What happens before the first time that is asked for, on the way there from the time (s) at which the mechanism starts.

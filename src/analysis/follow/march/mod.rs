@@ -134,6 +134,7 @@ impl Follower {
             return Some(Ok(self.rows.row(place)));
         }
         let t = self.rows.next_time()?;
+        self.misses.watch();
         let place = match self.reach(t) {
             Ok(place) => place,
             Err(why) => {
