@@ -492,10 +492,11 @@ fn main() {
             // what is said of the place is what follows from it
             let (mut there, inputs) = (state.clone(), state.inputs());
             if follow(&inputs, &mut there).is_ok() {
-                // close to a singular position rounding makes more of velocities
-                let fastest = state.qd().iter().fold(1.0, |fastest: f64, rate| fastest.max(rate.abs()));
-                for (a, b) in there.q().iter().zip(state.q()).chain(there.qd().iter().zip(state.qd())) {
-                    assert!((a - b).abs() <= 1e-7 * fastest * fastest, "{a} {b}");
+                // where a formula has a kink, at 0, accelerations are those of the side that the way came from
+                let is_at_kink = FIELDS.iter().any(|value| value.abs() < 1e-9);
+                let columns = if is_at_kink { COLUMNS - (COLUMNS - 1) / 3 } else { COLUMNS };
+                for (a, b) in there.row().iter().zip(state.row()).take(columns).skip(1) {
+                    assert!(a.is_nan() || b.is_nan() || (a - b).abs() <= 1e-9 * (1.0 + a.abs()), "{a} {b}");
                 }
             }
         }
@@ -524,7 +525,9 @@ fn no_call_does_more_work_than_it_says_and_none_that_is_refused_leaves_a_trace()
         (driven("1.5 m", "if turn < 1 then turn else turn + 0.3"), &["turn"]),
     ];
     for (number, (text, names)) in texts.into_iter().enumerate() {
-        let program = WORK.replace("SIGNALS", &fields(names)).replace("SEED", &number.to_string());
+        let values: Vec<String> = names.iter().map(|name| format!("inputs.{name}.value")).collect();
+        let program = WORK.replace("SIGNALS", &fields(names)).replace("FIELDS", &format!("[{}]", values.join(", ")));
+        let program = program.replace("SEED", &number.to_string());
         let program = with_random(&program.replace("CALLS", "1500"));
         let lines = printed(&emitted(&text).text(None), &program);
         let [refused, on_the_way, most, bound] = numbers(&lines[0])[..] else { panic!("{lines:?}") };

@@ -7,12 +7,13 @@
 
 mod support;
 
+use mechc::{RunOptions, Times};
 use nalgebra::{DMatrix, DVector};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write as _;
-use support::{Outcome, Span, analyse, compile_without_redundant};
+use support::{Outcome, Span, analyse, compile_without_redundant, follow};
 
 /// Mechanisms that are drawn.
 const MECHANISMS: u64 = 16;
@@ -492,7 +493,7 @@ fn coupled_wheels_go_through_their_dead_centres() {
             let outcome = analyse((Some(compiled), outcome), Span::default());
             assert_eq!(codes(&outcome), [""; 0], "{wheels} {start}: {}", outcome.text());
             assert_eq!(outcome.rows.len(), 31);
-            for (column, most) in [("lag", 1e-12), ("lag.d", 1e-10), ("lag.dd", 1e-7)] {
+            for (column, most) in [("lag", 1e-12), ("lag.d", 1e-11), ("lag.dd", 1e-9)] {
                 let widest = outcome.column(column).iter().fold(0.0, |widest: f64, lag| widest.max(lag.abs()));
                 assert!(widest < most, "{wheels} {start} {column}: {widest}");
             }
@@ -505,7 +506,7 @@ fn results_go_through_dead_centres_too() {
     let (compiled, outcome) = compile_without_redundant("coupled.mech", &locomotive(2, &[0.0, 90.0], 20.0, 0.1));
     let compiled = compiled.unwrap_or_else(|| panic!("{}", outcome.text()));
     let times = compiled.times().expect("times");
-    let (run, _) = compiled.run(&times, &mechc::RunOptions::default());
+    let (run, _) = compiled.run(&times, &RunOptions::default());
     let answers = run.expect("it is assembled").results().expect("results");
     let values: Vec<f64> = answers.values.iter().map(|value| value.expect("a value")).collect();
     assert!(values[0] < 1e-11 && (values[1] - TAU).abs() < 1e-9, "{values:?}");
@@ -521,6 +522,68 @@ fn rows_do_not_depend_on_which_others_are_asked_for() {
     for (k, row) in coarse.rows.iter().enumerate() {
         for (a, b) in row.iter().zip(&fine.rows[20 * k]) {
             assert!((a - b).abs() <= 1e-9 * (1.0 + a.abs()), "{a} {b}");
+        }
+    }
+}
+
+/// Three equal cranks whose pivots are not in a line, coupled by a plate, and a wheel that the second one turns by gears: drawn at an angle
+/// (rad), and driven from another one. All cranks turn alike, in any position.
+fn coupled_cranks(random: &mut Random, drawn: f64, start: f64) -> (String, f64) {
+    let crank = random.within(0.03, 0.08);
+    let pivots = [
+        [0.0; 2],
+        [random.within(0.15, 0.3), random.within(-0.05, 0.05)],
+        [random.within(0.05, 0.15), random.within(0.08, 0.2)],
+    ];
+    let [pinion, wheel] = [0, 1].map(|_| random.within(0.01, 0.04));
+    let mut text = "mechanism coupled {\nground {\n".to_owned();
+    let mut points = |of: &str| {
+        pivots.iter().enumerate().map(|(k, [x, y])| format!("point {of}{k} = ({x:?}, {y:?})\n")).collect::<String>()
+    };
+    text += &points("A");
+    let center = [pivots[1][0] + pinion + wheel, pivots[1][1]];
+    writeln!(text, "point G = ({:?}, {:?})\n}}", center[0], center[1]).unwrap();
+    for (k, [x, y]) in pivots.iter().enumerate() {
+        writeln!(text, "body c{k} at ({x:?}, {y:?}, {drawn:?}) {{ point O = (0, 0)  point P = ({crank:?}, 0)").unwrap();
+        if k == 1 {
+            writeln!(text, "circle rim = O radius {pinion:?} m").unwrap();
+        }
+        text += "}\n";
+        writeln!(text, "joint a{k}: revolute(ground.A{k}, c{k}.O)\njoint p{k}: revolute(c{k}.P, plate.Q{k})").unwrap();
+    }
+    let (sin, cos) = drawn.sin_cos();
+    writeln!(text, "body plate at ({:?}, {:?}, 0) {{\n{}}}", crank * cos, crank * sin, points("Q")).unwrap();
+    let [x, y] = center;
+    writeln!(text, "body wheel at ({x:?}, {y:?}, 0) {{ point O = (0, 0)  circle rim = O radius {wheel:?} m }}")
+        .unwrap();
+    writeln!(text, "joint g: revolute(ground.G, wheel.O)\njoint mesh: gear(c1.rim, wheel.rim)").unwrap();
+    writeln!(text, "driver engine: rotation(a0) = {start:?} + 4 rad/s * t").unwrap();
+    writeln!(text, "analysis from 0 s to 1 s every 0.25 s\n}}").unwrap();
+    (text, pinion / wheel)
+}
+
+#[test]
+fn coupled_cranks_begin_as_they_are_drawn_wherever_their_driver_begins() {
+    let mut random = Random(ChaCha8Rng::seed_from_u64(8));
+    for number in 0..24 {
+        let [drawn, start] = [random.within(-PI, PI), random.within(-9.0, 9.0)];
+        let from = if number % 3 == 0 { 0.0 } else { random.within(-3.0, 3.0) };
+        let (text, ratio) = coupled_cranks(&mut random, drawn, start);
+        let (compiled, mut outcome) = compile_without_redundant("coupled.mech", &text);
+        let compiled = compiled.unwrap_or_else(|| panic!("{}\n{text}", outcome.text()));
+        let times = Times::grid(from, from + 1.0, 0.25).expect("a grid");
+        follow(&compiled, &times, &RunOptions::default(), &mut outcome);
+        let is_expected = |code: &str| ["W0502", "W0401"].contains(&code);
+        assert!(outcome.diagnostics.iter().all(|said| is_expected(said.code.as_str())), "{}\n{text}", outcome.text());
+        assert!(outcome.rows.len() >= 5);
+        for (row, t) in outcome.column("t").iter().enumerate() {
+            let turned = start + 4.0 * t;
+            let wanted =
+                [("c0.phi", turned), ("c1.phi", turned), ("c2.phi", turned), ("wheel.phi", -ratio * (turned - drawn))];
+            for (name, wanted) in wanted {
+                let found = outcome.column(name)[row];
+                assert!((found - wanted).abs() < 1e-9, "{name} at {t} s: {found} for {wanted}\n{text}");
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::failure::{Failure, unusable};
 use super::interrupts;
-use super::spared::{STANDARD_INPUT, Spared, behind_links, is_same};
+use super::spared::{STANDARD_INPUT, Spared, behind_links, refuse_links};
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Sources};
 use crate::world::{self, Contents, World};
@@ -317,12 +317,7 @@ fn written_beside(folder: &str, files: &[(PathBuf, &str)], spared: &Spared<'_>) 
         output.writer.write_all(text.as_bytes()).map_err(|error| output.failure(&error))?;
         outputs.extend(output.written()?);
     }
-    for (k, output) in outputs.iter().enumerate() {
-        if let Some(other) = outputs[..k].iter().find(|other| is_same(&other.path, &output.path)) {
-            let said = format!("`{}` and `{}` are one file by a link", other.name, output.name);
-            return Err(unusable(said).help("remove the link; nothing was touched").into());
-        }
-    }
+    refuse_links(outputs.iter().map(|output| output.name.as_str().into()))?;
     Ok(outputs)
 }
 

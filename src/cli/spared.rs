@@ -2,6 +2,8 @@
 
 use super::failure::{Failure, unusable};
 use crate::source::Sources;
+use std::borrow::Cow;
+use std::collections::HashMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -55,6 +57,24 @@ pub(super) fn is_same(named: &Path, output: &Path) -> bool {
         (None, None) => place(named).is_some_and(|named| Some(named) == place(output)),
         _ => false,
     }
+}
+
+/// Refuses outputs of which two are one file by a link.
+pub(super) fn refuse_links<'n>(names: impl Iterator<Item = Cow<'n, str>>) -> Result<(), Failure> {
+    let (mut files, mut places) = (HashMap::new(), HashMap::new());
+    for name in names {
+        let path = Path::new(&*name);
+        let other = match (identity(path), place(path)) {
+            (Some(file), _) => files.insert(file, name.clone()),
+            (None, Some(place)) => places.insert(place, name.clone()),
+            (None, None) => None,
+        };
+        if let Some(other) = other {
+            let said = format!("`{other}` and `{name}` are one file by a link");
+            return Err(unusable(said).help("remove the link; nothing was touched").into());
+        }
+    }
+    Ok(())
 }
 
 /// Where a file is, or would be if it were there, behind all links; what is there and no file has no such place of its own.

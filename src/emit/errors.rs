@@ -16,20 +16,20 @@ const fn told(name: &'static str, says: &'static str, more: &'static str) -> Tol
 
 /// All errors; C has them by their places, counted from 1. A new one comes last.
 pub(super) const ERRORS: [Told; 7] = [
-    told("NotANumber", "the time, a parameter or a formula is not a number", ""),
+    told("NotANumber", "the time, an input, a parameter or a formula is not a number", ""),
     told("LockUp", "the mechanism locks up: its driver cannot go on", ""),
     told("Bifurcation", "two branches of the motion meet", ", and which one goes on is not determined"),
     told("NotSmooth", "a position or velocity jumps", ", where a formula of time goes over to another branch"),
-    told("TooFar", "the time is too far away for so few steps", ", or an input changes by more than is allowed"),
+    told("TooFar", "it is too far away: for the steps that are allowed, or for one change of an input", ""),
     told(
         "Inconsistent",
-        "an equation that was left out as redundant does not hold, or is needed",
-        " where the others are singular",
+        "an equation that was left out as redundant does not hold, or is needed where the others are singular",
+        "",
     ),
     told(
         "Divergence",
-        "the motion cannot be followed",
-        "; from `assemble`: with these parameters it cannot be put together",
+        "the mechanism cannot be brought there",
+        ": from `assemble`, with these parameters it cannot be put together",
     ),
 ];
 

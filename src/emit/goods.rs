@@ -68,7 +68,8 @@ files! {
     "way_list" at "runtime/way_list.rs": ["state", "way"], [];
     "follow" at "runtime/follow.rs":
         ["numbers", "equations", "error", "solution", "branches", "reach", "state", "explain", "step", "way", "track", "work"],
-        [CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_TURN, NEAREST_TURN, POSITION_JUMP, SHORT, SHORTEST_STEP, SINGULAR];
+        [CRUMB, FARTHEST_BEND, JUMP, LARGEST_CORRECTION, LARGEST_TURN, NEAR_TURN, NEAREST_TURN, POSITION_JUMP, SHORTEST_STEP,
+            SINGULAR];
     "sensitivity" at "runtime/sensitivity.rs": ["numbers", "error", "solution", "state"], [];
     "sensitivity_led" at "runtime/sensitivity_led.rs": ["error", "state", "way", "follow", "sensitivity"], [];
     "forces" at "runtime/forces.rs": ["numbers", "error", "solution", "state"], [STEEP];

@@ -55,6 +55,7 @@ limits! {
     Count FEWEST_LOOKS = looks::FEWEST_LOOKS, "How often both sides of a rim are looked at at least.";
     Number GROWTH = sides::GROWTH, "What grows by so much with each look has no bound.";
     Count ITERATIONS = lanes::ITERATIONS, "Iterations of Newton at most.";
+    Number JUMP = follow::JUMP, "A position jumps that is so many times farther away than slopes lead.";
     Number LARGEST_CORRECTION = lanes::LARGEST_CORRECTION,
         "Newton's first correction at most, beside the size of a body or 1 rad.";
     Number LARGEST_GAP = step::LARGEST_GAP,
@@ -82,12 +83,12 @@ limits! {
     Number NEAR = close::NEAR, "A correction that is so small, scaled, is the last one from far away.";
     Number NEAREST_TURN = follow::NEAREST_TURN,
         "A dead point that is so near by a signal's change, while a longer step is refused, is not passed.";
+    Number NEAR_TURN = follow::NEAR_TURN, "Where a step is refused, this is steep enough for a dead point to be looked for.";
     Number NEAR_FOLD = reasons::NEAR_FOLD, "A dead point is no further off than this part of the span.";
     Number PASSED = looks::PASSED, "A rim within this part of the span is one that was looked at.";
     Number POSITION_JUMP = jumps::POSITION_JUMP, "A position that changes by more than this at an edge jumps, scaled.";
     Number REST = jumps::REST, "A speed below this part of one per span is rest, scaled.";
     Number ROUNDING = rims::ROUNDING, "A gauge is zero that is no more than so many units in the last place.";
-    Number SHORT = follow::SHORT, "A step that is shorter than this, by a signal's change, is not refused for its length.";
     Number SHORTEST_STEP = follow::SHORTEST_STEP,
         "The shortest step, as a part of the way of signals; of a long one, as a change of a signal.";
     Number SINGULAR = explain::SINGULAR,

@@ -18,8 +18,7 @@ pub enum Homotopy {
 }
 
 impl ConstraintSystem {
-    /// The equations along a homotopy, without what is asked of the motion: measures, results, forces. Equations that were left out are not
-    /// looked at.
+    /// The equations along a homotopy, without what is asked of the motion: measures, results, forces.
     #[must_use]
     pub fn along(&self, homotopy: &Homotopy) -> ConstraintSystem {
         let mut written = Written {

@@ -14,7 +14,7 @@ pub use order::{Step, order_of_solution, steps};
 
 use crate::diag::Diagnostic;
 use crate::expr::Symbol;
-use crate::ir::ConstraintSystem;
+use crate::ir::{ConstraintSystem, Homotopy};
 use std::sync::Arc;
 
 /// Equations and coordinates that are solved together, each row beside the coordinate it is matched to.
@@ -43,6 +43,8 @@ struct Whole {
     system: ConstraintSystem,
     /// The rows that are left out, ascending.
     left_out: Vec<usize>,
+    /// Coordinates [m, rad] at which all hold when the motion begins, where these are known.
+    start: Option<Vec<f64>>,
 }
 
 impl Determined {
@@ -54,13 +56,35 @@ impl Determined {
         let mut system = whole.clone();
         system.leave_out(&left_out);
         let determined = prove(system)?;
-        Ok(Determined { whole: Some(Arc::new(Whole { system: whole, left_out })), ..determined })
+        Ok(Determined { whole: Some(Arc::new(Whole { system: whole, left_out, start: None })), ..determined })
+    }
+
+    /// The same mechanism with coordinates [m, rad] at which all equations hold when the motion begins.
+    #[must_use]
+    pub fn with_start(self, start: Option<Vec<f64>>) -> Determined {
+        let whole = self.whole.map(|whole| Arc::new(Whole { start, ..Arc::unwrap_or_clone(whole) }));
+        Determined { whole, ..self }
+    }
+
+    /// Coordinates [m, rad] at which all equations hold when the motion begins, where these are known beside the estimates.
+    #[must_use]
+    pub fn start(&self) -> Option<&[f64]> {
+        self.whole.as_ref()?.start.as_deref()
     }
 
     /// The same mechanism where other rows of the whole are left out; none where the others do not determine it.
     #[must_use]
     pub fn leaving_out(&self, left_out: &[usize]) -> Option<Determined> {
         Determined::without(self.whole().clone(), left_out.to_vec()).ok()
+    }
+
+    /// The same mechanism along a homotopy of all its equations; the same rows are left out.
+    ///
+    /// # Errors
+    /// Why the others do not determine it.
+    pub fn along(&self, homotopy: &Homotopy) -> Result<Determined, Box<Refused>> {
+        let along = self.whole().along(homotopy);
+        if self.whole.is_none() { prove(along) } else { Determined::without(along, self.left_out().to_vec()) }
     }
 
     /// All equations, those that are left out among them.
@@ -97,8 +121,8 @@ impl Determined {
     /// The same with other values of its parameters, of which neither count nor structure knows.
     #[must_use]
     pub fn with_values(&self, values: &[f64]) -> Determined {
-        let whole = self.whole.as_deref().map(|Whole { system, left_out }| {
-            Arc::new(Whole { system: system.with_values(values), left_out: left_out.clone() })
+        let whole = self.whole.as_deref().map(|Whole { system, left_out, .. }| {
+            Arc::new(Whole { system: system.with_values(values), left_out: left_out.clone(), start: None })
         });
         Determined { system: self.system.with_values(values), blocks: self.blocks.clone(), whole }
     }

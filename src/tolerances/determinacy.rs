@@ -23,8 +23,8 @@ pub mod redundancy {
     pub const YIELDING: f64 = 100.0;
     /// Least squares begin anew so many times there.
     pub const PASSES: usize = 4;
-    /// What is open by more than this, scaled, does not hold.
-    pub const OPEN: f64 = 1e-8;
+    /// What is open by more than this, scaled, does not hold, here as along the motion.
+    pub const OPEN: f64 = crate::tolerances::checks::LARGEST_OPENING;
     /// Times at which the equations are looked at beside the first one, as parts of the span.
     pub const NEARBY: [f64; 3] = [1.3e-3, 3.1e-3, 7.7e-3];
 }

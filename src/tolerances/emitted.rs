@@ -70,8 +70,10 @@ pub mod follow {
     pub const LARGEST_SHIFT_OF_INPUT: f64 = 2.0;
     /// A dead point that is so near by a signal's change, while a longer step is refused, is not passed.
     pub const NEAREST_TURN: f64 = 1e-6;
-    /// A step that is shorter than this, by a signal's change, is not refused for its length.
-    pub const SHORT: f64 = 1e-4;
+    /// Where a step is refused, this is steep enough for a dead point to be looked for.
+    pub const NEAR_TURN: f64 = 10.0;
+    /// A position jumps that is so many times farther away than slopes lead.
+    pub const JUMP: f64 = 100.0;
     /// The shortest step, as a part of the way; of a long one, as a change of a signal.
     pub const SHORTEST_STEP: f64 = 1e-12;
     /// Signals go straight on if the square of what leads aside is no larger part of that of the whole.

@@ -7,8 +7,8 @@ use super::search::{Noise, levenberg_marquardt};
 use crate::analysis::explain::{errors, open_loop, singular};
 use crate::analysis::state::{Fault, Horizon, Kinematics, State, behind_start};
 use crate::diag::Diagnostic;
-use crate::expr::Dependence;
-use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, WatchKind};
+use crate::expr::{Dependence, ExprId};
+use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, WatchKind};
 use crate::tolerances::assembly::newton::{
     AGREES, BESIDE, EXPLICIT_STEPS, LARGEST_DENSE, LARGEST_STEP, MOVED, NEARBY, NEWTON_STEPS, OPEN_NEARBY,
     PERTURBATIONS, SETTLED, SINGULAR_START, SMALLEST_DAMPING, VANISHING_TANGENT, WITHOUT_SLOPE,
@@ -59,11 +59,11 @@ pub fn assemble(kinematics: &mut Kinematics, t: f64, near: Option<&[f64]>) -> Re
     Ok(Assembled { state: State::new(t, q), moved, is_perturbed })
 }
 
-/// Rows of `Φ`, each with its value at some position.
+/// Rows of all equations, those that are left out among them, each with the value of `Φ` at some position.
 pub type Residuals = Vec<(usize, f64)>;
 
-/// What the drivers ask for and the estimates leave open at time `t`: by row, `Φ` there. None where that has no value, or is nothing, or
-/// leaves no choice: where every coordinate follows from others without iteration.
+/// What the drivers ask for and the estimates leave open at time `t`: by row, `Φ` there. None where there is nothing to be driven: the
+/// estimates agree with the drivers, or have no value, or every coordinate follows from others without iteration.
 pub fn driver_residuals(kinematics: &mut Kinematics, t: f64) -> Option<Residuals> {
     let determined = kinematics.determined();
     if determined.system().has_signals() || determined.blocks().iter().all(|block| block.explicit) {
@@ -71,23 +71,42 @@ pub fn driver_residuals(kinematics: &mut Kinematics, t: f64) -> Option<Residuals
     }
     let estimates = kinematics.estimates();
     let residuals = residuals_of_drivers(kinematics, t, &estimates)?;
-    residuals.iter().any(|&(row, _)| kinematics.residual(row) > AGREES).then_some(residuals)
+    let system = kinematics.system();
+    let kept = driving_rows(system).into_iter().map(|row| kinematics.residual(row));
+    let left_out = driving_checks(system).into_iter().map(|k| kinematics.check(k).abs() / system.checks()[k].scale);
+    kept.chain(left_out).any(|open| open > AGREES).then_some(residuals)
 }
 
-/// `Φ` of the rows of drivers, and of others that time moves, at a position; none where one has no value. What was set is factored.
+/// `Φ` of the rows of drivers, and of others that time moves, at a position, those that are left out among them; none where one has no value.
+/// What was set is factored.
 fn residuals_of_drivers(kinematics: &mut Kinematics, t: f64, q: &[f64]) -> Option<Residuals> {
     set_start(kinematics, t);
     kinematics.set_position(q).ok()?;
     // blocks may well be singular there
     let _ = kinematics.factor();
-    let rows = driving_rows(kinematics.system());
-    Some(rows.into_iter().map(|row| (row, kinematics.phi(row))).collect())
+    let (determined, system) = (kinematics.determined(), kinematics.system());
+    let numbers = determined.kept();
+    let kept = driving_rows(system).into_iter().map(|row| (numbers[row], kinematics.phi(row)));
+    let left_out = driving_checks(system).into_iter().map(|k| (determined.left_out()[k], kinematics.check(k)));
+    Some(kept.chain(left_out).collect())
 }
 
+/// The rows that time moves, and all of drivers.
 fn driving_rows(system: &ConstraintSystem) -> Vec<usize> {
-    let is_driven =
-        |&row: &usize| system.is_driver(row) || system.graph().dependence(system.rows()[row].phi).on(Dependence::TIME);
-    (0..system.rows().len()).filter(is_driven).collect()
+    let rows = system.rows().iter().map(|row| (row.declaration, row.phi));
+    driving(system, rows)
+}
+
+/// The same of the equations that are left out, by their number among the checks.
+fn driving_checks(system: &ConstraintSystem) -> Vec<usize> {
+    let checks = system.checks().iter().map(|check| (check.declaration, check.phi));
+    driving(system, checks)
+}
+
+fn driving(system: &ConstraintSystem, equations: impl Iterator<Item = (DeclarationId, ExprId)>) -> Vec<usize> {
+    let is_driver = |of: DeclarationId| system.declarations()[of].kind == DeclarationKind::Driver;
+    let is_driving = |(of, phi)| is_driver(of) || system.graph().dependence(phi).on(Dependence::TIME);
+    equations.enumerate().filter(|&(_, equation)| is_driving(equation)).map(|(number, _)| number).collect()
 }
 
 /// Where the estimates lead if drivers let go, and what these ask for and that leaves open; none if nothing closes there.
@@ -171,14 +190,14 @@ fn assembled(kinematics: &mut Kinematics, start: &[f64]) -> Option<Vec<f64>> {
     let q = newton(kinematics, start)?;
     let turned = kinematics.turned_lines();
     if turned.is_empty() {
-        return Some(q);
+        return kinematics.broken_check().is_none().then_some(q);
     }
     let mut again = q;
     for theta in turned {
         again[theta] += if again[theta] > start[theta] { -PI } else { PI };
     }
     let q = newton(kinematics, &again)?;
-    kinematics.turned_lines().is_empty().then_some(q)
+    (kinematics.turned_lines().is_empty() && kinematics.broken_check().is_none()).then_some(q)
 }
 
 /// Damped Newton, judged by the size of the next correction with the same factors (P. Deuflhard, *Newton Methods for
@@ -243,7 +262,8 @@ fn by_least_squares(
         }
         let _ = kinematics.set_position(&q);
         let _ = kinematics.factor();
-        if kinematics.violated().is_none() && kinematics.turned_lines().is_empty() {
+        let is_closed = kinematics.violated().is_none() && kinematics.turned_lines().is_empty();
+        if is_closed && kinematics.broken_check().is_none() {
             // assembled, but Newton does not settle: a singular position
             return Ok((q, size > 0.0));
         }
@@ -270,6 +290,11 @@ fn explain(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Diagnostic {
         return errors::open_loop(kinematics.system(), &open, t);
     }
     let _ = kinematics.factor();
+    if kinematics.violated().is_none()
+        && let Some(index) = kinematics.broken_check()
+    {
+        return errors::does_not_hold(kinematics.system(), index, t);
+    }
     let open = |row: usize| kinematics.residual(row);
     let worst = (0..q.len()).max_by(|&a, &b| open(a).total_cmp(&open(b))).unwrap_or(0);
     errors::cannot_assemble(kinematics.system(), worst, open(worst), t)

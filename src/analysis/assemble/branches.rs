@@ -21,6 +21,8 @@ pub enum Doubt {
     /// The equations do not close with the drivers where the estimates have them: they were closed without the drivers, which were led to
     /// where they begin then.
     DriversLeftOut,
+    /// No way leads through all turns between where the drivers are drawn and where they begin: they were led the shortest way.
+    ShortestWay,
     /// No way leads from the drawn position to where the drivers begin: the equations were closed from the estimates with the drivers there.
     NotLed,
     /// The estimate of a body is far off.

@@ -25,6 +25,12 @@ pub fn far_estimates(system: &ConstraintSystem, doubt: Doubt, [from, to]: [&[f64
             "closed with its drivers left out, which then led it to where they begin",
             NEARER,
         ),
+        Doubt::ShortestWay => (
+            format!("the drivers cannot turn as far as from where they are drawn to where they begin at {}", at(t)),
+            system.span(),
+            "the way ends at a singular position: they were turned the shortest way, so that what turns with them may lack whole turns",
+            "draw it less than half a turn from where its drivers begin",
+        ),
         Doubt::NotLed => (
             format!("no way leads from the drawn position to where the drivers begin at {}", at(t)),
             system.span(),

@@ -7,11 +7,13 @@ use super::errors;
 use super::evaluator::Evaluator;
 use super::freedom::{FreeMotion, Freedom, motions_as_drawn};
 use super::redundancy::{Dependent, dependents, times_nearby};
-use super::sharing::shared;
+use super::sharing::{along_motion, shared};
 use crate::analysis::state::Horizon;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::ir::{ConstraintSystem, DeclarationKind, JointKind};
+use crate::expr::Dependence;
+use crate::ir::{ConstraintSystem, DeclarationKind, Homotopy, JointKind};
 use crate::structure::{self, Determined, Refused, Subsystem};
+use crate::tolerances::assembly::newton::AGREES;
 use crate::tolerances::determinacy::determine::{LARGEST, LARGEST_ALLOWED};
 
 /// Shows that a system is determined, where need be without the equations that are redundant.
@@ -30,6 +32,10 @@ pub fn determine(
     let limit = if allow_redundant { LARGEST_ALLOWED } else { LARGEST };
     let times = [horizon.from, horizon.span];
     let mut evaluator = Evaluator::new(&refused.system);
+    let start = driven(&refused.system, &refused.too_many, horizon.from);
+    if let Some(start) = &start {
+        evaluator.q.clone_from(start);
+    }
     let dependents = surplus_within(&mut evaluator, &refused.too_many, times, limit);
     let is_enough = dependents.len().cast_signed() == -refused.system.ndof();
     let holds = dependents.iter().all(|dependent| dependent.open.is_none());
@@ -43,7 +49,8 @@ pub fn determine(
     }
     let mut system = refused.system;
     let formulas = system.formulas_with_forces();
-    let shared = shared(&system, &refused.too_many, dependents.len(), horizon, formulas.into_iter());
+    let shared =
+        shared(&system, &refused.too_many, dependents.len(), (horizon, start.as_deref()), formulas.into_iter());
     system.retain_forces(|value| shared.iter().all(|shared| shared.formula != value));
     if let Some(why) = errors::shared_force(&system, &shared) {
         return Err(why.into());
@@ -52,7 +59,7 @@ pub fn determine(
     let mut rows: Vec<usize> = dependents.iter().map(|dependent| dependent.row).collect();
     rows.sort_unstable();
     match Determined::without(system, rows) {
-        Ok(determined) => Ok((determined, said)),
+        Ok(determined) => Ok((determined.with_start(start), said)),
         Err(refused) => Err(refused.diagnostic.into()),
     }
 }
@@ -129,6 +136,34 @@ impl Anatomy {
         let freedom = if is_small { Anatomy::freedom(evaluator, &kept, times) } else { None };
         Anatomy { dependents, freedom }
     }
+}
+
+/// Where a part with too many equations stands when its drivers have come from where they are drawn to where they are at a time (s); none
+/// where they are drawn there, or do not get there [m, rad].
+fn driven(system: &ConstraintSystem, part: &Subsystem, t: f64) -> Option<Vec<f64>> {
+    if part.rows.is_empty() || part.rows.len() > LARGEST {
+        return None;
+    }
+    let mut drawn = Evaluator::new(system);
+    drawn.evaluate(t);
+    let is_driving =
+        |row: usize| system.is_driver(row) || system.graph().dependence(system.rows()[row].phi).on(Dependence::TIME);
+    let driving: Vec<usize> = part.rows.iter().map(|&row| row as usize).filter(|&row| is_driving(row)).collect();
+    let is_off = |&row: &usize| {
+        drawn.linear_there(&[row as u32], &part.columns, None).is_some_and(|linear| linear.residual[0].abs() > AGREES)
+    };
+    if !driving.iter().any(is_off) {
+        return None;
+    }
+    let lines = driving.into_iter().map(|row| (row, [drawn.phi(row), 0.0])).collect();
+    let way = system.along(&Homotopy::Residuals { t, lines });
+    let mut evaluator = Evaluator::new(&way);
+    let mut is_there = false;
+    along_motion(&mut evaluator, part, Horizon { from: 0.0, span: 1.0 }, |_, _, part| {
+        is_there = part >= 1.0;
+        false
+    });
+    is_there.then_some(evaluator.q)
 }
 
 /// As [`surplus`]; none where the part is larger than a limit.

@@ -68,6 +68,7 @@ fn judged(
         .collect();
     let kept: Vec<u32> = basis.kept.iter().map(|&k| part.rows[k]).collect();
     for t in times_nearby(t, span) {
+        let before = evaluator.q.clone();
         let met = evaluator.assemble(&kept, &part.columns, None, t)?;
         // a singular position is known to half the digits
         let is_singular = || basis_of(&met.jacobian, part.columns.len()).kept.len() < kept.len();
@@ -78,6 +79,10 @@ fn judged(
             continue;
         }
         let limit = if is_singular() { OPEN.sqrt() } else { OPEN };
+        // those that are kept may lead to another branch than all together
+        if kept.len() >= part.columns.len() && all_hold(evaluator, part, &before, t)? {
+            continue;
+        }
         let is_met = holds(limit);
         for dependent in dependents.iter_mut().filter(|dependent| dependent.open.is_none()) {
             let open = evaluator.linear(&[dependent.row as u32], &part.columns, None, t)?.residual[0].abs();
@@ -95,6 +100,17 @@ fn judged(
         add_hidden(evaluator, part, t, &mut dependents);
     }
     Some(dependents)
+}
+
+/// Whether all equations of a part can be met from a position, which then is where they are.
+fn all_hold(evaluator: &mut Evaluator<'_>, part: &Subsystem, from: &[f64], t: f64) -> Option<bool> {
+    let q = std::mem::replace(&mut evaluator.q, from.to_vec());
+    let met = evaluator.assemble(&part.rows, &part.columns, None, t)?;
+    let hold = met.residual.iter().all(|open| open.abs() <= OPEN);
+    if !hold {
+        evaluator.q = q;
+    }
+    Some(hold)
 }
 
 /// Whether an equation can be met along a motion that others leave free, though it changes with it in second order alone; the position goes

@@ -26,16 +26,17 @@ pub struct Shared {
 }
 
 /// The formulas that hold forces which are not determined, in order; `part` holds all rows that depend on each other, of which so many say
-/// nothing new.
+/// nothing new. The motion begins from the estimates, or from where its drivers have led it [m, rad].
 pub fn shared(
     system: &ConstraintSystem,
     part: &Subsystem,
     surplus: usize,
-    horizon: Horizon,
+    (horizon, start): (Horizon, Option<&[f64]>),
     formulas: impl Iterator<Item = ExprId>,
 ) -> Vec<Shared> {
     let graph = system.graph();
-    let is_of_part = |id: &ExprId| multipliers(graph, *id).any(|row| part.rows.binary_search(&row).is_ok());
+    let is_of_part =
+        |id: &ExprId| graph.symbols(*id).iter().filter_map(multiplier).any(|row| part.rows.binary_search(&row).is_ok());
     let mut asked: Vec<ExprId> = formulas.filter(is_of_part).collect();
     asked.sort_unstable();
     asked.dedup();
@@ -44,6 +45,9 @@ pub fn shared(
     }
     let mut open: Vec<Open> = asked.into_iter().map(|formula| Open::new(graph, formula)).collect();
     let mut evaluator = Evaluator::new(system);
+    if let Some(start) = start {
+        evaluator.q.copy_from_slice(start);
+    }
     let places = along_motion(&mut evaluator, part, horizon, |evaluator, linear, t| {
         let basis = basis_of(&linear.jacobian, part.columns.len());
         // a singular position frees what is determined beside it
@@ -73,7 +77,8 @@ struct Open {
 
 /// A part of a formula that is linear in forces.
 struct Form {
-    root: ExprId,
+    /// What it is the sum of, each with its sign.
+    terms: Vec<(ExprId, f64)>,
     rows: Vec<u32>,
     /// Whether it holds derivatives of forces by something else than time, so that each force has to be determined by itself.
     is_varied: bool,
@@ -86,29 +91,49 @@ impl Open {
             if !holds_forces(graph, root) || !seen.insert(root) {
                 continue;
             }
-            if is_linear(graph, root, &mut FxHashSet::default()) {
-                let rows = multipliers(graph, root).collect();
-                let is_varied =
-                    graph.symbols(root).iter().any(|symbol| matches!(symbol, Symbol::VariedMultiplier { .. }));
-                forms.push(Form { root, rows, is_varied });
-            } else {
-                left.extend_from_slice(graph.node(root).children().as_slice());
+            let linear = linear_terms(graph, root, &mut left);
+            if !linear.is_empty() {
+                let terms: Vec<ExprId> = linear.iter().map(|&(term, _)| term).collect();
+                let symbols = graph.symbols_of_all(&terms);
+                let rows = symbols.iter().filter_map(multiplier).collect();
+                let is_varied = symbols.iter().any(|symbol| matches!(symbol, Symbol::VariedMultiplier { .. }));
+                forms.push(Form { terms: linear, rows, is_varied });
             }
         }
         Open { formula, forms, rows: None }
     }
 }
 
+/// The terms of a sum that are linear in forces, each with its sign; what the others are made of is added to what is left to be looked at.
+fn linear_terms(graph: &Graph, sum: ExprId, left: &mut Vec<ExprId>) -> Vec<(ExprId, f64)> {
+    let (mut linear, mut open, mut known) = (Vec::new(), vec![(sum, 1.0)], FxHashSet::default());
+    while let Some((term, sign)) = open.pop() {
+        if !holds_forces(graph, term) {
+            continue;
+        }
+        if is_linear(graph, term, &mut known) {
+            linear.push((term, sign));
+            continue;
+        }
+        match graph.node(term) {
+            Node::Add(a, b) => open.extend([(a, sign), (b, sign)]),
+            Node::Sub(a, b) => open.extend([(a, sign), (b, -sign)]),
+            Node::Neg(a) => open.push((a, -sign)),
+            node => left.extend_from_slice(node.children().as_slice()),
+        }
+    }
+    linear
+}
+
 fn holds_forces(graph: &Graph, id: ExprId) -> bool {
     graph.dependence(id).on(Dependence::FORCES)
 }
 
-fn multipliers(graph: &Graph, id: ExprId) -> impl Iterator<Item = u32> {
-    let of = |symbol: Symbol| match symbol {
+fn multiplier(symbol: &Symbol) -> Option<u32> {
+    match *symbol {
         Symbol::Multiplier(row) | Symbol::VariedMultiplier { row, .. } => Some(row),
         _ => None,
-    };
-    graph.symbols(id).into_iter().filter_map(of)
+    }
 }
 
 /// Whether a formula that holds forces is linear in them; `known` are formulas that are.
@@ -182,12 +207,12 @@ impl Place<'_, '_> {
         if form.rows.iter().all(|&row| weight(row).abs() <= TAKES_PART) {
             return false;
         }
-        let nothing = self.value(form.root, None);
+        let nothing = self.value(form, None);
         // by scaled multipliers
         let slopes: Vec<f64> = form
             .rows
             .iter()
-            .map(|&row| (self.value(form.root, Some(row)) - nothing) / dependency.weights[row as usize])
+            .map(|&row| (self.value(form, Some(row)) - nothing) / dependency.weights[row as usize])
             .collect();
         let largest = slopes.iter().fold(0.0, |largest: f64, slope| largest.max(slope.abs()));
         let change: f64 = form.rows.iter().zip(&slopes).map(|(&row, slope)| weight(row) * slope).sum();
@@ -195,9 +220,13 @@ impl Place<'_, '_> {
     }
 
     /// The value of a form where one multiplier is 1 and the others vanish.
-    fn value(&self, form: ExprId, row: Option<u32>) -> f64 {
+    fn value(&self, form: &Form, row: Option<u32>) -> f64 {
+        form.terms.iter().map(|&(term, sign)| sign * self.value_of_term(term, row)).sum()
+    }
+
+    fn value_of_term(&self, term: ExprId, row: Option<u32>) -> f64 {
         let system = self.evaluator.system;
-        system.graph().value(form, |symbol| match symbol {
+        system.graph().value(term, |symbol| match symbol {
             Symbol::Param(k) => system.params()[k as usize].value,
             Symbol::Time => self.t,
             Symbol::Coordinate { index, order: 0 } => self.evaluator.q[index as usize],
@@ -212,7 +241,7 @@ impl Place<'_, '_> {
 
 /// Goes along the motion from its start on, by least squares, which dead points and change points do not stop, and looks at positions that
 /// are apart; gives how many of them were what is looked for.
-fn along_motion(
+pub(super) fn along_motion(
     evaluator: &mut Evaluator<'_>,
     part: &Subsystem,
     Horizon { from, span }: Horizon,

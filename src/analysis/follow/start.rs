@@ -13,9 +13,9 @@ use crate::ir::{Homotopy, RowUnit};
 use crate::layout::RowLayout;
 use crate::math;
 use crate::program::Program;
-use crate::structure::{self, Determined};
+use crate::structure::Determined;
 use crate::tolerances::assembly::drive::{AS_DRAWN, CLEARLY, MOST_TURNS};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// Assembles a mechanism at the first time of a horizon, from its estimates.
@@ -57,7 +57,7 @@ pub fn start_from(
     let begun =
         begun.map(|begun| Closed { moved: begun.moved_in_loops(), doubt: begun.doubt(), q: begun.q().to_vec() });
     let is_better = |begun: &&Closed| match &closed {
-        None => begun.doubt.is_none() && begun.moved <= AS_DRAWN,
+        None => begun.doubt.is_none() && begun.moved <= AS_DRAWN && !is_round(whole, &residuals),
         Some(closed) if closed.doubt.is_some() => begun.moved < closed.moved,
         Some(closed) => begun.doubt.is_none() && begun.moved < CLEARLY * closed.moved,
     };
@@ -68,7 +68,10 @@ pub fn start_from(
     let free = close_without_drivers(&mut kinematics, t);
     let (q, doubt) = match free.and_then(|(q, residuals)| close_and_drive(whole, &q, &residuals)) {
         Some(closed) => (closed.q, Doubt::DriversLeftOut),
-        None => (begun?.q, Doubt::NotLed),
+        None => match (begun, whole.determined.start()) {
+            (Err(_), Some(q)) => (q.to_vec(), Doubt::NotLed),
+            (begun, _) => (begun?.q, Doubt::NotLed),
+        },
     };
     Ok(whole.assemble_at_with(kinematics, &q, solving)?.with_doubt(Some(doubt)))
 }
@@ -104,16 +107,34 @@ struct Closed {
 }
 
 /// Closes a mechanism with these residuals of rows of `Φ` as it is drawn [m, rad], and leads it to where they vanish; none where it does not
-/// close there, or no way leads on.
+/// close there, or no way leads on. Where one of more than half a turn ends at a dead point, the shortest way is taken, which leaves in doubt
+/// what is turned with it.
 fn close_and_drive(whole: &Unassembled, drawn: &[f64], residuals: &[(usize, f64)]) -> Option<Closed> {
-    let (system, t) = (whole.determined.system(), whole.horizon.from);
-    // further turns are left to the last step of the assembly, which turns what follows without iteration
-    let left = |row: usize, from: f64| {
-        let is_angle = system.rows()[row].unit == RowUnit::ANGLE;
-        let turns = if is_angle { -math::floor(-f64::max(from.abs() / TAU - MOST_TURNS, 0.0)) } else { 0.0 };
-        (TAU * turns).copysign(from)
-    };
-    let lines = residuals.iter().map(|&(row, from)| (row, [from, left(row, from)])).collect();
+    let rows = whole.determined.whole().rows();
+    let turns = |&(row, from): &(usize, f64)| if rows[row].unit == RowUnit::ANGLE { from / TAU } else { 0.0 };
+    let beyond = |turns: f64| (-math::floor(-f64::max(turns.abs() - MOST_TURNS, 0.0))).copysign(turns);
+    close_and_lead(whole, drawn, residuals, |residual| beyond(turns(residual))).or_else(|| {
+        let nearest = |residual: &(usize, f64)| math::floor(turns(residual) + 0.5);
+        let shortest = if is_round(whole, residuals) { close_and_lead(whole, drawn, residuals, nearest) } else { None };
+        shortest.map(|closed| Closed { doubt: Some(Doubt::ShortestWay), ..closed })
+    })
+}
+
+/// Whether a driver begins more than half a turn away from where it is drawn.
+fn is_round(whole: &Unassembled, residuals: &[(usize, f64)]) -> bool {
+    let rows = whole.determined.whole().rows();
+    residuals.iter().any(|&(row, from)| rows[row].unit == RowUnit::ANGLE && from.abs() > PI)
+}
+
+/// The same, to where so many whole turns are left of each residual: the last step of the assembly turns what follows without iteration.
+fn close_and_lead(
+    whole: &Unassembled,
+    drawn: &[f64],
+    residuals: &[(usize, f64)],
+    turns: impl Fn(&(usize, f64)) -> f64,
+) -> Option<Closed> {
+    let t = whole.horizon.from;
+    let lines = residuals.iter().map(|residual| (residual.0, [residual.1, TAU * turns(residual)])).collect();
     let way = along(whole, &Homotopy::Residuals { t, lines }).ok()?;
     let options = LeadOptions::of(&way, t, false);
     let leader = Leader::new(&way.determined, &way.program, Solving::With(None), &options);
@@ -190,8 +211,7 @@ fn follow_back(
 /// # Errors
 /// These equations do not determine it.
 fn along(whole: &Unassembled, homotopy: &Homotopy) -> Result<Unassembled, Box<Diagnostic>> {
-    let determined =
-        structure::prove(whole.determined.system().along(homotopy)).map_err(|refused| refused.diagnostic)?;
+    let determined = whole.determined.along(homotopy).map_err(|refused| refused.diagnostic)?;
     let program = Arc::new(Program::new(determined.system()));
     Ok(Unassembled { determined: Arc::new(determined), program, horizon: WAY, ..whole.clone() })
 }

@@ -12,6 +12,7 @@ use super::failure::{Failure, unusable};
 use super::files::{self, Disk, Output};
 use super::input;
 use super::report::Reporter;
+use super::spared::refuse_links;
 use super::times;
 use crate::analysis::Times;
 use crate::diag::{Diagnostic, Diagnostics};
@@ -237,6 +238,7 @@ impl Drawn<'_> {
         for row in 0..moments.len() {
             spared.refuse(&frames.name(row))?;
         }
+        refuse_links((0..moments.len()).map(|row| frames.name(row).into()))?;
         if let Some(folder) = Path::new(&frames.name(0)).parent().filter(|folder| !folder.as_os_str().is_empty()) {
             files::make_folder(folder).map_err(|error| files::cannot_write(&folder.to_string_lossy(), &error))?;
         }

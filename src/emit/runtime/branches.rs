@@ -11,11 +11,14 @@ use super::work::{Work, of_sides};
 pub fn sides_at<M: Branches>(t: f64, m: &M, work: &mut Work) -> M::Sides {
     work.add(of_sides::<M>());
     match M::END {
-        Some(end) if t <= end && shortly_after(t, SLACK) >= end => {
-            m.sides_of_time(end - 2.0 * (shortly_after(end, SLACK) - end))
-        }
+        Some(end) if is_end::<M>(t) => m.sides_of_time(end - 2.0 * (shortly_after(end, SLACK) - end)),
         _ => m.sides_of_time(shortly_after(t, SLACK)),
     }
+}
+
+/// Whether a time is the end of the file's analysis.
+fn is_end<M: Branches>(t: f64) -> bool {
+    M::END.is_some_and(|end| t <= end && shortly_after(t, SLACK) >= end)
 }
 
 /// The first time of a step at which formulas of time take other branches than at its beginning; its end if they do not.
@@ -45,8 +48,14 @@ pub fn with_time<M: Branches>(sides: &M::Sides, of_time: &M::Sides) -> M::Sides 
     all
 }
 
-/// The branches of formulas of the motion that lie ahead of a position.
+/// The branches of formulas of the motion that lie ahead of a position; at the end of the file's analysis those that lie behind it.
 pub fn sides_ahead<M: Solved>(at: &Solution<M>, m: &M) -> M::Sides {
-    let (q, t) = M::Along::ahead(m, at);
-    m.sides_of_motion(&q, t, &at.sides)
+    let (mut q, t) = M::Along::ahead(m, at);
+    if !is_end::<M>(at.t) {
+        return m.sides_of_motion(&q, t, &at.sides);
+    }
+    for (q, now) in q.as_mut().iter_mut().zip(at.q.as_ref()) {
+        *q = now - (*q - now);
+    }
+    m.sides_of_motion(&q, at.t - (t - at.t), &at.sides)
 }

@@ -4,7 +4,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// The time, a parameter or a formula is not a number.
+    /// The time, an input, a parameter or a formula is not a number.
     NotANumber,
     /// A driver has come to a position beyond which the mechanism cannot follow it: a dead point.
     LockUp,
@@ -23,13 +23,15 @@ pub enum Error {
 impl core::fmt::Display for Error {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str(match self {
-            Error::NotANumber => "the time, a parameter or a formula is not a number",
+            Error::NotANumber => "the time, an input, a parameter or a formula is not a number",
             Error::LockUp => "the mechanism locks up: its driver cannot go on",
             Error::Bifurcation => "two branches of the motion meet",
-            Error::Divergence => "the motion cannot be followed",
-            Error::TooFar => "the time is too far away for so few steps",
+            Error::Divergence => "the mechanism cannot be brought there",
+            Error::TooFar => "it is too far away: for the steps that are allowed, or for one change of an input",
             Error::NotSmooth => "a position or velocity jumps",
-            Error::Inconsistent => "an equation that was left out as redundant does not hold, or is needed",
+            Error::Inconsistent => {
+                "an equation that was left out as redundant does not hold, or is needed where the others are singular"
+            }
         })
     }
 }

@@ -5,7 +5,8 @@ use super::equations::Branches;
 use super::error::{Error, Fault};
 use super::explain::{meeting, of_regular, regular, until_turn};
 use super::limits::{
-    CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_TURN, NEAREST_TURN, POSITION_JUMP, SHORT, SHORTEST_STEP, SINGULAR,
+    CRUMB, FARTHEST_BEND, JUMP, LARGEST_CORRECTION, LARGEST_TURN, NEAR_TURN, NEAREST_TURN, POSITION_JUMP,
+    SHORTEST_STEP, SINGULAR,
 };
 use super::numbers::{Numbers, add_zeros, difference, larger, largest};
 use super::reach::{find, reach, stays_on_branch};
@@ -318,10 +319,10 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
                     if half < smallest || now + half == now {
                         return Some(self.explain(fault, next, steepness, work));
                     }
-                    refused = Some((fault, next, half * length));
+                    refused = Some((fault, next));
                     let turn = self.turn(fault, steepness, work);
                     if turn < size * length {
-                        if turn < NEAREST_TURN {
+                        if turn < NEAREST_TURN && self.at().steepest >= SINGULAR * steepness {
                             return Some(Error::LockUp);
                         }
                         self.track.stride = 0.9 * turn;
@@ -336,14 +337,8 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         if self.model.phi(&at.q, 1.0, &at.sides).as_ref().iter().any(|value| !value.is_finite()) {
             return Some(Error::NotANumber);
         }
-        // so short a step is not refused for its length
         match refused {
-            Some((fault, next, size)) if size < SHORT && self.track.stride < 4.0 * SHORT => {
-                match self.explain(fault, next, steepness, work) {
-                    Error::Divergence => Some(Error::TooFar),
-                    error => Some(error),
-                }
-            }
+            Some((Fault::TooFar, next)) if self.jumps(next, work) => Some(Error::NotSmooth),
             _ => Some(Error::TooFar),
         }
     }
@@ -383,18 +378,29 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
             if fault == Fault::LeftOut {
                 return Error::Inconsistent;
             }
-            // a formula may jump without a branch of its own
-            let mut beyond = *at;
-            let is_there = fault == Fault::TooFar && reach(&E::tears(&at.q), at, t, m, &mut beyond, work).is_ok();
-            return if is_there { Error::NotSmooth } else { Error::Divergence };
+            let jumps = fault == Fault::TooFar && self.jumps(t, work);
+            return if jumps { Error::NotSmooth } else { Error::Divergence };
         }
         meeting::<E>(self.until_turn(work), 1.0 + m.way().length())
+    }
+
+    /// Whether the position jumps on the way to a place, without a branch of a formula: it is found there, but much farther away than the
+    /// slopes on this side lead.
+    fn jumps(&self, t: f64, work: &mut Work) -> bool {
+        let (at, m) = (self.at(), &self.model);
+        let mut beyond = *at;
+        if reach(&E::tears(&at.q), at, t, m, &mut beyond, work).is_err() {
+            return false;
+        }
+        let change = m.way().direction().map(|rate| (t - at.t) * rate);
+        let led = largest(&at.along.along(&change), E::scales());
+        largest(&difference(&beyond.q, &at.q), E::scales()) > larger(POSITION_JUMP, JUMP * led)
     }
 
     /// The change of a signal that is left to a dead point, where a step was refused so near to a singular position that this can be
     /// told; infinite otherwise.
     fn turn(&self, fault: Fault, steepness: f64, work: &mut Work) -> f64 {
-        let is_near = self.at().steepest >= SINGULAR * steepness && matches!(fault, Fault::TooFar | Fault::Singular);
+        let is_near = self.at().steepest >= NEAR_TURN * steepness && matches!(fault, Fault::TooFar | Fault::Singular);
         let left = if is_near { self.until_turn(work) } else { f64::INFINITY };
         if left > 0.0 { left } else { f64::INFINITY }
     }

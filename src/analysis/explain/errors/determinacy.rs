@@ -198,7 +198,13 @@ fn conflicting(system: &ConstraintSystem, group: &[Dependent], one: &Dependent, 
     } else {
         format!("take one of them away, or make `{}` agree with the others", declaration.name)
     };
-    count_data(diagnostic, system, index).help(help).datum("t", t).datum("open", by)
+    let diagnostic = count_data(diagnostic, system, index).help(help).datum("t", t).datum("open", by);
+    match declaration.kind {
+        DeclarationKind::Joint(JointKind::Gear | JointKind::InternalGear | JointKind::RackPinion) => diagnostic.help(
+            "it meshes as the poses in `at` have it: write these as formulas, or with nine digits, so that all fit",
+        ),
+        _ => diagnostic,
+    }
 }
 
 /// What is the matter with declarations that conflict; `is_free` is whether anything can move.
@@ -304,6 +310,17 @@ pub fn ceases_to_hold(system: &ConstraintSystem, index: usize, t: f64) -> Diagno
     Diagnostic::new(Code::E0611, format!("{noun} `{name}`, which was left out, ceases to hold at {}", at(t)))
         .at(declaration.span, "redundant at the start, but not here")
         .help(format!("`{name}` conflicts with the others: take one of them away"))
+        .datum("t", t)
+}
+
+/// An equation that was left out and does not hold where the others are assembled.
+pub fn does_not_hold(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
+    let declaration = &system.declarations()[system.checks()[index].declaration];
+    let (noun, name) = (declaration.kind.noun(), &declaration.name);
+    let message = format!("the mechanism cannot be assembled at {}: {noun} `{name}` does not hold there", at(t));
+    Diagnostic::new(Code::E0601, message)
+        .at(declaration.span, "redundant, and open where all others are closed")
+        .help("draw the bodies nearer to where they are when the motion begins")
         .datum("t", t)
 }
 

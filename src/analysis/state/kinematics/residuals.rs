@@ -19,9 +19,13 @@ impl Kinematics {
 
     /// The equation that was left out and does not hold where the position was set.
     pub fn broken_check(&self) -> Option<usize> {
-        let checks = self.system().checks().iter().zip(&self.program.outputs.checks);
-        let mut open = checks.map(|(check, &register)| self.registers.get(register).abs() / check.scale);
+        let mut open = self.system().checks().iter().enumerate().map(|(k, check)| self.check(k).abs() / check.scale);
         open.position(|open| open.is_nan() || open > LARGEST_OPENING)
+    }
+
+    /// `Φ` of an equation that was left out, by its number among the checks, where the position was set.
+    pub fn check(&self, index: usize) -> f64 {
+        self.registers.get(self.program.outputs.checks[index])
     }
 
     /// A quantity that is watched, against its scale, where the position was set.

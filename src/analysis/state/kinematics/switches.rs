@@ -134,12 +134,11 @@ impl Kinematics {
     pub fn effects(&mut self, signals: &[Signal], q: &[f64], nudge: f64) -> Vec<f64> {
         // what is wrong with the position shows where it is solved for
         let _ = self.set_position(q);
-        let checks = |kinematics: &Self, k: usize| kinematics.registers.get(kinematics.program.outputs.checks[k]);
         let before: Vec<Vec<f64>> = signals
             .iter()
             .map(|signal| {
                 let rows = signal.rows.iter().map(|&row| self.phi(row));
-                rows.chain(signal.checks.iter().map(|&k| checks(self, k))).collect()
+                rows.chain(signal.checks.iter().map(|&k| self.check(k))).collect()
             })
             .collect();
         let values: Vec<f64> = signals.iter().map(|signal| self.registers.get(signal.register)).collect();
@@ -151,7 +150,7 @@ impl Kinematics {
         let effects = signals.iter().zip(&before).zip(&values).map(|((signal, before), value)| {
             let rows = signal.rows.iter().map(|&row| (self.phi(row), self.linear.row_norm(row)));
             let scales = self.system().checks();
-            let all = rows.chain(signal.checks.iter().map(|&k| (checks(self, k), scales[k].scale)));
+            let all = rows.chain(signal.checks.iter().map(|&k| (self.check(k), scales[k].scale)));
             let changes = all.zip(before).map(|((after, scale), before)| (after - before).abs() / scale);
             changes.fold(0.0, f64::max) / step(*value)
         });
