@@ -43,12 +43,26 @@ impl Checker<'_> {
         let Some((measure, unit)) = terms.clone().find_map(|term| self.printed_unit(term, context, LEVELS)) else {
             return;
         };
+        self.warn_of_bare_numbers(terms, measure, &unit);
+    }
+
+    /// The same of the terms of a formula that is printed itself in degrees or the like.
+    pub(super) fn warn_of_numbers_printed(&mut self, formula: &Expr, written: &WrittenUnit) {
+        let ExprKind::Sum(first, rest) = &formula.bare().kind else { return };
+        let terms = std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term));
+        if is_of_degrees(written) && !terms.clone().all(|term| self.is_bare(term, LEVELS)) {
+            let unit = self.sources.text(written.span);
+            self.warn_of_bare_numbers(terms, written.span, unit);
+        }
+    }
+
+    fn warn_of_bare_numbers<'e>(&mut self, terms: impl Iterator<Item = &'e Expr>, printed: Span, unit: &str) {
         for term in terms {
             if self.is_bare(term, LEVELS) && self.common.beside_degrees.insert(term.span) {
                 let root = self.root_of(term).filter(|root| root.is_number);
                 let number = root.map_or(term.span, |root| root.span);
                 let texts = [term.span, number].map(|span| self.sources.text(span));
-                self.report(errors::number_beside_degrees([term.span, number], texts, measure, &unit));
+                self.report(errors::number_beside_degrees([term.span, number], texts, printed, unit));
             }
         }
     }

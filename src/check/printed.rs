@@ -56,6 +56,7 @@ impl Checker<'_> {
             self.report(errors::torque_in_joules(written.name.span, formula.span));
             return None;
         }
+        self.warn_of_numbers_printed(formula, written);
         Some(Units::of(&unit, angle == 1))
     }
 

@@ -383,8 +383,9 @@ impl<'s> Starts<'s> {
         if !determined.system().parts().is_empty() {
             alone.q = self.with_parts((&determined, &program), horizon, &alone.surroundings.settings);
         }
-        let LeadOptions { tolerance, ref cancel, .. } = *self.options;
-        let whole = Unassembled { determined, program, horizon, tolerance, cancel: cancel.clone() };
+        let LeadOptions { tolerance, pass_bifurcations, ref cancel, .. } = *self.options;
+        let cancel = cancel.clone();
+        let whole = Unassembled { determined, program, horizon, tolerance, pass_bifurcations, cancel };
         if let Ok(started) = analysis::start_from(&whole, Some(&alone.q), Solving::With(None)) {
             alone.remarks = started.remarks();
             alone.q = started.q().to_vec();

@@ -153,13 +153,18 @@ impl Compiled {
                 } else {
                     analysis::start_from(&whole, drawn.as_deref(), solving)
                 };
+                // parts that begin elsewhere than they are drawn are no estimates of the text
+                let started = started.map(|started| match drawn {
+                    Some(_) => started.moved_from(&whole.kinematics(None).estimates()),
+                    None => started,
+                });
                 started.map_err(|why| self.with_analysis_proposed(why, horizon)).and_then(|started| {
                     if at.from.total_cmp(&horizon.from).is_eq() {
                         return Ok(started);
                     }
                     let whole = self.unassembled(horizon, options);
                     said.extend(started.far_estimates_at(at.from));
-                    let (started, passed) = analysis::follow_to(&whole, (started, at.from), options.pass_bifurcations)?;
+                    let (started, passed) = analysis::follow_to(&whole, (started, at.from))?;
                     said.extend(passed);
                     Ok(started)
                 })
@@ -186,9 +191,9 @@ impl Compiled {
 
     /// What is to be assembled at the first time of a horizon.
     pub(super) fn unassembled(&self, horizon: Horizon, options: &RunOptions) -> Unassembled {
-        let RunOptions { tolerance, ref cancel, .. } = *options;
+        let RunOptions { tolerance, pass_bifurcations, ref cancel, .. } = *options;
         let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
-        Unassembled { determined, program, horizon, tolerance, cancel: cancel.clone() }
+        Unassembled { determined, program, horizon, tolerance, pass_bifurcations, cancel: cancel.clone() }
     }
 
     /// Where the values of its params lead it, the inputs that it is told, and its parts; with what is to be said of the way.

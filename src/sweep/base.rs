@@ -112,14 +112,15 @@ impl Base {
         let (q, passed) = self.way_to(&variant.system().values_of_params(), horizon.from, cancel)?;
         let is_there = self.goes || horizon.from.total_cmp(&own).is_eq();
         let program = Arc::clone(&self.whole.1);
-        let whole = Unassembled { determined: variant, program, horizon, tolerance, cancel: cancel.clone() };
+        let cancel = cancel.clone();
+        let whole = Unassembled { determined: variant, program, horizon, tolerance, pass_bifurcations, cancel };
         let solving = Solving::With(self.stands.solver.clone());
         if is_there {
             let started = whole.assemble_at(&q, solving).map_err(Lost::There)?;
             return Ok(Arrived { started, passed, said: Diagnostics::default() });
         }
         let begun = Unassembled { horizon: horizon.beginning(own), ..whole.clone() }.assemble_at(&q, solving);
-        let followed = begun.and_then(|begun| analysis::follow_to(&whole, (begun, own), pass_bifurcations));
+        let followed = begun.and_then(|begun| analysis::follow_to(&whole, (begun, own)));
         let (started, said) = followed.map_err(Lost::There)?;
         Ok(Arrived { started, passed, said })
     }

@@ -356,7 +356,7 @@ pub static KEYWORDS: &[Keyword] = &[
         Role::Declaration,
         "measure",
         &["measure NAME = FORMULA", "measure NAME = FORMULA in UNIT"],
-        "a number that is printed for every time, with its first two derivatives",
+        "a number that is printed for every time, with its first two derivatives where it has them",
         "Over kinematic quantities, params, functions, tables, other measures, `t` and `der(…)`. It is printed in SI, or in the unit \
          behind `in`; formulas that use it see SI.",
         Example::Arm("measure height = y(arm.tip) in mm\nmeasure speed  = hypot(der(x(arm.tip)), der(y(arm.tip)))"),

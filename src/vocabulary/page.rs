@@ -158,7 +158,7 @@ fn overview(name: &str) -> Option<String> {
     Some(match name {
         "functions" => {
             let functions: Vec<&Word> = FUNCTIONS.iter().filter(|f| !f.is_motion()).map(|f| &f.word).collect();
-            let intro = "Called with numbers in any formula; `polar`, `mid`, `length` and `direction` are of points; `der` in measures only. Motion functions have a page of their own, \
+            let intro = "Called with numbers in any formula; `polar`, `mid`, `length` and `direction` are of points; `der` in measures, results and loads. Motion functions have a page of their own, \
                          `mechc explain motions`; `fn` declares more.";
             list("Functions", intro, &functions)
         }

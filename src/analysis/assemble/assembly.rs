@@ -143,7 +143,8 @@ pub fn nearest(kinematics: &mut Kinematics, t: f64) -> Option<Vec<f64>> {
     open_loop::opened(&kinematics.determined(), &q, t)
 }
 
-fn moved(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Moved {
+/// How far the bodies of a system are from one position to another.
+pub(super) fn moved(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Moved {
     let mut moved = Moved::default();
     for (k, (a, b)) in from.iter().zip(to).enumerate() {
         let Some(body) = system.body_of(k) else {

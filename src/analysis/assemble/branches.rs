@@ -23,6 +23,8 @@ pub enum Doubt {
     DriversLeftOut,
     /// No way leads through all turns between where the drivers are drawn and where they begin: they were led the shortest way.
     ShortestWay,
+    /// A bifurcation was passed on the way from where the drivers are drawn to where they begin.
+    Passed,
     /// No way leads from the drawn position to where the drivers begin: the equations were closed from the estimates with the drivers there.
     NotLed,
     /// The estimate of a body is far off.

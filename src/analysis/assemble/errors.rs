@@ -31,6 +31,15 @@ pub fn far_estimates(system: &ConstraintSystem, doubt: Doubt, [from, to]: [&[f64
             "the way ends at a singular position: they were turned the shortest way, so that what turns with them may lack whole turns",
             "draw it less than half a turn from where its drivers begin",
         ),
+        Doubt::Passed => (
+            format!(
+                "a bifurcation was passed on the way from the drawn position to where the drivers begin at {}",
+                at(t)
+            ),
+            system.span(),
+            "went on along the branch that continues smoothly",
+            "draw it beyond the bifurcation, with poses in `at`",
+        ),
         Doubt::NotLed => (
             format!("no way leads from the drawn position to where the drivers begin at {}", at(t)),
             system.span(),

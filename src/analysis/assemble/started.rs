@@ -45,6 +45,8 @@ pub struct Unassembled {
     pub horizon: Horizon,
     /// Bounds each row of Φ, scaled.
     pub tolerance: f64,
+    /// Whether bifurcations are passed between where it is drawn and where it begins.
+    pub pass_bifurcations: bool,
     /// Ends it.
     pub cancel: Cancel,
 }
@@ -168,6 +170,13 @@ impl Started {
     /// From now on rows are solved for with these vector instructions, which changes no bit.
     pub fn use_vectors(&mut self, vectors: Vectors) {
         self.kinematics.use_vectors(vectors);
+    }
+
+    /// The same, of which it is told how far it is from these estimates [m, rad].
+    #[must_use]
+    pub fn moved_from(self, estimates: &[f64]) -> Started {
+        let moved = assembly::moved(self.kinematics.system(), estimates, &self.state.q);
+        Started { moved, ..self }
     }
 
     /// How far assembly moved the bodies from their estimates.

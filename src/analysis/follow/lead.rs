@@ -32,8 +32,8 @@ pub struct LeadOptions {
 
 impl LeadOptions {
     /// The options of one that is to be assembled.
-    pub(super) fn of(unassembled: &Unassembled, t: f64, pass_bifurcations: bool) -> LeadOptions {
-        let Unassembled { tolerance, ref cancel, .. } = *unassembled;
+    pub(super) fn of(unassembled: &Unassembled, t: f64) -> LeadOptions {
+        let Unassembled { tolerance, pass_bifurcations, ref cancel, .. } = *unassembled;
         LeadOptions { tolerance, pass_bifurcations, t, cancel: cancel.clone() }
     }
 }
@@ -99,9 +99,9 @@ impl<'l> Leader<'l> {
 
     /// What is led, to be assembled where a horizon begins.
     pub fn whole(&self, horizon: Horizon) -> Unassembled {
-        let LeadOptions { tolerance, ref cancel, .. } = *self.options;
+        let LeadOptions { tolerance, pass_bifurcations, ref cancel, .. } = *self.options;
         let (determined, program) = (Arc::clone(self.determined), Arc::clone(self.program));
-        Unassembled { determined, program, horizon, tolerance, cancel: cancel.clone() }
+        Unassembled { determined, program, horizon, tolerance, pass_bifurcations, cancel: cancel.clone() }
     }
 
     /// Follows it from a start at 0 to some parts of the way.

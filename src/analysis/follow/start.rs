@@ -29,7 +29,8 @@ pub fn start(
     tolerance: f64,
     cancel: &Cancel,
 ) -> Result<Started, Box<Diagnostic>> {
-    let whole = Unassembled { determined, program, horizon, tolerance, cancel: cancel.clone() };
+    let cancel = cancel.clone();
+    let whole = Unassembled { determined, program, horizon, tolerance, pass_bifurcations: false, cancel };
     start_from(&whole, None, Solving::New)
 }
 
@@ -136,15 +137,16 @@ fn close_and_lead(
     let t = whole.horizon.from;
     let lines = residuals.iter().map(|residual| (residual.0, [residual.1, TAU * turns(residual)])).collect();
     let way = along(whole, &Homotopy::Residuals { t, lines }).ok()?;
-    let options = LeadOptions::of(&way, t, false);
+    let options = LeadOptions::of(&way, t);
     let leader = Leader::new(&way.determined, &way.program, Solving::With(None), &options);
     let closed = way.close(Some(drawn), Solving::With(None)).ok()?;
     let (doubt, moved) = (closed.doubt(), closed.moved_in_loops());
     if doubt == Some(Doubt::Perturbed) {
         return None;
     }
-    let q = leader.lead(closed, &[1.0]).reached.pop()?;
-    Some(Closed { q, moved, doubt })
+    let mut way = leader.lead(closed, &[1.0]);
+    let passed = if way.passed.is_empty() { None } else { Some(Doubt::Passed) };
+    Some(Closed { q: way.reached.pop()?, moved, doubt: doubt.or(passed) })
 }
 
 /// Follows a mechanism from its start at a time (s) to the first time of its horizon, later or earlier; with the bifurcations that were
@@ -155,16 +157,15 @@ fn close_and_lead(
 pub fn follow_to(
     whole: &Unassembled,
     (started, own): (Started, f64),
-    pass_bifurcations: bool,
 ) -> Result<(Started, Diagnostics), Box<Diagnostic>> {
     let to = whole.horizon.from;
     let solver = started.shared_solver();
     let (q, passed) = if to < own {
-        follow_back(whole, &started, own, pass_bifurcations)?
+        follow_back(whole, &started, own)?
     } else {
         let layout = RowLayout::new(started.system());
         let mut motion = started.into_motion(&Times::listed(own, vec![to]));
-        if pass_bifurcations {
+        if whole.pass_bifurcations {
             motion.pass_bifurcations();
         }
         let q = match motion.next_row() {
@@ -184,11 +185,10 @@ fn follow_back(
     whole: &Unassembled,
     started: &Started,
     own: f64,
-    pass_bifurcations: bool,
 ) -> Result<(Vec<f64>, Vec<Diagnostic>), Box<Diagnostic>> {
     let to = whole.horizon.from;
     let back = along(whole, &Homotopy::Time([own, to]))?;
-    let options = LeadOptions::of(&back, own, pass_bifurcations);
+    let options = LeadOptions::of(&back, own);
     let leader = Leader::new(&back.determined, &back.program, Solving::With(None), &options);
     let mut way = leader.lead(back.assemble_at(started.q(), Solving::With(None))?, &[1.0]);
     // its words and numbers speak of the part of the way that is gone

@@ -140,7 +140,7 @@ pub fn number_as_condition(span: Span) -> Diagnostic {
 pub fn derivative_in(place: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0310, format!("`der` may not stand in {place}"))
         .at(span, "a time derivative along the motion")
-        .help("`der` stands in measures only; a driver prescribes a speed by its formula: `rotation(joint) = 2 rad/s * t`")
+        .help("`der` stands in measures, results and loads; a driver prescribes a speed by its formula: `rotation(joint) = 2 rad/s * t`")
 }
 
 pub fn derivative_by_in(place: &str, span: Span) -> Diagnostic {

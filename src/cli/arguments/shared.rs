@@ -85,7 +85,7 @@ pub(in crate::cli) struct Interval {
 #[derive(Args, Clone, Debug)]
 pub(in crate::cli) struct Following {
     /// Bounds the residual of every equation, relative to the mechanism's size
-    #[arg(long, value_name = "X", default_value = "1e-12", value_parser = positive)]
+    #[arg(long, value_name = "X", default_value = "1e-12", value_parser = tolerance)]
     pub tolerance: f64,
 
     /// Leave redundant equations out, and check them at every time
@@ -104,6 +104,14 @@ pub(super) fn jobs(text: &str) -> Result<usize, String> {
     match text.parse::<usize>() {
         Ok(jobs) if (1..=MOST_JOBS).contains(&jobs) => Ok(jobs),
         _ => Err(format!("a whole number from 1 to {MOST_JOBS} is wanted")),
+    }
+}
+
+/// What equations can be held to: numbers have no more digits.
+fn tolerance(text: &str) -> Result<f64, String> {
+    match positive(text)? {
+        value if value >= 1e-15 => Ok(value),
+        _ => Err("no equation can be held to less than 1e-15 in numbers of sixteen digits".to_owned()),
     }
 }
 

@@ -199,12 +199,7 @@ fn conflicting(system: &ConstraintSystem, group: &[Dependent], one: &Dependent, 
         format!("take one of them away, or make `{}` agree with the others", declaration.name)
     };
     let diagnostic = count_data(diagnostic, system, index).help(help).datum("t", t).datum("open", by);
-    match declaration.kind {
-        DeclarationKind::Joint(JointKind::Gear | JointKind::InternalGear | JointKind::RackPinion) => diagnostic.help(
-            "it meshes as the poses in `at` have it: write these as formulas, or with nine digits, so that all fit",
-        ),
-        _ => diagnostic,
-    }
+    if meshes(declaration.kind) { diagnostic.help(MESHES_AS_DRAWN) } else { diagnostic }
 }
 
 /// What is the matter with declarations that conflict; `is_free` is whether anything can move.
@@ -313,6 +308,17 @@ pub fn ceases_to_hold(system: &ConstraintSystem, index: usize, t: f64) -> Diagno
         .datum("t", t)
 }
 
+/// What it takes for all equations to close.
+const NEARER_TO_THE_START: &str = "draw the bodies nearer to where they are when the motion begins";
+/// What it takes for gears that are redundant to fit.
+const MESHES_AS_DRAWN: &str =
+    "it meshes as the poses in `at` have it: write these as formulas, or with twelve digits, so that all fit";
+
+fn meshes(kind: DeclarationKind) -> bool {
+    use JointKind::{Gear, InternalGear, RackPinion};
+    matches!(kind, DeclarationKind::Joint(Gear | InternalGear | RackPinion))
+}
+
 /// An equation that was left out and does not hold where the others are assembled.
 pub fn does_not_hold(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
     let declaration = &system.declarations()[system.checks()[index].declaration];
@@ -320,7 +326,7 @@ pub fn does_not_hold(system: &ConstraintSystem, index: usize, t: f64) -> Diagnos
     let message = format!("the mechanism cannot be assembled at {}: {noun} `{name}` does not hold there", at(t));
     Diagnostic::new(Code::E0601, message)
         .at(declaration.span, "redundant, and open where all others are closed")
-        .help("draw the bodies nearer to where they are when the motion begins")
+        .help(if meshes(declaration.kind) { MESHES_AS_DRAWN } else { NEARER_TO_THE_START })
         .datum("t", t)
 }
 
