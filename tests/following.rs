@@ -537,6 +537,51 @@ fn no_call_does_more_work_than_it_says_and_none_that_is_refused_leaves_a_trace()
 }
 
 #[test]
+fn however_few_the_steps_are_a_dead_point_is_told_as_one_and_what_lies_before_it_is_reached() {
+    // a piston that leads its crank: dead points at 100 and 200 mm
+    let text = "mechanism machine {
+    ground { point O = (0, 0)  axis way = (0, 0) along (1, 0) }
+    body crank at (0, 0, 30 deg) { point O = (0, 0)  point P = (50 mm, 0) }
+    body rod at (45 mm, 25 mm, -10 deg) { point P = (0, 0)  point W = (150 mm, 0) }
+    body piston at (190 mm, 0, 0) { point W = (0, 0)  axis s = (0, 0) along (1, 0) }
+    joint a: revolute(ground.O, crank.O)  joint b: revolute(crank.P, rod.P)
+    joint c: revolute(rod.W, piston.W)    joint g: translational(ground.way, piston.s)
+    input place = 150 mm + 20 mm/s * t
+    driver d: displacement(g) = place
+    analysis from 0 s to 1 s every 0.5 s
+}";
+    let lines = printed(
+        &emitted(text).text(None),
+        r#"
+fn main() {
+    let home = assemble(&Params::default()).unwrap();
+    let to = |value: f64| Inputs { place: Signal { value, rate: 0.0, acceleration: 0.0 } };
+    for most in [1, 2, 3, 4, 5, 7, 10, 20, 64] {
+        for (wanted, is_there) in [(0.19, true), (0.1999, true), (0.199999, true), (0.2001, false), (0.201, false), (0.25, false)] {
+            let mut state = home.clone();
+            let end = loop {
+                match follow_within(&to(wanted), &mut state, most) {
+                    Ok(progress) if progress.is_reached() => break Ok(()),
+                    Ok(_) => {}
+                    Err(error) => break Err(error),
+                }
+            };
+            assert_eq!(end, if is_there { Ok(()) } else { Err(Error::LockUp) }, "{wanted} by {most}");
+            // the law of cosines
+            let place = state.inputs().place.value;
+            let angle = ((0.05 * 0.05 + place * place - 0.15 * 0.15) / (2.0 * 0.05 * place)).acos();
+            let found = state.pose(Body::Crank).phi;
+            assert!((found - angle).abs() < 1e-7, "{wanted} by {most}: {found} for {angle}");
+        }
+    }
+    println!("1");
+}
+"#,
+    );
+    assert_eq!(lines, ["1"]);
+}
+
+#[test]
 fn inputs_whose_names_meet_that_of_time_give_way() {
     let text = "mechanism machine {
     input T   = 3 * t / 1 s

@@ -110,7 +110,8 @@ fn determined() -> Vec<Module> {
         let make = move |name| Emitted::new(name, &path, 0).expect("determined");
         Module::new(format!("{case}_as_numbers"), make)
     }));
-    let texts = texts::with_rims().into_iter().chain([("lift".to_owned(), texts::scissor_lift(50))]);
+    let alone = [("lift", texts::scissor_lift(50)), ("ends_at_an_edge", texts::ends_at_an_edge())];
+    let texts = texts::with_rims().into_iter().chain(alone.map(|(name, text)| (name.to_owned(), text)));
     list.extend(texts.map(|(name, text)| {
         Module::new(name, move |name| Emitted::of(name, &text, Path::new("text"), 0).expect("determined"))
     }));

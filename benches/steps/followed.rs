@@ -2179,7 +2179,7 @@ pub mod error {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// The time, a parameter or a formula is not a number.
+    /// The time, an input, a parameter or a formula is not a number.
     NotANumber,
     /// A driver has come to a position beyond which the mechanism cannot follow it: a dead point.
     LockUp,
@@ -2198,13 +2198,15 @@ pub enum Error {
 impl core::fmt::Display for Error {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str(match self {
-            Error::NotANumber => "the time, a parameter or a formula is not a number",
+            Error::NotANumber => "the time, an input, a parameter or a formula is not a number",
             Error::LockUp => "the mechanism locks up: its driver cannot go on",
             Error::Bifurcation => "two branches of the motion meet",
-            Error::Divergence => "the motion cannot be followed",
-            Error::TooFar => "the time is too far away for so few steps",
+            Error::Divergence => "the mechanism cannot be brought there",
+            Error::TooFar => "it is too far away: for the steps that are allowed, or for one change of an input",
             Error::NotSmooth => "a position or velocity jumps",
-            Error::Inconsistent => "an equation that was left out as redundant does not hold, or is needed",
+            Error::Inconsistent => {
+                "an equation that was left out as redundant does not hold, or is needed where the others are singular"
+            }
         })
     }
 }
@@ -2402,7 +2404,7 @@ impl Work {
 /// How far a call has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// The part of the way that is done: 1 at its end, and only there; 0 if the state has not moved yet.
+    /// The part of the way that is done: 1 at its end, and only there; 0 if the state has not moved along it yet.
     pub fraction: f64,
 }
 
@@ -2915,11 +2917,14 @@ use super::work::{Work, of_sides};
 pub fn sides_at<M: Branches>(t: f64, m: &M, work: &mut Work) -> M::Sides {
     work.add(of_sides::<M>());
     match M::END {
-        Some(end) if t <= end && shortly_after(t, SLACK) >= end => {
-            m.sides_of_time(end - 2.0 * (shortly_after(end, SLACK) - end))
-        }
+        Some(end) if is_end::<M>(t) => m.sides_of_time(end - 2.0 * (shortly_after(end, SLACK) - end)),
         _ => m.sides_of_time(shortly_after(t, SLACK)),
     }
+}
+
+/// Whether a time is the end of the file's analysis.
+fn is_end<M: Branches>(t: f64) -> bool {
+    M::END.is_some_and(|end| t <= end && shortly_after(t, SLACK) >= end)
 }
 
 /// The first time of a step at which formulas of time take other branches than at its beginning; its end if they do not.
@@ -2949,10 +2954,16 @@ pub fn with_time<M: Branches>(sides: &M::Sides, of_time: &M::Sides) -> M::Sides 
     all
 }
 
-/// The branches of formulas of the motion that lie ahead of a position.
+/// The branches of formulas of the motion that lie ahead of a position; at the end of the file's analysis those that lie behind it.
 pub fn sides_ahead<M: Solved>(at: &Solution<M>, m: &M) -> M::Sides {
-    let (q, t) = M::Along::ahead(m, at);
-    m.sides_of_motion(&q, t, &at.sides)
+    let (mut q, t) = M::Along::ahead(m, at);
+    if !is_end::<M>(at.t) {
+        return m.sides_of_motion(&q, t, &at.sides);
+    }
+    for (q, now) in q.as_mut().iter_mut().zip(at.q.as_ref()) {
+        *q = now - (*q - now);
+    }
+    m.sides_of_motion(&q, at.t - (t - at.t), &at.sides)
 }
 }
 
@@ -4339,7 +4350,8 @@ use super::equations::Branches;
 use super::error::{Error, Fault};
 use super::explain::{meeting, of_regular, regular, until_turn};
 use super::limits::{
-    CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_TURN, NEAREST_TURN, POSITION_JUMP, SHORT, SHORTEST_STEP, SINGULAR,
+    CRUMB, FARTHEST_BEND, JUMP, LARGEST_CORRECTION, LARGEST_TURN, NEAR_TURN, NEAREST_TURN, POSITION_JUMP,
+    SHORTEST_STEP, SINGULAR,
 };
 use super::numbers::{Numbers, add_zeros, difference, larger, largest};
 use super::reach::{find, reach, stays_on_branch};
@@ -4652,10 +4664,10 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
                     if half < smallest || now + half == now {
                         return Some(self.explain(fault, next, steepness, work));
                     }
-                    refused = Some((fault, next, half * length));
+                    refused = Some((fault, next));
                     let turn = self.turn(fault, steepness, work);
                     if turn < size * length {
-                        if turn < NEAREST_TURN {
+                        if turn < NEAREST_TURN && self.at().steepest >= SINGULAR * steepness {
                             return Some(Error::LockUp);
                         }
                         self.track.stride = 0.9 * turn;
@@ -4670,14 +4682,8 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         if self.model.phi(&at.q, 1.0, &at.sides).as_ref().iter().any(|value| !value.is_finite()) {
             return Some(Error::NotANumber);
         }
-        // so short a step is not refused for its length
         match refused {
-            Some((fault, next, size)) if size < SHORT && self.track.stride < 4.0 * SHORT => {
-                match self.explain(fault, next, steepness, work) {
-                    Error::Divergence => Some(Error::TooFar),
-                    error => Some(error),
-                }
-            }
+            Some((Fault::TooFar, next)) if self.jumps(next, work) => Some(Error::NotSmooth),
             _ => Some(Error::TooFar),
         }
     }
@@ -4717,18 +4723,29 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
             if fault == Fault::LeftOut {
                 return Error::Inconsistent;
             }
-            // a formula may jump without a branch of its own
-            let mut beyond = *at;
-            let is_there = fault == Fault::TooFar && reach(&E::tears(&at.q), at, t, m, &mut beyond, work).is_ok();
-            return if is_there { Error::NotSmooth } else { Error::Divergence };
+            let jumps = fault == Fault::TooFar && self.jumps(t, work);
+            return if jumps { Error::NotSmooth } else { Error::Divergence };
         }
         meeting::<E>(self.until_turn(work), 1.0 + m.way().length())
+    }
+
+    /// Whether the position jumps on the way to a place, without a branch of a formula: it is found there, but much farther away than the
+    /// slopes on this side lead.
+    fn jumps(&self, t: f64, work: &mut Work) -> bool {
+        let (at, m) = (self.at(), &self.model);
+        let mut beyond = *at;
+        if reach(&E::tears(&at.q), at, t, m, &mut beyond, work).is_err() {
+            return false;
+        }
+        let change = m.way().direction().map(|rate| (t - at.t) * rate);
+        let led = largest(&at.along.along(&change), E::scales());
+        largest(&difference(&beyond.q, &at.q), E::scales()) > larger(POSITION_JUMP, JUMP * led)
     }
 
     /// The change of a signal that is left to a dead point, where a step was refused so near to a singular position that this can be
     /// told; infinite otherwise.
     fn turn(&self, fault: Fault, steepness: f64, work: &mut Work) -> f64 {
-        let is_near = self.at().steepest >= SINGULAR * steepness && matches!(fault, Fault::TooFar | Fault::Singular);
+        let is_near = self.at().steepest >= NEAR_TURN * steepness && matches!(fault, Fault::TooFar | Fault::Singular);
         let left = if is_near { self.until_turn(work) } else { f64::INFINITY };
         if left > 0.0 { left } else { f64::INFINITY }
     }
@@ -4996,6 +5013,8 @@ pub const FARTHEST_BEND: f64 = 4.0;
 pub const FIRST_PARTS: usize = 4;
 /// Iterations of Newton at most.
 pub const ITERATIONS: usize = 8;
+/// A position jumps that is so many times farther away than slopes lead.
+pub const JUMP: f64 = 100.0;
 /// Newton's first correction at most, beside the size of a body or 1 rad.
 pub const LARGEST_CORRECTION: f64 = 0.05;
 /// How far velocities may lead elsewhere than positions, likewise: more is another branch.
@@ -5028,12 +5047,12 @@ pub const NEAR: f64 = 0.02;
 pub const NEAREST_TURN: f64 = 1e-6;
 /// A dead point is no further off than this part of the span.
 pub const NEAR_FOLD: f64 = 1e-5;
+/// Where a step is refused, this is steep enough for a dead point to be looked for.
+pub const NEAR_TURN: f64 = 10.0;
 /// A position that changes by more than this at an edge jumps, scaled.
 pub const POSITION_JUMP: f64 = 1e-9;
 /// A speed below this part of one per span is rest, scaled.
 pub const REST: f64 = 0.001;
-/// A step that is shorter than this, by a signal's change, is not refused for its length.
-pub const SHORT: f64 = 0.0001;
 /// The shortest step, as a part of the way of signals; of a long one, as a change of a signal.
 pub const SHORTEST_STEP: f64 = 1e-12;
 /// Where steps become too small, this is steep enough for a singular position to be the reason.

@@ -1,6 +1,6 @@
 //! Reading the input, and writing results whole or not at all.
 
-use super::failure::{Failure, unusable};
+use super::failure::Failure;
 use super::interrupts;
 use super::spared::{STANDARD_INPUT, Spared, behind_links, refuse_links};
 use crate::diag::{Code, Diagnostic};

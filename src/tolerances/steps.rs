@@ -3,9 +3,9 @@
 /// Which equations are solved (`analysis/follow/choice.rs`).
 pub mod choice {
     /// No step ends where a row has a larger weight than this in one that is left out, both scaled: digits are lost by no more than that.
-    pub const LARGEST_WEIGHT: f64 = 2.0;
+    pub const LARGEST_WEIGHT: f64 = 10.0;
     /// There, and at a start, rows that have a larger weight than this are left out instead.
-    pub const HEAVY: f64 = 1.2;
+    pub const HEAVY: f64 = 5.0;
     /// Rows are exchanged so many times at most at one place.
     pub const MOST_EXCHANGES: usize = 100;
 }

@@ -1338,7 +1338,7 @@ pub mod error {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// The time, a parameter or a formula is not a number.
+    /// The time, an input, a parameter or a formula is not a number.
     NotANumber,
     /// A driver has come to a position beyond which the mechanism cannot follow it: a dead point.
     LockUp,
@@ -1357,13 +1357,15 @@ pub enum Error {
 impl core::fmt::Display for Error {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str(match self {
-            Error::NotANumber => "the time, a parameter or a formula is not a number",
+            Error::NotANumber => "the time, an input, a parameter or a formula is not a number",
             Error::LockUp => "the mechanism locks up: its driver cannot go on",
             Error::Bifurcation => "two branches of the motion meet",
-            Error::Divergence => "the motion cannot be followed",
-            Error::TooFar => "the time is too far away for so few steps",
+            Error::Divergence => "the mechanism cannot be brought there",
+            Error::TooFar => "it is too far away: for the steps that are allowed, or for one change of an input",
             Error::NotSmooth => "a position or velocity jumps",
-            Error::Inconsistent => "an equation that was left out as redundant does not hold, or is needed",
+            Error::Inconsistent => {
+                "an equation that was left out as redundant does not hold, or is needed where the others are singular"
+            }
         })
     }
 }
@@ -1561,7 +1563,7 @@ impl Work {
 /// How far a call has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// The part of the way that is done: 1 at its end, and only there; 0 if the state has not moved yet.
+    /// The part of the way that is done: 1 at its end, and only there; 0 if the state has not moved along it yet.
     pub fraction: f64,
 }
 
@@ -2074,11 +2076,14 @@ use super::work::{Work, of_sides};
 pub fn sides_at<M: Branches>(t: f64, m: &M, work: &mut Work) -> M::Sides {
     work.add(of_sides::<M>());
     match M::END {
-        Some(end) if t <= end && shortly_after(t, SLACK) >= end => {
-            m.sides_of_time(end - 2.0 * (shortly_after(end, SLACK) - end))
-        }
+        Some(end) if is_end::<M>(t) => m.sides_of_time(end - 2.0 * (shortly_after(end, SLACK) - end)),
         _ => m.sides_of_time(shortly_after(t, SLACK)),
     }
+}
+
+/// Whether a time is the end of the file's analysis.
+fn is_end<M: Branches>(t: f64) -> bool {
+    M::END.is_some_and(|end| t <= end && shortly_after(t, SLACK) >= end)
 }
 
 /// The first time of a step at which formulas of time take other branches than at its beginning; its end if they do not.
@@ -2108,10 +2113,16 @@ pub fn with_time<M: Branches>(sides: &M::Sides, of_time: &M::Sides) -> M::Sides 
     all
 }
 
-/// The branches of formulas of the motion that lie ahead of a position.
+/// The branches of formulas of the motion that lie ahead of a position; at the end of the file's analysis those that lie behind it.
 pub fn sides_ahead<M: Solved>(at: &Solution<M>, m: &M) -> M::Sides {
-    let (q, t) = M::Along::ahead(m, at);
-    m.sides_of_motion(&q, t, &at.sides)
+    let (mut q, t) = M::Along::ahead(m, at);
+    if !is_end::<M>(at.t) {
+        return m.sides_of_motion(&q, t, &at.sides);
+    }
+    for (q, now) in q.as_mut().iter_mut().zip(at.q.as_ref()) {
+        *q = now - (*q - now);
+    }
+    m.sides_of_motion(&q, at.t - (t - at.t), &at.sides)
 }
 }
 

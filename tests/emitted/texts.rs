@@ -51,6 +51,24 @@ pub fn with_rims() -> Vec<(String, String)> {
     all.collect()
 }
 
+/// A cam whose curve begins a new part just where the analysis ends: the last row is one of the part before it.
+pub fn ends_at_an_edge() -> String {
+    let lift = "40 mm + harmonic(mod(-u, 360 deg), 90 deg, 0 mm, 180 deg, 20 mm) \
+                - harmonic(mod(-u, 360 deg), 270 deg, 0 mm, 360 deg, 20 mm)";
+    format!(
+        "mechanism ends_at_an_edge {{
+    ground {{ point O = (0, 0)  axis way = O along (0, 1) }}
+    body cam {{ point O = (0, 0)  curve pitch(u) = (({lift}) * -sin(u), ({lift}) * cos(u)) at 0 deg }}
+    body rod at (0, 40 mm, 0) {{ point c = (0, 0)  axis way = c along (0, 1) }}
+    joint axle: revolute(ground.O, cam.O)
+    joint guide: translational(ground.way, rod.way)
+    joint touch: point_follower(rod.c, cam.pitch)
+    driver motor: rotation(axle) = 1 rev/s * t
+    analysis from 0 s to 1 s every 0.05 s
+}}"
+    )
+}
+
 /// A planetary gear with so many planets, of which one would do.
 pub fn planets(count: usize, random: &[f64]) -> String {
     let (sun, planet, turn) = (24.0 + 8.0 * random[0], 18.0 + 6.0 * random[1], 40.0 * random[2]);

@@ -22,7 +22,7 @@ impl Work {
 /// How far a call has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// The part of the way that is done: 1 at its end, and only there; 0 if the state has not moved yet.
+    /// The part of the way that is done: 1 at its end, and only there; 0 if the state has not moved along it yet.
     pub fraction: f64,
 }
 

@@ -54,7 +54,7 @@ impl Writer<'_> {
             if of_motion {
                 page.line("const OF_MOTION: bool = true;");
             }
-            if let Some(to) = solution.motion.to.filter(|_| of_time && !self.equations.is_led) {
+            if let Some(to) = solution.motion.to.filter(|_| !self.equations.is_led) {
                 page.line(&format!("const END: Option<f64> = Some({});", literal(to)));
             }
             page.blank();

@@ -127,7 +127,7 @@ fn declarations_come_where_they_can_begin() {
     2 constraint — an equation between kinematic quantities that always holds → constraint «NAME»: «FORMULA» = «FORMULA»
     2 gravity — the acceleration of free fall, in the outermost frame → gravity («gx», «gy»)
     2 load — a force or torque of which a formula is known: a spring, a damper, a weight, a pressure → load «NAME»: «FORMULA» on «QUANTITY»
-    2 measure — a number that is printed for every time, with its first two derivatives → measure «NAME» = «FORMULA»
+    2 measure — a number that is printed for every time, with its first two derivatives where it has them → measure «NAME» = «FORMULA»
     2 trace — the path of a point: the columns `NAME.x` and `NAME.y`, with their first two derivatives → trace «NAME» = «P»
     2 result — one number for the whole analysis → result «NAME» = «FORMULA»
     2 input — a signal that comes from outside, as from an encoder → input «NAME» = «FORMULA»

@@ -91,10 +91,12 @@ pub fn lock_up(
 }
 
 pub fn bifurcation(system: &ConstraintSystem, joints: &[DeclarationId], columns: &[usize], t: f64) -> Diagnostic {
-    let diagnostic = Diagnostic::new(
-        Code::E0603,
-        format!("two branches of the motion meet at {}, and nothing decides between them", at(t)),
-    );
+    let message = if system.checks().is_empty() {
+        format!("two branches of the motion meet at {}, and nothing decides between them", at(t))
+    } else {
+        format!("branches of the motion meet at {}: in first order nothing decides, not even what was left out", at(t))
+    };
+    let diagnostic = Diagnostic::new(Code::E0603, message);
     let diagnostic = with_places(diagnostic, system, joints, ["this leaves it open", "these leave it open"])
         .note(owners(system, columns, "could go either way"));
     diagnostic

@@ -340,6 +340,9 @@ impl Follower {
 
     /// What there is to do where a step of length `h` on the way to `target` was refused.
     fn give_way(&mut self, h: f64, fault: Fault, target: f64) -> Result<(), Box<Diagnostic>> {
+        if fault == Fault::Choice && self.choose_equations() {
+            return Ok(());
+        }
         let Follower { kinematics, step, edges, remarks, .. } = self;
         match fault {
             Fault::Edge { t, switch } if edges.rests(kinematics, step, switch) => {
@@ -351,7 +354,7 @@ impl Follower {
             Fault::Rim => return edges.cross_rim(kinematics, step, remarks),
             _ => {}
         }
-        if !step.halve(h) || fault == Fault::Choice && self.choose_equations() {
+        if !step.halve(h) {
             return Ok(());
         }
         let Follower { kinematics, step, edges, crossing, remarks, .. } = self;
