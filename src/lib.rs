@@ -83,9 +83,9 @@ pub use live::page::{picture, written as page};
 pub use output::{TableFormat, TableWriter};
 pub use source::{Encoding, FileId, Source, Sources, Span};
 pub use stages::{
-    Adjustable, Adjusting, Affected, AskedPlace, AskedTimes, Assembly, Checked, Choice, Closely, Compiled, Deviation,
-    Formula, InputMotion, Parsed, Redundant, Run, RunOptions, RustOptions, Seen, Settable, Shown, Sweep, SweepOptions,
-    SweptColumn, Tolerance, Tolerancing, Variants, VaryOptions, Vectors, Verified, imported, seconds,
+    Adjustable, Adjusting, Affected, AskedPlace, AskedTimes, Assembly, Checked, Choice, Compiled, CurveTolerance,
+    Deviation, Formula, InputMotion, Parsed, Redundant, Run, RunOptions, RustOptions, Seen, Settable, Shown, Sweep,
+    SweepOptions, SweptColumn, Tolerance, Tolerancing, Variants, VaryOptions, Vectors, Verified, imported, seconds,
 };
 pub use sweep::{Levels, Method, Numbers, Points, Sampling, Status, Swept, Varying};
 pub use syntax::{Comment, Trivia};

@@ -17,7 +17,8 @@ use mechc::rooms::view::svg::{Options, Plot, Theme, animated, has_vectors, plots
 use mechc::rooms::view::{dxf, first_sentence};
 use mechc::rooms::{check, lower, syntax};
 use mechc::{
-    Cancel, Checked, Choice, Closely, Code, Compiled, Diagnostic, Parsed, Redundant, RunOptions, Seen, Sources, Times,
+    Cancel, Checked, Choice, Code, Compiled, CurveTolerance, Diagnostic, Diagnostics, Parsed, Redundant, RunOptions,
+    Seen, Sources, Times,
 };
 use std::fs;
 use std::path::Path;
@@ -41,20 +42,27 @@ fn seen_as(path: &Path, text: &str, times: Option<Times>) -> Seen {
     seen.unwrap_or_else(|| panic!("{}: {said:?}", path.display()))
 }
 
-/// With the motion as closely as it is wanted for what is seen.
-fn seen_closely(path: &Path, text: &str, wanted: impl Fn(&Seen) -> Closely) -> Seen {
+/// A motion that is refined until its curves are within a tolerance; with what is said of those that end early.
+fn refined(path: &Path, text: &str, tolerance: impl Fn(&Seen) -> CurveTolerance) -> (Seen, Diagnostics) {
     let (checked, compiled) = compiled(path, text);
     let (times, options) = (compiled.times().expect("an analysis"), RunOptions::default());
     let (seen, said) = checked.seen(&compiled, &times, &options, 2000);
     let mut seen = seen.unwrap_or_else(|| panic!("{}: {said:?}", path.display()));
-    let wanted = wanted(&seen);
-    checked.look_closely(&compiled, &times, &options, &mut seen, &wanted);
+    let tolerance = tolerance(&seen);
+    let said = checked.refine_motion(&compiled, &times, &options, &mut seen, &tolerance);
+    (seen, said)
+}
+
+/// A motion that is refined, all of whose curves are drawn to their ends.
+fn seen_within(path: &Path, text: &str, tolerance: impl Fn(&Seen) -> CurveTolerance) -> Seen {
+    let (seen, said) = refined(path, text, tolerance);
+    assert!(said.is_empty(), "{}: {said:?}", path.display());
     seen
 }
 
 /// A text as it is cut at its own size.
 fn seen_to_cut(text: &str) -> Seen {
-    seen_closely(Path::new("test.mech"), text, |_| Closely::to_cut(1.0, Vec::new()))
+    seen_within(Path::new("test.mech"), text, |_| CurveTolerance::to_cut(1.0, Vec::new()))
 }
 
 fn seen_text(text: &str) -> Seen {
@@ -986,8 +994,8 @@ fn gallery() -> Vec<(String, String)> {
             Some(Anchor { frame: point.frame, at: point.at })
         };
         let text = fs::read_to_string(&path).expect("an example");
-        let seen = seen_closely(&path, &text, |seen| {
-            Closely::of_picture(seen, anchor(seen).map(Pen::Point).into_iter().collect())
+        let seen = seen_within(&path, &text, |seen| {
+            CurveTolerance::of_picture(seen, anchor(seen).map(Pen::Point).into_iter().collect())
         });
         let anchored = anchor(&seen).zip(traced).map(|(anchor, path)| (path.to_owned(), anchor));
         let options = Options { traces: anchored.into_iter().collect(), ..Options::default() };

@@ -151,6 +151,7 @@ catalogue! {
         E0706 Error "a value of the command line that cannot be used"
         E0707 Error "a model file that cannot be translated"
         E0708 Error "a bound param or input that is told from outside"
+        W0701 Warning "a curve that is drawn in part"
         N0701 Note "what was not carried over"
         N0702 Note "a name that was changed"
     }

@@ -13,6 +13,13 @@ pub fn quintic([q, qd, qdd]: [f64; 3], [q_end, qd_end, qdd_end]: [f64; 3], h: f6
     [q, slope, bend, cubic, quartic, quintic]
 }
 
+/// The cubic with value and slope of both ends of a step of length `h` (Hermite), as such a curve.
+#[must_use]
+pub fn cubic([q, qd]: [f64; 2], [q_end, qd_end]: [f64; 2], h: f64) -> [f64; 6] {
+    let (way, slope, end_slope) = (q_end - q, h * qd, h * qd_end);
+    [q, slope, 3.0 * way - 2.0 * slope - end_slope, slope + end_slope - 2.0 * way, 0.0, 0.0]
+}
+
 /// The parabola that value, slope and curvature at the start of a step of length `h` lead along, as such a curve.
 #[must_use]
 pub fn parabola([q, qd, qdd]: [f64; 3], h: f64) -> [f64; 6] {

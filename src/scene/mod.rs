@@ -37,13 +37,13 @@ pub use faults::{Faults, Joints};
 pub use features::drawn_poses;
 pub use forces::{ForceKind, ForceValue, ForceVector};
 pub use lengths::Length;
-pub use motion::Motion;
+pub use motion::{Gaps, Motion, Track};
 pub use plane::{
     Contour, Path, Pose, Segment, Vector, bounds, cross, direction, distance, dot, hull, is_finite, left, length,
     minus, plus, polar, times, unit,
 };
 pub use torques::Torque;
-pub use track::{Stroke, Track};
+pub use track::{DrawnLine, RETRACE_TOLERANCE, Stroke};
 
 use crate::model::Mechanism;
 use crate::source::Span;

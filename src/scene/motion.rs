@@ -1,6 +1,6 @@
 //! Where all frames are, row by row and between the rows.
 
-use super::plane::{Pose, minus, plus, times};
+use super::plane::{Pose, Vector, distance, minus, plus, times};
 use crate::math;
 use rustc_hash::FxHashMap;
 
@@ -28,8 +28,46 @@ pub struct Motion {
     columns: FxHashMap<String, usize>,
     /// What lines may be off between rows (m).
     pub off: f64,
-    /// By the name of a trace or column: the times of the rows behind which it goes to infinity, jumps or has no value.
-    gaps: FxHashMap<String, Vec<f64>>,
+    /// Between rows that are no farther apart than this (s) all goes straight.
+    short: f64,
+    gaps: Vec<(Track, Gaps)>,
+}
+
+/// What tells where a pen is, or what a column is worth: where in the table that stands.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Track {
+    /// What it moves with: a point of a frame, or the origin of what columns are read in.
+    pub(super) frame: usize,
+    /// Where it is there; of columns, where their frame is.
+    pub(super) pose: Pose,
+    /// Of columns: value, rate and acceleration of x, then of y; none where the table has none.
+    pub(super) columns: Option<[[Option<usize>; 3]; 2]>,
+    pub(super) is_mirrored: bool,
+}
+
+/// The stretches in which a track is not drawn.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Gaps {
+    /// For each row but the last: whether nothing is drawn from it to the next, because the track goes to infinity there, jumps, has no
+    /// value or is not known well enough.
+    pub behind: Vec<bool>,
+    /// A place that the track is near, and the distance (m) from it beyond which the track is on its way to infinity.
+    pub reach: (Vector, f64),
+}
+
+impl Gaps {
+    /// Returns whether nothing is drawn between a row and the next one.
+    #[must_use]
+    pub fn is_behind(&self, row: usize) -> bool {
+        self.behind.get(row).copied().unwrap_or(false)
+    }
+
+    /// Returns whether a place is on the way to infinity.
+    #[must_use]
+    pub fn is_far(&self, place: Vector) -> bool {
+        let (middle, far) = self.reach;
+        distance(place, middle) > far
+    }
 }
 
 impl Motion {
@@ -49,10 +87,12 @@ impl Motion {
             }
             poses
         };
-        let times = rows.iter().map(|row| row[0]).collect();
+        let times: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+        let span = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
         let [poses, rates, accelerations] = [0, 1, 2].map(poses_of);
-        let (frames, gaps) = (bodies.len() + 1, FxHashMap::default());
-        Motion { times, edges, frames, poses, rates, accelerations, rows, columns: named, off: OFF, gaps }
+        let (frames, gaps) = (bodies.len() + 1, Vec::new());
+        let short = SHORT * span;
+        Motion { times, edges, frames, poses, rates, accelerations, rows, columns: named, off: OFF, short, gaps }
     }
 
     /// A single moment without velocities, as a mechanism is drawn.
@@ -83,8 +123,19 @@ impl Motion {
             edges: Vec::new(),
             columns: self.columns.clone(),
             off: self.off,
-            gaps: FxHashMap::default(),
+            short: self.short,
+            gaps: Vec::new(),
         }
+    }
+
+    /// Leaves out all rows but the first ones; without the gaps.
+    pub fn truncate(&mut self, len: usize) {
+        self.times.truncate(len);
+        for poses in [&mut self.poses, &mut self.rates, &mut self.accelerations] {
+            poses.truncate(len * self.frames);
+        }
+        self.rows.truncate(len);
+        self.gaps.clear();
     }
 
     /// Adds the last row of another motion of the same frames and columns.
@@ -97,7 +148,7 @@ impl Motion {
         self.rows.extend(other.rows.get(last).cloned());
     }
 
-    /// This motion with the rows of another one of the same frames and columns at other times.
+    /// This motion with the rows of another one of the same frames and columns at other times; without the gaps of either.
     #[must_use]
     pub fn merged(&self, other: &Motion) -> Motion {
         let mut all: Vec<(&Motion, usize)> =
@@ -115,19 +166,25 @@ impl Motion {
             rows: all.iter().filter_map(|(one, row)| one.rows.get(*row).cloned()).collect(),
             columns: self.columns.clone(),
             off: self.off,
-            gaps: self.gaps.clone(),
+            short: self.short,
+            gaps: Vec::new(),
         }
     }
 
-    /// Tells behind which rows, by their times (s), a trace or column goes to infinity, jumps or has no value.
-    pub fn set_gaps(&mut self, name: String, gaps: Vec<f64>) {
-        self.gaps.insert(name, gaps);
+    /// Tells between which rows a track is not drawn.
+    pub fn set_gaps(&mut self, track: Track, gaps: Gaps) {
+        self.gaps.push((track, gaps));
     }
 
-    /// The times (s) of the rows behind which a trace or column is known to have a gap.
+    /// Returns the gaps of a track; `None` where none were told of.
     #[must_use]
-    pub fn gaps(&self, name: &str) -> &[f64] {
-        self.gaps.get(name).map_or(&[], Vec::as_slice)
+    pub fn gaps(&self, track: &Track) -> Option<&Gaps> {
+        self.gaps.iter().find(|(known, _)| known == track).map(|(_, gaps)| gaps)
+    }
+
+    /// Sets the time from the first row to the last one (s) of the whole motion, of which this is a part.
+    pub fn set_whole_span(&mut self, span: f64) {
+        self.short = SHORT * span;
     }
 
     /// Where a column, its rate and its acceleration stand in a row.
@@ -206,8 +263,7 @@ impl Motion {
 
     /// Whether the next row comes so soon that derivatives, which may be endless there, lead nowhere.
     pub(super) fn is_short(&self, row: usize) -> bool {
-        let span = self.times.last().copied().unwrap_or(0.0) - self.times.first().copied().unwrap_or(0.0);
-        self.times.get(row + 1).is_some_and(|next| next - self.times[row] <= SHORT * span)
+        self.times.get(row + 1).is_some_and(|next| next - self.times[row] <= self.short)
     }
 
     /// The row at a time (s), or the last before it.
@@ -233,7 +289,8 @@ impl Motion {
         if self.is_short(row) {
             return chord(from[0], to[0], h, (t - begin) / h);
         }
-        match self.edges.iter().find(|&&edge| begin < edge && edge < end) {
+        let behind = self.edges.partition_point(|edge| *edge <= begin);
+        match self.edges.get(behind).filter(|edge| **edge < end) {
             None => quintic(from, to, h, (t - begin) / h),
             // from either side as its row tells it
             Some(&edge) if t <= edge => taylor(from, t - begin),

@@ -3,12 +3,12 @@
 
 #![allow(clippy::disallowed_methods)] // closed forms of its own are what makes it independent
 
-use super::{Polyline, attribute, boxes, numbers, one_row, read_dxf, seen_closely, seen_text, seen_to_cut};
+use super::{Polyline, attribute, boxes, numbers, one_row, read_dxf, refined, seen_text, seen_to_cut, seen_within};
 use crate::support::random::Random;
-use mechc::Closely;
 use mechc::rooms::scene::{Vector, distance, minus, plus, polar, times};
 use mechc::rooms::view::dxf;
 use mechc::rooms::view::svg::{Options, Plot, plots, still};
+use mechc::{Code, CurveTolerance, Diagnostic};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -240,6 +240,94 @@ fn traces_are_cut_as_the_motion_goes_whatever_the_output_times() {
     }
 }
 
+/// A crank and a formula that goes to infinity twice a turn, for so many turns.
+fn turning(turns: u32) -> String {
+    format!(
+        "mechanism m {{
+            ground {{ point O = (0, 0) }}
+            body crank {{ point O = (0, 0) point P = (0.1, 0) }}
+            joint main: revolute(ground.O, crank.O)
+            driver motor: rotation(main) = 0.3 + 50 rev/s * t
+            trace far = (x(crank.P), 0.01 * 0.1 / (y(crank.P) - 0.02))
+            trace path = crank.P
+            analysis from 0 s to {turns} * 20 ms every 1 s
+        }}"
+    )
+}
+
+/// The lines of a layer.
+fn lines_of(seen: &mechc::Seen, layer: &str) -> Vec<Polyline> {
+    let file = dxf::written(&seen.scene, &seen.motion, seen.motion.poses(0), &[], 1.0).expect("a trace");
+    read_dxf(&file).0.into_iter().filter(|(known, ..)| known == layer).collect()
+}
+
+#[test]
+fn what_repeats_itself_is_followed_once() {
+    let [one, many] = [1, 20_000].map(|turns| seen_to_cut(&turning(turns)));
+    // so many rows as there are for some ten turns, and those of the table
+    assert!(many.motion.len() < 30_000, "{} rows", many.motion.len());
+    for seen in [&one, &many] {
+        let [(_, circle, is_closed)] = &lines_of(seen, "path")[..] else { panic!("one line") };
+        assert!(is_closed);
+        for [from, to] in circle.windows(2).map(|pair| [pair[0], pair[1]]) {
+            let middle = times(0.5, plus(from, to));
+            assert!((distance(middle, [0.0; 2]) - 0.1).abs() < 1e-6, "{middle:?}");
+        }
+        // from one pole to the other, and on from there
+        let far = lines_of(seen, "far");
+        let closed = far.iter().filter(|(_, _, is_closed)| *is_closed).count();
+        assert_eq!((far.len(), closed), (2, 0));
+        for [x, y] in far.iter().flat_map(|(_, places, _)| places).filter(|place| place[1].abs() < 1.0) {
+            let height = 0.02 + 0.001 / y;
+            assert!((distance([*x, height], [0.0; 2]) - 0.1).abs() < 1e-5, "{x}, {y}");
+        }
+    }
+}
+
+#[test]
+fn a_line_that_is_not_drawn_to_its_end_says_so() {
+    let text = "mechanism m {
+        ground { point O = (0, 0) }
+        body crank { point O = (0, 0) point P = (0.1, 0) }
+        joint main: revolute(ground.O, crank.O)
+        driver motor: rotation(main) = 1 rev/s * t
+        trace rosette = (x(crank.P) * (1 + 0.3 * sin(sqrt(2) * rotation(main))), y(crank.P))
+        trace ring = crank.P
+        analysis from 0 s to 900 s every 1 s
+    }";
+    let (seen, said) = refined(Path::new("m.mech"), text, |_| CurveTolerance {
+        most_rows: 2000,
+        ..CurveTolerance::to_cut(1.0, Vec::new())
+    });
+    let said: Vec<&Diagnostic> = said.iter().collect();
+    let [warning] = said[..] else { panic!("{said:?}") };
+    assert_eq!(warning.code, Code::W0701);
+    assert!(warning.message.contains("`rosette`"), "{warning:?}");
+    let end = warning.data["t"].as_f64().expect("a time");
+    assert!(end > 5.0, "{end}");
+    // the other line is closed before that, and goes on along itself
+    assert!(matches!(lines_of(&seen, "ring")[..], [(_, _, true)]));
+    let place = |theta: f64| {
+        let [x, y] = polar(0.1, theta);
+        [x * (1.0 + 0.3 * (2.0_f64.sqrt() * theta).sin()), y]
+    };
+    let angles: Vec<f64> = (0..=40_000).map(|k| TAU * end * f64::from(k) / 40_000.0).collect();
+    let known: Vec<Vector> = angles.iter().map(|angle| place(*angle)).collect();
+    let lines = lines_of(&seen, "rosette");
+    let [(_, places, false)] = &lines[..] else { panic!("{} lines", lines.len()) };
+    assert!(distance(places[places.len() - 1], place(TAU * end)) < 1e-6, "it ends where it says");
+    let sides: Vec<[Vector; 2]> = places.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    for [from, to] in sides.iter().step_by(1 + sides.len() / 100) {
+        let at = times(0.5, plus(*from, *to));
+        let off = off_trace(at, &place, &angles, &known);
+        assert!(off < 1e-6, "{off} m off at {at:?}");
+    }
+    for at in known.iter().step_by(397) {
+        let off = sides.iter().map(|side| from_side(*at, *side)).fold(f64::INFINITY, f64::min);
+        assert!(off < 1e-6, "the line leaves out {at:?} by {off} m");
+    }
+}
+
 /// Two bars on a pin that is made of three places, each joint of which names them in its own order.
 const BARS: &str = "mechanism bars {
     ground { point A = (0, 0) }
@@ -286,7 +374,7 @@ fn crank(every: f64) -> String {
 }
 
 fn pictured(every: f64) -> String {
-    let seen = seen_closely(Path::new("m.mech"), &crank(every), |seen| Closely::of_picture(seen, Vec::new()));
+    let seen = seen_within(Path::new("m.mech"), &crank(every), |seen| CurveTolerance::of_picture(seen, Vec::new()));
     still(&seen.scene, &seen.motion, &seen.motion.moment(0), &Options::default())
 }
 
@@ -336,9 +424,11 @@ fn pictures_show_the_same_lines_however_few_rows_there_are() {
 
 #[test]
 fn poles_squash_no_plot() {
-    let wanted =
-        |seen: &mechc::Seen| Closely { columns: vec!["pole".to_owned()], ..Closely::of_picture(seen, Vec::new()) };
-    let seen = seen_closely(Path::new("m.mech"), &crank(0.01), wanted);
+    let wanted = |seen: &mechc::Seen| CurveTolerance {
+        columns: vec!["pole".to_owned()],
+        ..CurveTolerance::of_picture(seen, Vec::new())
+    };
+    let seen = seen_within(Path::new("m.mech"), &crank(0.01), wanted);
     let rows = seen.motion.times_between(6);
     let plot = Plot { name: "pole", unit: "1", values: seen.motion.column_at("pole", &rows) };
     let file = plots(&seen.scene, &rows, &[plot], &Options::default());

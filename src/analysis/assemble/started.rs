@@ -214,6 +214,15 @@ impl Started {
         self.kinematics.worst().sigma
     }
 
+    /// Returns the row of a state that the motion from here has passed, which is not solved for anew.
+    #[must_use]
+    pub fn row_of(&mut self, state: &State) -> Vec<f64> {
+        let mut row = vec![0.0; self.kinematics.row_length()];
+        self.kinematics.restore(state);
+        self.kinematics.write_given_row(state, &mut row);
+        row
+    }
+
     /// What solves for rows; none where it would be too large, or is left out.
     #[must_use]
     pub fn solver(&self) -> Option<&Solver> {

@@ -19,7 +19,7 @@ use crate::diag::{Diagnostic, Diagnostics};
 use crate::layout::{ColumnKind, ColumnUnit};
 use crate::live::page;
 use crate::scene::{Motion, Pen};
-use crate::stages::{Checked, Choice, Closely, Compiled, RunOptions, Seen};
+use crate::stages::{Checked, Choice, Compiled, CurveTolerance, RunOptions, Seen};
 use crate::view::dxf;
 use crate::view::svg::{self, Options, Plot};
 use form::Form;
@@ -79,8 +79,9 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     // a film shows the rows, and so does a picture of a single one
     let rows = (target.frames.is_some() || seen.motion.len() == 1).then(|| seen.motion.clone());
     if form != Form::Page {
-        let closely = target.closely(&seen)?;
-        checked.look_closely(&compiled, &whole, &options, &mut seen, &closely);
+        let is_still = rows.is_some() || listed.is_some() || arguments.body.is_some();
+        let tolerance = CurveTolerance { is_animated: form == Form::Picture && !is_still, ..target.tolerance(&seen)? };
+        reporter.print(&checked.refine_motion(&compiled, &whole, &options, &mut seen, &tolerance));
     }
     let is_alone = target.leave_alone(&mut seen)?;
     let (moments, stopped) = match listed.filter(|_| !is_alone && form != Form::Page) {
@@ -131,17 +132,17 @@ impl Target<'_> {
         if self.output == "-" { "nothing is written".to_owned() } else { format!("`{}` is not written", self.output) }
     }
 
-    /// How closely the motion has to be known for what is drawn.
-    fn closely(&self, seen: &Seen) -> Result<Closely, Failure> {
+    /// The curves that are drawn, and what they may be off.
+    fn tolerance(&self, seen: &Seen) -> Result<CurveTolerance, Failure> {
         let ViewArguments { scale, trace, .. } = self.arguments;
         let pens = trace.iter().map(|path| Ok(Pen::Point(wanted::trace(&seen.scene, path)?.1)));
         let pens = pens.collect::<Result<_, Failure>>()?;
-        let closely = match (self.form, scale) {
-            (Form::Dxf, _) | (Form::Picture, Some(_)) => Closely::to_cut(scale.unwrap_or(1.0), pens),
-            _ => Closely::of_picture(seen, pens),
+        let tolerance = match (self.form, scale) {
+            (Form::Dxf, _) | (Form::Picture, Some(_)) => CurveTolerance::to_cut(scale.unwrap_or(1.0), pens),
+            _ => CurveTolerance::of_picture(seen, pens),
         };
         let plotted = plotted(seen).filter(|_| self.form == Form::Plots);
-        Ok(Closely { columns: plotted.map(|(name, _)| name.clone()).collect(), ..closely })
+        Ok(CurveTolerance { columns: plotted.map(|(name, _)| name.clone()).collect(), ..tolerance })
     }
 
     /// Leaves the one body that was asked for, if one was.
