@@ -537,8 +537,10 @@ fn coupled_cranks(random: &mut Random, drawn: f64, start: f64) -> (String, f64) 
     ];
     let [pinion, wheel] = [0, 1].map(|_| random.within(0.01, 0.04));
     let mut text = "mechanism coupled {\nground {\n".to_owned();
-    let mut points = |of: &str| {
-        pivots.iter().enumerate().map(|(k, [x, y])| format!("point {of}{k} = ({x:?}, {y:?})\n")).collect::<String>()
+    let points = |of: &str| {
+        let mut text = String::new();
+        pivots.iter().enumerate().for_each(|(k, [x, y])| writeln!(text, "point {of}{k} = ({x:?}, {y:?})").unwrap());
+        text
     };
     text += &points("A");
     let center = [pivots[1][0] + pinion + wheel, pivots[1][1]];
