@@ -582,6 +582,47 @@ fn main() {
 }
 
 #[test]
+fn where_an_equation_that_was_left_out_would_be_needed_a_module_says_so() {
+    // wheels whose rods on both sides are a quarter turn apart: at a dead centre of one side the other decides
+    let text = "mechanism machine {
+    ground { point A = (0, 0)  point B = (2 m, 0) }
+    body front at (0, 0, 20 deg) { point O = (0, 0)  point left = (0.3 m, 0)  point right = (0, 0.3 m) }
+    body rear at (2 m, 0, 20 deg) { point O = (0, 0)  point left = (0.3 m, 0)  point right = (0, 0.3 m) }
+    body rod_l at (282 mm, 103 mm, 0) { point f = (0, 0)  point r = (2 m, 0) }
+    body rod_r at (-103 mm, 282 mm, 0) { point f = (0, 0)  point r = (2 m, 0) }
+    joint axle_f: revolute(ground.A, front.O)  joint axle_r: revolute(ground.B, rear.O)
+    joint lf: revolute(front.left, rod_l.f)    joint lr: revolute(rod_l.r, rear.left)
+    joint rf: revolute(front.right, rod_r.f)   joint rr: revolute(rod_r.r, rear.right)
+    driver engine: rotation(axle_f) = 20 deg + 60 rpm * t
+    analysis from 0 s to 3 s every 0.1 s
+}";
+    let module = Emitted::without_redundant("machine".to_owned(), text).text(None);
+    let lines = printed(
+        &module,
+        r#"
+fn main() {
+    let mut state = assemble(&Params::default()).unwrap();
+    loop {
+        let (t, before) = (state.t(), format!("{state:?}"));
+        if let Err(error) = step(t + 0.01, &mut state) {
+            assert_eq!(format!("{state:?}"), before);
+            println!("{error:?} {t}");
+            break;
+        }
+        let [front, rear] = [Body::Front, Body::Rear].map(|body| state.pose(body).phi);
+        assert!((front - rear).abs() < 1e-9, "{front} {rear}");
+    }
+}
+"#,
+    );
+    // a whole or half turn of a side's cranks is never passed
+    let (error, t) = lines[0].split_once(' ').expect("an error and a time");
+    let turned = 20.0 + 360.0 * t.parse::<f64>().expect("a time");
+    assert_eq!(error, "Inconsistent");
+    assert!(turned > 60.0 && turned < 180.0, "{turned} deg");
+}
+
+#[test]
 fn inputs_whose_names_meet_that_of_time_give_way() {
     let text = "mechanism machine {
     input T   = 3 * t / 1 s

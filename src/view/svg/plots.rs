@@ -125,6 +125,10 @@ fn shown(rows: &[f64], values: &[f64]) -> [f64; 2] {
     weighed.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (Some(least), Some(greatest)) = (weighed.first(), weighed.last()) else { return [f64::NAN; 2] };
     let (least, greatest) = (least.0, greatest.0);
+    // what goes to infinity is broken there
+    if weighed.len() == values.len() {
+        return [least, greatest];
+    }
     let all: f64 = weighed.iter().map(|(_, time)| time).sum();
     let at_part = |part: f64| {
         let mut sum = 0.0;
