@@ -46,7 +46,7 @@ impl Checker<'_> {
         self.warn_of_bare_numbers(terms, measure, &unit);
     }
 
-    /// The same of the terms of a formula that is printed itself in degrees or the like.
+    /// Warns of bare numbers among the terms of a formula that is printed in degrees or the like itself: they are in radians.
     pub(super) fn warn_of_numbers_printed(&mut self, formula: &Expr, written: &WrittenUnit) {
         let ExprKind::Sum(first, rest) = &formula.bare().kind else { return };
         let terms = std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term));

@@ -61,7 +61,7 @@ pub use variations::{Appended, Variable, Variation, Variations};
 pub use watched::{Check, Condition, ConditionKind, Fit, OpenContact, PartStart, Watch, WatchKind};
 pub use written::Written;
 
-use crate::expr::{ExprId, Graph, Symbol, TIME_SIGNAL};
+use crate::expr::{Dependence, ExprId, Graph, Symbol, TIME_SIGNAL};
 use crate::source::Span;
 
 /// A mechanism as equations.
@@ -180,6 +180,13 @@ impl ConstraintSystem {
     #[must_use]
     pub fn is_driver(&self, row: usize) -> bool {
         self.declaration_of(row).kind == DeclarationKind::Driver
+    }
+
+    /// Whether an equation moves the mechanism: one of a driver does, and one that holds time.
+    #[must_use]
+    pub fn drives(&self, declaration: DeclarationId, phi: ExprId) -> bool {
+        let is_driver = self.declarations[declaration].kind == DeclarationKind::Driver;
+        is_driver || self.graph.dependence(phi).on(Dependence::TIME)
     }
 
     /// Takes rows out, given ascending, which are checked from now on.

@@ -7,8 +7,7 @@ use super::search::{Noise, levenberg_marquardt};
 use crate::analysis::explain::{errors, open_loop, singular};
 use crate::analysis::state::{Fault, Horizon, Kinematics, State, behind_start};
 use crate::diag::Diagnostic;
-use crate::expr::{Dependence, ExprId};
-use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, WatchKind};
+use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, WatchKind};
 use crate::tolerances::assembly::newton::{
     AGREES, BESIDE, EXPLICIT_STEPS, LARGEST_DENSE, LARGEST_STEP, MOVED, NEARBY, NEWTON_STEPS, OPEN_NEARBY,
     PERTURBATIONS, SETTLED, SINGULAR_START, SMALLEST_DAMPING, VANISHING_TANGENT, WITHOUT_SLOPE,
@@ -91,22 +90,16 @@ fn residuals_of_drivers(kinematics: &mut Kinematics, t: f64, q: &[f64]) -> Optio
     Some(kept.chain(left_out).collect())
 }
 
-/// The rows that time moves, and all of drivers.
+/// The rows that are solved and drive the mechanism.
 fn driving_rows(system: &ConstraintSystem) -> Vec<usize> {
-    let rows = system.rows().iter().map(|row| (row.declaration, row.phi));
-    driving(system, rows)
+    let rows = system.rows();
+    (0..rows.len()).filter(|&k| system.drives(rows[k].declaration, rows[k].phi)).collect()
 }
 
-/// The same of the equations that are left out, by their number among the checks.
+/// The equations that are left out and drive the mechanism, by their number among the checks.
 fn driving_checks(system: &ConstraintSystem) -> Vec<usize> {
-    let checks = system.checks().iter().map(|check| (check.declaration, check.phi));
-    driving(system, checks)
-}
-
-fn driving(system: &ConstraintSystem, equations: impl Iterator<Item = (DeclarationId, ExprId)>) -> Vec<usize> {
-    let is_driver = |of: DeclarationId| system.declarations()[of].kind == DeclarationKind::Driver;
-    let is_driving = |(of, phi)| is_driver(of) || system.graph().dependence(phi).on(Dependence::TIME);
-    equations.enumerate().filter(|&(_, equation)| is_driving(equation)).map(|(number, _)| number).collect()
+    let checks = system.checks();
+    (0..checks.len()).filter(|&k| system.drives(checks[k].declaration, checks[k].phi)).collect()
 }
 
 /// Where the estimates lead if drivers let go, and what these ask for and that leaves open; none if nothing closes there.

@@ -172,7 +172,7 @@ impl Started {
         self.kinematics.use_vectors(vectors);
     }
 
-    /// The same, of which it is told how far it is from these estimates [m, rad].
+    /// Tells from now on how far the start is from these estimates [m, rad], rather than from those that it was assembled from.
     #[must_use]
     pub fn moved_from(self, estimates: &[f64]) -> Started {
         let moved = assembly::moved(self.kinematics.system(), estimates, &self.state.q);

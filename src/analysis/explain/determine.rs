@@ -10,7 +10,6 @@ use super::redundancy::{Dependent, dependents, times_nearby};
 use super::sharing::{along_motion, shared};
 use crate::analysis::state::Horizon;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::expr::Dependence;
 use crate::ir::{ConstraintSystem, DeclarationKind, Homotopy, JointKind};
 use crate::structure::{self, Determined, Refused, Subsystem};
 use crate::tolerances::assembly::newton::AGREES;
@@ -146,9 +145,8 @@ fn driven(system: &ConstraintSystem, part: &Subsystem, t: f64) -> Option<Vec<f64
     }
     let mut drawn = Evaluator::new(system);
     drawn.evaluate(t);
-    let is_driving =
-        |row: usize| system.is_driver(row) || system.graph().dependence(system.rows()[row].phi).on(Dependence::TIME);
-    let driving: Vec<usize> = part.rows.iter().map(|&row| row as usize).filter(|&row| is_driving(row)).collect();
+    let is_driving = |&row: &usize| system.drives(system.rows()[row].declaration, system.rows()[row].phi);
+    let driving: Vec<usize> = part.rows.iter().map(|&row| row as usize).filter(is_driving).collect();
     let is_off = |&row: &usize| {
         drawn.linear_there(&[row as u32], &part.columns, None).is_some_and(|linear| linear.residual[0].abs() > AGREES)
     };

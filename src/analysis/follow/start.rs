@@ -127,7 +127,8 @@ fn is_round(whole: &Unassembled, residuals: &[(usize, f64)]) -> bool {
     residuals.iter().any(|&(row, from)| rows[row].unit == RowUnit::ANGLE && from.abs() > PI)
 }
 
-/// The same, to where so many whole turns are left of each residual: the last step of the assembly turns what follows without iteration.
+/// Closes a mechanism as it is drawn [m, rad], and leads it to where so many whole turns are left of each residual: the last step of the
+/// assembly turns what follows without iteration. None where it does not close there, or no way leads on.
 fn close_and_lead(
     whole: &Unassembled,
     drawn: &[f64],
