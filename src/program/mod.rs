@@ -21,13 +21,12 @@ mod op;
 mod ranges;
 mod signals;
 mod tables;
-mod ways;
 
 pub use enclose::Enclosure;
 pub use evaluate::{Frozen, Registers, truth};
 pub use lanes::{LaneMachine, LaneValues};
 pub use op::{Few, Machine, Op};
-pub use ranges::{Range, Ranges};
+pub use ranges::{Hold, Range, Ranges};
 pub use signals::Signal;
 
 use crate::ir::With;

@@ -1,222 +1,310 @@
 //! Ranges of formulas over a stretch of the motion: a program's operations, run on intervals.
 //!
-//! Unlike an [`Enclosure`](super::Enclosure), which proves that no switch changes, a range is one of all branches that may count: it
-//! holds every value, and tells whether there may be jumps among them.
-//!
-//! Where a formula may change its branch, or the argument of a table goes over a knot, each branch and each piece is looked at by itself: what
-//! is put together of two says little of either.
+//! Unlike an [`Enclosure`](super::Enclosure), which proves that no switch changes, a range holds the values of all branches that
+//! may be taken, and says whether the formula may jump among them. A caller that knows on which side of its threshold a switch
+//! stays can hold it there.
 
-use super::enclose::{Interval, behind, enclose, hull};
-use super::ways::{Ways, stay_in_piece};
+use super::enclose::{Interval, behind, enclose};
 use super::{Op, Program, Register, Registers, Stage};
 use crate::expr::{Binary, Unary};
-use crate::tolerances::results::ranges::{MOST_WAYS, WIDEST, WIDEST_RATIO, WIDEST_VALUE};
+use crate::tolerances::results::ranges::{WIDEST, WIDEST_RATIO, WIDEST_VALUE};
 
-/// What a formula is enclosed in.
+/// An interval that holds all values of a formula.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Range {
-    /// No value is below.
+    /// Lower bound of the values.
     pub low: f64,
-    /// No value is above.
+    /// Upper bound of the values.
     pub high: f64,
-    /// Whether the formula may change its branch, so that it or what is derived from it may jump.
+    /// Whether the formula may jump, or take another branch.
     pub may_switch: bool,
-    /// Whether every function in it changes so little that a few terms of its series tell all.
+    /// Whether every function in the formula changes so little that its values at both ends and its derivatives there describe it.
     pub is_resolved: bool,
-    /// Whether a table in it may go on from one piece to the next.
+    /// Whether a table in the formula may go on from one piece to the next.
     pub crosses_knots: bool,
 }
 
-/// As in [`Range`].
-#[derive(Clone, Copy, Debug)]
-struct Found {
-    may_switch: bool,
-    is_resolved: bool,
-    crosses_knots: bool,
+/// A restriction of a register's interval that the caller has proved.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Hold {
+    /// The register keeps one value: the result of a switch.
+    At(f64),
+    /// The register stays above zero.
+    Above,
+    /// The register stays below zero.
+    Below,
 }
 
-const NOTHING: Found = Found { may_switch: false, is_resolved: true, crosses_knots: false };
-
-impl Found {
-    fn of_both(self, other: Found) -> Found {
-        Found {
-            may_switch: self.may_switch || other.may_switch,
-            is_resolved: self.is_resolved && other.is_resolved,
-            crosses_knots: self.crosses_knots || other.crosses_knots,
+impl Hold {
+    fn of(self, found: Interval) -> Interval {
+        match self {
+            Hold::At(value) => Interval { low: value, high: value },
+            Hold::Above => Interval { low: found.low.max(f64::MIN_POSITIVE), high: found.high.max(f64::MIN_POSITIVE) },
+            Hold::Below => Interval { low: found.low.min(-f64::MIN_POSITIVE), high: found.high.min(-f64::MIN_POSITIVE) },
         }
     }
 }
 
-/// Room for the ranges of some formulas, each of which may use what those before it have.
+/// Findings about an operation, as bits.
+mod found {
+    pub const SWITCHES: u8 = 1;
+    pub const IS_UNRESOLVED: u8 = 2;
+    pub const CROSSES_KNOTS: u8 = 4;
+}
+
+/// An operation with what has to be looked at behind it.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    op: Op,
+    /// Where the operation leaves a result that changes in jumps.
+    switched: Option<Register>,
+    /// Whether that result is the piece of a table, or the period of a periodic one.
+    is_of_table: bool,
+    /// Where the operation leaves a value that is bounded whatever its arguments are.
+    bounded: Option<Register>,
+    /// Where the operation leaves the third derivative of a table.
+    third: Option<Register>,
+}
+
+/// Working memory for the ranges of some formulas.
 #[derive(Clone, Debug)]
 pub struct Ranges {
-    /// By formula: the operations that those before it have not run.
-    operations: Vec<Vec<Op>>,
-    /// What each formula has found out beside its values.
-    found: Vec<Found>,
+    /// The operations behind all formulas, and what was found out about each.
+    steps: Vec<Step>,
+    found: Vec<u8>,
+    /// By formula: the operations that those before it do not run, and all that it depends on.
+    own: Vec<Vec<u32>>,
+    all: Vec<Vec<u32>>,
     roots: Vec<Register>,
+    /// How many formulas have been asked for since something was set.
+    current: usize,
     /// Whether switches stay as the registers have them.
     is_frozen: bool,
     values: Vec<Interval>,
+    /// Restrictions by register, and the registers that have one.
+    holds: Vec<Option<Hold>>,
+    held: Vec<Register>,
+    /// By register: whether the formula that was asked for last depends on it.
+    is_live: Vec<bool>,
     time: Register,
-    /// Where an argument of a periodic table goes from period to period.
-    periods: Vec<Register>,
-    /// Where third derivatives of tables stand.
-    thirds: Vec<Register>,
-    ways: Ways,
-    /// The values on one of the ways.
-    on_way: Vec<Interval>,
 }
 
 impl Ranges {
     /// For formulas that a stage leaves in some registers; the prologue must have been run.
     #[must_use]
     pub fn new(program: &Program, registers: &Registers, roots: &[Register], stage: Stage, is_frozen: bool) -> Ranges {
-        let mut is_known = vec![false; program.registers()];
-        let mut operations = Vec::new();
-        for k in 0..roots.len() {
-            let mut own = behind(program, &roots[..=k], &[stage]);
-            own.retain(|&op| {
-                let is_new = op.writes().iter().any(|&register| !is_known[register as usize]);
-                op.writes().iter().for_each(|&register| is_known[register as usize] = true);
-                is_new
-            });
-            operations.push(own);
+        let of_tables = |list: fn(&super::TableLayout) -> &Vec<Register>| -> Vec<Register> {
+            program.tables().iter().flat_map(|table| list(table).iter().copied()).collect()
+        };
+        let (periods, thirds) = (of_tables(|table| &table.periods), of_tables(|table| &table.thirds));
+        let step = |&op: &Op| {
+            let switched = op.switched();
+            let is_of_table =
+                matches!(op, Op::Piece { .. }) || switched.is_some_and(|to| periods.contains(&to));
+            let third = op.writes().iter().copied().find(|to| thirds.contains(to));
+            Step { op, switched, is_of_table, bounded: bounded(op), third }
+        };
+        let operations = behind(program, roots, &[stage]);
+        let mut number_of = vec![u32::MAX; program.registers()];
+        for (number, op) in operations.iter().enumerate() {
+            op.writes().iter().for_each(|&to| number_of[to as usize] = number as u32);
+        }
+        let mut is_known = vec![false; operations.len()];
+        let (mut own, mut all) = (Vec::new(), Vec::new());
+        for root in roots {
+            let mut needed: Vec<u32> = Vec::new();
+            let mut is_needed = vec![false; operations.len()];
+            let mut open = vec![*root];
+            while let Some(register) = open.pop() {
+                let number = number_of[register as usize];
+                if number != u32::MAX && !std::mem::replace(&mut is_needed[number as usize], true) {
+                    needed.push(number);
+                    open.extend(program.reads(operations[number as usize]));
+                }
+            }
+            needed.sort_unstable();
+            own.push(needed.iter().copied().filter(|&number| !is_known[number as usize]).collect());
+            needed.iter().for_each(|&number| is_known[number as usize] = true);
+            all.push(needed);
         }
         let point = |value: f64| Interval { low: value, high: value };
         Ranges {
-            operations,
-            found: vec![NOTHING; roots.len()],
+            steps: operations.iter().map(step).collect(),
+            found: vec![0; operations.len()],
+            own,
+            all,
             roots: roots.to_vec(),
+            current: 0,
             is_frozen,
             values: (0..program.registers()).map(|k| point(registers.get(k as u32))).collect(),
+            holds: vec![None; program.registers()],
+            held: Vec::new(),
+            is_live: vec![false; program.registers()],
             time: program.inputs.time,
-            periods: program.tables().iter().flat_map(|table| table.periods.iter().copied()).collect(),
-            thirds: program.tables().iter().flat_map(|table| table.thirds.iter().copied()).collect(),
-            ways: Ways::default(),
-            on_way: Vec::new(),
         }
     }
 
-    /// Lets time be anywhere between two times (s).
-    pub fn set_times(&mut self, [from, to]: [f64; 2]) {
-        self.values[self.time as usize] = Interval { low: from, high: to };
+    /// Sets the interval of time (s).
+    pub fn set_times(&mut self, times: [f64; 2]) {
+        self.set(self.time, times);
     }
 
-    /// Lets an input be anywhere between two values.
+    /// Sets the interval of an input.
     pub fn set(&mut self, register: Register, [low, high]: [f64; 2]) {
         self.values[register as usize] = Interval { low, high };
+        self.current = 0;
     }
 
-    /// The range of a formula; those before it must have been asked for since time and coordinates were set.
+    /// Restricts a register from now on.
+    pub fn hold(&mut self, register: Register, hold: Hold) {
+        let at = register as usize;
+        // an input is not computed
+        self.values[at] = hold.of(self.values[at]);
+        if self.holds[at].replace(hold).is_none() {
+            self.held.push(register);
+        }
+        self.current = 0;
+    }
+
+    /// Lifts all restrictions; inputs have to be set anew.
+    pub fn release(&mut self) {
+        for register in self.held.drain(..) {
+            self.holds[register as usize] = None;
+        }
+        self.current = 0;
+    }
+
+    /// The range of a formula.
     pub fn range(&mut self, program: &Program, registers: &Registers, k: usize) -> Range {
-        let mut found = if k == 0 { NOTHING } else { self.found[k - 1] };
-        let mut jumps = found.may_switch;
-        for at in 0..self.operations[k].len() {
-            let op = self.operations[k][at];
-            found.is_resolved &= is_resolved_in(op, &self.values);
-            enclose(program, op, &mut self.values);
-            if let (true, Some(to)) = (self.is_frozen, op.switched()) {
-                let frozen = registers.get(to);
-                self.values[to as usize] = Interval { low: frozen, high: frozen };
+        while self.current <= k {
+            self.run(program, registers, self.current);
+            self.current += 1;
+        }
+        let found = self.all[k].iter().fold(0, |found, &number| found | self.found[number as usize]);
+        let Interval { low, high } = self.values[self.roots[k] as usize];
+        Range {
+            low,
+            high,
+            may_switch: found & found::SWITCHES != 0,
+            is_resolved: found == 0,
+            crosses_knots: found & found::CROSSES_KNOTS != 0,
+        }
+    }
+
+    /// Runs the operations of a formula that those before it have not run.
+    fn run(&mut self, program: &Program, registers: &Registers, k: usize) {
+        let v = &mut self.values;
+        for &number in &self.own[k] {
+            let Step { op, switched, is_of_table, bounded, third } = self.steps[number as usize];
+            let mut found = if is_resolved_in(op, v) { 0 } else { found::IS_UNRESOLVED };
+            if may_jump(op, v) {
+                found |= found::SWITCHES;
             }
-            found = found.of_both(self.found_of(op, &self.values));
-            jumps |= self.is_third_of_several(op);
-        }
-        let mut all = self.values[self.roots[k] as usize];
-        if found.crosses_knots || found.may_switch {
-            if let Some((one_by_one, found_so)) = self.range_by_ways(program, k) {
-                all = Interval { low: all.low.max(one_by_one.low), high: all.high.min(one_by_one.high) };
-                found = found_so;
-            } else {
-                found.is_resolved = false;
-            }
-        }
-        found.may_switch |= jumps;
-        self.found[k] = found;
-        let Found { may_switch, is_resolved, crosses_knots } = found;
-        Range { low: all.low, high: all.high, may_switch, is_resolved: is_resolved && !may_switch, crosses_knots }
-    }
-
-    /// What the result of an operation says, which has just been enclosed.
-    fn found_of(&self, op: Op, v: &[Interval]) -> Found {
-        let width = |register: Register| v[register as usize].high - v[register as usize].low;
-        let changes = op.switched().is_some_and(|to| {
-            let Interval { low, high } = v[to as usize];
-            low.total_cmp(&high).is_ne()
-        });
-        let crosses_knots = changes && self.is_of_table(op);
-        Found {
-            // a spline goes on over its knots
-            may_switch: changes && !crosses_knots,
-            is_resolved: bounded(op).is_none_or(|to| width(to) <= WIDEST_VALUE),
-            crosses_knots,
-        }
-    }
-
-    /// Whether an operation leaves the third derivative of a table, of more pieces than one.
-    fn is_third_of_several(&self, op: Op) -> bool {
-        let is_third = |&to: &Register| {
-            let Interval { low, high } = self.values[to as usize];
-            self.thirds.contains(&to) && low.total_cmp(&high).is_ne()
-        };
-        op.writes().iter().any(is_third)
-    }
-
-    /// Whether an operation tells where a table is entered.
-    fn is_of_table(&self, op: Op) -> bool {
-        matches!(op, Op::Piece { .. }) || op.switched().is_some_and(|to| self.periods.contains(&to))
-    }
-
-    /// The range of a formula, each branch and each piece of each table taken by itself; none where that would be too many ways.
-    fn range_by_ways(&mut self, program: &Program, k: usize) -> Option<(Interval, Found)> {
-        let (mut on_way, mut ways) = (std::mem::take(&mut self.on_way), std::mem::take(&mut self.ways));
-        let mut all: Option<(Interval, Found)> = None;
-        ways.begin();
-        let mut is_last = false;
-        for _ in 0..MOST_WAYS {
-            on_way.clone_from(&self.values);
-            let Some(found) = self.go(program, k, (&mut ways, &mut on_way)) else { break };
-            let value = on_way[self.roots[k] as usize];
-            all = Some(all.map_or((value, found), |(hull_so_far, found_so_far)| {
-                (hull(hull_so_far, value), found_so_far.of_both(found))
-            }));
-            is_last = !ways.go_on();
-            if is_last {
-                break;
-            }
-        }
-        (self.on_way, self.ways) = (on_way, ways);
-        all.filter(|_| is_last)
-    }
-
-    /// Runs all operations of a formula on one of the ways; none where there are too many.
-    fn go(&self, program: &Program, k: usize, (ways, v): (&mut Ways, &mut [Interval])) -> Option<Found> {
-        let mut found = NOTHING;
-        for &op in self.operations[..=k].iter().flatten() {
-            found.is_resolved &= is_resolved_in(op, v);
             enclose(program, op, v);
-            found = found.of_both(self.found_of(op, v));
-            if let Some(to) = op.switched() {
-                let Interval { low, high } = v[to as usize];
-                // over two knots there is no telling what lies between from what is at the ends
-                found.is_resolved &= high - low <= 1.0;
-                let taken = ways.take(v[to as usize])?;
-                v[to as usize] = Interval { low: taken, high: taken };
-                stay_in_piece(program, op, taken, v);
+            if let Some((to, value)) = within_domain(op, v) {
+                v[to as usize] = value;
+            }
+            if self.is_frozen
+                && let Some(to) = switched
+            {
+                let frozen = registers.get(to);
+                v[to as usize] = Interval { low: frozen, high: frozen };
+            }
+            if !self.held.is_empty() {
+                for &to in op.writes().iter() {
+                    if let Some(hold) = self.holds[to as usize] {
+                        v[to as usize] = hold.of(v[to as usize]);
+                    }
+                }
+            }
+            let changes = |to: Register| v[to as usize].low.total_cmp(&v[to as usize].high).is_ne();
+            if switched.is_some_and(changes) {
+                // a spline goes on over its knots
+                found |= if is_of_table { found::CROSSES_KNOTS } else { found::SWITCHES };
+            }
+            if third.is_some_and(changes) {
+                found |= found::SWITCHES;
+            }
+            if bounded.is_some_and(|to| v[to as usize].high - v[to as usize].low > WIDEST_VALUE) {
+                found |= found::IS_UNRESOLVED;
+            }
+            self.found[number as usize] = found;
+        }
+    }
+
+    /// Finds out what a formula depends on where it is known which branches are taken; its range must have been asked for.
+    pub fn find_live(&mut self, program: &Program, k: usize) {
+        self.is_live.fill(false);
+        self.is_live[self.roots[k] as usize] = true;
+        for &number in self.all[k].iter().rev() {
+            let op = self.steps[number as usize].op;
+            if !op.writes().iter().any(|&to| self.is_live[to as usize]) {
+                continue;
+            }
+            let is_decided = |register: Register| {
+                let Interval { low, high } = self.values[register as usize];
+                low.total_cmp(&high).is_eq()
+            };
+            match op {
+                // a condition that is decided depends on nothing
+                Op::And { to, .. } | Op::Or { to, .. } | Op::Not { to, .. } if is_decided(to) => {}
+                Op::Select { condition, a, b, .. } if is_decided(condition) => {
+                    let taken = if self.values[condition as usize].low == 0.0 { b } else { a };
+                    self.is_live[taken as usize] = true;
+                }
+                _ => program.reads(op).for_each(|register| self.is_live[register as usize] = true),
             }
         }
-        Some(found)
+    }
+
+    /// Whether the formula depends on a register, as [`Ranges::find_live`] has found out.
+    #[must_use]
+    pub fn is_live(&self, register: Register) -> bool {
+        self.is_live[register as usize]
+    }
+
+    /// The interval of a register, in order, as the formulas that were asked for have left it.
+    #[must_use]
+    pub fn interval(&self, register: Register) -> [f64; 2] {
+        let Interval { low, high } = self.values[register as usize];
+        [low, high]
     }
 }
 
-/// Where a function leaves its value that stays within bounds, so that it is resolved where it changes little, however its argument
-/// does.
+/// The result of an operation whose value is bounded, so that it is resolved where it changes little, however its argument does.
 fn bounded(op: Op) -> Option<Register> {
     match op {
         Op::Unary { function: Unary::Tanh | Unary::Asin | Unary::Acos, to, .. }
         | Op::Binary { function: Binary::Atan2, to, .. } => Some(to),
         _ => None,
+    }
+}
+
+/// What a function is where its argument is in its domain, if it is partly so: elsewhere it has no value. It is left in a register.
+fn within_domain(op: Op, v: &[Interval]) -> Option<(Register, Interval)> {
+    let Op::Unary { function, to, a } = op else { return None };
+    let [least, most] = match function {
+        Unary::Sqrt => [0.0, f64::INFINITY],
+        Unary::Asin | Unary::Acos => [-1.0, 1.0],
+        _ => return None,
+    };
+    let Interval { low, high } = v[a as usize];
+    let is_partly = (low < least || high > most) && low <= most && high >= least;
+    is_partly.then(|| (to, super::enclose::of_one(function, Interval { low: low.max(least), high: high.min(most) })))
+}
+
+/// Whether the value of a function that has no switch may jump: over the cut of `atan2`, or a pole of `tan`.
+fn may_jump(op: Op, v: &[Interval]) -> bool {
+    match op {
+        Op::Binary { function: Binary::Atan2, a: y, b: x, .. } => {
+            let (y, x) = (v[y as usize], v[x as usize]);
+            x.low <= 0.0 && y.low <= 0.0 && y.high >= 0.0
+        }
+        Op::Unary { function: Unary::Tan, a, .. } => {
+            let tangent = super::enclose::of_one(Unary::Tan, v[a as usize]);
+            tangent.high - tangent.low == f64::INFINITY
+        }
+        _ => false,
     }
 }
 

@@ -8,7 +8,7 @@ use crate::math::Vectors;
 use crate::program::{LaneMachine, LaneValues, Op, Register};
 use crate::solver::{Abreast, Solver};
 use crate::structure::Determined;
-use crate::tolerances::results::formulas::MOVED;
+use crate::tolerances::results::curve::MOVED;
 use crate::tolerances::solving::course::FEWEST_STEPS_OF_LENGTHS;
 use crate::tolerances::solving::variants::FEWEST_STEPS;
 use std::array::from_fn;

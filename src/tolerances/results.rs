@@ -9,12 +9,6 @@ pub mod ranges {
     pub const WIDEST_VALUE: f64 = 0.5;
     /// What is divided by, or has a root taken of it, changes by no more than this factor.
     pub const WIDEST_RATIO: f64 = 2.0;
-    /// A switch has so many results more than one at the most, be it the piece of a table, for each of them to be looked at by itself.
-    pub const MOST_AT_ONCE: f64 = 3.0;
-    /// So many ways through such results are looked at, at the most.
-    pub const MOST_WAYS: usize = 16;
-    /// An argument of a periodic table may be so far beyond its ends, by rounding (periods).
-    pub const BESIDE_A_SEAM: f64 = 1e-9;
 }
 
 /// Formulas in intervals (`program/enclose.rs`).
@@ -31,8 +25,8 @@ pub mod places {
     pub const SOLVABLE: f64 = 4e-3;
 }
 
-/// Cells (`analysis/results/survey.rs`).
-pub mod survey {
+/// Cells (`analysis/results/probe.rs`).
+pub mod probe {
     /// Looking at one formula, so many cells are cut at most: what needs more is not meant. One whose middle has to be solved for counts as
     /// so many.
     pub const MOST_CELLS: usize = 1_000_000;
@@ -45,12 +39,20 @@ pub mod survey {
     pub const ALIKE: f64 = 1e-9;
     /// What rounding makes of a value.
     pub const ROUNDING: f64 = 32.0 * f64::EPSILON;
+    /// A cell in which a guard crosses its threshold is narrowed by this factor to both sides of where a straight line does.
+    pub const NARROWER: f64 = 1e-3;
     /// What is as little as this is nothing: rounding makes as much of the root of the least square.
     pub const NOTHING: f64 = 1e-150;
 }
 
-/// Extremes (`analysis/results/search.rs`).
-pub mod search {
+/// Guards (`analysis/results/guards.rs`).
+pub mod guards {
+    /// An argument goes through its threshold, rather than jump over it, where it is no farther from there than this part of what it usually is.
+    pub const NEAR: f64 = 1e-6;
+}
+
+/// Extrema (`analysis/results/extremum.rs`).
+pub mod extremum {
     /// A cell that can gain no more than this part of the range is not cut.
     pub const GAP: f64 = 1e-11;
     /// The same, where the formula has no derivative.
@@ -65,6 +67,16 @@ pub mod search {
     pub const FINEST: f64 = 1e-4;
     /// Corrections of a time at most.
     pub const ITERATIONS: usize = 100;
+    /// In a cell no longer than this part of the span values may be nothing but rounding; they are known where that leaves this part of them, or of how
+    /// far the formula usually is from its extremum.
+    pub const SHORT: f64 = 1e-3;
+    pub const DIGITS: f64 = 1e-7;
+    /// A value at a threshold is that of one side where it differs from that of this side by no more than this part, likewise.
+    pub const APART: f64 = 1e-6;
+    /// A formula is looked at so far from where it may grow without bound, in shortest cells; and it does so where what it gains from one of these
+    /// places to the next, by equal factors, does not become less than this part.
+    pub const TOWARDS: [f64; 2] = [16.0, 256.0];
+    pub const CONVERGES: f64 = 0.7;
     /// An edge so little behind an extremum, as a part of the span, is the extremum, where the value is the same.
     pub const BESIDE: f64 = 1e-7;
 }
@@ -95,14 +107,6 @@ pub mod smooth {
     pub const WIDEST_OF_ALL: f64 = 0.5;
 }
 
-/// Exploring (`analysis/results/reduced.rs`).
-pub mod reduced {
-    /// A formula may go beyond what has been seen of it by this part of that before it is compared with its size; and so many cells are
-    /// looked at for that.
-    pub const SEEN: f64 = 0.25;
-    pub const MOST_LOOKS: usize = 1000;
-}
-
 /// Stretches (`analysis/results`).
 pub mod stretches {
     /// So many stretches are looked at together.
@@ -113,8 +117,12 @@ pub mod stretches {
 pub mod quadrature {
     /// An integral may be off by this part of range times time.
     pub const ACCURACY: f64 = 1e-11;
-    /// A cell in which no value matters more than this part of range times span is as good as it need be.
-    pub const NEGLIGIBLE: f64 = 1e-13;
+    /// The integral over a cell may be so many times farther off than what its halves make better.
+    pub const SAFETY: f64 = 8.0;
+    /// How far off all cells are together is looked at whenever one of so many has been cut.
+    pub const LOOKS: usize = 16;
+    /// An integral of which the shortest cells hold such a part has no end.
+    pub const DIVERGES: f64 = 1e-3;
     /// As little as that is nothing.
     pub const NOTHING: f64 = 1e-290;
     /// What rounding makes of a value.
@@ -129,18 +137,25 @@ pub mod loads {
     pub const LITTLE: f64 = 1e-12;
     /// What rounding may make of a load, beside what it makes of it at states.
     pub const ROUNDINGS: f64 = 4.0;
-    /// A formula may be no larger than this where a load does what is not told, which has an end.
-    pub const UNTOLD: f64 = 1e300;
+    /// A formula may be as large as this times what a load may do beyond what is told of it.
+    pub const UNTOLD: f64 = 1e200;
 }
 
-/// Bends, and how large a value's rounding is (`analysis/results/formulas.rs`).
-pub mod formulas {
-    /// How much farther from a straight line a coordinate's last derivative may go between two states than it did in the middle of the
-    /// stretch that they are a half of: four times as far as a parabola would.
-    pub const SAFETY: f64 = 1.0;
+/// Bends, and how large a value's rounding is (`analysis/results/curve.rs`).
+pub mod curve {
+    /// How many times farther from a straight line a second or third derivative may go between two states than the first or second one at both
+    /// of them tells that it does on average: a parabola goes 1.5 times as far.
+    pub const SAFETY: f64 = 2.0;
+    /// In a part of a cell they go no farther than in the whole, times this and the square of how long the part is against the whole.
+    pub const LESS: f64 = 2.0;
     /// What moves is moved by this part of itself to see how much a formula makes of its rounding; and in so many ways.
     pub const MOVED: f64 = 1.0 / 1_048_576.0;
     pub const WAYS: u32 = 3;
+    /// A value between two points beside each other is known where what it may be is no wider than this part of it, or than nothing.
+    pub const KNOWN: f64 = 1e-12;
+    pub const NOTHING: f64 = 1e-290;
+    /// What rounding may make of what moves, as a part of the largest that was seen of it.
+    pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
 }
 
 /// Derivatives of results (`lower/slopes.rs`).

@@ -99,8 +99,8 @@ pub mod course {
     /// else rounding moves the time of an extremum.
     pub const CERTAIN: f64 = 250.0;
     /// A formula rests, if all along its course it is no farther from where it begins than this part of the size of these numbers: a quarter of what
-    /// is the same alone (`results::survey::ROUNDING`).
-    pub const RESTS: f64 = 0.25 * crate::tolerances::results::survey::ROUNDING;
+    /// is the same alone (`results::probe::ROUNDING`).
+    pub const RESTS: f64 = 0.25 * crate::tolerances::results::probe::ROUNDING;
     /// Corrections of a time on the curve between two steps.
     pub const ITERATIONS: usize = 3;
     /// A length is smooth along steps of which so many at least are between it and zero, as fast as what it is the length of goes.

@@ -2,7 +2,7 @@
 
 use super::Asked;
 use super::reduced::Reduced;
-use super::survey::Trouble;
+use super::probe::Trouble;
 use crate::analysis::follow::{Follower, Stretch};
 use crate::analysis::state::Times;
 use crate::ir::ReductionKind;
@@ -46,7 +46,7 @@ impl Asked {
     pub(super) fn certain(&self, of: &Reduced, (kind, at): (ReductionKind, f64), near: &Near) -> Result<f64, Trouble> {
         let found = of.outcome(kind, at, self.interval);
         match found {
-            Err(trouble @ Trouble::Missing(_)) => Err(trouble),
+            Err(trouble @ (Trouble::Missing(_) | Trouble::Unbounded(_))) => Err(trouble),
             _ => self.is_certain(of, (kind, at), near).and(found),
         }
     }
@@ -64,7 +64,7 @@ impl Asked {
             // of places an integral is as good as they are
             ReductionKind::Mean | ReductionKind::Integral if of.holds_rates() => return self.has_rows_at(near.ends()),
             ReductionKind::Mean | ReductionKind::Integral => return Ok(()),
-            ReductionKind::Extreme { largest, .. } => of.time_of_extreme(largest, to - from),
+            ReductionKind::Extreme { largest, .. } => of.time_of_extreme(largest),
             ReductionKind::First => from,
             ReductionKind::Last => to,
             ReductionKind::At(_) => at,

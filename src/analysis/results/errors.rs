@@ -1,6 +1,6 @@
 //! Results that have no value.
 
-use super::survey::Trouble;
+use super::probe::Trouble;
 use crate::analysis::explain::errors::at;
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{Outcome, Reduction};
@@ -12,6 +12,10 @@ pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diag
         Some(Trouble::Missing(t)) => (
             format!("result `{name}` has no value: what it speaks of has none at {}", at(t)),
             "infinite or undefined there",
+        ),
+        Some(Trouble::Unbounded(t)) => (
+            format!("result `{name}` has no value: what it speaks of grows without bound at {}", at(t)),
+            "infinite there",
         ),
         Some(Trouble::Unknown(t)) => {
             (format!("result `{name}` could not be found to nine digits around {}", at(t)), "not certain enough")
@@ -28,7 +32,7 @@ pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diag
     };
     let diagnostic = Diagnostic::new(Code::N0604, message).at(outcome.span, label);
     match trouble {
-        Some(Trouble::Missing(t) | Trouble::Unknown(t) | Trouble::Uncertain(t)) => diagnostic.datum("t", t),
+        Some(Trouble::Missing(t) | Trouble::Unbounded(t) | Trouble::Unknown(t) | Trouble::Uncertain(t)) => diagnostic.datum("t", t),
         None => diagnostic,
     }
 }

@@ -8,17 +8,18 @@
 //! formula needs. No bit of a row depends on it.
 
 mod certain;
+mod curve;
 mod errors;
-mod formulas;
+mod extremum;
+mod guards;
 mod loads;
 mod places;
+mod probe;
 mod quadrature;
 mod quantities;
 mod quantity;
 mod reduced;
-mod search;
 mod smooth;
-mod survey;
 mod turn;
 mod varying;
 
@@ -33,14 +34,14 @@ use crate::solver::Solver;
 use crate::structure::Determined;
 use crate::tolerances::results::stretches::CHUNK;
 use certain::Near;
-use formulas::Formula;
+use curve::Curve;
 use places::Places;
 pub use quantities::SmoothFormulas;
 pub use quantity::{Computed, SmoothFormula, moved};
 use reduced::Reduced;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
-use survey::Trouble;
+use probe::Trouble;
 pub use turn::{MOST_LOOKS, Sampled, Settling, Turning};
 
 /// What is wrong with the results that an analysis from one time to another (s) is asked for.
@@ -162,7 +163,7 @@ impl Analysis {
         let mut places = Places::new(self.asked.kinematics.clone(), self.asked.solver.clone());
         let of: Vec<ExprId> = asked.iter().map(|(_, reduction)| reduction.of).collect();
         let known = |k: usize| self.found[k].and_then(Result::ok).unwrap_or(0.0);
-        let (all, formula_of) = formulas(system, &of, known, places.variations());
+        let (all, curve_of) = curves(system, &of, known, places.variations());
         let mut all: Vec<Reduced> = all.into_iter().map(Reduced::new).collect();
         let at = |reduction: &Reduction| match reduction.kind {
             ReductionKind::At(at) => self.value(at, false),
@@ -170,12 +171,12 @@ impl Analysis {
         };
         let at: Vec<f64> = asked.iter().map(|(_, reduction)| at(reduction)).collect();
         let interval = self.asked.interval;
-        for (((_, reduction), &of), &at) in asked.iter().zip(&formula_of).zip(&at) {
+        for (((_, reduction), &of), &at) in asked.iter().zip(&curve_of).zip(&at) {
             all[of].ask(reduction.kind, at, interval);
         }
         let mut near = Near::new();
         self.run(&mut all, &mut places, &mut near)?;
-        for (((k, reduction), &of), &at) in asked.iter().zip(&formula_of).zip(&at) {
+        for (((k, reduction), &of), &at) in asked.iter().zip(&curve_of).zip(&at) {
             self.found[*k] = Some(self.asked.certain(&all[of], (reduction.kind, at), &near));
         }
         Ok(())
@@ -202,9 +203,6 @@ impl Analysis {
                 return Ok(());
             }
             if is_end || stretches.len() >= CHUNK {
-                if all.iter().any(Reduced::needs_middles) {
-                    places.find_middles(&mut stretches);
-                }
                 for reduced in all.iter_mut() {
                     reduced.look(&stretches, places, span);
                 }
@@ -252,15 +250,15 @@ impl Analysis {
 
 /// The formulas of some reductions, each once, and which is whose; with the reductions that they hold, as far as these are known, and over so
 /// many variations.
-fn formulas(
+fn curves(
     system: &ConstraintSystem,
     asked: &[ExprId],
     found: impl Fn(usize) -> f64,
     variations: usize,
-) -> (Vec<Formula>, Vec<usize>) {
+) -> (Vec<Curve>, Vec<usize>) {
     let (mut graph, mut known) = (Graph::new(), FxHashMap::default());
     graph.import_tables(system.graph(), &mut known, Graph::symbol);
-    let mut formula_of: Vec<usize> = Vec::new();
+    let mut curve_of: Vec<usize> = Vec::new();
     let mut ids: Vec<ExprId> = Vec::new();
     for of in asked {
         graph.import(system.graph(), &[*of], &mut known, |graph, symbol| match symbol {
@@ -272,13 +270,13 @@ fn formulas(
             ids.push(id);
             ids.len() - 1
         });
-        formula_of.push(at);
+        curve_of.push(at);
     }
     let given: Vec<ExprId> = system.loads().iter().map(|load| load.force).collect();
     graph.import(system.graph(), &given, &mut known, Graph::symbol);
     let loads: Vec<ExprId> = given.iter().map(|load| known[load]).collect();
-    let formula = |id: ExprId| Formula::new(&mut graph, id, &loads, system, variations);
-    (ids.into_iter().map(formula).collect(), formula_of)
+    let curve = |id: ExprId| Curve::new(&mut graph, id, &loads, system, variations);
+    (ids.into_iter().map(curve).collect(), curve_of)
 }
 
 /// The value of a formula of parameters and of reductions that are found; no number where one has none.

@@ -143,17 +143,6 @@ impl Places {
         (0..self.signal_count).all(|k| self.signals.range(program, registers, k).is_resolved)
     }
 
-    /// Solves for the middles of stretches, which all formulas ask for.
-    pub fn find_middles(&mut self, stretches: &mut [Stretch]) {
-        for stretch in stretches {
-            let t = 0.5 * stretch.from.t + 0.5 * stretch.to.t;
-            if stretch.middle.is_none() && stretch.from.t < t && t < stretch.to.t {
-                self.enter(stretch);
-                stretch.middle = self.solve(stretch, [&stretch.from, &stretch.to], t);
-            }
-        }
-    }
-
     /// The state at a time (s) between two states of a stretch; none where it cannot be solved for.
     pub fn solve(&mut self, stretch: &Stretch, [a, b]: [&State; 2], t: f64) -> Option<State> {
         let h = b.t - a.t;

@@ -1,8 +1,8 @@
 //! What results ask of the motion, for variants that go side by side: smooth formulas, of which extrema and values at some times are wanted.
 
-use super::formulas::Formula;
+use super::curve::Curve;
 use super::quantity::SmoothFormula;
-use super::{formulas, needed, value_of};
+use super::{curves, needed, value_of};
 use crate::expr::ExprId;
 use crate::ir::{ConstraintSystem, ReductionKind};
 
@@ -31,9 +31,9 @@ impl SmoothFormulas {
             return None;
         }
         let of: Vec<ExprId> = all.iter().map(|reduction| reduction.of).collect();
-        let (formulas, formula_of) = formulas(system, &of, |_| f64::NAN, 0);
-        let each: Option<Vec<SmoothFormula>> = formulas.into_iter().map(Formula::into_quantity).collect();
-        let reductions = formula_of.into_iter().zip(all).map(|(of, reduction)| (of, reduction.kind)).collect();
+        let (curves, curve_of) = curves(system, &of, |_| f64::NAN, 0);
+        let each: Option<Vec<SmoothFormula>> = curves.into_iter().map(Curve::into_quantity).collect();
+        let reductions = curve_of.into_iter().zip(all).map(|(of, reduction)| (of, reduction.kind)).collect();
         Some(SmoothFormulas { each: each?, reductions })
     }
 

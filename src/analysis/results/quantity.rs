@@ -1,7 +1,7 @@
 //! A formula of results that follows from the coordinates by operations alone.
 
 use crate::program::{Op, Program, Register, Registers, Stage};
-use crate::tolerances::results::formulas::MOVED;
+use crate::tolerances::results::curve::MOVED;
 
 /// A formula along the motion, and its time derivatives.
 pub struct SmoothFormula {
@@ -16,6 +16,8 @@ pub struct SmoothFormula {
 pub struct Computed {
     program: Program,
     registers: Registers,
+    /// The operations that what is wanted follows from.
+    operations: Vec<Op>,
     /// Where a coordinate, differentiated so many times by time, is to stand.
     inputs: Vec<(Register, u32, usize)>,
     /// Where that is to stand which was left in a register of what was computed before.
@@ -23,13 +25,14 @@ pub struct Computed {
 }
 
 impl Computed {
-    /// By a program over so many coordinates, and perhaps more.
-    pub(super) fn new(program: Program, registers: Registers, coordinates: usize) -> Computed {
+    /// By a program over so many coordinates, and perhaps more, which leaves what is wanted in some registers.
+    pub(super) fn new(program: Program, registers: Registers, coordinates: usize, wanted: &[Register]) -> Computed {
         let mut inputs = Vec::new();
         for (order, first) in program.inputs.coordinates.into_iter().enumerate() {
             inputs.extend((0..coordinates as Register).map(|k| (first + k, k, order)));
         }
-        Computed { program, registers, inputs, taken: Vec::new() }
+        let operations = program.operations_behind(wanted, Stage::Measures);
+        Computed { program, registers, operations, inputs, taken: Vec::new() }
     }
 
     /// The same with what was computed before as further coordinates, by where that is left with its time derivatives; none where one is missing.
@@ -56,7 +59,7 @@ impl Computed {
         for &register in wanted {
             is_read[register as usize] = true;
         }
-        for &op in self.operations()[1] {
+        for &op in &self.operations {
             self.program.reads(op).for_each(|register| is_read[register as usize] = true);
         }
         is_read
@@ -77,7 +80,7 @@ impl Computed {
     /// The operations that follow from parameters alone, and those that follow from coordinates.
     #[must_use]
     pub fn operations(&self) -> [&[Op]; 2] {
-        [Stage::Prologue, Stage::Measures].map(|stage| self.program.stage(stage))
+        [self.program.stage(Stage::Prologue), &self.operations]
     }
 
     /// Where a coordinate is to stand, by its number, differentiated so many times by time.

@@ -1,46 +1,41 @@
-//! A formula along the whole motion, stretch by stretch, and the numbers that are asked of it.
+//! A formula along the whole motion, and the numbers that are asked of it.
 
-use super::formulas::{Cell, Formula};
+use super::curve::{Cell, Curve};
+use super::extremum::Extremum;
 use super::places::Places;
-use super::search::Extreme;
-use super::survey::{Root, Scale, Survey, Trouble};
+use super::probe::{Notes, Probe, Scale, Trouble};
+use super::quadrature::Integral;
 use crate::analysis::follow::Stretch;
 use crate::analysis::state::{State, shortly_after};
 use crate::ir::ReductionKind;
-use crate::program::Range;
-use crate::tolerances::results::reduced::{MOST_LOOKS, SEEN};
-use crate::tolerances::results::survey::{OPAQUE, SHORTEST};
 
 /// A formula that is looked at along the motion, and what is found of it.
 pub(super) struct Reduced {
-    formula: Formula,
-    extremes: [Option<Extreme>; 2],
-    integral: Option<f64>,
+    curve: Curve,
+    extrema: [Option<Extremum>; 2],
+    integral: Option<Integral>,
+    /// What came up while these were looked for, in this order.
+    notes: [Notes; 3],
     /// Times (s) at which its value is asked for, and the values.
     times: Vec<(f64, f64)>,
-    /// The least and the largest value so far.
-    seen: [f64; 2],
-    /// The size of the largest numbers that a value was a sum of.
-    weight: f64,
-    /// When these were seen first (s).
-    seen_at: [f64; 2],
-    trouble: Option<Trouble>,
-    cells: usize,
+    /// Its values, and the magnitudes of the numbers that these are sums of, at the ends of steps.
+    samples: Vec<f64>,
+    weights: Vec<f64>,
+    /// As the extremum's search has left it, by which one.
+    scales: [Option<Scale>; 2],
 }
 
 impl Reduced {
-    pub fn new(formula: Formula) -> Reduced {
-        let seen = [f64::INFINITY, f64::NEG_INFINITY];
+    pub fn new(curve: Curve) -> Reduced {
         Reduced {
-            formula,
-            extremes: [None, None],
+            curve,
+            extrema: [None, None],
             integral: None,
             times: Vec::new(),
-            seen,
-            weight: 0.0,
-            seen_at: [f64::NAN; 2],
-            trouble: None,
-            cells: 0,
+            samples: Vec::new(),
+            weights: Vec::new(),
+            scales: [None, None],
+            notes: [Notes::default(); 3],
         }
     }
 
@@ -52,11 +47,14 @@ impl Reduced {
             }
         };
         match kind {
-            ReductionKind::Extreme { largest, .. } => {
-                self.extremes[usize::from(largest)].get_or_insert_with(|| Extreme::new(largest));
+            ReductionKind::Extreme { largest, when } => {
+                let extremum = self.extrema[usize::from(largest)].get_or_insert_with(|| Extremum::new(largest));
+                if when {
+                    extremum.ask_for_time();
+                }
             }
-            ReductionKind::Mean | ReductionKind::Integral if to > from => self.integral = Some(0.0),
-            ReductionKind::Integral => self.integral = Some(0.0),
+            ReductionKind::Mean | ReductionKind::Integral if to > from => self.integral = Some(Integral::default()),
+            ReductionKind::Integral => self.integral = Some(Integral::default()),
             ReductionKind::Mean | ReductionKind::First => time(from),
             ReductionKind::Last => time(to),
             ReductionKind::At(_) => time(at),
@@ -64,94 +62,121 @@ impl Reduced {
     }
 
     /// What a reduction is, or why it is nothing.
-    pub fn outcome(&self, kind: ReductionKind, at: f64, interval: [f64; 2]) -> Result<f64, Trouble> {
-        let is_of_time = matches!(kind, ReductionKind::First | ReductionKind::Last | ReductionKind::At(_));
-        if let Some(trouble) = self.trouble.filter(|_| !is_of_time) {
+    pub fn outcome(&self, kind: ReductionKind, at: f64, interval @ [from, to]: [f64; 2]) -> Result<f64, Trouble> {
+        if let Some(trouble) = self.notes_of(kind).and_then(|notes| notes.trouble) {
             return Err(trouble);
+        }
+        if let ReductionKind::Extreme { largest, .. } = kind
+            && let Some(t) = self.extrema[usize::from(largest)].as_ref().and_then(Extremum::unbounded)
+        {
+            return Err(Trouble::Unbounded(t));
+        }
+        if let Some(integral) = self.integral.filter(|_| matches!(kind, ReductionKind::Mean | ReductionKind::Integral))
+            && let Some(t) = integral.unbounded()
+        {
+            return Err(Trouble::Unbounded(t));
         }
         let value = self.value(kind, at, interval);
         let t = match kind {
-            ReductionKind::Last => interval[1],
+            ReductionKind::Last => to,
             ReductionKind::At(_) => at,
-            _ => interval[0],
+            _ => from,
         };
+        if value.is_finite() { Ok(value) } else { Err(Trouble::Missing(t)) }
+    }
+
+    /// The first time (s) at which the formula has no value, which was left out.
+    pub fn missing(&self, kind: ReductionKind) -> Option<f64> {
+        self.notes_of(kind).and_then(|notes| notes.missing)
+    }
+
+    /// What came up while a reduction was looked for; none where that is a value at one time.
+    fn notes_of(&self, kind: ReductionKind) -> Option<&Notes> {
         match kind {
-            _ if value.is_finite() => Ok(value),
-            // rounding may show values that no extremum has
-            ReductionKind::Extreme { largest, .. } if self.seen_at[0].is_finite() => {
-                Err(Trouble::Unknown(self.seen_at[usize::from(largest)]))
-            }
-            _ => Err(Trouble::Missing(t)),
+            ReductionKind::Extreme { largest, .. } => Some(&self.notes[usize::from(largest)]),
+            ReductionKind::Mean | ReductionKind::Integral => Some(&self.notes[2]),
+            ReductionKind::First | ReductionKind::Last | ReductionKind::At(_) => None,
         }
     }
 
     /// Of an analysis of a single time.
     pub fn look_at_start(&mut self, state: &State, places: &mut Places, span: f64) {
-        let point = self.formula.at(state.clone(), places);
+        let point = self.curve.at(state.clone(), places);
         let value = point.sample.value;
         self.times.iter_mut().for_each(|(_, known)| *known = value);
         if !value.is_finite() {
-            self.trouble = Some(Trouble::Missing(state.t));
+            self.notes.iter_mut().for_each(|notes| notes.meet(Trouble::Missing(state.t)));
             return;
         }
-        self.seen = [value; 2];
+        self.samples.push(value);
         let scale = self.scale(span);
-        self.extremes.iter_mut().flatten().for_each(|extreme| extreme.note_edge(state.t, value, scale));
+        self.extrema.iter_mut().flatten().for_each(|extremum| extremum.note_edge(state.t, value, scale));
+        self.scales = [Some(scale); 2];
     }
 
     /// Whether it changes with the motion, and not with time alone.
     pub fn moves(&self) -> bool {
-        self.formula.moves()
-    }
-
-    /// Whether what lies between the ends of stretches matters.
-    pub fn needs_middles(&self) -> bool {
-        self.moves() && !self.is_of_times_alone()
+        self.curve.moves()
     }
 
     /// Whether nothing is asked but values at some times.
     fn is_of_times_alone(&self) -> bool {
-        self.extremes.iter().all(Option::is_none) && self.integral.is_none()
+        self.extrema.iter().all(Option::is_none) && self.integral.is_none()
     }
 
     /// Whether it holds derivatives of the coordinates.
     pub fn holds_rates(&self) -> bool {
-        self.formula.holds_rates()
+        self.curve.holds_rates()
     }
 
-    /// The first time (s) of the largest or least value, be it just one that was seen.
-    pub fn time_of_extreme(&self, largest: bool, span: f64) -> f64 {
-        let extreme = self.extremes[usize::from(largest)].as_ref();
-        let time = extreme.map_or(f64::NAN, |extreme| extreme.time(self.scale(span)));
-        if time.is_finite() { time } else { self.seen_at[usize::from(largest)] }
+    /// The first time (s) of the largest or least value.
+    pub fn time_of_extreme(&self, largest: bool) -> f64 {
+        let which = usize::from(largest);
+        match (&self.extrema[which], self.scales[which]) {
+            (Some(extremum), Some(scale)) => extremum.time(scale),
+            _ => f64::NAN,
+        }
     }
 
+    /// How large the formula is, by what was seen at the ends of steps.
     fn scale(&self, span: f64) -> Scale {
-        let [low, high] = self.seen;
-        Scale { range: f64::max(high - low, 0.0), weight: self.weight.max(low.abs()).max(high.abs()), span }
+        let finite = || self.samples.iter().filter(|value| value.is_finite());
+        let low = finite().copied().fold(f64::INFINITY, f64::min);
+        let high = finite().copied().fold(f64::NEG_INFINITY, f64::max);
+        // what a pole makes of a few values says nothing of the others' rounding
+        let mut weights: Vec<f64> = self.weights.iter().chain(finite()).map(|weight| weight.abs()).collect();
+        let middle = weights.len() / 2;
+        let weight =
+            if weights.is_empty() { 0.0 } else { *weights.select_nth_unstable_by(middle, f64::total_cmp).1 };
+        Scale { range: f64::max(high - low, 0.0), weight, span }
     }
 
     /// What a reduction is, once all has been seen.
     fn value(&self, kind: ReductionKind, at: f64, [from, to]: [f64; 2]) -> f64 {
-        let (span, scale) = (to - from, self.scale(to - from));
         let of_time = |wanted: f64| {
             let found = self.times.iter().find(|(t, _)| t.total_cmp(&wanted).is_eq());
             found.map_or(f64::NAN, |(_, value)| *value)
         };
         match kind {
-            ReductionKind::Extreme { largest, when } => {
-                let extreme = self.extremes[usize::from(largest)].as_ref();
-                extreme.map_or(f64::NAN, |extreme| if when { extreme.time(scale) } else { extreme.value(scale) })
+            ReductionKind::Extreme { largest, when: true } => self.time_of_extreme(largest),
+            ReductionKind::Extreme { largest, when: false } => {
+                let which = usize::from(largest);
+                match (&self.extrema[which], self.scales[which]) {
+                    (Some(extremum), Some(scale)) => extremum.value(scale),
+                    _ => f64::NAN,
+                }
             }
-            ReductionKind::Integral => self.integral.unwrap_or(f64::NAN),
-            ReductionKind::Mean if span > 0.0 => self.integral.map_or(f64::NAN, |integral| integral / span),
+            ReductionKind::Integral => self.integral.map_or(f64::NAN, |integral| integral.sum),
+            ReductionKind::Mean if to > from => {
+                self.integral.map_or(f64::NAN, |integral| integral.sum / integral.time)
+            }
             ReductionKind::Mean | ReductionKind::First => of_time(from),
             ReductionKind::Last => of_time(to),
             ReductionKind::At(_) => of_time(at),
         }
     }
 
-    /// Takes in the values at times that lie in a stretch.
+    /// Takes in the values at times that lie in a step.
     fn take_times(&mut self, stretch: &Stretch, places: &mut Places) {
         for k in 0..self.times.len() {
             let t = self.times[k].0;
@@ -167,125 +192,68 @@ impl Reduced {
                 places.solve(stretch, [&stretch.from, &stretch.to], t)
             };
             // of an edge the later side counts, which comes later
-            self.times[k].1 = state.map_or(f64::NAN, |state| self.formula.at(state, places).sample.value);
+            self.times[k].1 = state.map_or(f64::NAN, |state| self.curve.at(state, places).sample.value);
         }
     }
 
-    /// An end of a stretch, or a time (s) that is as good as that, with the bits that rows have there where nothing is in doubt.
+    /// An end of a step, or a time (s) that is as good as that, with the bits that rows have there where nothing is in doubt.
     fn end(&self, state: &State, t: f64, stretch: &Stretch, places: &mut Places) -> State {
-        let settled = self.formula.settles().then(|| places.settled(stretch, state, t));
+        let settled = self.curve.settles().then(|| places.settled(stretch, state, t));
         settled.flatten().unwrap_or_else(|| state.clone())
     }
 
-    /// Looks at some stretches.
-    pub fn look(&mut self, stretches: &[Stretch], places: &mut Places, span: f64) {
-        let mut roots: Vec<Option<Root>> = stretches.iter().map(|stretch| self.root(stretch, places, span)).collect();
-        self.explore(stretches, &roots, places, span);
-        for (stretch, root) in stretches.iter().zip(&mut roots) {
-            if self.trouble.is_some() {
-                return;
+    /// Looks at some steps.
+    pub fn look(&mut self, steps: &[Stretch], places: &mut Places, span: f64) {
+        let cells: Vec<Cell> = (0..steps.len()).filter_map(|step| self.cell(step, steps, places)).collect();
+        if cells.is_empty() {
+            return;
+        }
+        let scale = self.scale(span);
+        let Reduced { curve, notes, extrema, integral, samples, scales, .. } = self;
+        let [of_least, of_largest, of_integral] = notes;
+        for ((extremum, kept), notes) in extrema.iter_mut().zip(scales).zip([of_least, of_largest]) {
+            let Some(extremum) = extremum else { continue };
+            let mut probe = Probe::new((&mut *curve, notes), &mut *places, steps, span);
+            for cell in &cells {
+                let step = &steps[cell.step];
+                let ends = [(step.begins_at_edge, &cell.a), (step.ends_at_edge, &cell.b)];
+                for (_, point) in ends.into_iter().filter(|(is_edge, point)| *is_edge && !probe.curve.is_at_threshold(point)) {
+                    extremum.note_edge(point.state.t, point.sample.value, scale);
+                }
             }
-            if let Some(root) = root {
-                places.enter(stretch);
-                self.look_into(stretch, root, places, span);
-            }
+            *kept = Some(probe.search(&cells, samples, extremum, scale));
+        }
+        if let Some(integral) = integral {
+            let mut probe = Probe::new((curve, of_integral), places, steps, span);
+            let middle = samples.len() / 2;
+            let usual = if samples.is_empty() { 0.0 } else { *samples.clone().select_nth_unstable_by(middle, f64::total_cmp).1 };
+            probe.integrate(&cells, usual, scale, integral);
         }
     }
 
-    /// The formula at the ends and in the middle of a stretch, and what it can be between; none where nobody asks.
-    fn root(&mut self, stretch: &Stretch, places: &mut Places, span: f64) -> Option<Root> {
-        places.enter(stretch);
-        self.take_times(stretch, places);
+    /// A step, with the formula at both ends; none where only values at some times are asked for.
+    fn cell(&mut self, number: usize, steps: &[Stretch], places: &mut Places) -> Option<Cell> {
+        let step = &steps[number];
+        places.enter(step);
+        self.take_times(step, places);
         if self.is_of_times_alone() {
             return None;
         }
-        let is_integrated = self.integral.is_some();
-        let is_edge = [stretch.begins_at_edge, stretch.ends_at_edge];
-        let ends = [(&stretch.from, is_edge[0]), (&stretch.to, is_edge[1])];
+        let ends = [(&step.from, step.begins_at_edge), (&step.to, step.ends_at_edge)];
         let [from, to] = ends.map(|(state, is_edge)| {
-            let state = if is_edge { self.end(state, state.t, stretch, places) } else { state.clone() };
-            self.formula.at(state, places)
+            let state = if is_edge { self.end(state, state.t, step, places) } else { state.clone() };
+            self.curve.at(state, places)
         });
-        // but for edges, a stretch begins where the one before has ended
-        for point in stretch.begins_at_edge.then_some(&from).into_iter().chain([&to]) {
-            self.weight = self.weight.max(self.formula.weight(point));
-        }
-        let mut survey = self.survey(stretch, places, span);
-        for point in [&from, &to] {
-            survey.see(point);
-        }
-        let whole = Cell::unknown(survey.formula, &from, &to);
-        let middle = match &stretch.middle {
-            Some(state) => {
-                let point = survey.formula.at(state.clone(), survey.places);
-                survey.see(&point);
-                Some(point)
-            }
-            None => survey.middle(&whole),
-        };
-        let Some(middle) = middle else {
-            if whole.length() > OPAQUE * span {
-                survey.meet(Trouble::Unknown(from.state.t));
-            }
-            return Some(Root { whole, parts: Vec::new() });
-        };
-        let halves = whole.halves(survey.formula, &middle);
-        let parts = halves.map(|cell| {
-            let range = if is_integrated { survey.smooth_range(&cell) } else { survey.range(&cell) };
-            (cell, range)
-        });
-        Some(Root { whole, parts: parts.into() })
-    }
-
-    /// Looks for values where the ranges allow much more than has been seen: what is a peak in no time has to be known before
-    /// anything is compared with its size.
-    fn explore(&mut self, stretches: &[Stretch], roots: &[Option<Root>], places: &mut Places, span: f64) {
-        for sign in [1.0, -1.0] {
-            let top = |range: &Range| if sign > 0.0 { range.high } else { -range.low };
-            let parts = roots.iter().enumerate().filter_map(|(k, root)| Some((k, root.as_ref()?)));
-            let mut open: Vec<(f64, usize, Cell)> = parts
-                .flat_map(|(k, root)| root.parts.iter().map(move |(cell, range)| (top(range), k, cell.clone())))
-                .collect();
-            for _ in 0..MOST_LOOKS {
-                let best = (0..open.len()).max_by(|&a, &b| open[a].0.total_cmp(&open[b].0));
-                let Some((upper, k, cell)) = best.map(|best| open.swap_remove(best)) else { break };
-                let seen = if sign > 0.0 { self.seen[1] } else { -self.seen[0] };
-                if upper - seen <= SEEN * (self.seen[1] - self.seen[0]) || self.trouble.is_some() {
-                    break;
-                }
-                places.enter(&stretches[k]);
-                let mut survey = self.survey(&stretches[k], places, span);
-                let Some(middle) = survey.middle(&cell) else { continue };
-                for half in cell.halves(survey.formula, &middle) {
-                    let range = survey.range(&half);
-                    open.push((top(&range), k, half));
-                }
+        // but for edges, a step begins where the one before has ended
+        for point in step.begins_at_edge.then_some(&from).into_iter().chain([&to]) {
+            if point.exists() {
+                self.samples.push(point.sample.value);
+                let weight = self.curve.weight(point);
+                self.weights.push(weight);
+            } else {
+                self.notes.iter_mut().for_each(|notes| notes.miss(point.state.t));
             }
         }
-    }
-
-    fn look_into(&mut self, stretch: &Stretch, root: &Root, places: &mut Places, span: f64) {
-        let scale = self.scale(span);
-        let [from, to] = [&root.whole.a, &root.whole.b];
-        let mut extremes = self.extremes.clone();
-        for extreme in extremes.iter_mut().flatten() {
-            if stretch.begins_at_edge {
-                extreme.note_edge(from.state.t, from.sample.value, scale);
-            }
-            self.survey(stretch, places, span).search(&root.parts, extreme, scale);
-            if stretch.ends_at_edge {
-                extreme.note_edge(to.state.t, to.sample.value, scale);
-            }
-        }
-        self.extremes = extremes;
-        if let Some(integral) = self.integral {
-            let more = self.survey(stretch, places, span).integral(root, scale);
-            self.integral = Some(integral + more);
-        }
-    }
-
-    fn survey<'r>(&'r mut self, stretch: &'r Stretch, places: &'r mut Places, span: f64) -> Survey<'r> {
-        let Reduced { formula, trouble, cells, seen, seen_at, .. } = self;
-        Survey { formula, places, stretch, trouble, cells, seen, seen_at, shortest: SHORTEST * span }
+        Some(Cell::new(number, &from, &to))
     }
 }

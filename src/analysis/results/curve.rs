@@ -1,0 +1,674 @@
+//! A formula along the motion: its values and time derivatives at states, and what it can be between two of them.
+
+use super::guards::{Crossing, Guard, Mark, arguments, guards, slopes};
+use super::loads::{Hidden, Loads};
+use super::places::Places;
+use super::quantity::{Computed, SmoothFormula, moved};
+use super::smooth::Smooth;
+use super::turn::Sampled;
+use crate::analysis::state::State;
+use crate::expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};
+use crate::ir::{ConstraintSystem, CoordinateKind};
+use crate::math::between;
+use crate::program::{Inputs, Program, Range, Ranges, Register, Registers, Stage};
+use crate::tolerances::results::curve::{KNOWN, LESS, MOVED, NOTHING, ROUNDING, SAFETY, WAYS};
+use crate::tolerances::results::loads::UNTOLD;
+use rustc_hash::FxHashMap;
+use std::rc::Rc;
+
+/// A variation is known with two time derivatives.
+const VARIED_ORDERS: u32 = 3;
+
+/// A formula along the motion.
+pub(super) struct Curve {
+    program: Program,
+    registers: Registers,
+    /// Where the formula and its time derivatives are left, as many as are known.
+    roots: Vec<Register>,
+    /// Ranges of the formula, of the loads behind it, of the arguments of guards with their slopes, and of the formula's time derivatives.
+    ranges: Ranges,
+    /// The number of the first time derivative among these.
+    first: usize,
+    guards: Vec<Guard>,
+    /// What moves of all that the formula or its derivatives hold.
+    moving: Vec<Moving>,
+    /// What of it stands behind the coordinates of the system, of which there are so many.
+    smooth: Smooth,
+    coordinates: usize,
+    has_jerk: bool,
+    shape: Shape,
+    holds_rates: bool,
+    holds_forces: bool,
+    /// Whether it holds something of which one order alone is known.
+    needs_middles: bool,
+    /// The loads that the forces in the formula come from.
+    loads: Loads,
+    /// The largest magnitudes that were seen: of what moves, with its derivatives, and of the guards' arguments.
+    largest: Vec<[f64; 4]>,
+    largest_arguments: Vec<f64>,
+}
+
+/// Of what shape a formula is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Shape {
+    /// Nothing but what is smooth.
+    Smooth,
+    /// The length of something smooth, or a root of it, but for a factor that rests.
+    Length,
+    Other,
+}
+
+/// What changes with the motion.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) enum Moving {
+    /// A coordinate, or what moves as smoothly.
+    Coordinate(usize),
+    /// A variation of a coordinate.
+    Varied {
+        /// The variation's number.
+        variation: u32,
+        /// The coordinate's.
+        index: usize,
+    },
+    /// The multiplier of a row, of which only the value is known.
+    Multiplier(usize),
+    /// How that changes, likewise.
+    VariedMultiplier {
+        /// The variation's number.
+        variation: u32,
+        /// The row's.
+        row: usize,
+    },
+}
+
+impl Moving {
+    fn of(symbol: Symbol) -> Option<Moving> {
+        match symbol {
+            Symbol::Coordinate { index, .. } => Some(Moving::Coordinate(index as usize)),
+            Symbol::Varied { index, variation, .. } => Some(Moving::Varied { variation, index: index as usize }),
+            Symbol::Multiplier(row) => Some(Moving::Multiplier(row as usize)),
+            Symbol::VariedMultiplier { row, variation } => {
+                Some(Moving::VariedMultiplier { variation, row: row as usize })
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether it is a force, or how one changes: of these only the value is known.
+    fn is_of_forces(self) -> bool {
+        matches!(self, Moving::Multiplier(_) | Moving::VariedMultiplier { .. })
+    }
+
+    /// Where it and its time derivatives go, as many as there are.
+    fn registers(self, inputs: &Inputs) -> [Option<Register>; 4] {
+        match self {
+            Moving::Coordinate(index) => inputs.coordinates.map(|first| Some(first + index as Register)),
+            Moving::Multiplier(row) => [Some(inputs.multipliers + row as Register), None, None, None],
+            Moving::VariedMultiplier { variation, row } => {
+                [Some(inputs.varied_multipliers(variation) + row as Register), None, None, None]
+            }
+            Moving::Varied { variation, index } => [0, 1, 2, 3]
+                .map(|order| (order < VARIED_ORDERS).then(|| inputs.varied(variation, order) + index as Register)),
+        }
+    }
+}
+
+/// A formula at a state.
+pub(super) struct Point {
+    pub state: State,
+    /// What moves of the formula, each with three time derivatives; one that is not known is 0.
+    moving: Vec<[f64; 4]>,
+    /// The loads, of a formula that holds forces.
+    loads: Vec<f64>,
+    /// By guard.
+    marks: Vec<Mark>,
+    pub sample: Sampled,
+}
+
+impl Point {
+    /// Whether the formula has a value here.
+    pub fn exists(&self) -> bool {
+        self.sample.value.is_finite()
+    }
+}
+
+/// What lies between two points of a step of the motion.
+#[derive(Clone)]
+pub(super) struct Cell {
+    /// The number of the step.
+    pub step: usize,
+    pub a: Rc<Point>,
+    pub b: Rc<Point>,
+    /// By what moves of the formula: how far its second and third derivatives are from a straight line; of a force, how far its value is. Behind
+    /// these are the formula itself and the loads, of which that is the value too. None where nothing is known yet.
+    bends: Option<Rc<[[f64; 2]]>>,
+    /// The length (s) of the cell that this is known of, of which this one may be a part.
+    known_over: f64,
+}
+
+impl Cell {
+    /// From one point to another, of which nothing between is known yet.
+    pub fn new(step: usize, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
+        Cell { step, a: Rc::clone(a), b: Rc::clone(b), bends: None, known_over: f64::INFINITY }
+    }
+
+    /// Its length (s).
+    pub fn length(&self) -> f64 {
+        self.b.state.t - self.a.state.t
+    }
+
+    /// The time in its middle (s).
+    pub fn middle(&self) -> f64 {
+        0.5 * self.a.state.t + 0.5 * self.b.state.t
+    }
+
+    /// Whether there is no time in it.
+    pub fn is_empty(&self) -> bool {
+        let middle = self.middle();
+        middle <= self.a.state.t || middle >= self.b.state.t
+    }
+
+    /// As this one, from one point to another.
+    pub fn between(&self, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
+        Cell { bends: self.bends.clone(), known_over: self.known_over, ..Cell::new(self.step, a, b) }
+    }
+
+    /// Its parts on both sides of a point in it.
+    pub fn cut(&self, curve: &Curve, at: &Rc<Point>) -> [Cell; 2] {
+        let bends = if curve.needs_middles { Some(curve.bends_at(self, at)) } else { self.bends.clone() };
+        [(&self.a, at), (at, &self.b)].map(|(a, b)| Cell { bends: bends.clone(), ..self.between(a, b) })
+    }
+}
+
+/// What is known of a formula in a cell.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Verdict {
+    /// No guard crosses its threshold.
+    Smooth,
+    /// A guard, by its number, is on different sides at both ends.
+    Crosses(usize),
+    /// The formula has no value.
+    Missing,
+    /// Too little is known.
+    Open,
+}
+
+impl Curve {
+    /// A formula of a graph over the parameters, coordinates and variations of a system, whose loads stand in that graph too.
+    pub fn new(
+        graph: &mut Graph,
+        value: ExprId,
+        loads: &[ExprId],
+        system: &ConstraintSystem,
+        variations: usize,
+    ) -> Curve {
+        let has_jerk = system.jerk().is_some();
+        let dependence = graph.dependence(value);
+        let holds_forces = dependence.on(Dependence::FORCES);
+        let holds_rates =
+            dependence.highest_order() > Some(0) || dependence.highest_varied_order().is_some() || holds_forces;
+        let loads = if holds_forces { loads } else { &[] };
+        let (mut graph, found, smooth) = Smooth::out_of(graph, (value, loads), system);
+        let shape = shape(&graph, found[0], system);
+        let derivatives = with_derivatives(&mut graph, found[0], has_jerk);
+        let own = derivatives.len();
+        // ranges are asked for in this order: the formula, its loads, the arguments of guards with their slopes, and the derivatives
+        let mut formulas = found.clone();
+        let arguments = arguments(&mut graph, &found);
+        let slopes = slopes(&mut graph, &arguments, |graph, id| is_known(graph, id, has_jerk));
+        let mut witnesses = FxHashMap::default();
+        for (&argument, slope) in arguments.iter().zip(slopes) {
+            if let Some(slope) = slope {
+                witnesses.insert(argument, [formulas.len(), formulas.len() + 1]);
+                formulas.extend([argument, slope]);
+            }
+        }
+        let first = formulas.len();
+        formulas.extend_from_slice(&derivatives[1..]);
+        let mut moving: Vec<Moving> = graph.symbols_of_all(&formulas).into_iter().filter_map(Moving::of).collect();
+        moving.sort_unstable();
+        moving.dedup();
+        let coordinates = system.coordinates().len();
+        let coordinates_and_more = coordinates + smooth.count();
+        // as many places for them as there are coordinates, which are no fewer than the rows
+        let multipliers = if system.forces().is_some() { coordinates_and_more } else { 0 };
+        let counts = [system.params().len(), coordinates_and_more, variations, multipliers];
+        let (program, places, nodes) = Program::of_formulas_and_nodes(&graph, counts, &formulas);
+        let params = system.values_of_params();
+        let registers = program.start(&params);
+        let values = &places[..found.len()];
+        let guards = guards((&mut graph, &program), values, &nodes, &witnesses);
+        let loads = Loads::new(&values[1..]);
+        let roots = (0..own).map(|order| places[if order == 0 { 0 } else { first + order - 1 }]).collect();
+        let mut curve = Curve {
+            ranges: Ranges::new(&program, &registers, &places, Stage::Measures, false),
+            program,
+            registers,
+            roots,
+            first,
+            guards,
+            moving,
+            smooth,
+            coordinates,
+            has_jerk,
+            shape,
+            holds_rates,
+            holds_forces,
+            needs_middles: holds_forces,
+            loads,
+            largest: Vec::new(),
+            largest_arguments: Vec::new(),
+        };
+        curve.largest = vec![[0.0; 4]; curve.moving.len()];
+        curve.largest_arguments = vec![0.0; curve.guards.len()];
+        curve.needs_middles |= curve.moving.iter().map(|of| curve.orders(*of)).any(|[from, to]| from == to);
+        curve
+    }
+
+    /// How many time derivatives it has: 0 to 2.
+    pub fn derivatives(&self) -> usize {
+        self.roots.len() - 1
+    }
+
+    /// Whether it changes with the motion, and not with time alone.
+    pub fn moves(&self) -> bool {
+        !self.moving.is_empty()
+    }
+
+    /// Whether it holds derivatives of the coordinates.
+    pub fn holds_rates(&self) -> bool {
+        self.holds_rates
+    }
+
+    /// Whether it holds forces, of which only values are known.
+    pub fn holds_forces(&self) -> bool {
+        self.holds_forces
+    }
+
+    /// Whether it is nothing but what is smooth, or a length of that, with a slope: so that its extrema can be settled.
+    pub fn settles(&self) -> bool {
+        self.derivatives() > 0 && self.shape != Shape::Other
+    }
+
+    /// The same for variants side by side; none where it is anything else.
+    pub fn into_quantity(self) -> Option<SmoothFormula> {
+        if !self.settles() {
+            return None;
+        }
+        let is_length = self.shape == Shape::Length;
+        let (own, roots) = (Computed::new(self.program, self.registers, self.coordinates, &self.roots), self.roots);
+        if self.smooth.count() == 0 {
+            return Some(SmoothFormula::new(vec![own], roots, is_length));
+        }
+        let ((program, registers), towers) = self.smooth.into_towers();
+        let own = own.behind(&towers, (self.coordinates, &roots))?;
+        let wanted: Vec<Register> = towers.iter().flatten().flatten().copied().collect();
+        let smooth = Computed::new(program, registers, self.coordinates, &wanted);
+        Some(SmoothFormula::new(vec![smooth, own], roots, is_length))
+    }
+
+    /// At a state of the stretch that was entered.
+    pub fn at(&mut self, state: State, places: &mut Places) -> Rc<Point> {
+        if self.is_varied() {
+            places.vary(&state);
+        }
+        if self.holds_forces {
+            places.find_multipliers(&state);
+        }
+        self.smooth.look(&state, |_| 1.0);
+        let tower = |moving: &Moving| match *moving {
+            Moving::Coordinate(k) if k >= self.coordinates => self.smooth.tower(k - self.coordinates),
+            Moving::Coordinate(k) => [state.q[k], state.qd[k], state.qdd[k], state.qddd[k]],
+            Moving::Varied { variation, index } => {
+                let [place, first, second] = places.variation(variation, index);
+                [place, first, second, 0.0]
+            }
+            Moving::Multiplier(row) => [places.multiplier(row), 0.0, 0.0, 0.0],
+            Moving::VariedMultiplier { variation, row } => [places.varied_multiplier(variation, row), 0.0, 0.0, 0.0],
+        };
+        let moving: Vec<[f64; 4]> = self.moving.iter().map(tower).collect();
+        self.run(state.t, &moving);
+        let value = |order: usize| self.roots.get(order).map_or(f64::NAN, |&root| self.registers.get(root));
+        let sample = Sampled { value: value(0), first: value(1), second: value(2) };
+        let marks: Vec<Mark> = self.guards.iter().map(|guard| guard.mark(&self.registers)).collect();
+        let larger = |largest: &mut f64, value: f64| *largest = if value.is_finite() { largest.max(value.abs()) } else { *largest };
+        for (largest, tower) in self.largest.iter_mut().zip(&moving) {
+            largest.iter_mut().zip(tower).for_each(|(largest, value)| larger(largest, *value));
+        }
+        self.largest_arguments.iter_mut().zip(&marks).for_each(|(largest, mark)| larger(largest, mark.argument));
+        if self.loads.count() > 0 {
+            self.set_point(state.t, &moving, 0.0);
+        }
+        let loads = self.loads.values((&self.program, &self.registers), &mut self.ranges);
+        Rc::new(Point { state, moving, loads, marks, sample })
+    }
+
+    /// Sets the ranges to what is at one time (s), and so many times rounding beside it.
+    fn set_point(&mut self, t: f64, moving: &[[f64; 4]], times: f64) {
+        self.ranges.release();
+        let beside = times * f64::EPSILON * t.abs();
+        self.ranges.set_times([t - beside, t + beside]);
+        for ((of, values), largest) in self.moving.iter().zip(moving).zip(&self.largest) {
+            for (order, register) in of.registers(&self.program.inputs).into_iter().enumerate() {
+                if let Some(register) = register {
+                    let beside = times * ROUNDING * largest[order];
+                    self.ranges.set(register, [values[order] - beside, values[order] + beside]);
+                }
+            }
+        }
+    }
+
+    /// How far off rounding may be in the value at a point.
+    pub fn uncertainty(&mut self, point: &Point) -> f64 {
+        self.set_point(point.state.t, &point.moving, 1.0);
+        let Range { low, high, .. } = self.ranges.range(&self.program, &self.registers, 0);
+        let off = 0.5 * (high - low);
+        if off.is_nan() { f64::INFINITY } else { off }
+    }
+
+    /// Whether a guard of the formula is exactly at its threshold, where the formula may have a value of its own.
+    pub fn is_at_threshold(&self, point: &Point) -> bool {
+        self.guards.iter().zip(&point.marks).any(|(guard, mark)| guard.is_at_threshold(*mark))
+    }
+
+    /// Computes the formula and its derivatives at a time (s).
+    fn run(&mut self, t: f64, moving: &[[f64; 4]]) {
+        let inputs = self.program.inputs;
+        self.registers.set(inputs.time, t);
+        for (of, values) in self.moving.iter().zip(moving) {
+            for (register, value) in of.registers(&inputs).into_iter().zip(values) {
+                if let Some(register) = register {
+                    self.registers.set(register, *value);
+                }
+            }
+        }
+        self.program.run(Stage::Measures, &mut self.registers);
+    }
+
+    /// How large the numbers are that the value is a sum of, or a difference: the unit of its rounding. Seen from a mount that is far away a
+    /// length may be much smaller than what it is made of.
+    pub fn weight(&mut self, point: &Point) -> f64 {
+        let mut weight = point.sample.value.abs();
+        for way in 0..WAYS {
+            let moved = |k: usize| moved(k, way);
+            self.smooth.look(&point.state, moved);
+            let tower = |(moving, tower): (&Moving, &[f64; 4])| match *moving {
+                Moving::Coordinate(k) if k >= self.coordinates => self.smooth.tower(k - self.coordinates),
+                Moving::Coordinate(k)
+                | Moving::Varied { index: k, .. }
+                | Moving::Multiplier(k)
+                | Moving::VariedMultiplier { row: k, .. } => tower.map(|value| value * moved(k)),
+            };
+            let moving: Vec<[f64; 4]> = self.moving.iter().zip(&point.moving).map(tower).collect();
+            self.run(point.state.t, &moving);
+            let change = (self.registers.get(self.roots[0]) - point.sample.value).abs();
+            weight = weight.max(if change.is_finite() { change / MOVED } else { 0.0 });
+        }
+        weight
+    }
+
+    /// Of what moves and is never below zero: at which order it stands.
+    fn order_of_square(&self, of: Moving) -> Option<usize> {
+        match of {
+            Moving::Coordinate(k) if k >= self.coordinates => self.smooth.square(k - self.coordinates),
+            _ => None,
+        }
+    }
+
+    fn is_varied(&self) -> bool {
+        self.moving.iter().any(|moving| matches!(moving, Moving::Varied { .. } | Moving::VariedMultiplier { .. }))
+    }
+
+    /// Whether a cell is too wide for anything to be known of what is smooth in it.
+    pub fn turns_far(&self, cell: &Cell) -> bool {
+        self.smooth.turns_far([&cell.a.state, &cell.b.state])
+    }
+
+    /// Encloses the formula in a cell: what it can be there, and whether it is smooth.
+    pub fn enclose(&mut self, cell: &mut Cell) -> (Verdict, Range) {
+        (cell.bends, cell.known_over) = (Some(self.bends_of(cell)), cell.length());
+        self.set_cell(cell);
+        let mut held = vec![false; self.guards.len()];
+        loop {
+            let range = self.value(cell);
+            if range.low == f64::INFINITY {
+                return (Verdict::Missing, range);
+            }
+            if !self.guards.is_empty() {
+                self.ranges.find_live(&self.program, 0);
+            }
+            let (mut verdict, mut is_new) = (Verdict::Smooth, false);
+            for k in 0..self.guards.len() {
+                // a load decides what a force is, although the formula does not hold it
+                if held[k] || !(self.holds_forces || self.guards[k].is_live(&self.ranges)) {
+                    continue;
+                }
+                let marks = [&cell.a, &cell.b].map(|point| point.marks[k]);
+                match self.guards[k].crossing(&self.ranges, marks) {
+                    Crossing::Never => {}
+                    Crossing::Sure => return (Verdict::Crosses(k), range),
+                    Crossing::Possible if self.is_monotone(k) => {
+                        // what follows from this guard is decided anew
+                        (held[k], is_new) = (true, true);
+                        self.guards[k].hold(marks[0].side, &mut self.ranges);
+                        break;
+                    }
+                    Crossing::Possible => verdict = Verdict::Open,
+                }
+            }
+            if !is_new {
+                let exists = cell.a.exists() || cell.b.exists();
+                return (if verdict == Verdict::Smooth && !exists { Verdict::Missing } else { verdict }, range);
+            }
+        }
+    }
+
+    /// Whether the argument of a guard rises or falls all the way through the cell.
+    fn is_monotone(&mut self, guard: usize) -> bool {
+        let Some([argument, slope]) = self.guards[guard].witness else { return false };
+        let argument = self.ranges.range(&self.program, &self.registers, argument);
+        let slope = self.ranges.range(&self.program, &self.registers, slope);
+        !argument.may_switch && !slope.may_switch && (slope.low >= 0.0 || slope.high <= 0.0)
+    }
+
+    /// The range of the value in the cell that was set. Of forces only values are known, and so a formula that holds some narrows no faster than
+    /// the cell; where it is resolved it goes on as its own values do.
+    fn value(&mut self, cell: &Cell) -> Range {
+        let Curve { ranges, program, registers, loads, .. } = self;
+        let range = ranges.range(program, registers, 0);
+        if !self.holds_forces {
+            return range;
+        }
+        let Some(bends) = cell.bends.as_ref().map(|bends| &bends[self.moving.len()..]) else { return range };
+        let told = |k: usize| around(cell.a.loads[k], cell.b.loads[k], bends[1 + k][0]);
+        let up_to = |most: f64| Range { low: -most, high: most, is_resolved: false, ..range };
+        match loads.hidden((program, registers), ranges, told) {
+            Hidden::Anything => up_to(f64::INFINITY),
+            Hidden::Something(beyond) => up_to(f64::min(UNTOLD * beyond, f64::MAX)),
+            Hidden::Nothing if range.is_resolved => {
+                let [low, high] = around(cell.a.sample.value, cell.b.sample.value, bends[0][0]);
+                Range { low: range.low.max(low), high: range.high.min(high), ..range }
+            }
+            Hidden::Nothing => range,
+        }
+    }
+
+    /// The range of a time derivative (1 or 2) in the cell that was enclosed last.
+    pub fn derivative(&mut self, order: usize) -> Range {
+        self.ranges.range(&self.program, &self.registers, self.first + order - 1)
+    }
+
+    /// Sets the ranges to what may be in a cell.
+    fn set_cell(&mut self, cell: &Cell) {
+        let h = cell.length();
+        self.ranges.release();
+        self.ranges.set_times([cell.a.state.t, cell.b.state.t]);
+        let Some(bends) = &cell.bends else { return };
+        let ends = cell.a.moving.iter().zip(&cell.b.moving);
+        for ((of, (a, b)), bends) in self.moving.iter().zip(ends).zip(bends.iter()) {
+            let registers = of.registers(&self.program.inputs);
+            if of.is_of_forces() {
+                registers.into_iter().flatten().for_each(|at| self.ranges.set(at, around(a[0], b[0], bends[0])));
+                continue;
+            }
+            let third = around(a[3], b[3], bends[1]);
+            let second = around(a[2], b[2], bends[0]);
+            let first = between(a[1], b[1], second, h);
+            let mut ranges = [between(a[0], b[0], first, h), first, second, third];
+            if let Some(order) = self.order_of_square(*of) {
+                ranges[order][0] = ranges[order][0].max(0.0);
+            }
+            for (register, range) in registers.into_iter().zip(ranges) {
+                if let Some(register) = register {
+                    self.ranges.set(register, range);
+                }
+            }
+        }
+    }
+
+    /// Of which orders something that moves is known: from one to another.
+    fn orders(&self, of: Moving) -> [usize; 2] {
+        match of {
+            Moving::Coordinate(k) => {
+                let first = if k >= self.coordinates { self.smooth.order(k - self.coordinates) } else { 0 };
+                [first, if self.has_jerk { 3 } else { 2 }]
+            }
+            Moving::Varied { .. } => [0, 2],
+            Moving::Multiplier(_) | Moving::VariedMultiplier { .. } => [0, 0],
+        }
+    }
+
+    /// How far second and third derivatives in a cell are from a straight line, as far as the derivatives before them at both ends tell.
+    fn bends_of(&self, cell: &Cell) -> Rc<[[f64; 2]]> {
+        let h = cell.length();
+        let known = |k: usize| cell.bends.as_ref().map_or([f64::INFINITY; 2], |bends| bends[k]);
+        // over very short cells differences are rounding, and what is known of the longer one becomes less with the square of the length
+        let part = h / cell.known_over;
+        let less = f64::min(LESS * part * part, 1.0);
+        let of = |(k, of): (usize, &Moving)| {
+            let (a, b) = (&cell.a.moving[k], &cell.b.moving[k]);
+            let off = |order: usize| ((b[order - 1] - a[order - 1]) / h - 0.5 * (a[order] + b[order])).abs();
+            let bends = match self.orders(*of) {
+                [from, to] if from == to => return known(k),
+                [2, _] => [h * (0.125 * (b[3] - a[3]).abs() + off(3)), 2.0 * off(3)],
+                [_, 3] => [off(2) + h * (0.125 * (b[3] - a[3]).abs() + off(3)), 2.0 * off(3)],
+                _ => [2.0 * off(2), 0.0],
+            };
+            [0, 1].map(|order| f64::min(bends[order], if less > 0.0 { less * known(k)[order] } else { f64::INFINITY }))
+        };
+        let values = (self.moving.len()..self.moving.len() + 1 + self.loads.count()).map(known);
+        self.moving.iter().enumerate().map(of).chain(values).collect()
+    }
+
+    /// The bends of both parts of a cell that is cut at a point, with those of which only one order is known as they are there.
+    fn bends_at(&self, cell: &Cell, at: &Point) -> Rc<[[f64; 2]]> {
+        let (a, b) = (&*cell.a, &*cell.b);
+        let x = (at.state.t - a.state.t) / (b.state.t - a.state.t);
+        let off = |of: &dyn Fn(&Point) -> f64| (of(at) - (1.0 - x) * of(a) - x * of(b)).abs();
+        let of_moving = |(k, of): (usize, &Moving)| match self.orders(*of) {
+            [order, to] if order == to => [off(&|point: &Point| point.moving[k][order]); 2],
+            _ => cell.bends.as_ref().map_or([f64::INFINITY; 2], |bends| bends[k]),
+        };
+        let own = [off(&|point: &Point| point.sample.value); 2];
+        let of_loads = (0..self.loads.count()).map(|k| [off(&|point: &Point| point.loads[k]); 2]);
+        self.moving.iter().enumerate().map(of_moving).chain([own]).chain(of_loads).collect()
+    }
+
+    /// How far a guard's argument is from the threshold between two points.
+    pub fn distances(&self, guard: usize, [a, b]: [&Point; 2]) -> [f64; 2] {
+        self.guards[guard].distances([a.marks[guard], b.marks[guard]], &self.registers)
+    }
+
+    /// The side on which a guard is at a point.
+    pub fn side(&self, guard: usize, point: &Point) -> f64 {
+        point.marks[guard].side
+    }
+
+    /// The value where arguments of functions that are not smooth somewhere are just there, between two points beside each other; none where there
+    /// is no such argument, or no such value.
+    pub fn between_points(&mut self, a: &Point, b: &Point) -> Option<f64> {
+        if self.holds_forces || !(a.exists() && b.exists()) {
+            return None;
+        }
+        let Curve { ranges, guards, largest_arguments, .. } = &*self;
+        if (0..guards.len()).all(|k| guards[k].between(ranges, [a.marks[k], b.marks[k]], largest_arguments[k]).is_none()) {
+            return None;
+        }
+        self.set_point(a.state.t, &a.moving, 0.0);
+        let Curve { ranges, program, registers, guards, largest_arguments, .. } = self;
+        let known = |k: usize, ranges: &Ranges| guards[k].between(ranges, [a.marks[k], b.marks[k]], largest_arguments[k]);
+        ranges.range(program, registers, 0);
+        let before: Vec<_> = (0..guards.len()).map(|k| known(k, ranges)).collect();
+        for (k, before) in before.into_iter().enumerate() {
+            // what follows from others is what these make of it
+            if let Some((_, value)) = before
+                && known(k, ranges) == before
+            {
+                guards[k].hold_at(value, ranges);
+                ranges.range(program, registers, 0);
+            }
+        }
+        let Range { low, high, .. } = ranges.range(program, registers, 0);
+        let is_known = high - low <= KNOWN * f64::max(low.abs(), high.abs()) + NOTHING;
+        let is_zero = low <= 0.0 && high >= 0.0;
+        is_known.then_some(if is_zero { 0.0 } else { 0.5 * low + 0.5 * high })
+    }
+}
+
+/// Whether all that a formula holds is known along the motion.
+fn is_known(graph: &Graph, formula: ExprId, has_jerk: bool) -> bool {
+    let dependence = graph.dependence(formula);
+    !dependence.on(Dependence::FORCES) && (has_jerk || dependence.highest_order() != Some(3))
+}
+
+/// Of what shape a formula over coordinates of a system is, behind which further smooth ones stand.
+fn shape(graph: &Graph, formula: ExprId, system: &ConstraintSystem) -> Shape {
+    let moving = |id: ExprId| match graph.node(id) {
+        Node::Symbol(Symbol::Coordinate { index, .. }) => Some(index as usize),
+        _ => None,
+    };
+    let is_own = |k: &usize| *k < system.coordinates().len();
+    let is_smooth = |k: usize| !is_own(&k) || system.coordinates()[k].kind != CoordinateKind::Argument;
+    let length_if = |is_one: bool| if is_one { Shape::Length } else { Shape::Other };
+    let of_factor = |other: ExprId| match shape(graph, other, system) {
+        // a factor stands within what is smooth
+        Shape::Smooth => Shape::Other,
+        shape => shape,
+    };
+    let rests = |id: ExprId| graph.dependence(id).is_constant();
+    match graph.node(formula) {
+        _ if moving(formula).is_some_and(is_smooth) => Shape::Smooth,
+        // its square is smooth, be it of a length or not
+        Node::Unary(Unary::Sqrt, a) => length_if(moving(a).is_some_and(|k| !is_own(&k))),
+        Node::Unary(Unary::Abs, a) => length_if(moving(a).is_some_and(is_smooth)),
+        Node::Neg(a) => of_factor(a),
+        Node::Mul(a, b) | Node::Div(b, a) if rests(a) => of_factor(b),
+        Node::Mul(a, b) if rests(b) => of_factor(a),
+        _ => Shape::Other,
+    }
+}
+
+/// A formula and its time derivatives, as many as are known along the motion, two at most: none of one that holds forces.
+fn with_derivatives(graph: &mut Graph, value: ExprId, has_jerk: bool) -> Vec<ExprId> {
+    let mut formulas = vec![value];
+    while formulas.len() < 3 {
+        let last = formulas[formulas.len() - 1];
+        let dependence = graph.dependence(last);
+        let is_last = dependence.highest_order() == Some(3) || dependence.highest_varied_order() == Some(2);
+        if is_last || !is_known(graph, last, has_jerk) {
+            break;
+        }
+        let next = ConstraintSystem::time_derivatives(graph, &[last], 3)[0];
+        if !is_known(graph, next, has_jerk) {
+            break;
+        }
+        formulas.push(next);
+    }
+    formulas
+}
+
+/// Both values and what lies between, and so much beyond.
+fn around(a: f64, b: f64, bend: f64) -> [f64; 2] {
+    let beyond = SAFETY * bend;
+    [a.min(b) - beyond, a.max(b) + beyond]
+}

@@ -1,0 +1,569 @@
+//! The largest value of a formula and its first time, by branch and bound.
+//!
+//! The cell that may hold the largest value is looked at first: it is cut where a guard crosses its threshold, or in two, until the formula rises
+//! or falls all the way through it, or until its slope passes zero in it just once, at a place that is then solved for. Cells that cannot hold
+//! more than what is known are never looked into, and so a pole in the other direction costs nothing and hides nothing.
+
+use super::curve::{Cell, Point, Verdict};
+use super::probe::{Probe, Scale};
+use super::turn::{MOST_LOOKS, Sampled, Settling, Turning};
+use crate::analysis::state::State;
+use crate::math::between;
+use crate::program::Range;
+use crate::tolerances::results::extremum::{
+    APART, BESIDE, CERTAIN, CLOSER, CONVERGES, DIGITS, FARTHEST, FINEST, GAP, GAP_OF_VALUES, ITERATIONS, SHORT, TOWARDS,
+};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::rc::Rc;
+
+/// The largest value of a formula, or the largest of its opposite.
+#[derive(Clone, Debug)]
+pub(super) struct Extremum {
+    /// 1, or −1 for the least value.
+    sign: f64,
+    /// Whether its time is asked for.
+    is_timed: bool,
+    /// The largest value that is known, times the sign, and its time (s).
+    best: f64,
+    best_at: f64,
+    /// Where it may be: extrema, edges and ends, with their values times the sign.
+    places: Vec<Place>,
+    /// The largest of these.
+    largest: f64,
+    /// A time (s) towards which the formula grows without bound.
+    unbounded: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    t: f64,
+    value: f64,
+    kind: Kind,
+}
+
+/// How much is known of an extremum.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Kind {
+    Edge,
+    /// Where the slope passes zero.
+    Turn,
+    /// The largest that was seen of a formula whose slope is not known.
+    Seen,
+}
+
+/// A cell that waits to be looked into, with what is known of the formula in it.
+struct Open {
+    cell: Cell,
+    verdict: Verdict,
+    range: Range,
+    /// The ranges of its derivatives, of a smooth cell in which they matter.
+    derivatives: [Option<Range>; 2],
+    /// The largest value that the cell may hold, times the sign.
+    upper: f64,
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Open) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Open {}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Open) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Open {
+    /// By the largest value that they may hold; what is earlier comes first.
+    fn cmp(&self, other: &Open) -> Ordering {
+        let t = |open: &Open| open.cell.a.state.t;
+        self.upper.total_cmp(&other.upper).then(t(other).total_cmp(&t(self)))
+    }
+}
+
+impl Extremum {
+    pub fn new(largest: bool) -> Extremum {
+        let sign = if largest { 1.0 } else { -1.0 };
+        let nothing = f64::NEG_INFINITY;
+        let (places, unbounded) = (Vec::new(), None);
+        Extremum { sign, is_timed: false, best: nothing, best_at: f64::NAN, places, largest: nothing, unbounded }
+    }
+
+    /// Asks for its time too.
+    pub fn ask_for_time(&mut self) {
+        self.is_timed = true;
+    }
+
+    /// Takes note of a value at a time (s).
+    fn see(&mut self, t: f64, value: f64) {
+        if self.sign * value > self.best {
+            (self.best, self.best_at) = (self.sign * value, t);
+        }
+    }
+
+    /// Takes note of an edge or an end.
+    pub fn note_edge(&mut self, t: f64, value: f64, scale: Scale) {
+        self.add(Place { t, value: self.sign * value, kind: Kind::Edge }, scale);
+    }
+
+    fn add(&mut self, found: Place, scale: Scale) {
+        if !found.value.is_finite() {
+            return;
+        }
+        self.see(found.t, self.sign * found.value);
+        if found.value < self.best - scale.alike() {
+            return;
+        }
+        // what was only seen is not as good as what may be found beside it
+        if found.kind != Kind::Seen && found.value > self.largest {
+            self.largest = found.value;
+            let least = found.value - scale.alike();
+            self.places.retain(|known| known.value >= least);
+        }
+        self.places.push(found);
+    }
+
+    /// Whether values that are no larger than this are of no interest any more.
+    fn is_above(&self, upper: f64, scale: Scale) -> bool {
+        let gap = scale.gap(GAP);
+        upper < self.best - scale.alike() - gap || upper <= self.largest + gap
+    }
+
+    /// Whether values that are no larger than this are of no interest, be it for the time.
+    fn is_out_of_question(&self, upper: f64, scale: Scale) -> bool {
+        upper < self.best - scale.alike() || (!self.is_timed && upper <= self.largest + scale.gap(GAP))
+    }
+
+    /// The ends of a range, times the sign, in order.
+    fn oriented(&self, Range { low, high, .. }: Range) -> [f64; 2] {
+        if self.sign > 0.0 { [low, high] } else { [-high, -low] }
+    }
+
+    /// The values at both ends of a cell, times the sign.
+    fn values(&self, cell: &Cell) -> [f64; 2] {
+        [&cell.a, &cell.b].map(|point| self.sign * point.sample.value)
+    }
+
+    /// A time (s) towards which the formula grows without bound, if there is one.
+    pub fn unbounded(&self) -> Option<f64> {
+        self.unbounded
+    }
+
+    /// The largest value: that of an extremum, an edge or an end, unless more was seen than can be of it. Not a number where there is none.
+    pub fn value(&self, scale: Scale) -> f64 {
+        let is_of_place = self.best <= self.largest + scale.gap(GAP);
+        let value = self.sign * if is_of_place { self.largest } else { self.best };
+        if value.is_finite() { value } else { f64::NAN }
+    }
+
+    /// Its first time (s).
+    pub fn time(&self, scale: Scale) -> f64 {
+        let Some(first) = self.first(scale) else { return self.best_at };
+        let is_it = |next: &&Place| {
+            let is_behind = next.t > first.t && next.t - first.t <= BESIDE * scale.span;
+            next.kind == Kind::Edge && first.kind == Kind::Turn && is_behind && next.value >= first.value
+        };
+        self.alike(scale).find(is_it).unwrap_or(&first).t
+    }
+
+    /// The places with the largest value.
+    fn alike(&self, scale: Scale) -> impl Iterator<Item = &Place> {
+        let least = self.best - scale.alike();
+        self.places.iter().filter(move |place| place.value >= least)
+    }
+
+    /// The first of these.
+    fn first(&self, scale: Scale) -> Option<Place> {
+        let earliest = |known: bool| {
+            let those = self.alike(scale).filter(move |place| (place.kind != Kind::Seen) == known);
+            those.min_by(|a, b| a.t.total_cmp(&b.t)).copied()
+        };
+        earliest(true).or_else(|| earliest(false))
+    }
+
+    /// How far values usually are from the largest one: what is a difference goes by that, and not by what a pole in the other direction makes
+    /// of a few.
+    fn spread(&self, samples: &[f64], rounding: f64) -> f64 {
+        let off = |value: &f64| (self.best - self.sign * value).abs();
+        let mut off: Vec<f64> = samples.iter().map(off).filter(|off| *off > rounding && off.is_finite()).collect();
+        if off.is_empty() {
+            return 0.0;
+        }
+        let middle = off.len() / 2;
+        *off.select_nth_unstable_by(middle, f64::total_cmp).1
+    }
+}
+
+impl Probe<'_> {
+    /// Looks for the extremum in some cells, where some values are known and the formula has a scale.
+    pub(super) fn search(&mut self, cells: &[Cell], samples: &[f64], extremum: &mut Extremum, scale: Scale) -> Scale {
+        let mut heap = BinaryHeap::new();
+        for cell in cells {
+            let open = self.open(cell.clone(), extremum, scale);
+            heap.push(open);
+        }
+        let (mut scale, mut best) = (scale, f64::NAN);
+        let mut parts = Vec::new();
+        while let Some(open) = heap.pop() {
+            // the scale follows the best value that is known
+            if extremum.best.total_cmp(&best).is_ne() {
+                best = extremum.best;
+                scale = Scale { range: extremum.spread(samples, scale.gap(0.0)), ..scale };
+            }
+            if extremum.is_above(open.upper, scale) {
+                heap.push(open);
+                break;
+            }
+            if self.curve.holds_forces() {
+                // more is known of the size of loads by now
+                let again = self.open(open.cell.clone(), extremum, scale);
+                if again.upper < open.upper {
+                    heap.push(again);
+                    continue;
+                }
+            }
+            self.look_into(open, extremum, scale, &mut parts);
+            if self.notes.trouble.is_some() || extremum.unbounded.is_some() {
+                return scale;
+            }
+            heap.extend(parts.drain(..));
+        }
+        if extremum.is_timed {
+            self.search_in_time(heap.into_vec(), extremum, scale);
+        }
+        scale
+    }
+
+    /// Looks for earlier places where the value is the same.
+    fn search_in_time(&mut self, mut open: Vec<Open>, extremum: &mut Extremum, scale: Scale) {
+        open.retain(|open| open.upper >= extremum.best - scale.alike());
+        open.sort_by(|a, b| b.cell.a.state.t.total_cmp(&a.cell.a.state.t));
+        let mut parts = Vec::new();
+        while let Some(next) = open.pop() {
+            let first = extremum.first(scale).filter(|first| first.kind != Kind::Seen);
+            if first.is_some_and(|first| first.t <= next.cell.a.state.t) || self.notes.trouble.is_some() {
+                return;
+            }
+            if next.upper >= extremum.best - scale.alike() {
+                self.look_into(next, extremum, scale, &mut parts);
+                parts.reverse();
+                open.append(&mut parts);
+            }
+        }
+    }
+
+    /// Takes note of the values at both ends of a cell.
+    fn see_ends(&mut self, cell: &Cell, extremum: &mut Extremum, scale: Scale) {
+        for point in [&cell.a, &cell.b] {
+            if !point.exists() {
+                self.notes.miss(point.state.t);
+            } else if extremum.sign * point.sample.value > extremum.best
+                && !self.curve.is_at_threshold(point)
+                && self.is_certain(cell, point, scale)
+            {
+                extremum.see(point.state.t, point.sample.value);
+            }
+        }
+    }
+
+    /// Whether a value is more than rounding. Only over short cells it may be no more: beside a place at which the formula is a quotient of two
+    /// numbers that are zero.
+    fn is_certain(&mut self, cell: &Cell, point: &Point, scale: Scale) -> bool {
+        cell.length() > SHORT * scale.span
+            || self.curve.uncertainty(point) <= DIGITS * f64::max(scale.range, point.sample.value.abs())
+    }
+
+    /// Finds out what is known of the formula in a cell.
+    fn open(&mut self, mut cell: Cell, extremum: &mut Extremum, scale: Scale) -> Open {
+        self.see_ends(&cell, extremum, scale);
+        let (verdict, range) = self.enclose(&mut cell);
+        let mut upper = if verdict == Verdict::Missing { f64::NEG_INFINITY } else { extremum.oriented(range)[1] };
+        let mut derivatives = [None; 2];
+        let is_smooth = verdict == Verdict::Smooth && cell.a.exists() && cell.b.exists();
+        if is_smooth && self.curve.derivatives() > 0 && !extremum.is_out_of_question(upper, scale) {
+            let first = self.curve.derivative(1);
+            let [a, b] = extremum.values(&cell);
+            upper = upper.min(between(a, b, extremum.oriented(first), cell.length())[1]);
+            let is_open = !first.may_switch && !extremum.is_out_of_question(upper, scale);
+            let tells_bends = is_open && self.curve.derivatives() == 2;
+            derivatives = [Some(first), tells_bends.then(|| self.curve.derivative(2))];
+        }
+        Open { cell, verdict, range, derivatives, upper }
+    }
+
+    /// Looks into a cell: takes note of the extremum in it, or leaves its parts.
+    fn look_into(&mut self, open: Open, extremum: &mut Extremum, scale: Scale, parts: &mut Vec<Open>) {
+        let cell = &open.cell;
+        if std::env::var("DBG").is_ok() && extremum.sign != 0.0 { eprintln!("{:?}..{:?} {:?} {:?} {:?} up {:?} best {:?} largest {:?} scale {:?}", cell.a.state.t, cell.b.state.t, open.verdict, open.range, open.derivatives, open.upper, extremum.best, extremum.largest, scale); }
+        if self.is_shortest(cell) {
+            self.close(cell, open.range, extremum, scale);
+            return;
+        }
+        let cells = match open.verdict {
+            Verdict::Crosses(guard) => {
+                let Some([before, at, behind]) = self.cut_at_crossing(cell, guard) else { return };
+                if let Some(mut at) = at {
+                    let range = self.enclose(&mut at).1;
+                    self.close(&at, range, extremum, scale);
+                }
+                [before, behind]
+            }
+            Verdict::Missing => {
+                self.notes.miss(cell.a.state.t);
+                return;
+            }
+            Verdict::Smooth if cell.a.exists() && cell.b.exists() && self.is_done(&open, extremum, scale) => return,
+            _ => {
+                let Some(halves) = self.halve(cell) else { return };
+                if cell.length() <= SHORT * scale.span && halves[0].b.exists() {
+                    // where rounding alone makes it as large, nothing is found by cutting on
+                    let off = self.curve.uncertainty(&halves[0].b);
+                    if off >= 0.5 * (open.upper - extremum.best) {
+                        self.close(cell, open.range, extremum, scale);
+                        return;
+                    }
+                }
+                halves.map(Some)
+            }
+        };
+        for cell in cells.into_iter().flatten() {
+            parts.push(self.open(cell, extremum, scale));
+        }
+    }
+
+    /// Takes note of what is in a cell too short to be cut: an edge to neighbouring times, a cusp, or a pole.
+    fn close(&mut self, cell: &Cell, range: Range, extremum: &mut Extremum, scale: Scale) {
+        let ends = [&cell.a, &cell.b];
+        let sign = extremum.sign;
+        for point in ends {
+            if !point.exists() {
+                self.notes.miss(point.state.t);
+            }
+        }
+        let rises = ends.map(|point| sign * point.sample.first);
+        let goes_on = (rises[0] > 0.0 && rises[1] > 0.0) || (rises[0] < 0.0 && rises[1] < 0.0);
+        let step = (ends[0].sample.value - ends[1].sample.value).abs();
+        for point in ends {
+            // a value of its own is that of no side
+            let is_apart = self.curve.is_at_threshold(point) && step > APART * scale.range.max(point.sample.value.abs());
+            if !point.exists() || is_apart || !self.is_certain(cell, point, scale) {
+                continue;
+            }
+            if goes_on && step <= scale.gap(GAP) {
+                extremum.see(point.state.t, point.sample.value);
+            } else {
+                extremum.note_edge(point.state.t, point.sample.value, scale);
+            }
+        }
+        if let Some(value) = self.curve.between_points(&cell.a, &cell.b) {
+            extremum.note_edge(cell.b.state.t, value, scale);
+        }
+        let [_, upper] = extremum.oriented(range);
+        if upper == f64::INFINITY && (self.grows_towards(cell, sign, true) || self.grows_towards(cell, sign, false)) {
+            extremum.unbounded = Some(cell.b.state.t);
+        }
+    }
+
+    /// Whether the formula, times a sign, grows without bound towards a shortest cell, from before or from behind: by its values at places that
+    /// come near by equal factors.
+    fn grows_towards(&mut self, cell: &Cell, sign: f64, is_before: bool) -> bool {
+        let (near, away) = if is_before { (&cell.a, -1.0) } else { (&cell.b, 1.0) };
+        let [from, to] = [&self.steps[cell.step].from, &self.steps[cell.step].to].map(|state| state.t);
+        let mut values = [sign * near.sample.value, f64::NAN, f64::NAN];
+        for (value, far) in values[1..].iter_mut().zip(TOWARDS) {
+            let t = near.state.t + away * far * self.shortest.max(cell.length());
+            if from <= t && t <= to {
+                *value = self.point_of_step(cell.step, t).map_or(f64::NAN, |point| sign * point.sample.value);
+            }
+        }
+        let [near, middle, far] = values;
+        let more = middle - far;
+        more > 0.0 && near - middle >= CONVERGES * more
+    }
+
+    /// Whether a smooth cell holds nothing more of interest; what it holds has been noted.
+    fn is_done(&mut self, open: &Open, extremum: &mut Extremum, scale: Scale) -> bool {
+        // ranges need not show of what rests that it does
+        if scale.rests() && open.range.is_resolved {
+            return true;
+        }
+        match open.derivatives {
+            [Some(first), second] => self.is_done_by_slopes(open, [Some(first), second], extremum, scale),
+            [None, _] if self.curve.derivatives() == 0 => {
+                self.is_done_by_values(&open.cell, open.upper, extremum, scale)
+            }
+            _ => false,
+        }
+    }
+
+    /// As [`Probe::is_done`], by what the formula's derivatives can be in the cell.
+    fn is_done_by_slopes(
+        &mut self,
+        Open { cell, upper, .. }: &Open,
+        derivatives: [Option<Range>; 2],
+        extremum: &mut Extremum,
+        scale: Scale,
+    ) -> bool {
+        let sign = extremum.sign;
+        let [[falls, rises], [bends_down, bends_up]] =
+            derivatives.map(|range| range.map_or([f64::NEG_INFINITY, f64::INFINITY], |range| extremum.oriented(range)));
+        let turns = sign * cell.a.sample.first > 0.0 && sign * cell.b.sample.first <= 0.0;
+        if falls >= 0.0 || rises <= 0.0 {
+            if turns {
+                // it turns where the cell ends, and falls from there on
+                self.note_turn(cell.step, &cell.b, cell.b.state.t, extremum, scale);
+            }
+            return true;
+        }
+        let [a, b] = extremum.values(cell);
+        let is_small = *upper <= f64::max(a, b) + scale.gap(GAP);
+        if extremum.is_out_of_question(*upper, scale) || (is_small && !turns) {
+            return true;
+        }
+        let turns_once = bends_up < 0.0;
+        if turns && (is_small || turns_once) {
+            self.solve_for_turn(cell, extremum, scale);
+        }
+        is_small || turns_once || bends_down > 0.0
+    }
+
+    /// Where the slope, times the sign, passes from above zero to zero or below: by Newton between bounds.
+    fn solve_for_turn(&mut self, cell: &Cell, extremum: &mut Extremum, scale: Scale) {
+        let sign = extremum.sign;
+        let slope = |point: &Point| sign * point.sample.first;
+        let mut within = cell.clone();
+        let mut guess = chord(&within, sign);
+        let mut top =
+            if sign * cell.a.sample.value > sign * cell.b.sample.value { Rc::clone(&cell.a) } else { Rc::clone(&cell.b) };
+        for iteration in 0..ITERATIONS {
+            let (from, to) = (within.a.state.t, within.b.state.t);
+            // where the guesses do not close in the middle does
+            let t = if iteration % 3 == 2 || !(guess > from && guess < to) { 0.5 * from + 0.5 * to } else { guess };
+            if t <= from || t >= to {
+                break;
+            }
+            let Some(point) = self.point(&within, t) else { break };
+            if sign * point.sample.value >= sign * top.sample.value {
+                top = Rc::clone(&point);
+            }
+            let next = t - point.sample.first / point.sample.second;
+            guess = if next.is_finite() { next } else { f64::NAN };
+            let is_rising = slope(&point) > 0.0;
+            let ends = if is_rising { [&point, &within.b] } else { [&within.a, &point] };
+            within = within.between(ends[0], ends[1]);
+            if !guess.is_finite() {
+                guess = chord(&within, sign);
+            }
+            let is_inside = guess > within.a.state.t && guess < within.b.state.t;
+            let is_close = is_inside && (guess - t).abs() <= CERTAIN * scale.span;
+            if is_close || within.length() <= CERTAIN * scale.span {
+                break;
+            }
+        }
+        // its time is where the slope turns, whatever the last digits of the values say
+        let is_inside = guess > within.a.state.t && guess < within.b.state.t;
+        let turn = if is_inside { guess } else { within.b.state.t };
+        self.note_turn(cell.step, &top, turn, extremum, scale);
+    }
+
+    /// Takes note of a turn at a time (s), near a point.
+    fn note_turn(&mut self, step: usize, near: &Point, t: f64, extremum: &mut Extremum, scale: Scale) {
+        let settled = self.settled_turn(step, &near.state, t, scale.span);
+        let [t, value] = settled.unwrap_or([t, near.sample.value]);
+        extremum.add(Place { t, value: extremum.sign * value, kind: Kind::Turn }, scale);
+    }
+
+    /// The time (s) and the value of a turn that is near a state and a time, as they are whichever way led there; none where it does not settle, or
+    /// beyond an edge.
+    fn settled_turn(&mut self, step: usize, near: &State, t: f64, span: f64) -> Option<[f64; 2]> {
+        if !self.curve.settles() {
+            return None;
+        }
+        let mut turn = Settling::near(t, span, self.curve.derivatives() == 2)?;
+        let mut samples = [Sampled::NOTHING; MOST_LOOKS];
+        loop {
+            for (look, sample) in samples.iter_mut().enumerate().take(turn.looks()) {
+                let (t, step_here) = (turn.time(look), &self.steps[step]);
+                let is_before = step_here.begins_at_edge && t < step_here.from.t;
+                let is_behind = step_here.ends_at_edge && t > step_here.to.t;
+                if is_before || is_behind {
+                    return None;
+                }
+                let state = self.settled(step, near, t)?;
+                *sample = self.at(step, state).sample;
+            }
+            match turn.go_on(&samples[..turn.looks()]) {
+                Turning::On => {}
+                Turning::Settled(found) => return Some(found),
+                Turning::Lost => return None,
+            }
+        }
+    }
+
+    /// Whether a cell whose values are no larger than `upper` holds hardly more than the larger of its ends, which is noted then with the
+    /// top beside it: all that is known of a formula without derivatives.
+    fn is_done_by_values(&mut self, cell: &Cell, upper: f64, extremum: &mut Extremum, scale: Scale) -> bool {
+        let [a, b] = extremum.values(cell);
+        let is_small = upper <= f64::max(a, b) + scale.gap(GAP_OF_VALUES);
+        if is_small && f64::max(a, b) >= extremum.best - scale.alike() {
+            let (point, value) = if b > a { (&cell.b, b) } else { (&cell.a, a) };
+            extremum.add(Place { t: point.state.t, value, kind: Kind::Seen }, scale);
+            if let Some(top) = self.top_beside(cell, point, extremum.sign, scale) {
+                extremum.add(top, scale);
+            }
+        }
+        is_small
+    }
+
+    /// The top beside one of the ends of a cell; none where it lies farther away, where another cell has it. It is that of a parabola through
+    /// three points, as far apart as these ends at first, and then ever closer.
+    fn top_beside(&mut self, cell: &Cell, near: &Rc<Point>, sign: f64, scale: Scale) -> Option<Place> {
+        let [from, to] = [&self.steps[cell.step].from, &self.steps[cell.step].to].map(|state| state.t);
+        let (mut t, mut apart) = (near.state.t, cell.length());
+        let (rounding, finest) = (scale.gap(0.0), FINEST * scale.span);
+        for fit in 0.. {
+            let h = apart.min(0.5 * (to - from));
+            let center = t.clamp(from + h, (to - h).max(from + h));
+            let [before, middle, behind] = self.values_at(cell.step, [center - h, center, center + h], sign)?;
+            let (rise, bend) = (0.5 * (behind - before), behind - 2.0 * middle + before);
+            if bend >= -rounding {
+                // it rests, or goes on as it comes
+                if fit == 0 && rise.abs() > rounding {
+                    return None;
+                }
+                break;
+            }
+            let off = -rise / bend;
+            if off.abs() > FARTHEST {
+                return None;
+            }
+            t = (center + off * h).clamp(from, to);
+            if apart <= finest {
+                break;
+            }
+            apart = finest.max(CLOSER * apart);
+        }
+        let [value] = self.values_at(cell.step, [t], sign)?;
+        Some(Place { t, value, kind: Kind::Turn })
+    }
+
+    /// The formula at some times (s) of a step, times the sign.
+    fn values_at<const N: usize>(&mut self, step: usize, times: [f64; N], sign: f64) -> Option<[f64; N]> {
+        let [from, to] = [&self.steps[step].from, &self.steps[step].to].map(|state| state.t);
+        let mut values = [0.0; N];
+        for (value, t) in values.iter_mut().zip(times) {
+            *value = sign * self.point_of_step(step, t.clamp(from, to))?.sample.value;
+        }
+        Some(values)
+    }
+}
+
+/// Where the straight line through the slopes at both ends of a cell is zero (s).
+fn chord(cell: &Cell, sign: f64) -> f64 {
+    let [a, b] = [&cell.a, &cell.b].map(|point| sign * point.sample.first);
+    cell.a.state.t + cell.length() * a / (a - b)
+}

@@ -1,0 +1,214 @@
+//! Looking at a formula between the ends of the motion's steps.
+
+use super::curve::{Cell, Curve, Point, Verdict};
+use super::places::Places;
+use crate::analysis::follow::Stretch;
+use crate::analysis::state::State;
+use crate::program::Range;
+use crate::tolerances::results::probe::{ALIKE, MOST_CELLS, NARROWER, NOTHING, OPAQUE, ROUNDING, SHORTEST, SOLVED};
+use std::rc::Rc;
+
+/// How large a formula is, as far as that decides what is a difference.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Scale {
+    /// The range of its values, or how far they usually are from the one that is looked for.
+    pub range: f64,
+    /// The magnitude of the numbers that its values are sums of: the unit of rounding.
+    pub weight: f64,
+    /// The time of the analysis (s).
+    pub span: f64,
+}
+
+impl Scale {
+    /// Values that differ by no more than this are the same: what rounding makes of a value that rests is no change.
+    pub fn alike(self) -> f64 {
+        self.gap(ALIKE)
+    }
+
+    /// Whether all values that were seen are the same, but for rounding.
+    pub fn rests(self) -> bool {
+        self.range <= self.gap(0.0)
+    }
+
+    /// A part of the range, but no less than what rounding makes of a value.
+    pub fn gap(self, part: f64) -> f64 {
+        f64::max(part * self.range, ROUNDING * self.weight).max(NOTHING)
+    }
+}
+
+/// Why there is no number.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Trouble {
+    /// The formula has no value at a time (s) that is asked for, or at none at all.
+    Missing(f64),
+    /// The formula grows without bound towards a time (s).
+    Unbounded(f64),
+    /// It could not be found out around a time (s).
+    Unknown(f64),
+    /// It is of a time (s) at which a row would be more rounding than digits.
+    Uncertain(f64),
+}
+
+impl Trouble {
+    fn t(self) -> f64 {
+        match self {
+            Trouble::Missing(t) | Trouble::Unbounded(t) | Trouble::Unknown(t) | Trouble::Uncertain(t) => t,
+        }
+    }
+}
+
+/// What came up while a formula was looked at.
+#[derive(Clone, Copy, Default, Debug)]
+pub(super) struct Notes {
+    pub trouble: Option<Trouble>,
+    /// The first time (s) at which the formula has no value.
+    pub missing: Option<f64>,
+    /// How much has been looked at.
+    cells: usize,
+}
+
+impl Notes {
+    /// Takes note of why there is no number; what comes first in time counts.
+    pub fn meet(&mut self, trouble: Trouble) {
+        if self.trouble.is_none_or(|known| trouble.t() < known.t()) {
+            self.trouble = Some(trouble);
+        }
+    }
+
+    /// Takes note of a time (s) at which the formula has no value.
+    pub fn miss(&mut self, t: f64) {
+        if self.missing.is_none_or(|known| t < known) {
+            self.missing = Some(t);
+        }
+    }
+}
+
+/// A formula in some steps of the motion.
+pub(super) struct Probe<'r> {
+    pub curve: &'r mut Curve,
+    places: &'r mut Places,
+    pub steps: &'r [Stretch],
+    entered: Option<usize>,
+    pub notes: &'r mut Notes,
+    /// No cell is cut that is no longer than this (s).
+    pub shortest: f64,
+}
+
+impl<'r> Probe<'r> {
+    pub fn new(
+        (curve, notes): (&'r mut Curve, &'r mut Notes),
+        places: &'r mut Places,
+        steps: &'r [Stretch],
+        span: f64,
+    ) -> Probe<'r> {
+        Probe { curve, places, steps, entered: None, notes, shortest: SHORTEST * span }
+    }
+
+    fn enter(&mut self, step: usize) {
+        if self.entered != Some(step) {
+            self.places.enter(&self.steps[step]);
+            self.entered = Some(step);
+        }
+    }
+
+    /// The formula at a state of a step.
+    pub fn at(&mut self, step: usize, state: State) -> Rc<Point> {
+        self.enter(step);
+        self.curve.at(state, self.places)
+    }
+
+    /// The formula at a time (s) within a cell; none where the motion cannot be solved for.
+    pub fn point(&mut self, cell: &Cell, t: f64) -> Option<Rc<Point>> {
+        self.between(cell.step, [&cell.a.state, &cell.b.state], t)
+    }
+
+    /// The formula at a time (s) of a step.
+    pub fn point_of_step(&mut self, step: usize, t: f64) -> Option<Rc<Point>> {
+        let ends @ [from, to] = [&self.steps[step].from, &self.steps[step].to];
+        match [from, to].into_iter().find(|end| end.t.total_cmp(&t).is_eq()) {
+            Some(end) => Some(self.at(step, end.clone())),
+            None => self.between(step, ends, t),
+        }
+    }
+
+    fn between(&mut self, step: usize, [a, b]: [&State; 2], t: f64) -> Option<Rc<Point>> {
+        self.enter(step);
+        let state = if self.curve.moves() {
+            self.notes.cells += SOLVED;
+            let solved = self.places.solve(&self.steps[step], [a, b], t);
+            if solved.is_none() && b.t - a.t > self.shortest * OPAQUE / SHORTEST {
+                self.notes.meet(Trouble::Unknown(t));
+            }
+            solved?
+        } else {
+            self.notes.cells += 1;
+            State { t, ..a.clone() }
+        };
+        Some(self.curve.at(state, self.places))
+    }
+
+    /// The state beside one of a step, as rows have it; none where that cannot be had.
+    pub fn settled(&mut self, step: usize, near: &State, t: f64) -> Option<State> {
+        self.enter(step);
+        self.places.settled(&self.steps[step], near, t)
+    }
+
+    /// What is known of the formula in a cell; nothing where the states at its ends do not tell the motion between.
+    pub fn enclose(&mut self, cell: &mut Cell) -> (Verdict, Range) {
+        self.enter(cell.step);
+        self.notes.cells += 1;
+        if self.notes.cells > MOST_CELLS {
+            self.notes.meet(Trouble::Unknown(cell.a.state.t));
+        }
+        let is_known = !self.curve.moves()
+            || self.places.signals_are_resolved([cell.a.state.t, cell.b.state.t]) && !self.curve.turns_far(cell);
+        if is_known {
+            return self.curve.enclose(cell);
+        }
+        let [low, high] = [f64::NEG_INFINITY, f64::INFINITY];
+        (Verdict::Open, Range { low, high, may_switch: true, is_resolved: false, crosses_knots: true })
+    }
+
+    /// Whether a cell is too short to be cut.
+    pub fn is_shortest(&self, cell: &Cell) -> bool {
+        cell.length() <= self.shortest || cell.is_empty()
+    }
+
+    /// The parts of a cell on both sides of its middle; none where the motion cannot be solved for there.
+    pub fn halve(&mut self, cell: &Cell) -> Option<[Cell; 2]> {
+        let middle = self.point(cell, cell.middle())?;
+        Some(cell.cut(self.curve, &middle))
+    }
+
+    /// The parts of a cell before and behind the time at which a guard crosses its threshold, and the shortest cell between. A part is missing
+    /// where the crossing is at that end of the cell. None where the motion cannot be solved for.
+    pub fn cut_at_crossing(&mut self, cell: &Cell, guard: usize) -> Option<[Option<Cell>; 3]> {
+        let side = self.curve.side(guard, &cell.a);
+        let mut within = cell.clone();
+        let mut is_by_halves = false;
+        while !self.is_shortest(&within) {
+            let (from, h) = (within.a.state.t, within.length());
+            let [a, b] = self.curve.distances(guard, [&within.a, &within.b]);
+            let x = a / (a - b);
+            let is_straight = !is_by_halves && a * b <= 0.0 && x.is_finite();
+            // to both sides of where the straight line passes the threshold, so that both ends come near
+            let places = if is_straight {
+                let reach = f64::max(NARROWER, 0.25 * self.shortest / h);
+                [x - reach, x + reach]
+            } else {
+                [0.5, 1.0]
+            };
+            for place in places {
+                let t = from + place * h;
+                if t > within.a.state.t && t < within.b.state.t {
+                    let point = self.point(&within, t)?;
+                    let [before, behind] = within.cut(self.curve, &point);
+                    within = if self.curve.side(guard, &point).total_cmp(&side).is_eq() { behind } else { before };
+                }
+            }
+            is_by_halves = is_straight && within.length() > 0.5 * h;
+        }
+        let part = |a: &Rc<Point>, b: &Rc<Point>| (b.state.t > a.state.t).then(|| cell.between(a, b));
+        Some([part(&cell.a, &within.a), part(&within.a, &within.b), part(&within.b, &cell.b)])
+    }
+}
