@@ -33,6 +33,8 @@ pub mod probe {
     pub const SOLVED: usize = 20;
     /// No cell is shorter than this part of the span.
     pub const SHORTEST: f64 = 4.0 * f64::EPSILON;
+    /// A cell is short that is no longer than this part of the span.
+    pub const SHORT: f64 = 1e-3;
     /// A stretch in which nothing can be solved for may be so long, as a part of the span.
     pub const OPAQUE: f64 = 1e-6;
     /// Values that differ by no more than this part of the range are the same.
@@ -67,9 +69,7 @@ pub mod extremum {
     pub const FINEST: f64 = 1e-4;
     /// Corrections of a time at most.
     pub const ITERATIONS: usize = 100;
-    /// In a cell no longer than this part of the span values may be nothing but rounding; they are known where that leaves this part of them, or of how
-    /// far the formula usually is from its extremum.
-    pub const SHORT: f64 = 1e-3;
+    /// Values in short cells are known where rounding leaves no more than this part of them, or of how far the formula usually is from its extremum.
     pub const DIGITS: f64 = 1e-7;
     /// A value at a threshold is that of one side where it differs from that of this side by no more than this part, likewise.
     pub const APART: f64 = 1e-6;

@@ -39,8 +39,8 @@ pub(super) struct Curve {
     shape: Shape,
     holds_rates: bool,
     holds_forces: bool,
-    /// Whether it holds something of which one order alone is known.
-    needs_middles: bool,
+    /// No cell is short that is longer than this (s).
+    short: f64,
     /// The loads that the forces in the formula come from.
     loads: Loads,
     /// The largest magnitudes that were seen: of what moves, with its derivatives, and of the guards' arguments.
@@ -175,7 +175,7 @@ impl Cell {
 
     /// Its parts on both sides of a point in it.
     pub fn cut(&self, curve: &Curve, at: &Rc<Point>) -> [Cell; 2] {
-        let bends = if curve.needs_middles { Some(curve.bends_at(self, at)) } else { self.bends.clone() };
+        let bends = Some(curve.bends_at(self, at));
         [(&self.a, at), (at, &self.b)].map(|(a, b)| Cell { bends: bends.clone(), ..self.between(a, b) })
     }
 }
@@ -254,15 +254,19 @@ impl Curve {
             shape,
             holds_rates,
             holds_forces,
-            needs_middles: holds_forces,
+            short: 0.0,
             loads,
             largest: Vec::new(),
             largest_arguments: Vec::new(),
         };
         curve.largest = vec![[0.0; 4]; curve.moving.len()];
         curve.largest_arguments = vec![0.0; curve.guards.len()];
-        curve.needs_middles |= curve.moving.iter().map(|of| curve.orders(*of)).any(|[from, to]| from == to);
         curve
+    }
+
+    /// Takes cells for short that are no longer than this (s).
+    pub fn set_short(&mut self, short: f64) {
+        self.short = short;
     }
 
     /// How many time derivatives it has: 0 to 2.
@@ -361,14 +365,22 @@ impl Curve {
     /// How far off rounding may be in the value at a point.
     pub fn uncertainty(&mut self, point: &Point) -> f64 {
         self.set_point(point.state.t, &point.moving, 1.0);
+        self.ranges.range(&self.program, &self.registers, 0);
+        for (guard, mark) in self.guards.iter().zip(&point.marks) {
+            // the value is that of its own side
+            if guard.crossing(&self.ranges, [*mark; 2]) != Crossing::Never {
+                guard.hold(mark.side, &mut self.ranges);
+            }
+        }
         let Range { low, high, .. } = self.ranges.range(&self.program, &self.registers, 0);
         let off = 0.5 * (high - low);
         if off.is_nan() { f64::INFINITY } else { off }
     }
 
-    /// Whether a guard of the formula is exactly at its threshold, where the formula may have a value of its own.
-    pub fn is_at_threshold(&self, point: &Point) -> bool {
-        self.guards.iter().zip(&point.marks).any(|(guard, mark)| guard.is_at_threshold(*mark))
+    /// Whether a guard of the formula is exactly at its threshold, and not so at another point beside: the formula may have a value of its own there.
+    pub fn is_at_threshold(&self, point: &Point, beside: &Point) -> bool {
+        let marks = point.marks.iter().zip(&beside.marks);
+        self.guards.iter().zip(marks).any(|(guard, (mark, beside))| guard.is_at_threshold(*mark) && mark.side != beside.side)
     }
 
     /// Computes the formula and its derivatives at a time (s).
@@ -476,19 +488,22 @@ impl Curve {
     fn value(&mut self, cell: &Cell) -> Range {
         let Curve { ranges, program, registers, loads, .. } = self;
         let range = ranges.range(program, registers, 0);
-        if !self.holds_forces {
-            return range;
-        }
         let Some(bends) = cell.bends.as_ref().map(|bends| &bends[self.moving.len()..]) else { return range };
+        let by_values = || {
+            let [low, high] = around(cell.a.sample.value, cell.b.sample.value, bends[0][0]);
+            Range { low: range.low.max(low), high: range.high.min(high), ..range }
+        };
+        if !self.holds_forces {
+            // over short cells terms that cancel each other leave intervals that are much too wide
+            let is_short = cell.length() <= self.short && cell.a.exists() && cell.b.exists();
+            return if is_short && range.is_resolved { by_values() } else { range };
+        }
         let told = |k: usize| around(cell.a.loads[k], cell.b.loads[k], bends[1 + k][0]);
         let up_to = |most: f64| Range { low: -most, high: most, is_resolved: false, ..range };
         match loads.hidden((program, registers), ranges, told) {
             Hidden::Anything => up_to(f64::INFINITY),
             Hidden::Something(beyond) => up_to(f64::min(UNTOLD * beyond, f64::MAX)),
-            Hidden::Nothing if range.is_resolved => {
-                let [low, high] = around(cell.a.sample.value, cell.b.sample.value, bends[0][0]);
-                Range { low: range.low.max(low), high: range.high.min(high), ..range }
-            }
+            Hidden::Nothing if range.is_resolved => by_values(),
             Hidden::Nothing => range,
         }
     }
@@ -584,34 +599,26 @@ impl Curve {
         point.marks[guard].side
     }
 
-    /// The value where arguments of functions that are not smooth somewhere are just there, between two points beside each other; none where there
-    /// is no such argument, or no such value.
-    pub fn between_points(&mut self, a: &Point, b: &Point) -> Option<f64> {
-        if self.holds_forces || !(a.exists() && b.exists()) {
-            return None;
+    /// The values where an argument of a function that is not smooth somewhere is just there, between two points beside each other, as far as they
+    /// are known.
+    pub fn between_points(&mut self, a: &Point, b: &Point) -> Vec<f64> {
+        if self.holds_forces || !(a.exists() || b.exists()) {
+            return Vec::new();
         }
-        let Curve { ranges, guards, largest_arguments, .. } = &*self;
-        if (0..guards.len()).all(|k| guards[k].between(ranges, [a.marks[k], b.marks[k]], largest_arguments[k]).is_none()) {
-            return None;
-        }
-        self.set_point(a.state.t, &a.moving, 0.0);
-        let Curve { ranges, program, registers, guards, largest_arguments, .. } = self;
-        let known = |k: usize, ranges: &Ranges| guards[k].between(ranges, [a.marks[k], b.marks[k]], largest_arguments[k]);
-        ranges.range(program, registers, 0);
-        let before: Vec<_> = (0..guards.len()).map(|k| known(k, ranges)).collect();
-        for (k, before) in before.into_iter().enumerate() {
-            // what follows from others is what these make of it
-            if let Some((_, value)) = before
-                && known(k, ranges) == before
-            {
-                guards[k].hold_at(value, ranges);
-                ranges.range(program, registers, 0);
+        let there = if a.exists() { a } else { b };
+        let mut found = Vec::new();
+        for k in 0..self.guards.len() {
+            let marks = [a.marks[k], b.marks[k]];
+            let Some(value) = self.guards[k].value_between(marks, self.largest_arguments[k]) else { continue };
+            self.set_point(there.state.t, &there.moving, 0.0);
+            self.guards[k].hold_at(value, &mut self.ranges);
+            let Range { low, high, .. } = self.ranges.range(&self.program, &self.registers, 0);
+            let is_finite = low.is_finite() && high.is_finite();
+            if is_finite && high - low <= KNOWN * f64::max(low.abs(), high.abs()) + NOTHING {
+                found.push(if low <= 0.0 && high >= 0.0 { 0.0 } else { 0.5 * low + 0.5 * high });
             }
         }
-        let Range { low, high, .. } = ranges.range(program, registers, 0);
-        let is_known = high - low <= KNOWN * f64::max(low.abs(), high.abs()) + NOTHING;
-        let is_zero = low <= 0.0 && high >= 0.0;
-        is_known.then_some(if is_zero { 0.0 } else { 0.5 * low + 0.5 * high })
+        found
     }
 }
 

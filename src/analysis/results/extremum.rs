@@ -11,7 +11,7 @@ use crate::analysis::state::State;
 use crate::math::between;
 use crate::program::Range;
 use crate::tolerances::results::extremum::{
-    APART, BESIDE, CERTAIN, CLOSER, CONVERGES, DIGITS, FARTHEST, FINEST, GAP, GAP_OF_VALUES, ITERATIONS, SHORT, TOWARDS,
+    APART, BESIDE, CERTAIN, CLOSER, CONVERGES, DIGITS, FARTHEST, FINEST, GAP, GAP_OF_VALUES, ITERATIONS, TOWARDS,
 };
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -115,6 +115,7 @@ impl Extremum {
             return;
         }
         self.see(found.t, self.sign * found.value);
+        if std::env::var("DBG").is_ok() { eprintln!("found {found:?}"); }
         if found.value < self.best - scale.alike() {
             return;
         }
@@ -258,23 +259,21 @@ impl Probe<'_> {
 
     /// Takes note of the values at both ends of a cell.
     fn see_ends(&mut self, cell: &Cell, extremum: &mut Extremum, scale: Scale) {
-        for point in [&cell.a, &cell.b] {
+        for (point, other) in [(&cell.a, &cell.b), (&cell.b, &cell.a)] {
             if !point.exists() {
                 self.notes.miss(point.state.t);
             } else if extremum.sign * point.sample.value > extremum.best
-                && !self.curve.is_at_threshold(point)
-                && self.is_certain(cell, point, scale)
+                && !self.curve.is_at_threshold(point, other)
+                && self.is_certain(point, scale)
             {
                 extremum.see(point.state.t, point.sample.value);
             }
         }
     }
 
-    /// Whether a value is more than rounding. Only over short cells it may be no more: beside a place at which the formula is a quotient of two
-    /// numbers that are zero.
-    fn is_certain(&mut self, cell: &Cell, point: &Point, scale: Scale) -> bool {
-        cell.length() > SHORT * scale.span
-            || self.curve.uncertainty(point) <= DIGITS * f64::max(scale.range, point.sample.value.abs())
+    /// Whether a value is more than rounding. It is not beside a place at which the formula is a quotient of two numbers that are zero.
+    fn is_certain(&mut self, point: &Point, scale: Scale) -> bool {
+        self.curve.uncertainty(point) <= DIGITS * f64::max(scale.range, point.sample.value.abs()) + scale.gap(0.0)
     }
 
     /// Finds out what is known of the formula in a cell.
@@ -319,7 +318,7 @@ impl Probe<'_> {
             Verdict::Smooth if cell.a.exists() && cell.b.exists() && self.is_done(&open, extremum, scale) => return,
             _ => {
                 let Some(halves) = self.halve(cell) else { return };
-                if cell.length() <= SHORT * scale.span && halves[0].b.exists() {
+                if cell.length() <= self.short && halves[0].b.exists() {
                     // where rounding alone makes it as large, nothing is found by cutting on
                     let off = self.curve.uncertainty(&halves[0].b);
                     if off >= 0.5 * (open.upper - extremum.best) {
@@ -347,10 +346,10 @@ impl Probe<'_> {
         let rises = ends.map(|point| sign * point.sample.first);
         let goes_on = (rises[0] > 0.0 && rises[1] > 0.0) || (rises[0] < 0.0 && rises[1] < 0.0);
         let step = (ends[0].sample.value - ends[1].sample.value).abs();
-        for point in ends {
+        for (point, other) in [(&cell.a, &cell.b), (&cell.b, &cell.a)] {
             // a value of its own is that of no side
-            let is_apart = self.curve.is_at_threshold(point) && step > APART * scale.range.max(point.sample.value.abs());
-            if !point.exists() || is_apart || !self.is_certain(cell, point, scale) {
+            let is_apart = self.curve.is_at_threshold(point, other) && step > APART * scale.range.max(point.sample.value.abs());
+            if !point.exists() || is_apart || !self.is_certain(point, scale) {
                 continue;
             }
             if goes_on && step <= scale.gap(GAP) {
@@ -359,7 +358,7 @@ impl Probe<'_> {
                 extremum.note_edge(point.state.t, point.sample.value, scale);
             }
         }
-        if let Some(value) = self.curve.between_points(&cell.a, &cell.b) {
+        for value in self.curve.between_points(&cell.a, &cell.b) {
             extremum.note_edge(cell.b.state.t, value, scale);
         }
         let [_, upper] = extremum.oriented(range);
@@ -415,7 +414,7 @@ impl Probe<'_> {
         if falls >= 0.0 || rises <= 0.0 {
             if turns {
                 // it turns where the cell ends, and falls from there on
-                self.note_turn(cell.step, &cell.b, cell.b.state.t, extremum, scale);
+                self.note_turn(cell, &cell.b, cell.b.state.t, extremum, scale);
             }
             return true;
         }
@@ -467,12 +466,15 @@ impl Probe<'_> {
         // its time is where the slope turns, whatever the last digits of the values say
         let is_inside = guess > within.a.state.t && guess < within.b.state.t;
         let turn = if is_inside { guess } else { within.b.state.t };
-        self.note_turn(cell.step, &top, turn, extremum, scale);
+        self.note_turn(cell, &top, turn, extremum, scale);
     }
 
     /// Takes note of a turn at a time (s), near a point.
-    fn note_turn(&mut self, step: usize, near: &Point, t: f64, extremum: &mut Extremum, scale: Scale) {
-        let settled = self.settled_turn(step, &near.state, t, scale.span);
+    fn note_turn(&mut self, cell: &Cell, near: &Point, t: f64, extremum: &mut Extremum, scale: Scale) {
+        if !self.is_certain(near, scale) {
+            return;
+        }
+        let settled = self.settled_turn(cell.step, &near.state, t, scale.span);
         let [t, value] = settled.unwrap_or([t, near.sample.value]);
         extremum.add(Place { t, value: extremum.sign * value, kind: Kind::Turn }, scale);
     }

@@ -41,8 +41,10 @@ enum Kind {
 pub(super) struct Mark {
     /// The side of the threshold, or the number of the step or piece.
     pub side: f64,
-    /// The argument, less one threshold.
+    /// The argument, less the threshold where there is but one.
     pub argument: f64,
+    /// The argument's sign.
+    sign: f64,
 }
 
 /// How a guard is in a cell.
@@ -77,19 +79,24 @@ impl Guard {
     pub fn mark(&self, registers: &Registers) -> Mark {
         let get = |register: Register| registers.get(register);
         let sign = |x: f64| if x == 0.0 { 0.0 } else { x.signum() };
-        match self.kind {
-            Kind::Comparison { to, a, b } => Mark { side: get(to), argument: get(a) - get(b) },
-            Kind::Step { to, a, .. } | Kind::Piece { to, a, .. } => Mark { side: get(to), argument: get(a) },
-            Kind::Choice { a, b } => Mark { side: sign(get(a) - get(b)), argument: get(a) - get(b) },
-            Kind::Zero { a } => Mark { side: sign(get(a)), argument: get(a) },
-            Kind::Unit { a } => Mark { side: f64::from(u8::from(get(a).abs() <= 1.0)), argument: get(a).abs() - 1.0 },
-        }
+        let (side, argument) = match self.kind {
+            Kind::Comparison { to, a, b } => (get(to), get(a) - get(b)),
+            Kind::Step { to, a, .. } | Kind::Piece { to, a, .. } => (get(to), get(a)),
+            Kind::Choice { a, b } => (sign(get(a) - get(b)), get(a) - get(b)),
+            Kind::Zero { a } => (sign(get(a)), get(a)),
+            Kind::Unit { a } => {
+                let side = f64::from(u8::from(get(a).abs() <= 1.0));
+                return Mark { side, argument: get(a).abs() - 1.0, sign: sign(get(a)) };
+            }
+        };
+        Mark { side, argument, sign: sign(argument) }
     }
 
     /// Whether the formula may have a value of its own where the guard is: neither that of before nor that of behind.
     pub fn is_at_threshold(&self, mark: Mark) -> bool {
         match self.kind {
             Kind::Zero { .. } | Kind::Step { is_whole: false, .. } => mark.side == 0.0,
+            Kind::Comparison { .. } | Kind::Choice { .. } => mark.argument == 0.0,
             _ => false,
         }
     }
@@ -166,16 +173,13 @@ impl Guard {
         }
     }
 
-    /// What the argument is in ranges, if the formula is not smooth at some value of it that lies between two states beside each other; and that
-    /// value. How large the argument usually is tells whether it goes there, or jumps.
-    pub fn between(&self, ranges: &Ranges, [a, b]: [Mark; 2], usual: f64) -> Option<([f64; 2], f64)> {
+    /// A value of the argument at which the formula is not smooth, if it lies between two states beside each other. How large the argument usually
+    /// is tells whether it goes there, or jumps.
+    pub fn value_between(&self, [a, b]: [Mark; 2], usual: f64) -> Option<f64> {
         let is_near = f64::max(a.argument.abs(), b.argument.abs()) <= NEAR * usual;
         match self.kind {
-            Kind::Zero { a: argument } if a.side != b.side && is_near => Some((ranges.interval(argument), 0.0)),
-            Kind::Unit { a: argument } if a.side.max(b.side) > 0.0 && is_near => {
-                let interval = ranges.interval(argument);
-                Some((interval, interval[0].signum()))
-            }
+            Kind::Zero { .. } => (a.side != b.side && is_near).then_some(0.0),
+            Kind::Unit { .. } => (a.side.max(b.side) > 0.0 && is_near).then_some(a.sign),
             _ => None,
         }
     }

@@ -24,7 +24,7 @@ mod turn;
 mod varying;
 
 use crate::analysis::assemble::Started;
-use crate::analysis::follow::Follower;
+use crate::analysis::follow::{Follower, Stretch};
 use crate::analysis::state::{Kinematics, State, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
@@ -187,14 +187,16 @@ impl Analysis {
         let [from, to] = self.asked.interval;
         let span = to - from;
         let mut motion = self.asked.motion(Times::listed(from, vec![to]));
-        let mut stretches = Vec::new();
+        let mut stretches: Vec<Stretch> = Vec::new();
         while !self.asked.cancel.is_cancelled() {
             let next = motion.next_stretch()?;
             let is_end = next.is_none();
             if let Some(stretch) = &next {
                 near.take_note(stretch, &motion);
             }
-            stretches.extend(next);
+            if let Some(stretch) = next {
+                push_step(&mut stretches, stretch);
+            }
             if is_end && span <= 0.0 {
                 places.enter_where(&motion.switches());
                 for reduced in all.iter_mut() {
@@ -202,7 +204,8 @@ impl Analysis {
                 }
                 return Ok(());
             }
-            if is_end || stretches.len() >= CHUNK {
+            // steps towards a singular position are replaced once the way over it is known
+            if is_end || (stretches.len() >= CHUNK && motion.was_clear_here()) {
                 for reduced in all.iter_mut() {
                     reduced.look(&stretches, places, span);
                 }
@@ -246,6 +249,24 @@ impl Analysis {
         }
         answers
     }
+}
+
+/// Adds a step to others. One over a singular position stands for those too that have come near to that: it begins where the motion was clear.
+fn push_step(steps: &mut Vec<Stretch>, mut step: Stretch) {
+    if let Some(bridge) = &step.bridge {
+        let clear = &bridge.from;
+        while let Some(last) = steps.pop_if(|last| last.from.t >= clear.t) {
+            step.begins_at_edge = last.begins_at_edge && last.from.t <= clear.t;
+        }
+        if let Some(last) = steps.last_mut()
+            && last.to.t > clear.t
+        {
+            last.to.copy_from(clear);
+            last.middle = None;
+        }
+        step.from.copy_from(clear);
+    }
+    steps.push(step);
 }
 
 /// The formulas of some reductions, each once, and which is whose; with the reductions that they hold, as far as these are known, and over so

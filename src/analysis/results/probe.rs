@@ -5,7 +5,7 @@ use super::places::Places;
 use crate::analysis::follow::Stretch;
 use crate::analysis::state::State;
 use crate::program::Range;
-use crate::tolerances::results::probe::{ALIKE, MOST_CELLS, NARROWER, NOTHING, OPAQUE, ROUNDING, SHORTEST, SOLVED};
+use crate::tolerances::results::probe::{ALIKE, MOST_CELLS, NARROWER, NOTHING, OPAQUE, ROUNDING, SHORT, SHORTEST, SOLVED};
 use std::rc::Rc;
 
 /// How large a formula is, as far as that decides what is a difference.
@@ -92,6 +92,8 @@ pub(super) struct Probe<'r> {
     pub notes: &'r mut Notes,
     /// No cell is cut that is no longer than this (s).
     pub shortest: f64,
+    /// In a cell that is no longer than this (s) values may be nothing but rounding.
+    pub short: f64,
 }
 
 impl<'r> Probe<'r> {
@@ -101,7 +103,8 @@ impl<'r> Probe<'r> {
         steps: &'r [Stretch],
         span: f64,
     ) -> Probe<'r> {
-        Probe { curve, places, steps, entered: None, notes, shortest: SHORTEST * span }
+        curve.set_short(SHORT * span);
+        Probe { curve, places, steps, entered: None, notes, shortest: SHORTEST * span, short: SHORT * span }
     }
 
     fn enter(&mut self, step: usize) {

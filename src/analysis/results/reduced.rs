@@ -1,6 +1,6 @@
 //! A formula along the whole motion, and the numbers that are asked of it.
 
-use super::curve::{Cell, Curve};
+use super::curve::{Cell, Curve, Point};
 use super::extremum::Extremum;
 use super::places::Places;
 use super::probe::{Notes, Probe, Scale, Trouble};
@@ -8,6 +8,7 @@ use super::quadrature::Integral;
 use crate::analysis::follow::Stretch;
 use crate::analysis::state::{State, shortly_after};
 use crate::ir::ReductionKind;
+use std::rc::Rc;
 
 /// A formula that is looked at along the motion, and what is found of it.
 pub(super) struct Reduced {
@@ -216,8 +217,11 @@ impl Reduced {
             let mut probe = Probe::new((&mut *curve, notes), &mut *places, steps, span);
             for cell in &cells {
                 let step = &steps[cell.step];
-                let ends = [(step.begins_at_edge, &cell.a), (step.ends_at_edge, &cell.b)];
-                for (_, point) in ends.into_iter().filter(|(is_edge, point)| *is_edge && !probe.curve.is_at_threshold(point)) {
+                let ends = [(step.begins_at_edge, &cell.a, &cell.b), (step.ends_at_edge, &cell.b, &cell.a)];
+                let is_edge = |(is_edge, point, other): &(bool, &Rc<Point>, &Rc<Point>)| {
+                    *is_edge && !probe.curve.is_at_threshold(point, other)
+                };
+                for (_, point, _) in ends.into_iter().filter(is_edge) {
                     extremum.note_edge(point.state.t, point.sample.value, scale);
                 }
             }
@@ -234,6 +238,7 @@ impl Reduced {
     /// A step, with the formula at both ends; none where only values at some times are asked for.
     fn cell(&mut self, number: usize, steps: &[Stretch], places: &mut Places) -> Option<Cell> {
         let step = &steps[number];
+        if std::env::var("DBS").is_ok() { eprintln!("step {:?} {:?} bridge {:?} edges {} {}", step.from.t, step.to.t, step.bridge.as_ref().map(|b| (b.from.t, b.at, b.again, b.to.t)), step.begins_at_edge, step.ends_at_edge); }
         places.enter(step);
         self.take_times(step, places);
         if self.is_of_times_alone() {

@@ -106,9 +106,16 @@ impl Crossing {
         self.clear_ahead = t;
     }
 
-    /// The way over a singular position that ends at a time (s).
-    pub fn bridge_to(&self, t: f64) -> Option<&Bridge> {
-        self.bridge.as_ref().filter(|bridge| bridge.to.t.total_cmp(&t).is_eq())
+    /// Whether a way over a singular position ends at a time (s).
+    pub fn has_bridge_to(&self, t: f64) -> bool {
+        self.bridge.as_ref().is_some_and(|bridge| bridge.to.t.total_cmp(&t).is_eq())
+    }
+
+    /// The way over a singular position that ends at a time (s), with the most exact curve that there is over it.
+    pub fn bridge_to(&mut self, kinematics: &mut Kinematics, step: &mut Step, t: f64) -> Option<&Bridge> {
+        let bridge = self.bridge.as_mut().filter(|bridge| bridge.to.t.total_cmp(&t).is_eq())?;
+        bridge.look_for_exact(kinematics, step);
+        Some(bridge)
     }
 
     /// Whether a singular position has been passed by a time (s).

@@ -325,7 +325,7 @@ impl Follower {
 
     fn accept(&mut self, h: f64, accepted: &Accepted) {
         let Follower { kinematics, step, edges, crossing, forces, misses, .. } = self;
-        if crossing.bridge_to(step.t()).is_some() {
+        if crossing.has_bridge_to(step.t()) {
             misses.forget();
         }
         if let Some(forces) = forces {
