@@ -289,6 +289,11 @@ impl Curve {
         self.holds_forces
     }
 
+    /// Whether it holds what has no bound where the equations are singular: forces, or derivatives by parameters.
+    pub fn may_be_singular(&self) -> bool {
+        self.holds_forces || self.is_varied()
+    }
+
     /// Whether it is nothing but what is smooth, or a length of that, with a slope: so that its extrema can be settled.
     pub fn settles(&self) -> bool {
         self.derivatives() > 0 && self.shape != Shape::Other

@@ -261,7 +261,7 @@ impl Probe<'_> {
     fn see_ends(&mut self, cell: &Cell, extremum: &mut Extremum, scale: Scale) {
         for (point, other) in [(&cell.a, &cell.b), (&cell.b, &cell.a)] {
             if !point.exists() {
-                self.notes.miss(point.state.t);
+                self.miss(cell.step, point.state.t);
             } else if extremum.sign * point.sample.value > extremum.best
                 && !self.curve.is_at_threshold(point, other)
                 && self.is_certain(point, scale)
@@ -312,7 +312,7 @@ impl Probe<'_> {
                 [before, behind]
             }
             Verdict::Missing => {
-                self.notes.miss(cell.a.state.t);
+                self.miss(cell.step, cell.a.state.t);
                 return;
             }
             Verdict::Smooth if cell.a.exists() && cell.b.exists() && self.is_done(&open, extremum, scale) => return,
@@ -340,7 +340,7 @@ impl Probe<'_> {
         let sign = extremum.sign;
         for point in ends {
             if !point.exists() {
-                self.notes.miss(point.state.t);
+                self.miss(cell.step, point.state.t);
             }
         }
         let rises = ends.map(|point| sign * point.sample.first);

@@ -114,6 +114,15 @@ impl<'r> Probe<'r> {
         }
     }
 
+    /// Takes note of a time (s) of a step at which the formula has no value. Beside a singular position forces and derivatives by parameters are not
+    /// left out: they may be of any size there.
+    pub fn miss(&mut self, step: usize, t: f64) {
+        if self.steps[step].bridge.is_some() && self.curve.may_be_singular() {
+            self.notes.meet(Trouble::Uncertain(t));
+        }
+        self.notes.miss(t);
+    }
+
     /// The formula at a state of a step.
     pub fn at(&mut self, step: usize, state: State) -> Rc<Point> {
         self.enter(step);

@@ -134,7 +134,7 @@ impl Probe<'_> {
                     continue;
                 }
                 Verdict::Missing => {
-                    self.notes.miss(cell.a.state.t);
+                    self.miss(cell.step, cell.a.state.t);
                     continue;
                 }
                 Verdict::Smooth | Verdict::Open => {}
@@ -162,7 +162,7 @@ impl Probe<'_> {
         let values = [&cell.a, &cell.b].map(|point| point.sample.value);
         let known: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
         if known.len() < 2 {
-            self.notes.miss(cell.a.state.t);
+            self.miss(cell.step, cell.a.state.t);
         }
         if !known.is_empty() {
             let largest = known.iter().fold(0.0, |largest, value| f64::max(largest, value.abs()));
