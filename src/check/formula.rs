@@ -197,7 +197,7 @@ impl Checker<'_> {
             ExprKind::Paren(inner) => return self.number(inner, context),
             ExprKind::Literal { value, unit } => self.literal(e, *value, unit.as_ref(), context),
             ExprKind::Name(name) => self.name(name, context),
-            ExprKind::Call { name, arguments } => self.call(e, name, arguments, context),
+            ExprKind::Call { name, arguments, window } => self.call(e, (name, window.as_deref()), arguments, context),
             ExprKind::Negate(inner) => {
                 let inner = self.number(inner, context)?;
                 Some(Value { id: self.model.graph.neg(inner.id), dim: inner.dim })

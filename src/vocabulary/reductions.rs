@@ -14,6 +14,12 @@ pub struct ReductionWord {
 }
 
 impl ReductionWord {
+    /// Whether it is the value at a time that is its last argument.
+    #[must_use]
+    pub fn takes_time(&self) -> bool {
+        self.arguments > 1
+    }
+
     /// The reduction of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static ReductionWord> {
