@@ -43,6 +43,11 @@ pub fn window_of_no_reduction(called: &Name, span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0322, format!("`{name}` {why} no window")).at(span, "a part of the analysis").help(help)
 }
 
+/// What `from` and `to` lack where they are read as names, before an operator.
+pub fn signed_bound(word: &str) -> String {
+    format!("a time of a window that begins with a sign stands in parentheses: `{word} (-1 s)`")
+}
+
 /// A window whose end is before its beginning (s).
 pub fn window_ends_early(word: &ReductionWord, span: Span, [from, to]: [f64; 2]) -> Diagnostic {
     Diagnostic::new(Code::E0422, format!("the window of `{}` ends before it begins", word.word.name))
