@@ -118,6 +118,7 @@ impl Slopes<'_, '_> {
         let [by, rate] = [by, rate].map(|formula| self.reduce(kind, formula, holds));
         let moved = self.lowering.graph.mul(rate, goes);
         let slope = self.lowering.graph.add(by, moved);
+        let going = [going, self.edges_in_the_way(value, goes, true)].concat();
         Some(self.where_clear(kind, (&going, holds), slope))
     }
 
@@ -132,6 +133,7 @@ impl Slopes<'_, '_> {
         let graph = &mut self.lowering.graph;
         let more = graph.sub(to, from);
         let slope = graph.add(inside, more);
+        let slope = self.where_its_ends_are_clear(k, slope)?;
         Some(self.where_it_does_not_jump(k, slope))
     }
 
@@ -151,6 +153,7 @@ impl Slopes<'_, '_> {
         let more = graph.sub(to, from);
         let more = graph.div(more, span);
         let slope = graph.add(inside, more);
+        let slope = self.where_its_ends_are_clear(k, slope)?;
         Some(self.where_it_does_not_jump(k, slope))
     }
 
@@ -187,7 +190,8 @@ impl Slopes<'_, '_> {
                 let still = self.reduce(at, by, holds);
                 self.moved((at, still), (rate, holds), goes)?
             };
-            let at_end = self.where_clear(at, (&going, holds), at_end);
+            let edges = [going.clone(), self.edges_in_the_way(value, goes, true)].concat();
+            let at_end = self.where_clear(at, (&edges, holds), at_end);
             let end = self.time(kind);
             let graph = &mut self.lowering.graph;
             let between = if kind == ReductionKind::First { [time, end] } else { [end, time] };
