@@ -124,13 +124,13 @@ fn a_motion_is_looked_at_within_the_window() {
 #[ignore = "waits for the evaluation of windows"]
 fn edges_within_a_window_count() {
     check(&[
-        ("mean(if t < 0.4 then 1 else 3, from 0.3 s to 0.5 s)", 2.0),
-        ("integral(if t < 0.4 then 1 else 3, from 0.3 s to 0.6 s)", 0.7),
-        ("max(if t < 0.4 then 1 else 3, from 0.1 s to 0.3 s)", 1.0),
-        ("min(if t < 0.4 then 1 else 3, from 0.5 s to 0.7 s)", 3.0),
-        ("min(abs(t - 0.4), from 0.1 s to 0.45 s)", 0.0),
-        ("argmin(abs(t - 0.4), from 0.1 s to 0.45 s)", 0.4),
-        ("max(abs(t - 0.4), from 0.1 s to 0.45 s)", 0.3),
+        ("mean(if t < 0.4 s then 1 else 3, from 0.3 s to 0.5 s)", 2.0),
+        ("integral(if t < 0.4 s then 1 else 3, from 0.3 s to 0.6 s)", 0.7),
+        ("max(if t < 0.4 s then 1 else 3, from 0.1 s to 0.3 s)", 1.0),
+        ("min(if t < 0.4 s then 1 else 3, from 0.5 s to 0.7 s)", 3.0),
+        ("min(abs(t - 0.4 s), from 0.1 s to 0.45 s)", 0.0),
+        ("argmin(abs(t - 0.4 s), from 0.1 s to 0.45 s)", 0.4),
+        ("max(abs(t - 0.4 s), from 0.1 s to 0.45 s)", 0.3),
     ]);
 }
 

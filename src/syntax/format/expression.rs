@@ -147,21 +147,23 @@ fn write_list(text: &mut String, list: &[Expr], window: Option<&Window>) {
     write_chain(text, list, ", ", Level::If);
     if let Some(Window { from, to, .. }) = window {
         *text += ",";
+        let first = text.len();
         for (word, bound) in [("from", from), ("to", to)] {
             if let Some(bound) = bound {
+                let is_first = text.len() == first;
                 *text += &format!(" {word} ");
-                write_bound(text, bound);
+                write_bound(text, bound, is_first);
             }
         }
     }
     *text += ")";
 }
 
-/// A time of a window. With a sign behind them `from` and `to` would be names.
-fn write_bound(text: &mut String, bound: &Expr) {
+/// A time of a window. With a sign behind the comma's word that would be a name.
+fn write_bound(text: &mut String, bound: &Expr, is_first: bool) {
     let start = text.len();
     write(text, bound, Level::If);
-    if text[start..].starts_with('-') {
+    if is_first && text[start..].starts_with('-') {
         text.insert(start, '(');
         *text += ")";
     }

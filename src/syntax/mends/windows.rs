@@ -23,6 +23,11 @@ impl<'a> Fault<'a> {
         if !self.expects(Rule::infix) || !self.expects(Rule::comma) {
             return None;
         }
+        if is_window(word(0)) && word(1) == "(" && self.found == "to" {
+            let bracket = last[1].start;
+            let words = "a bracket behind `from` stands apart from it: otherwise `from` is called";
+            return Some(self.replaced(bracket..bracket, " ", words, Applies::Always));
+        }
         if is_window(word(0)) && is_window(self.found) {
             return Some(Mend::words("a time that begins with a sign stands in parentheses: `from (-1 s)`"));
         }
@@ -50,7 +55,7 @@ impl<'a> Fault<'a> {
                 }
                 _ => {}
             }
-            last.push(token);
+            last.push(Token { start: open + 1 + token.start, ..token });
         }
         Some(last)
     }
