@@ -293,6 +293,23 @@ fn words_join_the_parts_of_declarations() {
 }
 
 #[test]
+fn a_window_is_proposed_behind_the_formula_of_a_reduction() {
+    let of = |typed: &str| {
+        let text = with("    analysis", &format!("    param late = 0.5 s\n    result r = {typed}$0\n    analysis"));
+        let (snapshot, place) = at_cursor(&text);
+        let labels = completions(&snapshot, &place).expect("a file").items.into_iter().map(|item| item.label);
+        labels.filter(|label| ["from", "to", "late"].contains(&label.as_str())).collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(of("max(x(crank.B),"), "late from to");
+    assert_eq!(of("max(x(crank.B), from "), "late");
+    assert_eq!(of("max(x(crank.B), from late "), "late to");
+    assert_eq!(of("max(x(crank.B), from 0.1 "), "to");
+    assert_eq!(of("max(x(crank.B), to late "), "late");
+    assert_eq!(of("at(x(crank.B), "), "late");
+    assert_eq!(of("sqrt(4, "), "late");
+}
+
+#[test]
 fn a_unit_goes_on_with_units_alone() {
     let labels = |text: &str| {
         let (snapshot, place) = at_cursor(text);
