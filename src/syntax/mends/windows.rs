@@ -12,7 +12,7 @@ impl<'a> Fault<'a> {
         let word = |k: usize| last.get(k).map_or("", |token| token.text);
         let is_window = |word: &str| matches!(word, "from" | "to");
         // a comma behind the window was read as the one behind the last argument
-        if word(0) == "" && self.before().ends_with(',') && !self.expects(Rule::infix) {
+        if last.is_empty() && self.before().ends_with(',') && !self.expects(Rule::infix) {
             if self.found == "to" {
                 let comma = self.before().len() - 1..self.before().len();
                 let words = "no comma stands in a window: `from A to B`";
