@@ -137,6 +137,23 @@ fn examples_cases_and_documentation_are_formatted() {
 
 // ---- texts that nobody wrote
 
+#[test]
+fn a_comment_before_a_comma_that_is_left_out_takes_nothing_with_it() {
+    becomes(
+        "mechanism m {\n    param a = max(1, 2 // c\n    , )\n}\n",
+        "mechanism m {\n    param a = max(1, 2   // c\n        )\n}\n",
+    );
+}
+
+/// Behind a comma a bracket that stands apart from `from` begins a time, and one that does not is that of a call.
+#[test]
+fn windows_have_one_space_between_their_words() {
+    becomes(
+        "mechanism m {\n    result a = max(  x(b.P) ,from 1 s   to(2 s),)\n    result c = max(y,from  (1 s)) - max(y, from(2), to -from)\n}\n",
+        "mechanism m {\n    result a = max(x(b.P), from 1 s to (2 s))\n    result c = max(y, from (1 s)) - max(y, from(2), to - from)\n}\n",
+    );
+}
+
 /// What may stand between two tokens instead of a space, or of nothing.
 const BETWEEN: [&str; 9] =
     ["", " ", "  ", "\n", "\n\n\n", "\t", " \r\n ", " // a comment\n", "\n  // ein Wort: größer 🙂\n"];

@@ -5,7 +5,7 @@
 mod support;
 
 use mechc::rooms::syntax::ast::File;
-use mechc::rooms::syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, Name, Sign};
+use mechc::rooms::syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, Name, Sign, Window};
 use mechc::rooms::syntax::format::expression;
 use mechc::rooms::syntax::{ParsedText, format, parse, parse_expression};
 use mechc::{Color, Diagnostics, Format, render};
@@ -231,7 +231,8 @@ fn leaf() -> impl Strategy<Value = Expr> {
         (value, unit).prop_map(|(value, unit)| {
             ExprKind::Literal { value, unit: unit.map(|(unit, power)| (name(unit), power)) }
         }),
-        prop_oneof![Just("t"), Just("s"), Just("to"), Just("größe_1")].prop_map(|text| ExprKind::Name(name(text))),
+        prop_oneof![Just("t"), Just("s"), Just("to"), Just("from"), Just("größe_1")]
+            .prop_map(|text| ExprKind::Name(name(text))),
         Just(ExprKind::Member { owner: name("ground"), feature: name("O") }),
     ]
     .prop_map(expr)
@@ -253,6 +254,9 @@ fn tree() -> impl Strategy<Value = Expr> {
         ];
         let terms = proptest::collection::vec((sign, inner.clone()), 1..4);
         let factors = proptest::collection::vec((factor, inner.clone()), 1..4);
+        let bound = || inner.clone().prop_map(Some);
+        let bounds = prop_oneof![(bound(), bound()), (bound(), Just(None)), (Just(None), bound())];
+        let bounds = bounds.prop_map(|(from, to)| Some(Box::new(Window { from, to, span: name("f").span })));
         let arms = proptest::collection::vec((inner.clone(), inner.clone()), 1..3);
         prop_oneof![
             boxed().prop_map(ExprKind::Negate),
@@ -264,7 +268,8 @@ fn tree() -> impl Strategy<Value = Expr> {
             list(2).prop_map(ExprKind::And),
             list(2).prop_map(ExprKind::Or),
             list(2).prop_map(ExprKind::Tuple),
-            list(0).prop_map(|arguments| ExprKind::Call { name: name("f"), arguments }),
+            list(0).prop_map(|arguments| ExprKind::Call { name: name("f"), arguments, window: None }),
+            (list(1), bounds).prop_map(|(arguments, window)| ExprKind::Call { name: name("f"), arguments, window }),
             (arms, boxed()).prop_map(|(arms, otherwise)| ExprKind::If { arms, otherwise }),
         ]
         .prop_map(expr)

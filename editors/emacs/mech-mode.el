@@ -65,6 +65,7 @@ It may be a name too: where an operator follows, or a formula begins."
   (let ((name "[[:alpha:]_][[:alnum:]_]*")
         (not-member "\\(?:^\\|[^.[:alnum:]_]\\)"))
     `(("\\_<analysis[ \t]+\\(from\\)\\_>" 1 font-lock-keyword-face)
+      (",[ \t]*\\(from\\|to\\)[ \t]+[^-+*/^=<>,) \t\n]" 1 font-lock-keyword-face)
       ("=[ \t]*\\(?:\\(periodic\\)[ \t]+\\)?\\(spline\\)[ \t]*[[\"]"
        (1 font-lock-keyword-face nil t) (2 font-lock-keyword-face))
       (,(concat not-member "\\(" (regexp-opt mech-mode-declarations) "\\)\\_>\\(?:[ \t]+\\(" name "\\)\\)?")

@@ -37,6 +37,9 @@ const is = ($) => seq('=', field('value', $.expression));
 // parts one after the other, of which the last ones may not be written yet
 const begun = (...parts) => parts.reduceRight((rest, part) => optional(rest ? seq(part, rest) : part), null);
 
+// behind the comma of a call these begin a window, or are names as they are elsewhere
+const name_too = (name) => choice(alias('from', name), alias('to', name));
+
 module.exports = grammar({
   name: 'mech',
 
@@ -54,7 +57,7 @@ module.exports = grammar({
   inline: $ => [$._place],
 
   // `5 in mm` is five, printed in millimetres; `5 in` is five inches
-  conflicts: $ => [[$.quantity]],
+  conflicts: $ => [[$.quantity], [$._reference, $.window]],
 
   rules: {
     source_file: $ => repeat(choice($.use, $.mechanism, $._item, $._feature)),
@@ -188,8 +191,19 @@ module.exports = grammar({
     parenthesized: $ => seq('(', $.expression, ')'),
     tuple: $ => seq('(', $.expression, choice(',', seq(repeat1(seq(',', $.expression)), optional(','))), ')'),
 
-    call: $ => seq(field('name', $.identifier), field('arguments', $.arguments)),
-    arguments: $ => seq('(', optional(seq(list($.expression), optional(','))), ')'),
+    call: $ => choice(
+      seq(field('name', $.identifier), field('arguments', $.arguments)),
+      // a bracket that stands apart begins a time
+      seq(field('name', name_too($.identifier)), field('arguments', alias($._arguments_at_once, $.arguments))),
+    ),
+    arguments: $ => seq('(', $._listed_arguments),
+    _arguments_at_once: $ => seq(token.immediate('('), $._listed_arguments),
+    _listed_arguments: $ => seq(optional(seq(list($.expression), optional(seq(',', $.window)), optional(','))), ')'),
+    // the part of the analysis that a reduction takes
+    window: $ => prec.dynamic(1, choice(
+      seq('from', field('from', $.expression), optional(seq('to', field('to', $.expression)))),
+      seq('to', field('to', $.expression)),
+    )),
 
     member: $ => choice(
       seq(field('object', choice($._reference, $.ground_word, $.member)), '.', field('name', choice($.identifier, $.ground_word))),
@@ -211,7 +225,7 @@ module.exports = grammar({
     // ---- words
 
     // where a name is used it is no identifier, but a reference
-    _reference: $ => alias($.identifier, $.reference),
+    _reference: $ => choice(alias($.identifier, $.reference), name_too($.reference)),
     identifier: _ => /[\p{XID_Start}_]\p{XID_Continue}*/,
     string: _ => /"[^"\n]*"/,
     doc_comment: _ => token(prec(1, /\/\/\/[^\n]*/)),

@@ -11,7 +11,7 @@ use super::{Checker, errors};
 use crate::expr::ExprId;
 use crate::model::Condition;
 use crate::source::Span;
-use crate::syntax::ast::{Expr, Name};
+use crate::syntax::ast::{Expr, Name, Window};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Parts that one formula may have, written out.
@@ -72,9 +72,19 @@ pub(super) struct Calls<'a> {
 
 impl<'a> Checker<'a> {
     /// A call of a function of the language or of the file.
-    pub(super) fn call(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Value> {
-        if let Ok(reduced) = self.call_of_reduction(e, name, arguments, context) {
+    pub(super) fn call(
+        &mut self,
+        e: &Expr,
+        (name, window): (&Name, Option<&Window>),
+        arguments: &[Expr],
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        if let Ok(reduced) = self.call_of_reduction(e, (name, window), arguments, context) {
             return reduced;
+        }
+        if let Some(window) = window {
+            self.report(errors::window_of_no_reduction(name, window.span));
+            return None;
         }
         if self.is_of_language(&name.text) {
             if self.is_declared_though_taken(name) {

@@ -119,7 +119,7 @@ impl Checker<'_> {
                 let mut values = arms.iter().map(|(_, value)| value).chain(std::iter::once(&**otherwise));
                 values.find_map(|value| self.printed_unit(value, context, levels))
             }
-            ExprKind::Call { name, arguments } => match (name.text.as_str(), arguments.as_slice()) {
+            ExprKind::Call { name, arguments, .. } => match (name.text.as_str(), arguments.as_slice()) {
                 ("der", [of]) => {
                     let (measure, unit) = self.printed_unit(of, context, levels)?;
                     (!unit.contains('/')).then(|| (measure, format!("{unit}/s")))

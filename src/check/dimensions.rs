@@ -38,7 +38,7 @@ impl Checker<'_> {
                 ExprKind::Member { owner, feature } if coordinate(feature).is_some() => {
                     self.is_dimensional_point(owner, Wanted::Point)
                 }
-                ExprKind::Call { name, arguments } if self.reduction_word(name, arguments.len()).is_some() => false,
+                ExprKind::Call { name, arguments, .. } if self.reduction_word(name, arguments.len()).is_some() => false,
                 ExprKind::Call { name, .. }
                     if !self.is_of_language(&name.text) && self.quantity_word(name).is_none() =>
                 {

@@ -21,7 +21,10 @@ pub use names::*;
 pub use parts::*;
 pub use points::*;
 pub use repetition::*;
-pub use results::{REDUCES, derivative_of_result, outside_reduction, reduction_in, result_in, variation_of_result};
+pub use results::{
+    REDUCES, derivative_of_result, outside_reduction, reduction_in, result_in, signed_bound, variation_of_result,
+    window_ends_early, window_of_no_reduction,
+};
 pub use tables::*;
 pub use variables::*;
 

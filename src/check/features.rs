@@ -256,7 +256,7 @@ impl<'a> Checker<'a> {
     /// The text of the angle of a place that is given by a distance and an angle.
     fn angle_of_place(&self, e: &Expr) -> Option<&'a str> {
         match &e.bare().kind {
-            ExprKind::Call { name, arguments } if name.text == "polar" => {
+            ExprKind::Call { name, arguments, .. } if name.text == "polar" => {
                 arguments.get(1).map(|angle| self.sources.text(angle.span))
             }
             _ => None,

@@ -166,7 +166,7 @@ impl Checker<'_> {
     /// What a load works on: one quantity of positions.
     fn quantity_of_load(&mut self, name: &Name, on: &Expr) -> Option<Quantity> {
         let bare = on.bare();
-        let ExprKind::Call { name: called, arguments } = &bare.kind else {
+        let ExprKind::Call { name: called, arguments, window } = &bare.kind else {
             let fault = match &bare.kind {
                 ExprKind::Sum(..) => NoLoad::Sum,
                 kind => self.quantities_of(kind).map_or(NoLoad::Other, NoLoad::Meant),
@@ -183,6 +183,10 @@ impl Checker<'_> {
         if word.gives_way || is_angle_of_points {
             let fault = NoLoad::OfMeasures(&called.text);
             self.report(errors::load_on_no_quantity(name, on.span, &fault));
+            return None;
+        }
+        if let Some(window) = window {
+            self.report(errors::window_of_no_reduction(called, window.span));
             return None;
         }
         let value = self.quantity(bare, called, arguments, &driven("a load", true))?;
@@ -369,10 +373,10 @@ impl Checker<'_> {
     pub(super) fn is_torque(&self, e: &Expr) -> bool {
         match &e.kind {
             ExprKind::Paren(inner) | ExprKind::Negate(inner) => self.is_torque(inner),
-            ExprKind::Call { name, arguments } if self.quantity_word(name).is_some_and(|word| word.is_force) => {
+            ExprKind::Call { name, arguments, .. } if self.quantity_word(name).is_some_and(|word| word.is_force) => {
                 name.text == "torque" || name.text == "effort" && arguments.first().is_some_and(|of| self.turns(of))
             }
-            ExprKind::Call { name, arguments } => {
+            ExprKind::Call { name, arguments, .. } => {
                 let keeps = ["abs", "min", "max", "mean", "rms", "first", "last", "at", "hypot"];
                 keeps.contains(&name.text.as_str()) && arguments.first().is_some_and(|of| self.is_torque(of))
             }

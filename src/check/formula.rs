@@ -197,7 +197,7 @@ impl Checker<'_> {
             ExprKind::Paren(inner) => return self.number(inner, context),
             ExprKind::Literal { value, unit } => self.literal(e, *value, unit.as_ref(), context),
             ExprKind::Name(name) => self.name(name, context),
-            ExprKind::Call { name, arguments } => self.call(e, name, arguments, context),
+            ExprKind::Call { name, arguments, window } => self.call(e, (name, window.as_deref()), arguments, context),
             ExprKind::Negate(inner) => {
                 let inner = self.number(inner, context)?;
                 Some(Value { id: self.model.graph.neg(inner.id), dim: inner.dim })
@@ -438,6 +438,8 @@ impl Checker<'_> {
         }
         let what = if context.measures { "parameter or measure" } else { "parameter" };
         let diagnostic = errors::unknown_number(what, name, &known);
+        let is_bound = matches!(name.text.as_str(), "from" | "to") && context.results && diagnostic.help.is_empty();
+        let diagnostic = diagnostic.help_if(is_bound.then(|| errors::signed_bound(&name.text)));
         let argument = context.argument.filter(|_| diagnostic.help.is_empty());
         self.report(diagnostic.help_if(argument.map(|(argument, _)| format!("the argument here is `{argument}`"))));
     }

@@ -11,7 +11,7 @@ use super::{Checker, errors, mends};
 use crate::expr::{Binary, Comparison, ExprId, Graph, Node, Unary};
 use crate::model::{DecidedBy, Dimension, Frame};
 use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind, Factor, Name, Sign};
+use crate::syntax::ast::{Expr, ExprKind, Factor, Name, Sign, Window};
 use crate::vocabulary::{Function, Keyword};
 use rustc_hash::FxHashSet;
 
@@ -54,7 +54,9 @@ impl Checker<'_> {
             }
             ExprKind::Sum(first, rest) => self.sum_of_points(first, rest, context),
             ExprKind::Product(first, rest) => self.multiple(e, first, rest, context),
-            ExprKind::Call { name, arguments } => self.called_point(e, name, arguments, context),
+            ExprKind::Call { name, arguments, window } => {
+                self.called_point(e, (name, window.as_deref()), arguments, context)
+            }
             _ => {
                 self.no_point(e);
                 None
@@ -220,11 +222,21 @@ impl Checker<'_> {
     }
 
     /// `polar(r, angle)`, `mid(P, Q)`
-    fn called_point(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Place> {
+    fn called_point(
+        &mut self,
+        e: &Expr,
+        (name, window): (&Name, Option<&Window>),
+        arguments: &[Expr],
+        context: &Context<'_>,
+    ) -> Option<Place> {
         if self.hidden.contains(name.text.as_str()) || !matches!(name.text.as_str(), "polar" | "mid") {
             // what is wrong with the call itself explains more
             self.number(e, context)?;
             self.no_point(e);
+            return None;
+        }
+        if let Some(window) = window {
+            self.report(errors::window_of_no_reduction(name, window.span));
             return None;
         }
         let [first, second] = self.two_arguments(e, name, arguments)?;

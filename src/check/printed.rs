@@ -69,7 +69,7 @@ impl Checker<'_> {
                 Unit::named(&unit.text).map_or(0, |unit| angle_power_of(unit).saturating_mul(*power))
             }
             ExprKind::Name(name) => self.angle_power_of_name(name),
-            ExprKind::Call { name, arguments } => match name.text.as_str() {
+            ExprKind::Call { name, arguments, .. } => match name.text.as_str() {
                 "angle" | "rotation" | "pressure_angle" | "asin" | "acos" | "atan" | "atan2" => 1,
                 "der" if arguments.len() == 2 => {
                     let by = variables::as_derivative(e).map_or(0, |(_, by)| self.angle_power_of_variable(by));

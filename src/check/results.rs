@@ -6,8 +6,8 @@ use super::formula::{Context, Dim, Value};
 use super::printed::known_dimension;
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};
-use crate::model::{Dimension, Named, Outcome, Reduction, ReductionKind, Units};
-use crate::syntax::ast::{Expr, ItemKind, Name, WrittenUnit};
+use crate::model::{DecidedBy, Dimension, Named, Outcome, Reduction, ReductionKind, Units};
+use crate::syntax::ast::{Expr, ItemKind, Name, Window, WrittenUnit};
 use crate::vocabulary::ReductionWord;
 
 /// What is known of a result before its turn.
@@ -105,16 +105,16 @@ impl Checker<'_> {
     pub(super) fn call_of_reduction(
         &mut self,
         e: &Expr,
-        name: &Name,
+        (name, window): (&Name, Option<&Window>),
         arguments: &[Expr],
         context: &Context<'_>,
     ) -> Result<Option<Value>, NoReduction> {
         let word = self.reduction_word(name, arguments.len()).ok_or(NoReduction)?;
         if context.results {
-            return Ok(self.reduction(e, word, arguments, context));
+            return Ok(self.reduction(e, (word, name), (arguments, window), context));
         }
         // with one argument too few it compares
-        let compares = self.is_of_language(&name.text);
+        let compares = self.is_of_language(&name.text) && window.is_none();
         let means_itself = matches!(self.space.get(&name.text), None | Some(Entity::Param(_) | Entity::Measure(_)));
         if compares || !means_itself {
             return Err(NoReduction);
@@ -127,8 +127,8 @@ impl Checker<'_> {
     fn reduction(
         &mut self,
         e: &Expr,
-        word: &'static ReductionWord,
-        arguments: &[Expr],
+        (word, written): (&'static ReductionWord, &Name),
+        (arguments, window): (&[Expr], Option<&Window>),
         context: &Context<'_>,
     ) -> Option<Value> {
         if arguments.len() != word.arguments {
@@ -136,13 +136,21 @@ impl Checker<'_> {
             self.report(errors::argument_count(name, Some(&word.word), e.span, word.takes, arguments.len()));
             return None;
         }
+        if let Some(window) = window.filter(|_| word.takes_time()) {
+            self.report(errors::window_of_no_reduction(written, window.span));
+            return None;
+        }
         let conditions = self.model.conditions.len();
         let inner = Context { place: "a reduction", results: true, ..measure_context(context.judged) };
         let of = self.number(&arguments[0], &inner);
         let conditions = self.asked_at_times(conditions, "");
         let at = match arguments.get(1) {
-            Some(time) => Some(self.time_of_at(time)?),
+            Some(time) => Some(self.time_in_analysis(time, "the second argument of `at`")?),
             None => None,
+        };
+        let window = match window {
+            Some(window) => self.window(word, window)?,
+            None => [None; 2],
         };
         let of = of?;
         let kind = kind(word.word.name, at)?;
@@ -151,10 +159,11 @@ impl Checker<'_> {
             ReductionKind::Integral => of.dim.map(|dimension| dimension.times(Dimension::TIME)),
             _ => of.dim.of_term(),
         };
-        let known = self.model.reductions.iter().position(|known| known.kind == kind && known.of == of.id);
+        let is_known = |known: &Reduction| known.kind == kind && known.of == of.id && known.window == window;
+        let known = self.model.reductions.iter().position(is_known);
         let k = known.unwrap_or_else(|| {
             let order = self.derivative_order(of.id);
-            self.model.reductions.push(Reduction { kind, span: e.span, of: of.id, order, conditions });
+            self.model.reductions.push(Reduction { kind, span: e.span, of: of.id, window, order, conditions });
             self.model.reductions.len() - 1
         });
         Some(Value { id: self.name_symbol(Named::Reduction(k as u32), 0), dim })
@@ -182,12 +191,36 @@ impl Checker<'_> {
         self.holds_named(id, |named| matches!(named, Named::Reduction(_)))
     }
 
-    /// The time of `at`, a constant.
-    fn time_of_at(&mut self, time: &Expr) -> Option<ExprId> {
+    /// The bounds of the part of the analysis that a reduction takes.
+    fn window(&mut self, word: &'static ReductionWord, window: &Window) -> Option<[Option<ExprId>; 2]> {
+        let mut read = |bound: &Option<Expr>, place: &str| match bound {
+            Some(bound) => self.time_in_analysis(bound, place).map(Some),
+            None => Some(None),
+        };
+        let bounds = [read(&window.from, "the `from` of a window"), read(&window.to, "the `to` of a window")];
+        let [from, to] = bounds;
+        let bounds = [from?, to?];
+        if let [Some(from), Some(to)] = bounds {
+            let length = self.model.graph.sub(to, from);
+            let is_negative = self.decided(length, DecidedBy::Sign).is_some_and(|length| length < 0.0);
+            let times = [self.number_of(from), self.number_of(to)];
+            if let ([Some(from), Some(to)], true, false) = (times, is_negative, self.branch.is_untaken) {
+                self.report(errors::window_ends_early(word, window.span, [from, to]));
+                return None;
+            }
+        }
+        Some(bounds)
+    }
+
+    /// A time within the analysis: one number, over params and other reductions.
+    fn time_in_analysis(&mut self, time: &Expr, place: &str) -> Option<ExprId> {
         let judged = self.is_dimensional(time);
-        let context = Context { judged, ..Context::constant("the second argument of `at`") };
+        let context = Context { judged, ..result_context(judged) };
+        let context = context.at(place, None);
         let value = self.number(time, &context)?;
-        self.demand("the second argument of `at`", Dimension::TIME, time.span, value.dim, &context)?;
+        // what a reduction is has a dimension in plain formulas too
+        let judged = self.counts(value, &context);
+        self.demand(place, Dimension::TIME, time.span, value.dim, &Context { judged, ..context })?;
         Some(value.id)
     }
 }

@@ -440,7 +440,7 @@ impl Walk<'_> {
                 ExprKind::Name(name) => self.name(name, scope, wanted),
                 ExprKind::Member { owner, feature } => self.member(owner, feature, scope, wanted),
                 ExprKind::Path(segments) => self.path(segments, scope, wanted),
-                ExprKind::Call { name, arguments } => self.called(name, arguments.len()),
+                ExprKind::Call { name, arguments, .. } => self.called(name, arguments.len()),
                 _ => {}
             }
             open.extend(kinds::inside(e, wanted, |name| self.hidden.contains(name)));

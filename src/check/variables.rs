@@ -63,7 +63,7 @@ impl Variables {
 /// `der(e, NAME)`
 pub(super) fn as_derivative(e: &Expr) -> Option<(&Expr, &Expr)> {
     match &e.kind {
-        ExprKind::Call { name, arguments } if name.text == "der" => match arguments.as_slice() {
+        ExprKind::Call { name, arguments, window: None } if name.text == "der" => match arguments.as_slice() {
             [of, by] => Some((of, by)),
             _ => None,
         },

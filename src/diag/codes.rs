@@ -104,7 +104,7 @@ catalogue! {
         E0417 Error "an argument out of a table's range"
         E0418 Error "a mass or moment of inertia below zero"
         E0419 Error "a load whose work is no energy"
-        E0422 Error "a time of a result that is not within the analysis"
+        E0422 Error "a time of a result that is not within the analysis, or a window that ends before it begins"
         W0401 Warning "an angle that was probably meant in degrees"
         W0402 Warning "a length that has lost its unit"
         W0403 Warning "gravity that does not count"

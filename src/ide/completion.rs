@@ -19,10 +19,10 @@ use super::written::holds_letters;
 use crate::stages::Checked;
 use crate::syntax::ast::Mechanism;
 use crate::vocabulary::{
-    FUNCTIONS, Group, JOINTS, KEYWORDS, Keyword, QUANTITIES, REDUCTIONS, Role, Word, is_before_a_name,
+    FUNCTIONS, Group, JOINTS, KEYWORDS, Keyword, QUANTITIES, REDUCTIONS, ReductionWord, Role, Word, is_before_a_name,
 };
 use crate::world::{World, beside};
-use cursor::{Block, Cursor};
+use cursor::{Block, Call, Cursor};
 use proposals::Whole;
 use scope::{Scope, Sieve};
 use std::path::Path;
@@ -104,7 +104,7 @@ impl Here<'_> {
         }
         if cursor.is_behind_number() && !cursor.has("columns") {
             let mut items = units::behind_number(self.snapshot, self.place, cursor);
-            items.extend(if is_open { Vec::new() } else { self.joining() });
+            items.extend(if is_open { self.joining_in_window() } else { self.joining() });
             return items;
         }
         if cursor.is_behind_operand() && !is_open && cursor.declaration().len() > 1 {
@@ -180,8 +180,27 @@ impl Here<'_> {
                 ["spline", "periodic"].iter().filter_map(|word| Some(joining(Keyword::named(word)?))).collect()
             }
             ("table", Some("spline")) | ("part", Some("at")) => Vec::new(),
-            _ => self.formula(&wanted(cursor)),
+            _ => {
+                let mut items = self.formula(&wanted(cursor));
+                items.extend(self.joining_in_window());
+                items
+            }
         }
+    }
+
+    /// What begins the window of a reduction, or goes on with it.
+    fn joining_in_window(&self) -> Vec<CompletionItem> {
+        let cursor = &self.cursor;
+        let takes_window = |call: &Call<'_>| ReductionWord::named(call.name).is_some_and(|word| !word.takes_time());
+        let Some(call) = cursor.call().filter(takes_window).filter(|_| cursor.head() == "result") else {
+            return Vec::new();
+        };
+        let words: &[&str] = match cursor.window(call) {
+            None if cursor.last() == Some(",") && call.argument == 1 => &["from", "to"],
+            Some("from") if cursor.is_behind_operand() => &["to"],
+            _ => &[],
+        };
+        words.iter().filter_map(|word| Some(joining(Keyword::named(word)?))).collect()
     }
 
     fn tree(&self) -> Option<&Mechanism> {

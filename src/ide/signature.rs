@@ -141,7 +141,11 @@ mod tests {
         assert_eq!(shown("joint a: weld(b.P, c.Q, $0"), "weld(P, Q)\n> weld(P, Q, ‹angle›)");
         assert_eq!(shown("driver d: rotation($0) = 3"), "> rotation(‹joint›)\nrotation(joint, b.u, c.v)");
         assert_eq!(shown("driver d: rotation(a) = step(t, 0 s, 2 * (3 + $04), 1, 2)"), "> step(u, u0, ‹v0›, u1, v1)");
-        assert_eq!(shown("param p = min(1, 2, 3, 4, $0"), "min(a, b)\n> min(a, b, c, ‹…›)\nmin(e)");
+        assert_eq!(
+            shown("param p = min(1, 2, 3, 4, $0"),
+            "min(a, b)\n> min(a, b, c, ‹…›)\nmin(e)\nmin(e, from A to B)"
+        );
+        assert_eq!(shown("result r = mean(x(b.P), $0"), "mean(e)\n> mean(e, ‹from A to B›)");
         assert_eq!(shown("param p = sin(1, $0"), "> sin(a)");
         assert_eq!(shown("param p = hypot(sin(3), $0"), "> hypot(a, ‹b›)");
         assert_eq!(shown("param p = hypot(sin($0), 2)"), "> sin(‹a›)");

@@ -57,7 +57,7 @@ pub(super) fn member(owner: &str, feature: &str, span: Span) -> Expr {
 
 /// `f(a, b)`
 pub(super) fn call(function: &str, arguments: Vec<Expr>, span: Span) -> Expr {
-    Expr { kind: ExprKind::Call { name: name(function, span), arguments }, span }
+    Expr { kind: ExprKind::Call { name: name(function, span), arguments, window: None }, span }
 }
 
 /// A name alone.

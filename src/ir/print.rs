@@ -148,6 +148,9 @@ impl ConstraintSystem {
                 ReductionKind::Last => format!("the last {of}"),
                 ReductionKind::At(at) => format!("{of} at t = {} s", text(at)),
             };
+            let bounds = ["from", "to"].into_iter().zip(reduction.window);
+            let bounds = bounds.filter_map(|(word, bound)| bound.map(|bound| format!(" {word} t = {} s", text(bound))));
+            let said = said + &bounds.collect::<String>();
             (self.symbol_name(Symbol::Named(k as u32)), said)
         })
     }

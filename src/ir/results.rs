@@ -32,13 +32,15 @@ pub struct Outcome {
     pub unknown_is_false: bool,
 }
 
-/// What becomes of a formula over the whole analysis.
+/// What becomes of a formula over the analysis, or over a part of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Reduction {
     /// The formula, over parameters, time, coordinates with their derivatives and variations, and other reductions.
     pub of: ExprId,
     /// Which number of it.
     pub kind: ReductionKind,
+    /// From when to when it is taken (s): formulas of parameters and other reductions; `None` is the analysis' own end. An `At` has none.
+    pub window: [Option<ExprId>; 2],
     /// Where it is written first.
     pub span: Span,
 }

@@ -181,7 +181,7 @@ impl ConstraintSystem {
         }
         let of_results = self.results.reductions.iter().flat_map(|reduction| {
             let time = if let ReductionKind::At(time) = reduction.kind { Some(time) } else { None };
-            time.into_iter().chain([reduction.of])
+            time.into_iter().chain(reduction.window.into_iter().flatten()).chain([reduction.of])
         });
         let of_results: Vec<ExprId> = of_results.chain(self.results.outcomes.iter().map(|of| of.value)).collect();
         let variations = self.results.variations.as_deref();

@@ -36,6 +36,19 @@ impl Lowering<'_> {
         going
     }
 
+    /// What a formula may jump at along the motion, or its rate where bends count, whether that goes with a variable or stays.
+    pub(super) fn edges_of(&mut self, formula: ExprId, bends: bool) -> Vec<ExprId> {
+        let what = if bends { Break::Bend } else { Break::Jump };
+        let mut operands = deciding(&mut self.graph, &[formula], what);
+        for (roots, what) in self.equations_behind(formula, what) {
+            operands.extend(deciding(&mut self.graph, &roots, what));
+        }
+        operands.sort_unstable();
+        operands.dedup();
+        operands.retain(|&of| !self.graph.dependence(of).is_constant());
+        operands
+    }
+
     /// Whether a formula of results may jump, or bend, where these decide.
     pub(super) fn may_break_by_results(&mut self, formula: ExprId) -> bool {
         deciding(&mut self.graph, &[formula], Break::Bend)
@@ -46,6 +59,14 @@ impl Lowering<'_> {
     /// What of the equations and loads decides about derivatives of this order, and about forces, and goes with a variable. Places and velocities
     /// do not jump, whatever equations do.
     fn going_in_equations(&mut self, formula: ExprId, what: Break, variable: u32) -> Vec<Going> {
+        let [rows, loads] = self.equations_behind(formula, what);
+        let mut going = self.going(&rows.0, rows.1, variable);
+        going.extend(self.going(&loads.0, loads.1, variable));
+        going
+    }
+
+    /// The equations and the loads that decide about a formula, and what of them does.
+    fn equations_behind(&mut self, formula: ExprId, what: Break) -> [(Vec<ExprId>, Break); 2] {
         let order = if what == Break::Jump { 2 } else { 1 };
         let dependence = self.graph.dependence(formula);
         let holds_forces = dependence.on(Dependence::FORCES);
@@ -54,13 +75,12 @@ impl Lowering<'_> {
         if holds_forces || highest >= Some(order) {
             roots.extend(self.rows.iter().map(|row| row.phi));
         }
-        let mut going = self.going(&roots, Break::Bend, variable);
+        let mut loads: Vec<ExprId> = Vec::new();
         if holds_forces {
-            let loads: Vec<ExprId> = self.model.loads.iter().map(|load| load.force).collect();
-            let loads: Vec<ExprId> = loads.into_iter().map(|force| self.formula(force)).collect();
-            going.extend(self.going(&loads, what, variable));
+            loads.extend(self.model.loads.iter().map(|load| load.force));
+            loads = loads.into_iter().map(|force| self.formula(force)).collect();
         }
-        going
+        [(roots, Break::Bend), (loads, what)]
     }
 
     /// What breaks formulas and goes with a variable.

@@ -47,7 +47,8 @@ impl Lowering<'_> {
         let mut found = Vec::with_capacity(outcomes.len() * known.len());
         for outcome in outcomes {
             for (&variable, known) in self.model.by.iter().zip(&mut known) {
-                let mut slopes = Slopes { lowering: self, reductions, formulas, ends, variable, known };
+                let window = [None; 2];
+                let mut slopes = Slopes { lowering: self, reductions, formulas, ends, window, variable, known };
                 found.push(slopes.of_outcome(outcome));
             }
         }
@@ -86,7 +87,8 @@ impl Lowering<'_> {
             ReductionKind::At(at) => ir::ReductionKind::At(self.formula(at)),
         };
         let of = if reduction.kind == ReductionKind::Rms { self.graph.mul(value, value) } else { value };
-        ir::Reduction { of, kind, span: reduction.span }
+        let window = reduction.window.map(|bound| bound.map(|bound| self.formula(bound)));
+        ir::Reduction { of, kind, window, span: reduction.span }
     }
 
     /// What stands for a reduction in formulas.

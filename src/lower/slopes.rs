@@ -6,6 +6,7 @@
 //! - an extremum at its time `T` likewise, and within the analysis `ė(T) = 0` (the envelope theorem), or `T` is an edge that stays; its time
 //!   goes with `−ė_p/ë`;
 //! - an integral to `∫ e_p dt + e(to) to_p − e(from) from_p` (Leibniz), where `e` does not jump at an edge that goes with `p`;
+//! - over a window likewise: its bounds stand in the place of the ends of the analysis, and may go with `p` as other results do;
 //! - a formula of such numbers by the chain rule.
 
 mod asked;
@@ -17,7 +18,7 @@ use crate::ir::{Outcome, Reduction, ReductionKind, Units};
 use crate::model::quotient;
 use rustc_hash::FxHashMap;
 
-/// The first and the last time of the analysis.
+/// The first and the last time of the analysis, or of a window.
 const ENDS: [ReductionKind; 2] = [ReductionKind::First, ReductionKind::Last];
 
 /// A formula that is reduced.
@@ -38,6 +39,8 @@ pub(super) struct Slopes<'s, 'm> {
     pub formulas: &'s [Reduced],
     /// The formulas of those ends of the analysis that go with parameters.
     pub ends: [Option<ExprId>; 2],
+    /// The window of the reduction that is being differentiated.
+    pub window: [Option<ExprId>; 2],
     /// By what is differentiated.
     pub variable: u32,
     /// By reduction: its derivative, or nothing where none is known.
@@ -86,14 +89,17 @@ impl Slopes<'_, '_> {
         if let Some(known) = self.known.get(&k) {
             return *known;
         }
-        let found = match self.reductions[k as usize].kind {
+        let Reduction { kind, window, .. } = self.reductions[k as usize];
+        let outer = std::mem::replace(&mut self.window, window);
+        let found = match kind {
             ReductionKind::Extreme { largest, when } => self.of_extreme(k, largest, when),
             ReductionKind::Mean => self.of_mean(k),
             ReductionKind::Integral => self.of_integral(k),
-            ReductionKind::First => self.of_value(k, ReductionKind::First, self.ends[0]),
-            ReductionKind::Last => self.of_value(k, ReductionKind::Last, self.ends[1]),
+            ReductionKind::First => self.of_value(k, ReductionKind::First, window[0].or(self.ends[0])),
+            ReductionKind::Last => self.of_value(k, ReductionKind::Last, window[1].or(self.ends[1])),
             ReductionKind::At(at) => self.of_value(k, ReductionKind::At(at), Some(at)),
         };
+        self.window = outer;
         self.known.insert(k, found);
         found
     }
@@ -102,7 +108,7 @@ impl Slopes<'_, '_> {
     fn of_value(&mut self, k: u32, kind: ReductionKind, time: Option<ExprId>) -> Option<ExprId> {
         let Reduced { value, holds } = self.formulas[k as usize];
         let by = self.partial(value)?;
-        let goes = self.of_time(time);
+        let goes = self.of_time(time)?;
         let going = self.lowering.bending_elsewhere(value, self.variable);
         if self.is_zero(goes) {
             let slope = self.reduce(kind, by, holds);
@@ -112,6 +118,7 @@ impl Slopes<'_, '_> {
         let [by, rate] = [by, rate].map(|formula| self.reduce(kind, formula, holds));
         let moved = self.lowering.graph.mul(rate, goes);
         let slope = self.lowering.graph.add(by, moved);
+        let going = [going, self.edges_in_the_way(value, goes, true)].concat();
         Some(self.where_clear(kind, (&going, holds), slope))
     }
 
@@ -119,13 +126,14 @@ impl Slopes<'_, '_> {
         let Reduced { value, holds } = self.formulas[k as usize];
         let by = self.partial(value)?;
         let inside = self.reduce(ReductionKind::Integral, by, holds);
-        let [from, to] = self.of_ends().map(|(kind, goes)| {
+        let [from, to] = self.of_ends()?.map(|(kind, goes)| {
             let at = self.reduce(kind, value, holds);
             self.lowering.graph.mul(at, goes)
         });
         let graph = &mut self.lowering.graph;
         let more = graph.sub(to, from);
         let slope = graph.add(inside, more);
+        let slope = self.where_its_ends_are_clear(k, slope)?;
         Some(self.where_it_does_not_jump(k, slope))
     }
 
@@ -134,7 +142,7 @@ impl Slopes<'_, '_> {
         let by = self.partial(value)?;
         let inside = self.reduce(ReductionKind::Mean, by, holds);
         let mean = self.lowering.graph.symbol(Symbol::Named(k));
-        let [from, to] = self.of_ends().map(|(kind, goes)| {
+        let [from, to] = self.of_ends()?.map(|(kind, goes)| {
             let at = self.reduce(kind, value, holds);
             let graph = &mut self.lowering.graph;
             let beyond = graph.sub(at, mean);
@@ -145,6 +153,7 @@ impl Slopes<'_, '_> {
         let more = graph.sub(to, from);
         let more = graph.div(more, span);
         let slope = graph.add(inside, more);
+        let slope = self.where_its_ends_are_clear(k, slope)?;
         Some(self.where_it_does_not_jump(k, slope))
     }
 
@@ -156,7 +165,7 @@ impl Slopes<'_, '_> {
         let rate = self.lowering.along_the_motion(value);
         let going = self.lowering.bending_elsewhere(value, self.variable);
         let bends = !going.is_empty();
-        let ends = self.of_ends();
+        let ends = self.of_ends()?;
         let stays = ends.iter().all(|(_, goes)| self.is_zero(*goes));
         if self.is_zero(by) && stays && !bends {
             return Some(by);
@@ -181,7 +190,8 @@ impl Slopes<'_, '_> {
                 let still = self.reduce(at, by, holds);
                 self.moved((at, still), (rate, holds), goes)?
             };
-            let at_end = self.where_clear(at, (&going, holds), at_end);
+            let edges = [going.clone(), self.edges_in_the_way(value, goes, true)].concat();
+            let at_end = self.where_clear(at, (&edges, holds), at_end);
             let end = self.time(kind);
             let graph = &mut self.lowering.graph;
             let between = if kind == ReductionKind::First { [time, end] } else { [end, time] };

@@ -106,8 +106,8 @@ impl Text<'_> {
                     format!("der({}, {by})", self.formula_text(inner))
                 }
                 Named::Reduction(k) => {
-                    let Reduction { kind, of, .. } = &self.model.reductions[k as usize];
-                    kind.written(&self.formula_text(*of), text)
+                    let Reduction { kind, of, window, .. } = &self.model.reductions[k as usize];
+                    kind.written(&self.formula_text(*of), *window, text)
                 }
                 Named::Argument => "u".to_owned(),
             },

@@ -24,6 +24,8 @@ pub struct Reduction {
     pub span: Span,
     /// The formula: that of a measure, which may hold other reductions.
     pub of: ExprId,
+    /// From when to when it is taken (s): formulas of parameters and other reductions; an end of the analysis where there is none.
+    pub window: [Option<ExprId>; 2],
     /// How many time derivatives of the coordinates it holds.
     pub order: u8,
     /// What must be positive for it to have a value.
@@ -56,9 +58,9 @@ pub enum ReductionKind {
 }
 
 impl ReductionKind {
-    /// How it is written; of `at`, with the text of its time.
+    /// How it is written, with the text of its times.
     #[must_use]
-    pub fn written(self, formula: &str, time: impl Fn(ExprId) -> String) -> String {
+    pub fn written(self, formula: &str, window: [Option<ExprId>; 2], time: impl Fn(ExprId) -> String) -> String {
         let word = match self {
             ReductionKind::Max => "max",
             ReductionKind::Min => "min",
@@ -71,6 +73,10 @@ impl ReductionKind {
             ReductionKind::Last => "last",
             ReductionKind::At(at) => return format!("at({formula}, {})", time(at)),
         };
-        format!("{word}({formula})")
+        let bounds = ["from", "to"].into_iter().zip(window);
+        let bounds = bounds.filter_map(|(word, bound)| bound.map(|bound| format!(" {word} {}", time(bound))));
+        let bounds: String = bounds.collect();
+        let comma = if bounds.is_empty() { "" } else { "," };
+        format!("{word}({formula}{comma}{bounds})")
     }
 }

@@ -497,6 +497,8 @@ pub enum ExprKind {
         name: Name,
         /// In order.
         arguments: Vec<Expr>,
+        /// The part of the analysis that a reduction takes, if it does not take all of it.
+        window: Option<Box<Window>>,
     },
     /// `(e)`
     Paren(Box<Expr>),
@@ -525,6 +527,24 @@ pub enum ExprKind {
         /// The value if none holds.
         otherwise: Box<Expr>,
     },
+}
+
+/// `from A to B`, `from A`, `to B`: a part of the analysis.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Window {
+    /// Its first time; that of the analysis where none is given.
+    pub from: Option<Expr>,
+    /// Its last time; that of the analysis where none is given.
+    pub to: Option<Expr>,
+    /// All of it.
+    pub span: Span,
+}
+
+impl Window {
+    /// The times that are given.
+    pub fn bounds(&self) -> impl Iterator<Item = &Expr> {
+        self.from.iter().chain(&self.to)
+    }
 }
 
 /// A part of a path.
@@ -604,10 +624,10 @@ impl Expr {
         match &self.kind {
             ExprKind::Literal { .. } | ExprKind::Name(_) | ExprKind::Member { .. } => Vec::new(),
             ExprKind::Path(segments) => segments.iter().flat_map(|segment| &segment.indices).collect(),
-            ExprKind::Call { arguments: list, .. }
-            | ExprKind::Tuple(list)
-            | ExprKind::And(list)
-            | ExprKind::Or(list) => list.iter().collect(),
+            ExprKind::Call { arguments, window, .. } => {
+                arguments.iter().chain(window.iter().flat_map(|window| window.bounds())).collect()
+            }
+            ExprKind::Tuple(list) | ExprKind::And(list) | ExprKind::Or(list) => list.iter().collect(),
             ExprKind::Paren(e) | ExprKind::Negate(e) | ExprKind::Not(e) => vec![e],
             ExprKind::Sum(first, rest) => std::iter::once(&**first).chain(rest.iter().map(|(_, e)| e)).collect(),
             ExprKind::Product(first, rest) => std::iter::once(&**first).chain(rest.iter().map(|(_, e)| e)).collect(),

@@ -436,6 +436,10 @@ impl Reader<'_> {
         let call_span = self.span(&call);
         let mut parts = call.into_inner();
         let kind = self.next_name(&mut parts)?;
+        if let Some(window) = parts.clone().find(|part| part.as_rule() == Rule::window) {
+            let (message, label) = ("a joint takes no window", "a part of the analysis");
+            return Err(Box::new(errors::misplaced(self.span(&window), message, label)));
+        }
         let arguments = self.list(parts, 1)?;
         Ok(ItemKind::Joint { name, kind, arguments, call_span })
     }
@@ -565,6 +569,7 @@ fn ends_with_a_token(rule: Rule) -> bool {
         Rule::expr
             | Rule::conditional
             | Rule::literal
+            | Rule::window
             | Rule::unit_power
             | Rule::range
             | Rule::member

@@ -3,7 +3,7 @@
 //! Loosest first: `or`, `and`, `not`, comparisons, `+ -`, `* /`, unary `-`, `^` (to the right). A `depth` counts every
 //! level of nesting on the way down, so that no tree is deeper than [`DEEPEST`].
 
-use super::ast::{ComparisonSign, Expr, ExprKind, Factor, PathSegment, Sign};
+use super::ast::{ComparisonSign, Expr, ExprKind, Factor, PathSegment, Sign, Window};
 use super::build::{Built, Reader};
 use super::grammar::Rule;
 use super::tokens::tokens;
@@ -34,8 +34,10 @@ pub(super) fn build_operand(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: us
         Rule::call => {
             let mut parts = pair.into_inner();
             let name = reader.name(&parts.next().ok_or_else(|| reader.truncated())?)?;
+            let window = parts.clone().find(|part| part.as_rule() == Rule::window);
             let arguments = reader.list(parts, depth + 1)?;
-            ExprKind::Call { name, arguments }
+            let window = window.map(|window| build_window(reader, window, depth + 1).map(Box::new)).transpose()?;
+            ExprKind::Call { name, arguments, window }
         }
         Rule::paren => {
             let mut parts = reader.list(pair.into_inner(), depth + 1)?;
@@ -51,6 +53,24 @@ pub(super) fn build_operand(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: us
         _ => return Err(reader.truncated()),
     };
     Ok(Expr { kind, span })
+}
+
+/// `from A to B`, or one of both.
+fn build_window(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Window> {
+    let span = reader.span(&pair);
+    let mut window = Window { from: None, to: None, span };
+    let mut is_first = true;
+    for part in pair.into_inner() {
+        match part.as_rule() {
+            Rule::to => is_first = false,
+            Rule::expr => {
+                let bound = if is_first { &mut window.from } else { &mut window.to };
+                *bound = Some(build(reader, part, depth)?);
+            }
+            _ => {}
+        }
+    }
+    Ok(window)
 }
 
 /// `a.b`, or a longer one, or one with numbers in brackets.

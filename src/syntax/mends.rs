@@ -6,6 +6,7 @@ mod mounts;
 mod semicolons;
 mod separators;
 mod uses;
+mod windows;
 
 use super::grammar::Rule;
 use super::tokens::{Token, begins_declaration, next_token, tokens};
@@ -96,6 +97,7 @@ impl Fault<'_> {
         let missing = || self.closing().or_else(|| self.separator(expected)).map(Mend::Fix);
         self.of_a_use()
             .or_else(|| self.of_a_mount())
+            .or_else(|| self.of_a_window())
             .or_else(|| self.of_a_character())
             .or_else(of_words)
             .or_else(missing)

@@ -222,9 +222,13 @@ impl Move {
                     self.exprs(indices);
                 }
             }
-            ExprKind::Call { name, arguments } => {
+            ExprKind::Call { name, arguments, window } => {
                 self.name(name);
                 self.exprs(arguments);
+                if let Some(window) = window {
+                    self.span(&mut window.span);
+                    window.from.iter_mut().chain(&mut window.to).for_each(|bound| self.expr(bound));
+                }
             }
             ExprKind::Paren(e) | ExprKind::Negate(e) | ExprKind::Not(e) => self.expr(e),
             ExprKind::Tuple(list) | ExprKind::And(list) | ExprKind::Or(list) => self.exprs(list),

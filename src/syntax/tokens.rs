@@ -80,10 +80,30 @@ pub fn keywords_in(text: &str) -> impl Iterator<Item = (usize, &'static Keyword)
     let keyword = |at: usize| {
         let keyword = Keyword::named(tokens[at].text)?;
         let beside = |at: Option<usize>| at.and_then(|at| tokens.get(at)).map_or("", |token| token.text);
-        let is_one = keyword.is_reserved() || !is_name(keyword.role, beside(at.checked_sub(1)), beside(Some(at + 1)));
+        let begins_window = || {
+            let is_apart = tokens.get(at + 1).is_some_and(|behind| behind.start > tokens[at].end());
+            let is_behind_comma = beside(at.checked_sub(1)) == ",";
+            is_behind_comma
+                && matches!(tokens[at].text, "from" | "to")
+                && may_begin_a_bound(beside(Some(at + 1)), is_apart)
+        };
+        let is_one = keyword.is_reserved()
+            || !is_name(keyword.role, beside(at.checked_sub(1)), beside(Some(at + 1)))
+            || begins_window();
         is_one.then_some((tokens[at].start, keyword))
     };
     (0..tokens.len()).filter_map(keyword).collect::<Vec<_>>().into_iter()
+}
+
+/// Whether a token can begin a time behind `from` or `to` in a call, where these are names before anything else; a bracket that does not
+/// stand apart is that of a call.
+pub fn may_begin_a_bound(token: &str, is_apart: bool) -> bool {
+    let begins_operand = |c: char| c.is_alphanumeric() || c == '_';
+    match token {
+        "(" => is_apart,
+        "and" | "or" => false,
+        _ => token.trim_start_matches('.').starts_with(begins_operand),
+    }
 }
 
 /// Whether a word that may be a name is one between two tokens: what joins stands behind an operand, and no keyword beside a dot.

@@ -110,6 +110,10 @@ const fn keyword(
 }
 
 /// A lever that is used twice.
+const WINDOW_WORDS: &str = "A window stands behind the formula of a reduction in a `result`: `max(e, from A to B)`, `max(e, from A)`, `max(e, to B)`. \
+                            Elsewhere the word is a name, as it is in a call before an operator, a comma or a bracket that does not \
+                            stand apart.";
+
 const TWO_LEVERS: Example = Example::Using(
     "\
 mechanism lever {
@@ -468,9 +472,9 @@ driver motor: rotation(pivot) = turn",
     keyword(
         Role::Separator,
         "to",
-        &["axis a = P to Q", "analysis from A to B every H"],
-        "stands before the second point of an axis, and the last time of an analysis",
-        "",
+        &["axis a = P to Q", "analysis from A to B every H", "max(e, from A to B)"],
+        "stands before the second point of an axis, and the last time of an analysis or of the window of a reduction",
+        WINDOW_WORDS,
         Example::Arm("analysis from 0 s to 2 s every 10 ms"),
     ),
     keyword(
@@ -539,9 +543,9 @@ driver motor: rotation(main) = direction(A, B) + 90 deg/s * t",
     keyword(
         Role::Separator,
         "from",
-        &["analysis from A to B every H"],
-        "stands before the first time of an analysis",
-        "",
+        &["analysis from A to B every H", "max(e, from A to B)"],
+        "stands before the first time of an analysis, or of the window of a reduction",
+        WINDOW_WORDS,
         Example::Arm("analysis from 0 s to 2 s every 10 ms"),
     ),
     keyword(

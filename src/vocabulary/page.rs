@@ -171,8 +171,9 @@ fn overview(name: &str) -> Option<String> {
         }
         "reductions" => {
             let reductions: Vec<&Word> = REDUCTIONS.iter().map(|reduction| &reduction.word).collect();
-            let intro = "What a `result` asks of a formula over the whole analysis; they stand in results alone. But for `max` and `min`, a \
-                         `fn` or `table` of the mechanism that is called so is meant where it is called.";
+            let intro = "What a `result` asks of a formula over the whole analysis; they stand in results alone. All but `at` take a \
+                         window too: `max(e, from A to B)`, `max(e, from A)`, `max(e, to B)`. But for `max` and `min`, a `fn` or \
+                         `table` of the mechanism that is called so is meant where it is called.";
             list("Reductions", intro, &reductions)
         }
         "joints" => {

@@ -246,7 +246,7 @@ pub fn value_here(e: &Expr, t: f64) -> f64 {
         ExprKind::If { arms, otherwise } => {
             arms.iter().find(|(condition, _)| of(condition) != 0.0).map_or_else(|| of(otherwise), |(_, e)| of(e))
         }
-        ExprKind::Call { name, arguments } => {
+        ExprKind::Call { name, arguments, .. } => {
             let values: Vec<f64> = arguments.iter().map(of).collect();
             match (name.text.as_str(), values.as_slice()) {
                 ("sin", [a]) => math::sin(*a),

@@ -91,7 +91,7 @@ pub fn read(graph: &mut Graph, e: &ast::Expr, names: &dyn Names) -> ExprId {
                 graph.select(condition, value, rest)
             })
         }
-        Kind::Call { name, arguments } => {
+        Kind::Call { name, arguments, .. } => {
             let ids: Vec<ExprId> = arguments.iter().map(&mut go).collect();
             call(graph, &name.text, &ids, names)
         }

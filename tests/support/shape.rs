@@ -20,7 +20,13 @@ pub fn shape(e: &Expr) -> String {
             let part = |segment: &PathSegment| format!("{}{}", segment.name.text, shapes(&segment.indices));
             segments.iter().map(part).collect::<Vec<_>>().join(".")
         }
-        ExprKind::Call { name, arguments } => format!("{}{}", name.text, shapes(arguments)),
+        ExprKind::Call { name, arguments, window } => {
+            let window = window.as_ref().map_or_else(String::new, |window| {
+                let bound = |bound: &Option<Expr>| bound.as_ref().map_or_else(|| "…".to_owned(), shape);
+                format!(" from {} to {}", bound(&window.from), bound(&window.to))
+            });
+            format!("{}{}{window}", name.text, shapes(arguments))
+        }
         ExprKind::Paren(inner) => shape(inner),
         ExprKind::Tuple(list) => shapes(list),
         ExprKind::Negate(inner) => format!("(neg {})", shape(inner)),

@@ -50,9 +50,7 @@ pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2
     let mut diagnostics = Diagnostics::default();
     for reduction in &system.results().reductions {
         // one at the time of another reduction is within
-        if let ReductionKind::At(at) = reduction.kind
-            && needed(system.graph(), at).is_empty()
-        {
+        for at in times(reduction).filter(|at| needed(system.graph(), *at).is_empty()) {
             let t = system.value_at(at, &[]);
             if !(from <= t && t <= to) {
                 diagnostics.push(errors::at_outside(reduction, t, interval));
@@ -141,11 +139,9 @@ impl Analysis {
         let mut level = Vec::new();
         let open: Vec<usize> = (0..self.found.len()).filter(|&k| self.found[k].is_none()).collect();
         for k in open {
-            let Reduction { of, kind, .. } = system.results().reductions[k];
-            let mut needed = needed(system.graph(), of);
-            if let ReductionKind::At(at) = kind {
-                needed.extend(self::needed(system.graph(), at));
-            }
+            let reduction = &system.results().reductions[k];
+            let mut needed = needed(system.graph(), reduction.of);
+            needed.extend(times(reduction).flat_map(|time| self::needed(system.graph(), time)));
             if let Some(trouble) = needed.iter().find_map(|&other| self.found[other].and_then(Result::err)) {
                 self.found[k] = Some(Err(trouble));
             } else if needed.iter().all(|&other| self.found[other].is_some()) {
@@ -319,6 +315,12 @@ fn value_of(
         _ if unknown_is_false => graph.value(formula, value),
         _ => graph.known_value(formula, value),
     }
+}
+
+/// The formulas of the times (s) that a reduction speaks of: that of a value, those of a window.
+fn times(reduction: &Reduction) -> impl Iterator<Item = ExprId> {
+    let at = if let ReductionKind::At(at) = reduction.kind { Some(at) } else { None };
+    at.into_iter().chain(reduction.window.into_iter().flatten())
 }
 
 /// The reductions that a formula holds.

@@ -27,7 +27,9 @@ impl SmoothFormulas {
             at.is_empty() && needed(system.graph(), of).is_empty()
         };
         let all = &results.reductions;
-        if results.variations.is_some() || all.is_empty() || !all.iter().all(|it| is_plain(it.kind, it.of)) {
+        let is_whole = |window: [Option<ExprId>; 2]| window == [None; 2];
+        let is_smooth = all.iter().all(|it| is_whole(it.window) && is_plain(it.kind, it.of));
+        if results.variations.is_some() || all.is_empty() || !is_smooth {
             return None;
         }
         let of: Vec<ExprId> = all.iter().map(|reduction| reduction.of).collect();

@@ -1,6 +1,6 @@
 //! What is said of results and reductions.
 
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, readable};
 use crate::source::Span;
 use crate::syntax::ast::Name;
 use crate::vocabulary::ReductionWord;
@@ -28,6 +28,31 @@ pub fn outside_reduction(what: &str, span: Span, text: &str) -> Diagnostic {
     Diagnostic::new(Code::E0322, format!("{what} stands outside a reduction"))
         .at(span, "changes with time, and a result is one number")
         .help(format!("say which number of it is meant: `max({text})`, `mean({text})`, `last({text})`"))
+}
+
+/// A part of the analysis for a call that does not take the analysis together.
+pub fn window_of_no_reduction(called: &Name, span: Span) -> Diagnostic {
+    let name = &called.text;
+    let (why, help) = match name.as_str() {
+        "max" | "min" => {
+            ("of several values takes", format!("with one argument it reduces: `{name}({name}(a, b), from A to B)`"))
+        }
+        "at" => ("takes a time and", "the value at the beginning of a window is `first(e, from A)`".to_owned()),
+        _ => ("takes", "reductions take windows: `max(e, from A to B)`, `mean(e, from A)`".to_owned()),
+    };
+    Diagnostic::new(Code::E0322, format!("`{name}` {why} no window")).at(span, "a part of the analysis").help(help)
+}
+
+/// What `from` and `to` lack where they are read as names, before an operator.
+pub fn signed_bound(word: &str) -> String {
+    format!("a time of a window that begins with a sign stands in parentheses: `{word} (-1 s)`")
+}
+
+/// A window whose end is before its beginning (s).
+pub fn window_ends_early(word: &ReductionWord, span: Span, [from, to]: [f64; 2]) -> Diagnostic {
+    Diagnostic::new(Code::E0422, format!("the window of `{}` ends before it begins", word.word.name))
+        .at(span, format!("from {} s to {} s", readable(from), readable(to)))
+        .help("a window goes from the earlier to the later time")
 }
 
 /// `der` of something that is one number.

@@ -1,7 +1,9 @@
 //! A copy of a declaration: all its formulas with numbers in the place of what they are called.
 
 use super::{Numbers, Unwritten, Writer, Written, broken, named};
-use crate::syntax::ast::{self, DrawnPose, Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Name, TableRows};
+use crate::syntax::ast::{
+    self, DrawnPose, Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Name, TableRows, Window,
+};
 
 impl Writer<'_, '_> {
     /// A copy of a declaration; as broken, where something in it cannot be written out.
@@ -136,6 +138,11 @@ impl Writer<'_, '_> {
         list.iter().map(|e| self.formula(e, numbers)).collect()
     }
 
+    fn window(&mut self, window: &Window, numbers: &Numbers<'_>) -> Written<Window> {
+        let mut bound = |bound: &Option<Expr>| bound.as_ref().map(|e| self.formula(e, numbers)).transpose();
+        Ok(Window { from: bound(&window.from)?, to: bound(&window.to)?, span: window.span })
+    }
+
     /// A formula with its numbers in the place of what they are called, and paths as names.
     pub(super) fn formula(&mut self, e: &Expr, numbers: &Numbers<'_>) -> Written<Expr> {
         let mut boxed = |e: &Expr| self.formula(e, numbers).map(Box::new);
@@ -160,9 +167,14 @@ impl Writer<'_, '_> {
                 }
             }
             ExprKind::Path(segments) => self.path(e.span, segments, numbers)?,
-            ExprKind::Call { name, arguments } => {
-                ExprKind::Call { name: name.clone(), arguments: self.formulas(arguments, numbers)? }
-            }
+            ExprKind::Call { name, arguments, window } => ExprKind::Call {
+                name: name.clone(),
+                arguments: self.formulas(arguments, numbers)?,
+                window: match window {
+                    Some(window) => Some(Box::new(self.window(window, numbers)?)),
+                    None => None,
+                },
+            },
             ExprKind::Paren(inner) => ExprKind::Paren(boxed(inner)?),
             ExprKind::Negate(inner) => ExprKind::Negate(boxed(inner)?),
             ExprKind::Not(inner) => ExprKind::Not(boxed(inner)?),

@@ -147,6 +147,23 @@ impl<'t> Cursor<'t> {
         None
     }
 
+    /// The last of `from` and `to` in the window of a call before the cursor.
+    pub fn window(&self, call: Call<'_>) -> Option<&'t str> {
+        let (mut depth, mut found, mut before) = (0_usize, None, "");
+        for token in self.tokens.get(call.open + 1..).unwrap_or_default() {
+            match token.text {
+                "(" | "[" => depth += 1,
+                ")" | "]" => depth = depth.saturating_sub(1),
+                "," if depth == 0 => found = None,
+                "from" if depth == 0 && before == "," => found = Some(token.text),
+                "to" if depth == 0 && (before == "," || found.is_some()) => found = Some(token.text),
+                _ => {}
+            }
+            before = token.text;
+        }
+        found
+    }
+
     /// The unit that goes on at the cursor, behind a number or behind the `in` of what is printed. What a quotient of formulas is divided by
     /// has a space before it.
     pub fn unit(&self) -> Option<Begun> {

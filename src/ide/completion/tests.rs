@@ -285,11 +285,28 @@ fn words_join_the_parts_of_declarations() {
     insta::assert_snapshot!(proposed(&with("at (0, 0, 60 deg)", "$0"), 6), @"1 at — stands before the pose of a body, or the estimate of a curve's argument → at");
     insta::assert_snapshot!(proposed(&with("point B = (crank_length, 0)", "axis a = A $0"), 6), @r"
     1 along — stands before the direction of an axis → along 
-    1 to — stands before the second point of an axis, and the last time of an analysis → to
+    1 to — stands before the second point of an axis, and the last time of an analysis or of the window of a reduction → to
     ");
     insta::assert_snapshot!(proposed(&with("    analysis", "    measure w = x(crank.B) $0\n    analysis"), 6), @"1 in — stands before the unit in which a measure, trace or result is printed → in");
-    insta::assert_snapshot!(proposed(&with("from 0 s to 4 s every 0.1 s", "$0"), 6), @"1 from — stands before the first time of an analysis → from");
-    insta::assert_snapshot!(proposed(&with("from 0 s to 4 s every 0.1 s", "from 0 s $0"), 2), @"1 to — stands before the second point of an axis, and the last time of an analysis → to");
+    insta::assert_snapshot!(proposed(&with("from 0 s to 4 s every 0.1 s", "$0"), 6), @"1 from — stands before the first time of an analysis, or of the window of a reduction → from");
+    insta::assert_snapshot!(proposed(&with("from 0 s to 4 s every 0.1 s", "from 0 s $0"), 2), @"1 to — stands before the second point of an axis, and the last time of an analysis or of the window of a reduction → to");
+}
+
+#[test]
+fn a_window_is_proposed_behind_the_formula_of_a_reduction() {
+    let of = |typed: &str| {
+        let text = with("    analysis", &format!("    param late = 0.5 s\n    result r = {typed}$0\n    analysis"));
+        let (snapshot, place) = at_cursor(&text);
+        let labels = completions(&snapshot, &place).expect("a file").items.into_iter().map(|item| item.label);
+        labels.filter(|label| ["from", "to", "late"].contains(&label.as_str())).collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(of("max(x(crank.B),"), "late from to");
+    assert_eq!(of("max(x(crank.B), from "), "late");
+    assert_eq!(of("max(x(crank.B), from late "), "late to");
+    assert_eq!(of("max(x(crank.B), from 0.1 "), "to");
+    assert_eq!(of("max(x(crank.B), to late "), "late");
+    assert_eq!(of("at(x(crank.B), "), "late");
+    assert_eq!(of("sqrt(4, "), "late");
 }
 
 #[test]

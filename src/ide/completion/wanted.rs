@@ -58,6 +58,9 @@ fn of_call(cursor: &Cursor<'_>, call: Call<'_>) -> Vec<Wanted> {
             .map(|joint| by_forms(&joint.word, call.argument, of_joint))
             .unwrap_or_default();
     }
+    if cursor.window(call).is_some() {
+        return vec![Wanted::Number(Some(Dimension::TIME))];
+    }
     let function = Function::named(call.name);
     if let Some(quantity) = QuantityWord::named(call.name).filter(|_| function.is_none()) {
         let name = quantity.word.name;

@@ -153,7 +153,7 @@ fn with_arguments(e: &Expr, arguments: &[Expr], span: Span) -> Expr {
                 None => ExprKind::Name(build::name(&name.text, span)),
             }
         }
-        ExprKind::Call { name, arguments: list } => {
+        ExprKind::Call { name, arguments: list, .. } => {
             let mut list: Vec<Expr> = list.iter().map(|e| with_arguments(e, arguments, span)).collect();
             // a literal has no sign
             if name.text == "abs" && matches!(list.as_slice(), [Expr { kind: ExprKind::Literal { .. }, .. }]) {

@@ -40,27 +40,30 @@ impl Slopes<'_, '_> {
         [false, true].map(|largest| self.asked(ReductionKind::Extreme { largest, when: false }, of))
     }
 
-    /// The time of the analysis.
+    /// The length of the analysis, or of the window.
     pub(super) fn span(&mut self) -> ExprId {
         let [from, to] = ENDS.map(|end| self.time(end));
         self.lowering.graph.sub(to, from)
     }
 
+    /// An end of the analysis, or of the window (s).
     pub(super) fn time(&mut self, end: ReductionKind) -> ExprId {
         let time = self.lowering.graph.symbol(Symbol::Time);
         self.asked(end, time)
     }
 
-    /// The ends of the analysis, and how they go with the variable.
-    pub(super) fn of_ends(&mut self) -> [(ReductionKind, ExprId); 2] {
-        [0, 1].map(|end| (ENDS[end], self.of_time(self.ends[end])))
+    /// The ends of the analysis, or of the window, and how they go with the variable; `None` where that is not known.
+    pub(super) fn of_ends(&mut self) -> Option<[(ReductionKind, ExprId); 2]> {
+        let times = [0, 1].map(|end| self.window[end].or(self.ends[end]));
+        let [from, to] = times.map(|time| self.of_time(time));
+        Some([(ENDS[0], from?), (ENDS[1], to?)])
     }
 
-    /// How a time that has a formula of parameters goes with the variable; others stay.
-    pub(super) fn of_time(&mut self, time: Option<ExprId>) -> ExprId {
+    /// How a time that has a formula of parameters and reductions goes with the variable, if that is known; others stay.
+    pub(super) fn of_time(&mut self, time: Option<ExprId>) -> Option<ExprId> {
         match time {
-            Some(time) => self.lowering.derivative_by(time, self.variable),
-            None => self.lowering.graph.constant(0.0),
+            Some(time) => self.partial(time),
+            None => Some(self.lowering.graph.constant(0.0)),
         }
     }
 
@@ -75,13 +78,27 @@ impl Slopes<'_, '_> {
 
     /// The symbol of what is asked, once.
     pub(super) fn asked(&mut self, kind: ReductionKind, of: ExprId) -> ExprId {
-        let known = self.reductions.iter().position(|known| known.kind == kind && known.of == of);
+        let (kind, window) = self.within_the_window(kind);
+        let is_known = |known: &Reduction| known.kind == kind && known.of == of && known.window == window;
+        let known = self.reductions.iter().position(is_known);
         let k = known.unwrap_or_else(|| {
             let span = self.reductions[0].span;
-            self.reductions.push(Reduction { of, kind, span });
+            self.reductions.push(Reduction { of, kind, window, span });
             self.reductions.len() - 1
         });
         self.lowering.graph.symbol(Symbol::Named(k as u32))
+    }
+
+    /// What is asked of the window, rather than of the analysis.
+    fn within_the_window(&self, kind: ReductionKind) -> (ReductionKind, [Option<ExprId>; 2]) {
+        let [from, to] = self.window;
+        let at = |time: ExprId| (ReductionKind::At(time), [None; 2]);
+        match kind {
+            ReductionKind::First => from.map_or((kind, [None; 2]), at),
+            ReductionKind::Last => to.map_or((kind, [None; 2]), at),
+            ReductionKind::At(_) => (kind, [None; 2]),
+            ReductionKind::Extreme { .. } | ReductionKind::Mean | ReductionKind::Integral => (kind, self.window),
+        }
     }
 
     pub(super) fn is_zero(&self, formula: ExprId) -> bool {

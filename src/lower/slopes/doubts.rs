@@ -91,6 +91,33 @@ impl Slopes<'_, '_> {
         })
     }
 
+    /// What a formula breaks at where a time goes over it that goes with the variable: at such an edge there is another slope to either side.
+    pub(super) fn edges_in_the_way(&mut self, value: ExprId, goes: ExprId, bends: bool) -> Vec<Going> {
+        if self.is_zero(goes) {
+            return Vec::new();
+        }
+        let edges = self.lowering.edges_of(value, bends).into_iter();
+        let going = edges.map(|of| {
+            let rate = self.lowering.along_the_motion(of);
+            let graph = &mut self.lowering.graph;
+            let rate = rate.unwrap_or_else(|| graph.constant(1.0));
+            Going { of, by: graph.mul(rate, goes) }
+        });
+        let mut going: Vec<Going> = going.collect();
+        going.retain(|going| !self.is_zero(going.by));
+        going
+    }
+
+    /// A slope of an integral where its formula does not jump at an end that goes with the variable.
+    pub(super) fn where_its_ends_are_clear(&mut self, k: u32, slope: ExprId) -> Option<ExprId> {
+        let Reduced { value, holds } = self.formulas[k as usize];
+        let ends = self.of_ends()?;
+        Some(ends.into_iter().fold(slope, |slope, (kind, goes)| {
+            let edges = self.edges_in_the_way(value, goes, false);
+            self.where_clear(kind, (&edges, holds), slope)
+        }))
+    }
+
     /// A slope of an integral, which a jump of its formula adds to where its time goes with the variable, as nobody knows how. With a weight `w`
     /// that no two times have, `∫ d(w e)/dt dt` lacks the jumps of `w e` from end to end.
     pub(super) fn where_it_does_not_jump(&mut self, k: u32, slope: ExprId) -> ExprId {

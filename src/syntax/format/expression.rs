@@ -3,7 +3,7 @@
 //! [`Level`] says how tightly a form binds. A form that binds more loosely than its place allows gets parentheses;
 //! those of the tree itself count for nothing, so that a tree which was never written down prints right as well.
 
-use crate::syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, Sign};
+use crate::syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, Sign, Window};
 use crate::vocabulary::Unit;
 
 /// What binds how tightly, loosest first.
@@ -99,11 +99,11 @@ fn write_bare(text: &mut String, e: &Expr) {
                 }
             }
         }
-        ExprKind::Call { name, arguments } => {
+        ExprKind::Call { name, arguments, window } => {
             *text += &name.text;
-            write_list(text, arguments);
+            write_list(text, arguments, window.as_deref());
         }
-        ExprKind::Tuple(list) => write_list(text, list),
+        ExprKind::Tuple(list) => write_list(text, list, None),
         ExprKind::Paren(inner) => write(text, inner, Level::If),
         ExprKind::Negate(inner) => {
             *text += "-";
@@ -142,10 +142,31 @@ fn write_bare(text: &mut String, e: &Expr) {
     }
 }
 
-fn write_list(text: &mut String, list: &[Expr]) {
+fn write_list(text: &mut String, list: &[Expr], window: Option<&Window>) {
     *text += "(";
     write_chain(text, list, ", ", Level::If);
+    if let Some(Window { from, to, .. }) = window {
+        *text += ",";
+        let first = text.len();
+        for (word, bound) in [("from", from), ("to", to)] {
+            if let Some(bound) = bound {
+                let is_first = text.len() == first;
+                *text += &format!(" {word} ");
+                write_bound(text, bound, is_first);
+            }
+        }
+    }
     *text += ")";
+}
+
+/// A time of a window. With a sign behind the comma's word that would be a name.
+fn write_bound(text: &mut String, bound: &Expr, is_first: bool) {
+    let start = text.len();
+    write(text, bound, Level::If);
+    if is_first && text[start..].starts_with('-') {
+        text.insert(start, '(');
+        *text += ")";
+    }
 }
 
 /// Operands that may nest in each other without a change of meaning, and items of a list.

@@ -309,7 +309,10 @@ impl Grouped {
     fn gap(&mut self, k: usize, (words, lexemes, spaces): (&[Word], &[Lexeme<'_>], &[usize]), groups: &Groups) {
         let is_at_list = groups.is_list[k - 1] && words[k - 1].class != Class::Close
             || groups.is_list[k] && words[k].class == Class::Close;
-        let node = if words[k - 1].class == Class::Comment || lexemes[k].is_comment() && lexemes[k].lines_before > 0 {
+        // a comma that is left out does not end the line of a comment before it
+        let before = if words[k - 1].is_last_comma { k.checked_sub(2) } else { k.checked_sub(1) };
+        let is_behind_comment = before.is_some_and(|before| words[before].class == Class::Comment);
+        let node = if is_behind_comment || lexemes[k].is_comment() && lexemes[k].lines_before > 0 {
             Node::Line
         } else if lexemes[k].is_comment() {
             Node::Space(BEFORE_COMMENT)

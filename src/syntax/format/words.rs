@@ -1,6 +1,7 @@
 //! What each lexeme of a declaration is to those around it, which decides the spaces between them.
 
 use super::lexemes::{Lexeme, Shape};
+use crate::syntax::tokens::may_begin_a_bound;
 use crate::vocabulary::{Constant, Keyword, Place, Role, Synonym, Unit, is_before_a_name};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
@@ -245,9 +246,17 @@ impl<'a> Reading<'a> {
                 Class::Keyword
             }
             "from" if self.keyword == "analysis" && self.before == Some(Class::Keyword) => Class::Keyword,
+            "from" | "to" if self.begins_window(k) => Class::Keyword,
             "periodic" | "spline" if self.keyword == "table" && self.brackets.is_empty() => Class::Keyword,
             _ => Class::Name,
         }
+    }
+
+    /// Whether `from` or `to` begins the window of a reduction.
+    fn begins_window(&self, k: usize) -> bool {
+        let is_argument = self.before == Some(Class::Comma) && self.brackets.last() == Some(&Bracket::Arguments);
+        let is_apart = |behind: &Lexeme<'_>| behind.start > self.lexemes[k].end();
+        is_argument && self.behind(k).is_some_and(|behind| may_begin_a_bound(behind.text, is_apart(behind)))
     }
 
     /// Begins with the keyword of a declaration.
