@@ -63,7 +63,6 @@ fn check(cases: &[(&str, f64)]) {
 }
 
 #[test]
-#[ignore = "waits for the evaluation of windows"]
 fn a_window_is_a_part_of_the_analysis() {
     check(&[
         ("max(t, from 0.2 s to 0.5 s)", 0.5),
@@ -79,7 +78,6 @@ fn a_window_is_a_part_of_the_analysis() {
 }
 
 #[test]
-#[ignore = "waits for the evaluation of windows"]
 fn a_bound_that_is_not_given_is_the_end_of_the_analysis() {
     check(&[
         ("max(t, to 0.5 s)", 0.5),
@@ -97,7 +95,6 @@ fn a_bound_that_is_not_given_is_the_end_of_the_analysis() {
 }
 
 #[test]
-#[ignore = "waits for the evaluation of windows"]
 fn a_motion_is_looked_at_within_the_window() {
     check(&[
         ("max(y, from 0 s to 0.5 s)", 1.0),
@@ -121,7 +118,6 @@ fn a_motion_is_looked_at_within_the_window() {
 }
 
 #[test]
-#[ignore = "waits for the evaluation of windows"]
 fn edges_within_a_window_count() {
     check(&[
         ("mean(if t < 0.4 s then 1 else 3, from 0.3 s to 0.5 s)", 2.0),
@@ -135,7 +131,6 @@ fn edges_within_a_window_count() {
 }
 
 #[test]
-#[ignore = "waits for the evaluation of windows"]
 fn a_window_may_be_of_a_single_time() {
     let at = sin(0.2 * PI);
     check(&[
@@ -149,7 +144,6 @@ fn a_window_may_be_of_a_single_time() {
 }
 
 #[test]
-#[ignore = "waits for the evaluation of windows"]
 fn windows_depend_on_other_results() {
     check(&[
         ("argmin(x)", 0.5),
@@ -175,7 +169,6 @@ fn a_time_that_turns_out_to_be_outside_leaves_no_value() {
 }
 
 #[test]
-#[ignore = "waits for the evaluation of windows"]
 fn a_window_that_turns_out_to_be_outside_or_to_end_early_has_no_value() {
     let formulas = [
         "max(y, from argmax(y) + 2 s)",
@@ -191,7 +184,6 @@ fn a_window_that_turns_out_to_be_outside_or_to_end_early_has_no_value() {
 }
 
 #[test]
-#[ignore = "waits for the evaluation of windows"]
 fn windows_do_not_depend_on_the_output_step() {
     let formulas = ["max(y, from 0.123 s to 0.3 s)", "rms(x, from 0.04 s)", "argmin(x * y, to 0.777 s)"];
     let text = with_results(&formulas);
@@ -201,7 +193,6 @@ fn windows_do_not_depend_on_the_output_step() {
 
 /// What variants of a sweep have is what they have alone, to the bit; where a window ends before it begins, that is an error.
 #[test]
-#[ignore = "waits for the evaluation of windows"]
 fn a_sweep_has_what_runs_have() {
     let declarations = "param late = 0.5 s
     result most = max(y, from 0.3 s to late)
@@ -247,7 +238,6 @@ fn by_p(p: f64, cases: &[(&str, Option<f64>)]) {
 }
 
 #[test]
-#[ignore = "waits for the evaluation of windows"]
 fn over_a_window_that_stays_the_formula_is_differentiated() {
     by_p(
         0.4,
@@ -271,7 +261,6 @@ fn over_a_window_that_stays_the_formula_is_differentiated() {
 }
 
 #[test]
-#[ignore = "waits for the evaluation of windows"]
 fn bounds_that_go_with_a_param_are_differentiated() {
     by_p(
         0.4,

@@ -55,12 +55,21 @@ pub(super) fn write(output: &mut Output, names: &[(String, ColumnUnit)], answers
 /// A line for each, in the unit that it is told in.
 pub(super) fn told(names: &[(String, ColumnUnit)], answers: &Answers) -> String {
     let width = names.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
-    let line = |((name, unit), value): (&(String, ColumnUnit), &Option<f64>)| match value {
+    let line = |(((name, unit), value), digits): ((&(String, ColumnUnit), &Option<f64>), &u32)| match value {
         Some(value) => {
             let unit_text = if unit.text == "1" { String::new() } else { format!(" {}", unit.text) };
-            format!("{name:<width$} = {}{unit_text}\n", readable(unit.printed(*value)))
+            format!("{name:<width$} = {}{unit_text}\n", readable(with_digits(unit.printed(*value), *digits)))
         }
         None => format!("{name:<width$} = null\n"),
     };
-    names.iter().zip(&answers.values).map(line).collect()
+    names.iter().zip(&answers.values).zip(&answers.digits).map(line).collect()
+}
+
+/// The number nearest to another one that has so many significant digits; 0 where there are none.
+fn with_digits(value: f64, digits: u32) -> f64 {
+    if digits == 0 {
+        return 0.0;
+    }
+    let text = format!("{value:.*e}", digits as usize - 1);
+    text.parse().unwrap_or(value)
 }

@@ -141,6 +141,7 @@ catalogue! {
         W0605 Warning "a change point that is nearly met"
         N0601 Note "the estimates were far from the assembled start"
         N0604 Note "a result without a value"
+        N0605 Note "a result of a part of the analysis, or of few digits"
     }
     "the command line and files" {
         E0701 Error "a file that cannot be read"

@@ -329,13 +329,14 @@ impl Run {
     pub fn results(&mut self) -> Option<Answers> {
         let asked = self.asked.take()?;
         if self.has_stopped {
-            return Some(Answers { values: vec![None; self.results], notes: Vec::new() });
+            let count = self.results;
+            return Some(Answers { values: vec![None; count], digits: vec![0; count], notes: Vec::new() });
         }
-        let Answers { values, notes } = asked.answer()?;
+        let Answers { values, digits, notes } = asked.answer()?;
         let mut said = Diagnostics::default();
         said.extend(notes);
         let notes = self.used_at.told(said).into_iter().collect();
-        Some(Answers { values, notes })
+        Some(Answers { values, digits, notes })
     }
 
     /// From now on it remembers at which times accelerations jump.

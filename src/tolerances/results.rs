@@ -69,6 +69,9 @@ pub mod extremum {
     pub const FINEST: f64 = 1e-4;
     /// Corrections of a time at most.
     pub const ITERATIONS: usize = 100;
+    /// How far off the time of an extremum may be, as a part of the span: of a formula whose slope is known, and of any other one.
+    pub const TIMES: f64 = 1e-11;
+    pub const TIMES_OF_VALUES: f64 = 1e-6;
     /// Values in short cells are known where rounding leaves no more than this part of them, or of how far the formula usually is from its extremum.
     pub const DIGITS: f64 = 1e-7;
     /// A value at a threshold is that of one side where it differs from that of this side by no more than this part, likewise.
@@ -111,6 +114,11 @@ pub mod smooth {
 pub mod stretches {
     /// So many stretches are looked at together.
     pub const CHUNK: usize = 4096;
+    /// But no more of them than have so many coordinates.
+    pub const NUMBERS: usize = 4_000_000;
+    /// Fewer certain digits than this are told of; more than the other there are not.
+    pub const FEW: u32 = 6;
+    pub const MOST_DIGITS: u32 = 17;
 }
 
 /// Integrals (`analysis/results/quadrature.rs`).
@@ -156,6 +164,8 @@ pub mod curve {
     pub const NOTHING: f64 = 1e-290;
     /// What rounding may make of what moves, as a part of the largest that was seen of it.
     pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
+    /// Velocities and accelerations on the way over a singular position may be so far off, likewise.
+    pub const ON_BRIDGE: f64 = 1e-8;
 }
 
 /// Derivatives of results (`lower/slopes.rs`).

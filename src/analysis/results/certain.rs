@@ -1,7 +1,7 @@
 //! Whether numbers found near a singular position are worth as much as rows are: where a row would be refused, no result is told.
 
 use super::Asked;
-use super::reduced::Reduced;
+use super::reduced::{Found, Reduced};
 use super::probe::Trouble;
 use crate::analysis::follow::{Follower, Stretch};
 use crate::analysis::state::Times;
@@ -43,8 +43,8 @@ impl Near {
 
 impl Asked {
     /// What was found of a formula, or why that is nothing, where it can be trusted as the rows at the times that it is of.
-    pub(super) fn certain(&self, of: &Reduced, (kind, at): (ReductionKind, f64), near: &Near) -> Result<f64, Trouble> {
-        let found = of.outcome(kind, at, self.interval);
+    pub(super) fn certain(&self, of: &Reduced, (kind, at): (ReductionKind, f64), near: &Near) -> Result<Found, Trouble> {
+        let found = of.outcome(kind, at);
         match found {
             Err(trouble @ (Trouble::Missing(_) | Trouble::Unbounded(_))) => Err(trouble),
             _ => self.is_certain(of, (kind, at), near).and(found),
@@ -59,10 +59,12 @@ impl Asked {
         if near.stretches.is_empty() || !of.moves() {
             return Ok(());
         }
-        let [from, to] = self.interval;
+        let [from, to] = of.window();
         let time = match kind {
             // of places an integral is as good as they are
-            ReductionKind::Mean | ReductionKind::Integral if of.holds_rates() => return self.has_rows_at(near.ends()),
+            ReductionKind::Mean | ReductionKind::Integral if of.holds_rates() => {
+                return self.has_rows_at(near.ends().into_iter().filter(|t| from <= *t && *t <= to).collect());
+            }
             ReductionKind::Mean | ReductionKind::Integral => return Ok(()),
             ReductionKind::Extreme { largest, .. } => of.time_of_extreme(largest),
             ReductionKind::First => from,

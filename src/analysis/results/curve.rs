@@ -11,7 +11,7 @@ use crate::expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};
 use crate::ir::{ConstraintSystem, CoordinateKind};
 use crate::math::between;
 use crate::program::{Inputs, Program, Range, Ranges, Register, Registers, Stage};
-use crate::tolerances::results::curve::{KNOWN, LESS, MOVED, NOTHING, ROUNDING, SAFETY, WAYS};
+use crate::tolerances::results::curve::{KNOWN, LESS, MOVED, NOTHING, ON_BRIDGE, ROUNDING, SAFETY, WAYS};
 use crate::tolerances::results::loads::UNTOLD;
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
@@ -122,6 +122,8 @@ pub(super) struct Point {
     loads: Vec<f64>,
     /// By guard.
     marks: Vec<Mark>,
+    /// Whether it lies on the way over a singular position, where velocities and accelerations are those of a curve.
+    is_on_bridge: bool,
     pub sample: Sampled,
 }
 
@@ -318,6 +320,7 @@ impl Curve {
 
     /// At a state of the stretch that was entered.
     pub fn at(&mut self, state: State, places: &mut Places) -> Rc<Point> {
+        let is_on_bridge = places.is_on_bridge(state.t);
         if self.is_varied() {
             places.vary(&state);
         }
@@ -346,21 +349,25 @@ impl Curve {
         }
         self.largest_arguments.iter_mut().zip(&marks).for_each(|(largest, mark)| larger(largest, mark.argument));
         if self.loads.count() > 0 {
-            self.set_point(state.t, &moving, 0.0);
+            self.set_point(state.t, &moving, [0.0; 2]);
         }
         let loads = self.loads.values((&self.program, &self.registers), &mut self.ranges);
-        Rc::new(Point { state, moving, loads, marks, sample })
+        Rc::new(Point { state, moving, loads, marks, is_on_bridge, sample })
     }
 
-    /// Sets the ranges to what is at one time (s), and so many times rounding beside it.
-    fn set_point(&mut self, t: f64, moving: &[[f64; 4]], times: f64) {
+    /// Sets the ranges to what is at one time (s), and such parts of the largest beside it: of places, and of their derivatives.
+    fn set_point(&mut self, t: f64, moving: &[[f64; 4]], [of_places, of_rates]: [f64; 2]) {
         self.ranges.release();
-        let beside = times * f64::EPSILON * t.abs();
+        let beside = if of_places > 0.0 { f64::EPSILON * t.abs() } else { 0.0 };
         self.ranges.set_times([t - beside, t + beside]);
+        let rate = |largest: &[f64; 4]| if largest[0] > 0.0 { largest[1] / largest[0] } else { 0.0 };
+        let fastest = self.largest.iter().map(rate).fold(0.0, f64::max);
         for ((of, values), largest) in self.moving.iter().zip(moving).zip(&self.largest) {
             for (order, register) in of.registers(&self.program.inputs).into_iter().enumerate() {
                 if let Some(register) = register {
-                    let beside = times * ROUNDING * largest[order];
+                    // what rests has the rounding of what does not
+                    let by_rate = largest[0] * [1.0, fastest, fastest * fastest, 0.0][order];
+                    let beside = largest[order].max(by_rate) * if order == 0 { of_places } else { of_rates };
                     self.ranges.set(register, [values[order] - beside, values[order] + beside]);
                 }
             }
@@ -369,7 +376,8 @@ impl Curve {
 
     /// How far off rounding may be in the value at a point.
     pub fn uncertainty(&mut self, point: &Point) -> f64 {
-        self.set_point(point.state.t, &point.moving, 1.0);
+        let of_rates = if point.is_on_bridge { ON_BRIDGE } else { ROUNDING };
+        self.set_point(point.state.t, &point.moving, [ROUNDING, of_rates]);
         self.ranges.range(&self.program, &self.registers, 0);
         for (guard, mark) in self.guards.iter().zip(&point.marks) {
             // the value is that of its own side
@@ -615,7 +623,7 @@ impl Curve {
         for k in 0..self.guards.len() {
             let marks = [a.marks[k], b.marks[k]];
             let Some(value) = self.guards[k].value_between(marks, self.largest_arguments[k]) else { continue };
-            self.set_point(there.state.t, &there.moving, 0.0);
+            self.set_point(there.state.t, &there.moving, [0.0; 2]);
             self.guards[k].hold_at(value, &mut self.ranges);
             let Range { low, high, .. } = self.ranges.range(&self.program, &self.registers, 0);
             let is_finite = low.is_finite() && high.is_finite();

@@ -17,6 +17,10 @@ pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diag
             format!("result `{name}` has no value: what it speaks of grows without bound at {}", at(t)),
             "infinite there",
         ),
+        Some(Trouble::Window(t)) => (
+            format!("result `{name}` has no value: its window does not lie in the analysis, or ends before it begins, {}", at(t)),
+            "no time of the analysis",
+        ),
         Some(Trouble::Unknown(t)) => {
             (format!("result `{name}` could not be found to nine digits around {}", at(t)), "not certain enough")
         }
@@ -32,9 +36,23 @@ pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diag
     };
     let diagnostic = Diagnostic::new(Code::N0604, message).at(outcome.span, label);
     match trouble {
-        Some(Trouble::Missing(t) | Trouble::Unbounded(t) | Trouble::Unknown(t) | Trouble::Uncertain(t)) => diagnostic.datum("t", t),
+        Some(trouble) => diagnostic.datum("t", trouble.t()),
         None => diagnostic,
     }
+}
+
+/// Times at which a formula has no value, the first of which is told (s), are left out of a result.
+pub fn result_with_gaps(outcome: &Outcome, t: f64) -> Diagnostic {
+    let message = format!("result `{}` leaves out the times at which what it speaks of has no value", outcome.name);
+    Diagnostic::new(Code::N0605, message).at(outcome.span, format!("none {}, for the first time", at(t))).datum("t", t)
+}
+
+/// Fewer digits of a result are certain than users count on.
+pub fn result_with_few_digits(outcome: &Outcome, digits: u32) -> Diagnostic {
+    let which = if digits == 1 { "one digit".to_owned() } else { format!("{digits} digits") };
+    Diagnostic::new(Code::N0605, format!("only {which} of result `{}` {} certain", outcome.name, if digits == 1 { "is" } else { "are" }))
+        .at(outcome.span, "no more are told")
+        .datum("digits", f64::from(digits))
 }
 
 /// The motion ends behind the last row, but before the analysis does.

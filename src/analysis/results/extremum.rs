@@ -6,13 +6,17 @@
 
 use super::curve::{Cell, Point, Verdict};
 use super::probe::{Probe, Scale};
+use super::reduced::{Found, NOTHING};
 use super::turn::{MOST_LOOKS, Sampled, Settling, Turning};
 use crate::analysis::state::State;
 use crate::math::between;
 use crate::program::Range;
 use crate::tolerances::results::extremum::{
-    APART, BESIDE, CERTAIN, CLOSER, CONVERGES, DIGITS, FARTHEST, FINEST, GAP, GAP_OF_VALUES, ITERATIONS, TOWARDS,
+    APART, BESIDE, CERTAIN, CLOSER, CONVERGES, DIGITS, FARTHEST, FINEST, GAP, GAP_OF_VALUES, ITERATIONS, TIMES,
+    TIMES_OF_VALUES, TOWARDS,
 };
+use crate::tolerances::results::curve::KNOWN;
+use crate::tolerances::results::probe::SHORTEST;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::rc::Rc;
@@ -39,6 +43,8 @@ pub(super) struct Extremum {
 struct Place {
     t: f64,
     value: f64,
+    /// How far off that may be.
+    off: f64,
     kind: Kind,
 }
 
@@ -106,8 +112,8 @@ impl Extremum {
     }
 
     /// Takes note of an edge or an end.
-    pub fn note_edge(&mut self, t: f64, value: f64, scale: Scale) {
-        self.add(Place { t, value: self.sign * value, kind: Kind::Edge }, scale);
+    pub fn note_edge(&mut self, t: f64, Found { value, off }: Found, scale: Scale) {
+        self.add(Place { t, value: self.sign * value, off, kind: Kind::Edge }, scale);
     }
 
     fn add(&mut self, found: Place, scale: Scale) {
@@ -115,7 +121,6 @@ impl Extremum {
             return;
         }
         self.see(found.t, self.sign * found.value);
-        if std::env::var("DBG").is_ok() { eprintln!("found {found:?}"); }
         if found.value < self.best - scale.alike() {
             return;
         }
@@ -155,20 +160,30 @@ impl Extremum {
     }
 
     /// The largest value: that of an extremum, an edge or an end, unless more was seen than can be of it. Not a number where there is none.
-    pub fn value(&self, scale: Scale) -> f64 {
-        let is_of_place = self.best <= self.largest + scale.gap(GAP);
-        let value = self.sign * if is_of_place { self.largest } else { self.best };
-        if value.is_finite() { value } else { f64::NAN }
+    pub fn value(&self, scale: Scale) -> Found {
+        let gap = scale.gap(GAP);
+        let of_place = self.places.iter().filter(|place| place.kind != Kind::Seen && place.value >= self.largest);
+        match of_place.map(|place| place.off).reduce(f64::max) {
+            Some(off) if self.best <= self.largest + gap => Found { value: self.sign * self.largest, off },
+            _ if self.best.is_finite() => Found { value: self.sign * self.best, off: scale.gap(GAP_OF_VALUES) },
+            _ => NOTHING,
+        }
     }
 
     /// Its first time (s).
-    pub fn time(&self, scale: Scale) -> f64 {
-        let Some(first) = self.first(scale) else { return self.best_at };
+    pub fn time(&self, scale: Scale) -> Found {
+        let found = |t: f64, part: f64| Found { value: t, off: part * scale.span };
+        let Some(first) = self.first(scale) else { return found(self.best_at, TIMES_OF_VALUES) };
         let is_it = |next: &&Place| {
             let is_behind = next.t > first.t && next.t - first.t <= BESIDE * scale.span;
             next.kind == Kind::Edge && first.kind == Kind::Turn && is_behind && next.value >= first.value
         };
-        self.alike(scale).find(is_it).unwrap_or(&first).t
+        let place = self.alike(scale).find(is_it).unwrap_or(&first);
+        match place.kind {
+            Kind::Edge => found(place.t, SHORTEST),
+            Kind::Turn => found(place.t, TIMES),
+            Kind::Seen => found(place.t, TIMES_OF_VALUES),
+        }
     }
 
     /// The places with the largest value.
@@ -264,16 +279,19 @@ impl Probe<'_> {
                 self.miss(cell.step, point.state.t);
             } else if extremum.sign * point.sample.value > extremum.best
                 && !self.curve.is_at_threshold(point, other)
-                && self.is_certain(point, scale)
+                && self.certain(point, scale).is_some()
             {
                 extremum.see(point.state.t, point.sample.value);
             }
         }
     }
 
-    /// Whether a value is more than rounding. It is not beside a place at which the formula is a quotient of two numbers that are zero.
-    fn is_certain(&mut self, point: &Point, scale: Scale) -> bool {
-        self.curve.uncertainty(point) <= DIGITS * f64::max(scale.range, point.sample.value.abs()) + scale.gap(0.0)
+    /// How far off the value at a point may be; none where there is none, or where it is more rounding than digits: beside a place at which the
+    /// formula is a quotient of two numbers that are zero.
+    fn certain(&mut self, point: &Point, scale: Scale) -> Option<f64> {
+        let most = DIGITS * f64::max(scale.range, point.sample.value.abs()) + scale.gap(0.0);
+        let off = if point.exists() { self.curve.uncertainty(point) } else { f64::INFINITY };
+        (off <= most).then_some(off)
     }
 
     /// Finds out what is known of the formula in a cell.
@@ -297,7 +315,6 @@ impl Probe<'_> {
     /// Looks into a cell: takes note of the extremum in it, or leaves its parts.
     fn look_into(&mut self, open: Open, extremum: &mut Extremum, scale: Scale, parts: &mut Vec<Open>) {
         let cell = &open.cell;
-        if std::env::var("DBG").is_ok() && extremum.sign != 0.0 { eprintln!("{:?}..{:?} {:?} {:?} {:?} up {:?} best {:?} largest {:?} scale {:?}", cell.a.state.t, cell.b.state.t, open.verdict, open.range, open.derivatives, open.upper, extremum.best, extremum.largest, scale); }
         if self.is_shortest(cell) {
             self.close(cell, open.range, extremum, scale);
             return;
@@ -349,17 +366,15 @@ impl Probe<'_> {
         for (point, other) in [(&cell.a, &cell.b), (&cell.b, &cell.a)] {
             // a value of its own is that of no side
             let is_apart = self.curve.is_at_threshold(point, other) && step > APART * scale.range.max(point.sample.value.abs());
-            if !point.exists() || is_apart || !self.is_certain(point, scale) {
-                continue;
-            }
+            let Some(off) = self.certain(point, scale).filter(|_| !is_apart) else { continue };
             if goes_on && step <= scale.gap(GAP) {
                 extremum.see(point.state.t, point.sample.value);
             } else {
-                extremum.note_edge(point.state.t, point.sample.value, scale);
+                extremum.note_edge(point.state.t, Found { value: point.sample.value, off }, scale);
             }
         }
         for value in self.curve.between_points(&cell.a, &cell.b) {
-            extremum.note_edge(cell.b.state.t, value, scale);
+            extremum.note_edge(cell.b.state.t, Found { value, off: KNOWN * value.abs() }, scale);
         }
         let [_, upper] = extremum.oriented(range);
         if upper == f64::INFINITY && (self.grows_towards(cell, sign, true) || self.grows_towards(cell, sign, false)) {
@@ -471,12 +486,10 @@ impl Probe<'_> {
 
     /// Takes note of a turn at a time (s), near a point.
     fn note_turn(&mut self, cell: &Cell, near: &Point, t: f64, extremum: &mut Extremum, scale: Scale) {
-        if !self.is_certain(near, scale) {
-            return;
-        }
+        let Some(off) = self.certain(near, scale) else { return };
         let settled = self.settled_turn(cell.step, &near.state, t, scale.span);
         let [t, value] = settled.unwrap_or([t, near.sample.value]);
-        extremum.add(Place { t, value: extremum.sign * value, kind: Kind::Turn }, scale);
+        extremum.add(Place { t, value: extremum.sign * value, off, kind: Kind::Turn }, scale);
     }
 
     /// The time (s) and the value of a turn that is near a state and a time, as they are whichever way led there; none where it does not settle, or
@@ -500,7 +513,10 @@ impl Probe<'_> {
             }
             match turn.go_on(&samples[..turn.looks()]) {
                 Turning::On => {}
-                Turning::Settled(found) => return Some(found),
+                Turning::Settled(found @ [t, _]) => {
+                    let [from, to] = self.window;
+                    return (from <= t && t <= to).then_some(found);
+                }
                 Turning::Lost => return None,
             }
         }
@@ -513,7 +529,8 @@ impl Probe<'_> {
         let is_small = upper <= f64::max(a, b) + scale.gap(GAP_OF_VALUES);
         if is_small && f64::max(a, b) >= extremum.best - scale.alike() {
             let (point, value) = if b > a { (&cell.b, b) } else { (&cell.a, a) };
-            extremum.add(Place { t: point.state.t, value, kind: Kind::Seen }, scale);
+            let off = scale.gap(GAP_OF_VALUES);
+            extremum.add(Place { t: point.state.t, value, off, kind: Kind::Seen }, scale);
             if let Some(top) = self.top_beside(cell, point, extremum.sign, scale) {
                 extremum.add(top, scale);
             }
@@ -550,7 +567,7 @@ impl Probe<'_> {
             apart = finest.max(CLOSER * apart);
         }
         let [value] = self.values_at(cell.step, [t], sign)?;
-        Some(Place { t, value, kind: Kind::Turn })
+        Some(Place { t, value, off: scale.gap(GAP_OF_VALUES), kind: Kind::Turn })
     }
 
     /// The formula at some times (s) of a step, times the sign.

@@ -32,13 +32,13 @@ use crate::expr::{ExprId, Graph, Node, Symbol};
 use crate::ir::{ConstraintSystem, Reduction, ReductionKind};
 use crate::solver::Solver;
 use crate::structure::Determined;
-use crate::tolerances::results::stretches::CHUNK;
+use crate::tolerances::results::stretches::{CHUNK, FEW, MOST_DIGITS, NUMBERS};
 use certain::Near;
 use curve::Curve;
 use places::Places;
 pub use quantities::SmoothFormulas;
 pub use quantity::{Computed, SmoothFormula, moved};
-use reduced::Reduced;
+use reduced::{Found, NOTHING, Reduced};
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 use probe::Trouble;
@@ -75,6 +75,8 @@ pub struct Asked {
 pub struct Answers {
     /// By result.
     pub values: Vec<Option<f64>>,
+    /// By result: how many significant digits are certain, 17 at most; 0 where it has no value, or cannot be told from zero.
+    pub digits: Vec<u32>,
     /// Why some have none.
     pub notes: Vec<Diagnostic>,
 }
@@ -94,7 +96,12 @@ struct Analysis {
     asked: Asked,
     determined: Arc<Determined>,
     /// By reduction: its number, or why there is none.
-    found: Vec<Option<Result<f64, Trouble>>>,
+    found: Vec<Option<Result<Found, Trouble>>>,
+    /// By reduction: the first time (s) that it leaves out, where its formula has no value.
+    missing: Vec<Option<f64>>,
+    /// The steps of the motion, once they are known and are not too many to be kept.
+    steps: Option<Vec<Stretch>>,
+    near: Near,
 }
 
 impl Asked {
@@ -104,7 +111,14 @@ impl Asked {
         let determined = self.kinematics.determined();
         let count = determined.system().results().reductions.len();
         let cancel = self.cancel.clone();
-        let mut analysis = Analysis { asked: self, determined, found: vec![None; count] };
+        let mut analysis = Analysis {
+            asked: self,
+            determined,
+            found: vec![None; count],
+            missing: vec![None; count],
+            steps: None,
+            near: Near::new(),
+        };
         while let Some(level) = analysis.next_level() {
             let followed = analysis.follow(&level);
             if cancel.is_cancelled() {
@@ -151,64 +165,87 @@ impl Analysis {
         (!level.is_empty()).then_some(level)
     }
 
-    /// Follows the motion for some reductions.
+    /// Looks at the motion for some reductions.
     fn follow(&mut self, level: &[usize]) -> Result<(), Box<Diagnostic>> {
         let determined = Arc::clone(&self.determined);
         let system = determined.system();
-        let asked: Vec<(usize, Reduction)> = level.iter().map(|&k| (k, system.results().reductions[k])).collect();
+        let mut asked: Vec<(usize, Reduction, [f64; 2])> = Vec::with_capacity(level.len());
+        for &k in level {
+            let reduction = system.results().reductions[k];
+            match self.window(&reduction) {
+                Ok(window) => asked.push((k, reduction, window)),
+                Err(trouble) => self.found[k] = Some(Err(trouble)),
+            }
+        }
         let mut places = Places::new(self.asked.kinematics.clone(), self.asked.solver.clone());
-        let of: Vec<ExprId> = asked.iter().map(|(_, reduction)| reduction.of).collect();
-        let known = |k: usize| self.found[k].and_then(Result::ok).unwrap_or(0.0);
+        let of: Vec<(ExprId, [u64; 2])> =
+            asked.iter().map(|(_, reduction, window)| (reduction.of, window.map(f64::to_bits))).collect();
+        let known = |k: usize| self.found[k].and_then(Result::ok).map_or(0.0, |found| found.value);
         let (all, curve_of) = curves(system, &of, known, places.variations());
-        let mut all: Vec<Reduced> = all.into_iter().map(Reduced::new).collect();
+        let mut all: Vec<Reduced> = all
+            .into_iter()
+            .map(|(curve, window)| Reduced::new(curve, window.map(f64::from_bits)))
+            .collect();
         let at = |reduction: &Reduction| match reduction.kind {
             ReductionKind::At(at) => self.value(at, false),
             _ => f64::NAN,
         };
-        let at: Vec<f64> = asked.iter().map(|(_, reduction)| at(reduction)).collect();
-        let interval = self.asked.interval;
-        for (((_, reduction), &of), &at) in asked.iter().zip(&curve_of).zip(&at) {
-            all[of].ask(reduction.kind, at, interval);
+        let at: Vec<f64> = asked.iter().map(|(_, reduction, _)| at(reduction)).collect();
+        for (((_, reduction, _), &of), &at) in asked.iter().zip(&curve_of).zip(&at) {
+            all[of].ask(reduction.kind, at);
         }
-        let mut near = Near::new();
-        self.run(&mut all, &mut places, &mut near)?;
-        for (((k, reduction), &of), &at) in asked.iter().zip(&curve_of).zip(&at) {
-            self.found[*k] = Some(self.asked.certain(&all[of], (reduction.kind, at), &near));
+        self.look(&mut all, &mut places)?;
+        for (((k, reduction, _), &of), &at) in asked.iter().zip(&curve_of).zip(&at) {
+            self.found[*k] = Some(self.asked.certain(&all[of], (reduction.kind, at), &self.near));
+            self.missing[*k] = all[of].missing(reduction.kind);
         }
         Ok(())
     }
 
-    /// Looks at formulas along the whole motion.
-    fn run(&self, all: &mut [Reduced], places: &mut Places, near: &mut Near) -> Result<(), Box<Diagnostic>> {
+    /// The times (s) that a reduction is over.
+    fn window(&self, reduction: &Reduction) -> Result<[f64; 2], Trouble> {
+        let [from, to] = self.asked.interval;
+        let bound = |bound: Option<ExprId>, end: f64| bound.map_or(end, |bound| self.value(bound, false));
+        let window = [bound(reduction.window[0], from), bound(reduction.window[1], to)];
+        match window.into_iter().find(|t| !(from <= *t && *t <= to)) {
+            Some(t) => Err(Trouble::Window(t)),
+            None if window[1] < window[0] => Err(Trouble::Window(window[1])),
+            None => Ok(window),
+        }
+    }
+
+    /// Looks at formulas along the whole motion, which is followed once if its steps can be kept.
+    fn look(&mut self, all: &mut [Reduced], places: &mut Places) -> Result<(), Box<Diagnostic>> {
         let [from, to] = self.asked.interval;
         let span = to - from;
+        if let Some(steps) = &self.steps {
+            all.iter_mut().for_each(|reduced| reduced.look(steps, places, span));
+            return Ok(());
+        }
         let mut motion = self.asked.motion(Times::listed(from, vec![to]));
-        let mut stretches: Vec<Stretch> = Vec::new();
+        let (mut steps, mut is_whole) = (Vec::new(), true);
+        self.near = Near::new();
         while !self.asked.cancel.is_cancelled() {
             let next = motion.next_stretch()?;
             let is_end = next.is_none();
-            if let Some(stretch) = &next {
-                near.take_note(stretch, &motion);
-            }
-            if let Some(stretch) = next {
-                push_step(&mut stretches, stretch);
+            if let Some(step) = next {
+                self.near.take_note(&step, &motion);
+                push_step(&mut steps, step);
             }
             if is_end && span <= 0.0 {
                 places.enter_where(&motion.switches());
-                for reduced in all.iter_mut() {
-                    reduced.look_at_start(motion.here(), places, span);
-                }
+                all.iter_mut().for_each(|reduced| reduced.look_at_start(motion.here(), places));
                 return Ok(());
             }
             // steps towards a singular position are replaced once the way over it is known
-            if is_end || (stretches.len() >= CHUNK && motion.was_clear_here()) {
-                for reduced in all.iter_mut() {
-                    reduced.look(&stretches, places, span);
+            let is_full = steps.len() >= CHUNK.min(1 + NUMBERS / (1 + motion.here().q.len()));
+            if is_end || (is_full && motion.was_clear_here()) {
+                all.iter_mut().for_each(|reduced| reduced.look(&steps, places, span));
+                if is_end {
+                    self.steps = is_whole.then_some(steps);
+                    return Ok(());
                 }
-                stretches.clear();
-            }
-            if is_end {
-                return Ok(());
+                (is_whole, steps) = (false, Vec::new());
             }
         }
         Ok(())
@@ -218,13 +255,21 @@ impl Analysis {
     fn without_motion(&self, why: &Diagnostic) -> Answers {
         let outcomes = &self.system().results().outcomes;
         let notes = outcomes.first().map(|first| errors::results_without_motion(first, outcomes.len(), why));
-        Answers { values: vec![None; outcomes.len()], notes: notes.into_iter().collect() }
+        Answers { values: vec![None; outcomes.len()], digits: vec![0; outcomes.len()], notes: notes.into_iter().collect() }
     }
 
     /// The value of a formula of parameters and of reductions that are known; no number where one has none.
     fn value(&self, formula: ExprId, unknown_is_false: bool) -> f64 {
+        self.value_with(formula, unknown_is_false, usize::MAX)
+    }
+
+    /// As [`Analysis::value`], with one reduction as far off as it may be.
+    fn value_with(&self, formula: ExprId, unknown_is_false: bool, off: usize) -> f64 {
         let system = self.system();
-        let found = |k: usize| self.found[k].and_then(Result::ok).unwrap_or(f64::NAN);
+        let found = |k: usize| {
+            let found = self.found[k].and_then(Result::ok).unwrap_or(NOTHING);
+            found.value + if k == off { found.off } else { 0.0 }
+        };
         value_of(system.graph(), (formula, unknown_is_false), |k| system.params()[k as usize].value, found)
     }
 
@@ -233,18 +278,41 @@ impl Analysis {
         let mut answers = Answers::default();
         for outcome in &system.results().outcomes {
             let value = self.value(outcome.value, outcome.unknown_is_false);
-            if value.is_finite() {
-                // −0 would surprise a reader
-                answers.values.push(Some(value + 0.0));
+            let needed = needed(system.graph(), outcome.value);
+            if !value.is_finite() {
+                let trouble = needed.into_iter().find_map(|k| self.found[k].and_then(Result::err));
+                answers.values.push(None);
+                answers.digits.push(0);
+                answers.notes.push(errors::result_without_value(outcome, trouble));
                 continue;
             }
-            let needed = needed(system.graph(), outcome.value);
-            let trouble = needed.into_iter().find_map(|k| self.found[k].and_then(Result::err));
-            answers.values.push(None);
-            answers.notes.push(errors::result_without_value(outcome, trouble));
+            let off = |&k: &usize| (self.value_with(outcome.value, outcome.unknown_is_false, k) - value).abs();
+            let digits = certain_digits(value, needed.iter().map(off).sum());
+            // −0 would surprise a reader
+            answers.values.push(Some(value + 0.0));
+            answers.digits.push(digits);
+            if let Some(t) = needed.iter().find_map(|&k| self.missing[k]) {
+                answers.notes.push(errors::result_with_gaps(outcome, t));
+            }
+            if 0 < digits && digits < FEW {
+                answers.notes.push(errors::result_with_few_digits(outcome, digits));
+            }
         }
         answers
     }
+}
+
+/// How many significant digits of a value are certain that may be so far off; 0 where it cannot be told from zero.
+fn certain_digits(value: f64, off: f64) -> u32 {
+    let part = off / value.abs();
+    if part.is_nan() {
+        return 0;
+    }
+    let digits = (-(2.0 * part).log10()).floor();
+    // between 0 and 17
+    #[allow(clippy::cast_sign_loss)]
+    let digits = digits.clamp(0.0, f64::from(MOST_DIGITS)) as u32;
+    digits
 }
 
 /// Adds a step to others. One over a singular position stands for those too that have come near to that: it begins where the motion was clear.
@@ -265,24 +333,24 @@ fn push_step(steps: &mut Vec<Stretch>, mut step: Stretch) {
     steps.push(step);
 }
 
-/// The formulas of some reductions, each once, and which is whose; with the reductions that they hold, as far as these are known, and over so
+/// The formulas of some reductions with what they are over, each once, and which is whose; with the reductions that they hold, as far as these are known, and over so
 /// many variations.
-fn curves(
+fn curves<W: Copy + PartialEq>(
     system: &ConstraintSystem,
-    asked: &[ExprId],
+    asked: &[(ExprId, W)],
     found: impl Fn(usize) -> f64,
     variations: usize,
-) -> (Vec<Curve>, Vec<usize>) {
+) -> (Vec<(Curve, W)>, Vec<usize>) {
     let (mut graph, mut known) = (Graph::new(), FxHashMap::default());
     graph.import_tables(system.graph(), &mut known, Graph::symbol);
     let mut curve_of: Vec<usize> = Vec::new();
-    let mut ids: Vec<ExprId> = Vec::new();
-    for of in asked {
+    let mut ids: Vec<(ExprId, W)> = Vec::new();
+    for (of, window) in asked {
         graph.import(system.graph(), &[*of], &mut known, |graph, symbol| match symbol {
             Symbol::Named(k) => graph.constant(found(k as usize)),
             other => graph.symbol(other),
         });
-        let id = known[of];
+        let id = (known[of], *window);
         let at = ids.iter().position(|&other| other == id).unwrap_or_else(|| {
             ids.push(id);
             ids.len() - 1
@@ -292,7 +360,7 @@ fn curves(
     let given: Vec<ExprId> = system.loads().iter().map(|load| load.force).collect();
     graph.import(system.graph(), &given, &mut known, Graph::symbol);
     let loads: Vec<ExprId> = given.iter().map(|load| known[load]).collect();
-    let curve = |id: ExprId| Curve::new(&mut graph, id, &loads, system, variations);
+    let curve = |(id, window)| (Curve::new(&mut graph, id, &loads, system, variations), window);
     (ids.into_iter().map(curve).collect(), curve_of)
 }
 

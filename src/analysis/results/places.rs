@@ -22,6 +22,8 @@ pub(super) struct Places {
     /// By row of Φ, one over what may be left of it; of the stretch, once that has been asked for.
     bounds: Vec<f64>,
     has_bounds: bool,
+    /// From when to when (s) the way over a singular position goes, if the stretch is one.
+    bridge: [f64; 2],
     /// What time alone asks of the equations.
     signals: Ranges,
     signal_count: usize,
@@ -47,6 +49,7 @@ impl Places {
             delta: vec![0.0; n],
             bounds: vec![0.0; kinematics.system().rows().len()],
             has_bounds: false,
+            bridge: [f64::NAN; 2],
             signals,
             signal_count: registers.len(),
             solver,
@@ -69,6 +72,7 @@ impl Places {
         self.kinematics.freeze(true, true);
         self.kinematics.set_switches(&stretch.switches);
         self.has_bounds = false;
+        self.bridge = stretch.bridge.as_ref().map_or([f64::NAN; 2], |bridge| [bridge.from.t, bridge.to.t]);
         self.enter_where(&stretch.switches);
     }
 
@@ -100,6 +104,12 @@ impl Places {
         if let Some(varying) = &mut self.varying {
             varying.enter(switches);
         }
+    }
+
+    /// Whether a time (s) lies on the way over a singular position, in the stretch that was entered last.
+    pub fn is_on_bridge(&self, t: f64) -> bool {
+        let [from, to] = self.bridge;
+        from < t && t < to
     }
 
     /// Finds the variations at a state of the stretch.

@@ -47,12 +47,14 @@ pub enum Trouble {
     Unknown(f64),
     /// It is of a time (s) at which a row would be more rounding than digits.
     Uncertain(f64),
+    /// A bound of its window is not a time (s) of the analysis, or comes before the other one.
+    Window(f64),
 }
 
 impl Trouble {
-    fn t(self) -> f64 {
+    pub fn t(self) -> f64 {
         match self {
-            Trouble::Missing(t) | Trouble::Unbounded(t) | Trouble::Unknown(t) | Trouble::Uncertain(t) => t,
+            Trouble::Missing(t) | Trouble::Unbounded(t) | Trouble::Unknown(t) | Trouble::Uncertain(t) | Trouble::Window(t) => t,
         }
     }
 }
@@ -88,6 +90,8 @@ pub(super) struct Probe<'r> {
     pub curve: &'r mut Curve,
     places: &'r mut Places,
     pub steps: &'r [Stretch],
+    /// From one time to another (s): the formula is looked at nowhere else.
+    pub window: [f64; 2],
     entered: Option<usize>,
     pub notes: &'r mut Notes,
     /// No cell is cut that is no longer than this (s).
@@ -101,10 +105,10 @@ impl<'r> Probe<'r> {
         (curve, notes): (&'r mut Curve, &'r mut Notes),
         places: &'r mut Places,
         steps: &'r [Stretch],
-        span: f64,
+        (window, span): ([f64; 2], f64),
     ) -> Probe<'r> {
         curve.set_short(SHORT * span);
-        Probe { curve, places, steps, entered: None, notes, shortest: SHORTEST * span, short: SHORT * span }
+        Probe { curve, places, steps, window, entered: None, notes, shortest: SHORTEST * span, short: SHORT * span }
     }
 
     fn enter(&mut self, step: usize) {
@@ -222,5 +226,13 @@ impl<'r> Probe<'r> {
         }
         let part = |a: &Rc<Point>, b: &Rc<Point>| (b.state.t > a.state.t).then(|| cell.between(a, b));
         Some([part(&cell.a, &within.a), part(&within.a, &within.b), part(&within.b, &cell.b)])
+    }
+}
+
+impl Drop for Probe<'_> {
+    fn drop(&mut self) {
+        if std::env::var("DBC").is_ok() {
+            eprintln!("cells {}", self.notes.cells);
+        }
     }
 }

@@ -3,6 +3,7 @@
 
 use super::curve::{Cell, Point, Verdict};
 use super::probe::{Probe, Scale};
+use super::reduced::Found;
 use crate::tolerances::results::quadrature::{ACCURACY, DIVERGES, LOOKS, NOTHING, ROUNDING, SAFETY};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -17,11 +18,11 @@ const LOBATTO_ENDS: f64 = 0.1;
 /// An integral over time.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct Integral {
-    pub sum: f64,
+    sum: f64,
     /// How far off it may be.
-    pub off: f64,
+    off: f64,
     /// For how long (s) the formula has a value.
-    pub time: f64,
+    time: f64,
     /// The integral of the magnitude.
     size: f64,
     /// What the cell too short to be cut that holds the most may hold, and its time (s).
@@ -35,6 +36,16 @@ fn within(found: f64, [least, most]: [f64; 2]) -> f64 {
 }
 
 impl Integral {
+    /// The integral, and how far off it may be.
+    pub fn found(&self) -> Found {
+        Found { value: self.sum, off: self.off + ROUNDING * self.size }
+    }
+
+    /// For how long (s) the formula has a value.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
     /// A time (s) at which a cell too short to be cut holds much of the integral, if there is one: the formula goes to infinity there, and the
     /// integral too.
     pub fn unbounded(&self) -> Option<f64> {

@@ -8,17 +8,30 @@ use super::quadrature::Integral;
 use crate::analysis::follow::Stretch;
 use crate::analysis::state::{State, shortly_after};
 use crate::ir::ReductionKind;
+use rustc_hash::FxHashMap;
 use std::rc::Rc;
 
-/// A formula that is looked at along the motion, and what is found of it.
+/// No number.
+pub(super) const NOTHING: Found = Found { value: f64::NAN, off: f64::INFINITY };
+
+/// A number and how far off it may be.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Found {
+    pub value: f64,
+    pub off: f64,
+}
+
+/// A formula that is looked at over a part of the motion, and what is found of it.
 pub(super) struct Reduced {
     curve: Curve,
+    /// From one time to another (s).
+    window: [f64; 2],
     extrema: [Option<Extremum>; 2],
     integral: Option<Integral>,
     /// What came up while these were looked for, in this order.
     notes: [Notes; 3],
     /// Times (s) at which its value is asked for, and the values.
-    times: Vec<(f64, f64)>,
+    times: Vec<(f64, Found)>,
     /// Its values, and the magnitudes of the numbers that these are sums of, at the ends of steps.
     samples: Vec<f64>,
     weights: Vec<f64>,
@@ -27,9 +40,10 @@ pub(super) struct Reduced {
 }
 
 impl Reduced {
-    pub fn new(curve: Curve) -> Reduced {
+    pub fn new(curve: Curve, window: [f64; 2]) -> Reduced {
         Reduced {
             curve,
+            window,
             extrema: [None, None],
             integral: None,
             times: Vec::new(),
@@ -40,50 +54,83 @@ impl Reduced {
         }
     }
 
-    /// Takes note of what is asked for.
-    pub fn ask(&mut self, kind: ReductionKind, at: f64, [from, to]: [f64; 2]) {
+    /// Takes note of what is asked for; a value at a time is asked for with that (s).
+    pub fn ask(&mut self, kind: ReductionKind, at: f64) {
+        let ([from, to], is_moment) = (self.window, self.is_moment());
         let mut time = |t: f64| {
             if self.times.iter().all(|(known, _)| known.total_cmp(&t).is_ne()) {
-                self.times.push((t, f64::NAN));
+                self.times.push((t, NOTHING));
             }
         };
         match kind {
+            // of a single time all that is asked for is the value
+            ReductionKind::Extreme { .. } | ReductionKind::Mean if is_moment => time(from),
             ReductionKind::Extreme { largest, when } => {
                 let extremum = self.extrema[usize::from(largest)].get_or_insert_with(|| Extremum::new(largest));
                 if when {
                     extremum.ask_for_time();
                 }
             }
-            ReductionKind::Mean | ReductionKind::Integral if to > from => self.integral = Some(Integral::default()),
-            ReductionKind::Integral => self.integral = Some(Integral::default()),
-            ReductionKind::Mean | ReductionKind::First => time(from),
+            ReductionKind::Integral if is_moment => {}
+            ReductionKind::Mean | ReductionKind::Integral => self.integral = Some(Integral::default()),
+            ReductionKind::First => time(from),
             ReductionKind::Last => time(to),
             ReductionKind::At(_) => time(at),
         }
     }
 
-    /// What a reduction is, or why it is nothing.
-    pub fn outcome(&self, kind: ReductionKind, at: f64, interval @ [from, to]: [f64; 2]) -> Result<f64, Trouble> {
+    /// Whether it is of a single time.
+    fn is_moment(&self) -> bool {
+        self.window[1] <= self.window[0]
+    }
+
+    /// The window (s).
+    pub fn window(&self) -> [f64; 2] {
+        self.window
+    }
+
+    /// What a reduction is, or why it is nothing; a value at a time is asked for with that (s).
+    pub fn outcome(&self, kind: ReductionKind, at: f64) -> Result<Found, Trouble> {
+        let [from, to] = self.window;
         if let Some(trouble) = self.notes_of(kind).and_then(|notes| notes.trouble) {
             return Err(trouble);
         }
-        if let ReductionKind::Extreme { largest, .. } = kind
-            && let Some(t) = self.extrema[usize::from(largest)].as_ref().and_then(Extremum::unbounded)
-        {
-            return Err(Trouble::Unbounded(t));
-        }
-        if let Some(integral) = self.integral.filter(|_| matches!(kind, ReductionKind::Mean | ReductionKind::Integral))
-            && let Some(t) = integral.unbounded()
-        {
-            return Err(Trouble::Unbounded(t));
-        }
-        let value = self.value(kind, at, interval);
-        let t = match kind {
-            ReductionKind::Last => to,
-            ReductionKind::At(_) => at,
-            _ => from,
+        let of_time = |wanted: f64| {
+            let found = self.times.iter().find(|(t, _)| t.total_cmp(&wanted).is_eq()).map(|(_, found)| *found);
+            found.filter(|found| found.value.is_finite()).ok_or(Trouble::Missing(wanted))
         };
-        if value.is_finite() { Ok(value) } else { Err(Trouble::Missing(t)) }
+        match kind {
+            ReductionKind::Extreme { when: true, .. } if self.is_moment() => {
+                of_time(from).map(|_| Found { value: from, off: 0.0 })
+            }
+            ReductionKind::Extreme { .. } | ReductionKind::Mean if self.is_moment() => of_time(from),
+            ReductionKind::Integral if self.is_moment() => Ok(Found { value: 0.0, off: 0.0 }),
+            ReductionKind::Extreme { largest, when } => {
+                let which = usize::from(largest);
+                let (Some(extremum), Some(scale)) = (&self.extrema[which], self.scales[which]) else {
+                    return Err(Trouble::Missing(from));
+                };
+                if let Some(t) = extremum.unbounded() {
+                    return Err(Trouble::Unbounded(t));
+                }
+                let found = if when { extremum.time(scale) } else { extremum.value(scale) };
+                if found.value.is_finite() { Ok(found) } else { Err(Trouble::Missing(from)) }
+            }
+            ReductionKind::Mean | ReductionKind::Integral => {
+                let Some(integral) = &self.integral else { return Err(Trouble::Missing(from)) };
+                if let Some(t) = integral.unbounded() {
+                    return Err(Trouble::Unbounded(t));
+                }
+                let over = if kind == ReductionKind::Mean { integral.time() } else { 1.0 };
+                let found = integral.found();
+                let found = Found { value: found.value / over, off: found.off / over };
+                // an integral over nothing is 0, and a mean of nothing is nothing
+                if found.value.is_finite() { Ok(found) } else { Err(Trouble::Missing(from)) }
+            }
+            ReductionKind::First => of_time(from),
+            ReductionKind::Last => of_time(to),
+            ReductionKind::At(_) => of_time(at),
+        }
     }
 
     /// The first time (s) at which the formula has no value, which was left out.
@@ -100,19 +147,16 @@ impl Reduced {
         }
     }
 
-    /// Of an analysis of a single time.
-    pub fn look_at_start(&mut self, state: &State, places: &mut Places, span: f64) {
-        let point = self.curve.at(state.clone(), places);
-        let value = point.sample.value;
-        self.times.iter_mut().for_each(|(_, known)| *known = value);
-        if !value.is_finite() {
-            self.notes.iter_mut().for_each(|notes| notes.meet(Trouble::Missing(state.t)));
-            return;
-        }
-        self.samples.push(value);
-        let scale = self.scale(span);
-        self.extrema.iter_mut().flatten().for_each(|extremum| extremum.note_edge(state.t, value, scale));
-        self.scales = [Some(scale); 2];
+    /// Takes the state of an analysis of a single time.
+    pub fn look_at_start(&mut self, state: &State, places: &mut Places) {
+        let found = self.found_at(state.clone(), places);
+        self.times.iter_mut().for_each(|(_, known)| *known = found);
+    }
+
+    /// The value at a state.
+    fn found_at(&mut self, state: State, places: &mut Places) -> Found {
+        let point = self.curve.at(state, places);
+        Found { value: point.sample.value, off: self.curve.uncertainty(&point) }
     }
 
     /// Whether it changes with the motion, and not with time alone.
@@ -134,8 +178,8 @@ impl Reduced {
     pub fn time_of_extreme(&self, largest: bool) -> f64 {
         let which = usize::from(largest);
         match (&self.extrema[which], self.scales[which]) {
-            (Some(extremum), Some(scale)) => extremum.time(scale),
-            _ => f64::NAN,
+            (Some(extremum), Some(scale)) => extremum.time(scale).value,
+            _ => self.window[0],
         }
     }
 
@@ -150,31 +194,6 @@ impl Reduced {
         let weight =
             if weights.is_empty() { 0.0 } else { *weights.select_nth_unstable_by(middle, f64::total_cmp).1 };
         Scale { range: f64::max(high - low, 0.0), weight, span }
-    }
-
-    /// What a reduction is, once all has been seen.
-    fn value(&self, kind: ReductionKind, at: f64, [from, to]: [f64; 2]) -> f64 {
-        let of_time = |wanted: f64| {
-            let found = self.times.iter().find(|(t, _)| t.total_cmp(&wanted).is_eq());
-            found.map_or(f64::NAN, |(_, value)| *value)
-        };
-        match kind {
-            ReductionKind::Extreme { largest, when: true } => self.time_of_extreme(largest),
-            ReductionKind::Extreme { largest, when: false } => {
-                let which = usize::from(largest);
-                match (&self.extrema[which], self.scales[which]) {
-                    (Some(extremum), Some(scale)) => extremum.value(scale),
-                    _ => f64::NAN,
-                }
-            }
-            ReductionKind::Integral => self.integral.map_or(f64::NAN, |integral| integral.sum),
-            ReductionKind::Mean if to > from => {
-                self.integral.map_or(f64::NAN, |integral| integral.sum / integral.time)
-            }
-            ReductionKind::Mean | ReductionKind::First => of_time(from),
-            ReductionKind::Last => of_time(to),
-            ReductionKind::At(_) => of_time(at),
-        }
     }
 
     /// Takes in the values at times that lie in a step.
@@ -193,7 +212,7 @@ impl Reduced {
                 places.solve(stretch, [&stretch.from, &stretch.to], t)
             };
             // of an edge the later side counts, which comes later
-            self.times[k].1 = state.map_or(f64::NAN, |state| self.curve.at(state, places).sample.value);
+            self.times[k].1 = state.map_or(NOTHING, |state| self.found_at(state, places));
         }
     }
 
@@ -210,25 +229,29 @@ impl Reduced {
             return;
         }
         let scale = self.scale(span);
+        let edge = |cell: &Cell| (cell.step, self.edges(&steps[cell.step], [cell.a.state.t, cell.b.state.t]));
+        let edges: FxHashMap<usize, [bool; 2]> = cells.iter().map(edge).collect();
+        let window = self.window;
         let Reduced { curve, notes, extrema, integral, samples, scales, .. } = self;
         let [of_least, of_largest, of_integral] = notes;
         for ((extremum, kept), notes) in extrema.iter_mut().zip(scales).zip([of_least, of_largest]) {
             let Some(extremum) = extremum else { continue };
-            let mut probe = Probe::new((&mut *curve, notes), &mut *places, steps, span);
+            let mut probe = Probe::new((&mut *curve, notes), &mut *places, steps, (window, span));
             for cell in &cells {
-                let step = &steps[cell.step];
-                let ends = [(step.begins_at_edge, &cell.a, &cell.b), (step.ends_at_edge, &cell.b, &cell.a)];
-                let is_edge = |(is_edge, point, other): &(bool, &Rc<Point>, &Rc<Point>)| {
-                    *is_edge && !probe.curve.is_at_threshold(point, other)
-                };
-                for (_, point, _) in ends.into_iter().filter(is_edge) {
-                    extremum.note_edge(point.state.t, point.sample.value, scale);
+                let [is_begin, is_end] = edges[&cell.step];
+                let ends = [(is_begin, &cell.a, &cell.b), (is_end, &cell.b, &cell.a)];
+                for (is_edge, point, other) in ends {
+                    if !is_edge || probe.curve.is_at_threshold(point, other) {
+                        continue;
+                    }
+                    let off = probe.curve.uncertainty(point);
+                    extremum.note_edge(point.state.t, Found { value: point.sample.value, off }, scale);
                 }
             }
             *kept = Some(probe.search(&cells, samples, extremum, scale));
         }
         if let Some(integral) = integral {
-            let mut probe = Probe::new((curve, of_integral), places, steps, span);
+            let mut probe = Probe::new((curve, of_integral), places, steps, (window, span));
             let middle = samples.len() / 2;
             let usual = if samples.is_empty() { 0.0 } else { *samples.clone().select_nth_unstable_by(middle, f64::total_cmp).1 };
             probe.integrate(&cells, usual, scale, integral);
@@ -238,19 +261,33 @@ impl Reduced {
     /// A step, with the formula at both ends; none where only values at some times are asked for.
     fn cell(&mut self, number: usize, steps: &[Stretch], places: &mut Places) -> Option<Cell> {
         let step = &steps[number];
-        if std::env::var("DBS").is_ok() { eprintln!("step {:?} {:?} bridge {:?} edges {} {}", step.from.t, step.to.t, step.bridge.as_ref().map(|b| (b.from.t, b.at, b.again, b.to.t)), step.begins_at_edge, step.ends_at_edge); }
         places.enter(step);
         self.take_times(step, places);
         if self.is_of_times_alone() {
             return None;
         }
-        let ends = [(&step.from, step.begins_at_edge), (&step.to, step.ends_at_edge)];
-        let [from, to] = ends.map(|(state, is_edge)| {
-            let state = if is_edge { self.end(state, state.t, step, places) } else { state.clone() };
-            self.curve.at(state, places)
+        let [from, to] = [step.from.t.max(self.window[0]), step.to.t.min(self.window[1])];
+        if to <= from {
+            return None;
+        }
+        let [is_begin, is_end] = self.edges(step, [from, to]);
+        let ends = [(&step.from, from, is_begin), (&step.to, to, is_end)];
+        let mut points = ends.into_iter().map(|(state, t, is_edge)| {
+            let state = if state.t.total_cmp(&t).is_ne() {
+                places.solve(step, [&step.from, &step.to], t)?
+            } else if is_edge {
+                self.end(state, state.t, step, places)
+            } else {
+                state.clone()
+            };
+            Some(self.curve.at(state, places))
         });
+        let (Some(Some(from)), Some(Some(to))) = (points.next(), points.next()) else {
+            self.notes.iter_mut().for_each(|notes| notes.meet(Trouble::Unknown(from)));
+            return None;
+        };
         // but for edges, a step begins where the one before has ended
-        for point in step.begins_at_edge.then_some(&from).into_iter().chain([&to]) {
+        for point in is_begin.then_some(&from).into_iter().chain([&to]) {
             if point.exists() {
                 self.samples.push(point.sample.value);
                 let weight = self.curve.weight(point);
@@ -260,5 +297,10 @@ impl Reduced {
             }
         }
         Some(Cell::new(number, &from, &to))
+    }
+
+    /// Whether the formula is looked at no farther than from one time of a step to another (s), or differs beyond.
+    fn edges(&self, step: &Stretch, [from, to]: [f64; 2]) -> [bool; 2] {
+        [step.begins_at_edge && from <= step.from.t || from <= self.window[0], step.ends_at_edge && to >= step.to.t || to >= self.window[1]]
     }
 }
