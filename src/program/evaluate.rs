@@ -117,6 +117,14 @@ impl Program {
     }
 }
 
+impl Program {
+    /// Runs some operations of a stage whose switches are never frozen.
+    pub fn run_only(&self, operations: &[Op], registers: &mut Registers) {
+        let mut numbers = Numbers { tables: &self.tables, v: registers.values.as_mut_slice() };
+        operations.iter().for_each(|op| op.run(&mut numbers));
+    }
+}
+
 /// Registers that hold numbers.
 struct Numbers<'n> {
     tables: &'n [TableLayout],

@@ -127,6 +127,8 @@ pub mod quadrature {
     pub const ACCURACY: f64 = 1e-11;
     /// The integral over a cell may be so many times farther off than what its halves make better.
     pub const SAFETY: f64 = 8.0;
+    /// The finer one of two rules is better than the other by the root of so many times what these differ, as a part of how far values in a cell differ.
+    pub const SURER: f64 = 1e4;
     /// How far off all cells are together is looked at whenever one of so many has been cut.
     pub const LOOKS: usize = 16;
     /// An integral of which the shortest cells hold such a part has no end.
@@ -159,11 +161,15 @@ pub mod curve {
     /// What moves is moved by this part of itself to see how much a formula makes of its rounding; and in so many ways.
     pub const MOVED: f64 = 1.0 / 1_048_576.0;
     pub const WAYS: u32 = 3;
+    /// What rounding makes of loads is looked at whenever a formula has been computed so often.
+    pub const EVERY: usize = 16;
     /// A value between two points beside each other is known where what it may be is no wider than this part of it, or than nothing.
     pub const KNOWN: f64 = 1e-12;
     pub const NOTHING: f64 = 1e-290;
     /// What rounding may make of what moves, as a part of the largest that was seen of it.
     pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
+    /// What is no larger than this part of it may be rounding.
+    pub const NOISE: f64 = 64.0 * f64::EPSILON;
     /// Velocities and accelerations on the way over a singular position may be so far off, likewise.
     pub const ON_BRIDGE: f64 = 1e-8;
 }

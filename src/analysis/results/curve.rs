@@ -10,8 +10,8 @@ use crate::analysis::state::State;
 use crate::expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};
 use crate::ir::{ConstraintSystem, CoordinateKind};
 use crate::math::between;
-use crate::program::{Inputs, Program, Range, Ranges, Register, Registers, Stage};
-use crate::tolerances::results::curve::{KNOWN, LESS, MOVED, NOTHING, ON_BRIDGE, ROUNDING, SAFETY, WAYS};
+use crate::program::{Inputs, Op, Program, Range, Ranges, Register, Registers, Stage};
+use crate::tolerances::results::curve::{EVERY, KNOWN, LESS, MOVED, NOISE, NOTHING, ON_BRIDGE, ROUNDING, SAFETY, WAYS};
 use crate::tolerances::results::loads::UNTOLD;
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
@@ -23,8 +23,9 @@ const VARIED_ORDERS: u32 = 3;
 pub(super) struct Curve {
     program: Program,
     registers: Registers,
-    /// Where the formula and its time derivatives are left, as many as are known.
+    /// Where the formula and its time derivatives are left, as many as are known; and the operations that these, and the loads, follow from.
     roots: Vec<Register>,
+    operations: Vec<Op>,
     /// Ranges of the formula, of the loads behind it, of the arguments of guards with their slopes, and of the formula's time derivatives.
     ranges: Ranges,
     /// The number of the first time derivative among these.
@@ -46,6 +47,8 @@ pub(super) struct Curve {
     /// The largest magnitudes that were seen: of what moves, with its derivatives, and of the guards' arguments.
     largest: Vec<[f64; 4]>,
     largest_arguments: Vec<f64>,
+    /// How often it has been computed.
+    looks: usize,
 }
 
 /// Of what shape a formula is.
@@ -146,12 +149,14 @@ pub(super) struct Cell {
     bends: Option<Rc<[[f64; 2]]>>,
     /// The length (s) of the cell that this is known of, of which this one may be a part.
     known_over: f64,
+    /// The point in its middle, if it has been looked at.
+    pub middle: Option<Rc<Point>>,
 }
 
 impl Cell {
     /// From one point to another, of which nothing between is known yet.
     pub fn new(step: usize, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
-        Cell { step, a: Rc::clone(a), b: Rc::clone(b), bends: None, known_over: f64::INFINITY }
+        Cell { step, a: Rc::clone(a), b: Rc::clone(b), bends: None, known_over: f64::INFINITY, middle: None }
     }
 
     /// Its length (s).
@@ -175,6 +180,12 @@ impl Cell {
         Cell { bends: self.bends.clone(), known_over: self.known_over, ..Cell::new(self.step, a, b) }
     }
 
+    /// Takes the point in its middle, which tells how far values that have no known derivative are from a straight line.
+    pub fn take_middle(&mut self, curve: &Curve, middle: Rc<Point>) {
+        self.bends = Some(curve.bends_at(self, &middle));
+        self.middle = Some(middle);
+    }
+
     /// Its parts on both sides of a point in it.
     pub fn cut(&self, curve: &Curve, at: &Rc<Point>) -> [Cell; 2] {
         let bends = Some(curve.bends_at(self, at));
@@ -191,6 +202,8 @@ pub(super) enum Verdict {
     Crosses(usize),
     /// The formula has no value.
     Missing,
+    /// Rounding alone decides on which side of its threshold a guard is.
+    Rounding,
     /// Too little is known.
     Open,
 }
@@ -241,12 +254,14 @@ impl Curve {
         let values = &places[..found.len()];
         let guards = guards((&mut graph, &program), values, &nodes, &witnesses);
         let loads = Loads::new(&values[1..]);
-        let roots = (0..own).map(|order| places[if order == 0 { 0 } else { first + order - 1 }]).collect();
+        let roots: Vec<Register> = (0..own).map(|order| places[if order == 0 { 0 } else { first + order - 1 }]).collect();
+        let operations = program.operations_behind(&[&roots[..], &values[1..]].concat(), Stage::Measures);
         let mut curve = Curve {
             ranges: Ranges::new(&program, &registers, &places, Stage::Measures, false),
             program,
             registers,
             roots,
+            operations,
             first,
             guards,
             moving,
@@ -260,6 +275,7 @@ impl Curve {
             loads,
             largest: Vec::new(),
             largest_arguments: Vec::new(),
+            looks: 0,
         };
         curve.largest = vec![[0.0; 4]; curve.moving.len()];
         curve.largest_arguments = vec![0.0; curve.guards.len()];
@@ -284,6 +300,11 @@ impl Curve {
     /// Whether it holds derivatives of the coordinates.
     pub fn holds_rates(&self) -> bool {
         self.holds_rates
+    }
+
+    /// Whether it holds something of which one order alone is known, so that a cell has to be looked at in its middle.
+    pub fn needs_middles(&self) -> bool {
+        self.holds_forces || self.moving.iter().map(|of| self.orders(*of)).any(|[from, to]| from == to)
     }
 
     /// Whether it holds forces, of which only values are known.
@@ -348,10 +369,12 @@ impl Curve {
             largest.iter_mut().zip(tower).for_each(|(largest, value)| larger(largest, *value));
         }
         self.largest_arguments.iter_mut().zip(&marks).for_each(|(largest, mark)| larger(largest, mark.argument));
-        if self.loads.count() > 0 {
+        let loads = self.loads.values(&self.registers);
+        if self.loads.count() > 0 && self.looks.is_multiple_of(EVERY) {
             self.set_point(state.t, &moving, [0.0; 2]);
+            self.loads.look_at_rounding((&self.program, &self.registers), &mut self.ranges);
         }
-        let loads = self.loads.values((&self.program, &self.registers), &mut self.ranges);
+        self.looks += 1;
         Rc::new(Point { state, moving, loads, marks, is_on_bridge, sample })
     }
 
@@ -390,6 +413,15 @@ impl Curve {
         if off.is_nan() { f64::INFINITY } else { off }
     }
 
+    /// Whether rounding alone decides at both ends of a short cell on which side of its threshold a guard is, and not so a longer way to zero.
+    pub fn is_rounding(&mut self, cell: &Cell, guard: usize) -> bool {
+        cell.length() <= self.short && [&cell.a, &cell.b].into_iter().all(|point| {
+            self.set_point(point.state.t, &point.moving, [NOISE; 2]);
+            self.ranges.range(&self.program, &self.registers, 0);
+            self.guards[guard].crossing(&self.ranges, [point.marks[guard]; 2]) != Crossing::Never
+        })
+    }
+
     /// Whether a guard of the formula is exactly at its threshold, and not so at another point beside: the formula may have a value of its own there.
     pub fn is_at_threshold(&self, point: &Point, beside: &Point) -> bool {
         let marks = point.marks.iter().zip(&beside.marks);
@@ -407,7 +439,7 @@ impl Curve {
                 }
             }
         }
-        self.program.run(Stage::Measures, &mut self.registers);
+        self.program.run_only(&self.operations, &mut self.registers);
     }
 
     /// How large the numbers are that the value is a sum of, or a difference: the unit of its rounding. Seen from a mount that is far away a

@@ -296,9 +296,12 @@ impl Probe<'_> {
 
     /// Finds out what is known of the formula in a cell.
     fn open(&mut self, mut cell: Cell, extremum: &mut Extremum, scale: Scale) -> Open {
-        self.see_ends(&cell, extremum, scale);
         let (verdict, range) = self.enclose(&mut cell);
-        let mut upper = if verdict == Verdict::Missing { f64::NEG_INFINITY } else { extremum.oriented(range)[1] };
+        if verdict != Verdict::Rounding {
+            self.see_ends(&cell, extremum, scale);
+        }
+        let is_nothing = matches!(verdict, Verdict::Missing | Verdict::Rounding);
+        let mut upper = if is_nothing { f64::NEG_INFINITY } else { extremum.oriented(range)[1] };
         let mut derivatives = [None; 2];
         let is_smooth = verdict == Verdict::Smooth && cell.a.exists() && cell.b.exists();
         if is_smooth && self.curve.derivatives() > 0 && !extremum.is_out_of_question(upper, scale) {
@@ -328,6 +331,8 @@ impl Probe<'_> {
                 }
                 [before, behind]
             }
+            // whatever side it is on, it was on before
+            Verdict::Rounding => return,
             Verdict::Missing => {
                 self.miss(cell.step, cell.a.state.t);
                 return;

@@ -41,16 +41,23 @@ impl Loads {
         self.each.len()
     }
 
-    /// Their values at a state that the program has just been run at, and that the ranges were set to.
-    pub fn values(&mut self, (program, registers): (&Program, &Registers), ranges: &mut Ranges) -> Vec<f64> {
-        let value = |(k, load): (usize, &mut Load)| {
-            let (value, range) = (registers.get(load.value), ranges.range(program, registers, 1 + k));
+    /// Their values at a state that the program has just been run at.
+    pub fn values(&mut self, registers: &Registers) -> Vec<f64> {
+        let value = |load: &mut Load| {
+            let value = registers.get(load.value);
             load.largest = load.largest.max(value.abs());
-            let width = range.high - range.low;
-            load.rounding = load.rounding.max(if range.is_resolved && width.is_finite() { width } else { 0.0 });
             value
         };
-        self.each.iter_mut().enumerate().map(value).collect()
+        self.each.iter_mut().map(value).collect()
+    }
+
+    /// Takes note of what rounding makes of them at a state that ranges were set to.
+    pub fn look_at_rounding(&mut self, (program, registers): (&Program, &Registers), ranges: &mut Ranges) {
+        for (k, load) in self.each.iter_mut().enumerate() {
+            let range = ranges.range(program, registers, 1 + k);
+            let width = range.high - range.low;
+            load.rounding = load.rounding.max(if range.is_resolved && width.is_finite() { width } else { 0.0 });
+        }
     }
 
     /// What they may do beyond what is told of each: between which values it seems to stay.

@@ -179,7 +179,13 @@ impl<'r> Probe<'r> {
         let is_known = !self.curve.moves()
             || self.places.signals_are_resolved([cell.a.state.t, cell.b.state.t]) && !self.curve.turns_far(cell);
         if is_known {
-            return self.curve.enclose(cell);
+            let (verdict, range) = self.curve.enclose(cell);
+            return match verdict {
+                Verdict::Crosses(guard) if !self.is_shortest(cell) && self.curve.is_rounding(cell, guard) => {
+                    (Verdict::Rounding, range)
+                }
+                _ => (verdict, range),
+            };
         }
         let [low, high] = [f64::NEG_INFINITY, f64::INFINITY];
         (Verdict::Open, Range { low, high, may_switch: true, is_resolved: false, crosses_knots: true })
@@ -192,7 +198,10 @@ impl<'r> Probe<'r> {
 
     /// The parts of a cell on both sides of its middle; none where the motion cannot be solved for there.
     pub fn halve(&mut self, cell: &Cell) -> Option<[Cell; 2]> {
-        let middle = self.point(cell, cell.middle())?;
+        let middle = match &cell.middle {
+            Some(middle) => Rc::clone(middle),
+            None => self.point(cell, cell.middle())?,
+        };
         Some(cell.cut(self.curve, &middle))
     }
 
@@ -226,13 +235,5 @@ impl<'r> Probe<'r> {
         }
         let part = |a: &Rc<Point>, b: &Rc<Point>| (b.state.t > a.state.t).then(|| cell.between(a, b));
         Some([part(&cell.a, &within.a), part(&within.a, &within.b), part(&within.b, &cell.b)])
-    }
-}
-
-impl Drop for Probe<'_> {
-    fn drop(&mut self) {
-        if std::env::var("DBC").is_ok() {
-            eprintln!("cells {}", self.notes.cells);
-        }
     }
 }

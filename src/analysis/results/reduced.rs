@@ -224,7 +224,7 @@ impl Reduced {
 
     /// Looks at some steps.
     pub fn look(&mut self, steps: &[Stretch], places: &mut Places, span: f64) {
-        let cells: Vec<Cell> = (0..steps.len()).filter_map(|step| self.cell(step, steps, places)).collect();
+        let mut cells: Vec<Cell> = (0..steps.len()).filter_map(|step| self.cell(step, steps, places)).collect();
         if cells.is_empty() {
             return;
         }
@@ -234,6 +234,14 @@ impl Reduced {
         let window = self.window;
         let Reduced { curve, notes, extrema, integral, samples, scales, .. } = self;
         let [of_least, of_largest, of_integral] = notes;
+        if curve.needs_middles() {
+            let mut probe = Probe::new((&mut *curve, &mut *of_integral), &mut *places, steps, (window, span));
+            for cell in &mut cells {
+                if let Some(middle) = probe.point(cell, cell.middle()) {
+                    cell.take_middle(probe.curve, middle);
+                }
+            }
+        }
         for ((extremum, kept), notes) in extrema.iter_mut().zip(scales).zip([of_least, of_largest]) {
             let Some(extremum) = extremum else { continue };
             let mut probe = Probe::new((&mut *curve, notes), &mut *places, steps, (window, span));
