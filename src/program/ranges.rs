@@ -40,7 +40,9 @@ impl Hold {
         match self {
             Hold::At(value) => Interval { low: value, high: value },
             Hold::Above => Interval { low: found.low.max(f64::MIN_POSITIVE), high: found.high.max(f64::MIN_POSITIVE) },
-            Hold::Below => Interval { low: found.low.min(-f64::MIN_POSITIVE), high: found.high.min(-f64::MIN_POSITIVE) },
+            Hold::Below => {
+                Interval { low: found.low.min(-f64::MIN_POSITIVE), high: found.high.min(-f64::MIN_POSITIVE) }
+            }
         }
     }
 }
@@ -99,8 +101,7 @@ impl Ranges {
         let (periods, thirds) = (of_tables(|table| &table.periods), of_tables(|table| &table.thirds));
         let step = |&op: &Op| {
             let switched = op.switched();
-            let is_of_table =
-                matches!(op, Op::Piece { .. }) || switched.is_some_and(|to| periods.contains(&to));
+            let is_of_table = matches!(op, Op::Piece { .. }) || switched.is_some_and(|to| periods.contains(&to));
             let third = op.writes().iter().copied().find(|to| thirds.contains(to));
             Step { op, switched, is_of_table, bounded: bounded(op), third }
         };

@@ -1,8 +1,8 @@
 //! Whether numbers found near a singular position are worth as much as rows are: where a row would be refused, no result is told.
 
 use super::Asked;
-use super::reduced::{Found, Reduced};
 use super::probe::Trouble;
+use super::reduced::{Found, Reduced};
 use crate::analysis::follow::{Follower, Stretch};
 use crate::analysis::state::Times;
 use crate::ir::ReductionKind;
@@ -43,7 +43,12 @@ impl Near {
 
 impl Asked {
     /// What was found of a formula, or why that is nothing, where it can be trusted as the rows at the times that it is of.
-    pub(super) fn certain(&self, of: &Reduced, (kind, at): (ReductionKind, f64), near: &Near) -> Result<Found, Trouble> {
+    pub(super) fn certain(
+        &self,
+        of: &Reduced,
+        (kind, at): (ReductionKind, f64),
+        near: &Near,
+    ) -> Result<Found, Trouble> {
         let found = of.outcome(kind, at);
         match found {
             Err(trouble @ (Trouble::Missing(_) | Trouble::Unbounded(_))) => Err(trouble),

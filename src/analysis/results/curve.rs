@@ -254,7 +254,8 @@ impl Curve {
         let values = &places[..found.len()];
         let guards = guards((&mut graph, &program), values, &nodes, &witnesses);
         let loads = Loads::new(&values[1..]);
-        let roots: Vec<Register> = (0..own).map(|order| places[if order == 0 { 0 } else { first + order - 1 }]).collect();
+        let roots: Vec<Register> =
+            (0..own).map(|order| places[if order == 0 { 0 } else { first + order - 1 }]).collect();
         let operations = program.operations_behind(&[&roots[..], &values[1..]].concat(), Stage::Measures);
         let mut curve = Curve {
             ranges: Ranges::new(&program, &registers, &places, Stage::Measures, false),
@@ -364,7 +365,9 @@ impl Curve {
         let value = |order: usize| self.roots.get(order).map_or(f64::NAN, |&root| self.registers.get(root));
         let sample = Sampled { value: value(0), first: value(1), second: value(2) };
         let marks: Vec<Mark> = self.guards.iter().map(|guard| guard.mark(&self.registers)).collect();
-        let larger = |largest: &mut f64, value: f64| *largest = if value.is_finite() { largest.max(value.abs()) } else { *largest };
+        let larger = |largest: &mut f64, value: f64| {
+            *largest = if value.is_finite() { largest.max(value.abs()) } else { *largest }
+        };
         for (largest, tower) in self.largest.iter_mut().zip(&moving) {
             largest.iter_mut().zip(tower).for_each(|(largest, value)| larger(largest, *value));
         }
@@ -383,8 +386,8 @@ impl Curve {
         self.ranges.release();
         let beside = if of_places > 0.0 { f64::EPSILON * t.abs() } else { 0.0 };
         self.ranges.set_times([t - beside, t + beside]);
-        let rate = |largest: &[f64; 4]| if largest[0] > 0.0 { largest[1] / largest[0] } else { 0.0 };
-        let fastest = self.largest.iter().map(rate).fold(0.0, f64::max);
+        let largest = |order: usize| self.largest.iter().map(|largest| largest[order]).fold(0.0, f64::max);
+        let fastest = if largest(0) > 0.0 { largest(1) / largest(0) } else { 0.0 };
         for ((of, values), largest) in self.moving.iter().zip(moving).zip(&self.largest) {
             for (order, register) in of.registers(&self.program.inputs).into_iter().enumerate() {
                 if let Some(register) = register {
@@ -401,7 +404,7 @@ impl Curve {
     pub fn uncertainty(&mut self, point: &Point) -> f64 {
         let of_rates = if point.is_on_bridge { ON_BRIDGE } else { ROUNDING };
         self.set_point(point.state.t, &point.moving, [ROUNDING, of_rates]);
-        self.ranges.range(&self.program, &self.registers, 0);
+        self.ranges.range(&self.program, &self.registers, self.loads.count());
         for (guard, mark) in self.guards.iter().zip(&point.marks) {
             // the value is that of its own side
             if guard.crossing(&self.ranges, [*mark; 2]) != Crossing::Never {
@@ -413,19 +416,21 @@ impl Curve {
         if off.is_nan() { f64::INFINITY } else { off }
     }
 
-    /// Whether rounding alone decides at both ends of a short cell on which side of its threshold a guard is, and not so a longer way to zero.
-    pub fn is_rounding(&mut self, cell: &Cell, guard: usize) -> bool {
-        cell.length() <= self.short && [&cell.a, &cell.b].into_iter().all(|point| {
-            self.set_point(point.state.t, &point.moving, [NOISE; 2]);
-            self.ranges.range(&self.program, &self.registers, 0);
-            self.guards[guard].crossing(&self.ranges, [point.marks[guard]; 2]) != Crossing::Never
-        })
+    /// Whether rounding alone decides at a point on which side of its threshold a guard is.
+    pub fn is_rounding(&mut self, guard: usize, point: &Point) -> bool {
+        self.set_point(point.state.t, &point.moving, [NOISE; 2]);
+        // guards are those of loads too
+        self.ranges.range(&self.program, &self.registers, self.loads.count());
+        self.guards[guard].crossing(&self.ranges, [point.marks[guard]; 2]) != Crossing::Never
     }
 
     /// Whether a guard of the formula is exactly at its threshold, and not so at another point beside: the formula may have a value of its own there.
     pub fn is_at_threshold(&self, point: &Point, beside: &Point) -> bool {
         let marks = point.marks.iter().zip(&beside.marks);
-        self.guards.iter().zip(marks).any(|(guard, (mark, beside))| guard.is_at_threshold(*mark) && mark.side != beside.side)
+        self.guards
+            .iter()
+            .zip(marks)
+            .any(|(guard, (mark, beside))| guard.is_at_threshold(*mark) && mark.side != beside.side)
     }
 
     /// Computes the formula and its derivatives at a time (s).

@@ -18,7 +18,10 @@ pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diag
             "infinite there",
         ),
         Some(Trouble::Window(t)) => (
-            format!("result `{name}` has no value: its window does not lie in the analysis, or ends before it begins, {}", at(t)),
+            format!(
+                "result `{name}` has no value: its window does not lie in the analysis, or ends before it begins, {}",
+                at(t)
+            ),
             "no time of the analysis",
         ),
         Some(Trouble::Unknown(t)) => {
@@ -50,9 +53,12 @@ pub fn result_with_gaps(outcome: &Outcome, t: f64) -> Diagnostic {
 /// Fewer digits of a result are certain than users count on.
 pub fn result_with_few_digits(outcome: &Outcome, digits: u32) -> Diagnostic {
     let which = if digits == 1 { "one digit".to_owned() } else { format!("{digits} digits") };
-    Diagnostic::new(Code::N0605, format!("only {which} of result `{}` {} certain", outcome.name, if digits == 1 { "is" } else { "are" }))
-        .at(outcome.span, "no more are told")
-        .datum("digits", f64::from(digits))
+    Diagnostic::new(
+        Code::N0605,
+        format!("only {which} of result `{}` {} certain", outcome.name, if digits == 1 { "is" } else { "are" }),
+    )
+    .at(outcome.span, "no more are told")
+    .datum("digits", f64::from(digits))
 }
 
 /// The motion ends behind the last row, but before the analysis does.

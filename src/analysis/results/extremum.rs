@@ -11,11 +11,11 @@ use super::turn::{MOST_LOOKS, Sampled, Settling, Turning};
 use crate::analysis::state::State;
 use crate::math::between;
 use crate::program::Range;
+use crate::tolerances::results::curve::KNOWN;
 use crate::tolerances::results::extremum::{
     APART, BESIDE, CERTAIN, CLOSER, CONVERGES, DIGITS, FARTHEST, FINEST, GAP, GAP_OF_VALUES, ITERATIONS, TIMES,
     TIMES_OF_VALUES, TOWARDS,
 };
-use crate::tolerances::results::curve::KNOWN;
 use crate::tolerances::results::probe::SHORTEST;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -297,9 +297,6 @@ impl Probe<'_> {
     /// Finds out what is known of the formula in a cell.
     fn open(&mut self, mut cell: Cell, extremum: &mut Extremum, scale: Scale) -> Open {
         let (verdict, range) = self.enclose(&mut cell);
-        if verdict != Verdict::Rounding {
-            self.see_ends(&cell, extremum, scale);
-        }
         let is_nothing = matches!(verdict, Verdict::Missing | Verdict::Rounding);
         let mut upper = if is_nothing { f64::NEG_INFINITY } else { extremum.oriented(range)[1] };
         let mut derivatives = [None; 2];
@@ -311,6 +308,10 @@ impl Probe<'_> {
             let is_open = !first.may_switch && !extremum.is_out_of_question(upper, scale);
             let tells_bends = is_open && self.curve.derivatives() == 2;
             derivatives = [Some(first), tells_bends.then(|| self.curve.derivative(2))];
+        }
+        // how far off values may be is found with what the ranges were found with
+        if verdict != Verdict::Rounding {
+            self.see_ends(&cell, extremum, scale);
         }
         Open { cell, verdict, range, derivatives, upper }
     }
@@ -370,7 +371,8 @@ impl Probe<'_> {
         let step = (ends[0].sample.value - ends[1].sample.value).abs();
         for (point, other) in [(&cell.a, &cell.b), (&cell.b, &cell.a)] {
             // a value of its own is that of no side
-            let is_apart = self.curve.is_at_threshold(point, other) && step > APART * scale.range.max(point.sample.value.abs());
+            let is_apart =
+                self.curve.is_at_threshold(point, other) && step > APART * scale.range.max(point.sample.value.abs());
             let Some(off) = self.certain(point, scale).filter(|_| !is_apart) else { continue };
             if goes_on && step <= scale.gap(GAP) {
                 extremum.see(point.state.t, point.sample.value);
@@ -456,8 +458,11 @@ impl Probe<'_> {
         let slope = |point: &Point| sign * point.sample.first;
         let mut within = cell.clone();
         let mut guess = chord(&within, sign);
-        let mut top =
-            if sign * cell.a.sample.value > sign * cell.b.sample.value { Rc::clone(&cell.a) } else { Rc::clone(&cell.b) };
+        let mut top = if sign * cell.a.sample.value > sign * cell.b.sample.value {
+            Rc::clone(&cell.a)
+        } else {
+            Rc::clone(&cell.b)
+        };
         for iteration in 0..ITERATIONS {
             let (from, to) = (within.a.state.t, within.b.state.t);
             // where the guesses do not close in the middle does

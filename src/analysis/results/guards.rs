@@ -201,7 +201,17 @@ pub(super) fn arguments(graph: &mut Graph, formulas: &[ExprId]) -> Vec<ExprId> {
         }
         arguments.push(match graph.node(id) {
             Node::Compare(_, a, b) | Node::Binary(Binary::Min | Binary::Max, a, b) => graph.sub(a, b),
-            Node::Unary(Unary::Abs | Unary::Sign | Unary::Floor | Unary::Sqrt | Unary::Ln | Unary::Log10 | Unary::Asin | Unary::Acos, a)
+            Node::Unary(
+                Unary::Abs
+                | Unary::Sign
+                | Unary::Floor
+                | Unary::Sqrt
+                | Unary::Ln
+                | Unary::Log10
+                | Unary::Asin
+                | Unary::Acos,
+                a,
+            )
             | Node::Binary(Binary::Pow | Binary::Atan2 | Binary::Mod, a, _)
             | Node::Table(_, _, a)
             | Node::Div(_, a) => a,
@@ -274,9 +284,17 @@ pub(super) fn guards(
 }
 
 /// The time derivatives of some formulas, which may not be known.
-pub(super) fn slopes(graph: &mut Graph, formulas: &[ExprId], is_known: impl Fn(&Graph, ExprId) -> bool) -> Vec<Option<ExprId>> {
+pub(super) fn slopes(
+    graph: &mut Graph,
+    formulas: &[ExprId],
+    is_known: impl Fn(&Graph, ExprId) -> bool,
+) -> Vec<Option<ExprId>> {
     let all = ConstraintSystem::time_derivatives(graph, formulas, 3);
-    formulas.iter().zip(all).map(|(&of, slope)| (is_known(graph, of) && is_known(graph, slope)).then_some(slope)).collect()
+    formulas
+        .iter()
+        .zip(all)
+        .map(|(&of, slope)| (is_known(graph, of) && is_known(graph, slope)).then_some(slope))
+        .collect()
 }
 
 /// The result of a comparison of two registers, and the sign of their difference with which it is true.

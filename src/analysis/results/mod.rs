@@ -36,12 +36,12 @@ use crate::tolerances::results::stretches::{CHUNK, FEW, MOST_DIGITS, NUMBERS};
 use certain::Near;
 use curve::Curve;
 use places::Places;
+use probe::Trouble;
 pub use quantities::SmoothFormulas;
 pub use quantity::{Computed, SmoothFormula, moved};
 use reduced::{Found, NOTHING, Reduced};
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
-use probe::Trouble;
 pub use turn::{MOST_LOOKS, Sampled, Settling, Turning};
 
 /// What is wrong with the results that an analysis from one time to another (s) is asked for.
@@ -182,10 +182,8 @@ impl Analysis {
             asked.iter().map(|(_, reduction, window)| (reduction.of, window.map(f64::to_bits))).collect();
         let known = |k: usize| self.found[k].and_then(Result::ok).map_or(0.0, |found| found.value);
         let (all, curve_of) = curves(system, &of, known, places.variations());
-        let mut all: Vec<Reduced> = all
-            .into_iter()
-            .map(|(curve, window)| Reduced::new(curve, window.map(f64::from_bits)))
-            .collect();
+        let mut all: Vec<Reduced> =
+            all.into_iter().map(|(curve, window)| Reduced::new(curve, window.map(f64::from_bits))).collect();
         let at = |reduction: &Reduction| match reduction.kind {
             ReductionKind::At(at) => self.value(at, false),
             _ => f64::NAN,
@@ -255,7 +253,11 @@ impl Analysis {
     fn without_motion(&self, why: &Diagnostic) -> Answers {
         let outcomes = &self.system().results().outcomes;
         let notes = outcomes.first().map(|first| errors::results_without_motion(first, outcomes.len(), why));
-        Answers { values: vec![None; outcomes.len()], digits: vec![0; outcomes.len()], notes: notes.into_iter().collect() }
+        Answers {
+            values: vec![None; outcomes.len()],
+            digits: vec![0; outcomes.len()],
+            notes: notes.into_iter().collect(),
+        }
     }
 
     /// The value of a formula of parameters and of reductions that are known; no number where one has none.

@@ -5,7 +5,9 @@ use super::places::Places;
 use crate::analysis::follow::Stretch;
 use crate::analysis::state::State;
 use crate::program::Range;
-use crate::tolerances::results::probe::{ALIKE, MOST_CELLS, NARROWER, NOTHING, OPAQUE, ROUNDING, SHORT, SHORTEST, SOLVED};
+use crate::tolerances::results::probe::{
+    ALIKE, MOST_CELLS, NARROWER, NOTHING, OPAQUE, ROUNDING, SHORT, SHORTEST, SOLVED,
+};
 use std::rc::Rc;
 
 /// How large a formula is, as far as that decides what is a difference.
@@ -54,7 +56,11 @@ pub enum Trouble {
 impl Trouble {
     pub fn t(self) -> f64 {
         match self {
-            Trouble::Missing(t) | Trouble::Unbounded(t) | Trouble::Unknown(t) | Trouble::Uncertain(t) | Trouble::Window(t) => t,
+            Trouble::Missing(t)
+            | Trouble::Unbounded(t)
+            | Trouble::Unknown(t)
+            | Trouble::Uncertain(t)
+            | Trouble::Window(t) => t,
         }
     }
 }
@@ -181,14 +187,22 @@ impl<'r> Probe<'r> {
         if is_known {
             let (verdict, range) = self.curve.enclose(cell);
             return match verdict {
-                Verdict::Crosses(guard) if !self.is_shortest(cell) && self.curve.is_rounding(cell, guard) => {
-                    (Verdict::Rounding, range)
-                }
+                Verdict::Crosses(guard) if self.is_rounding(cell, guard) => (Verdict::Rounding, range),
                 _ => (verdict, range),
             };
         }
         let [low, high] = [f64::NEG_INFINITY, f64::INFINITY];
         (Verdict::Open, Range { low, high, may_switch: true, is_resolved: false, crosses_knots: true })
+    }
+
+    /// Whether rounding alone decides all over a short cell on which side of its threshold a guard is.
+    fn is_rounding(&mut self, cell: &Cell, guard: usize) -> bool {
+        let is_short = cell.length() <= self.short && !self.is_shortest(cell);
+        if !is_short || ![&cell.a, &cell.b].into_iter().all(|point| self.curve.is_rounding(guard, point)) {
+            return false;
+        }
+        let middle = self.point(cell, cell.middle());
+        middle.is_some_and(|middle| self.curve.is_rounding(guard, &middle))
     }
 
     /// Whether a cell is too short to be cut.

@@ -232,7 +232,9 @@ impl Probe<'_> {
             fine += of_fine * value;
         }
         if fine.is_finite() {
-            let size = (ends - 2.0 * fine).abs() + (2.0 * middle.sample.value - ends).abs() + (middle.sample.value - 0.5 * fine).abs();
+            let size = (ends - 2.0 * fine).abs()
+                + (2.0 * middle.sample.value - ends).abs()
+                + (middle.sample.value - 0.5 * fine).abs();
             let off = (fine - rough).abs();
             // the finer rule is of an order that is higher by half
             let part = (SURER * off / size).sqrt();

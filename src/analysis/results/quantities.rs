@@ -34,7 +34,8 @@ impl SmoothFormulas {
         }
         let of: Vec<(ExprId, ())> = all.iter().map(|reduction| (reduction.of, ())).collect();
         let (curves, curve_of) = curves(system, &of, |_| f64::NAN, 0);
-        let each: Option<Vec<SmoothFormula>> = curves.into_iter().map(|(curve, ())| Curve::into_quantity(curve)).collect();
+        let each: Option<Vec<SmoothFormula>> =
+            curves.into_iter().map(|(curve, ())| Curve::into_quantity(curve)).collect();
         let reductions = curve_of.into_iter().zip(all).map(|(of, reduction)| (of, reduction.kind)).collect();
         Some(SmoothFormulas { each: each?, reductions })
     }

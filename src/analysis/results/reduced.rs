@@ -191,8 +191,7 @@ impl Reduced {
         // what a pole makes of a few values says nothing of the others' rounding
         let mut weights: Vec<f64> = self.weights.iter().chain(finite()).map(|weight| weight.abs()).collect();
         let middle = weights.len() / 2;
-        let weight =
-            if weights.is_empty() { 0.0 } else { *weights.select_nth_unstable_by(middle, f64::total_cmp).1 };
+        let weight = if weights.is_empty() { 0.0 } else { *weights.select_nth_unstable_by(middle, f64::total_cmp).1 };
         Scale { range: f64::max(high - low, 0.0), weight, span }
     }
 
@@ -261,7 +260,11 @@ impl Reduced {
         if let Some(integral) = integral {
             let mut probe = Probe::new((curve, of_integral), places, steps, (window, span));
             let middle = samples.len() / 2;
-            let usual = if samples.is_empty() { 0.0 } else { *samples.clone().select_nth_unstable_by(middle, f64::total_cmp).1 };
+            let usual = if samples.is_empty() {
+                0.0
+            } else {
+                *samples.clone().select_nth_unstable_by(middle, f64::total_cmp).1
+            };
             probe.integrate(&cells, usual, scale, integral);
         }
     }
@@ -309,6 +312,9 @@ impl Reduced {
 
     /// Whether the formula is looked at no farther than from one time of a step to another (s), or differs beyond.
     fn edges(&self, step: &Stretch, [from, to]: [f64; 2]) -> [bool; 2] {
-        [step.begins_at_edge && from <= step.from.t || from <= self.window[0], step.ends_at_edge && to >= step.to.t || to >= self.window[1]]
+        [
+            step.begins_at_edge && from <= step.from.t || from <= self.window[0],
+            step.ends_at_edge && to >= step.to.t || to >= self.window[1],
+        ]
     }
 }
