@@ -7,7 +7,7 @@
 use super::enclose::{Interval, behind, enclose};
 use super::{Op, Program, Register, Registers, Stage};
 use crate::expr::{Binary, Unary};
-use crate::tolerances::results::ranges::{WIDEST, WIDEST_RATIO, WIDEST_VALUE};
+use crate::tolerances::results::ranges::{VANISHES, WIDEST, WIDEST_RATIO, WIDEST_VALUE};
 
 /// An interval that holds all values of a formula.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -225,6 +225,12 @@ impl Ranges {
             }
             if third.is_some_and(changes) {
                 found |= found::SWITCHES;
+            }
+            if let Op::Unary { function: Unary::Exp, to, .. } = op
+                && v[to as usize].high <= VANISHES
+            {
+                // however it changes, it is nothing
+                found &= !found::IS_UNRESOLVED;
             }
             if bounded.is_some_and(|to| v[to as usize].high - v[to as usize].low > WIDEST_VALUE) {
                 found |= found::IS_UNRESOLVED;

@@ -9,6 +9,8 @@ pub mod ranges {
     pub const WIDEST_VALUE: f64 = 0.5;
     /// What is divided by, or has a root taken of it, changes by no more than this factor.
     pub const WIDEST_RATIO: f64 = 2.0;
+    /// An exponential no larger than this is resolved, whatever its argument does.
+    pub const VANISHES: f64 = 1e-40;
 }
 
 /// Formulas in intervals (`program/enclose.rs`).
@@ -35,6 +37,8 @@ pub mod probe {
     pub const SHORTEST: f64 = 4.0 * f64::EPSILON;
     /// A cell is short that is no longer than this part of the span.
     pub const SHORT: f64 = 1e-3;
+    /// A guard that rounding decides makes a difference where values on both sides of it differ by more than this part of the range.
+    pub const DIFFERENT: f64 = 1e-6;
     /// A stretch in which nothing can be solved for may be so long, as a part of the span.
     pub const OPAQUE: f64 = 1e-6;
     /// Values that differ by no more than this part of the range are the same.
@@ -72,9 +76,7 @@ pub mod extremum {
     /// How far off the time of an extremum may be, as a part of the span: of a formula whose slope is known, and of any other one.
     pub const TIMES: f64 = 1e-11;
     pub const TIMES_OF_VALUES: f64 = 1e-6;
-    /// Values in short cells are known where rounding leaves no more than this part of them, or of how far the formula usually is from its extremum.
-    pub const DIGITS: f64 = 1e-7;
-    /// A value at a threshold is that of one side where it differs from that of this side by no more than this part, likewise.
+    /// A value at a threshold is that of one side where it differs from that of this side by no more than this part of the range.
     pub const APART: f64 = 1e-6;
     /// A formula is looked at so far from where it may grow without bound, in shortest cells; and it does so where what it gains from one of these
     /// places to the next, by equal factors, does not become less than this part.

@@ -486,11 +486,12 @@ impl Curve {
         self.smooth.turns_far([&cell.a.state, &cell.b.state])
     }
 
-    /// Encloses the formula in a cell: what it can be there, and whether it is smooth.
-    pub fn enclose(&mut self, cell: &mut Cell) -> (Verdict, Range) {
+    /// Encloses the formula in a cell: what it can be there, and whether it is smooth, but for some guards.
+    pub fn enclose(&mut self, cell: &mut Cell, ignored: &[usize]) -> (Verdict, Range) {
         (cell.bends, cell.known_over) = (Some(self.bends_of(cell)), cell.length());
         self.set_cell(cell);
         let mut held = vec![false; self.guards.len()];
+        ignored.iter().for_each(|&guard| held[guard] = true);
         loop {
             let range = self.value(cell);
             if range.low == f64::INFINITY {

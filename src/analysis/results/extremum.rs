@@ -13,7 +13,7 @@ use crate::math::between;
 use crate::program::Range;
 use crate::tolerances::results::curve::KNOWN;
 use crate::tolerances::results::extremum::{
-    APART, BESIDE, CERTAIN, CLOSER, CONVERGES, DIGITS, FARTHEST, FINEST, GAP, GAP_OF_VALUES, ITERATIONS, TIMES,
+    APART, BESIDE, CERTAIN, CLOSER, CONVERGES, FARTHEST, FINEST, GAP, GAP_OF_VALUES, ITERATIONS, TIMES,
     TIMES_OF_VALUES, TOWARDS,
 };
 use crate::tolerances::results::probe::SHORTEST;
@@ -28,8 +28,10 @@ pub(super) struct Extremum {
     sign: f64,
     /// Whether its time is asked for.
     is_timed: bool,
-    /// The largest value that is known, times the sign, and its time (s).
+    /// What the largest value is at least, times the sign: of what is off by more than others less counts.
     best: f64,
+    /// The value that this is known of, times the sign, how far off it may be, and its time (s).
+    best_found: Found,
     best_at: f64,
     /// Where it may be: extrema, edges and ends, with their values times the sign.
     places: Vec<Place>,
@@ -45,6 +47,8 @@ struct Place {
     value: f64,
     /// How far off that may be.
     off: f64,
+    /// What the value is at least.
+    least: f64,
     kind: Kind,
 }
 
@@ -96,7 +100,8 @@ impl Extremum {
         let sign = if largest { 1.0 } else { -1.0 };
         let nothing = f64::NEG_INFINITY;
         let (places, unbounded) = (Vec::new(), None);
-        Extremum { sign, is_timed: false, best: nothing, best_at: f64::NAN, places, largest: nothing, unbounded }
+        let (best_found, best_at) = (NOTHING, f64::NAN);
+        Extremum { sign, is_timed: false, best: nothing, best_found, best_at, places, largest: nothing, unbounded }
     }
 
     /// Asks for its time too.
@@ -105,28 +110,29 @@ impl Extremum {
     }
 
     /// Takes note of a value at a time (s).
-    fn see(&mut self, t: f64, value: f64) {
-        if self.sign * value > self.best {
-            (self.best, self.best_at) = (self.sign * value, t);
+    fn see(&mut self, t: f64, found: Found) {
+        if self.sign * found.value - found.off > self.best {
+            (self.best, self.best_found, self.best_at) = (self.sign * found.value - found.off, found, t);
         }
     }
 
     /// Takes note of an edge or an end.
     pub fn note_edge(&mut self, t: f64, Found { value, off }: Found, scale: Scale) {
-        self.add(Place { t, value: self.sign * value, off, kind: Kind::Edge }, scale);
+        let value = self.sign * value;
+        self.add(Place { t, value, off, least: value - off, kind: Kind::Edge }, scale);
     }
 
     fn add(&mut self, found: Place, scale: Scale) {
         if !found.value.is_finite() {
             return;
         }
-        self.see(found.t, self.sign * found.value);
+        self.see(found.t, Found { value: self.sign * found.value, off: found.value - found.least });
         if found.value < self.best - scale.alike() {
             return;
         }
         // what was only seen is not as good as what may be found beside it
-        if found.kind != Kind::Seen && found.value > self.largest {
-            self.largest = found.value;
+        if found.kind != Kind::Seen && found.least > self.largest {
+            self.largest = found.least;
             let least = found.value - scale.alike();
             self.places.retain(|known| known.value >= least);
         }
@@ -161,12 +167,13 @@ impl Extremum {
 
     /// The largest value: that of an extremum, an edge or an end, unless more was seen than can be of it. Not a number where there is none.
     pub fn value(&self, scale: Scale) -> Found {
-        let gap = scale.gap(GAP);
-        let of_place = self.places.iter().filter(|place| place.kind != Kind::Seen && place.value >= self.largest);
-        match of_place.map(|place| place.off).reduce(f64::max) {
-            Some(off) if self.best <= self.largest + gap => Found { value: self.sign * self.largest, off },
-            _ if self.best.is_finite() => Found { value: self.sign * self.best, off: scale.gap(GAP_OF_VALUES) },
-            _ => NOTHING,
+        let known = self.places.iter().filter(|place| place.kind != Kind::Seen && place.least >= self.largest);
+        let place = known.max_by(|a, b| a.value.total_cmp(&b.value));
+        match place {
+            Some(place) if self.best <= self.largest + scale.gap(GAP) => {
+                Found { value: self.sign * place.value, off: place.off }
+            }
+            _ => Found { off: self.best_found.off.max(scale.gap(GAP_OF_VALUES)), ..self.best_found },
         }
     }
 
@@ -225,6 +232,7 @@ impl Probe<'_> {
         let (mut scale, mut best) = (scale, f64::NAN);
         let mut parts = Vec::new();
         while let Some(open) = heap.pop() {
+            self.range = scale.range;
             // the scale follows the best value that is known
             if extremum.best.total_cmp(&best).is_ne() {
                 best = extremum.best;
@@ -273,25 +281,26 @@ impl Probe<'_> {
     }
 
     /// Takes note of the values at both ends of a cell.
-    fn see_ends(&mut self, cell: &Cell, extremum: &mut Extremum, scale: Scale) {
+    fn see_ends(&mut self, cell: &Cell, extremum: &mut Extremum) {
         for (point, other) in [(&cell.a, &cell.b), (&cell.b, &cell.a)] {
             if !point.exists() {
                 self.miss(cell.step, point.state.t);
-            } else if extremum.sign * point.sample.value > extremum.best
-                && !self.curve.is_at_threshold(point, other)
-                && self.certain(point, scale).is_some()
-            {
-                extremum.see(point.state.t, point.sample.value);
+            } else if extremum.sign * point.sample.value > extremum.best && !self.curve.is_at_threshold(point, other) {
+                let off = self.curve.uncertainty(point);
+                extremum.see(point.state.t, Found { value: point.sample.value, off });
             }
         }
     }
 
-    /// How far off the value at a point may be; none where there is none, or where it is more rounding than digits: beside a place at which the
-    /// formula is a quotient of two numbers that are zero.
-    fn certain(&mut self, point: &Point, scale: Scale) -> Option<f64> {
-        let most = DIGITS * f64::max(scale.range, point.sample.value.abs()) + scale.gap(0.0);
-        let off = if point.exists() { self.curve.uncertainty(point) } else { f64::INFINITY };
-        (off <= most).then_some(off)
+    /// Whether a guard is exactly at its threshold at a point at an end of a cell, where the formula has a value of its own that is not that of
+    /// the cell.
+    pub(super) fn is_apart(&mut self, cell: &Cell, point: &Point, other: &Point, scale: Scale) -> bool {
+        if !self.curve.is_at_threshold(point, other) {
+            return false;
+        }
+        let inward = if point.state.t < other.state.t { 1.0 } else { -1.0 };
+        let beside = self.point(cell, point.state.t + inward * TOWARDS[0] * self.shortest);
+        beside.is_some_and(|beside| (beside.sample.value - point.sample.value).abs() > scale.gap(APART))
     }
 
     /// Finds out what is known of the formula in a cell.
@@ -311,7 +320,7 @@ impl Probe<'_> {
         }
         // how far off values may be is found with what the ranges were found with
         if verdict != Verdict::Rounding {
-            self.see_ends(&cell, extremum, scale);
+            self.see_ends(&cell, extremum);
         }
         Open { cell, verdict, range, derivatives, upper }
     }
@@ -373,11 +382,14 @@ impl Probe<'_> {
             // a value of its own is that of no side
             let is_apart =
                 self.curve.is_at_threshold(point, other) && step > APART * scale.range.max(point.sample.value.abs());
-            let Some(off) = self.certain(point, scale).filter(|_| !is_apart) else { continue };
+            if !point.exists() || is_apart {
+                continue;
+            }
+            let found = Found { value: point.sample.value, off: self.curve.uncertainty(point) };
             if goes_on && step <= scale.gap(GAP) {
-                extremum.see(point.state.t, point.sample.value);
+                extremum.see(point.state.t, found);
             } else {
-                extremum.note_edge(point.state.t, Found { value: point.sample.value, off }, scale);
+                extremum.note_edge(point.state.t, found, scale);
             }
         }
         for value in self.curve.between_points(&cell.a, &cell.b) {
@@ -496,10 +508,11 @@ impl Probe<'_> {
 
     /// Takes note of a turn at a time (s), near a point.
     fn note_turn(&mut self, cell: &Cell, near: &Point, t: f64, extremum: &mut Extremum, scale: Scale) {
-        let Some(off) = self.certain(near, scale) else { return };
+        let off = self.curve.uncertainty(near);
         let settled = self.settled_turn(cell.step, &near.state, t, scale.span);
         let [t, value] = settled.unwrap_or([t, near.sample.value]);
-        extremum.add(Place { t, value: extremum.sign * value, off, kind: Kind::Turn }, scale);
+        let value = extremum.sign * value;
+        extremum.add(Place { t, value, off, least: value - off, kind: Kind::Turn }, scale);
     }
 
     /// The time (s) and the value of a turn that is near a state and a time, as they are whichever way led there; none where it does not settle, or
@@ -540,7 +553,7 @@ impl Probe<'_> {
         if is_small && f64::max(a, b) >= extremum.best - scale.alike() {
             let (point, value) = if b > a { (&cell.b, b) } else { (&cell.a, a) };
             let off = scale.gap(GAP_OF_VALUES);
-            extremum.add(Place { t: point.state.t, value, off, kind: Kind::Seen }, scale);
+            extremum.add(Place { t: point.state.t, value, off, least: value, kind: Kind::Seen }, scale);
             if let Some(top) = self.top_beside(cell, point, extremum.sign, scale) {
                 extremum.add(top, scale);
             }
@@ -577,7 +590,7 @@ impl Probe<'_> {
             apart = finest.max(CLOSER * apart);
         }
         let [value] = self.values_at(cell.step, [t], sign)?;
-        Some(Place { t, value, off: scale.gap(GAP_OF_VALUES), kind: Kind::Turn })
+        Some(Place { t, value, off: scale.gap(GAP_OF_VALUES), least: value, kind: Kind::Turn })
     }
 
     /// The formula at some times (s) of a step, times the sign.

@@ -109,7 +109,7 @@ impl Places {
     /// Whether a time (s) lies on the way over a singular position, in the stretch that was entered last.
     pub fn is_on_bridge(&self, t: f64) -> bool {
         let [from, to] = self.bridge;
-        from < t && t < to
+        from <= t && t <= to
     }
 
     /// Finds the variations at a state of the stretch.

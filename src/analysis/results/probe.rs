@@ -6,7 +6,7 @@ use crate::analysis::follow::Stretch;
 use crate::analysis::state::State;
 use crate::program::Range;
 use crate::tolerances::results::probe::{
-    ALIKE, MOST_CELLS, NARROWER, NOTHING, OPAQUE, ROUNDING, SHORT, SHORTEST, SOLVED,
+    ALIKE, DIFFERENT, MOST_CELLS, NARROWER, NOTHING, OPAQUE, ROUNDING, SHORT, SHORTEST, SOLVED,
 };
 use std::rc::Rc;
 
@@ -102,6 +102,8 @@ pub(super) struct Probe<'r> {
     pub notes: &'r mut Notes,
     /// No cell is cut that is no longer than this (s).
     pub shortest: f64,
+    /// How far values usually differ.
+    pub range: f64,
     /// In a cell that is no longer than this (s) values may be nothing but rounding.
     pub short: f64,
 }
@@ -114,7 +116,17 @@ impl<'r> Probe<'r> {
         (window, span): ([f64; 2], f64),
     ) -> Probe<'r> {
         curve.set_short(SHORT * span);
-        Probe { curve, places, steps, window, entered: None, notes, shortest: SHORTEST * span, short: SHORT * span }
+        Probe {
+            curve,
+            places,
+            steps,
+            window,
+            entered: None,
+            notes,
+            shortest: SHORTEST * span,
+            range: 0.0,
+            short: SHORT * span,
+        }
     }
 
     fn enter(&mut self, step: usize) {
@@ -185,11 +197,20 @@ impl<'r> Probe<'r> {
         let is_known = !self.curve.moves()
             || self.places.signals_are_resolved([cell.a.state.t, cell.b.state.t]) && !self.curve.turns_far(cell);
         if is_known {
-            let (verdict, range) = self.curve.enclose(cell);
-            return match verdict {
-                Verdict::Crosses(guard) if self.is_rounding(cell, guard) => (Verdict::Rounding, range),
-                _ => (verdict, range),
-            };
+            let mut ignored = Vec::new();
+            loop {
+                let (verdict, range) = self.curve.enclose(cell, &ignored);
+                let Verdict::Crosses(guard) = verdict else { return (verdict, range) };
+                if !self.is_rounding(cell, guard) {
+                    return (verdict, range);
+                }
+                let [a, b] = [&cell.a, &cell.b].map(|point| point.sample.value);
+                if (a - b).abs() > DIFFERENT * self.range {
+                    return (Verdict::Rounding, range);
+                }
+                // whatever side it is on, the formula is the same
+                ignored.push(guard);
+            }
         }
         let [low, high] = [f64::NEG_INFINITY, f64::INFINITY];
         (Verdict::Open, Range { low, high, may_switch: true, is_resolved: false, crosses_knots: true })

@@ -27,7 +27,8 @@ pub(super) struct Integral {
     off: f64,
     /// For how long (s) the formula has a value.
     time: f64,
-    /// The integral of the magnitude.
+    /// A value that is usual, and the integral of how far the formula is from that.
+    usual: f64,
     size: f64,
     /// What the cell too short to be cut that holds the most may hold, and its time (s).
     shortest: [f64; 2],
@@ -42,7 +43,7 @@ fn within(found: f64, [least, most]: [f64; 2]) -> f64 {
 impl Integral {
     /// The integral, and how far off it may be.
     pub fn found(&self) -> Found {
-        Found { value: self.sum, off: self.off + ROUNDING * self.size }
+        Found { value: self.sum, off: self.off + ROUNDING * (self.size + (self.usual * self.time).abs()) }
     }
 
     /// For how long (s) the formula has a value.
@@ -59,7 +60,7 @@ impl Integral {
 
     fn add(&mut self, sum: f64, off: f64, time: f64) {
         self.sum += sum;
-        self.size += sum.abs();
+        self.size += (sum - self.usual * time).abs();
         self.off += off;
         self.time += time;
     }
@@ -100,6 +101,7 @@ impl Probe<'_> {
     /// Adds the integral of the formula over some cells. What may be farthest off is made better first, until all together is good enough beside the
     /// integral of how far the formula is from a value that is usual.
     pub(super) fn integrate(&mut self, cells: &[Cell], usual: f64, scale: Scale, integral: &mut Integral) {
+        (integral.usual, self.range) = (usual, scale.range);
         let mut parts = BinaryHeap::new();
         for cell in cells {
             self.take(cell.clone(), &mut parts, integral);

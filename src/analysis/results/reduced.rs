@@ -248,7 +248,7 @@ impl Reduced {
                 let [is_begin, is_end] = edges[&cell.step];
                 let ends = [(is_begin, &cell.a, &cell.b), (is_end, &cell.b, &cell.a)];
                 for (is_edge, point, other) in ends {
-                    if !is_edge || probe.curve.is_at_threshold(point, other) {
+                    if !is_edge || probe.is_apart(cell, point, other, scale) {
                         continue;
                     }
                     let off = probe.curve.uncertainty(point);
