@@ -182,8 +182,8 @@ fn every_module_of_limits_names_its_place() {
 }
 
 /// Numbers of mathematics, which limit nothing.
-const NO_LIMITS: [&str; 9] =
-    ["GOLDEN", "SLOPE", "CURVATURE", "LOBATTO", "LOBATTO_ENDS", "UNIT", "UNITS", "NODES", "NOTHING"];
+const NO_LIMITS: [&str; 10] =
+    ["GOLDEN", "SLOPE", "CURVATURE", "WITHIN", "ENDS", "MIDDLE", "UNIT", "UNITS", "NODES", "NOTHING"];
 
 #[test]
 fn limits_of_the_mathematics_stand_in_their_room() {

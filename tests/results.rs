@@ -910,7 +910,7 @@ fn the_command_line_tells_results_and_writes_them() {
     assert_eq!(std::fs::read_to_string(folder.path().join("r.json")).expect("results"), "{}\n");
     // the interval is the one of the command line
     let (_, told) = run(&["--from", "0", "--to", "0.5"]);
-    assert!(told.starts_with(&format!("high      = {} mm\n", sin(0.5) * 1e3)), "{told}");
+    assert!(told.starts_with("high      = 479.4255386042 mm\n"), "{told}");
     for refused in [["--results", "m.csv"], ["--results", "./m.csv"], ["--results", "r.txt"], ["--results", "m.mech"]] {
         assert_eq!(run(&refused).0, Some(2), "{refused:?}");
     }

@@ -1,8 +1,8 @@
 //! Whether numbers found near a singular position are worth as much as rows are: where a row would be refused, no result is told.
 
 use super::Asked;
-use super::probe::Trouble;
-use super::reduced::{Found, Reduced};
+use super::probe::{Found, Trouble};
+use super::reduced::Reduced;
 use crate::analysis::follow::{Follower, Stretch};
 use crate::analysis::state::Times;
 use crate::ir::ReductionKind;
@@ -51,7 +51,7 @@ impl Asked {
     ) -> Result<Found, Trouble> {
         let found = of.outcome(kind, at);
         match found {
-            Err(trouble @ (Trouble::Missing(_) | Trouble::Unbounded(_))) => Err(trouble),
+            Err(trouble @ (Trouble::Missing(_) | Trouble::Unbounded(_) | Trouble::Uncertain(_))) => Err(trouble),
             _ => self.is_certain(of, (kind, at), near).and(found),
         }
     }

@@ -19,7 +19,7 @@ pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diag
         ),
         Some(Trouble::Window(t)) => (
             format!(
-                "result `{name}` has no value: its window does not lie in the analysis, or ends before it begins, {}",
+                "result `{name}` has no value: its window does not lie in the analysis, or ends before it begins, at {}",
                 at(t)
             ),
             "no time of the analysis",
@@ -47,7 +47,9 @@ pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diag
 /// Times at which a formula has no value, the first of which is told (s), are left out of a result.
 pub fn result_with_gaps(outcome: &Outcome, t: f64) -> Diagnostic {
     let message = format!("result `{}` leaves out the times at which what it speaks of has no value", outcome.name);
-    Diagnostic::new(Code::N0605, message).at(outcome.span, format!("none {}, for the first time", at(t))).datum("t", t)
+    Diagnostic::new(Code::N0605, message)
+        .at(outcome.span, format!("none at {}, for the first time", at(t)))
+        .datum("t", t)
 }
 
 /// Fewer digits of a result are certain than users count on.

@@ -5,8 +5,7 @@
 //! more than what is known are never looked into, and so a pole in the other direction costs nothing and hides nothing.
 
 use super::curve::{Cell, Point, Verdict};
-use super::probe::{Probe, Scale};
-use super::reduced::{Found, NOTHING};
+use super::probe::{Found, Probe, Scale};
 use super::turn::{MOST_LOOKS, Sampled, Settling, Turning};
 use crate::analysis::state::State;
 use crate::math::between;
@@ -100,7 +99,7 @@ impl Extremum {
         let sign = if largest { 1.0 } else { -1.0 };
         let nothing = f64::NEG_INFINITY;
         let (places, unbounded) = (Vec::new(), None);
-        let (best_found, best_at) = (NOTHING, f64::NAN);
+        let (best_found, best_at) = (Found::NOTHING, f64::NAN);
         Extremum { sign, is_timed: false, best: nothing, best_found, best_at, places, largest: nothing, unbounded }
     }
 

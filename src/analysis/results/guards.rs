@@ -96,7 +96,6 @@ impl Guard {
     pub fn is_at_threshold(&self, mark: Mark) -> bool {
         match self.kind {
             Kind::Zero { .. } | Kind::Step { is_whole: false, .. } => mark.side == 0.0,
-            Kind::Comparison { .. } | Kind::Choice { .. } => mark.argument == 0.0,
             _ => false,
         }
     }

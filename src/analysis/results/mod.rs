@@ -29,17 +29,17 @@ use crate::analysis::state::{Kinematics, State, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::expr::{ExprId, Graph, Node, Symbol};
-use crate::ir::{ConstraintSystem, Reduction, ReductionKind};
+use crate::ir::{ConstraintSystem, Outcome, Reduction, ReductionKind};
 use crate::solver::Solver;
 use crate::structure::Determined;
 use crate::tolerances::results::stretches::{CHUNK, FEW, MOST_DIGITS, NUMBERS};
 use certain::Near;
 use curve::Curve;
 use places::Places;
-use probe::Trouble;
+use probe::{Found, Trouble};
 pub use quantities::SmoothFormulas;
 pub use quantity::{Computed, SmoothFormula, moved};
-use reduced::{Found, NOTHING, Reduced};
+use reduced::Reduced;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 pub use turn::{MOST_LOOKS, Sampled, Settling, Turning};
@@ -262,25 +262,43 @@ impl Analysis {
 
     /// The value of a formula of parameters and of reductions that are known; no number where one has none.
     fn value(&self, formula: ExprId, unknown_is_false: bool) -> f64 {
-        self.value_with(formula, unknown_is_false, usize::MAX)
+        self.value_with(formula, unknown_is_false, (usize::MAX, 0.0))
     }
 
-    /// As [`Analysis::value`], with one reduction as far off as it may be.
-    fn value_with(&self, formula: ExprId, unknown_is_false: bool, off: usize) -> f64 {
+    /// As [`Analysis::value`], with one reduction off by so many times what it may be.
+    fn value_with(&self, formula: ExprId, unknown_is_false: bool, (off, times): (usize, f64)) -> f64 {
         let system = self.system();
         let found = |k: usize| {
-            let found = self.found[k].and_then(Result::ok).unwrap_or(NOTHING);
-            found.value + if k == off { found.off } else { 0.0 }
+            let found = self.found[k].and_then(Result::ok).unwrap_or(Found::NOTHING);
+            found.value + if k == off { times * found.off } else { 0.0 }
         };
         value_of(system.graph(), (formula, unknown_is_false), |k| system.params()[k as usize].value, found)
+    }
+
+    /// The value of an outcome, and how far off it may be, by how far off each reduction in it may be; not a number where one that cannot be told
+    /// from zero is divided by.
+    fn found(&self, outcome: &Outcome, needed: &[usize]) -> Found {
+        let (formula, is_false) = (outcome.value, outcome.unknown_is_false);
+        let value = self.value(formula, is_false);
+        let mut off = 0.0;
+        for &k in needed {
+            let [more, less] = [1.0, -1.0].map(|times| self.value_with(formula, is_false, (k, times)) - value);
+            off += f64::max(more.abs(), less.abs());
+            let is_of_time = matches!(self.system().results().reductions[k].kind, ReductionKind::At(_));
+            let is_bent = (more + less).abs() > 0.5 * (more - less).abs();
+            if is_of_time && f64::max(more.abs(), less.abs()) >= value.abs() && is_bent {
+                return Found::NOTHING;
+            }
+        }
+        Found { value, off }
     }
 
     fn answers(&self) -> Answers {
         let system = self.system();
         let mut answers = Answers::default();
         for outcome in &system.results().outcomes {
-            let value = self.value(outcome.value, outcome.unknown_is_false);
             let needed = needed(system.graph(), outcome.value);
+            let Found { value, off } = self.found(outcome, &needed);
             if !value.is_finite() {
                 let trouble = needed.into_iter().find_map(|k| self.found[k].and_then(Result::err));
                 answers.values.push(None);
@@ -288,8 +306,7 @@ impl Analysis {
                 answers.notes.push(errors::result_without_value(outcome, trouble));
                 continue;
             }
-            let off = |&k: &usize| (self.value_with(outcome.value, outcome.unknown_is_false, k) - value).abs();
-            let digits = certain_digits(value, needed.iter().map(off).sum());
+            let digits = certain_digits(value, off);
             // −0 would surprise a reader
             answers.values.push(Some(value + 0.0));
             answers.digits.push(digits);

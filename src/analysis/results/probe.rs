@@ -10,6 +10,18 @@ use crate::tolerances::results::probe::{
 };
 use std::rc::Rc;
 
+/// A number and how far off it may be.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Found {
+    pub value: f64,
+    pub off: f64,
+}
+
+impl Found {
+    /// No number.
+    pub const NOTHING: Found = Found { value: f64::NAN, off: f64::INFINITY };
+}
+
 /// How large a formula is, as far as that decides what is a difference.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Scale {
@@ -139,8 +151,10 @@ impl<'r> Probe<'r> {
     /// Takes note of a time (s) of a step at which the formula has no value. Beside a singular position forces and derivatives by parameters are not
     /// left out: they may be of any size there.
     pub fn miss(&mut self, step: usize, t: f64) {
-        if self.steps[step].bridge.is_some() && self.curve.may_be_singular() {
-            self.notes.meet(Trouble::Uncertain(t));
+        if let Some(bridge) = &self.steps[step].bridge
+            && self.curve.may_be_singular()
+        {
+            self.notes.meet(Trouble::Uncertain(bridge.at));
         }
         self.notes.miss(t);
     }
@@ -194,8 +208,14 @@ impl<'r> Probe<'r> {
         if self.notes.cells > MOST_CELLS {
             self.notes.meet(Trouble::Unknown(cell.a.state.t));
         }
+        // a pole at a singular position shows at neither end of a cell around it
+        let is_within = |t: f64| cell.a.state.t <= t && t <= cell.b.state.t;
+        let bridge = self.steps[cell.step].bridge.as_ref().filter(|_| self.curve.may_be_singular());
+        let may_be_singular = bridge.is_some_and(|bridge| is_within(bridge.at) || bridge.again.is_some_and(is_within));
         let is_known = !self.curve.moves()
-            || self.places.signals_are_resolved([cell.a.state.t, cell.b.state.t]) && !self.curve.turns_far(cell);
+            || !may_be_singular
+                && self.places.signals_are_resolved([cell.a.state.t, cell.b.state.t])
+                && !self.curve.turns_far(cell);
         if is_known {
             let mut ignored = Vec::new();
             loop {

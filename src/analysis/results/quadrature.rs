@@ -2,8 +2,7 @@
 //! derivatives by values within (Lobatto and Kronrod).
 
 use super::curve::{Cell, Point, Verdict};
-use super::probe::{Probe, Scale};
-use super::reduced::Found;
+use super::probe::{Found, Probe, Scale};
 use crate::tolerances::results::quadrature::{ACCURACY, DIVERGES, LOOKS, NOTHING, ROUNDING, SAFETY, SURER};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -187,7 +186,7 @@ impl Probe<'_> {
             self.miss(cell.step, cell.a.state.t);
         }
         if !known.is_empty() {
-            let largest = known.iter().fold(0.0, |largest, value| f64::max(largest, value.abs()));
+            let largest = known.iter().fold(0.0, |largest, value| f64::max(largest, (value - integral.usual).abs()));
             if h * largest > integral.shortest[0] {
                 integral.shortest = [h * largest, cell.a.state.t];
             }

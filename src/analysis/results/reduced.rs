@@ -1,25 +1,14 @@
 //! A formula along the whole motion, and the numbers that are asked of it.
 
-use super::curve::{Cell, Curve, Point};
+use super::curve::{Cell, Curve};
 use super::extremum::Extremum;
 use super::places::Places;
-use super::probe::{Notes, Probe, Scale, Trouble};
+use super::probe::{Found, Notes, Probe, Scale, Trouble};
 use super::quadrature::Integral;
 use crate::analysis::follow::Stretch;
 use crate::analysis::state::{State, shortly_after};
 use crate::ir::ReductionKind;
 use rustc_hash::FxHashMap;
-use std::rc::Rc;
-
-/// No number.
-pub(super) const NOTHING: Found = Found { value: f64::NAN, off: f64::INFINITY };
-
-/// A number and how far off it may be.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Found {
-    pub value: f64,
-    pub off: f64,
-}
 
 /// A formula that is looked at over a part of the motion, and what is found of it.
 pub(super) struct Reduced {
@@ -59,7 +48,7 @@ impl Reduced {
         let ([from, to], is_moment) = (self.window, self.is_moment());
         let mut time = |t: f64| {
             if self.times.iter().all(|(known, _)| known.total_cmp(&t).is_ne()) {
-                self.times.push((t, NOTHING));
+                self.times.push((t, Found::NOTHING));
             }
         };
         match kind {
@@ -211,7 +200,7 @@ impl Reduced {
                 places.solve(stretch, [&stretch.from, &stretch.to], t)
             };
             // of an edge the later side counts, which comes later
-            self.times[k].1 = state.map_or(NOTHING, |state| self.found_at(state, places));
+            self.times[k].1 = state.map_or(Found::NOTHING, |state| self.found_at(state, places));
         }
     }
 

@@ -59,7 +59,7 @@ struct Groups {
 
 struct Grouping<'a> {
     words: &'a [Word],
-    /// By lexeme, and behind the last: where what stands before it ends, comments not counted.
+    /// By lexeme, and behind the last: where what stands before it ends, comments and a comma that is left out not counted.
     ends: Vec<usize>,
     groups: Groups,
     frames: Vec<Frame>,
@@ -77,7 +77,8 @@ fn groups(words: &[Word]) -> Groups {
     };
     let mut ends = vec![0];
     for (k, word) in words.iter().enumerate() {
-        ends.push(if word.class == Class::Comment { ends[k] } else { k + 1 });
+        let is_nothing = word.class == Class::Comment || word.is_last_comma;
+        ends.push(if is_nothing { ends[k] } else { k + 1 });
     }
     let mut grouping = Grouping { words, ends, groups, frames: Vec::new(), operands: vec![None] };
     for k in 0..count {
