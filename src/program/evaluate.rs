@@ -121,7 +121,9 @@ impl Program {
     /// Runs some operations of a stage whose switches are never frozen.
     pub fn run_only(&self, operations: &[Op], registers: &mut Registers) {
         let mut numbers = Numbers { tables: &self.tables, v: registers.values.as_mut_slice() };
-        operations.iter().for_each(|op| op.run(&mut numbers));
+        for op in operations {
+            op.run(&mut numbers);
+        }
     }
 }
 

@@ -125,7 +125,9 @@ impl Ranges {
             }
             needed.sort_unstable();
             own.push(needed.iter().copied().filter(|&number| !is_known[number as usize]).collect());
-            needed.iter().for_each(|&number| is_known[number as usize] = true);
+            for &number in &needed {
+                is_known[number as usize] = true;
+            }
             all.push(needed);
         }
         let point = |value: f64| Interval { low: value, high: value };

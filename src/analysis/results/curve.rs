@@ -131,6 +131,11 @@ pub(super) struct Point {
 }
 
 impl Point {
+    /// The side on which a guard is here.
+    pub fn side(&self, guard: usize) -> f64 {
+        self.marks[guard].side
+    }
+
     /// Whether the formula has a value here.
     pub fn exists(&self) -> bool {
         self.sample.value.is_finite()
@@ -430,7 +435,7 @@ impl Curve {
         self.guards
             .iter()
             .zip(marks)
-            .any(|(guard, (mark, beside))| guard.is_at_threshold(*mark) && mark.side != beside.side)
+            .any(|(guard, (mark, beside))| guard.is_at_threshold(*mark) && mark.is_beside(beside))
     }
 
     /// Computes the formula and its derivatives at a time (s).
@@ -491,7 +496,9 @@ impl Curve {
         (cell.bends, cell.known_over) = (Some(self.bends_of(cell)), cell.length());
         self.set_cell(cell);
         let mut held = vec![false; self.guards.len()];
-        ignored.iter().for_each(|&guard| held[guard] = true);
+        for &guard in ignored {
+            held[guard] = true;
+        }
         loop {
             let range = self.value(cell);
             if range.low == f64::INFINITY {
@@ -501,9 +508,9 @@ impl Curve {
                 self.ranges.find_live(&self.program, 0);
             }
             let (mut verdict, mut is_new) = (Verdict::Smooth, false);
-            for k in 0..self.guards.len() {
+            for (k, held) in held.iter_mut().enumerate() {
                 // a load decides what a force is, although the formula does not hold it
-                if held[k] || !(self.holds_forces || self.guards[k].is_live(&self.ranges)) {
+                if *held || !(self.holds_forces || self.guards[k].is_live(&self.ranges)) {
                     continue;
                 }
                 let marks = [&cell.a, &cell.b].map(|point| point.marks[k]);
@@ -512,7 +519,7 @@ impl Curve {
                     Crossing::Sure => return (Verdict::Crosses(k), range),
                     Crossing::Possible if self.is_monotone(k) => {
                         // what follows from this guard is decided anew
-                        (held[k], is_new) = (true, true);
+                        (*held, is_new) = (true, true);
                         self.guards[k].hold(marks[0].side, &mut self.ranges);
                         break;
                     }
@@ -643,11 +650,6 @@ impl Curve {
     /// How far a guard's argument is from the threshold between two points.
     pub fn distances(&self, guard: usize, [a, b]: [&Point; 2]) -> [f64; 2] {
         self.guards[guard].distances([a.marks[guard], b.marks[guard]], &self.registers)
-    }
-
-    /// The side on which a guard is at a point.
-    pub fn side(&self, guard: usize, point: &Point) -> f64 {
-        point.marks[guard].side
     }
 
     /// The values where an argument of a function that is not smooth somewhere is just there, between two points beside each other, as far as they

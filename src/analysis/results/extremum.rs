@@ -144,7 +144,7 @@ impl Extremum {
         upper < self.best - scale.alike() - gap || upper <= self.largest + gap
     }
 
-    /// Whether values that are no larger than this are of no interest, be it for the time.
+    /// Whether values that are no larger than this cannot be the extremum, nor, where its time is asked for, agree with it.
     fn is_out_of_question(&self, upper: f64, scale: Scale) -> bool {
         upper < self.best - scale.alike() || (!self.is_timed && upper <= self.largest + scale.gap(GAP))
     }
@@ -249,7 +249,7 @@ impl Probe<'_> {
                     continue;
                 }
             }
-            self.look_into(open, extremum, scale, &mut parts);
+            self.look_into(&open, extremum, scale, &mut parts);
             if self.notes.trouble.is_some() || extremum.unbounded.is_some() {
                 return scale;
             }
@@ -272,7 +272,7 @@ impl Probe<'_> {
                 return;
             }
             if next.upper >= extremum.best - scale.alike() {
-                self.look_into(next, extremum, scale, &mut parts);
+                self.look_into(&next, extremum, scale, &mut parts);
                 parts.reverse();
                 open.append(&mut parts);
             }
@@ -325,7 +325,7 @@ impl Probe<'_> {
     }
 
     /// Looks into a cell: takes note of the extremum in it, or leaves its parts.
-    fn look_into(&mut self, open: Open, extremum: &mut Extremum, scale: Scale, parts: &mut Vec<Open>) {
+    fn look_into(&mut self, open: &Open, extremum: &mut Extremum, scale: Scale, parts: &mut Vec<Open>) {
         let cell = &open.cell;
         if self.is_shortest(cell) {
             self.close(cell, open.range, extremum, scale);
@@ -346,7 +346,7 @@ impl Probe<'_> {
                 self.miss(cell.step, cell.a.state.t);
                 return;
             }
-            Verdict::Smooth if cell.a.exists() && cell.b.exists() && self.is_done(&open, extremum, scale) => return,
+            Verdict::Smooth if cell.a.exists() && cell.b.exists() && self.is_done(open, extremum, scale) => return,
             _ => {
                 let Some(halves) = self.halve(cell) else { return };
                 if cell.length() <= self.short && halves[0].b.exists() {
@@ -379,8 +379,7 @@ impl Probe<'_> {
         let step = (ends[0].sample.value - ends[1].sample.value).abs();
         for (point, other) in [(&cell.a, &cell.b), (&cell.b, &cell.a)] {
             // a value of its own is that of no side
-            let is_apart =
-                self.curve.is_at_threshold(point, other) && step > APART * scale.range.max(point.sample.value.abs());
+            let is_apart = self.curve.is_at_threshold(point, other) && step > scale.gap(APART);
             if !point.exists() || is_apart {
                 continue;
             }

@@ -47,6 +47,13 @@ pub(super) struct Mark {
     sign: f64,
 }
 
+impl Mark {
+    /// Whether another one is on another side.
+    pub fn is_beside(&self, other: &Mark) -> bool {
+        self.side.total_cmp(&other.side).is_ne()
+    }
+}
+
 /// How a guard is in a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Crossing {
@@ -177,7 +184,7 @@ impl Guard {
     pub fn value_between(&self, [a, b]: [Mark; 2], usual: f64) -> Option<f64> {
         let is_near = f64::max(a.argument.abs(), b.argument.abs()) <= NEAR * usual;
         match self.kind {
-            Kind::Zero { .. } => (a.side != b.side && is_near).then_some(0.0),
+            Kind::Zero { .. } => (a.is_beside(&b) && is_near).then_some(0.0),
             Kind::Unit { .. } => (a.side.max(b.side) > 0.0 && is_near).then_some(a.sign),
             _ => None,
         }

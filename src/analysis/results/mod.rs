@@ -30,6 +30,7 @@ use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::expr::{ExprId, Graph, Node, Symbol};
 use crate::ir::{ConstraintSystem, Outcome, Reduction, ReductionKind};
+use crate::math::log10;
 use crate::solver::Solver;
 use crate::structure::Determined;
 use crate::tolerances::results::stretches::{CHUNK, FEW, MOST_DIGITS, NUMBERS};
@@ -217,7 +218,9 @@ impl Analysis {
         let [from, to] = self.asked.interval;
         let span = to - from;
         if let Some(steps) = &self.steps {
-            all.iter_mut().for_each(|reduced| reduced.look(steps, places, span));
+            for reduced in all.iter_mut() {
+                reduced.look(steps, places, span);
+            }
             return Ok(());
         }
         let mut motion = self.asked.motion(Times::listed(from, vec![to]));
@@ -232,13 +235,17 @@ impl Analysis {
             }
             if is_end && span <= 0.0 {
                 places.enter_where(&motion.switches());
-                all.iter_mut().for_each(|reduced| reduced.look_at_start(motion.here(), places));
+                for reduced in all.iter_mut() {
+                    reduced.look_at_start(motion.here(), places);
+                }
                 return Ok(());
             }
             // steps towards a singular position are replaced once the way over it is known
             let is_full = steps.len() >= CHUNK.min(1 + NUMBERS / (1 + motion.here().q.len()));
             if is_end || (is_full && motion.was_clear_here()) {
-                all.iter_mut().for_each(|reduced| reduced.look(&steps, places, span));
+                for reduced in all.iter_mut() {
+                    reduced.look(&steps, places, span);
+                }
                 if is_end {
                     self.steps = is_whole.then_some(steps);
                     return Ok(());
@@ -327,7 +334,7 @@ fn certain_digits(value: f64, off: f64) -> u32 {
     if part.is_nan() {
         return 0;
     }
-    let digits = (-(2.0 * part).log10()).floor();
+    let digits = (-log10(2.0 * part)).floor();
     // between 0 and 17
     #[allow(clippy::cast_sign_loss)]
     let digits = digits.clamp(0.0, f64::from(MOST_DIGITS)) as u32;

@@ -263,7 +263,7 @@ impl<'r> Probe<'r> {
     /// The parts of a cell before and behind the time at which a guard crosses its threshold, and the shortest cell between. A part is missing
     /// where the crossing is at that end of the cell. None where the motion cannot be solved for.
     pub fn cut_at_crossing(&mut self, cell: &Cell, guard: usize) -> Option<[Option<Cell>; 3]> {
-        let side = self.curve.side(guard, &cell.a);
+        let side = cell.a.side(guard);
         let mut within = cell.clone();
         let mut is_by_halves = false;
         while !self.is_shortest(&within) {
@@ -283,7 +283,7 @@ impl<'r> Probe<'r> {
                 if t > within.a.state.t && t < within.b.state.t {
                     let point = self.point(&within, t)?;
                     let [before, behind] = within.cut(self.curve, &point);
-                    within = if self.curve.side(guard, &point).total_cmp(&side).is_eq() { behind } else { before };
+                    within = if point.side(guard).total_cmp(&side).is_eq() { behind } else { before };
                 }
             }
             is_by_halves = is_straight && within.length() > 0.5 * h;

@@ -11,8 +11,8 @@ use std::collections::BinaryHeap;
 /// from −1 to 1, with the weights of both. Source: W. Gander, W. Gautschi, *Adaptive Quadrature – Revisited*, BIT 40, 2000.
 const WITHIN: [[f64; 3]; 4] = [
     [-0.816_496_580_927_726, 0.0, 72.0 / 245.0],
-    [-0.447_213_595_499_957_93, 5.0 / 6.0, 125.0 / 294.0],
-    [0.447_213_595_499_957_93, 5.0 / 6.0, 125.0 / 294.0],
+    [-0.447_213_595_499_957_9, 5.0 / 6.0, 125.0 / 294.0],
+    [0.447_213_595_499_957_9, 5.0 / 6.0, 125.0 / 294.0],
     [0.816_496_580_927_726, 0.0, 72.0 / 245.0],
 ];
 const ENDS: [f64; 2] = [1.0 / 6.0, 11.0 / 210.0];
@@ -130,7 +130,9 @@ impl Probe<'_> {
         }
         let mut parts = parts.into_vec();
         parts.sort_unstable_by(|a, b| a.from.total_cmp(&b.from));
-        parts.into_iter().for_each(|part| integral.add(part.found, part.off, part.length));
+        for part in parts {
+            integral.add(part.found, part.off, part.length);
+        }
     }
 
     /// Takes in a cell: what is known of the integral over it, or over its parts where a guard crosses its threshold in it.

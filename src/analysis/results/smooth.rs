@@ -45,8 +45,7 @@ pub(super) struct Smooth {
     /// Of each, where its value and its time derivatives are: at the order that its value has as a coordinate, and behind it.
     towers: Vec<[Option<Register>; 4]>,
     /// Of each, the order at which it stands, and whether it is a square.
-    orders: Vec<usize>,
-    is_square: Vec<bool>,
+    kinds: Vec<(usize, bool)>,
     /// The coordinates that they hold.
     coordinates: Vec<usize>,
     /// Those that are turns, and all turns that there are.
@@ -73,17 +72,17 @@ impl Smooth {
             known.insert(of, if is_square { own.unary(Unary::Sqrt, stands) } else { stands });
             towers.push(tower(graph, value, order, system.jerk().is_some()));
         }
-        let orders = found.iter().map(|found| usize::from(found.order)).collect();
-        let is_square = found.iter().map(|found| found.is_square).collect();
+        let kinds: Vec<(usize, bool)> = found.iter().map(|found| (usize::from(found.order), found.is_square)).collect();
         let wanted = [&[value], others].concat();
         own.import(graph, &wanted, &mut known, Graph::symbol);
         let formulas = wanted.iter().map(|id| known[id]).collect();
-        (own, formulas, Smooth::new(graph, (&towers, orders, is_square), system))
+        (own, formulas, Smooth::new(graph, &towers, kinds, system))
     }
 
     fn new(
         graph: &Graph,
-        (towers, orders, is_square): (&[[Option<ExprId>; 4]], Vec<usize>, Vec<bool>),
+        towers: &[[Option<ExprId>; 4]],
+        kinds: Vec<(usize, bool)>,
         system: &ConstraintSystem,
     ) -> Smooth {
         let formulas: Vec<ExprId> = towers.iter().flatten().flatten().copied().collect();
@@ -99,7 +98,7 @@ impl Smooth {
         let is_turn = |&k: &usize| system.coordinates()[k].kind == CoordinateKind::Angle;
         let turns = coordinates.iter().copied().filter(is_turn).collect();
         let all_turns = (0..system.coordinates().len()).filter(is_turn).collect();
-        Smooth { program, registers, towers, orders, is_square, coordinates, turns, all_turns }
+        Smooth { program, registers, towers, kinds, coordinates, turns, all_turns }
     }
 
     /// How many there are.
@@ -109,12 +108,13 @@ impl Smooth {
 
     /// Of one that is a square, and so is never below zero: the order at which it stands.
     pub fn square(&self, k: usize) -> Option<usize> {
-        self.is_square[k].then_some(self.orders[k])
+        let (order, is_square) = self.kinds[k];
+        is_square.then_some(order)
     }
 
     /// The order at which one of them stands: it has no derivatives below.
     pub fn order(&self, k: usize) -> usize {
-        self.orders[k]
+        self.kinds[k].0
     }
 
     /// Computes all of them at a state whose coordinates are taken times a factor.
