@@ -293,7 +293,8 @@ impl Analysis {
             off += f64::max(more.abs(), less.abs());
             let is_of_time = matches!(self.system().results().reductions[k].kind, ReductionKind::At(_));
             let is_bent = (more + less).abs() > 0.5 * (more - less).abs();
-            if is_of_time && f64::max(more.abs(), less.abs()) >= value.abs() && is_bent {
+            // whichever way it is off: what goes to one side alone is another branch
+            if is_of_time && f64::min(more.abs(), less.abs()) >= 0.5 * value.abs() && is_bent {
                 return Found::NOTHING;
             }
         }
