@@ -82,10 +82,7 @@ impl<'a> Checker<'a> {
         if let Ok(reduced) = self.call_of_reduction(e, (name, window), arguments, context) {
             return reduced;
         }
-        if let Some(window) = window {
-            self.report(errors::window_of_no_reduction(name, window.span));
-            return None;
-        }
+        self.refuse_window(name, window)?;
         if self.is_of_language(&name.text) {
             if self.is_declared_though_taken(name) {
                 return None;

@@ -185,10 +185,7 @@ impl Checker<'_> {
             self.report(errors::load_on_no_quantity(name, on.span, &fault));
             return None;
         }
-        if let Some(window) = window {
-            self.report(errors::window_of_no_reduction(called, window.span));
-            return None;
-        }
+        self.refuse_window(called, window.as_deref())?;
         let value = self.quantity(bare, called, arguments, &driven("a load", true))?;
         if !self.a_body_moves([value.id; 2]) {
             self.report(errors::load_on_no_body(name, on.span));

@@ -235,10 +235,7 @@ impl Checker<'_> {
             self.no_point(e);
             return None;
         }
-        if let Some(window) = window {
-            self.report(errors::window_of_no_reduction(name, window.span));
-            return None;
-        }
+        self.refuse_window(name, window)?;
         let [first, second] = self.two_arguments(e, name, arguments)?;
         if name.text == "polar" {
             return self.polar(first, second, context);

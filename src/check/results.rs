@@ -136,10 +136,7 @@ impl Checker<'_> {
             self.report(errors::argument_count(name, Some(&word.word), e.span, word.takes, arguments.len()));
             return None;
         }
-        if let Some(window) = window.filter(|_| word.takes_time()) {
-            self.report(errors::window_of_no_reduction(written, window.span));
-            return None;
-        }
+        self.refuse_window(written, window.filter(|_| word.takes_time()))?;
         let conditions = self.model.conditions.len();
         let inner = Context { place: "a reduction", results: true, ..measure_context(context.judged) };
         let of = self.number(&arguments[0], &inner);
@@ -189,6 +186,13 @@ impl Checker<'_> {
     /// Whether a formula holds a number for the whole analysis.
     pub(super) fn holds_reduction(&self, id: ExprId) -> bool {
         self.holds_named(id, |named| matches!(named, Named::Reduction(_)))
+    }
+
+    /// Reports the window of a call that takes none.
+    pub(super) fn refuse_window(&mut self, called: &Name, window: Option<&Window>) -> Option<()> {
+        let Some(window) = window else { return Some(()) };
+        self.report(errors::window_of_no_reduction(called, window.span));
+        None
     }
 
     /// The bounds of the part of the analysis that a reduction takes.

@@ -107,3 +107,10 @@ impl<const N: usize> Halving<N> {
         true
     }
 }
+
+/// Returns the upper median of some numbers; 0 if there are none.
+#[must_use]
+pub fn median(mut values: Vec<f64>) -> f64 {
+    let middle = values.len() / 2;
+    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
+}

@@ -13,6 +13,7 @@ use super::seen::Seen;
 use super::{Checked, Compiled};
 use crate::analysis::{Follower, Horizon, Started, Times};
 use crate::diag::{Code, Diagnostic, Diagnostics, readable};
+use crate::math::median;
 use crate::scene::{
     Anchor, DrawnLine, Gaps, Motion, Pen, RETRACE_TOLERANCE, Track, Vector, bounds, distance, is_finite, length,
 };
@@ -509,12 +510,6 @@ impl Refined {
         motion.off = off;
         motion
     }
-}
-
-/// The middle one of some numbers, in their order.
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// Subdivides the intervals of a motion that are not resolved, after a look between their ends. What is drawn well there stays as it is.

@@ -1,7 +1,8 @@
 //! Whether numbers found near a singular position are worth as much as rows are: where a row would be refused, no result is told.
 
 use super::Asked;
-use super::probe::{Found, Trouble};
+use super::curve::Found;
+use super::probe::Trouble;
 use super::reduced::Reduced;
 use crate::analysis::follow::{Follower, Stretch};
 use crate::analysis::state::Times;

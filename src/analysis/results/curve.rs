@@ -142,6 +142,18 @@ impl Point {
     }
 }
 
+/// A number and how far off it may be.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Found {
+    pub value: f64,
+    pub off: f64,
+}
+
+impl Found {
+    /// No number.
+    pub const NOTHING: Found = Found { value: f64::NAN, off: f64::INFINITY };
+}
+
 /// What lies between two points of a step of the motion.
 #[derive(Clone)]
 pub(super) struct Cell {
@@ -262,7 +274,9 @@ impl Curve {
         let roots: Vec<Register> =
             (0..own).map(|order| places[if order == 0 { 0 } else { first + order - 1 }]).collect();
         let operations = program.operations_behind(&[&roots[..], &values[1..]].concat(), Stage::Measures);
-        let mut curve = Curve {
+        Curve {
+            largest: vec![[0.0; 4]; moving.len()],
+            largest_arguments: vec![0.0; guards.len()],
             ranges: Ranges::new(&program, &registers, &places, Stage::Measures, false),
             program,
             registers,
@@ -279,13 +293,8 @@ impl Curve {
             holds_forces,
             short: 0.0,
             loads,
-            largest: Vec::new(),
-            largest_arguments: Vec::new(),
             looks: 0,
-        };
-        curve.largest = vec![[0.0; 4]; curve.moving.len()];
-        curve.largest_arguments = vec![0.0; curve.guards.len()];
-        curve
+        }
     }
 
     /// Takes cells for short that are no longer than this (s).
@@ -419,6 +428,11 @@ impl Curve {
         let Range { low, high, .. } = self.ranges.range(&self.program, &self.registers, 0);
         let off = 0.5 * (high - low);
         if off.is_nan() { f64::INFINITY } else { off }
+    }
+
+    /// The value at a point, and how far off rounding may be in it.
+    pub fn found(&mut self, point: &Point) -> Found {
+        Found { value: point.sample.value, off: self.uncertainty(point) }
     }
 
     /// Whether rounding alone decides at a point on which side of its threshold a guard is.

@@ -4,11 +4,11 @@
 //! or falls all the way through it, or until its slope passes zero in it just once, at a place that is then solved for. Cells that cannot hold
 //! more than what is known are never looked into, and so a pole in the other direction costs nothing and hides nothing.
 
-use super::curve::{Cell, Point, Verdict};
-use super::probe::{Found, Probe, Scale};
+use super::curve::{Cell, Found, Point, Verdict};
+use super::probe::{Probe, Scale};
 use super::turn::{MOST_LOOKS, Sampled, Settling, Turning};
 use crate::analysis::state::State;
-use crate::math::between;
+use crate::math::{between, median};
 use crate::program::Range;
 use crate::tolerances::results::curve::KNOWN;
 use crate::tolerances::results::extremum::{
@@ -211,12 +211,7 @@ impl Extremum {
     /// of a few.
     fn spread(&self, samples: &[f64], rounding: f64) -> f64 {
         let off = |value: &f64| (self.best - self.sign * value).abs();
-        let mut off: Vec<f64> = samples.iter().map(off).filter(|off| *off > rounding && off.is_finite()).collect();
-        if off.is_empty() {
-            return 0.0;
-        }
-        let middle = off.len() / 2;
-        *off.select_nth_unstable_by(middle, f64::total_cmp).1
+        median(samples.iter().map(off).filter(|off| *off > rounding && off.is_finite()).collect())
     }
 }
 
@@ -285,8 +280,7 @@ impl Probe<'_> {
             if !point.exists() {
                 self.miss(cell.step, point.state.t);
             } else if extremum.sign * point.sample.value > extremum.best && !self.curve.is_at_threshold(point, other) {
-                let off = self.curve.uncertainty(point);
-                extremum.see(point.state.t, Found { value: point.sample.value, off });
+                extremum.see(point.state.t, self.curve.found(point));
             }
         }
     }
@@ -383,7 +377,7 @@ impl Probe<'_> {
             if !point.exists() || is_apart {
                 continue;
             }
-            let found = Found { value: point.sample.value, off: self.curve.uncertainty(point) };
+            let found = self.curve.found(point);
             if goes_on && step <= scale.gap(GAP) {
                 extremum.see(point.state.t, found);
             } else {

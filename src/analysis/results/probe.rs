@@ -10,18 +10,6 @@ use crate::tolerances::results::probe::{
 };
 use std::rc::Rc;
 
-/// A number and how far off it may be.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Found {
-    pub value: f64,
-    pub off: f64,
-}
-
-impl Found {
-    /// No number.
-    pub const NOTHING: Found = Found { value: f64::NAN, off: f64::INFINITY };
-}
-
 /// How large a formula is, as far as that decides what is a difference.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Scale {

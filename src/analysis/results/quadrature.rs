@@ -1,8 +1,8 @@
 //! Integrals over time, by formulas that take value and derivatives of both ends of a cell (Euler and Maclaurin); of what has no
 //! derivatives by values within (Lobatto and Kronrod).
 
-use super::curve::{Cell, Point, Verdict};
-use super::probe::{Found, Probe, Scale};
+use super::curve::{Cell, Found, Point, Verdict};
+use super::probe::{Probe, Scale};
 use crate::tolerances::results::quadrature::{ACCURACY, DIVERGES, LOOKS, NOTHING, ROUNDING, SAFETY, SURER};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

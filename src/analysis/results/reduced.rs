@@ -1,14 +1,14 @@
 //! A formula along the whole motion, and the numbers that are asked of it.
 
-use super::curve::{Cell, Curve};
+use super::curve::{Cell, Curve, Found};
 use super::extremum::Extremum;
 use super::places::Places;
-use super::probe::{Found, Notes, Probe, Scale, Trouble};
+use super::probe::{Notes, Probe, Scale, Trouble};
 use super::quadrature::Integral;
 use crate::analysis::follow::Stretch;
 use crate::analysis::state::{State, shortly_after};
 use crate::ir::ReductionKind;
-use rustc_hash::FxHashMap;
+use crate::math::median;
 
 /// A formula that is looked at over a part of the motion, and what is found of it.
 pub(super) struct Reduced {
@@ -145,7 +145,7 @@ impl Reduced {
     /// The value at a state.
     fn found_at(&mut self, state: State, places: &mut Places) -> Found {
         let point = self.curve.at(state, places);
-        Found { value: point.sample.value, off: self.curve.uncertainty(&point) }
+        self.curve.found(&point)
     }
 
     /// Whether it changes with the motion, and not with time alone.
@@ -178,9 +178,7 @@ impl Reduced {
         let low = finite().copied().fold(f64::INFINITY, f64::min);
         let high = finite().copied().fold(f64::NEG_INFINITY, f64::max);
         // what a pole makes of a few values says nothing of the others' rounding
-        let mut weights: Vec<f64> = self.weights.iter().chain(finite()).map(|weight| weight.abs()).collect();
-        let middle = weights.len() / 2;
-        let weight = if weights.is_empty() { 0.0 } else { *weights.select_nth_unstable_by(middle, f64::total_cmp).1 };
+        let weight = median(self.weights.iter().chain(finite()).map(|weight| weight.abs()).collect());
         Scale { range: f64::max(high - low, 0.0), weight, span }
     }
 
@@ -217,8 +215,6 @@ impl Reduced {
             return;
         }
         let scale = self.scale(span);
-        let edge = |cell: &Cell| (cell.step, self.edges(&steps[cell.step], [cell.a.state.t, cell.b.state.t]));
-        let edges: FxHashMap<usize, [bool; 2]> = cells.iter().map(edge).collect();
         let window = self.window;
         let Reduced { curve, notes, extrema, integral, samples, scales, .. } = self;
         let [of_least, of_largest, of_integral] = notes;
@@ -234,27 +230,21 @@ impl Reduced {
             let Some(extremum) = extremum else { continue };
             let mut probe = Probe::new((&mut *curve, notes), &mut *places, steps, (window, span));
             for cell in &cells {
-                let [is_begin, is_end] = edges[&cell.step];
+                let [is_begin, is_end] = edges(&steps[cell.step], [cell.a.state.t, cell.b.state.t], window);
                 let ends = [(is_begin, &cell.a, &cell.b), (is_end, &cell.b, &cell.a)];
                 for (is_edge, point, other) in ends {
                     if !is_edge || probe.is_apart(cell, point, other, scale) {
                         continue;
                     }
-                    let off = probe.curve.uncertainty(point);
-                    extremum.note_edge(point.state.t, Found { value: point.sample.value, off }, scale);
+                    let found = probe.curve.found(point);
+                    extremum.note_edge(point.state.t, found, scale);
                 }
             }
             *kept = Some(probe.search(&cells, samples, extremum, scale));
         }
         if let Some(integral) = integral {
             let mut probe = Probe::new((curve, of_integral), places, steps, (window, span));
-            let middle = samples.len() / 2;
-            let usual = if samples.is_empty() {
-                0.0
-            } else {
-                *samples.clone().select_nth_unstable_by(middle, f64::total_cmp).1
-            };
-            probe.integrate(&cells, usual, scale, integral);
+            probe.integrate(&cells, median(samples.clone()), scale, integral);
         }
     }
 
@@ -270,7 +260,7 @@ impl Reduced {
         if to <= from {
             return None;
         }
-        let [is_begin, is_end] = self.edges(step, [from, to]);
+        let [is_begin, is_end] = edges(step, [from, to], self.window);
         let ends = [(&step.from, from, is_begin), (&step.to, to, is_end)];
         let mut points = ends.into_iter().map(|(state, t, is_edge)| {
             let state = if state.t.total_cmp(&t).is_ne() {
@@ -298,12 +288,12 @@ impl Reduced {
         }
         Some(Cell::new(number, &from, &to))
     }
+}
 
-    /// Whether the formula is looked at no farther than from one time of a step to another (s), or differs beyond.
-    fn edges(&self, step: &Stretch, [from, to]: [f64; 2]) -> [bool; 2] {
-        [
-            step.begins_at_edge && from <= step.from.t || from <= self.window[0],
-            step.ends_at_edge && to >= step.to.t || to >= self.window[1],
-        ]
-    }
+/// Whether the formula differs before and behind a part of a step, from one time to another (s), or is not looked at there: beyond its window.
+fn edges(step: &Stretch, [from, to]: [f64; 2], window: [f64; 2]) -> [bool; 2] {
+    [
+        step.begins_at_edge && from <= step.from.t || from <= window[0],
+        step.ends_at_edge && to >= step.to.t || to >= window[1],
+    ]
 }
