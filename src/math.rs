@@ -33,7 +33,7 @@ mod without_branches {
 pub use ahead::{weigh, weigh_slopes};
 pub use curve::{about, along, between, cubic, farthest, parabola, predicted, quintic, value_and_slopes};
 pub use neighbours::bisect;
-pub use search::{GOLDEN, GoldenSection, Halving, boundary, median};
+pub use search::{GOLDEN, GoldenSection, Halving, boundary, close_in, median};
 pub use sin_cos::{A_MILLION, sin_cos};
 pub use sin_cos_of_each::sin_cos_of_each;
 pub use vectors::{Vectors, WIDE, to_next_line};

@@ -12,6 +12,47 @@ pub fn boundary(low: f64, high: f64, mut is_beyond: impl FnMut(f64) -> bool) -> 
     0.5 * (low + high)
 }
 
+/// Where something is crossed between two places, and how far off each of them is, by secants: the last place before it and the first one
+/// behind, of those that are multiples of `grid`, a power of two, or of all doubles where that is 0; so they do not depend on where the search
+/// began. `look` says of a place whether it is behind, and how far off: any measure that goes to zero at the crossing, or not a number where that
+/// is not known; or nothing, which ends the search. Where secants do not close in, halves do.
+///
+/// Source: the Illinois method, M. Dowell and P. Jarratt, *A modified regula falsi method*, BIT 11, 1971.
+pub fn close_in(
+    [mut before, mut behind]: [[f64; 2]; 2],
+    grid: f64,
+    mut look: impl FnMut(f64) -> Option<(bool, f64)>,
+) -> Option<[f64; 2]> {
+    // the first and the last place that lie strictly between two others
+    let inner = |from: f64, to: f64| {
+        if grid > 0.0 && grid > 0.5 * f64::EPSILON * f64::max(from.abs(), to.abs()) {
+            [((from / grid).floor() + 1.0) * grid, ((to / grid).ceil() - 1.0) * grid]
+        } else {
+            [from.next_up(), to.next_down()]
+        }
+    };
+    let on_grid = |place: f64| if grid > 0.0 { (place / grid).round() * grid } else { place };
+    let (mut widths, mut last) = ([f64::INFINITY; 2], None);
+    loop {
+        let [[from, off], [to, off_behind]] = [before, behind];
+        let (width, [first, end]) = (to - from, inner(from, to));
+        if first > end {
+            return Some([from, to]);
+        }
+        let secant = from + width * (off / (off + off_behind));
+        let is_closing = secant.is_finite() && width <= 0.5 * widths[1];
+        let place = on_grid(if is_closing { secant } else { 0.5 * from + 0.5 * to }).clamp(first, end);
+        let (is_behind, off_here) = look(place)?;
+        let (end, other) = if is_behind { (&mut behind, &mut before) } else { (&mut before, &mut behind) };
+        *end = [place, off_here];
+        if last.replace(is_behind) == Some(is_behind) {
+            // the end that stays is counted as nearer, so that it does not stay for ever
+            other[1] *= 0.5;
+        }
+        widths = [width, widths[0]];
+    }
+}
+
 /// An interval that is sectioned for the least value of a function.
 #[derive(Clone, Copy, Debug)]
 pub struct GoldenSection {

@@ -1,7 +1,7 @@
 //! Bisection, golden section and halving: tests. Those of what is emitted stand apart from it.
 
 use super::neighbours::{bisect, shortly_after};
-use super::search::{GoldenSection, Halving, boundary};
+use super::search::{GoldenSection, Halving, boundary, close_in};
 use std::convert::Infallible;
 
 #[test]
@@ -19,6 +19,44 @@ fn neighbours_are_found() {
         f64::MAX.to_bits(),
         "a middle beyond all numbers"
     );
+}
+
+#[test]
+fn secants_close_in_on_neighbours() {
+    let roots: [(fn(f64) -> f64, [f64; 2], u32); 6] = [
+        (|x| x - 0.3, [0.0, 1.0], 6),
+        (|x| x * x - 2.0, [0.0, 2.0], 14),
+        (|x| (x - 0.7).powi(3), [0.0, 1.0], 130),
+        (|x| if x < 0.123 { -1.0 } else { 1e-9 }, [0.0, 1.0], 160),
+        (|x| if x < 0.123 { f64::NAN } else { x }, [0.0, 1.0], 60),
+        (|x| x.tan(), [1.0, 4.0], 14),
+    ];
+    for (k, (f, ends, most)) in roots.into_iter().enumerate() {
+        let mut looks = 0;
+        let is_behind = |x: f64| {
+            if k == 4 {
+                x >= 0.123
+            } else if k == 5 {
+                x >= std::f64::consts::PI
+            } else {
+                f(x) >= 0.0
+            }
+        };
+        let ends = ends.map(|x| [x, f(x).abs()]);
+        let found = close_in(ends, 0.0, |x| {
+            looks += 1;
+            Some((is_behind(x), f(x).abs()))
+        });
+        let [low, high] = found.unwrap_or_default();
+        assert!(!is_behind(low) && is_behind(high) && low.next_up() >= high, "{k}: {low} {high}");
+        assert!(looks <= most, "{k}: {looks}");
+    }
+    for ends in [[0.0, 1.0], [0.3, 7.0], [-0.1, 0.6]] {
+        let ends = ends.map(|x| [x, f64::abs(x - 0.51)]);
+        let coarse = close_in(ends, 0.25, |x| Some((x >= 0.51, (x - 0.51).abs()))).unwrap_or_default();
+        assert_eq!(coarse.to_vec(), [0.5, f64::min(0.75, ends[1][0])], "{ends:?}");
+    }
+    assert!(close_in([[0.0, 1.0], [1.0, 1.0]], 0.0, |_| None).is_none());
 }
 
 #[test]

@@ -45,8 +45,6 @@ pub mod probe {
     pub const ALIKE: f64 = 1e-9;
     /// What rounding makes of a value.
     pub const ROUNDING: f64 = 32.0 * f64::EPSILON;
-    /// A cell in which a guard crosses its threshold is narrowed by this factor to both sides of where a straight line does.
-    pub const NARROWER: f64 = 1e-3;
     /// What is as little as this is nothing: rounding makes as much of the root of the least square.
     pub const NOTHING: f64 = 1e-150;
 }
@@ -80,7 +78,7 @@ pub mod extremum {
     pub const APART: f64 = 1e-6;
     /// A formula is looked at so far from where it may grow without bound, in shortest cells; and it does so where what it gains from one of these
     /// places to the next, by equal factors, does not become less than this part.
-    pub const TOWARDS: [f64; 2] = [16.0, 256.0];
+    pub const TOWARDS: [f64; 3] = [16.0, 256.0, 4_096.0];
     pub const CONVERGES: f64 = 0.7;
     /// An edge so little behind an extremum, as a part of the span, is the extremum, where the value is the same.
     pub const BESIDE: f64 = 1e-7;
@@ -120,6 +118,8 @@ pub mod stretches {
     pub const NUMBERS: usize = 4_000_000;
     /// Fewer certain digits than this are told of; more than the other there are not.
     pub const FEW: u32 = 6;
+    /// A value of which nothing is certain is 0, where it may be off by no more than this part of the largest that was seen.
+    pub const SMALL: f64 = 1e-6;
     pub const MOST_DIGITS: u32 = 17;
 }
 
@@ -133,8 +133,19 @@ pub mod quadrature {
     pub const SURER: f64 = 1e4;
     /// How far off all cells are together is looked at whenever one of so many has been cut.
     pub const LOOKS: usize = 16;
-    /// An integral of which the shortest cells hold such a part has no end.
-    pub const DIVERGES: f64 = 1e-3;
+    /// An integral of which shortest cells hold such a part has no end, if the formula grows fast enough into these.
+    pub const DIVERGES: f64 = 1e-9;
+    /// How a formula grows towards a shortest cell is looked at so many of its lengths away.
+    pub const FARTHER: [f64; 2] = [64.0, 256.0];
+    /// An integral has no end where the formula goes with a power of the distance from a pole that is no lower than this.
+    pub const STEEPEST: f64 = 0.95;
+    /// So near to a pole, as a part of the span, a formula goes with one power of the distance: halving that changes the factor by no more than
+    /// `ALIKE`, which is no less than `LEAST_GROWTH`. Nearer by, rounding of times shows.
+    pub const BESIDE_POLE: f64 = 1e-8;
+    pub const ALIKE: f64 = 1e-5;
+    pub const LEAST_GROWTH: f64 = 1.03;
+    /// What is unknown of an integral beside a pole, as a part of what the shortest cell may hold.
+    pub const PART_OF_POLE: f64 = 0.02;
     /// As little as that is nothing.
     pub const NOTHING: f64 = 1e-290;
     /// What rounding makes of a value.

@@ -9,10 +9,11 @@ use super::turn::Sampled;
 use crate::analysis::state::State;
 use crate::expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};
 use crate::ir::{ConstraintSystem, CoordinateKind};
-use crate::math::between;
+use crate::math::{between, log10};
 use crate::program::{Inputs, Op, Program, Range, Ranges, Register, Registers, Stage};
 use crate::tolerances::results::curve::{EVERY, KNOWN, LESS, MOVED, NOISE, NOTHING, ON_BRIDGE, ROUNDING, SAFETY, WAYS};
 use crate::tolerances::results::loads::UNTOLD;
+use crate::tolerances::results::stretches::MOST_DIGITS;
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
 
@@ -152,6 +153,19 @@ pub(super) struct Found {
 impl Found {
     /// No number.
     pub const NOTHING: Found = Found { value: f64::NAN, off: f64::INFINITY };
+
+    /// How many significant digits are certain; 0 where it cannot be told from zero.
+    pub fn certain_digits(self) -> u32 {
+        let part = self.off / self.value.abs();
+        if part.is_nan() {
+            return 0;
+        }
+        let digits = (-log10(2.0 * part)).floor();
+        // between 0 and 17
+        #[allow(clippy::cast_sign_loss)]
+        let digits = digits.clamp(0.0, f64::from(MOST_DIGITS)) as u32;
+        digits
+    }
 }
 
 /// What lies between two points of a step of the motion.
@@ -521,7 +535,7 @@ impl Curve {
             if !self.guards.is_empty() {
                 self.ranges.find_live(&self.program, 0);
             }
-            let (mut verdict, mut is_new) = (Verdict::Smooth, false);
+            let (mut verdict, mut monotone) = (Verdict::Smooth, Vec::new());
             for (k, held) in held.iter_mut().enumerate() {
                 // a load decides what a force is, although the formula does not hold it
                 if *held || !(self.holds_forces || self.guards[k].is_live(&self.ranges)) {
@@ -532,17 +546,19 @@ impl Curve {
                     Crossing::Never => {}
                     Crossing::Sure => return (Verdict::Crosses(k), range),
                     Crossing::Possible if self.is_monotone(k) => {
-                        // what follows from this guard is decided anew
-                        (*held, is_new) = (true, true);
-                        self.guards[k].hold(marks[0].side, &mut self.ranges);
-                        break;
+                        *held = true;
+                        monotone.push((k, marks[0].side));
                     }
                     Crossing::Possible => verdict = Verdict::Open,
                 }
             }
-            if !is_new {
+            if monotone.is_empty() {
                 let exists = cell.a.exists() || cell.b.exists();
                 return (if verdict == Verdict::Smooth && !exists { Verdict::Missing } else { verdict }, range);
+            }
+            // what follows from these guards is decided anew
+            for (k, side) in monotone {
+                self.guards[k].hold(side, &mut self.ranges);
             }
         }
     }
@@ -666,8 +682,8 @@ impl Curve {
         self.guards[guard].distances([a.marks[guard], b.marks[guard]], &self.registers)
     }
 
-    /// The values where an argument of a function that is not smooth somewhere is just there, between two points beside each other, as far as they
-    /// are known.
+    /// The values where an argument of a function that is not smooth somewhere is just there, between two points beside each other or at one
+    /// where rounding alone tells it from that, as far as they are known.
     pub fn between_points(&mut self, a: &Point, b: &Point) -> Vec<f64> {
         if self.holds_forces || !(a.exists() || b.exists()) {
             return Vec::new();
@@ -676,8 +692,13 @@ impl Curve {
         let mut found = Vec::new();
         for k in 0..self.guards.len() {
             let marks = [a.marks[k], b.marks[k]];
-            let Some(value) = self.guards[k].value_between(marks, self.largest_arguments[k]) else { continue };
-            self.set_point(there.state.t, &there.moving, [0.0; 2]);
+            let between = self.guards[k].value_between(marks, self.largest_arguments[k]).map(|value| (there, value));
+            let touched = [a, b].into_iter().filter(|point| point.exists()).find_map(|point| {
+                let value = self.guards[k].value_near(point.marks[k], self.largest_arguments[k])?;
+                self.is_rounding(k, point).then_some((point, value))
+            });
+            let Some((point, value)) = between.or(touched) else { continue };
+            self.set_point(point.state.t, &point.moving, [0.0; 2]);
             self.guards[k].hold_at(value, &mut self.ranges);
             let Range { low, high, .. } = self.ranges.range(&self.program, &self.registers, 0);
             let is_finite = low.is_finite() && high.is_finite();

@@ -398,16 +398,18 @@ impl Probe<'_> {
     fn grows_towards(&mut self, cell: &Cell, sign: f64, is_before: bool) -> bool {
         let (near, away) = if is_before { (&cell.a, -1.0) } else { (&cell.b, 1.0) };
         let [from, to] = [&self.steps[cell.step].from, &self.steps[cell.step].to].map(|state| state.t);
-        let mut values = [sign * near.sample.value, f64::NAN, f64::NAN];
+        let mut values = [sign * near.sample.value, f64::NAN, f64::NAN, f64::NAN];
         for (value, far) in values[1..].iter_mut().zip(TOWARDS) {
             let t = near.state.t + away * far * self.shortest.max(cell.length());
             if from <= t && t <= to {
                 *value = self.point_of_step(cell.step, t).map_or(f64::NAN, |point| sign * point.sample.value);
             }
         }
-        let [near, middle, far] = values;
-        let more = middle - far;
-        more > 0.0 && near - middle >= CONVERGES * more
+        // nearest by, values may be rounding
+        values.windows(3).any(|places| {
+            let (gains, more) = (places[0] - places[1], places[1] - places[2]);
+            more > 0.0 && gains >= CONVERGES * more
+        })
     }
 
     /// Whether a smooth cell holds nothing more of interest; what it holds has been noted.

@@ -9,6 +9,7 @@ use crate::ir::ConstraintSystem;
 use crate::program::{Hold, Op, Program, Ranges, Register, Registers, Stage};
 use crate::tolerances::results::guards::NEAR;
 use rustc_hash::FxHashMap;
+use std::f64::consts::PI;
 
 /// One threshold of a formula.
 #[derive(Clone, Debug)]
@@ -34,6 +35,13 @@ enum Kind {
     Zero { a: Register },
     /// An argument of `asin` or `acos`, whose slopes have no end at −1 and 1.
     Unit { a: Register },
+    /// The argument of a tangent, which has a pole at every odd multiple of π/2.
+    Tangent { a: Register },
+}
+
+/// The number of the pole of a tangent before an argument.
+fn branch_of_tangent(a: f64) -> f64 {
+    (a / PI + 0.5).floor()
 }
 
 /// Where a guard is at a state.
@@ -78,6 +86,7 @@ impl Guard {
             | Op::Recip { a, .. }
             | Op::Div { b: a, .. } => Kind::Zero { a },
             Op::Unary { function: Unary::Asin | Unary::Acos, a, .. } => Kind::Unit { a },
+            Op::Unary { function: Unary::Tan, a, .. } => Kind::Tangent { a },
             _ => return None,
         })
     }
@@ -91,6 +100,7 @@ impl Guard {
             Kind::Step { to, a, .. } | Kind::Piece { to, a, .. } => (get(to), get(a)),
             Kind::Choice { a, b } => (sign(get(a) - get(b)), get(a) - get(b)),
             Kind::Zero { a } => (sign(get(a)), get(a)),
+            Kind::Tangent { a } => (branch_of_tangent(get(a)), get(a)),
             Kind::Unit { a } => {
                 let side = f64::from(u8::from(get(a).abs() <= 1.0));
                 return Mark { side, argument: get(a).abs() - 1.0, sign: sign(get(a)) };
@@ -113,10 +123,11 @@ impl Guard {
         let is_next = (marks[0].side - marks[1].side).abs() <= 1.0;
         let threshold = match self.kind {
             Kind::Step { is_whole: true, .. } if is_next => later,
+            Kind::Tangent { .. } if is_next => (later - 0.5) * PI,
             // pieces are small whole numbers
             #[allow(clippy::cast_sign_loss)]
             Kind::Piece { knots, .. } if is_next => registers.get(knots + later as Register),
-            Kind::Step { is_whole: true, .. } | Kind::Piece { .. } => f64::NAN,
+            Kind::Step { is_whole: true, .. } | Kind::Piece { .. } | Kind::Tangent { .. } => f64::NAN,
             _ => 0.0,
         };
         marks.map(|mark| mark.argument - threshold)
@@ -127,7 +138,7 @@ impl Guard {
         match self.kind {
             Kind::Comparison { to, .. } | Kind::Step { to, .. } | Kind::Piece { to, .. } => ranges.is_live(to),
             Kind::Choice { a, b } => ranges.is_live(a) && ranges.is_live(b),
-            Kind::Zero { a } | Kind::Unit { a } => ranges.is_live(a),
+            Kind::Zero { a } | Kind::Unit { a } | Kind::Tangent { a } => ranges.is_live(a),
         }
     }
 
@@ -145,6 +156,10 @@ impl Guard {
             Kind::Zero { a } => {
                 let [low, high] = ranges.interval(a);
                 low > 0.0 || high < 0.0 || (low == 0.0 && high == 0.0)
+            }
+            Kind::Tangent { a } => {
+                let branches = ranges.interval(a).map(branch_of_tangent);
+                branches[0].total_cmp(&branches[1]).is_eq()
             }
             Kind::Unit { a } => {
                 let [low, high] = ranges.interval(a);
@@ -175,17 +190,28 @@ impl Guard {
                 }
             }
             // at its ends it is not held: a slope without an end is one
-            Kind::Choice { .. } | Kind::Zero { .. } | Kind::Unit { .. } => {}
+            Kind::Choice { .. } | Kind::Zero { .. } | Kind::Unit { .. } | Kind::Tangent { .. } => {}
         }
     }
 
     /// A value of the argument at which the formula is not smooth, if it lies between two states beside each other. How large the argument usually
     /// is tells whether it goes there, or jumps.
     pub fn value_between(&self, [a, b]: [Mark; 2], usual: f64) -> Option<f64> {
-        let is_near = f64::max(a.argument.abs(), b.argument.abs()) <= NEAR * usual;
+        let is_between = match self.kind {
+            Kind::Zero { .. } => a.is_beside(&b),
+            Kind::Unit { .. } => a.side.max(b.side) > 0.0,
+            _ => false,
+        };
+        let value = self.value_near(a, usual).filter(|_| self.value_near(b, usual).is_some());
+        value.filter(|_| is_between)
+    }
+
+    /// A value of the argument at which the formula is not smooth, and which the argument is near to.
+    pub fn value_near(&self, mark: Mark, usual: f64) -> Option<f64> {
+        let is_near = mark.argument.abs() <= NEAR * usual;
         match self.kind {
-            Kind::Zero { .. } => (a.is_beside(&b) && is_near).then_some(0.0),
-            Kind::Unit { .. } => (a.side.max(b.side) > 0.0 && is_near).then_some(a.sign),
+            Kind::Zero { .. } if is_near => Some(0.0),
+            Kind::Unit { .. } if is_near => Some(mark.sign),
             _ => None,
         }
     }
@@ -215,7 +241,8 @@ pub(super) fn arguments(graph: &mut Graph, formulas: &[ExprId]) -> Vec<ExprId> {
                 | Unary::Ln
                 | Unary::Log10
                 | Unary::Asin
-                | Unary::Acos,
+                | Unary::Acos
+                | Unary::Tan,
                 a,
             )
             | Node::Binary(Binary::Pow | Binary::Atan2 | Binary::Mod, a, _)
@@ -268,7 +295,7 @@ pub(super) fn guards(
                 (Some(a), None) => Some(a),
                 _ => None,
             },
-            Kind::Step { a, .. } | Kind::Piece { a, .. } => node_of(graph, a),
+            Kind::Step { a, .. } | Kind::Piece { a, .. } | Kind::Tangent { a } => node_of(graph, a),
             Kind::Zero { a } | Kind::Unit { a } => {
                 let is_same = |guard: &Guard| match (guard.kind, kind) {
                     (Kind::Zero { a: b }, Kind::Zero { .. }) | (Kind::Unit { a: b }, Kind::Unit { .. }) => a == b,

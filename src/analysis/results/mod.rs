@@ -30,10 +30,9 @@ use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::expr::{ExprId, Graph, Node, Symbol};
 use crate::ir::{ConstraintSystem, Outcome, Reduction, ReductionKind};
-use crate::math::log10;
 use crate::solver::Solver;
 use crate::structure::Determined;
-use crate::tolerances::results::stretches::{CHUNK, FEW, MOST_DIGITS, NUMBERS};
+use crate::tolerances::results::stretches::{CHUNK, FEW, NUMBERS};
 use certain::Near;
 use curve::{Curve, Found};
 use places::Places;
@@ -102,6 +101,8 @@ struct Analysis {
     missing: Vec<Option<f64>>,
     /// The steps of the motion, once they are known and are not too many to be kept.
     steps: Option<Vec<Stretch>>,
+    /// What solves for states between these.
+    places: Option<Places>,
     near: Near,
 }
 
@@ -118,6 +119,7 @@ impl Asked {
             found: vec![None; count],
             missing: vec![None; count],
             steps: None,
+            places: None,
             near: Near::new(),
         };
         while let Some(level) = analysis.next_level() {
@@ -178,10 +180,11 @@ impl Analysis {
                 Err(trouble) => self.found[k] = Some(Err(trouble)),
             }
         }
-        let mut places = Places::new(self.asked.kinematics.clone(), self.asked.solver.clone());
         let of: Vec<(ExprId, [u64; 2])> =
             asked.iter().map(|(_, reduction, window)| (reduction.of, window.map(f64::to_bits))).collect();
         let known = |k: usize| self.found[k].and_then(Result::ok).map_or(0.0, |found| found.value);
+        let new_places = || Places::new(self.asked.kinematics.clone(), self.asked.solver.clone());
+        let mut places = self.places.take().unwrap_or_else(new_places);
         let (all, curve_of) = curves(system, &of, known, places.variations());
         let mut all: Vec<Reduced> =
             all.into_iter().map(|(curve, window)| Reduced::new(curve, window.map(f64::from_bits))).collect();
@@ -194,6 +197,7 @@ impl Analysis {
             all[of].ask(reduction.kind, at);
         }
         self.look(&mut all, &mut places)?;
+        self.places = Some(places);
         for (((k, reduction, _), &of), &at) in asked.iter().zip(&curve_of).zip(&at) {
             self.found[*k] = Some(self.asked.certain(&all[of], (reduction.kind, at), &self.near));
             self.missing[*k] = all[of].missing(reduction.kind);
@@ -306,7 +310,8 @@ impl Analysis {
         let mut answers = Answers::default();
         for outcome in &system.results().outcomes {
             let needed = needed(system.graph(), outcome.value);
-            let Found { value, off } = self.found(outcome, &needed);
+            let found = self.found(outcome, &needed);
+            let value = found.value;
             if !value.is_finite() {
                 let trouble = needed.into_iter().find_map(|k| self.found[k].and_then(Result::err));
                 answers.values.push(None);
@@ -314,7 +319,7 @@ impl Analysis {
                 answers.notes.push(errors::result_without_value(outcome, trouble));
                 continue;
             }
-            let digits = certain_digits(value, off);
+            let digits = found.certain_digits();
             // −0 would surprise a reader
             answers.values.push(Some(value + 0.0));
             answers.digits.push(digits);
@@ -327,19 +332,6 @@ impl Analysis {
         }
         answers
     }
-}
-
-/// How many significant digits of a value are certain that may be so far off; 0 where it cannot be told from zero.
-fn certain_digits(value: f64, off: f64) -> u32 {
-    let part = off / value.abs();
-    if part.is_nan() {
-        return 0;
-    }
-    let digits = (-log10(2.0 * part)).floor();
-    // between 0 and 17
-    #[allow(clippy::cast_sign_loss)]
-    let digits = digits.clamp(0.0, f64::from(MOST_DIGITS)) as u32;
-    digits
 }
 
 /// Adds a step to others. One over a singular position stands for those too that have come near to that: it begins where the motion was clear.

@@ -7,6 +7,8 @@ use crate::math::along;
 use crate::program::{Ranges, Register, Stage};
 use crate::solver::{Batch, Solver};
 use crate::tolerances::results::places::{ITERATIONS, SOLVABLE};
+use crate::tolerances::results::stretches::NUMBERS;
+use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
 /// What solves for states between the ends of stretches.
@@ -31,6 +33,17 @@ pub(super) struct Places {
     is_plain: bool,
     /// What finds derivatives by inputs and parameters, where results hold any.
     varying: Option<Varying>,
+    /// When the stretch begins (s), and what has been solved for, by that and by time: several formulas ask for the same.
+    begins: f64,
+    solved: FxHashMap<[u64; 2], Solved>,
+    /// Which of these has the multipliers that were found last; none where the kinematics have them.
+    with_multipliers: Option<[u64; 2]>,
+}
+
+/// A state that was solved for, with its multipliers once somebody has asked for them.
+struct Solved {
+    state: State,
+    multipliers: Vec<f64>,
 }
 
 impl Places {
@@ -57,6 +70,9 @@ impl Places {
             varying: Varying::of(&kinematics),
             chosen: None,
             first,
+            begins: f64::NAN,
+            solved: FxHashMap::default(),
+            with_multipliers: None,
             kinematics,
         }
     }
@@ -72,6 +88,7 @@ impl Places {
         self.kinematics.freeze(true, true);
         self.kinematics.set_switches(&stretch.switches);
         self.has_bounds = false;
+        self.begins = stretch.from.t;
         self.bridge = stretch.bridge.as_ref().map_or([f64::NAN; 2], |bridge| [bridge.from.t, bridge.to.t]);
         self.enter_where(&stretch.switches);
     }
@@ -121,12 +138,27 @@ impl Places {
 
     /// Finds the multipliers at a state of the stretch.
     pub fn find_multipliers(&mut self, state: &State) {
-        self.kinematics.vary_at(state);
+        let key = self.key(state.t);
+        let known = self.solved.get_mut(&key).filter(|solved| solved.state == *state);
+        self.with_multipliers = known.is_some().then_some(key);
+        if known.as_ref().is_none_or(|solved| solved.multipliers.is_empty()) {
+            self.kinematics.vary_at(state);
+        }
+        if let Some(solved) = known.filter(|solved| solved.multipliers.is_empty()) {
+            let rows = 0..self.kinematics.system().rows().len();
+            solved.multipliers = rows.map(|row| self.kinematics.multiplier(row)).collect();
+        }
     }
 
     /// The multiplier of a row of the equations at the start, which has been found; none at a position where it cannot be trusted.
     pub fn multiplier(&self, row: usize) -> f64 {
-        self.row(row).map_or(0.0, |row| self.kinematics.multiplier(row))
+        let known = self.with_multipliers.and_then(|key| self.solved.get(&key));
+        let of = |row: usize| known.map_or_else(|| self.kinematics.multiplier(row), |known| known.multipliers[row]);
+        self.row(row).map_or(0.0, of)
+    }
+
+    fn key(&self, t: f64) -> [u64; 2] {
+        [self.begins, t].map(f64::to_bits)
     }
 
     /// A row of the equations at the start among those that are solved; none where it is left out.
@@ -163,7 +195,15 @@ impl Places {
             let on_bridge = bridge.best_state_at(t);
             return self.solve_from(on_bridge.clone(), Some(SOLVABLE)).or(Some(on_bridge));
         }
+        let key = self.key(t);
+        if let Some(known) = self.solved.get(&key) {
+            return Some(known.state.clone());
+        }
         if let Some(state) = self.solve_by_lanes(stretch, a, (t, h)) {
+            if self.solved.len() * (1 + state.q.len()) > NUMBERS {
+                self.solved.clear();
+            }
+            self.solved.insert(key, Solved { state: state.clone(), multipliers: Vec::new() });
             return Some(state);
         }
         let mut state = a.clone();

@@ -4,9 +4,10 @@ use super::curve::{Cell, Curve, Point, Verdict};
 use super::places::Places;
 use crate::analysis::follow::Stretch;
 use crate::analysis::state::State;
+use crate::math::{close_in, power_of_two_below};
 use crate::program::Range;
 use crate::tolerances::results::probe::{
-    ALIKE, DIFFERENT, MOST_CELLS, NARROWER, NOTHING, OPAQUE, ROUNDING, SHORT, SHORTEST, SOLVED,
+    ALIKE, DIFFERENT, MOST_CELLS, NOTHING, OPAQUE, ROUNDING, SHORT, SHORTEST, SOLVED,
 };
 use std::rc::Rc;
 
@@ -252,31 +253,18 @@ impl<'r> Probe<'r> {
     /// where the crossing is at that end of the cell. None where the motion cannot be solved for.
     pub fn cut_at_crossing(&mut self, cell: &Cell, guard: usize) -> Option<[Option<Cell>; 3]> {
         let side = cell.a.side(guard);
-        let mut within = cell.clone();
-        let mut is_by_halves = false;
-        while !self.is_shortest(&within) {
-            let (from, h) = (within.a.state.t, within.length());
-            let [a, b] = self.curve.distances(guard, [&within.a, &within.b]);
-            let x = a / (a - b);
-            let is_straight = !is_by_halves && a * b <= 0.0 && x.is_finite();
-            // to both sides of where the straight line passes the threshold, so that both ends come near
-            let places = if is_straight {
-                let reach = f64::max(NARROWER, 0.25 * self.shortest / h);
-                [x - reach, x + reach]
-            } else {
-                [0.5, 1.0]
-            };
-            for place in places {
-                let t = from + place * h;
-                if t > within.a.state.t && t < within.b.state.t {
-                    let point = self.point(&within, t)?;
-                    let [before, behind] = within.cut(self.curve, &point);
-                    within = if point.side(guard).total_cmp(&side).is_eq() { behind } else { before };
-                }
-            }
-            is_by_halves = is_straight && within.length() > 0.5 * h;
-        }
+        let (mut before, mut behind) = (Rc::clone(&cell.a), Rc::clone(&cell.b));
+        let offs = self.curve.distances(guard, [&before, &behind]);
+        let ends = [[before.state.t, offs[0].abs()], [behind.state.t, offs[1].abs()]];
+        // on a grid, so that formulas that share a guard share what is solved for
+        close_in(ends, power_of_two_below(self.shortest), |t| {
+            let point = self.between(cell.step, [&before.state, &behind.state], t)?;
+            let is_behind = point.side(guard).total_cmp(&side).is_ne();
+            *if is_behind { &mut behind } else { &mut before } = point;
+            let offs = self.curve.distances(guard, [&before, &behind]);
+            Some((is_behind, offs[usize::from(is_behind)].abs()))
+        })?;
         let part = |a: &Rc<Point>, b: &Rc<Point>| (b.state.t > a.state.t).then(|| cell.between(a, b));
-        Some([part(&cell.a, &within.a), part(&within.a, &within.b), part(&within.b, &cell.b)])
+        Some([part(&cell.a, &before), part(&before, &behind), part(&behind, &cell.b)])
     }
 }

@@ -3,7 +3,10 @@
 
 use super::curve::{Cell, Found, Point, Verdict};
 use super::probe::{Probe, Scale};
-use crate::tolerances::results::quadrature::{ACCURACY, DIVERGES, LOOKS, NOTHING, ROUNDING, SAFETY, SURER};
+use crate::tolerances::results::quadrature::{
+    ACCURACY, ALIKE, BESIDE_POLE, DIVERGES, FARTHER, LEAST_GROWTH, LOOKS, NOTHING, PART_OF_POLE, ROUNDING, SAFETY,
+    STEEPEST, SURER,
+};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -26,11 +29,14 @@ pub(super) struct Integral {
     off: f64,
     /// For how long (s) the formula has a value.
     time: f64,
+    /// The time of the analysis (s).
+    span: f64,
     /// A value that is usual, and the integral of how far the formula is from that.
     usual: f64,
     size: f64,
-    /// What the cell too short to be cut that holds the most may hold, and its time (s).
-    shortest: [f64; 2],
+    /// What the cell too short to be cut that holds the most may hold, of those into which the formula grows so fast that the integral has no end, and
+    /// its time (s).
+    steepest: [f64; 2],
 }
 
 /// What a rule finds of a cell, and the values in it allow: where the formula bends at an end of the cell its derivatives there may be those of the
@@ -50,11 +56,20 @@ impl Integral {
         self.time
     }
 
-    /// A time (s) at which a cell too short to be cut holds much of the integral, if there is one: the formula goes to infinity there, and the
-    /// integral too.
+    /// A time (s) towards which the formula grows so fast that the integral does not exist.
     pub fn unbounded(&self) -> Option<f64> {
-        let [most, t] = self.shortest;
-        (most > DIVERGES * self.size).then_some(t)
+        self.unbounded_beside(0.0)
+    }
+
+    /// A time (s) towards which the formula grows fast enough for that, if there is one.
+    pub fn grows_at(&self) -> Option<f64> {
+        Some(self.steepest[1]).filter(|_| self.steepest[0] > 0.0)
+    }
+
+    /// As [`Integral::unbounded`], where so much more is known of its size.
+    fn unbounded_beside(&self, size: f64) -> Option<f64> {
+        let [most, t] = self.steepest;
+        (most > DIVERGES * (self.size + size)).then_some(t)
     }
 
     fn add(&mut self, sum: f64, off: f64, time: f64) {
@@ -100,24 +115,25 @@ impl Probe<'_> {
     /// Adds the integral of the formula over some cells. What may be farthest off is made better first, until all together is good enough beside the
     /// integral of how far the formula is from a value that is usual.
     pub(super) fn integrate(&mut self, cells: &[Cell], usual: f64, scale: Scale, integral: &mut Integral) {
-        (integral.usual, self.range) = (usual, scale.range);
+        (integral.usual, integral.span, self.range) = (usual, scale.span, scale.range);
         let mut parts = BinaryHeap::new();
         for cell in cells {
             self.take(cell.clone(), &mut parts, integral);
         }
-        let is_open = |parts: &BinaryHeap<Part>| {
+        let is_open = |parts: &BinaryHeap<Part>, integral: &Integral| {
             let (mut off, mut size) = (0.0, 0.0);
             for part in parts {
                 off += part.off;
                 size += if part.off.is_finite() { (part.found - usual * part.length).abs() } else { 0.0 };
             }
-            off > f64::max(ACCURACY * size, ROUNDING * scale.weight * scale.span).max(NOTHING)
+            let is_far_off = off > f64::max(ACCURACY * size, ROUNDING * scale.weight * scale.span).max(NOTHING);
+            is_far_off && integral.unbounded_beside(size).is_none()
         };
         // all together is looked at no more often than some have been cut
         let mut left = 0;
         loop {
             if left == 0 {
-                if self.notes.trouble.is_some() || !is_open(&parts) {
+                if self.notes.trouble.is_some() || !is_open(&parts, integral) {
                     break;
                 }
                 left = parts.len().div_ceil(LOOKS);
@@ -144,6 +160,12 @@ impl Probe<'_> {
                 self.integrate_shortest(&cell, integral);
                 continue;
             }
+            if h <= BESIDE_POLE * integral.span
+                && let Some([sum, off]) = self.integrate_beside_pole(&cell)
+            {
+                integral.add(sum, off, h);
+                continue;
+            }
             let (verdict, range) = self.enclose(&mut cell);
             match verdict {
                 Verdict::Crosses(guard) => {
@@ -165,7 +187,14 @@ impl Probe<'_> {
             let is_smooth = verdict == Verdict::Smooth && range.is_resolved;
             let is_smooth = is_smooth && (self.curve.derivatives() == 0 || !self.curve.derivative(1).may_switch);
             let Some(halves) = self.halve(&cell) else { return };
-            let values = [&cell.a, &halves[0].b, &cell.b].map(|point| point.sample.value);
+            let points = [&cell.a, &halves[0].b, &cell.b];
+            let is_unbounded = h <= self.short && range.high - range.low == f64::INFINITY;
+            if is_unbounded && points.into_iter().all(|point| self.is_noise(point)) {
+                // nearer to a pole than rounding allows to look
+                self.integrate_shortest(&cell, integral);
+                continue;
+            }
+            let values = points.map(|point| point.sample.value);
             let (mut found, mut off) = (0.0, f64::INFINITY);
             if values.iter().all(|value| value.is_finite()) {
                 let (sum, error) = self.rule(&cell, &halves);
@@ -179,7 +208,12 @@ impl Probe<'_> {
         }
     }
 
-    /// As [`Probe::integrate`], over a cell too short to be cut.
+    /// Whether nothing of the value at a point is certain.
+    fn is_noise(&mut self, point: &Point) -> bool {
+        !point.exists() || self.curve.found(point).certain_digits() == 0
+    }
+
+    /// As [`Probe::integrate`], over a cell too short to be cut. What there is of an integral in one with a pole is counted on both sides of it.
     fn integrate_shortest(&mut self, cell: &Cell, integral: &mut Integral) {
         let h = cell.length();
         let values = [&cell.a, &cell.b].map(|point| point.sample.value);
@@ -187,13 +221,55 @@ impl Probe<'_> {
         if known.len() < 2 {
             self.miss(cell.step, cell.a.state.t);
         }
-        if !known.is_empty() {
-            let largest = known.iter().fold(0.0, |largest, value| f64::max(largest, (value - integral.usual).abs()));
-            if h * largest > integral.shortest[0] {
-                integral.shortest = [h * largest, cell.a.state.t];
+        let largest = known.iter().fold(0.0, |largest, value| f64::max(largest, (value - integral.usual).abs()));
+        let growth = self.growth_into(cell, integral.usual);
+        if growth > LEAST_GROWTH {
+            if growth >= STEEPEST.exp2() && h * largest > integral.steepest[0] {
+                integral.steepest = [h * largest, cell.a.state.t];
             }
+            integral.add(0.0, PART_OF_POLE * h * largest, h);
+        } else if !known.is_empty() {
             integral.add(h * known.iter().sum::<f64>() / known.len() as f64, 2.0 * h * largest, h);
         }
+    }
+
+    /// The factor by which the formula grows, from a value that is usual, whenever the way to a shortest cell becomes half as long; 1 where it does
+    /// not go on to grow into the cell: a pole does so, and a jump does not.
+    fn growth_into(&mut self, cell: &Cell, usual: f64) -> f64 {
+        let [from, to] = [&self.steps[cell.step].from, &self.steps[cell.step].to].map(|state| state.t);
+        let off = |point: &Point| (point.sample.value - usual).abs();
+        let sides = [(&cell.a, -cell.length()), (&cell.b, cell.length())].map(|(end, way)| {
+            let [near, far] = FARTHER.map(|far| {
+                let t = end.state.t + far * way;
+                let there = if from <= t && t <= to { self.point_of_step(cell.step, t) } else { None };
+                there.map_or(f64::NAN, |there| off(&there))
+            });
+            let goes_on = !end.exists() || off(end) > near;
+            if goes_on && near > far { (near / far).powf(1.0 / (FARTHER[1] / FARTHER[0]).log2()) } else { 1.0 }
+        });
+        f64::max(sides[0], sides[1])
+    }
+
+    /// The integral over a short cell with a pole of the formula at one end, and how far off it may be: the formula goes with a power of the
+    /// distance from the pole, by its values at three distances. None where it is not like that.
+    fn integrate_beside_pole(&mut self, cell: &Cell) -> Option<[f64; 2]> {
+        let size = |point: &Point| if point.exists() { point.sample.value.abs() } else { f64::INFINITY };
+        let (pole, far) = if size(&cell.a) > size(&cell.b) { (&cell.a, &cell.b) } else { (&cell.b, &cell.a) };
+        if size(pole) < LEAST_GROWTH * size(far) {
+            return None;
+        }
+        let (t, way) = (pole.state.t, far.state.t - pole.state.t);
+        let mut at = |part: f64| Some(self.point(cell, t + part * way)?.sample.value);
+        let [quarter, half, whole] = [at(0.25)?, at(0.5)?, far.sample.value];
+        let [closer, farther] = [quarter / half, half / whole];
+        let differs = (closer - farther).abs();
+        // what they differ grows with the distance
+        let power = (closer + (closer - farther)).log2();
+        if !(LEAST_GROWTH..STEEPEST.exp2()).contains(&farther) || differs > ALIKE || power.is_nan() {
+            return None;
+        }
+        let sum = way.abs() * whole / (1.0 - power);
+        Some([sum, sum.abs() * (differs + f64::EPSILON * t.abs() / way.abs()) / (1.0 - power)])
     }
 
     /// The integral over a cell, by its halves, and how far off it may be.

@@ -9,6 +9,7 @@ use crate::analysis::follow::Stretch;
 use crate::analysis::state::{State, shortly_after};
 use crate::ir::ReductionKind;
 use crate::math::median;
+use crate::tolerances::results::stretches::SMALL;
 
 /// A formula that is looked at over a part of the motion, and what is found of it.
 pub(super) struct Reduced {
@@ -102,7 +103,12 @@ impl Reduced {
                 if let Some(t) = extremum.unbounded() {
                     return Err(Trouble::Unbounded(t));
                 }
-                let found = if when { extremum.time(scale) } else { extremum.value(scale) };
+                let value = extremum.value(scale);
+                if self.is_uncertain(value, scale) {
+                    // it goes on to grow where rounding hides it
+                    return Err(Trouble::Unbounded(extremum.time(scale).value));
+                }
+                let found = if when { extremum.time(scale) } else { value };
                 if found.value.is_finite() { Ok(found) } else { Err(Trouble::Missing(from)) }
             }
             ReductionKind::Mean | ReductionKind::Integral => {
@@ -112,6 +118,10 @@ impl Reduced {
                 }
                 let over = if kind == ReductionKind::Mean { integral.time() } else { 1.0 };
                 let found = integral.found();
+                let mean = Found { value: found.value / integral.time(), off: found.off / integral.time() };
+                if self.is_uncertain(mean, self.scale(0.0)) {
+                    return Err(integral.grows_at().map_or(Trouble::Unknown(from), Trouble::Unbounded));
+                }
                 let found = Found { value: found.value / over, off: found.off / over };
                 // an integral over nothing is 0, and a mean of nothing is nothing
                 if found.value.is_finite() { Ok(found) } else { Err(Trouble::Missing(from)) }
@@ -177,9 +187,18 @@ impl Reduced {
         let finite = || self.samples.iter().filter(|value| value.is_finite());
         let low = finite().copied().fold(f64::INFINITY, f64::min);
         let high = finite().copied().fold(f64::NEG_INFINITY, f64::max);
-        // what a pole makes of a few values says nothing of the others' rounding
-        let weight = median(self.weights.iter().chain(finite()).map(|weight| weight.abs()).collect());
+        // what a pole makes of a few values says nothing of the others' rounding, and neither do those that are nothing
+        let weights = self.weights.iter().chain(finite()).map(|weight| weight.abs());
+        let weight = median(weights.filter(|weight| *weight > 0.0).collect());
         Scale { range: f64::max(high - low, 0.0), weight, span }
+    }
+
+    /// Whether nothing is certain of a value that is not small beside others, nor beside the numbers that these are sums of.
+    fn is_uncertain(&self, found: Found, scale: Scale) -> bool {
+        let sizes: Vec<f64> = self.samples.iter().filter(|value| value.is_finite()).map(|value| value.abs()).collect();
+        let largest = sizes.iter().fold(0.0, |largest, size| f64::max(largest, *size));
+        let is_large = found.off > median(sizes).max(scale.weight).max(SMALL * largest);
+        largest > 0.0 && found.certain_digits() == 0 && is_large
     }
 
     /// Takes in the values at times that lie in a step.

@@ -4,8 +4,9 @@ use super::restless::may_change;
 use super::{Edge, Edges};
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Fault, Kinematics};
-use crate::math::{Halving, about, bisect, farthest};
+use crate::math::{Halving, about, close_in, farthest};
 use crate::tolerances::steps::edges::{FINEST_BETWEEN, MOST_PARTS_BETWEEN};
+use std::cell::Cell;
 
 impl Edges {
     /// The switch of the motion beyond whose edge the position is that was just set, on the way from a time (s).
@@ -24,31 +25,30 @@ impl Edges {
     /// Finds the edge of the motion that lies before a time; says whether it could.
     pub fn locate(&mut self, kinematics: &mut Kinematics, step: &mut Step, next: f64) -> bool {
         let from = step.t();
-        let mut look = |t: f64| -> Result<bool, Fault> {
-            step.predict(kinematics, t - from, t)?;
-            step.correct(kinematics)?;
-            Ok(self.switch_met(kinematics, from).is_some())
+        // the switch that changes, and whether formulas go on beyond the edge as far as it is known
+        let (mut switch, goes_on) = (None, Cell::new(false));
+        let mut look = |t: f64| {
+            let solved = step.predict(kinematics, t - from, t).and_then(|_| step.correct(kinematics));
+            let met = solved.map(|_| self.switch_met(kinematics, from));
+            let is_behind = !matches!(met, Ok(None));
+            if is_behind {
+                goes_on.set(met.is_ok());
+            }
+            switch = met.unwrap_or(None).or(switch);
+            let off =
+                switch.filter(|_| goes_on.get() || !is_behind).map(|k| kinematics.edge(&kinematics.switches()[k]).1);
+            (is_behind, off.unwrap_or(f64::NAN))
         };
-        let mut found = look(next).unwrap_or(false);
-        if !found {
+        let [(is_behind, off_behind), (_, off)] = [next, from].map(&mut look);
+        if !is_behind || !goes_on.get() {
             return false;
         }
-        let [_, high] = bisect([from, next], usize::MAX, |t| match look(t) {
-            Ok(false) => true,
-            Ok(true) => {
-                found = true;
-                false
-            }
-            // beyond the edge a formula need not go on
-            Err(_) => {
-                found = false;
-                false
-            }
-        });
-        if found {
-            self.met = Some(Edge { t: high, after: None, is_rim: false });
+        let closed_in = close_in([[from, off], [next, off_behind]], 0.0, |t| Some(look(t)));
+        let edge = closed_in.filter(|_| goes_on.get());
+        if let Some([_, t]) = edge {
+            self.met = Some(Edge { t, after: None, is_rim: false });
         }
-        found
+        edge.is_some()
     }
 
     /// Looks at what a step that was tried goes over between its ends, on the curve through both: an edge of the motion, a

@@ -23,7 +23,7 @@ use row::Varied;
 use std::sync::Arc;
 
 /// A time with the coordinates and their derivatives.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct State {
     /// (s)
     pub t: f64,
