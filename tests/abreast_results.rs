@@ -46,7 +46,7 @@ const SLIDER: &str = "mechanism slider {
 }";
 
 /// Results of each kind, of places, velocities and accelerations.
-const KINDS: [&str; 14] = [
+const KINDS: [&str; 17] = [
     "top = max(y(coupler.pen))",
     "left = min(x(coupler.D))",
     "when = argmax(x(coupler.pen))",
@@ -55,6 +55,9 @@ const KINDS: [&str; 14] = [
     "ends = last(der(x(coupler.pen)))",
     "between = at(x(coupler.pen), 1.1)",
     "swing = max(angle(rocker)) - min(angle(rocker))",
+    "middle = mean(y(coupler.pen))",
+    "area = integral(der(x(coupler.pen)))",
+    "way = integral(hypot(der(x(coupler.pen)), der(y(coupler.pen))))",
     "fastest = max(der(y(coupler.pen)))",
     "hardest = min(der(der(x(coupler.pen))))",
     "pace = max(hypot(der(x(coupler.pen)), der(y(coupler.pen))))",
@@ -249,14 +252,15 @@ fn what_rests_is_found_side_by_side() {
     assert_eq!(complete, 9);
 }
 
-/// What is not smooth, is nested, or is an integral goes alone; beside rows as without them.
+/// What is not smooth, is nested, or has a window goes alone; beside rows as without them.
 #[test]
 fn other_results_go_alone() {
     let asked = sampled(&["rod=3.4..3.6", "lever=2.9..3.1"], 6);
     for other in [
         "far = max(abs(x(coupler.pen)) + y(coupler.pen))",
         "slope = max(x(coupler.pen) / y(coupler.pen))",
-        "mean_height = mean(y(coupler.pen))",
+        "mean_height = mean(y(coupler.pen), to 1)",
+        "middle = mean(abs(x(coupler.pen)))",
         "off = max(x(coupler.pen) + t)",
     ] {
         let subject = of(FOUR_BAR, &["top = max(y(coupler.pen))", other]);

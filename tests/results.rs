@@ -359,6 +359,57 @@ fn loads_that_come_and_go_between_two_steps_are_found() {
     check(&text, 2.0, &[(0.0, 1e-8), (0.0, 1e-9)]);
 }
 
+/// What goes to infinity has an integral, or none, by how fast it does so; whatever is added to it.
+#[test]
+fn integrals_beside_poles_are_known_or_have_no_end() {
+    let (a, b): (f64, f64) = (0.3, 1.7);
+    let root = 2.0 * (a.sqrt() + b.sqrt());
+    let text = arm(
+        "0.4 rad/s * t",
+        "result at_time = integral(1 / sqrt(abs(t - 0.3 s)) * (1 s)^0.5)
+         result at_angle = integral(1 / sqrt(abs(rotation(main) - 0.12)) * sqrt(0.4) * 1 s)
+         result power = integral(abs(t / 1 s - 0.3)^(-0.6))
+         result at_end = integral(1 / sqrt(2 s - t) * (1 s)^0.5)
+         result log = integral(ln(abs(t / 1 s - 0.3)))
+         result beside = integral(1 / sqrt(abs(t / 1 s - 0.3)) + 100 * exp(-((t - 1 s) / 1 ms)^2))
+         result jump = mean(sign(t - 2 s))",
+    );
+    let power = (a.powf(0.4) + b.powf(0.4)) / 0.4;
+    let log = a * (a.ln() - 1.0) + b * (b.ln() - 1.0);
+    let wanted = [root, root, power, 2.0 * 2.0_f64.sqrt(), log, root + 0.1 * PI.sqrt(), -1.0];
+    check(&text, 2.0, &wanted.map(|wanted| (wanted, 2e-9)));
+    for formula in [
+        "1 / (t / 1 s - 0.3)",
+        "1e6 + 1e-3 / abs(t / 1 s - 0.3)",
+        "t / 1 s + 1e-6 / (t / 1 s - 0.3)",
+        "tan(rotation(main) * 5)",
+        "1 / (1 + x(arm.tip) / 1 m)",
+    ] {
+        let text = arm("1.7 rad/s * t", &format!("result a = mean({formula})"));
+        let (answers, _) = answers(&text, [2.0, 0.2]);
+        assert_eq!(answers.values, [None], "{formula}");
+        assert!(answers.notes[0].message.contains("grows without bound"), "{formula}: {}", answers.notes[0].message);
+    }
+}
+
+/// What touches a threshold, or a pole, without a change of sign.
+#[test]
+fn what_is_touched_is_met() {
+    let text = arm(
+        "2 rad/s * t",
+        "result cusp = min(sqrt(x(arm.tip) / 1 m + 1) + 1)
+         result power = min((x(arm.tip) / 1 m + 1)^0.4)
+         result at = argmin(abs(1 + x(arm.tip) / 1 m)^0.3)",
+    );
+    check(&text, 3.0, &[(1.0, 1e-15), (0.0, 1e-15), (0.5 * PI, 1e-7)]);
+    for formula in ["max(1 / (1 + x(arm.tip) / 1 m))", "max(tan(rotation(main)))", "min(tan(3 * rotation(main) + 1))"] {
+        let text = arm("2 rad/s * t", &format!("result a = {formula}"));
+        let (answers, _) = answers(&text, [3.0, 0.3]);
+        assert_eq!(answers.values, [None], "{formula}");
+        assert!(answers.notes[0].message.contains("grows without bound"), "{formula}: {}", answers.notes[0].message);
+    }
+}
+
 #[test]
 fn extremes_of_forces_have_their_times() {
     let text = arm(

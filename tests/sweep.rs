@@ -93,6 +93,21 @@ fn results_alone_are_those_beside_rows() {
     assert!(alone.results[2].windows(2).all(|pair| pair[0] < pair[1]), "{:?}", alone.results[2]);
 }
 
+/// The fewest digits of a variant's results; the numbers are those without them.
+#[test]
+fn digits_of_results_are_told() {
+    let results = vec!["top = max(height)".to_owned(), "pole = integral(abs(t - 0.1)^(-0.9))".to_owned()];
+    let variants = vary(&["share=0..1:5"]);
+    let of = |results: &[String], digits| {
+        let subject = subject(FOUR_BAR, Choice { results: results.to_vec(), ..Choice::default() });
+        subject.swept(&subject.variants(&variants), &SweepOptions { digits, ..SweepOptions::default() })
+    };
+    let [plain, told, with_pole] = [of(&results[..1], false), of(&results[..1], true), of(&results, true)];
+    assert_eq!((plain.digits, plain.results), (None, told.results));
+    assert!(told.digits.expect("digits").iter().all(|digits| *digits > 9));
+    assert!(with_pole.digits.expect("digits").iter().all(|digits| (1..6).contains(digits)));
+}
+
 /// Scales and the order of elimination are those of the file's own values; so with these a variant is the file.
 #[test]
 fn with_its_own_values_a_variant_is_the_file() {

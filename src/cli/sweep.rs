@@ -47,6 +47,7 @@ pub(super) fn sweep(arguments: &SweepArguments, reporter: &mut Reporter) -> Resu
         tolerance: arguments.following.tolerance,
         pass_bifurcations: arguments.following.pass_bifurcations,
         jobs: arguments.jobs,
+        digits: arguments.digits,
         skip: range[0],
         take: Some(range[1] - range[0]),
         vectors: arguments.vectors.unwrap_or_default(),
@@ -189,6 +190,9 @@ impl Table {
         } else {
             let results = compiled.results_of_variants();
             columns.extend(results.iter().map(|(name, unit)| column(name, unit, Kind::Number)));
+            if arguments.digits {
+                columns.push(column("digits", "1", Kind::Whole));
+            }
             columns.push(column("status", "1", Kind::Word));
             columns.push(column("stopped", "s", Kind::Number));
         }
@@ -235,7 +239,7 @@ fn size(bytes: f64) -> String {
 
 fn named_twice(name: &str) -> Diagnostic {
     unusable(format!("two columns of the table would be called `{name}`")).help(
-        "the table has columns of its own: `variant`, `status`, `stopped`; give that param or result another name",
+        "the table has columns of its own: `variant`, `digits`, `status`, `stopped`; give that param or result another name",
     )
 }
 

@@ -20,11 +20,12 @@ impl Swept {
     #[must_use]
     pub fn tabulated(self, units: Option<&[ColumnUnit]>) -> Vec<SweptColumn> {
         let numbers = self.first..self.first + self.len() as u64;
-        let Swept { statuses, stopped, params, results, lengths, columns: rows, .. } = self;
+        let Swept { statuses, stopped, params, results, digits, lengths, columns: rows, .. } = self;
         let mut columns = Vec::with_capacity(params.len() + results.len() + rows.len() + 3);
         let Some(units) = units else {
             columns.push(SweptColumn::Whole(numbers.collect()));
             columns.extend(params.into_iter().chain(results).map(|values| SweptColumn::Numbers(values.into())));
+            columns.extend(digits.map(SweptColumn::Whole));
             columns.push(SweptColumn::Words(statuses.into_iter().map(Status::as_str).collect()));
             columns.push(SweptColumn::Numbers(stopped.into()));
             return columns;

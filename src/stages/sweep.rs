@@ -45,6 +45,8 @@ pub struct SweepOptions {
     pub pass_bifurcations: bool,
     /// So many threads, of which the one that asks for blocks is one; as many as the machine does at once where nothing is said.
     pub jobs: Option<usize>,
+    /// Whether it is told how many digits of results are certain; such variants go alone.
+    pub digits: bool,
     /// So many variants are passed over.
     pub skip: u64,
     /// So many are computed at the most.
@@ -59,8 +61,20 @@ impl Default for SweepOptions {
     fn default() -> SweepOptions {
         let RunOptions { tolerance, pass_bifurcations, vectors, cancel, .. } = RunOptions::default();
         let (times, redundant) = (AskedTimes::default(), Redundant::default());
-        let (columns, jobs, skip, take) = (None, None, 0, None);
-        SweepOptions { times, columns, redundant, tolerance, pass_bifurcations, jobs, skip, take, vectors, cancel }
+        let (columns, jobs, digits, skip, take) = (None, None, false, 0, None);
+        SweepOptions {
+            times,
+            columns,
+            redundant,
+            tolerance,
+            pass_bifurcations,
+            jobs,
+            digits,
+            skip,
+            take,
+            vectors,
+            cancel,
+        }
     }
 }
 
@@ -287,7 +301,8 @@ impl Sweeping {
     fn empty_block(&self, first: u64) -> Swept {
         let results = self.results - usize::from(self.until.is_some());
         let columns = self.options.columns.as_ref().map_or(0, Vec::len);
-        Swept::new(first, self.variants.points().params().len(), results, columns)
+        let params = self.variants.points().params().len();
+        Swept { digits: self.options.digits.then(Vec::new), ..Swept::new(first, params, results, columns) }
     }
 
     /// How many values a variant has, one at least.
@@ -331,10 +346,10 @@ impl Sweeping {
     /// tells whether it is looked for.
     fn push_one(&self, block: &mut Swept, params: &[f64], beside: Option<(&Done<'_>, usize)>) -> Option<f64> {
         let beside = beside.and_then(|(done, lane)| match done.team.results(lane) {
-            Some(results) => Some((done, lane, results.to_vec(), true)),
+            Some(results) => Some((done, lane, (results.to_vec(), 0), true)),
             None => Some((done, lane, self.results_of(params)?, false)),
         });
-        let Some((done, lane, mut results, is_known)) = beside else {
+        let Some((done, lane, (mut results, digits), is_known)) = beside else {
             let mut variant = self.variant(params);
             let found = self.until.map(|until| variant.results.remove(until));
             block.push(params, &variant);
@@ -349,12 +364,14 @@ impl Sweeping {
             block.push_results_abreast(&results);
         } else {
             block.push_results(&results);
+            block.push_digits(digits);
         }
         found
     }
 
-    /// The results of a variant which is known to have all its rows; nothing where they cannot be had without these.
-    fn results_of(&self, params: &[f64]) -> Option<Vec<f64>> {
+    /// The results of a variant which is known to have all its rows, and how many digits of them are certain; nothing where they cannot be had
+    /// without these.
+    fn results_of(&self, params: &[f64]) -> Option<(Vec<f64>, u32)> {
         let options = self.run_options();
         let family = self.families.that_of(params, &self.own, &self.variants);
         let (model, _) = self.own.model_led_to(self.variants.read_settings(params), self.variants.sources());
@@ -366,8 +383,9 @@ impl Sweeping {
         };
         let asked = self.asked(&mut started, &times, &options);
         let mut results = vec![f64::NAN; self.results];
-        write_results(&asked.and_then(Asked::answer).unwrap_or_default().values, &family.places, &mut results);
-        Some(results)
+        let answers = asked.and_then(Asked::answer).unwrap_or_default();
+        write_results(&answers.values, &family.places, &mut results);
+        Some((results, answers.certain_digits()))
     }
 
     /// What results are computed from, where there are any.
@@ -383,7 +401,11 @@ impl Sweeping {
     fn abreast(&self) -> Option<&Abreast> {
         let new = || {
             let columns = self.options.columns.as_deref();
-            let (variants, wanted) = ((&self.variants, self.first), (&self.options.times, columns, self.results > 0));
+            let wants_results = self.results > 0 && !self.options.digits;
+            if columns.is_none() && !wants_results {
+                return None;
+            }
+            let (variants, wanted) = ((&self.variants, self.first), (&self.options.times, columns, wants_results));
             Abreast::of(&self.own, variants, &self.families, wanted, &self.run_options())
         };
         self.abreast.get_or_init(new).as_ref()
@@ -416,6 +438,7 @@ impl Sweeping {
             status: Status::Ok,
             stopped: f64::NAN,
             results: vec![f64::NAN; self.results],
+            digits: 0,
             rows: Vec::new(),
         };
         if let Err(why) = self.run(params, &mut variant) {
@@ -463,6 +486,7 @@ impl Sweeping {
         }
         let answers = asked.and_then(Asked::answer).unwrap_or_default();
         write_results(&answers.values, places, &mut variant.results);
+        variant.digits = answers.certain_digits();
         Ok(())
     }
 
@@ -486,7 +510,9 @@ impl Sweeping {
         while let Some(row) = run.next_row() {
             self.push_row(row?, &places, variant);
         }
-        write_results(&run.results().unwrap_or_default().values, &places, &mut variant.results);
+        let answers = run.results().unwrap_or_default();
+        write_results(&answers.values, &places, &mut variant.results);
+        variant.digits = answers.certain_digits();
         Ok(())
     }
 

@@ -24,8 +24,8 @@ pub(super) struct Asked {
     columns: Vec<Vec<Vec<u32>>>,
     /// What is looked for along the motion, each once.
     pub wanted: Vec<Wanted>,
-    /// By reduction: which of these it is, and whether the time of that.
-    reductions: Vec<(usize, bool)>,
+    /// By reduction: which of these it is, and which number of that.
+    reductions: Vec<(usize, Number)>,
     /// The first and the last time (s).
     pub interval: [f64; 2],
     vectors: Vectors,
@@ -50,6 +50,17 @@ pub(super) enum What {
     Last,
     /// That at a time, a formula of parameters (s).
     At(ExprId),
+    /// The integral over the whole of it.
+    Integral,
+}
+
+/// Which number of what has been found.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Number {
+    Time,
+    Value,
+    /// The value over the time of the analysis.
+    Mean,
 }
 
 impl Asked {
@@ -73,16 +84,18 @@ impl Asked {
         let solver = started.solver_of_variants(&|column| is_kept(column) || all.contains(&column))?;
         let (mut wanted, mut reductions) = (Vec::new(), Vec::new());
         for &(quantity, kind) in quantities.reductions() {
-            let (what, when) = match kind {
-                ReductionKind::Extreme { largest, when } => (What::Extreme { largest }, when),
-                ReductionKind::First => (What::First, false),
-                ReductionKind::Last => (What::Last, false),
-                ReductionKind::At(at) => (What::At(at), false),
-                ReductionKind::Mean | ReductionKind::Integral => return None,
+            let (what, number) = match kind {
+                ReductionKind::Extreme { largest, when: true } => (What::Extreme { largest }, Number::Time),
+                ReductionKind::Extreme { largest, when: false } => (What::Extreme { largest }, Number::Value),
+                ReductionKind::First => (What::First, Number::Value),
+                ReductionKind::Last => (What::Last, Number::Value),
+                ReductionKind::At(at) => (What::At(at), Number::Value),
+                ReductionKind::Mean => (What::Integral, Number::Mean),
+                ReductionKind::Integral => (What::Integral, Number::Value),
             };
             let this = Wanted { quantity, what };
             let known = wanted.iter().position(|other| *other == this);
-            reductions.push((known.unwrap_or(wanted.len()), when));
+            reductions.push((known.unwrap_or(wanted.len()), number));
             if known.is_none() {
                 wanted.push(this);
             }
@@ -130,7 +143,12 @@ impl Asked {
 
     /// The results of one variant, from time (s) and value of all that was looked for.
     pub fn write_results(&self, found: &[[f64; 2]], (params, lane): (&[Each], usize), results: &mut [f64]) {
-        let number = |&(wanted, when): &(usize, bool)| found[wanted][usize::from(!when)];
+        let [from, to] = self.interval;
+        let number = |&(wanted, number): &(usize, Number)| match (found[wanted], number) {
+            ([time, _], Number::Time) => time,
+            ([_, value], Number::Value) => value,
+            ([_, value], Number::Mean) => value / (to - from),
+        };
         let reductions: Vec<f64> = self.reductions.iter().map(number).collect();
         for (outcome, result) in self.system().results().outcomes.iter().zip(results) {
             let of = |k: u32| params[k as usize].0[lane];

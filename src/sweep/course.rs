@@ -199,3 +199,12 @@ pub(super) fn find_bends(times: &[f64], towers: &mut [Tower]) {
         };
     }
 }
+
+/// The integral over the course of a formula, by its values and derivatives at steps.
+pub(super) fn integral_by_steps(times: &[f64], towers: &[Tower]) -> f64 {
+    let cell = |(times, towers): (&[f64], &[Tower])| {
+        let (h, [[v, s, c], [w, r, d]]) = (times[1] - times[0], [towers[0], towers[1]]);
+        0.5 * h * (v + w) + h * h / 10.0 * (s - r) + h * h * h / 120.0 * (c + d)
+    };
+    times.windows(2).zip(towers.windows(2)).map(cell).sum()
+}

@@ -5,15 +5,15 @@
 #![allow(clippy::needless_range_loop)]
 
 use super::asked::{Asked, Wanted, What};
-use super::course::{Course, Place, Tower};
+use super::course::{Course, Place, Tower, integral_by_steps};
 use super::each::{Each, LANES, ZERO, parts_of};
 use super::steps::Steps;
 use super::together::Together;
 use super::walk::{Solving, Walk};
-use crate::analysis::{MOST_LOOKS, Sampled, Settling, Turning};
+use crate::analysis::{MOST_LOOKS, Sampled, Settled, Settling, SpectralIntegral, Turning};
 use crate::cancel::Cancel;
 use crate::solver::{Abreast, Guesses};
-use crate::tolerances::solving::course::MOST_STEPS;
+use crate::tolerances::solving::course::{ALIKE, MOST_STEPS};
 use crate::tolerances::solving::variants::{NEAREST, PART_OF_DISTANCE};
 use std::array::from_fn;
 
@@ -129,6 +129,10 @@ impl Survey {
     ) {
         let (_, asked) = of;
         let (wanted, [from, to]) = (asked.wanted[number], asked.interval);
+        if wanted.what == What::Integral {
+            self.integrate(of, loaded, number, open);
+            return;
+        }
         let mut looking = Looking { number, times: [from; LANES], turns: [None; LANES] };
         let mut rest = [false; LANES];
         for lane in 0..LANES {
@@ -148,6 +152,36 @@ impl Survey {
             && rest.contains(&true)
         {
             self.settle_rest(of, loaded, (number, largest), rest, open);
+        }
+    }
+
+    /// Finds an integral of those that are open, by its number.
+    fn integrate(&mut self, of: (&Together, &Asked), loaded: &[Each], number: usize, open: &mut [bool; LANES]) {
+        let asked = of.1;
+        let quantity = asked.wanted[number].quantity;
+        let mut integrals: Vec<SpectralIntegral> = vec![SpectralIntegral::new(asked.interval); LANES];
+        let mut left = *open;
+        while let Some(first) = left.iter().position(|&is_left| is_left) {
+            for (k, t) in integrals[first].times() {
+                let mut solved = left;
+                self.solve(of, loaded, &[t; LANES], &mut solved);
+                asked.look(quantity, &mut self.registers[quantity], &self.abreast);
+                let [values, ..] = asked.tower(quantity, &self.registers[quantity]);
+                for (lane, integral) in integrals.iter_mut().enumerate().filter(|(lane, _)| left[*lane]) {
+                    integral.take(k, if solved[lane] { values.0[lane] } else { f64::NAN });
+                }
+            }
+            let these = left;
+            for lane in (0..LANES).filter(|&lane| these[lane]) {
+                self.steps.write_course(quantity, lane, asked.knows_bends(quantity), &mut self.course);
+                let by_steps = integral_by_steps(&self.steps.times, &self.course);
+                match integrals[lane].go_on((by_steps, ALIKE)) {
+                    Settled::On => continue,
+                    Settled::Known([value, _]) => self.found[number][lane] = [f64::NAN, value],
+                    Settled::Lost => open[lane] = false,
+                }
+                left[lane] = false;
+            }
         }
     }
 
@@ -182,6 +216,7 @@ impl Survey {
                 let t = asked.value(at, params, lane);
                 (from <= t && t <= to).then_some(Place::End(t))
             }
+            What::Integral => None,
             What::Extreme { largest } => {
                 let Survey { steps, course, .. } = self;
                 let (quantity, is_length) = (wanted.quantity, asked.is_length(wanted.quantity));

@@ -43,6 +43,8 @@ pub struct OneVariant {
     pub stopped: f64,
     /// Its results (SI); no number where one has no value.
     pub results: Vec<f64>,
+    /// How many digits are certain of all its results that have a value; 0 where none has.
+    pub digits: u32,
     /// Row after row, the columns that are wanted (SI); none where no rows are.
     pub rows: Vec<f64>,
 }
@@ -60,6 +62,8 @@ pub struct Swept {
     pub params: Vec<Vec<f64>>,
     /// By result, by variant (SI); no number where it has no value.
     pub results: Vec<Vec<f64>>,
+    /// By variant: how many digits are certain of all its results; nothing where nobody asks.
+    pub digits: Option<Vec<u64>>,
     /// By variant: how many rows it has.
     pub lengths: Vec<usize>,
     /// By wanted column, row after row (SI).
@@ -115,6 +119,11 @@ impl Swept {
         self.answered += 1;
     }
 
+    /// Adds how many digits are certain of the results of the variant that was added last.
+    pub fn push_digits(&mut self, digits: u32) {
+        self.digits.iter_mut().for_each(|column| column.push(u64::from(digits)));
+    }
+
     /// Adds the results of the variant that was added last.
     pub fn push_results(&mut self, results: &[f64]) {
         self.results.iter_mut().zip(results).for_each(|(column, value)| column.push(*value));
@@ -132,7 +141,8 @@ impl Swept {
         self.statuses.push(variant.status);
         self.stopped.push(variant.stopped);
         self.params.iter_mut().zip(params).for_each(|(column, value)| column.push(*value));
-        self.results.iter_mut().zip(&variant.results).for_each(|(column, value)| column.push(*value));
+        self.push_results(&variant.results);
+        self.push_digits(variant.digits);
         let width = self.columns.len();
         self.lengths.push(variant.rows.len().checked_div(width).unwrap_or(0));
         for (k, column) in self.columns.iter_mut().enumerate() {
@@ -157,6 +167,7 @@ impl Swept {
         let rows = self.lengths.iter().sum();
         self.params.iter_mut().chain(&mut self.results).for_each(|column| column.truncate(variants));
         self.columns.iter_mut().for_each(|column| column.truncate(rows));
+        self.digits.iter_mut().for_each(|column| column.truncate(variants));
         // which of those that are left out went side by side nobody knows: never too many are said to
         self.abreast = self.abreast.saturating_sub(left_out);
         self.answered = self.answered.min(variants);

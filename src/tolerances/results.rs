@@ -152,6 +152,17 @@ pub mod quadrature {
     pub const ROUNDING: f64 = 4.0 * f64::EPSILON;
 }
 
+/// Integrals of what is smooth all over the analysis (`analysis/results/spectral.rs`).
+pub mod spectral {
+    /// With how many intervals between the times, as a power of two, the rule begins and ends.
+    pub const FIRST: usize = 6;
+    pub const LAST: usize = 10;
+    /// The rule converges where twice as many times change it by no more than this part of the change before.
+    pub const LESS: f64 = 0.1;
+    /// What the steps of the motion tell of an integral differs from it by no more than this part: else something narrow has been missed.
+    pub const ALIKE: f64 = 1e-2;
+}
+
 /// Loads between two states (`analysis/results/loads.rs`).
 pub mod loads {
     /// A load that is smooth between two states may go beyond what is told of it by this part of the largest that was seen of it.

@@ -111,6 +111,9 @@ pub mod course {
     pub const WAYS: usize = 3;
     /// At every one of so many steps.
     pub const EVERY: usize = 4;
+    /// What the steps tell of an integral differs from it by no more than this part, far less than is allowed alone
+    /// (`results::spectral::ALIKE`): a variant that is settled so is settled alone too.
+    pub const ALIKE: f64 = 1e-4;
     /// Steps at the most.
     pub const MOST_STEPS: usize = 4_096;
 }

@@ -43,6 +43,8 @@ pub(super) struct Extremum {
 #[derive(Clone, Copy, Debug)]
 struct Place {
     t: f64,
+    /// How far off that may be (s), beyond what its kind tells.
+    off_in_time: f64,
     value: f64,
     /// How far off that may be.
     off: f64,
@@ -115,10 +117,10 @@ impl Extremum {
         }
     }
 
-    /// Takes note of an edge or an end.
-    pub fn note_edge(&mut self, t: f64, Found { value, off }: Found, scale: Scale) {
-        let value = self.sign * value;
-        self.add(Place { t, value, off, least: value - off, kind: Kind::Edge }, scale);
+    /// Takes note of an edge or an end, at a time (s).
+    pub fn note_edge(&mut self, at: Found, Found { value, off }: Found, scale: Scale) {
+        let (value, t, off_in_time) = (self.sign * value, at.value, at.off);
+        self.add(Place { t, off_in_time, value, off, least: value - off, kind: Kind::Edge }, scale);
     }
 
     fn add(&mut self, found: Place, scale: Scale) {
@@ -186,7 +188,7 @@ impl Extremum {
         };
         let place = self.alike(scale).find(is_it).unwrap_or(&first);
         match place.kind {
-            Kind::Edge => found(place.t, SHORTEST),
+            Kind::Edge => Found { value: place.t, off: f64::max(SHORTEST * scale.span, place.off_in_time) },
             Kind::Turn => found(place.t, TIMES),
             Kind::Seen => found(place.t, TIMES_OF_VALUES),
         }
@@ -381,11 +383,12 @@ impl Probe<'_> {
             if goes_on && step <= scale.gap(GAP) {
                 extremum.see(point.state.t, found);
             } else {
-                extremum.note_edge(point.state.t, found, scale);
+                extremum.note_edge(Found { value: point.state.t, off: cell.length() }, found, scale);
             }
         }
         for value in self.curve.between_points(&cell.a, &cell.b) {
-            extremum.note_edge(cell.b.state.t, Found { value, off: KNOWN * value.abs() }, scale);
+            let at = Found { value: cell.b.state.t, off: cell.length() };
+            extremum.note_edge(at, Found { value, off: KNOWN * value.abs() }, scale);
         }
         let [_, upper] = extremum.oriented(range);
         if upper == f64::INFINITY && (self.grows_towards(cell, sign, true) || self.grows_towards(cell, sign, false)) {
@@ -506,7 +509,7 @@ impl Probe<'_> {
         let settled = self.settled_turn(cell.step, &near.state, t, scale.span);
         let [t, value] = settled.unwrap_or([t, near.sample.value]);
         let value = extremum.sign * value;
-        extremum.add(Place { t, value, off, least: value - off, kind: Kind::Turn }, scale);
+        extremum.add(Place { t, off_in_time: 0.0, value, off, least: value - off, kind: Kind::Turn }, scale);
     }
 
     /// The time (s) and the value of a turn that is near a state and a time, as they are whichever way led there; none where it does not settle, or
@@ -547,7 +550,8 @@ impl Probe<'_> {
         if is_small && f64::max(a, b) >= extremum.best - scale.alike() {
             let (point, value) = if b > a { (&cell.b, b) } else { (&cell.a, a) };
             let off = scale.gap(GAP_OF_VALUES);
-            extremum.add(Place { t: point.state.t, value, off, least: value, kind: Kind::Seen }, scale);
+            let t = point.state.t;
+            extremum.add(Place { t, off_in_time: 0.0, value, off, least: value, kind: Kind::Seen }, scale);
             if let Some(top) = self.top_beside(cell, point, extremum.sign, scale) {
                 extremum.add(top, scale);
             }
@@ -584,7 +588,8 @@ impl Probe<'_> {
             apart = finest.max(CLOSER * apart);
         }
         let [value] = self.values_at(cell.step, [t], sign)?;
-        Some(Place { t, value, off: scale.gap(GAP_OF_VALUES), least: value, kind: Kind::Turn })
+        let off = scale.gap(GAP_OF_VALUES);
+        Some(Place { t, off_in_time: 0.0, value, off, least: value, kind: Kind::Turn })
     }
 
     /// The formula at some times (s) of a step, times the sign.

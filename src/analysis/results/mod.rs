@@ -20,6 +20,7 @@ mod quantities;
 mod quantity;
 mod reduced;
 mod smooth;
+mod spectral;
 mod turn;
 mod varying;
 
@@ -41,6 +42,7 @@ pub use quantities::SmoothFormulas;
 pub use quantity::{Computed, SmoothFormula, moved};
 use reduced::Reduced;
 use rustc_hash::FxHashMap;
+pub use spectral::{Settled, SpectralIntegral};
 use std::sync::Arc;
 pub use turn::{MOST_LOOKS, Sampled, Settling, Turning};
 
@@ -79,6 +81,15 @@ pub struct Answers {
     pub digits: Vec<u32>,
     /// Why some have none.
     pub notes: Vec<Diagnostic>,
+}
+
+impl Answers {
+    /// How many digits are certain of all that have a value; 0 where none has.
+    #[must_use]
+    pub fn certain_digits(&self) -> u32 {
+        let known = self.values.iter().zip(&self.digits).filter(|(value, _)| value.is_some());
+        known.map(|(_, digits)| *digits).min().unwrap_or(0)
+    }
 }
 
 impl Started {

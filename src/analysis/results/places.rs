@@ -187,31 +187,43 @@ impl Places {
 
     /// The state at a time (s) between two states of a stretch; none where it cannot be solved for.
     pub fn solve(&mut self, stretch: &Stretch, [a, b]: [&State; 2], t: f64) -> Option<State> {
-        let h = b.t - a.t;
-        for (k, curve) in self.curve.iter_mut().enumerate() {
-            *curve = quintic_between(a, b, k, h);
-        }
         if let Some(bridge) = stretch.bridge.as_ref().filter(|bridge| t > bridge.from.t) {
             let on_bridge = bridge.best_state_at(t);
             return self.solve_from(on_bridge.clone(), Some(SOLVABLE)).or(Some(on_bridge));
         }
-        let key = self.key(t);
-        if let Some(known) = self.solved.get(&key) {
-            return Some(known.state.clone());
-        }
-        if let Some(state) = self.solve_by_lanes(stretch, a, (t, h)) {
-            if self.solved.len() * (1 + state.q.len()) > NUMBERS {
-                self.solved.clear();
-            }
-            self.solved.insert(key, Solved { state: state.clone(), multipliers: Vec::new() });
+        if let Some(state) = self.solve_exactly(stretch, [a, b], t) {
             return Some(state);
         }
+        let h = b.t - a.t;
         let mut state = a.clone();
         state.t = t;
         for (q, curve) in state.q.iter_mut().zip(&self.curve) {
             *q = along(curve, (t - a.t) / h);
         }
         self.solve_from(state, None)
+    }
+
+    /// As [`Places::solve`], with the bits that rows have there; none where that cannot be had.
+    pub fn solve_exactly(&mut self, stretch: &Stretch, [a, b]: [&State; 2], t: f64) -> Option<State> {
+        let key = self.key(t);
+        if let Some(known) = self.solved.get(&key) {
+            return Some(known.state.clone());
+        }
+        let h = b.t - a.t;
+        for (k, curve) in self.curve.iter_mut().enumerate() {
+            *curve = quintic_between(a, b, k, h);
+        }
+        let state = self.solve_by_lanes(stretch, a, (t, h))?;
+        if self.solved.len() * (1 + state.q.len()) > NUMBERS {
+            self.solved.clear();
+        }
+        self.solved.insert(key, Solved { state: state.clone(), multipliers: Vec::new() });
+        Some(state)
+    }
+
+    /// Whether the equations are such that states can be settled.
+    pub fn is_plain(&self) -> bool {
+        self.is_plain
     }
 
     /// The state at a time (s) that is a little beside that of a state of the stretch, as rows have it: its bits depend on the time alone, and

@@ -159,6 +159,13 @@ impl<'r> Probe<'r> {
         self.between(cell.step, [&cell.a.state, &cell.b.state], t)
     }
 
+    /// The formula at a time (s) within a cell, with the bits that rows have there; none where that cannot be had.
+    pub fn exact_point(&mut self, cell: &Cell, t: f64) -> Option<Rc<Point>> {
+        self.enter(cell.step);
+        let state = self.places.solve_exactly(&self.steps[cell.step], [&cell.a.state, &cell.b.state], t)?;
+        Some(self.curve.at(state, self.places))
+    }
+
     /// The formula at a time (s) of a step.
     pub fn point_of_step(&mut self, step: usize, t: f64) -> Option<Rc<Point>> {
         let ends @ [from, to] = [&self.steps[step].from, &self.steps[step].to];

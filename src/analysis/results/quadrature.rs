@@ -3,6 +3,7 @@
 
 use super::curve::{Cell, Found, Point, Verdict};
 use super::probe::{Probe, Scale};
+use crate::math::{log10, pow};
 use crate::tolerances::results::quadrature::{
     ACCURACY, ALIKE, BESIDE_POLE, DIVERGES, FARTHER, LEAST_GROWTH, LOOKS, NOTHING, PART_OF_POLE, ROUNDING, SAFETY,
     STEEPEST, SURER,
@@ -70,6 +71,11 @@ impl Integral {
     fn unbounded_beside(&self, size: f64) -> Option<f64> {
         let [most, t] = self.steepest;
         (most > DIVERGES * (self.size + size)).then_some(t)
+    }
+
+    /// One that is known, over some time (s).
+    pub fn known(found: Found, time: f64) -> Integral {
+        Integral { sum: found.value, off: found.off, time, ..Integral::default() }
     }
 
     fn add(&mut self, sum: f64, off: f64, time: f64) {
@@ -224,7 +230,7 @@ impl Probe<'_> {
         let largest = known.iter().fold(0.0, |largest, value| f64::max(largest, (value - integral.usual).abs()));
         let growth = self.growth_into(cell, integral.usual);
         if growth > LEAST_GROWTH {
-            if growth >= STEEPEST.exp2() && h * largest > integral.steepest[0] {
+            if growth >= pow(2.0, STEEPEST) && h * largest > integral.steepest[0] {
                 integral.steepest = [h * largest, cell.a.state.t];
             }
             integral.add(0.0, PART_OF_POLE * h * largest, h);
@@ -245,7 +251,8 @@ impl Probe<'_> {
                 there.map_or(f64::NAN, |there| off(&there))
             });
             let goes_on = !end.exists() || off(end) > near;
-            if goes_on && near > far { (near / far).powf(1.0 / (FARTHER[1] / FARTHER[0]).log2()) } else { 1.0 }
+            // the one is four times as far away as the other
+            if goes_on && near > far { (near / far).sqrt() } else { 1.0 }
         });
         f64::max(sides[0], sides[1])
     }
@@ -264,8 +271,8 @@ impl Probe<'_> {
         let [closer, farther] = [quarter / half, half / whole];
         let differs = (closer - farther).abs();
         // what they differ grows with the distance
-        let power = (closer + (closer - farther)).log2();
-        if !(LEAST_GROWTH..STEEPEST.exp2()).contains(&farther) || differs > ALIKE || power.is_nan() {
+        let power = log10(closer + (closer - farther)) / log10(2.0);
+        if !(LEAST_GROWTH..pow(2.0, STEEPEST)).contains(&farther) || differs > ALIKE || power.is_nan() {
             return None;
         }
         let sum = way.abs() * whole / (1.0 - power);
@@ -290,7 +297,7 @@ impl Probe<'_> {
     }
 
     /// The integral of the polynomial that has the values and derivatives of two points.
-    fn rule_of_ends(&self, a: &Point, b: &Point) -> f64 {
+    pub(super) fn rule_of_ends(&self, a: &Point, b: &Point) -> f64 {
         let (h, [a, b]) = (b.state.t - a.state.t, [a.sample, b.sample]);
         let values = 0.5 * h * (a.value + b.value);
         match self.curve.derivatives() {

@@ -1,4 +1,4 @@
-//! What results ask of the motion, for variants that go side by side: smooth formulas, of which extrema and values at some times are wanted.
+//! What results ask of the motion, for variants that go side by side: smooth formulas, of which extrema, integrals and values at some times are wanted.
 
 use super::curve::Curve;
 use super::quantity::SmoothFormula;
@@ -20,7 +20,6 @@ impl SmoothFormulas {
         let results = system.results();
         let is_plain = |kind: ReductionKind, of: ExprId| {
             let at = match kind {
-                ReductionKind::Mean | ReductionKind::Integral => return false,
                 ReductionKind::At(at) => needed(system.graph(), at),
                 _ => Vec::new(),
             };

@@ -256,14 +256,21 @@ impl Reduced {
                         continue;
                     }
                     let found = probe.curve.found(point);
-                    extremum.note_edge(point.state.t, found, scale);
+                    extremum.note_edge(Found { value: point.state.t, off: 0.0 }, found, scale);
                 }
             }
             *kept = Some(probe.search(&cells, samples, extremum, scale));
         }
         if let Some(integral) = integral {
+            let is_smooth = curve.settles() && places.is_plain() && steps.iter().all(|step| step.bridge.is_none());
+            let is_whole = cells[0].a.state.t <= window[0] && cells[cells.len() - 1].b.state.t >= window[1];
+            let has_edges = cells[1..].iter().any(|cell| steps[cell.step].begins_at_edge);
             let mut probe = Probe::new((curve, of_integral), places, steps, (window, span));
-            probe.integrate(&cells, median(samples.clone()), scale, integral);
+            let known = if is_smooth && is_whole && !has_edges { probe.integrate_whole(&cells) } else { None };
+            match known {
+                Some(known) => *integral = Integral::known(known, window[1] - window[0]),
+                None => probe.integrate(&cells, median(samples.clone()), scale, integral),
+            }
         }
     }
 

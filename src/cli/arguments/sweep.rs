@@ -39,6 +39,10 @@ pub(in crate::cli) struct SweepArguments {
     #[arg(long, value_name = "NAME=FORMULA")]
     pub result: Vec<String>,
 
+    /// A column `digits`: how many digits are certain of all results of a variant. It takes longer, for each is computed on its own
+    #[arg(long, conflicts_with = "rows")]
+    pub digits: bool,
+
     /// The whole motion of every variant, rather than its results
     #[arg(long)]
     pub rows: bool,
