@@ -106,6 +106,7 @@ impl Whole {
             tolerance: run.tolerance,
             pass_bifurcations: run.pass_bifurcations,
             jobs: more.jobs,
+            digits: false,
             skip: more.skip,
             take: more.take,
             vectors: run.vectors,
