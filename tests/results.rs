@@ -375,7 +375,7 @@ fn integrals_beside_poles_are_known_or_have_no_end() {
          result jump = mean(sign(t - 2 s))",
     );
     // (0.3^0.4 + 1.7^0.4) / 0.4, and the sum of x (ln x - 1)
-    let (power, log) = (4.635648547926127, -1.459123814492091);
+    let (power, log) = (4.635_648_547_926_127, -1.459_123_814_492_091);
     let wanted = [root, root, power, 2.0 * 2.0_f64.sqrt(), log, root + 0.1 * PI.sqrt(), -1.0];
     check(&text, 2.0, &wanted.map(|wanted| (wanted, 2e-9)));
     for formula in [

@@ -23,13 +23,15 @@ fn neighbours_are_found() {
 
 #[test]
 fn secants_close_in_on_neighbours() {
-    let roots: [(fn(f64) -> f64, [f64; 2], u32); 6] = [
+    type Root = (fn(f64) -> f64, [f64; 2], u32);
+    let cubic = |x: f64| (x - 0.7) * (x - 0.7) * (x - 0.7);
+    let roots: [Root; 6] = [
         (|x| x - 0.3, [0.0, 1.0], 6),
         (|x| x * x - 2.0, [0.0, 2.0], 14),
-        (|x| (x - 0.7).powi(3), [0.0, 1.0], 130),
+        (cubic, [0.0, 1.0], 130),
         (|x| if x < 0.123 { -1.0 } else { 1e-9 }, [0.0, 1.0], 160),
         (|x| if x < 0.123 { f64::NAN } else { x }, [0.0, 1.0], 60),
-        (|x| x.tan(), [1.0, 4.0], 14),
+        (super::tan, [1.0, 4.0], 14),
     ];
     for (k, (f, ends, most)) in roots.into_iter().enumerate() {
         let mut looks = 0;
