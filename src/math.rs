@@ -31,7 +31,9 @@ mod without_branches {
 }
 
 pub use ahead::{weigh, weigh_slopes};
-pub use curve::{about, along, between, cubic, farthest, parabola, predicted, quintic, value_and_slopes};
+pub use curve::{
+    about, along, between, cubic, farthest, integral_of_quintic, parabola, predicted, quintic, value_and_slopes,
+};
 pub use neighbours::bisect;
 pub use search::{GOLDEN, GoldenSection, Halving, boundary, close_in, median};
 pub use sin_cos::{A_MILLION, sin_cos};

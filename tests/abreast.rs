@@ -143,7 +143,9 @@ fn results_beside_a_lane_are_those_alone() {
     assert!(abreast > 8 && abreast <= count(&found, Status::Ok), "{abreast} of {found:?}");
     let alone = subject.swept(&subject.variants(&asked), &SweepOptions::default());
     let beside = subject.swept(&subject.variants(&asked), &subject.all_columns());
-    assert_eq!((alone.abreast, &alone.statuses), (abreast, &beside.statuses));
+    // results are in doubt earlier than rows
+    assert!(alone.abreast > 8 && alone.abreast <= abreast, "{} of {abreast}", alone.abreast);
+    assert_eq!(alone.statuses, beside.statuses);
     for (alone, beside) in alone.results.iter().zip(&beside.results) {
         assert!(have_the_same_bits(alone, beside), "{alone:?} {beside:?}");
     }

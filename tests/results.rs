@@ -392,6 +392,27 @@ fn integrals_beside_poles_are_known_or_have_no_end() {
     }
 }
 
+/// The tip of a cusp is where the argument is zero, of forces too, of which no slopes are known.
+#[test]
+fn cusps_of_forces_have_their_tips() {
+    let text = arm(
+        "1 rad/s * t",
+        "load weight: -10 N * cos(rotation(main)) * 1 m on rotation(main)
+         result root = min(ln(sqrt(abs(effort(motor) / (1 N * m))) + 0.001))
+         result spike = max(1 / (sqrt(abs(effort(motor) / (1 N * m) - 3)) + 1e-4))
+         result power = min(abs(effort(motor) / (1 N * m) - 3)^0.25)",
+    );
+    check(&text, 3.0, &[(-6.907_755_278_982_137, 1e-12), (1e4, 1e-8), (0.0, 1e-12)]);
+}
+
+/// Many turns need many cells.
+#[test]
+fn integrals_over_many_turns_are_found() {
+    let text = four_bar("result a = mean(der(der(x(coupler.C)))^2)");
+    let [once, often] = [1.0, 60.0].map(|to| values(&text, to)[0]);
+    assert!((once - often).abs() <= 1e-9 * once, "{once} {often}");
+}
+
 /// What touches a threshold, or a pole, without a change of sign.
 #[test]
 fn what_is_touched_is_met() {

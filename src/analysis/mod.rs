@@ -29,6 +29,7 @@ pub use assemble::{Moved, Request, Solving, Started, Unassembled, with_parts};
 pub use explain::errors::length as length_in_words;
 pub use explain::{FreeMotion, determine, free_motions};
 pub use follow::{Follower, LeadOptions, Way, before_ways, follow_to, lead, lead_again, start, start_from};
+pub use results::course;
 pub use results::{
     Answers, Asked, Computed, MOST_LOOKS, Sampled, Settled, Settling, SmoothFormula, SmoothFormulas, SpectralIntegral,
     Turning, moved, refused_results,

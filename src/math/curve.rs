@@ -13,6 +13,12 @@ pub fn quintic([q, qd, qdd]: [f64; 3], [q_end, qd_end, qdd_end]: [f64; 3], h: f6
     [q, slope, bend, cubic, quartic, quintic]
 }
 
+/// The integral of the quintic with value, slope and curvature of both ends of a step of length `h`.
+#[must_use]
+pub fn integral_of_quintic([q, qd, qdd]: [f64; 3], [q_end, qd_end, qdd_end]: [f64; 3], h: f64) -> f64 {
+    0.5 * h * (q + q_end) + h * h / 10.0 * (qd - qd_end) + h * h * h / 120.0 * (qdd + qdd_end)
+}
+
 /// The cubic with value and slope of both ends of a step of length `h` (Hermite), as such a curve.
 #[must_use]
 pub fn cubic([q, qd]: [f64; 2], [q_end, qd_end]: [f64; 2], h: f64) -> [f64; 6] {

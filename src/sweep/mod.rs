@@ -3,7 +3,6 @@
 
 mod asked;
 mod base;
-mod course;
 mod each;
 mod judge;
 mod numbers;

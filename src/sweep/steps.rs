@@ -1,13 +1,14 @@
 //! The motion of variants that go side by side, step by step, with the course of what results ask of it.
 
 use super::asked::Asked;
-use super::course::{Tower, find_bends};
 use super::each::{Each, LANES, ZERO};
 use super::together::Together;
 use super::walk::Walk;
+use crate::analysis::course::{Tower, find_bends};
 use crate::math::{along, quintic};
 use crate::solver::Abreast;
 use crate::tolerances::solving::course::{EVERY, WAYS};
+use std::array::from_fn;
 
 /// The motion, step by step.
 #[derive(Default)]
@@ -65,12 +66,34 @@ impl Steps {
     /// Where Newton begins at a time of each (s): on the quintics of its tears.
     pub fn write_guesses(&self, times: &[f64; LANES], guesses: &mut [Each]) {
         let count = guesses.len();
+        if times.iter().all(|t| t.to_bits() == times[0].to_bits()) {
+            self.write_guesses_at(times[0], guesses);
+            return;
+        }
         for (lane, &t) in times.iter().enumerate() {
             let step = self.before(t);
             let (from, h) = (self.times[step], self.times[step + 1] - self.times[step]);
             for (tear, guess) in guesses.iter_mut().enumerate() {
                 let ends = [step, step + 1].map(|step| self.tears[step * count + tear].map(|each| each.0[lane]));
                 guess.0[lane] = along(&quintic(ends[0], ends[1], h), (t - from) / h);
+            }
+        }
+    }
+
+    /// The same at one time of all (s): what value, slope and curvature at both ends of the step weigh there is found once.
+    fn write_guesses_at(&self, t: f64, guesses: &mut [Each]) {
+        let (count, step) = (guesses.len(), self.before(t));
+        let (from, h) = (self.times[step], self.times[step + 1] - self.times[step]);
+        let weights: [f64; 6] = from_fn(|k| {
+            let mut ends = [[0.0; 3]; 2];
+            ends[k / 3][k % 3] = 1.0;
+            along(&quintic(ends[0], ends[1], h), (t - from) / h)
+        });
+        for (tear, guess) in guesses.iter_mut().enumerate() {
+            let [a, b] = [step, step + 1].map(|step| &self.tears[step * count + tear]);
+            for (lane, guess) in guess.0.iter_mut().enumerate() {
+                let known = [a[0].0[lane], a[1].0[lane], a[2].0[lane], b[0].0[lane], b[1].0[lane], b[2].0[lane]];
+                *guess = known.iter().zip(&weights).map(|(known, weight)| known * weight).sum();
             }
         }
     }

@@ -5,11 +5,11 @@
 #![allow(clippy::needless_range_loop)]
 
 use super::asked::{Asked, Wanted, What};
-use super::course::{Course, Place, Tower, integral_by_steps};
 use super::each::{Each, LANES, ZERO, parts_of};
 use super::steps::Steps;
 use super::together::Together;
 use super::walk::{Solving, Walk};
+use crate::analysis::course::{Course, Place, Tower, integral_by_steps};
 use crate::analysis::{MOST_LOOKS, Sampled, Settled, Settling, SpectralIntegral, Turning};
 use crate::cancel::Cancel;
 use crate::solver::{Abreast, Guesses};
@@ -173,9 +173,12 @@ impl Survey {
             }
             let these = left;
             for lane in (0..LANES).filter(|&lane| these[lane]) {
-                self.steps.write_course(quantity, lane, asked.knows_bends(quantity), &mut self.course);
-                let by_steps = integral_by_steps(&self.steps.times, &self.course);
-                match integrals[lane].go_on((by_steps, ALIKE)) {
+                let Survey { steps, course, .. } = self;
+                let by_steps = || {
+                    steps.write_course(quantity, lane, asked.knows_bends(quantity), course);
+                    integral_by_steps(&steps.times, course)
+                };
+                match integrals[lane].go_on(ALIKE, by_steps) {
                     Settled::On => continue,
                     Settled::Known([value, _]) => self.found[number][lane] = [f64::NAN, value],
                     Settled::Lost => open[lane] = false,

@@ -32,6 +32,8 @@ pub mod probe {
     /// Looking at one formula, so many cells are cut at most: what needs more is not meant. One whose middle has to be solved for counts as
     /// so many.
     pub const MOST_CELLS: usize = 1_000_000;
+    /// And so many more for each step of the motion.
+    pub const MOST_OF_A_STEP: usize = 10_000;
     pub const SOLVED: usize = 20;
     /// No cell is shorter than this part of the span.
     pub const SHORTEST: f64 = 4.0 * f64::EPSILON;
@@ -156,7 +158,7 @@ pub mod quadrature {
 pub mod spectral {
     /// With how many intervals between the times, as a power of two, the rule begins and ends.
     pub const FIRST: usize = 6;
-    pub const LAST: usize = 10;
+    pub const LAST: usize = 12;
     /// The rule converges where twice as many times change it by no more than this part of the change before.
     pub const LESS: f64 = 0.1;
     /// What the steps of the motion tell of an integral differs from it by no more than this part: else something narrow has been missed.

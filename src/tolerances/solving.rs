@@ -84,7 +84,7 @@ pub mod variants {
     pub const PARTS_OF_WAY: [u32; 6] = [1, 2, 4, 8, 16, 32];
 }
 
-/// The course of a formula of a variant (`sweep/course.rs`, `sweep/steps.rs`, `sweep/survey.rs`).
+/// The course of a formula of a variant (`analysis/results/course.rs`, `sweep/steps.rs`, `sweep/survey.rs`).
 pub mod course {
     /// How much farther than the quintic in the middle of a cell a second derivative may be from the straight line between its ends: so much as
     /// results of a variant alone allow of a half of a cell.

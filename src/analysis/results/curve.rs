@@ -685,7 +685,7 @@ impl Curve {
     /// The values where an argument of a function that is not smooth somewhere is just there, between two points beside each other or at one
     /// where rounding alone tells it from that, as far as they are known.
     pub fn between_points(&mut self, a: &Point, b: &Point) -> Vec<f64> {
-        if self.holds_forces || !(a.exists() || b.exists()) {
+        if !(a.exists() || b.exists()) {
             return Vec::new();
         }
         let there = if a.exists() { a } else { b };

@@ -8,6 +8,7 @@
 //! formula needs. No bit of a row depends on it.
 
 mod certain;
+pub mod course;
 mod curve;
 mod errors;
 mod extremum;

@@ -7,7 +7,7 @@ use crate::analysis::state::State;
 use crate::math::{close_in, power_of_two_below};
 use crate::program::Range;
 use crate::tolerances::results::probe::{
-    ALIKE, DIFFERENT, MOST_CELLS, NOTHING, OPAQUE, ROUNDING, SHORT, SHORTEST, SOLVED,
+    ALIKE, DIFFERENT, MOST_CELLS, MOST_OF_A_STEP, NOTHING, OPAQUE, ROUNDING, SHORT, SHORTEST, SOLVED,
 };
 use std::rc::Rc;
 
@@ -72,8 +72,9 @@ pub(super) struct Notes {
     pub trouble: Option<Trouble>,
     /// The first time (s) at which the formula has no value.
     pub missing: Option<f64>,
-    /// How much has been looked at.
+    /// How much has been looked at, and how much may be.
     cells: usize,
+    most: usize,
 }
 
 impl Notes {
@@ -117,6 +118,7 @@ impl<'r> Probe<'r> {
         (window, span): ([f64; 2], f64),
     ) -> Probe<'r> {
         curve.set_short(SHORT * span);
+        notes.most = notes.most.max(MOST_CELLS) + MOST_OF_A_STEP * steps.len();
         Probe {
             curve,
             places,
@@ -201,7 +203,7 @@ impl<'r> Probe<'r> {
     pub fn enclose(&mut self, cell: &mut Cell) -> (Verdict, Range) {
         self.enter(cell.step);
         self.notes.cells += 1;
-        if self.notes.cells > MOST_CELLS {
+        if self.notes.cells > self.notes.most {
             self.notes.meet(Trouble::Unknown(cell.a.state.t));
         }
         // a pole at a singular position shows at neither end of a cell around it

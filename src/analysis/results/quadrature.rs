@@ -3,7 +3,7 @@
 
 use super::curve::{Cell, Found, Point, Verdict};
 use super::probe::{Probe, Scale};
-use crate::math::{log10, pow};
+use crate::math::{integral_of_quintic, log10, pow};
 use crate::tolerances::results::quadrature::{
     ACCURACY, ALIKE, BESIDE_POLE, DIVERGES, FARTHER, LEAST_GROWTH, LOOKS, NOTHING, PART_OF_POLE, ROUNDING, SAFETY,
     STEEPEST, SURER,
@@ -299,10 +299,9 @@ impl Probe<'_> {
     /// The integral of the polynomial that has the values and derivatives of two points.
     pub(super) fn rule_of_ends(&self, a: &Point, b: &Point) -> f64 {
         let (h, [a, b]) = (b.state.t - a.state.t, [a.sample, b.sample]);
-        let values = 0.5 * h * (a.value + b.value);
         match self.curve.derivatives() {
-            1 => values + h * h / 12.0 * (a.first - b.first),
-            _ => values + h * h / 10.0 * (a.first - b.first) + h * h * h / 120.0 * (a.second + b.second),
+            1 => 0.5 * h * (a.value + b.value) + h * h / 12.0 * (a.first - b.first),
+            _ => integral_of_quintic([a.value, a.first, a.second], [b.value, b.first, b.second], h),
         }
     }
 

@@ -63,9 +63,9 @@ impl SpectralIntegral {
         self.values[k] = value;
     }
 
-    /// Goes on once the formula is known at all times; `by_steps` is the integral as the ends of the motion's steps tell it, which may differ by a
-    /// part of the size.
-    pub fn go_on(&mut self, (by_steps, part): (f64, f64)) -> Settled {
+    /// Goes on once the formula is known at all times; `by_steps` tells the integral by the ends of the motion's steps, which may differ by a part of
+    /// the size.
+    pub fn go_on(&mut self, part: f64, by_steps: impl FnOnce() -> f64) -> Settled {
         let half = 0.5 * (self.interval[1] - self.interval[0]);
         let sum = |level: usize, of: &dyn Fn(f64) -> f64| {
             let values = self.values.iter().step_by(1 << (self.level - level));
@@ -80,7 +80,7 @@ impl SpectralIntegral {
         // the number of certain digits grows with the number of times
         let off = if change < LESS * before { change * (change / before) } else { change };
         if off <= (ACCURACY * size).max(rounding) {
-            let is_alike = (found - by_steps).abs() <= (part * size).max(part * part * 2.0 * half * largest);
+            let is_alike = (found - by_steps()).abs() <= (part * size).max(part * part * 2.0 * half * largest);
             return if is_alike { Settled::Known([found, off + rounding]) } else { Settled::Lost };
         }
         if self.level == LAST || off.is_nan() {
@@ -117,7 +117,6 @@ impl Probe<'_> {
     /// The integral of a formula that settles over cells that follow on each other without edges; none where so many times are not enough.
     pub(super) fn integrate_whole(&mut self, cells: &[Cell]) -> Option<Found> {
         let (first, last) = (cells.first()?, cells.last()?);
-        let by_steps: f64 = cells.iter().map(|cell| self.rule_of_ends(&cell.a, &cell.b)).sum();
         let mut integral = SpectralIntegral::new([first.a.state.t, last.b.state.t]);
         loop {
             let mut step = 0;
@@ -135,7 +134,8 @@ impl Probe<'_> {
                 };
                 integral.take(k, value);
             }
-            match integral.go_on((by_steps, ALIKE)) {
+            let by_steps = || cells.iter().map(|cell| self.rule_of_ends(&cell.a, &cell.b)).sum();
+            match integral.go_on(ALIKE, by_steps) {
                 Settled::On => {}
                 Settled::Known([value, off]) => return Some(Found { value, off }),
                 Settled::Lost => return None,

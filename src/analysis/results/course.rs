@@ -1,16 +1,17 @@
-//! Where along its course a smooth formula has its largest value, as far as that is beyond doubt.
+//! Where along its course a smooth formula has its largest value, as far as that is beyond doubt: for variants that go side by side, which are
+//! looked at no more closely. Where it is in doubt a variant is looked at alone, by branch and bound (`extremum.rs`).
 //!
 //! The course is known at steps, with its slope and its second derivative. In a cell between two of them the second derivative stays near the
 //! straight line between its ends, as far as the quintic through both tells; so it is known where the slope may pass zero.
 
-use crate::math::{along, between, quintic, value_and_slopes};
+use crate::math::{along, between, integral_of_quintic, quintic, value_and_slopes};
 use crate::tolerances::solving::course::{AWAY, CERTAIN, ITERATIONS, MARGIN, RESTS, SAFETY, STEEP, STEPS_TO_KINK};
 
 /// Value, slope and second derivative at a time.
-pub(super) type Tower = [f64; 3];
+pub type Tower = [f64; 3];
 
 /// The course of a formula of one variant.
-pub(super) struct Course<'c> {
+pub struct Course<'c> {
     /// The times of steps (s), two at least, and what the formula is there.
     pub times: &'c [f64],
     pub towers: &'c [Tower],
@@ -23,7 +24,7 @@ pub(super) struct Course<'c> {
 
 /// Where an extremum is.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) enum Place {
+pub enum Place {
     /// At the first or the last time (s).
     End(f64),
     /// About a time (s) between.
@@ -64,6 +65,7 @@ impl Best {
 
 impl Course<'_> {
     /// Where the largest value is, or the least; nothing where that is in doubt.
+    #[must_use]
     pub fn extreme(&self, largest: bool) -> Option<Place> {
         if self.rests() {
             return Some(Place::Rest);
@@ -169,7 +171,7 @@ fn look_into([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Cell {
 
 /// Finds the second derivatives of a formula at steps from its values and slopes there: at each from the cubics of both cells beside it, of which
 /// each is off by what the fourth derivative makes of it.
-pub(super) fn find_bends(times: &[f64], towers: &mut [Tower]) {
+pub fn find_bends(times: &[f64], towers: &mut [Tower]) {
     let last = times.len() - 1;
     let h = |k: usize| times[k + 1] - times[k];
     for k in 0..=last {
@@ -201,10 +203,8 @@ pub(super) fn find_bends(times: &[f64], towers: &mut [Tower]) {
 }
 
 /// The integral over the course of a formula, by its values and derivatives at steps.
-pub(super) fn integral_by_steps(times: &[f64], towers: &[Tower]) -> f64 {
-    let cell = |(times, towers): (&[f64], &[Tower])| {
-        let (h, [[v, s, c], [w, r, d]]) = (times[1] - times[0], [towers[0], towers[1]]);
-        0.5 * h * (v + w) + h * h / 10.0 * (s - r) + h * h * h / 120.0 * (c + d)
-    };
+#[must_use]
+pub fn integral_by_steps(times: &[f64], towers: &[Tower]) -> f64 {
+    let cell = |(times, towers): (&[f64], &[Tower])| integral_of_quintic(towers[0], towers[1], times[1] - times[0]);
     times.windows(2).zip(towers.windows(2)).map(cell).sum()
 }
