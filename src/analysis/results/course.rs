@@ -12,13 +12,15 @@ pub type Tower = [f64; 3];
 
 /// The course of a formula of one variant.
 pub struct Course<'c> {
-    /// The times of steps (s), two at least, and what the formula is there.
+    /// The times of steps (s), two at least.
     pub times: &'c [f64],
+    /// What the formula is there.
     pub towers: &'c [Tower],
     /// Whether it is a length, with a kink where it is zero.
     pub is_length: bool,
-    /// The size of the numbers that values are sums of, and how near to a singular position they come: what rounding of values goes by.
+    /// The size of the numbers that values are sums of: what rounding of values goes by.
     pub weight: f64,
+    /// How near to a singular position they come, which rounding grows with.
     pub nearness: f64,
 }
 
