@@ -245,14 +245,18 @@ impl Probe<'_> {
         let [from, to] = [&self.steps[cell.step].from, &self.steps[cell.step].to].map(|state| state.t);
         let off = |point: &Point| (point.sample.value - usual).abs();
         let sides = [(&cell.a, -cell.length()), (&cell.b, cell.length())].map(|(end, way)| {
-            let [near, far] = FARTHER.map(|far| {
+            let mut off_at = |far: f64| {
                 let t = end.state.t + far * way;
                 let there = if from <= t && t <= to { self.point_of_step(cell.step, t) } else { None };
                 there.map_or(f64::NAN, |there| off(&there))
-            });
-            let goes_on = !end.exists() || off(end) > near;
+            };
+            let near = off_at(FARTHER[0]);
+            if end.exists() && off(end) <= LEAST_GROWTH * near {
+                return 1.0;
+            }
+            let far = off_at(FARTHER[1]);
             // the one is four times as far away as the other
-            if goes_on && near > far { (near / far).sqrt() } else { 1.0 }
+            if near > far { (near / far).sqrt() } else { 1.0 }
         });
         f64::max(sides[0], sides[1])
     }
