@@ -1,5 +1,6 @@
 //! Where something happens in an interval: golden section, halving.
 
+use super::grid::on_grid;
 use super::neighbours::bisect;
 
 /// The golden ratio's fraction: it sections intervals for their minimum, and its multiples never come close to a period.
@@ -31,7 +32,6 @@ pub fn close_in(
             [from.next_up(), to.next_down()]
         }
     };
-    let on_grid = |place: f64| if grid > 0.0 { (place / grid).round() * grid } else { place };
     let (mut widths, mut last) = ([f64::INFINITY; 2], None);
     loop {
         let [[from, off], [to, off_behind]] = [before, behind];
@@ -41,7 +41,8 @@ pub fn close_in(
         }
         let secant = from + width * (off / (off + off_behind));
         let is_closing = secant.is_finite() && width <= 0.5 * widths[1];
-        let place = on_grid(if is_closing { secant } else { 0.5 * from + 0.5 * to }).clamp(first, end);
+        let wanted = if is_closing { secant } else { 0.5 * from + 0.5 * to };
+        let place = if grid > 0.0 { on_grid(wanted, grid) } else { wanted }.clamp(first, end);
         let (is_behind, off_here) = look(place)?;
         let (end, other) = if is_behind { (&mut behind, &mut before) } else { (&mut before, &mut behind) };
         *end = [place, off_here];

@@ -400,13 +400,10 @@ impl Probe<'_> {
     /// come near by equal factors.
     fn grows_towards(&mut self, cell: &Cell, sign: f64, is_before: bool) -> bool {
         let (near, away) = if is_before { (&cell.a, -1.0) } else { (&cell.b, 1.0) };
-        let [from, to] = [&self.steps[cell.step].from, &self.steps[cell.step].to].map(|state| state.t);
         let mut values = [sign * near.sample.value, f64::NAN, f64::NAN, f64::NAN];
         for (value, far) in values[1..].iter_mut().zip(TOWARDS) {
             let t = near.state.t + away * far * self.shortest.max(cell.length());
-            if from <= t && t <= to {
-                *value = self.point_of_step(cell.step, t).map_or(f64::NAN, |point| sign * point.sample.value);
-            }
+            *value = self.point_within_step(cell.step, t).map_or(f64::NAN, |point| sign * point.sample.value);
         }
         // nearest by, values may be rounding
         values.windows(3).any(|places| {

@@ -177,6 +177,12 @@ impl<'r> Probe<'r> {
         }
     }
 
+    /// The formula at a time (s) of a step; none beyond its ends, or where the motion cannot be solved for.
+    pub fn point_within_step(&mut self, step: usize, t: f64) -> Option<Rc<Point>> {
+        let is_within = self.steps[step].from.t <= t && t <= self.steps[step].to.t;
+        if is_within { self.point_of_step(step, t) } else { None }
+    }
+
     fn between(&mut self, step: usize, [a, b]: [&State; 2], t: f64) -> Option<Rc<Point>> {
         self.enter(step);
         let state = if self.curve.moves() {

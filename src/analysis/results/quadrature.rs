@@ -242,12 +242,10 @@ impl Probe<'_> {
     /// The factor by which the formula grows, from a value that is usual, whenever the way to a shortest cell becomes half as long; 1 where it does
     /// not go on to grow into the cell: a pole does so, and a jump does not.
     fn growth_into(&mut self, cell: &Cell, usual: f64) -> f64 {
-        let [from, to] = [&self.steps[cell.step].from, &self.steps[cell.step].to].map(|state| state.t);
         let off = |point: &Point| (point.sample.value - usual).abs();
         let sides = [(&cell.a, -cell.length()), (&cell.b, cell.length())].map(|(end, way)| {
             let mut off_at = |far: f64| {
-                let t = end.state.t + far * way;
-                let there = if from <= t && t <= to { self.point_of_step(cell.step, t) } else { None };
+                let there = self.point_within_step(cell.step, end.state.t + far * way);
                 there.map_or(f64::NAN, |there| off(&there))
             };
             let near = off_at(FARTHER[0]);

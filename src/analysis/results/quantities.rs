@@ -1,4 +1,4 @@
-//! What results ask of the motion, for variants that go side by side: smooth formulas, of which extrema, integrals and values at some times are wanted.
+//! Smooth formulas that results ask of the motion, for variants that go side by side: extrema of them, integrals, and values at some times.
 
 use super::curve::Curve;
 use super::quantity::SmoothFormula;
