@@ -250,7 +250,7 @@ impl Machine for Intervals<'_> {
     }
 
     fn sin_cos(&mut self, a: Interval) -> [Interval; 2] {
-        [of_one(Unary::Sin, a), of_one(Unary::Cos, a)]
+        waves(a)
     }
 
     fn unary(&mut self, function: Unary, a: Interval) -> Interval {
@@ -334,16 +334,19 @@ fn wider(low: f64, high: f64) -> Interval {
     }
 }
 
-/// A sine or cosine changes by no more than its argument.
-fn wave(function: Unary, a: Interval) -> Interval {
+/// The sine and the cosine: each changes by no more than its argument, nor by more than its slope in the middle and half the square tell.
+fn waves(a: Interval) -> [Interval; 2] {
     let middle = 0.5 * a.low + 0.5 * a.high;
     let reach = (a.high - middle).max(middle - a.low).next_up();
-    let value = unary_value(function, middle);
-    if value.is_nan() || !reach.is_finite() {
-        return Interval { low: -1.0, high: 1.0 };
-    }
-    let reached = wider(value - reach - 2.0 * f64::EPSILON, value + reach + 2.0 * f64::EPSILON);
-    Interval { low: reached.low.max(-1.0), high: reached.high.min(1.0) }
+    let values = [Unary::Sin, Unary::Cos].map(|function| unary_value(function, middle));
+    [[values[0], values[1]], [values[1], values[0]]].map(|[value, slope]| {
+        if value.is_nan() || !reach.is_finite() {
+            return Interval { low: -1.0, high: 1.0 };
+        }
+        let off = reach * (slope.abs() + 0.5 * reach).min(1.0) + 2.0 * f64::EPSILON;
+        let reached = wider(value - off, value + off);
+        Interval { low: reached.low.max(-1.0), high: reached.high.min(1.0) }
+    })
 }
 
 /// Never below zero.
@@ -369,7 +372,8 @@ fn quotient(a: Interval, b: Interval) -> Interval {
 pub(super) fn of_one(function: Unary, a: Interval) -> Interval {
     let (low, high) = (unary_value(function, a.low), unary_value(function, a.high));
     match function {
-        Unary::Sin | Unary::Cos => wave(function, a),
+        Unary::Sin => waves(a)[0],
+        Unary::Cos => waves(a)[1],
         // exact, and they never fall
         Unary::Sign | Unary::Floor if !low.is_nan() && !high.is_nan() => Interval { low: low + 0.0, high: high + 0.0 },
         Unary::Acos => loose(high, low),

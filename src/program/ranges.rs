@@ -177,12 +177,21 @@ impl Ranges {
         self.current = 0;
     }
 
-    /// The range of a formula.
-    pub fn range(&mut self, program: &Program, registers: &Registers, k: usize) -> Range {
-        while self.current <= k {
+    /// Finds the ranges of all formulas.
+    pub fn run_all(&mut self, program: &Program, registers: &Registers) {
+        self.run_up_to(program, registers, self.roots.len());
+    }
+
+    fn run_up_to(&mut self, program: &Program, registers: &Registers, count: usize) {
+        while self.current < count {
             self.run(program, registers, self.current);
             self.current += 1;
         }
+    }
+
+    /// The range of a formula.
+    pub fn range(&mut self, program: &Program, registers: &Registers, k: usize) -> Range {
+        self.run_up_to(program, registers, k + 1);
         let found = self.all[k].iter().fold(0, |found, &number| found | self.found[number as usize]);
         let Interval { low, high } = self.values[self.roots[k] as usize];
         Range {

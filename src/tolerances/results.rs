@@ -41,7 +41,7 @@ pub mod probe {
     pub const SHORT: f64 = 1e-3;
     /// A guard that rounding decides makes a difference where values on both sides of it differ by more than this part of the range.
     pub const DIFFERENT: f64 = 1e-6;
-    /// A stretch in which nothing can be solved for may be so long, as a part of the span.
+    /// A stretch in which nothing can be solved for, or in which rounding hides the values of a formula, may be so long, as a part of the span.
     pub const OPAQUE: f64 = 1e-6;
     /// Values that differ by no more than this part of the range are the same.
     pub const ALIKE: f64 = 1e-9;
@@ -53,6 +53,8 @@ pub mod probe {
 
 /// Guards (`analysis/results/guards.rs`).
 pub mod guards {
+    /// So many times as far from its threshold as rounding of what moves tells, an argument may be on either side.
+    pub const NOISE: f64 = 8.0;
     /// An argument goes through its threshold, rather than jump over it, where it is no farther from there than this part of what it usually is.
     pub const NEAR: f64 = 1e-6;
 }
@@ -194,8 +196,6 @@ pub mod curve {
     pub const NOTHING: f64 = 1e-290;
     /// What rounding may make of what moves, as a part of the largest that was seen of it.
     pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
-    /// What is no larger than this part of it may be rounding.
-    pub const NOISE: f64 = 64.0 * f64::EPSILON;
     /// Velocities and accelerations on the way over a singular position may be so far off, likewise.
     pub const ON_BRIDGE: f64 = 1e-8;
 }

@@ -4,6 +4,7 @@ use super::guards::{Crossing, Guard, Mark, arguments, guards, slopes};
 use super::loads::{Hidden, Loads};
 use super::places::Places;
 use super::quantity::{Computed, SmoothFormula, moved};
+use super::sizes::Sizes;
 use super::smooth::Smooth;
 use super::turn::Sampled;
 use crate::analysis::state::State;
@@ -11,7 +12,8 @@ use crate::expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};
 use crate::ir::{ConstraintSystem, CoordinateKind};
 use crate::math::{between, log10};
 use crate::program::{Inputs, Op, Program, Range, Ranges, Register, Registers, Stage};
-use crate::tolerances::results::curve::{EVERY, KNOWN, LESS, MOVED, NOISE, NOTHING, ON_BRIDGE, ROUNDING, SAFETY, WAYS};
+use crate::tolerances::results::curve::{EVERY, KNOWN, LESS, MOVED, NOTHING, ON_BRIDGE, ROUNDING, SAFETY, WAYS};
+use crate::tolerances::results::guards::NEAR;
 use crate::tolerances::results::loads::UNTOLD;
 use crate::tolerances::results::stretches::MOST_DIGITS;
 use rustc_hash::FxHashMap;
@@ -45,8 +47,8 @@ pub(super) struct Curve {
     short: f64,
     /// The loads that the forces in the formula come from.
     loads: Loads,
-    /// The largest magnitudes that were seen: of what moves, with its derivatives, and of the guards' arguments.
-    largest: Vec<[f64; 4]>,
+    /// How large what moves is, and how large the guards' arguments are at the ends of steps.
+    sizes: Sizes,
     largest_arguments: Vec<f64>,
     /// How often it has been computed.
     looks: usize,
@@ -118,6 +120,7 @@ impl Moving {
 }
 
 /// A formula at a state.
+#[derive(Clone)]
 pub(super) struct Point {
     pub state: State,
     /// What moves of the formula, each with three time derivatives; one that is not known is 0.
@@ -129,6 +132,16 @@ pub(super) struct Point {
     /// Whether it lies on the way over a singular position, where velocities and accelerations are those of a curve.
     is_on_bridge: bool,
     pub sample: Sampled,
+    /// How far (s) the time that is meant may be from this one, and the value there from the value here.
+    pub shift: Shift,
+}
+
+/// How far off something may be because its time is not known.
+#[derive(Clone, Copy, Default, PartialEq, Debug)]
+pub(super) struct Shift {
+    /// In time (s).
+    pub time: f64,
+    pub value: f64,
 }
 
 impl Point {
@@ -235,8 +248,10 @@ pub(super) enum Verdict {
     Missing,
     /// Rounding alone decides on which side of its threshold a guard is.
     Rounding,
-    /// Too little is known.
-    Open,
+    /// The same, where the formula has one value whichever side that is.
+    Alike,
+    /// Too little is known; of a guard, by its number, whether it crosses, if there is one.
+    Open(Option<usize>),
 }
 
 impl Curve {
@@ -289,7 +304,7 @@ impl Curve {
             (0..own).map(|order| places[if order == 0 { 0 } else { first + order - 1 }]).collect();
         let operations = program.operations_behind(&[&roots[..], &values[1..]].concat(), Stage::Measures);
         Curve {
-            largest: vec![[0.0; 4]; moving.len()],
+            sizes: Sizes::new(moving.len()),
             largest_arguments: vec![0.0; guards.len()],
             ranges: Ranges::new(&program, &registers, &places, Stage::Measures, false),
             program,
@@ -380,7 +395,7 @@ impl Curve {
         self.smooth.look(&state, |_| 1.0);
         let tower = |moving: &Moving| match *moving {
             Moving::Coordinate(k) if k >= self.coordinates => self.smooth.tower(k - self.coordinates),
-            Moving::Coordinate(k) => [state.q[k], state.qd[k], state.qdd[k], state.qddd[k]],
+            Moving::Coordinate(k) => state.tower(k),
             Moving::Varied { variation, index } => {
                 let [place, first, second] = places.variation(variation, index);
                 [place, first, second, 0.0]
@@ -393,46 +408,55 @@ impl Curve {
         let value = |order: usize| self.roots.get(order).map_or(f64::NAN, |&root| self.registers.get(root));
         let sample = Sampled { value: value(0), first: value(1), second: value(2) };
         let marks: Vec<Mark> = self.guards.iter().map(|guard| guard.mark(&self.registers)).collect();
-        let larger = |largest: &mut f64, value: f64| {
-            *largest = if value.is_finite() { largest.max(value.abs()) } else { *largest }
-        };
-        for (largest, tower) in self.largest.iter_mut().zip(&moving) {
-            largest.iter_mut().zip(tower).for_each(|(largest, value)| larger(largest, *value));
-        }
-        self.largest_arguments.iter_mut().zip(&marks).for_each(|(largest, mark)| larger(largest, mark.argument));
+        moving.iter().enumerate().for_each(|(k, tower)| self.sizes.note(k, tower));
         let loads = self.loads.values(&self.registers);
         if self.loads.count() > 0 && self.looks.is_multiple_of(EVERY) {
-            self.set_point(state.t, &moving, [0.0; 2]);
+            self.set_point(&state, &moving, [0.0; 2]);
             self.loads.look_at_rounding((&self.program, &self.registers), &mut self.ranges);
         }
         self.looks += 1;
-        Rc::new(Point { state, moving, loads, marks, is_on_bridge, sample })
+        Rc::new(Point { state, moving, loads, marks, is_on_bridge, sample, shift: Shift::default() })
     }
 
-    /// Sets the ranges to what is at one time (s), and such parts of the largest beside it: of places, and of their derivatives.
-    fn set_point(&mut self, t: f64, moving: &[[f64; 4]], [of_places, of_rates]: [f64; 2]) {
+    /// Takes note of how large arguments of guards are at a point that is like others: beside a pole they are not.
+    pub fn note_arguments(&mut self, point: &Point) {
+        for (largest, mark) in self.largest_arguments.iter_mut().zip(&point.marks) {
+            if mark.argument.is_finite() {
+                *largest = largest.max(mark.argument.abs());
+            }
+        }
+    }
+
+    /// Sets the ranges to what is at one state, and such parts of the largest beside it: of places, and of their derivatives.
+    fn set_point(&mut self, state: &State, moving: &[[f64; 4]], parts: [f64; 2]) {
         self.ranges.release();
-        let beside = if of_places > 0.0 { f64::EPSILON * t.abs() } else { 0.0 };
-        self.ranges.set_times([t - beside, t + beside]);
-        let largest = |order: usize| self.largest.iter().map(|largest| largest[order]).fold(0.0, f64::max);
-        let fastest = if largest(0) > 0.0 { largest(1) / largest(0) } else { 0.0 };
-        for ((of, values), largest) in self.moving.iter().zip(moving).zip(&self.largest) {
-            for (order, register) in of.registers(&self.program.inputs).into_iter().enumerate() {
+        let beside = if parts[0] > 0.0 { f64::EPSILON * state.t.abs() } else { 0.0 };
+        self.ranges.set_times([state.t - beside, state.t + beside]);
+        self.smooth.look_around(state, parts);
+        let inputs = self.program.inputs;
+        for (of, ranges) in self.moving.iter().zip(self.sizes.around(moving.iter().copied(), parts)) {
+            let ranges = match *of {
+                Moving::Coordinate(k) if k >= self.coordinates => self.smooth.ranges(k - self.coordinates),
+                _ => ranges,
+            };
+            for (register, range) in of.registers(&inputs).into_iter().zip(ranges) {
                 if let Some(register) = register {
-                    // what rests has the rounding of what does not
-                    let by_rate = largest[0] * [1.0, fastest, fastest * fastest, 0.0][order];
-                    let beside = largest[order].max(by_rate) * if order == 0 { of_places } else { of_rates };
-                    self.ranges.set(register, [values[order] - beside, values[order] + beside]);
+                    self.ranges.set(register, range);
                 }
             }
         }
     }
 
-    /// How far off rounding may be in the value at a point.
-    pub fn uncertainty(&mut self, point: &Point) -> f64 {
+    /// Finds the ranges of all that the formula and its loads are made of at a point, by rounding.
+    fn set_rounding(&mut self, point: &Point) {
         let of_rates = if point.is_on_bridge { ON_BRIDGE } else { ROUNDING };
-        self.set_point(point.state.t, &point.moving, [ROUNDING, of_rates]);
+        self.set_point(&point.state, &point.moving, [ROUNDING, of_rates]);
         self.ranges.range(&self.program, &self.registers, self.loads.count());
+    }
+
+    /// How far off the value at a point may be.
+    pub fn uncertainty(&mut self, point: &Point) -> f64 {
+        self.set_rounding(point);
         for (guard, mark) in self.guards.iter().zip(&point.marks) {
             // the value is that of its own side
             if guard.crossing(&self.ranges, [*mark; 2]) != Crossing::Never {
@@ -440,21 +464,26 @@ impl Curve {
             }
         }
         let Range { low, high, .. } = self.ranges.range(&self.program, &self.registers, 0);
-        let off = 0.5 * (high - low);
+        let off = 0.5 * (high - low) + point.shift.value;
         if off.is_nan() { f64::INFINITY } else { off }
     }
 
-    /// The value at a point, and how far off rounding may be in it.
+    /// The value at a point, and how far off it may be.
     pub fn found(&mut self, point: &Point) -> Found {
         Found { value: point.sample.value, off: self.uncertainty(point) }
     }
 
     /// Whether rounding alone decides at a point on which side of its threshold a guard is.
     pub fn is_rounding(&mut self, guard: usize, point: &Point) -> bool {
-        self.set_point(point.state.t, &point.moving, [NOISE; 2]);
-        // guards are those of loads too
-        self.ranges.range(&self.program, &self.registers, self.loads.count());
-        self.guards[guard].crossing(&self.ranges, [point.marks[guard]; 2]) != Crossing::Never
+        self.set_rounding(point);
+        self.guards[guard].is_within_rounding(&self.ranges, point.marks[guard])
+    }
+
+    /// Whether the argument of a guard is known at a point, beside what it usually is.
+    fn knows_argument(&mut self, guard: usize, point: &Point) -> bool {
+        self.set_rounding(point);
+        let [low, high] = self.guards[guard].argument(&self.ranges);
+        high - low <= NEAR * self.largest_arguments[guard]
     }
 
     /// Whether a guard of the formula is exactly at its threshold, and not so at another point beside: the formula may have a value of its own there.
@@ -528,13 +557,14 @@ impl Curve {
             held[guard] = true;
         }
         loop {
-            let range = self.value(cell);
+            let range = self.value(cell, false);
             if range.low == f64::INFINITY {
                 return (Verdict::Missing, range);
             }
             if !self.guards.is_empty() {
                 self.ranges.find_live(&self.program, 0);
             }
+            let exists = cell.a.exists() || cell.b.exists();
             let (mut verdict, mut monotone) = (Verdict::Smooth, Vec::new());
             for (k, held) in held.iter_mut().enumerate() {
                 // a load decides what a force is, although the formula does not hold it
@@ -543,18 +573,25 @@ impl Curve {
                 }
                 let marks = [&cell.a, &cell.b].map(|point| point.marks[k]);
                 match self.guards[k].crossing(&self.ranges, marks) {
+                    // and so nothing is known of what is made of it
+                    Crossing::Never if !exists && self.guards[k].is_beyond_end(marks[0]) => {
+                        return (Verdict::Missing, range);
+                    }
                     Crossing::Never => {}
                     Crossing::Sure => return (Verdict::Crosses(k), range),
                     Crossing::Possible if self.is_monotone(k) => {
                         *held = true;
                         monotone.push((k, marks[0].side));
                     }
-                    Crossing::Possible => verdict = Verdict::Open,
+                    Crossing::Possible => verdict = Verdict::Open(Some(k)),
                 }
             }
             if monotone.is_empty() {
-                let exists = cell.a.exists() || cell.b.exists();
-                return (if verdict == Verdict::Smooth && !exists { Verdict::Missing } else { verdict }, range);
+                return match verdict {
+                    Verdict::Smooth if exists => (verdict, self.value(cell, true)),
+                    Verdict::Smooth => (Verdict::Missing, range),
+                    _ => (verdict, range),
+                };
             }
             // what follows from these guards is decided anew
             for (k, side) in monotone {
@@ -572,10 +609,11 @@ impl Curve {
     }
 
     /// The range of the value in the cell that was set. Of forces only values are known, and so a formula that holds some narrows no faster than
-    /// the cell; where it is resolved it goes on as its own values do.
-    fn value(&mut self, cell: &Cell) -> Range {
+    /// the cell; where it is resolved, and no guard crosses, it goes on as its own values do.
+    fn value(&mut self, cell: &Cell, is_smooth: bool) -> Range {
         let Curve { ranges, program, registers, loads, .. } = self;
         let range = ranges.range(program, registers, 0);
+        let is_resolved = range.is_resolved && is_smooth;
         let Some(bends) = cell.bends.as_ref().map(|bends| &bends[self.moving.len()..]) else { return range };
         let by_values = || {
             let [low, high] = around(cell.a.sample.value, cell.b.sample.value, bends[0][0]);
@@ -584,14 +622,14 @@ impl Curve {
         if !self.holds_forces {
             // over short cells terms that cancel each other leave intervals that are much too wide
             let is_short = cell.length() <= self.short && cell.a.exists() && cell.b.exists();
-            return if is_short && range.is_resolved { by_values() } else { range };
+            return if is_short && is_resolved { by_values() } else { range };
         }
         let told = |k: usize| around(cell.a.loads[k], cell.b.loads[k], bends[1 + k][0]);
         let up_to = |most: f64| Range { low: -most, high: most, is_resolved: false, ..range };
         match loads.hidden((program, registers), ranges, told) {
             Hidden::Anything => up_to(f64::INFINITY),
             Hidden::Something(beyond) => up_to(f64::min(UNTOLD * beyond, f64::MAX)),
-            Hidden::Nothing if range.is_resolved => by_values(),
+            Hidden::Nothing if is_resolved => by_values(),
             Hidden::Nothing => range,
         }
     }
@@ -691,14 +729,19 @@ impl Curve {
         let there = if a.exists() { a } else { b };
         let mut found = Vec::new();
         for k in 0..self.guards.len() {
-            let marks = [a.marks[k], b.marks[k]];
-            let between = self.guards[k].value_between(marks, self.largest_arguments[k]).map(|value| (there, value));
-            let touched = [a, b].into_iter().filter(|point| point.exists()).find_map(|point| {
-                let value = self.guards[k].value_near(point.marks[k], self.largest_arguments[k])?;
-                self.is_rounding(k, point).then_some((point, value))
-            });
-            let Some((point, value)) = between.or(touched) else { continue };
-            self.set_point(point.state.t, &point.moving, [0.0; 2]);
+            let usual = self.largest_arguments[k];
+            let between = self.guards[k].value_between([a.marks[k], b.marks[k]], usual).map(|value| (there, value));
+            let touched = || {
+                [a, b].into_iter().filter(|point| point.exists()).find_map(|point| {
+                    let value = self.guards[k].value_near(point.marks[k], usual)?;
+                    self.is_rounding(k, point).then_some((point, value))
+                })
+            };
+            let Some((point, value)) = between.or_else(touched) else { continue };
+            if !self.knows_argument(k, point) {
+                continue;
+            }
+            self.set_point(&point.state, &point.moving, [0.0; 2]);
             self.guards[k].hold_at(value, &mut self.ranges);
             let Range { low, high, .. } = self.ranges.range(&self.program, &self.registers, 0);
             let is_finite = low.is_finite() && high.is_finite();

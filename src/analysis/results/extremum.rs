@@ -53,6 +53,18 @@ struct Place {
     kind: Kind,
 }
 
+impl Place {
+    /// Whether the value is more than rounding.
+    fn is_known(&self, scale: Scale) -> bool {
+        self.off <= scale.gap(APART).max(APART * self.value.abs())
+    }
+
+    /// What the value is at most, as far as it is known at all.
+    fn most(&self, scale: Scale) -> f64 {
+        if self.is_known(scale) { self.value + self.off } else { self.value }
+    }
+}
+
 /// How much is known of an extremum.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Kind {
@@ -128,14 +140,14 @@ impl Extremum {
             return;
         }
         self.see(found.t, Found { value: self.sign * found.value, off: found.value - found.least });
-        if found.value < self.best - scale.alike() {
+        if found.most(scale) < self.best - scale.alike() {
             return;
         }
         // what was only seen is not as good as what may be found beside it
         if found.kind != Kind::Seen && found.least > self.largest {
             self.largest = found.least;
             let least = found.value - scale.alike();
-            self.places.retain(|known| known.value >= least);
+            self.places.retain(|known| known.most(scale) >= least);
         }
         self.places.push(found);
     }
@@ -168,10 +180,13 @@ impl Extremum {
 
     /// The largest value: that of an extremum, an edge or an end, unless more was seen than can be of it. Not a number where there is none.
     pub fn value(&self, scale: Scale) -> Found {
-        let known = self.places.iter().filter(|place| place.kind != Kind::Seen && place.least >= self.largest);
+        let known = self.places.iter().filter(|place| {
+            let is_known = place.least >= self.largest || place.is_known(scale);
+            place.kind != Kind::Seen && is_known && place.value >= self.largest
+        });
         let place = known.max_by(|a, b| a.value.total_cmp(&b.value));
         match place {
-            Some(place) if self.best <= self.largest + scale.gap(GAP) => {
+            Some(place) if self.best <= place.most(scale) + scale.gap(GAP) => {
                 Found { value: self.sign * place.value, off: place.off }
             }
             _ => Found { off: self.best_found.off.max(scale.gap(GAP_OF_VALUES)), ..self.best_found },
@@ -197,7 +212,7 @@ impl Extremum {
     /// The places with the largest value.
     fn alike(&self, scale: Scale) -> impl Iterator<Item = &Place> {
         let least = self.best - scale.alike();
-        self.places.iter().filter(move |place| place.value >= least)
+        self.places.iter().filter(move |place| place.most(scale) >= least)
     }
 
     /// The first of these.
@@ -323,7 +338,7 @@ impl Probe<'_> {
     /// Looks into a cell: takes note of the extremum in it, or leaves its parts.
     fn look_into(&mut self, open: &Open, extremum: &mut Extremum, scale: Scale, parts: &mut Vec<Open>) {
         let cell = &open.cell;
-        if self.is_shortest(cell) {
+        if self.is_shortest(cell) || open.verdict == Verdict::Alike {
             self.close(cell, open.range, extremum, scale);
             return;
         }
@@ -373,9 +388,13 @@ impl Probe<'_> {
         let rises = ends.map(|point| sign * point.sample.first);
         let goes_on = (rises[0] > 0.0 && rises[1] > 0.0) || (rises[0] < 0.0 && rises[1] < 0.0);
         let step = (ends[0].sample.value - ends[1].sample.value).abs();
-        for (point, other) in [(&cell.a, &cell.b), (&cell.b, &cell.a)] {
+        for (point, other, outward) in [(&cell.a, &cell.b, -1.0), (&cell.b, &cell.a, 1.0)] {
             // a value of its own is that of no side
-            let is_apart = self.curve.is_at_threshold(point, other) && step > scale.gap(APART);
+            let is_apart = self.curve.is_at_threshold(point, other) && step > scale.gap(APART) && {
+                let t = point.state.t + outward * TOWARDS[0] * self.shortest;
+                let beside = self.point_within_step(cell.step, t);
+                beside.is_none_or(|beside| (beside.sample.value - point.sample.value).abs() > scale.gap(APART))
+            };
             if !point.exists() || is_apart {
                 continue;
             }
@@ -402,7 +421,7 @@ impl Probe<'_> {
         let (near, away) = if is_before { (&cell.a, -1.0) } else { (&cell.b, 1.0) };
         let mut values = [sign * near.sample.value, f64::NAN, f64::NAN, f64::NAN];
         for (value, far) in values[1..].iter_mut().zip(TOWARDS) {
-            let t = near.state.t + away * far * self.shortest.max(cell.length());
+            let t = near.state.t + away * far * self.shortest.max(cell.length()).max(near.shift.time);
             *value = self.point_within_step(cell.step, t).map_or(f64::NAN, |point| sign * point.sample.value);
         }
         // nearest by, values may be rounding
@@ -438,15 +457,16 @@ impl Probe<'_> {
         let sign = extremum.sign;
         let [[falls, rises], [bends_down, bends_up]] =
             derivatives.map(|range| range.map_or([f64::NEG_INFINITY, f64::INFINITY], |range| extremum.oriented(range)));
+        let [a, b] = extremum.values(cell);
         let turns = sign * cell.a.sample.first > 0.0 && sign * cell.b.sample.first <= 0.0;
         if falls >= 0.0 || rises <= 0.0 {
             if turns {
                 // it turns where the cell ends, and falls from there on
                 self.note_turn(cell, &cell.b, cell.b.state.t, extremum, scale);
             }
-            return true;
+            // an end that is larger than what is certain may be beside a pole
+            return f64::max(a, b) <= extremum.best + scale.gap(GAP);
         }
-        let [a, b] = extremum.values(cell);
         let is_small = *upper <= f64::max(a, b) + scale.gap(GAP);
         if extremum.is_out_of_question(*upper, scale) || (is_small && !turns) {
             return true;

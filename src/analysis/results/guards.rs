@@ -7,7 +7,7 @@
 use crate::expr::{Binary, Comparison, ExprId, Graph, Node, Unary};
 use crate::ir::ConstraintSystem;
 use crate::program::{Hold, Op, Program, Ranges, Register, Registers, Stage};
-use crate::tolerances::results::guards::NEAR;
+use crate::tolerances::results::guards::{NEAR, NOISE};
 use rustc_hash::FxHashMap;
 use std::f64::consts::PI;
 
@@ -17,6 +17,8 @@ pub(super) struct Guard {
     kind: Kind,
     /// Of a choice: the comparisons of the same two registers that derivatives hold, and the side on which each is true.
     comparisons: Vec<(Register, f64)>,
+    /// Whether a function has no value on one side: below zero, or beyond −1 and 1.
+    ends: bool,
     /// Among the formulas whose ranges are known: the argument, and its time derivative where it has one.
     pub witness: Option<[usize; 2]>,
 }
@@ -117,6 +119,12 @@ impl Guard {
         }
     }
 
+    /// Whether the formula may have no value where the guard is.
+    pub fn is_beyond_end(&self, mark: Mark) -> bool {
+        let is_beyond = if matches!(self.kind, Kind::Unit { .. }) { mark.side == 0.0 } else { mark.side < 0.0 };
+        self.ends && is_beyond
+    }
+
     /// How far the argument is from the threshold between two sides, at both; not a number where several thresholds lie between.
     pub fn distances(&self, marks: [Mark; 2], registers: &Registers) -> [f64; 2] {
         let later = marks[0].side.max(marks[1].side);
@@ -175,6 +183,35 @@ impl Guard {
         }
     }
 
+    /// Whether rounding alone decides on which side the guard is at a state, by the ranges of what it is made of there.
+    pub fn is_within_rounding(&self, ranges: &Ranges, mark: Mark) -> bool {
+        let side: fn(f64) -> f64 = match self.kind {
+            Kind::Step { is_whole: true, .. } => f64::floor,
+            Kind::Tangent { .. } => branch_of_tangent,
+            Kind::Piece { .. } => return self.crossing(ranges, [mark; 2]) != Crossing::Never,
+            _ => |x| if x == 0.0 { 0.0 } else { x.signum() },
+        };
+        let [low, high] = self.argument(ranges);
+        let ends = [low, high].map(|end| side(mark.argument + NOISE * (end - mark.argument)));
+        ends[0].total_cmp(&ends[1]).is_ne()
+    }
+
+    /// What the argument may be in ranges, less the threshold where there is but one.
+    pub fn argument(&self, ranges: &Ranges) -> [f64; 2] {
+        match self.kind {
+            Kind::Comparison { a, b, .. } | Kind::Choice { a, b } => {
+                let ([low, high], [other_low, other_high]) = (ranges.interval(a), ranges.interval(b));
+                [low - other_high, high - other_low]
+            }
+            Kind::Unit { a } => {
+                let [low, high] = ranges.interval(a);
+                let least = if low <= 0.0 && high >= 0.0 { 0.0 } else { low.abs().min(high.abs()) };
+                [least - 1.0, low.abs().max(high.abs()) - 1.0]
+            }
+            Kind::Step { a, .. } | Kind::Piece { a, .. } | Kind::Zero { a } | Kind::Tangent { a } => ranges.interval(a),
+        }
+    }
+
     /// Keeps the guard on a side, in ranges.
     pub fn hold(&self, side: f64, ranges: &mut Ranges) {
         match self.kind {
@@ -222,6 +259,15 @@ impl Guard {
             ranges.hold(a, Hold::At(value));
         }
     }
+}
+
+/// Whether an operation has no value on one side of a threshold.
+fn ends(op: Op) -> bool {
+    matches!(
+        op,
+        Op::Unary { function: Unary::Sqrt | Unary::Ln | Unary::Log10 | Unary::Asin | Unary::Acos, .. }
+            | Op::Binary { function: Binary::Pow, .. }
+    )
 }
 
 /// Formulas whose time derivatives tell whether guards cross their thresholds at most once: what is compared, and the like.
@@ -301,7 +347,11 @@ pub(super) fn guards(
                     (Kind::Zero { a: b }, Kind::Zero { .. }) | (Kind::Unit { a: b }, Kind::Unit { .. }) => a == b,
                     _ => false,
                 };
-                if is_constant(graph, a) || found.iter().any(is_same) {
+                if is_constant(graph, a) {
+                    continue;
+                }
+                if let Some(same) = found.iter_mut().find(|guard| is_same(guard)) {
+                    same.ends |= ends(op);
                     continue;
                 }
                 nodes.get(&a).copied()
@@ -311,7 +361,12 @@ pub(super) fn guards(
             Kind::Choice { a, b } => operations.iter().filter_map(|op| compared(op, a, b)).collect(),
             _ => Vec::new(),
         };
-        found.push(Guard { kind, comparisons, witness: argument.and_then(|id| witnesses.get(&id).copied()) });
+        found.push(Guard {
+            kind,
+            comparisons,
+            ends: ends(op),
+            witness: argument.and_then(|id| witnesses.get(&id).copied()),
+        });
     }
     found
 }

@@ -20,6 +20,7 @@ mod quadrature;
 mod quantities;
 mod quantity;
 mod reduced;
+mod sizes;
 mod smooth;
 mod spectral;
 mod turn;

@@ -1,6 +1,6 @@
 //! Looking at a formula between the ends of the motion's steps.
 
-use super::curve::{Cell, Curve, Point, Verdict};
+use super::curve::{Cell, Curve, Point, Shift, Verdict};
 use super::places::Places;
 use crate::analysis::follow::Stretch;
 use crate::analysis::state::State;
@@ -224,30 +224,53 @@ impl<'r> Probe<'r> {
             let mut ignored = Vec::new();
             loop {
                 let (verdict, range) = self.curve.enclose(cell, &ignored);
-                let Verdict::Crosses(guard) = verdict else { return (verdict, range) };
-                if !self.is_rounding(cell, guard) {
-                    return (verdict, range);
+                if matches!(verdict, Verdict::Open(_)) && self.is_hole(cell) {
+                    return (Verdict::Missing, range);
                 }
-                let [a, b] = [&cell.a, &cell.b].map(|point| point.sample.value);
-                if (a - b).abs() > DIFFERENT * self.range {
-                    return (Verdict::Rounding, range);
+                let has_no_bound = range.high - range.low == f64::INFINITY;
+                let guard = match verdict {
+                    Verdict::Crosses(guard) => guard,
+                    // a quotient that goes on over a zero of both
+                    Verdict::Open(Some(guard)) if has_no_bound => guard,
+                    _ => return (verdict, range),
+                };
+                let Some(values) = self.values_of_rounding(cell, guard) else { return (verdict, range) };
+                let differ = |value: &f64| (value - values[0]).abs() > DIFFERENT * self.range;
+                let are_alike = !values.iter().any(differ);
+                match verdict {
+                    Verdict::Crosses(_) if are_alike => ignored.push(guard),
+                    Verdict::Crosses(_) => return (Verdict::Rounding, range),
+                    _ if are_alike => {
+                        let [low, high] = [f64::min, f64::max].map(|of| values.into_iter().fold(f64::NAN, of));
+                        return (Verdict::Alike, Range { low, high, ..range });
+                    }
+                    _ => return (verdict, range),
                 }
-                // whatever side it is on, the formula is the same
-                ignored.push(guard);
             }
         }
         let [low, high] = [f64::NEG_INFINITY, f64::INFINITY];
-        (Verdict::Open, Range { low, high, may_switch: true, is_resolved: false, crosses_knots: true })
+        (Verdict::Open(None), Range { low, high, may_switch: true, is_resolved: false, crosses_knots: true })
     }
 
-    /// Whether rounding alone decides all over a short cell on which side of its threshold a guard is.
-    fn is_rounding(&mut self, cell: &Cell, guard: usize) -> bool {
-        let is_short = cell.length() <= self.short && !self.is_shortest(cell);
-        if !is_short || ![&cell.a, &cell.b].into_iter().all(|point| self.curve.is_rounding(guard, point)) {
-            return false;
+    /// The formula at both ends and in the middle of a short cell all over which rounding alone decides on which side of its threshold a guard is;
+    /// none where it is not like that.
+    fn values_of_rounding(&mut self, cell: &Cell, guard: usize) -> Option<[f64; 3]> {
+        if cell.length() > self.short || self.is_shortest(cell) {
+            return None;
         }
-        let middle = self.point(cell, cell.middle());
-        middle.is_some_and(|middle| self.curve.is_rounding(guard, &middle))
+        let is_rounding = |curve: &mut Curve, point: &Point| curve.is_rounding(guard, point);
+        if !is_rounding(self.curve, &cell.a) || !is_rounding(self.curve, &cell.b) {
+            return None;
+        }
+        let middle = self.point(cell, cell.middle())?;
+        is_rounding(self.curve, &middle).then(|| [&cell.a, &middle, &cell.b].map(|point| point.sample.value))
+    }
+
+    /// Whether a formula has no value in a cell, as far as that shows in one no longer than rounding hides values.
+    fn is_hole(&mut self, cell: &Cell) -> bool {
+        let is_tiny = cell.length() <= self.shortest * OPAQUE / SHORTEST;
+        let is_missing = is_tiny && !self.is_shortest(cell) && !cell.a.exists() && !cell.b.exists();
+        is_missing && self.point(cell, cell.middle()).is_none_or(|middle| !middle.exists())
     }
 
     /// Whether a cell is too short to be cut.
@@ -279,7 +302,40 @@ impl<'r> Probe<'r> {
             let offs = self.curve.distances(guard, [&before, &behind]);
             Some((is_behind, offs[usize::from(is_behind)].abs()))
         })?;
+        self.see_hole(cell.step, [&mut before, &mut behind]);
         let part = |a: &Rc<Point>, b: &Rc<Point>| (b.state.t > a.state.t).then(|| cell.between(a, b));
         Some([part(&cell.a, &before), part(&before, &behind), part(&behind, &cell.b)])
+    }
+
+    /// Where the formula has a value on one side alone of a crossing, and has one again farther on: rounding may have hidden it there, and what it goes
+    /// to is known no better than it changes over as long as that.
+    fn see_hole(&mut self, step: usize, [before, behind]: [&mut Rc<Point>; 2]) {
+        let (known, missing) = match [before.exists(), behind.exists()] {
+            [true, false] => (before, &*behind),
+            [false, true] => (behind, &*before),
+            _ => return,
+        };
+        let way = (missing.state.t - known.state.t).signum();
+        let mut width = self.shortest;
+        while width <= self.shortest * OPAQUE / SHORTEST {
+            let t = missing.state.t + way * width;
+            let is_end = t <= self.window[0] || t >= self.window[1];
+            let there = self.point_within_step(step, t);
+            if there.is_none() && !is_end {
+                return;
+            }
+            if is_end || there.is_some_and(|there| there.exists()) {
+                self.shift(step, known, -way * width);
+                return;
+            }
+            width *= 4.0;
+        }
+    }
+
+    /// Takes note that a point may be meant for a time that is so much (s) beside its own.
+    pub fn shift(&mut self, step: usize, point: &mut Rc<Point>, beside: f64) {
+        let there = self.point_within_step(step, point.state.t + beside);
+        let value = there.map_or(f64::INFINITY, |there| (there.sample.value - point.sample.value).abs());
+        Rc::make_mut(point).shift = Shift { time: beside.abs(), value };
     }
 }

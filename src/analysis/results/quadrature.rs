@@ -30,6 +30,8 @@ pub(super) struct Integral {
     off: f64,
     /// For how long (s) the formula has a value.
     time: f64,
+    /// For how long (s) it has none that rounding may have hidden.
+    hidden: f64,
     /// The time of the analysis (s).
     span: f64,
     /// A value that is usual, and the integral of how far the formula is from that.
@@ -49,7 +51,8 @@ fn within(found: f64, [least, most]: [f64; 2]) -> f64 {
 impl Integral {
     /// The integral, and how far off it may be.
     pub fn found(&self) -> Found {
-        Found { value: self.sum, off: self.off + ROUNDING * (self.size + (self.usual * self.time).abs()) }
+        let hidden = if self.hidden > 0.0 { self.hidden / self.time } else { 0.0 };
+        Found { value: self.sum, off: self.off + (ROUNDING + hidden) * (self.size + (self.usual * self.time).abs()) }
     }
 
     /// For how long (s) the formula has a value.
@@ -179,7 +182,7 @@ impl Probe<'_> {
                     open.extend(cells.into_iter().flatten().rev());
                     continue;
                 }
-                Verdict::Rounding => {
+                Verdict::Rounding | Verdict::Alike => {
                     let [a, b] = [&cell.a, &cell.b].map(|point| point.sample.value);
                     integral.add(0.5 * h * (a + b), h * (a - b).abs(), h);
                     continue;
@@ -188,14 +191,15 @@ impl Probe<'_> {
                     self.miss(cell.step, cell.a.state.t);
                     continue;
                 }
-                Verdict::Smooth | Verdict::Open => {}
+                Verdict::Smooth | Verdict::Open(_) => {}
             }
             let is_smooth = verdict == Verdict::Smooth && range.is_resolved;
             let is_smooth = is_smooth && (self.curve.derivatives() == 0 || !self.curve.derivative(1).may_switch);
             let Some(halves) = self.halve(&cell) else { return };
             let points = [&cell.a, &halves[0].b, &cell.b];
             let is_unbounded = h <= self.short && range.high - range.low == f64::INFINITY;
-            if is_unbounded && points.into_iter().all(|point| self.is_noise(point)) {
+            let exists = points.iter().any(|point| point.exists());
+            if is_unbounded && exists && points.into_iter().all(|point| self.is_noise(point)) {
                 // nearer to a pole than rounding allows to look
                 self.integrate_shortest(&cell, integral);
                 continue;
@@ -214,7 +218,7 @@ impl Probe<'_> {
         }
     }
 
-    /// Whether nothing of the value at a point is certain.
+    /// Whether rounding may make more of the value at a point than values differ elsewhere, if there is one.
     fn is_noise(&mut self, point: &Point) -> bool {
         !point.exists() || self.curve.found(point).certain_digits() == 0
     }
@@ -227,13 +231,17 @@ impl Probe<'_> {
         if known.len() < 2 {
             self.miss(cell.step, cell.a.state.t);
         }
+        // both ends of a hole tell of it
+        integral.hidden += 0.5 * (cell.a.shift.time + cell.b.shift.time);
         let largest = known.iter().fold(0.0, |largest, value| f64::max(largest, (value - integral.usual).abs()));
         let growth = self.growth_into(cell, integral.usual);
-        if growth > LEAST_GROWTH {
+        if growth > LEAST_GROWTH && !known.is_empty() {
             if growth >= pow(2.0, STEEPEST) && h * largest > integral.steepest[0] {
                 integral.steepest = [h * largest, cell.a.state.t];
             }
-            integral.add(0.0, PART_OF_POLE * h * largest, h);
+            // all around a pole that is touched values may be rounding
+            let part = if self.is_shortest(cell) { PART_OF_POLE } else { 1.0 };
+            integral.add(0.0, part * h * largest, h);
         } else if !known.is_empty() {
             integral.add(h * known.iter().sum::<f64>() / known.len() as f64, 2.0 * h * largest, h);
         }

@@ -9,6 +9,7 @@ use crate::analysis::follow::Stretch;
 use crate::analysis::state::{State, shortly_after};
 use crate::ir::ReductionKind;
 use crate::math::median;
+use crate::tolerances::results::extremum::TIMES;
 use crate::tolerances::results::stretches::SMALL;
 
 /// A formula that is looked at over a part of the motion, and what is found of it.
@@ -243,6 +244,16 @@ impl Reduced {
                 if let Some(middle) = probe.point(cell, cell.middle()) {
                     cell.take_middle(probe.curve, middle);
                 }
+                if probe.curve.holds_forces() {
+                    // a load may jump where the motion says, whose last digits are rounding
+                    let step = &steps[cell.step];
+                    if step.begins_at_edge && cell.a.state.t > window[0] {
+                        probe.shift(cell.step, &mut cell.a, TIMES * span);
+                    }
+                    if step.ends_at_edge && cell.b.state.t < window[1] {
+                        probe.shift(cell.step, &mut cell.b, -TIMES * span);
+                    }
+                }
             }
         }
         for ((extremum, kept), notes) in extrema.iter_mut().zip(scales).zip([of_least, of_largest]) {
@@ -306,6 +317,7 @@ impl Reduced {
         for point in is_begin.then_some(&from).into_iter().chain([&to]) {
             if point.exists() {
                 self.samples.push(point.sample.value);
+                self.curve.note_arguments(point);
                 let weight = self.curve.weight(point);
                 self.weights.push(weight);
             } else {

@@ -3,10 +3,11 @@
 //! What is seen from a body that moves is a sum of this kind, of terms that may be much larger than it is itself: what these can be in
 //! a cell says little of what it can be. So it is looked at as the coordinates are, by its own time derivatives at the ends of the cell.
 
+use super::sizes::Sizes;
 use crate::analysis::state::State;
 use crate::expr::{Binary, ExprId, Graph, Node, Symbol, Unary};
 use crate::ir::{ConstraintSystem, CoordinateKind};
-use crate::program::{Program, Register, Registers, Stage};
+use crate::program::{Program, Ranges, Register, Registers, Stage};
 use crate::tolerances::results::smooth::{MOST_FACTORS, WIDEST_OF_ALL, WIDEST_TURN};
 use rustc_hash::FxHashMap;
 
@@ -42,6 +43,9 @@ struct Found {
 pub(super) struct Smooth {
     program: Program,
     registers: Registers,
+    /// The ranges of these, and how large the coordinates are.
+    ranges: Ranges,
+    sizes: Sizes,
     /// Of each, where its value and its time derivatives are: at the order that its value has as a coordinate, and behind it.
     towers: Vec<[Option<Register>; 4]>,
     /// Of each, the order at which it stands, and whether it is a square.
@@ -86,9 +90,9 @@ impl Smooth {
         system: &ConstraintSystem,
     ) -> Smooth {
         let formulas: Vec<ExprId> = towers.iter().flatten().flatten().copied().collect();
-        let (program, roots) =
+        let (program, all) =
             Program::of_formulas(graph, [system.params().len(), system.coordinates().len(), 0, 0], &formulas);
-        let mut roots = roots.into_iter();
+        let mut roots = all.iter().copied();
         let towers = towers.iter().map(|tower| tower.map(|formula| formula.and_then(|_| roots.next()))).collect();
         let params = system.values_of_params();
         let registers = program.start(&params);
@@ -98,7 +102,9 @@ impl Smooth {
         let is_turn = |&k: &usize| system.coordinates()[k].kind == CoordinateKind::Angle;
         let turns = coordinates.iter().copied().filter(is_turn).collect();
         let all_turns = (0..system.coordinates().len()).filter(is_turn).collect();
-        Smooth { program, registers, towers, kinds, coordinates, turns, all_turns }
+        let ranges = Ranges::new(&program, &registers, &all, Stage::Measures, false);
+        let sizes = Sizes::new(coordinates.len());
+        Smooth { program, registers, ranges, sizes, towers, kinds, coordinates, turns, all_turns }
     }
 
     /// How many there are.
@@ -120,9 +126,11 @@ impl Smooth {
     /// Computes all of them at a state whose coordinates are taken times a factor.
     pub fn look(&mut self, state: &State, factor: impl Fn(usize) -> f64) {
         let inputs = self.program.inputs;
-        for &k in &self.coordinates {
-            for (first, values) in inputs.coordinates.into_iter().zip([&state.q, &state.qd, &state.qdd, &state.qddd]) {
-                self.registers.set(first + k as Register, values[k] * factor(k));
+        for (number, &k) in self.coordinates.iter().enumerate() {
+            let tower = state.tower(k).map(|value| value * factor(k));
+            self.sizes.note(number, &tower);
+            for (first, value) in inputs.coordinates.into_iter().zip(tower) {
+                self.registers.set(first + k as Register, value);
             }
         }
         self.program.run(Stage::Measures, &mut self.registers);
@@ -131,6 +139,27 @@ impl Smooth {
     /// One of them and its time derivatives at the state that was looked at, by their orders; 0 where there is none.
     pub fn tower(&self, k: usize) -> [f64; 4] {
         self.towers[k].map(|register| register.map_or(0.0, |register| self.registers.get(register)))
+    }
+
+    /// Finds the ranges of all of them at a state that may be off by such parts of the largest that was looked at: in places, and in their
+    /// derivatives.
+    pub fn look_around(&mut self, state: &State, parts: [f64; 2]) {
+        let inputs = self.program.inputs;
+        let towers = self.coordinates.iter().map(|&k| state.tower(k));
+        for (&k, ranges) in self.coordinates.iter().zip(self.sizes.around(towers, parts)) {
+            for (first, range) in inputs.coordinates.into_iter().zip(ranges) {
+                self.ranges.set(first + k as Register, range);
+            }
+        }
+        self.ranges.run_all(&self.program, &self.registers);
+    }
+
+    /// The ranges of one of them and of its time derivatives that were found last, by their orders.
+    pub fn ranges(&self, k: usize) -> [[f64; 2]; 4] {
+        self.towers[k].map(|register| {
+            let [low, high] = register.map_or([0.0; 2], |register| self.ranges.interval(register));
+            [low - f64::EPSILON * low.abs(), high + f64::EPSILON * high.abs()]
+        })
     }
 
     /// What computes them, and where that leaves each with its time derivatives, by their orders.

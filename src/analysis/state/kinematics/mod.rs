@@ -43,6 +43,11 @@ impl State {
         State { t, q, qd: zero.clone(), qdd: zero.clone(), qddd: zero }
     }
 
+    /// A coordinate with its time derivatives, by their orders.
+    pub fn tower(&self, k: usize) -> [f64; 4] {
+        [self.q[k], self.qd[k], self.qdd[k], self.qddd[k]]
+    }
+
     /// Takes over another state without allocating.
     pub fn copy_from(&mut self, other: &State) {
         self.t = other.t;
