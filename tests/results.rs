@@ -431,6 +431,37 @@ fn what_is_touched_is_met() {
     }
 }
 
+/// Values that rounding makes very large, or hides for a moment, are what they are: sin(w)/w has one where both are zero, and a ratio of two
+/// velocities where the arm turns round.
+#[test]
+fn rounding_is_told_from_poles() {
+    let text = arm(
+        "0.5 rad * sin(2 * t / 1 s) + 0.4",
+        "result high = max(1 / ((x(arm.tip) / 1 m - 0.7)^2 + 1e-18)) / 1e18
+         result ratio = min(abs(der(y(arm.tip)) / der(rotation(main))) / 1 m)
+         measure w = cos(2 * t / 1 s + 0.3) - 1
+         result wave = max(sin(w) / w)",
+    );
+    let wanted = [(1.0, 1e-9), (cos(0.9), 1e-6), (1.0, 1e-9)];
+    check(&text, 3.0, &wanted);
+    // the pole is at the end
+    let text = arm("0.3 rad/s * t - 0.5", "result a = min(1 / (rotation(main) - 0.4))");
+    assert_eq!(answers(&text, [3.0, 0.3]).0.values, [None]);
+}
+
+/// Of two zeros that are close the first counts, and beyond where it ends a formula counts nowhere. The mean is by quadrature of the closed form.
+#[test]
+fn kinks_beside_each_other_and_ends_are_told() {
+    let text = arm(
+        "0.09 rad/s * t",
+        "measure peak = abs(1 - exp(-((t - 0.67 s) / 0.14 ms)^2) - 0.01 * t / 1 s)
+         result a = argmin(peak)
+         result b = mean(abs(acos(1.1 * sin(2.35 * t / 1 s + 0.148))), from 1 s to 2 s)",
+    );
+    let first = 0.67 - 0.14e-3 * (-mechc::rooms::math::ln(1.0 - 0.01 * 0.669_988_5)).sqrt();
+    check(&text, 3.0, &[(first, 1e-9), (1.863_120_923_071_08, 1e-9)]);
+}
+
 #[test]
 fn extremes_of_forces_have_their_times() {
     let text = arm(

@@ -266,10 +266,11 @@ impl<'r> Probe<'r> {
         is_rounding(self.curve, &middle).then(|| [&cell.a, &middle, &cell.b].map(|point| point.sample.value))
     }
 
-    /// Whether a formula has no value in a cell, as far as that shows in one no longer than rounding hides values.
+    /// Whether a formula has no value in a short cell, as far as its ends and its middle show: a quotient of two that both rest, which no range
+    /// tells of.
     fn is_hole(&mut self, cell: &Cell) -> bool {
-        let is_tiny = cell.length() <= self.shortest * OPAQUE / SHORTEST;
-        let is_missing = is_tiny && !self.is_shortest(cell) && !cell.a.exists() && !cell.b.exists();
+        let is_short = cell.length() <= self.short && !self.is_shortest(cell);
+        let is_missing = is_short && !cell.a.exists() && !cell.b.exists();
         is_missing && self.point(cell, cell.middle()).is_none_or(|middle| !middle.exists())
     }
 
