@@ -330,13 +330,13 @@ impl Run {
         let asked = self.asked.take()?;
         if self.has_stopped {
             let count = self.results;
-            return Some(Answers { values: vec![None; count], digits: vec![0; count], notes: Vec::new() });
+            return Some(Answers { values: vec![None; count], digits: vec![0; count], ..Answers::default() });
         }
-        let Answers { values, digits, notes } = asked.answer()?;
+        let Answers { values, digits, notes, has_all_rows } = asked.answer()?;
         let mut said = Diagnostics::default();
         said.extend(notes);
         let notes = self.used_at.told(said).into_iter().collect();
-        Some(Answers { values, digits, notes })
+        Some(Answers { values, digits, notes, has_all_rows })
     }
 
     /// From now on it remembers at which times accelerations jump.

@@ -476,15 +476,16 @@ impl Sweeping {
         places: &Places,
         variant: &mut OneVariant,
     ) -> Result<(), Box<Diagnostic>> {
-        let asked = self.asked(&mut started, times, options);
-        let mut motion = started.into_motion(times);
-        if options.pass_bifurcations {
-            motion.pass_bifurcations();
+        let answers = self.asked(&mut started, times, options).and_then(Asked::answer).unwrap_or_default();
+        if self.options.columns.is_some() || !answers.has_all_rows {
+            let mut motion = started.into_motion(times);
+            if options.pass_bifurcations {
+                motion.pass_bifurcations();
+            }
+            while let Some(row) = motion.next_row() {
+                self.push_row(row?, places, variant);
+            }
         }
-        while let Some(row) = motion.next_row() {
-            self.push_row(row?, places, variant);
-        }
-        let answers = asked.and_then(Asked::answer).unwrap_or_default();
         write_results(&answers.values, places, &mut variant.results);
         variant.digits = answers.certain_digits();
         Ok(())

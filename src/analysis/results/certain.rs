@@ -29,6 +29,11 @@ impl Near {
         self.was_clear = is_clear;
     }
 
+    /// Whether the motion is clear of singular positions all over.
+    pub fn is_clear(&self) -> bool {
+        self.stretches.is_empty()
+    }
+
     fn holds(&self, t: f64) -> bool {
         let behind = self.stretches.partition_point(|[_, to]| *to < t);
         self.stretches.get(behind).is_some_and(|[from, _]| *from <= t)
@@ -62,7 +67,7 @@ impl Asked {
     /// # Errors
     /// Where a row would be refused.
     fn is_certain(&self, of: &Reduced, (kind, at): (ReductionKind, f64), near: &Near) -> Result<(), Trouble> {
-        if near.stretches.is_empty() || !of.moves() {
+        if near.is_clear() || !of.moves() {
             return Ok(());
         }
         let [from, to] = of.window();

@@ -83,6 +83,8 @@ pub struct Answers {
     pub digits: Vec<u32>,
     /// Why some have none.
     pub notes: Vec<Diagnostic>,
+    /// Whether the motion was followed to its end, nowhere near a singular position, and holds no forces: so it has a row at any time.
+    pub has_all_rows: bool,
 }
 
 impl Answers {
@@ -281,6 +283,7 @@ impl Analysis {
             values: vec![None; outcomes.len()],
             digits: vec![0; outcomes.len()],
             notes: notes.into_iter().collect(),
+            has_all_rows: false,
         }
     }
 
@@ -320,7 +323,9 @@ impl Analysis {
 
     fn answers(&self) -> Answers {
         let system = self.system();
-        let mut answers = Answers::default();
+        let was_followed = self.places.is_some();
+        let has_all_rows = was_followed && self.near.is_clear() && system.forces().is_none();
+        let mut answers = Answers { has_all_rows, ..Answers::default() };
         for outcome in &system.results().outcomes {
             let needed = needed(system.graph(), outcome.value);
             let found = self.found(outcome, &needed);
