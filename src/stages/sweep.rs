@@ -476,8 +476,10 @@ impl Sweeping {
         places: &Places,
         variant: &mut OneVariant,
     ) -> Result<(), Box<Diagnostic>> {
-        let answers = self.asked(&mut started, times, options).and_then(Asked::answer).unwrap_or_default();
-        if self.options.columns.is_some() || !answers.has_all_rows {
+        let mut asked = self.asked(&mut started, times, options);
+        // of rows that nobody wants all that matters is whether there are any
+        let early = asked.take_if(|_| self.options.columns.is_none()).and_then(Asked::answer);
+        if !early.as_ref().is_some_and(|answers| answers.has_all_rows) {
             let mut motion = started.into_motion(times);
             if options.pass_bifurcations {
                 motion.pass_bifurcations();
@@ -486,6 +488,7 @@ impl Sweeping {
                 self.push_row(row?, places, variant);
             }
         }
+        let answers = early.or_else(|| asked.and_then(Asked::answer)).unwrap_or_default();
         write_results(&answers.values, places, &mut variant.results);
         variant.digits = answers.certain_digits();
         Ok(())
