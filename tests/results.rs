@@ -1119,3 +1119,70 @@ fn conditions_over_what_has_no_value_have_none() {
     let wanted = [None, None, None, Some(2.0), Some(1.0), None, Some(3.0)];
     assert_eq!(answers.values[..7], wanted, "{:?}", answers.notes);
 }
+
+/// A driver that comes and goes between two steps, a window about a dead point, a peak of a high power: nothing of that shows at the ends of steps.
+#[test]
+fn what_comes_and_goes_within_a_step_is_met() {
+    let pulse = "if t < 0.2 s then 0 else if t < 0.21 s then 32 * ((t - 0.2 s) / (10 ms))^3 * (1 - (t - 0.2 s) / (10 ms))^3 else 0";
+    let text = arm(
+        pulse,
+        "result a = max(rotation(main)) result b = integral(rotation(main)) result c = max(sqrt(1 + rotation(main)))",
+    );
+    check(&text, 1.0, &[(0.5, 1e-12), (32.0 * 0.01 / 140.0, 1e-12), (1.5_f64.sqrt(), 1e-12)]);
+    let text = arm(
+        "2 * pi * (t / 1 s - 0.5)",
+        "result a = max(x(arm.tip), from 0.49 s to 0.51 s) result b = argmax(x(arm.tip), from 0.49 s to 0.51 s)
+         result c = max((1 - (t / 1 s - 0.3)^2)^100000000) result d = integral((1 - (t / 1 s - 0.3)^2)^100000000)
+         result e = integral((x(arm.tip) / 1 m)^100000)
+         result f = integral(exp(-((y(arm.tip) / 1 m - 0.3) / 1e-5)^2))",
+    );
+    // ∫ (1 − x²)ⁿ dx is √π Γ(n + 1)/Γ(n + 3/2), that of cosⁿ over a turn is 2 √(π/(2n)) (1 − 1/(4n)) but for more; and a Gaussian is met twice
+    let (n, power): (f64, f64) = (1e8, 1e5);
+    let wave = 2.0 * (PI / (2.0 * power)).sqrt() * (1.0 - 0.25 / power) / PI;
+    let gauss = 2.0 * 1e-5 * PI.sqrt() / (TAU * (1.0_f64 - 0.09).sqrt());
+    let wanted = [(1.0, 1e-13), (0.5, 1e-9), (1.0, 1e-12), ((PI / n).sqrt(), 1e-11), (wave, 1e-11), (gauss, 1e-12)];
+    check(&text, 1.0, &wanted);
+}
+
+/// Of what exists in a short time alone, the largest value is there; and what exists nowhere has no integral.
+#[test]
+fn what_exists_for_a_short_time_is_met_there() {
+    let text = arm(
+        "t * 1 rad/s",
+        "result a = max(sqrt(1 - ((t / 1 s - 0.12345) / 0.003)^2)) result b = argmax(sqrt(1 - ((t / 1 s - 0.12345) / 0.003)^2))
+         result c = max(acos(((t / 1 s - 0.27123) / 0.004)^2)) result d = integral(sqrt(1 - ((y(arm.tip) / 1 m - 0.1) / 3e-5)^2))",
+    );
+    check(&text, 1.0, &[(1.0, 1e-12), (0.12345, 1e-9), (0.5 * PI, 1e-9), (0.5 * PI * 3e-5 / 0.99_f64.sqrt(), 1e-11)]);
+    let text = arm("t * 1 rad/s", "result a = integral(sqrt(-1 - t / 1 s)) result b = mean(asin(2 + t / 1 s))");
+    assert_eq!(answers(&text, [1.0, 0.1]).0.values, [None, None]);
+}
+
+/// What rounding makes of a quotient near a zero of both is neither its extremum nor a pole; and a pole at an end of the window counts in its own
+/// direction alone.
+#[test]
+fn rounding_beside_zeros_and_poles_at_ends_are_no_extrema() {
+    let text = arm(
+        "2 * pi * t / 1 s",
+        "result a = max(atan2(sin(t / 1 s - 0.5), 1 - cos(t / 1 s - 0.5))) result b = max(acos(1 - (t / 1 s - 0.3)^2) / abs(t / 1 s - 0.3))
+         result c = min(acos(cos(t / 1 s - 0.3)) / abs(t / 1 s - 0.3))
+         result d = min(sqrt(1 - x(arm.tip) / 1 m) / abs(y(arm.tip) / 1 m), to 0.1 s)
+         result e = max(1 / (t / 1 s - 0.5), to 0.5 s) result f = min(tan(pi * t / 1 s), to 0.5 s)
+         result g = max((exp(t / 1 s - 0.3) - 1) / (t / 1 s - 0.3)) result h = max(if t < 0.5 s then 1 else 2, to 0.5 s)
+         result i = max((t / 1 s - 0.3) / abs(t / 1 s - 0.3)^0.9)",
+    );
+    let wanted = [
+        (0.5 * PI, 2e-6),
+        (1.479_445_052_170_385, 1e-9),
+        (1.0, 1e-6),
+        (0.5_f64.sqrt(), 1e-6),
+        (-2.0, 1e-12),
+        (0.0, 1e-12),
+        (1.448_218_153_529_252, 1e-12),
+        (1.0, 0.0),
+        (0.964_961_095_119_817_6, 1e-12),
+    ];
+    check(&text, 1.0, &wanted);
+    let text =
+        arm("t * 1 rad/s", "result a = max(exp(1 / (t / 1 s - 0.3))) result b = min(ln(1 - cos(t / 1 s - 0.3)))");
+    assert_eq!(answers(&text, [1.0, 0.1]).0.values, [None, None]);
+}

@@ -204,7 +204,7 @@ impl Contributions {
             } else if !unknown.is_empty() {
                 let why = match of.at {
                     None => {
-                        "it is of an extremum that two times share, of a kink or jump that goes with the param, or of too many derivatives"
+                        "it is of an extremum that two times share, of a kink or jump that goes with the param, of what has no value at some times, or of too many derivatives"
                     }
                     Some(_) if of.unknown[0] == 0 => "it jumps at a time that goes with the param",
                     Some(_) => "it needs too many derivatives, or is too near a singular position at all times",

@@ -134,6 +134,7 @@ impl Slopes<'_, '_> {
         let more = graph.sub(to, from);
         let slope = graph.add(inside, more);
         let slope = self.where_its_ends_are_clear(k, slope)?;
+        let slope = self.where_it_is_all_over(k, slope);
         Some(self.where_it_does_not_jump(k, slope))
     }
 
@@ -154,6 +155,7 @@ impl Slopes<'_, '_> {
         let more = graph.div(more, span);
         let slope = graph.add(inside, more);
         let slope = self.where_its_ends_are_clear(k, slope)?;
+        let slope = self.where_it_is_all_over(k, slope);
         Some(self.where_it_does_not_jump(k, slope))
     }
 

@@ -141,7 +141,8 @@ impl Enclosure {
     /// Lets a run of registers be anywhere in their intervals (middle and reach).
     pub fn set_all(&mut self, first: Register, boxes: &[[f64; 2]]) {
         for (k, [middle, reach]) in boxes.iter().enumerate() {
-            self.values[first as usize + k] = wider(middle - reach, middle + reach);
+            self.values[first as usize + k] =
+                if *reach > 0.0 { wider(middle - reach, middle + reach) } else { point(*middle) };
         }
     }
 
@@ -226,14 +227,18 @@ impl Machine for Intervals<'_> {
     }
 
     fn add(&mut self, a: Interval, b: Interval) -> Interval {
-        wider(a.low + b.low, a.high + b.high)
+        rounded([a, b], a.low + b.low, a.high + b.high)
     }
 
     fn sub(&mut self, a: Interval, b: Interval) -> Interval {
-        wider(a.low - b.high, a.high - b.low)
+        rounded([a, b], a.low - b.high, a.high - b.low)
     }
 
     fn mul(&mut self, a: Interval, b: Interval) -> Interval {
+        let is_zero = |of: Interval| of.low == 0.0 && of.high == 0.0;
+        if is_zero(a) || is_zero(b) {
+            return point(0.0);
+        }
         corners(a, b, |x, y| if x == 0.0 || y == 0.0 { 0.0 } else { x * y })
     }
 
@@ -323,14 +328,18 @@ pub(super) fn hull(a: Interval, b: Interval) -> Interval {
     Interval { low: a.low.min(b.low), high: a.high.max(b.high) }
 }
 
-/// Rounding may have gone either way; but where both ends are one number all that lies between is rounded to it.
+/// Rounding may have gone either way.
 fn wider(low: f64, high: f64) -> Interval {
-    if low.is_nan() || high.is_nan() {
-        WHOLE
-    } else if low.total_cmp(&high).is_eq() && low.is_finite() {
+    if low.is_nan() || high.is_nan() { WHOLE } else { Interval { low: low.next_down(), high: high.next_up() } }
+}
+
+/// What follows from some operands: of points one number, as the program has it, and not what it may be off.
+fn rounded<const N: usize>(of: [Interval; N], low: f64, high: f64) -> Interval {
+    let is_point = |of: &Interval| of.low.total_cmp(&of.high).is_eq();
+    if of.iter().all(is_point) && low.is_finite() && low.total_cmp(&high).is_eq() {
         point(low)
     } else {
-        Interval { low: low.next_down(), high: high.next_up() }
+        wider(low, high)
     }
 }
 
@@ -352,7 +361,7 @@ fn waves(a: Interval) -> [Interval; 2] {
 /// Never below zero.
 fn square(a: Interval) -> Interval {
     let a = of_one(Unary::Abs, a);
-    let squared = wider(a.low * a.low, a.high * a.high);
+    let squared = rounded([a], a.low * a.low, a.high * a.high);
     Interval { low: squared.low.max(0.0), high: squared.high }
 }
 
@@ -362,7 +371,8 @@ fn corners(a: Interval, b: Interval, f: impl Fn(f64, f64) -> f64) -> Interval {
     if all.iter().any(|x| x.is_nan()) {
         return WHOLE;
     }
-    wider(all.iter().copied().fold(f64::INFINITY, f64::min), all.iter().copied().fold(f64::NEG_INFINITY, f64::max))
+    let [low, high] = [f64::min, f64::max].map(|of| all.into_iter().fold(f64::NAN, of));
+    rounded([a, b], low, high)
 }
 
 fn quotient(a: Interval, b: Interval) -> Interval {
@@ -398,6 +408,17 @@ fn of_two(function: Binary, a: Interval, b: Interval) -> Interval {
     let value = |x: f64, y: f64| binary_value(function, x, y);
     let loosened = |i: Interval| loose(i.low, i.high);
     match function {
+        // of a whole power what is below zero has one too
+        Binary::Pow if a.low < 0.0 && b.low.total_cmp(&b.high).is_eq() && b.low.fract() == 0.0 => {
+            let size = of_one(Unary::Abs, a);
+            let powers = [size.low, size.high].map(|x| value(x, b.low));
+            match b.low % 2.0 {
+                _ if size.low == 0.0 && b.low < 0.0 => WHOLE,
+                0.0 => loose(powers[0].min(powers[1]), powers[0].max(powers[1])),
+                _ if b.low > 0.0 => loose(value(a.low, b.low), value(a.high, b.low)),
+                _ => loose(value(a.high, b.low), value(a.low, b.low)),
+            }
+        }
         Binary::Min | Binary::Max => Interval { low: value(a.low, b.low), high: value(a.high, b.high) },
         Binary::Hypot => loosened(corners(of_one(Unary::Abs, a), of_one(Unary::Abs, b), value)),
         Binary::Pow if a.low > 0.0 || (a.low >= 0.0 && b.low > 0.0) => loosened(corners(a, b, value)),

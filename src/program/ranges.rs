@@ -7,7 +7,7 @@
 use super::enclose::{Interval, behind, enclose};
 use super::{Op, Program, Register, Registers, Stage};
 use crate::expr::{Binary, Unary};
-use crate::tolerances::results::ranges::{VANISHES, WIDEST, WIDEST_RATIO, WIDEST_VALUE};
+use crate::tolerances::results::ranges::{HIGH_POWER, VANISHES, WIDEST, WIDEST_POWER, WIDEST_RATIO, WIDEST_VALUE};
 
 /// An interval that holds all values of a formula.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -66,6 +66,8 @@ struct Step {
     bounded: Option<Register>,
     /// Where the operation leaves the third derivative of a table.
     third: Option<Register>,
+    /// Where the operation leaves a value that may be as good as nothing all over but in a narrow peak: an exponential, or a high power.
+    peak: Option<Register>,
 }
 
 /// Working memory for the ranges of some formulas.
@@ -99,11 +101,13 @@ impl Ranges {
             program.tables().iter().flat_map(|table| list(table).iter().copied()).collect()
         };
         let (periods, thirds) = (of_tables(|table| &table.periods), of_tables(|table| &table.thirds));
+        let mut degrees = vec![1_u32; program.registers()];
         let step = |&op: &Op| {
+            let peak = peak(op, &mut degrees);
             let switched = op.switched();
             let is_of_table = matches!(op, Op::Piece { .. }) || switched.is_some_and(|to| periods.contains(&to));
             let third = op.writes().iter().copied().find(|to| thirds.contains(to));
-            Step { op, switched, is_of_table, bounded: bounded(op), third }
+            Step { op, switched, is_of_table, bounded: bounded(op), third, peak }
         };
         let operations = behind(program, roots, &[stage]);
         let mut number_of = vec![u32::MAX; program.registers()];
@@ -207,8 +211,8 @@ impl Ranges {
     fn run(&mut self, program: &Program, registers: &Registers, k: usize) {
         let v = &mut self.values;
         for &number in &self.own[k] {
-            let Step { op, switched, is_of_table, bounded, third } = self.steps[number as usize];
-            let mut found = if is_resolved_in(op, v) { 0 } else { found::IS_UNRESOLVED };
+            let Step { op, switched, is_of_table, bounded, third, peak } = self.steps[number as usize];
+            let mut found = if is_resolved_in((op, peak), v) { 0 } else { found::IS_UNRESOLVED };
             if may_jump(op, v) {
                 found |= found::SWITCHES;
             }
@@ -237,9 +241,12 @@ impl Ranges {
             if third.is_some_and(changes) {
                 found |= found::SWITCHES;
             }
-            if let Op::Unary { function: Unary::Exp, to, .. } = op
-                && v[to as usize].high <= VANISHES
+            if let Op::Binary { function: Binary::Pow, to, .. } = op
+                && v[to as usize].high > WIDEST_POWER * v[to as usize].low
             {
+                found |= found::IS_UNRESOLVED;
+            }
+            if peak.is_some_and(|to| v[to as usize].high <= VANISHES) {
                 // however it changes, it is nothing
                 found &= !found::IS_UNRESOLVED;
             }
@@ -298,6 +305,19 @@ fn bounded(op: Op) -> Option<Register> {
     }
 }
 
+/// The result of an operation that peaks: of an exponential, a power, or a square of squares, by the degree of what is squared.
+fn peak(op: Op, degrees: &mut [u32]) -> Option<Register> {
+    match op {
+        Op::Unary { function: Unary::Exp, to, .. } | Op::Binary { function: Binary::Pow, to, .. } => Some(to),
+        Op::Mul { to, a, b } if a == b => {
+            let degree = degrees[a as usize].saturating_mul(2);
+            degrees[to as usize] = degree;
+            (degree >= HIGH_POWER).then_some(to)
+        }
+        _ => None,
+    }
+}
+
 /// What a function is where its argument is in its domain, if it is partly so: elsewhere it has no value. It is left in a register.
 fn within_domain(op: Op, v: &[Interval]) -> Option<(Register, Interval)> {
     let Op::Unary { function, to, a } = op else { return None };
@@ -327,7 +347,7 @@ fn may_jump(op: Op, v: &[Interval]) -> bool {
 }
 
 /// Whether the argument of an operation changes so little that a few terms of its series tell all.
-fn is_resolved_in(op: Op, v: &[Interval]) -> bool {
+fn is_resolved_in((op, peak): (Op, Option<Register>), v: &[Interval]) -> bool {
     let width = |register: Register| v[register as usize].high - v[register as usize].low;
     let ratio = |register: Register| {
         let Interval { low, high } = v[register as usize];
@@ -341,6 +361,7 @@ fn is_resolved_in(op: Op, v: &[Interval]) -> bool {
             a,
             ..
         } => width(a) <= WIDEST,
+        Op::Mul { a, .. } if peak.is_some() => width(a) == 0.0 || ratio(a),
         Op::Unary { function: Unary::Sqrt | Unary::Ln | Unary::Log10, a, .. }
         | Op::Recip { a, .. }
         | Op::Div { b: a, .. }

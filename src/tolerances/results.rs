@@ -9,8 +9,12 @@ pub mod ranges {
     pub const WIDEST_VALUE: f64 = 0.5;
     /// What is divided by, or has a root taken of it, changes by no more than this factor.
     pub const WIDEST_RATIO: f64 = 2.0;
-    /// An exponential no larger than this is resolved, whatever its argument does.
+    /// A power that is resolved changes by no more than this factor.
+    pub const WIDEST_POWER: f64 = 256.0;
+    /// An exponential or a high power no larger than this is resolved, whatever its argument does.
     pub const VANISHES: f64 = 1e-40;
+    /// From this one on, a power is high.
+    pub const HIGH_POWER: u32 = 8;
 }
 
 /// Formulas in intervals (`program/enclose.rs`).
@@ -23,6 +27,11 @@ pub mod enclose {
 pub mod places {
     /// Corrections of a position at most, where the solver does not serve.
     pub const ITERATIONS: usize = 10;
+    /// Whether the motion in a step is what its ends tell is seen at this part of it, at which nothing is that comes back in the middle; where what
+    /// moves is farther off than this part of itself, and than a parabola could be, it is not. What is shorter than that part of a step is not cut.
+    pub const WITHIN: f64 = 0.381_966;
+    pub const LITTLE: f64 = 1e-9;
+    pub const SHORTEST: f64 = 1e-2;
     /// A position nearer than this to a singular one is taken from the way over it.
     pub const SOLVABLE: f64 = 4e-3;
 }
@@ -31,9 +40,9 @@ pub mod places {
 pub mod probe {
     /// Looking at one formula, so many cells are cut at most: what needs more is not meant. One whose middle has to be solved for counts as
     /// so many.
-    pub const MOST_CELLS: usize = 1_000_000;
+    pub const MOST_CELLS: usize = 400_000;
     /// And so many more for each step of the motion.
-    pub const MOST_OF_A_STEP: usize = 10_000;
+    pub const MOST_OF_A_STEP: usize = 4_000;
     pub const SOLVED: usize = 20;
     /// No cell is shorter than this part of the span.
     pub const SHORTEST: f64 = 4.0 * f64::EPSILON;
@@ -43,6 +52,12 @@ pub mod probe {
     pub const DIFFERENT: f64 = 1e-6;
     /// A stretch in which nothing can be solved for, or in which rounding hides the values of a formula, may be so long, as a part of the span.
     pub const OPAQUE: f64 = 1e-6;
+    /// Whether a formula grows towards a time is seen at places that are so many times as far away as the one before, from where its values are off by
+    /// no more than that part of themselves or of the range.
+    pub const FACTOR: f64 = 16.0;
+    pub const RELIABLE: f64 = 1e-3;
+    /// The first of these is no farther away than this part of the span.
+    pub const FARTHEST: f64 = 1e-5;
     /// Values that differ by no more than this part of the range are the same.
     pub const ALIKE: f64 = 1e-9;
     /// What rounding makes of a value.
@@ -80,10 +95,9 @@ pub mod extremum {
     pub const TIMES_OF_VALUES: f64 = 1e-6;
     /// A value at a threshold is that of one side where it differs from that of this side by no more than this part of the range.
     pub const APART: f64 = 1e-6;
-    /// A formula is looked at so far from where it may grow without bound, in shortest cells; and it does so where what it gains from one of these
-    /// places to the next, by equal factors, does not become less than this part.
-    pub const TOWARDS: [f64; 3] = [16.0, 256.0, 4_096.0];
-    pub const CONVERGES: f64 = 0.7;
+    /// A formula grows without bound where what it gains from one place to the next, which come nearer by equal factors, does not become less than by
+    /// this factor; and it goes to a value where it comes nearer to that by this factor.
+    pub const CONVERGES: f64 = 0.97;
     /// An edge so little behind an extremum, as a part of the span, is the extremum, where the value is the same.
     pub const BESIDE: f64 = 1e-7;
 }
@@ -125,6 +139,8 @@ pub mod stretches {
     /// A value of which nothing is certain is 0, where it may be off by no more than this part of the largest that was seen.
     pub const SMALL: f64 = 1e-6;
     pub const MOST_DIGITS: u32 = 17;
+    /// What is larger goes on to where there are no numbers.
+    pub const LARGEST: f64 = 1e300;
 }
 
 /// Integrals (`analysis/results/quadrature.rs`).
@@ -186,9 +202,8 @@ pub mod curve {
     pub const SAFETY: f64 = 2.0;
     /// In a part of a cell they go no farther than in the whole, times this and the square of how long the part is against the whole.
     pub const LESS: f64 = 2.0;
-    /// What moves is moved by this part of itself to see how much a formula makes of its rounding; and in so many ways.
+    /// What moves is moved by this part of itself to see how much a formula makes of its rounding.
     pub const MOVED: f64 = 1.0 / 1_048_576.0;
-    pub const WAYS: u32 = 3;
     /// What rounding makes of loads is looked at whenever a formula has been computed so often.
     pub const EVERY: usize = 16;
     /// A value between two points beside each other is known where what it may be is no wider than this part of it, or than nothing.

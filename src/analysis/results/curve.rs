@@ -3,7 +3,7 @@
 use super::guards::{Crossing, Guard, Mark, arguments, guards, slopes};
 use super::loads::{Hidden, Loads};
 use super::places::Places;
-use super::quantity::{Computed, SmoothFormula, moved};
+use super::quantity::{Computed, SmoothFormula};
 use super::sizes::Sizes;
 use super::smooth::Smooth;
 use super::turn::Sampled;
@@ -12,7 +12,7 @@ use crate::expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};
 use crate::ir::{ConstraintSystem, CoordinateKind};
 use crate::math::{between, log10};
 use crate::program::{Inputs, Op, Program, Range, Ranges, Register, Registers, Stage};
-use crate::tolerances::results::curve::{EVERY, KNOWN, LESS, MOVED, NOTHING, ON_BRIDGE, ROUNDING, SAFETY, WAYS};
+use crate::tolerances::results::curve::{EVERY, KNOWN, LESS, NOTHING, ON_BRIDGE, ROUNDING, SAFETY};
 use crate::tolerances::results::guards::NEAR;
 use crate::tolerances::results::loads::UNTOLD;
 use crate::tolerances::results::stretches::MOST_DIGITS;
@@ -148,6 +148,11 @@ impl Point {
     /// The side on which a guard is here.
     pub fn side(&self, guard: usize) -> f64 {
         self.marks[guard].side
+    }
+
+    /// The argument of a guard.
+    pub fn argument(&self, guard: usize) -> f64 {
+        self.marks[guard].argument
     }
 
     /// Whether the formula has a value here.
@@ -392,7 +397,7 @@ impl Curve {
         if self.holds_forces {
             places.find_multipliers(&state);
         }
-        self.smooth.look(&state, |_| 1.0);
+        self.smooth.look(&state);
         let tower = |moving: &Moving| match *moving {
             Moving::Coordinate(k) if k >= self.coordinates => self.smooth.tower(k - self.coordinates),
             Moving::Coordinate(k) => state.tower(k),
@@ -479,11 +484,26 @@ impl Curve {
         self.guards[guard].is_within_rounding(&self.ranges, point.marks[guard])
     }
 
-    /// Whether the argument of a guard is known at a point, beside what it usually is.
-    fn knows_argument(&mut self, guard: usize, point: &Point) -> bool {
+    /// Whether rounding alone decides on which side of its threshold some guard is at a point.
+    pub fn is_undecided(&mut self, point: &Point) -> bool {
+        if self.guards.is_empty() {
+            return false;
+        }
+        self.set_rounding(point);
+        let mut guards = self.guards.iter().zip(&point.marks);
+        guards.any(|(guard, mark)| guard.is_within_rounding(&self.ranges, *mark))
+    }
+
+    /// How far off the argument of a guard may be at a point.
+    pub fn rounding_of_argument(&mut self, guard: usize, point: &Point) -> f64 {
         self.set_rounding(point);
         let [low, high] = self.guards[guard].argument(&self.ranges);
-        high - low <= NEAR * self.largest_arguments[guard]
+        0.5 * (high - low)
+    }
+
+    /// Whether the argument of a guard is known at a point, beside what it usually is.
+    fn knows_argument(&mut self, guard: usize, point: &Point) -> bool {
+        2.0 * self.rounding_of_argument(guard, point) <= NEAR * self.largest_arguments[guard]
     }
 
     /// Whether a guard of the formula is exactly at its threshold, and not so at another point beside: the formula may have a value of its own there.
@@ -507,28 +527,6 @@ impl Curve {
             }
         }
         self.program.run_only(&self.operations, &mut self.registers);
-    }
-
-    /// How large the numbers are that the value is a sum of, or a difference: the unit of its rounding. Seen from a mount that is far away a
-    /// length may be much smaller than what it is made of.
-    pub fn weight(&mut self, point: &Point) -> f64 {
-        let mut weight = point.sample.value.abs();
-        for way in 0..WAYS {
-            let moved = |k: usize| moved(k, way);
-            self.smooth.look(&point.state, moved);
-            let tower = |(moving, tower): (&Moving, &[f64; 4])| match *moving {
-                Moving::Coordinate(k) if k >= self.coordinates => self.smooth.tower(k - self.coordinates),
-                Moving::Coordinate(k)
-                | Moving::Varied { index: k, .. }
-                | Moving::Multiplier(k)
-                | Moving::VariedMultiplier { row: k, .. } => tower.map(|value| value * moved(k)),
-            };
-            let moving: Vec<[f64; 4]> = self.moving.iter().zip(&point.moving).map(tower).collect();
-            self.run(point.state.t, &moving);
-            let change = (self.registers.get(self.roots[0]) - point.sample.value).abs();
-            weight = weight.max(if change.is_finite() { change / MOVED } else { 0.0 });
-        }
-        weight
     }
 
     /// Of what moves and is never below zero: at which order it stands.

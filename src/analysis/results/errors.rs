@@ -33,7 +33,7 @@ pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diag
         ),
         None if outcome.unknown_is_false => (
             format!("`{name}` is not known"),
-            "of an extremum that two times share, of a kink or jump that moves, or of too many derivatives",
+            "of an extremum that two times share, of a kink or jump that moves, of what has no value at some times, or of too many derivatives",
         ),
         None => (format!("result `{name}` has no value"), "its formula is infinite or undefined"),
     };

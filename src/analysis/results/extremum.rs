@@ -5,17 +5,16 @@
 //! more than what is known are never looked into, and so a pole in the other direction costs nothing and hides nothing.
 
 use super::curve::{Cell, Found, Point, Verdict};
-use super::probe::{Probe, Scale};
+use super::probe::{Probe, Scale, Trouble};
 use super::turn::{MOST_LOOKS, Sampled, Settling, Turning};
 use crate::analysis::state::State;
 use crate::math::{between, median};
 use crate::program::Range;
 use crate::tolerances::results::curve::KNOWN;
 use crate::tolerances::results::extremum::{
-    APART, BESIDE, CERTAIN, CLOSER, CONVERGES, FARTHEST, FINEST, GAP, GAP_OF_VALUES, ITERATIONS, TIMES,
-    TIMES_OF_VALUES, TOWARDS,
+    APART, BESIDE, CERTAIN, CLOSER, CONVERGES, FARTHEST, FINEST, GAP, GAP_OF_VALUES, ITERATIONS, TIMES, TIMES_OF_VALUES,
 };
-use crate::tolerances::results::probe::SHORTEST;
+use crate::tolerances::results::probe::{FACTOR, SHORTEST};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::rc::Rc;
@@ -38,6 +37,10 @@ pub(super) struct Extremum {
     largest: f64,
     /// A time (s) towards which the formula grows without bound.
     unbounded: Option<f64>,
+    /// Whether it is bounded as far as ranges tell.
+    is_bounded: bool,
+    /// How much larger it may be than what was found, where not all could be looked at.
+    unknown: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -114,7 +117,18 @@ impl Extremum {
         let nothing = f64::NEG_INFINITY;
         let (places, unbounded) = (Vec::new(), None);
         let (best_found, best_at) = (Found::NOTHING, f64::NAN);
-        Extremum { sign, is_timed: false, best: nothing, best_found, best_at, places, largest: nothing, unbounded }
+        Extremum {
+            sign,
+            is_timed: false,
+            best: nothing,
+            best_found,
+            best_at,
+            places,
+            largest: nothing,
+            unbounded,
+            is_bounded: true,
+            unknown: 0.0,
+        }
     }
 
     /// Asks for its time too.
@@ -178,6 +192,11 @@ impl Extremum {
         self.unbounded
     }
 
+    /// Whether it is bounded as far as ranges tell.
+    pub fn is_bounded(&self) -> bool {
+        self.is_bounded
+    }
+
     /// The largest value: that of an extremum, an edge or an end, unless more was seen than can be of it. Not a number where there is none.
     pub fn value(&self, scale: Scale) -> Found {
         let known = self.places.iter().filter(|place| {
@@ -187,9 +206,9 @@ impl Extremum {
         let place = known.max_by(|a, b| a.value.total_cmp(&b.value));
         match place {
             Some(place) if self.best <= place.most(scale) + scale.gap(GAP) => {
-                Found { value: self.sign * place.value, off: place.off }
+                Found { value: self.sign * place.value, off: place.off.max(self.unknown) }
             }
-            _ => Found { off: self.best_found.off.max(scale.gap(GAP_OF_VALUES)), ..self.best_found },
+            _ => Found { off: self.best_found.off.max(scale.gap(GAP_OF_VALUES)).max(self.unknown), ..self.best_found },
         }
     }
 
@@ -199,7 +218,7 @@ impl Extremum {
         let Some(first) = self.first(scale) else { return found(self.best_at, TIMES_OF_VALUES) };
         let is_it = |next: &&Place| {
             let is_behind = next.t > first.t && next.t - first.t <= BESIDE * scale.span;
-            next.kind == Kind::Edge && first.kind == Kind::Turn && is_behind && next.value >= first.value
+            next.kind == Kind::Edge && first.kind == Kind::Turn && is_behind && next.most(scale) >= first.value
         };
         let place = self.alike(scale).find(is_it).unwrap_or(&first);
         match place.kind {
@@ -226,15 +245,17 @@ impl Extremum {
 
     /// How far values usually are from the largest one: what is a difference goes by that, and not by what a pole in the other direction makes
     /// of a few.
-    fn spread(&self, samples: &[f64], rounding: f64) -> f64 {
-        let off = |value: &f64| (self.best - self.sign * value).abs();
-        median(samples.iter().map(off).filter(|off| *off > rounding && off.is_finite()).collect())
+    fn spread(&self, samples: &[Found], rounding: f64) -> f64 {
+        let off = |found: &Found| ((self.best - self.sign * found.value).abs(), found.off.max(rounding));
+        let different = samples.iter().map(off).filter(|(off, rounding)| off > rounding && off.is_finite());
+        median(different.map(|(off, _)| off).collect())
     }
 }
 
 impl Probe<'_> {
     /// Looks for the extremum in some cells, where some values are known and the formula has a scale.
-    pub(super) fn search(&mut self, cells: &[Cell], samples: &[f64], extremum: &mut Extremum, scale: Scale) -> Scale {
+    pub(super) fn search(&mut self, cells: &[Cell], samples: &[Found], extremum: &mut Extremum, scale: Scale) -> Scale {
+        self.is_timed = extremum.is_timed;
         let mut heap = BinaryHeap::new();
         for cell in cells {
             let open = self.open(cell.clone(), extremum, scale);
@@ -252,6 +273,13 @@ impl Probe<'_> {
             if extremum.is_above(open.upper, scale) {
                 heap.push(open);
                 break;
+            }
+            if self.notes.are_exhausted() {
+                extremum.unknown = f64::max(open.upper - extremum.best, 0.0);
+                if extremum.is_timed || extremum.unknown == f64::INFINITY {
+                    self.notes.meet(Trouble::Unknown(open.cell.a.state.t));
+                }
+                return scale;
             }
             if self.curve.holds_forces() {
                 // more is known of the size of loads by now
@@ -280,6 +308,9 @@ impl Probe<'_> {
         let mut parts = Vec::new();
         while let Some(next) = open.pop() {
             let first = extremum.first(scale).filter(|first| first.kind != Kind::Seen);
+            if self.notes.are_exhausted() {
+                self.notes.meet(Trouble::Unknown(next.cell.a.state.t));
+            }
             if first.is_some_and(|first| first.t <= next.cell.a.state.t) || self.notes.trouble.is_some() {
                 return;
             }
@@ -302,17 +333,6 @@ impl Probe<'_> {
         }
     }
 
-    /// Whether a guard is exactly at its threshold at a point at an end of a cell, where the formula has a value of its own that is not that of
-    /// the cell.
-    pub(super) fn is_apart(&mut self, cell: &Cell, point: &Point, other: &Point, scale: Scale) -> bool {
-        if !self.curve.is_at_threshold(point, other) {
-            return false;
-        }
-        let inward = if point.state.t < other.state.t { 1.0 } else { -1.0 };
-        let beside = self.point(cell, point.state.t + inward * TOWARDS[0] * self.shortest);
-        beside.is_some_and(|beside| (beside.sample.value - point.sample.value).abs() > scale.gap(APART))
-    }
-
     /// Finds out what is known of the formula in a cell.
     fn open(&mut self, mut cell: Cell, extremum: &mut Extremum, scale: Scale) -> Open {
         let (verdict, range) = self.enclose(&mut cell);
@@ -331,6 +351,8 @@ impl Probe<'_> {
         // how far off values may be is found with what the ranges were found with
         if verdict != Verdict::Rounding {
             self.see_ends(&cell, extremum);
+        } else if extremum.oriented(range)[1] == f64::INFINITY {
+            self.see_growth(&cell, extremum, scale);
         }
         Open { cell, verdict, range, derivatives, upper }
     }
@@ -391,8 +413,8 @@ impl Probe<'_> {
         for (point, other, outward) in [(&cell.a, &cell.b, -1.0), (&cell.b, &cell.a, 1.0)] {
             // a value of its own is that of no side
             let is_apart = self.curve.is_at_threshold(point, other) && step > scale.gap(APART) && {
-                let t = point.state.t + outward * TOWARDS[0] * self.shortest;
-                let beside = self.point_within_step(cell.step, t);
+                let t = point.state.t + outward * FACTOR * self.shortest;
+                let beside = self.point_beside(cell.step, t);
                 beside.is_none_or(|beside| (beside.sample.value - point.sample.value).abs() > scale.gap(APART))
             };
             if !point.exists() || is_apart {
@@ -402,41 +424,48 @@ impl Probe<'_> {
             if goes_on && step <= scale.gap(GAP) {
                 extremum.see(point.state.t, found);
             } else {
-                extremum.note_edge(Found { value: point.state.t, off: cell.length() }, found, scale);
+                let off = cell.length().max(point.shift.time);
+                extremum.note_edge(Found { value: point.state.t, off }, found, scale);
             }
         }
         for value in self.curve.between_points(&cell.a, &cell.b) {
-            let at = Found { value: cell.b.state.t, off: cell.length() };
-            extremum.note_edge(at, Found { value, off: KNOWN * value.abs() }, scale);
+            if sign * value >= extremum.best - scale.alike() && self.goes_to(value, cell, scale) {
+                let off = cell.length().max(cell.b.shift.time);
+                let at = Found { value: cell.b.state.t, off };
+                extremum.note_edge(at, Found { value, off: KNOWN * value.abs() }, scale);
+            }
         }
-        let [_, upper] = extremum.oriented(range);
-        if upper == f64::INFINITY && (self.grows_towards(cell, sign, true) || self.grows_towards(cell, sign, false)) {
-            extremum.unbounded = Some(cell.b.state.t);
+        if extremum.oriented(range)[1] == f64::INFINITY {
+            extremum.is_bounded = false;
+            self.see_growth(cell, extremum, scale);
         }
     }
 
-    /// Whether the formula, times a sign, grows without bound towards a shortest cell, from before or from behind: by its values at places that
-    /// come near by equal factors.
-    fn grows_towards(&mut self, cell: &Cell, sign: f64, is_before: bool) -> bool {
-        let (near, away) = if is_before { (&cell.a, -1.0) } else { (&cell.b, 1.0) };
-        let mut values = [sign * near.sample.value, f64::NAN, f64::NAN, f64::NAN];
-        for (value, far) in values[1..].iter_mut().zip(TOWARDS) {
-            let t = near.state.t + away * far * self.shortest.max(cell.length()).max(near.shift.time);
-            *value = self.point_within_step(cell.step, t).map_or(f64::NAN, |point| sign * point.sample.value);
-        }
-        // nearest by, values may be rounding
-        values.windows(3).any(|places| {
-            let (gains, more) = (places[0] - places[1], places[1] - places[2]);
-            more > 0.0 && gains >= CONVERGES * more
+    /// Whether a value is what the formula goes to towards a cell, from before or from behind: it comes nearer to that.
+    fn goes_to(&mut self, value: f64, cell: &Cell, scale: Scale) -> bool {
+        [(&cell.a, -1.0), (&cell.b, 1.0)].into_iter().any(|(point, way)| {
+            self.beside(cell.step, point, (way, cell.length()), scale).is_some_and(|[near, far, _]| {
+                let [left, before] = [near, far].map(|found| (found.value - value).abs());
+                left <= CONVERGES * before + near.off + far.off
+            })
         })
+    }
+
+    /// Takes note of a cell of which no range is known, if the formula grows towards it without bound, from before or from behind: it gains no less
+    /// from one place to the next, which come near by equal factors.
+    fn see_growth(&mut self, cell: &Cell, extremum: &mut Extremum, scale: Scale) {
+        for (point, way) in [(&cell.a, -1.0), (&cell.b, 1.0)] {
+            let Some(places) = self.beside(cell.step, point, (way, cell.length()), scale) else { continue };
+            let gain = |near: Found, far: Found| (extremum.sign * (near.value - far.value), near.off + far.off);
+            let ((last, off), (before, off_before)) = (gain(places[0], places[1]), gain(places[1], places[2]));
+            if before > off_before && off <= before && last + off >= CONVERGES * before {
+                extremum.unbounded = Some(cell.b.state.t);
+            }
+        }
     }
 
     /// Whether a smooth cell holds nothing more of interest; what it holds has been noted.
     fn is_done(&mut self, open: &Open, extremum: &mut Extremum, scale: Scale) -> bool {
-        // ranges need not show of what rests that it does
-        if scale.rests() && open.range.is_resolved {
-            return true;
-        }
         match open.derivatives {
             [Some(first), second] => self.is_done_by_slopes(open, [Some(first), second], extremum, scale),
             [None, _] if self.curve.derivatives() == 0 => {
@@ -467,7 +496,8 @@ impl Probe<'_> {
             // an end that is larger than what is certain may be beside a pole
             return f64::max(a, b) <= extremum.best + scale.gap(GAP);
         }
-        let is_small = *upper <= f64::max(a, b) + scale.gap(GAP);
+        // what is larger than what is certain may be rounding
+        let is_small = *upper <= f64::max(a, b).min(extremum.best) + scale.gap(GAP);
         if extremum.is_out_of_question(*upper, scale) || (is_small && !turns) {
             return true;
         }
@@ -563,7 +593,7 @@ impl Probe<'_> {
     /// top beside it: all that is known of a formula without derivatives.
     fn is_done_by_values(&mut self, cell: &Cell, upper: f64, extremum: &mut Extremum, scale: Scale) -> bool {
         let [a, b] = extremum.values(cell);
-        let is_small = upper <= f64::max(a, b) + scale.gap(GAP_OF_VALUES);
+        let is_small = upper <= f64::max(a, b).min(extremum.best) + scale.gap(GAP_OF_VALUES);
         if is_small && f64::max(a, b) >= extremum.best - scale.alike() {
             let (point, value) = if b > a { (&cell.b, b) } else { (&cell.a, a) };
             let off = scale.gap(GAP_OF_VALUES);

@@ -35,6 +35,7 @@ use crate::expr::{ExprId, Graph, Node, Symbol};
 use crate::ir::{ConstraintSystem, Outcome, Reduction, ReductionKind};
 use crate::solver::Solver;
 use crate::structure::Determined;
+use crate::tolerances::results::places::SHORTEST;
 use crate::tolerances::results::stretches::{CHUNK, FEW, NUMBERS};
 use certain::Near;
 use curve::{Curve, Found};
@@ -262,6 +263,7 @@ impl Analysis {
             // steps towards a singular position are replaced once the way over it is known
             let is_full = steps.len() >= CHUNK.min(1 + NUMBERS / (1 + motion.here().q.len()));
             if is_end || (is_full && motion.was_clear_here()) {
+                steps = cut_where_unlike(steps, places);
                 for reduced in all.iter_mut() {
                     reduced.look(&steps, places, span);
                 }
@@ -368,6 +370,25 @@ fn push_step(steps: &mut Vec<Stretch>, mut step: Stretch) {
         step.from.copy_from(clear);
     }
     steps.push(step);
+}
+
+/// Cuts steps in which the motion is not what the states at both ends tell: a driver may come and go within one.
+fn cut_where_unlike(steps: Vec<Stretch>, places: &mut Places) -> Vec<Stretch> {
+    if !places.has_signals() {
+        return steps;
+    }
+    let mut found = Vec::with_capacity(steps.len());
+    for step in steps {
+        let shortest = SHORTEST * (step.to.t - step.from.t);
+        let mut open = vec![step];
+        while let Some(step) = open.pop() {
+            match places.unlike(&step).filter(|_| step.to.t - step.from.t > shortest) {
+                Some(within) => open.extend(step.cut_at(within).into_iter().rev()),
+                None => found.push(step),
+            }
+        }
+    }
+    found
 }
 
 /// The formulas of some reductions with what they are over, each once, and which is whose; with the reductions that they hold, as far as these are known, and over so

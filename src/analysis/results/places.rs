@@ -6,7 +6,7 @@ use crate::analysis::state::{Kinematics, State};
 use crate::math::along;
 use crate::program::{Ranges, Register, Stage};
 use crate::solver::{Batch, Solver};
-use crate::tolerances::results::places::{ITERATIONS, SOLVABLE};
+use crate::tolerances::results::places::{ITERATIONS, LITTLE, SOLVABLE, WITHIN};
 use crate::tolerances::results::stretches::NUMBERS;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
@@ -183,6 +183,29 @@ impl Places {
         self.signals.set_times(times);
         let (program, registers) = self.kinematics.program();
         (0..self.signal_count).all(|k| self.signals.range(program, registers, k).is_resolved)
+    }
+
+    /// Whether time alone decides about the motion, and not as a straight line.
+    pub fn has_signals(&self) -> bool {
+        self.signal_count > 0
+    }
+
+    /// A state within a stretch that is not what both its ends tell; none if it is.
+    pub fn unlike(&mut self, stretch: &Stretch) -> Option<State> {
+        let Stretch { from, to, bridge: None, .. } = stretch else { return None };
+        let h = to.t - from.t;
+        self.enter(stretch);
+        let within = self.solve(stretch, [from, to], from.t + WITHIN * h)?;
+        let x = (within.t - from.t) / h;
+        let is_unlike = |k: usize| {
+            let (a, b) = (from.tower(k), to.tower(k));
+            let off = |order: usize| ((b[order - 1] - a[order - 1]) / h - 0.5 * (a[order] + b[order])).abs();
+            // what rests at zero is as good as what is usual
+            let size = self.kinematics.system().coordinates()[k].scale.max(a[0].abs()).max(b[0].abs());
+            let told = h * h * off(2) + LITTLE * size;
+            (within.q[k] - along(&quintic_between(from, to, k, h), x)).abs() > told
+        };
+        (0..within.q.len()).any(is_unlike).then_some(within)
     }
 
     /// The state at a time (s) between two states of a stretch; none where it cannot be solved for.

@@ -1,13 +1,14 @@
 //! Looking at a formula between the ends of the motion's steps.
 
-use super::curve::{Cell, Curve, Point, Shift, Verdict};
+use super::curve::{Cell, Curve, Found, Point, Shift, Verdict};
 use super::places::Places;
 use crate::analysis::follow::Stretch;
 use crate::analysis::state::State;
 use crate::math::{close_in, power_of_two_below};
 use crate::program::Range;
 use crate::tolerances::results::probe::{
-    ALIKE, DIFFERENT, MOST_CELLS, MOST_OF_A_STEP, NOTHING, OPAQUE, ROUNDING, SHORT, SHORTEST, SOLVED,
+    ALIKE, DIFFERENT, FACTOR, FARTHEST, MOST_CELLS, MOST_OF_A_STEP, NOTHING, OPAQUE, RELIABLE, ROUNDING, SHORT,
+    SHORTEST, SOLVED,
 };
 use std::rc::Rc;
 
@@ -26,11 +27,6 @@ impl Scale {
     /// Values that differ by no more than this are the same: what rounding makes of a value that rests is no change.
     pub fn alike(self) -> f64 {
         self.gap(ALIKE)
-    }
-
-    /// Whether all values that were seen are the same, but for rounding.
-    pub fn rests(self) -> bool {
-        self.range <= self.gap(0.0)
     }
 
     /// A part of the range, but no less than what rounding makes of a value.
@@ -85,6 +81,11 @@ impl Notes {
         }
     }
 
+    /// Whether as much has been looked at as may be.
+    pub fn are_exhausted(&self) -> bool {
+        self.cells > self.most
+    }
+
     /// Takes note of a time (s) at which the formula has no value.
     pub fn miss(&mut self, t: f64) {
         if self.missing.is_none_or(|known| t < known) {
@@ -108,6 +109,10 @@ pub(super) struct Probe<'r> {
     pub range: f64,
     /// In a cell that is no longer than this (s) values may be nothing but rounding.
     pub short: f64,
+    /// Whether it matters when guards cross their thresholds.
+    pub is_timed: bool,
+    /// The guard that was found to cross its threshold last, when (s), and how far off (s) that may be.
+    doubted: Option<(usize, f64, f64)>,
 }
 
 impl<'r> Probe<'r> {
@@ -129,6 +134,8 @@ impl<'r> Probe<'r> {
             shortest: SHORTEST * span,
             range: 0.0,
             short: SHORT * span,
+            is_timed: false,
+            doubted: None,
         }
     }
 
@@ -177,10 +184,40 @@ impl<'r> Probe<'r> {
         }
     }
 
-    /// The formula at a time (s) of a step; none beyond its ends, or where the motion cannot be solved for.
-    pub fn point_within_step(&mut self, step: usize, t: f64) -> Option<Rc<Point>> {
-        let is_within = self.steps[step].from.t <= t && t <= self.steps[step].to.t;
+    /// The formula at a time (s) in a step or in those before and behind it; none beyond an edge or the window, or where the motion cannot be solved for.
+    pub fn point_beside(&mut self, mut step: usize, t: f64) -> Option<Rc<Point>> {
+        let steps = self.steps;
+        while step > 0 && t < steps[step].from.t && !steps[step].begins_at_edge {
+            step -= 1;
+        }
+        while step + 1 < steps.len() && t > steps[step].to.t && !steps[step].ends_at_edge {
+            step += 1;
+        }
+        let ([from, to], Stretch { from: a, to: b, .. }) = (self.window, &steps[step]);
+        let is_within = from.max(a.t) <= t && t <= to.min(b.t);
         if is_within { self.point_of_step(step, t) } else { None }
+    }
+
+    /// The formula at three times beside a point, before (−1) or behind it (1), each [`FACTOR`] times as far away as the one before; the first of these
+    /// is no nearer than a width (s), and so far away that the value is more than rounding. None where there are no such times near by.
+    pub fn beside(&mut self, step: usize, point: &Point, (way, width): (f64, f64), scale: Scale) -> Option<[Found; 3]> {
+        let mut far = FACTOR * self.shortest.max(width).max(point.shift.time);
+        loop {
+            let mut found = [Found::NOTHING; 3];
+            let mut distance = far;
+            for found in &mut found {
+                let there = self.point_beside(step, point.state.t + way * distance)?;
+                *found = self.curve.found(&there);
+                distance *= FACTOR;
+            }
+            if found[0].off <= scale.gap(RELIABLE).max(RELIABLE * found[0].value.abs()) {
+                return Some(found);
+            }
+            far *= FACTOR;
+            if far > FARTHEST * scale.span {
+                return None;
+            }
+        }
     }
 
     fn between(&mut self, step: usize, [a, b]: [&State; 2], t: f64) -> Option<Rc<Point>> {
@@ -209,9 +246,6 @@ impl<'r> Probe<'r> {
     pub fn enclose(&mut self, cell: &mut Cell) -> (Verdict, Range) {
         self.enter(cell.step);
         self.notes.cells += 1;
-        if self.notes.cells > self.notes.most {
-            self.notes.meet(Trouble::Unknown(cell.a.state.t));
-        }
         // a pole at a singular position shows at neither end of a cell around it
         let is_within = |t: f64| cell.a.state.t <= t && t <= cell.b.state.t;
         let bridge = self.steps[cell.step].bridge.as_ref().filter(|_| self.curve.may_be_singular());
@@ -266,12 +300,13 @@ impl<'r> Probe<'r> {
         is_rounding(self.curve, &middle).then(|| [&cell.a, &middle, &cell.b].map(|point| point.sample.value))
     }
 
-    /// Whether a formula has no value in a short cell, as far as its ends and its middle show: a quotient of two that both rest, which no range
-    /// tells of.
+    /// Whether a formula has no value in a short cell, as far as its ends and its middle show, where rounding alone decides about a guard: a quotient
+    /// of two that both rest, which no range tells of.
     fn is_hole(&mut self, cell: &Cell) -> bool {
         let is_short = cell.length() <= self.short && !self.is_shortest(cell);
-        let is_missing = is_short && !cell.a.exists() && !cell.b.exists();
-        is_missing && self.point(cell, cell.middle()).is_none_or(|middle| !middle.exists())
+        let mut is_missing = |point: &Point| !point.exists() && self.curve.is_undecided(point);
+        let are_missing = is_short && is_missing(&cell.a) && is_missing(&cell.b);
+        are_missing && self.point(cell, cell.middle()).is_none_or(|middle| !middle.exists())
     }
 
     /// Whether a cell is too short to be cut.
@@ -303,9 +338,40 @@ impl<'r> Probe<'r> {
             let offs = self.curve.distances(guard, [&before, &behind]);
             Some((is_behind, offs[usize::from(is_behind)].abs()))
         })?;
+        if self.is_timed {
+            let doubt = match self.doubted {
+                // beside another crossing of the same guard, in what is rounding there
+                Some((other, t, doubt)) if other == guard && (before.state.t - t).abs() <= doubt => doubt,
+                _ => {
+                    let of = |(end, way): (&Rc<Point>, f64)| self.doubt(cell.step, guard, end, way);
+                    let doubts = [(&before, -1.0), (&behind, 1.0)].map(of);
+                    f64::min(doubts[0], doubts[1])
+                }
+            };
+            self.doubted = Some((guard, before.state.t, doubt));
+            for end in [&mut before, &mut behind] {
+                Rc::make_mut(end).shift.time = doubt;
+            }
+        }
         self.see_hole(cell.step, [&mut before, &mut behind]);
         let part = |a: &Rc<Point>, b: &Rc<Point>| (b.state.t > a.state.t).then(|| cell.between(a, b));
         Some([part(&cell.a, &before), part(&before, &behind), part(&behind, &cell.b)])
+    }
+
+    /// How far (s) from a point beside a crossing the guard may cross its threshold as well, before (−1) or behind it (1): rounding of its argument
+    /// beside how fast that changes.
+    fn doubt(&mut self, step: usize, guard: usize, end: &Point, way: f64) -> f64 {
+        let off = self.curve.rounding_of_argument(guard, end);
+        let mut width = FACTOR * FACTOR * self.shortest;
+        while width <= self.short {
+            let Some(there) = self.point_beside(step, end.state.t + way * width) else { break };
+            let change = (there.argument(guard) - end.argument(guard)).abs();
+            if change >= FACTOR * off {
+                return width * off / change;
+            }
+            width *= FACTOR;
+        }
+        f64::INFINITY
     }
 
     /// Where the formula has a value on one side alone of a crossing, and has one again farther on: rounding may have hidden it there, and what it goes
@@ -321,7 +387,7 @@ impl<'r> Probe<'r> {
         while width <= self.shortest * OPAQUE / SHORTEST {
             let t = missing.state.t + way * width;
             let is_end = t <= self.window[0] || t >= self.window[1];
-            let there = self.point_within_step(step, t);
+            let there = self.point_beside(step, t);
             if there.is_none() && !is_end {
                 return;
             }
@@ -335,7 +401,7 @@ impl<'r> Probe<'r> {
 
     /// Takes note that a point may be meant for a time that is so much (s) beside its own.
     pub fn shift(&mut self, step: usize, point: &mut Rc<Point>, beside: f64) {
-        let there = self.point_within_step(step, point.state.t + beside);
+        let there = self.point_beside(step, point.state.t + beside);
         let value = there.map_or(f64::INFINITY, |there| (there.sample.value - point.sample.value).abs());
         Rc::make_mut(point).shift = Shift { time: beside.abs(), value };
     }

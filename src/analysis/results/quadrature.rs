@@ -2,7 +2,7 @@
 //! derivatives by values within (Lobatto and Kronrod).
 
 use super::curve::{Cell, Found, Point, Verdict};
-use super::probe::{Probe, Scale};
+use super::probe::{Probe, Scale, Trouble};
 use crate::math::{integral_of_quintic, log10, pow};
 use crate::tolerances::results::quadrature::{
     ACCURACY, ALIKE, BESIDE_POLE, DIVERGES, FARTHER, LEAST_GROWTH, LOOKS, NOTHING, PART_OF_POLE, ROUNDING, SAFETY,
@@ -58,6 +58,11 @@ impl Integral {
     /// For how long (s) the formula has a value.
     pub fn time(&self) -> f64 {
         self.time
+    }
+
+    /// How far the formula is on average from a value that is usual.
+    pub fn deviation(&self) -> f64 {
+        self.size / self.time
     }
 
     /// A time (s) towards which the formula grows so fast that the integral does not exist.
@@ -124,7 +129,7 @@ impl Probe<'_> {
     /// Adds the integral of the formula over some cells. What may be farthest off is made better first, until all together is good enough beside the
     /// integral of how far the formula is from a value that is usual.
     pub(super) fn integrate(&mut self, cells: &[Cell], usual: f64, scale: Scale, integral: &mut Integral) {
-        (integral.usual, integral.span, self.range) = (usual, scale.span, scale.range);
+        (integral.usual, integral.span, self.range, self.is_timed) = (usual, scale.span, scale.range, true);
         let mut parts = BinaryHeap::new();
         for cell in cells {
             self.take(cell.clone(), &mut parts, integral);
@@ -142,7 +147,7 @@ impl Probe<'_> {
         let mut left = 0;
         loop {
             if left == 0 {
-                if self.notes.trouble.is_some() || !is_open(&parts, integral) {
+                if self.notes.trouble.is_some() || self.notes.are_exhausted() || !is_open(&parts, integral) {
                     break;
                 }
                 left = parts.len().div_ceil(LOOKS);
@@ -156,6 +161,9 @@ impl Probe<'_> {
         let mut parts = parts.into_vec();
         parts.sort_unstable_by(|a, b| a.from.total_cmp(&b.from));
         for part in parts {
+            if self.notes.are_exhausted() && part.off == f64::INFINITY {
+                self.notes.meet(Trouble::Unknown(part.from));
+            }
             integral.add(part.found, part.off, part.length);
         }
     }
@@ -220,7 +228,8 @@ impl Probe<'_> {
 
     /// Whether rounding may make more of the value at a point than values differ elsewhere, if there is one.
     fn is_noise(&mut self, point: &Point) -> bool {
-        !point.exists() || self.curve.found(point).certain_digits() == 0
+        let found = self.curve.found(point);
+        !point.exists() || found.certain_digits() == 0 && found.off > NOTHING
     }
 
     /// As [`Probe::integrate`], over a cell too short to be cut. What there is of an integral in one with a pole is counted on both sides of it.
@@ -232,8 +241,14 @@ impl Probe<'_> {
             self.miss(cell.step, cell.a.state.t);
         }
         // both ends of a hole tell of it
-        integral.hidden += 0.5 * (cell.a.shift.time + cell.b.shift.time);
+        if known.len() < 2 {
+            integral.hidden += 0.5 * (cell.a.shift.time + cell.b.shift.time);
+        }
         let largest = known.iter().fold(0.0, |largest, value| f64::max(largest, (value - integral.usual).abs()));
+        if let [a, b] = known[..] {
+            // of a jump that may as well be beside
+            integral.off += (a - b).abs() * f64::min(cell.a.shift.time.max(cell.b.shift.time), self.short);
+        }
         let growth = self.growth_into(cell, integral.usual);
         if growth > LEAST_GROWTH && !known.is_empty() {
             if growth >= pow(2.0, STEEPEST) && h * largest > integral.steepest[0] {
@@ -253,7 +268,7 @@ impl Probe<'_> {
         let off = |point: &Point| (point.sample.value - usual).abs();
         let sides = [(&cell.a, -cell.length()), (&cell.b, cell.length())].map(|(end, way)| {
             let mut off_at = |far: f64| {
-                let there = self.point_within_step(cell.step, end.state.t + far * way);
+                let there = self.point_beside(cell.step, end.state.t + far * way);
                 there.map_or(f64::NAN, |there| off(&there))
             };
             let near = off_at(FARTHER[0]);

@@ -1,6 +1,6 @@
 //! A formula along the whole motion, and the numbers that are asked of it.
 
-use super::curve::{Cell, Curve, Found};
+use super::curve::{Cell, Curve, Found, Point};
 use super::extremum::Extremum;
 use super::places::Places;
 use super::probe::{Notes, Probe, Scale, Trouble};
@@ -9,8 +9,11 @@ use crate::analysis::follow::Stretch;
 use crate::analysis::state::{State, shortly_after};
 use crate::ir::ReductionKind;
 use crate::math::median;
+use crate::tolerances::results::curve::ROUNDING;
 use crate::tolerances::results::extremum::TIMES;
-use crate::tolerances::results::stretches::SMALL;
+use crate::tolerances::results::probe::{FACTOR, SHORTEST};
+use crate::tolerances::results::stretches::{LARGEST, SMALL};
+use std::rc::Rc;
 
 /// A formula that is looked at over a part of the motion, and what is found of it.
 pub(super) struct Reduced {
@@ -22,12 +25,19 @@ pub(super) struct Reduced {
     /// What came up while these were looked for, in this order.
     notes: [Notes; 3],
     /// Times (s) at which its value is asked for, and the values.
-    times: Vec<(f64, Found)>,
-    /// Its values, and the magnitudes of the numbers that these are sums of, at the ends of steps.
-    samples: Vec<f64>,
-    weights: Vec<f64>,
+    times: Vec<Asked>,
+    /// Its values at the ends of steps.
+    samples: Vec<Found>,
     /// As the extremum's search has left it, by which one.
     scales: [Option<Scale>; 2],
+}
+
+/// A time (s) at which the value of a formula is asked for.
+struct Asked {
+    t: f64,
+    /// The formula there, once the motion has come there.
+    point: Option<Rc<Point>>,
+    found: Found,
 }
 
 impl Reduced {
@@ -39,7 +49,6 @@ impl Reduced {
             integral: None,
             times: Vec::new(),
             samples: Vec::new(),
-            weights: Vec::new(),
             scales: [None, None],
             notes: [Notes::default(); 3],
         }
@@ -49,8 +58,8 @@ impl Reduced {
     pub fn ask(&mut self, kind: ReductionKind, at: f64) {
         let ([from, to], is_moment) = (self.window, self.is_moment());
         let mut time = |t: f64| {
-            if self.times.iter().all(|(known, _)| known.total_cmp(&t).is_ne()) {
-                self.times.push((t, Found::NOTHING));
+            if self.times.iter().all(|known| known.t.total_cmp(&t).is_ne()) {
+                self.times.push(Asked { t, point: None, found: Found::NOTHING });
             }
         };
         match kind {
@@ -87,8 +96,8 @@ impl Reduced {
             return Err(trouble);
         }
         let of_time = |wanted: f64| {
-            let found = self.times.iter().find(|(t, _)| t.total_cmp(&wanted).is_eq()).map(|(_, found)| *found);
-            found.filter(|found| found.value.is_finite()).ok_or(Trouble::Missing(wanted))
+            let found = self.times.iter().find(|asked| asked.t.total_cmp(&wanted).is_eq()).map(|asked| asked.found);
+            found.filter(|found| found.value.is_finite() && found.off < f64::INFINITY).ok_or(Trouble::Missing(wanted))
         };
         match kind {
             ReductionKind::Extreme { when: true, .. } if self.is_moment() => {
@@ -105,26 +114,33 @@ impl Reduced {
                     return Err(Trouble::Unbounded(t));
                 }
                 let value = extremum.value(scale);
-                if self.is_uncertain(value, scale) {
-                    // it goes on to grow where rounding hides it
-                    return Err(Trouble::Unbounded(extremum.time(scale).value));
+                if value.value.abs() > LARGEST || self.is_uncertain(value, scale.range, scale) {
+                    // it may go on to grow where rounding hides it
+                    let why = if extremum.is_bounded() { Trouble::Unknown } else { Trouble::Unbounded };
+                    return Err(why(extremum.time(scale).value));
                 }
                 let found = if when { extremum.time(scale) } else { value };
-                if found.value.is_finite() { Ok(found) } else { Err(Trouble::Missing(from)) }
+                // rounding alone may decide when it is
+                let is_known = !when || found.off < f64::INFINITY;
+                match found.value.is_finite() {
+                    true if is_known => Ok(found),
+                    true => Err(Trouble::Unknown(found.value)),
+                    false => Err(Trouble::Missing(from)),
+                }
             }
             ReductionKind::Mean | ReductionKind::Integral => {
-                let Some(integral) = &self.integral else { return Err(Trouble::Missing(from)) };
+                let integral = self.integral.as_ref().filter(|integral| integral.time() > 0.0);
+                let Some(integral) = integral else { return Err(Trouble::Missing(from)) };
                 if let Some(t) = integral.unbounded() {
                     return Err(Trouble::Unbounded(t));
                 }
                 let over = if kind == ReductionKind::Mean { integral.time() } else { 1.0 };
                 let found = integral.found();
                 let mean = Found { value: found.value / integral.time(), off: found.off / integral.time() };
-                if self.is_uncertain(mean, self.scale(0.0)) {
+                if self.is_uncertain(mean, integral.deviation(), self.scale(0.0)) {
                     return Err(integral.grows_at().map_or(Trouble::Unknown(from), Trouble::Unbounded));
                 }
                 let found = Found { value: found.value / over, off: found.off / over };
-                // an integral over nothing is 0, and a mean of nothing is nothing
                 if found.value.is_finite() { Ok(found) } else { Err(Trouble::Missing(from)) }
             }
             ReductionKind::First => of_time(from),
@@ -149,14 +165,9 @@ impl Reduced {
 
     /// Takes the state of an analysis of a single time.
     pub fn look_at_start(&mut self, state: &State, places: &mut Places) {
-        let found = self.found_at(state.clone(), places);
-        self.times.iter_mut().for_each(|(_, known)| *known = found);
-    }
-
-    /// The value at a state.
-    fn found_at(&mut self, state: State, places: &mut Places) -> Found {
-        let point = self.curve.at(state, places);
-        self.curve.found(&point)
+        let point = self.curve.at(state.clone(), places);
+        let found = self.curve.found(&point);
+        self.times.iter_mut().for_each(|asked| asked.found = found);
     }
 
     /// Whether it changes with the motion, and not with time alone.
@@ -185,27 +196,25 @@ impl Reduced {
 
     /// How large the formula is, by what was seen at the ends of steps.
     fn scale(&self, span: f64) -> Scale {
-        let finite = || self.samples.iter().filter(|value| value.is_finite());
-        let low = finite().copied().fold(f64::INFINITY, f64::min);
-        let high = finite().copied().fold(f64::NEG_INFINITY, f64::max);
+        let low = self.samples.iter().map(|found| found.value).fold(f64::INFINITY, f64::min);
+        let high = self.samples.iter().map(|found| found.value).fold(f64::NEG_INFINITY, f64::max);
         // what a pole makes of a few values says nothing of the others' rounding, and neither do those that are nothing
-        let weights = self.weights.iter().chain(finite()).map(|weight| weight.abs());
-        let weight = median(weights.filter(|weight| *weight > 0.0).collect());
+        let weights = self.samples.iter().map(|found| f64::max(found.off / ROUNDING, found.value.abs()));
+        let weight = median(weights.filter(|weight| *weight > 0.0 && weight.is_finite()).collect());
         Scale { range: f64::max(high - low, 0.0), weight, span }
     }
 
-    /// Whether nothing is certain of a value that is not small beside others, nor beside the numbers that these are sums of.
-    fn is_uncertain(&self, found: Found, scale: Scale) -> bool {
-        let sizes: Vec<f64> = self.samples.iter().filter(|value| value.is_finite()).map(|value| value.abs()).collect();
-        let largest = sizes.iter().fold(0.0, |largest, size| f64::max(largest, *size));
-        let is_large = found.off > median(sizes).max(scale.weight).max(SMALL * largest);
-        largest > 0.0 && found.certain_digits() == 0 && is_large
+    /// Whether nothing is certain of a value that is not small beside others, which usually differ so much from it, nor beside the numbers that these
+    /// are sums of.
+    fn is_uncertain(&self, found: Found, differ: f64, scale: Scale) -> bool {
+        let usual = median(self.samples.iter().map(|found| found.value.abs()).collect());
+        found.certain_digits() == 0 && found.off > SMALL * usual.max(scale.weight).max(differ)
     }
 
     /// Takes in the values at times that lie in a step.
     fn take_times(&mut self, stretch: &Stretch, places: &mut Places) {
         for k in 0..self.times.len() {
-            let t = self.times[k].0;
+            let t = self.times[k].t;
             let behind = shortly_after(t);
             if behind < stretch.from.t || t > stretch.to.t {
                 continue;
@@ -218,7 +227,7 @@ impl Reduced {
                 places.solve(stretch, [&stretch.from, &stretch.to], t)
             };
             // of an edge the later side counts, which comes later
-            self.times[k].1 = state.map_or(Found::NOTHING, |state| self.found_at(state, places));
+            self.times[k].point = state.map(|state| self.edge(state, t, stretch, places));
         }
     }
 
@@ -228,12 +237,42 @@ impl Reduced {
         settled.flatten().unwrap_or_else(|| state.clone())
     }
 
+    /// The formula at a state of a time (s) in a step. Where rounding alone decides on which side of a jump an end of the window is, it is that of
+    /// within.
+    fn edge(&mut self, state: State, t: f64, stretch: &Stretch, places: &mut Places) -> Rc<Point> {
+        let point = self.curve.at(state, places);
+        let [from, to] = self.window;
+        let inward = [(t <= from, 1.0), (t >= to, -1.0)].into_iter().find(|(is_end, _)| *is_end);
+        let Some((_, way)) = inward.filter(|_| self.curve.is_undecided(&point)) else { return point };
+        let [near, far] = [FACTOR, FACTOR * FACTOR].map(|beside| {
+            let t = point.state.t + way * beside * SHORTEST * (to - from);
+            let is_within = stretch.from.t <= t && t <= stretch.to.t;
+            let state = if is_within { places.solve(stretch, [&stretch.from, &stretch.to], t) } else { None };
+            state.map(|state| self.curve.at(state, places))
+        });
+        let (Some(near), Some(far)) = (near, far) else { return point };
+        let [step, change] = [(&point, &near), (&near, &far)].map(|(a, b)| (a.sample.value - b.sample.value).abs());
+        if !near.exists() {
+            return near;
+        }
+        // what has no jump goes on as it comes; of a pole nothing is known
+        let off = self.curve.uncertainty(&point) + self.curve.uncertainty(&near);
+        if step > 2.0 * change + off { near } else { point }
+    }
+
     /// Looks at some steps.
     pub fn look(&mut self, steps: &[Stretch], places: &mut Places, span: f64) {
         let mut cells: Vec<Cell> = (0..steps.len()).filter_map(|step| self.cell(step, steps, places)).collect();
+        // rounding goes by the largest that was seen
+        for Asked { point, found, .. } in &mut self.times {
+            if let Some(point) = point {
+                *found = self.curve.found(point);
+            }
+        }
         if cells.is_empty() {
             return;
         }
+        self.take_samples(&cells, steps);
         let scale = self.scale(span);
         let window = self.window;
         let Reduced { curve, notes, extrema, integral, samples, scales, .. } = self;
@@ -261,11 +300,7 @@ impl Reduced {
             let mut probe = Probe::new((&mut *curve, notes), &mut *places, steps, (window, span));
             for cell in &cells {
                 let [is_begin, is_end] = edges(&steps[cell.step], [cell.a.state.t, cell.b.state.t], window);
-                let ends = [(is_begin, &cell.a, &cell.b), (is_end, &cell.b, &cell.a)];
-                for (is_edge, point, other) in ends {
-                    if !is_edge || probe.is_apart(cell, point, other, scale) {
-                        continue;
-                    }
+                for (_, point) in [(is_begin, &cell.a), (is_end, &cell.b)].into_iter().filter(|(is_edge, _)| *is_edge) {
                     let found = probe.curve.found(point);
                     extremum.note_edge(Found { value: point.state.t, off: 0.0 }, found, scale);
                 }
@@ -280,7 +315,10 @@ impl Reduced {
             let known = if is_smooth && is_whole && !has_edges { probe.integrate_whole(&cells) } else { None };
             match known {
                 Some(known) => *integral = Integral::known(known, window[1] - window[0]),
-                None => probe.integrate(&cells, median(samples.clone()), scale, integral),
+                None => {
+                    let usual = median(samples.iter().map(|found| found.value).collect());
+                    probe.integrate(&cells, usual, scale, integral);
+                }
             }
         }
     }
@@ -291,6 +329,8 @@ impl Reduced {
         places.enter(step);
         self.take_times(step, places);
         if self.is_of_times_alone() {
+            // how large it becomes
+            self.curve.at(step.to.clone(), places);
             return None;
         }
         let [from, to] = [step.from.t.max(self.window[0]), step.to.t.min(self.window[1])];
@@ -307,24 +347,30 @@ impl Reduced {
             } else {
                 state.clone()
             };
-            Some(self.curve.at(state, places))
+            Some(if is_edge { self.edge(state, t, step, places) } else { self.curve.at(state, places) })
         });
         let (Some(Some(from)), Some(Some(to))) = (points.next(), points.next()) else {
             self.notes.iter_mut().for_each(|notes| notes.meet(Trouble::Unknown(from)));
             return None;
         };
-        // but for edges, a step begins where the one before has ended
-        for point in is_begin.then_some(&from).into_iter().chain([&to]) {
-            if point.exists() {
-                self.samples.push(point.sample.value);
-                self.curve.note_arguments(point);
-                let weight = self.curve.weight(point);
-                self.weights.push(weight);
-            } else {
-                self.notes.iter_mut().for_each(|notes| notes.miss(point.state.t));
+        Some(Cell::new(number, &from, &to))
+    }
+
+    /// Takes note of the values at the ends of steps.
+    fn take_samples(&mut self, cells: &[Cell], steps: &[Stretch]) {
+        for cell in cells {
+            // but for edges, a step begins where the one before has ended
+            let [is_begin, _] = edges(&steps[cell.step], [cell.a.state.t, cell.b.state.t], self.window);
+            for point in is_begin.then_some(&cell.a).into_iter().chain([&cell.b]) {
+                if point.exists() {
+                    self.curve.note_arguments(point);
+                    let found = self.curve.found(point);
+                    self.samples.push(found);
+                } else {
+                    self.notes.iter_mut().for_each(|notes| notes.miss(point.state.t));
+                }
             }
         }
-        Some(Cell::new(number, &from, &to))
     }
 }
 

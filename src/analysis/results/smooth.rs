@@ -123,11 +123,11 @@ impl Smooth {
         self.kinds[k].0
     }
 
-    /// Computes all of them at a state whose coordinates are taken times a factor.
-    pub fn look(&mut self, state: &State, factor: impl Fn(usize) -> f64) {
+    /// Computes all of them at a state.
+    pub fn look(&mut self, state: &State) {
         let inputs = self.program.inputs;
         for (number, &k) in self.coordinates.iter().enumerate() {
-            let tower = state.tower(k).map(|value| value * factor(k));
+            let tower = state.tower(k);
             self.sizes.note(number, &tower);
             for (first, value) in inputs.coordinates.into_iter().zip(tower) {
                 self.registers.set(first + k as Register, value);

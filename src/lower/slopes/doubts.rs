@@ -2,7 +2,7 @@
 //! slope and leaves it where it holds; elsewhere there is no value.
 
 use super::{ENDS, Reduced, Slopes};
-use crate::expr::{Binary, Comparison, ExprId, Graph, Symbol, Unary};
+use crate::expr::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary};
 use crate::ir::ReductionKind;
 use crate::lower::edges::Going;
 use crate::tolerances::results::slopes::{
@@ -116,6 +116,21 @@ impl Slopes<'_, '_> {
             let edges = self.edges_in_the_way(value, goes, false);
             self.where_clear(kind, (&edges, holds), slope)
         }))
+    }
+
+    /// A slope of an integral or a mean whose formula has a value all over its window: how long that is may go with the variable elsewhere.
+    pub(super) fn where_it_is_all_over(&mut self, k: u32, slope: ExprId) -> ExprId {
+        let Reduced { value, holds } = self.formulas[k as usize];
+        if !may_be_missing(&self.lowering.graph, value) {
+            return slope;
+        }
+        let [mean, integral] =
+            [ReductionKind::Mean, ReductionKind::Integral].map(|kind| self.reduce(kind, value, holds));
+        let (of, span) = (self.reductions[k as usize].of, self.span());
+        let graph = &mut self.lowering.graph;
+        let over = graph.div(integral, span);
+        let off = graph.sub(over, mean);
+        self.where_as_near(of, off, slope)
     }
 
     /// A slope of an integral, which a jump of its formula adds to where its time goes with the variable, as nobody knows how. With a weight `w`
@@ -341,4 +356,16 @@ fn stepped(graph: &mut Graph, (formula, moved): (ExprId, &[(Symbol, ExprId)]), s
         with.insert(symbol, graph.add(from, way));
     }
     graph.substituted(&[formula], |symbol| with.get(&symbol).copied())[0]
+}
+
+/// Whether a formula may have no value over some time: a root, a logarithm or the like of what moves, or a quotient of two that rest.
+fn may_be_missing(graph: &Graph, formula: ExprId) -> bool {
+    let moves = |id: ExprId| !graph.dependence(id).is_constant();
+    graph.reachable(&[formula]).into_iter().any(|id| match graph.node(id) {
+        Node::Unary(Unary::Sqrt | Unary::Ln | Unary::Log10 | Unary::Asin | Unary::Acos, a)
+        | Node::Binary(Binary::Pow, a, _)
+        | Node::Div(_, a) => moves(a),
+        Node::Power(a, n) => n < 0 && moves(a),
+        _ => false,
+    })
 }

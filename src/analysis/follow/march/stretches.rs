@@ -28,6 +28,25 @@ pub struct Stretch {
     pub ends_at_edge: bool,
 }
 
+impl Stretch {
+    /// Its parts before and behind a state within.
+    #[must_use]
+    pub fn cut_at(self, within: State) -> [Stretch; 2] {
+        let (switches, chosen) = (Rc::clone(&self.switches), self.chosen.clone());
+        let before = Stretch {
+            from: self.from,
+            middle: None,
+            to: within.clone(),
+            switches,
+            chosen,
+            bridge: self.bridge.clone(),
+            begins_at_edge: self.begins_at_edge,
+            ends_at_edge: false,
+        };
+        [before, Stretch { from: within, middle: None, begins_at_edge: false, ..self }]
+    }
+}
+
 impl Follower {
     /// Goes on to the end of the next stretch; none behind the last time.
     ///
