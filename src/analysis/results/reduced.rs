@@ -313,12 +313,11 @@ impl Reduced {
             let has_edges = cells[1..].iter().any(|cell| steps[cell.step].begins_at_edge);
             let mut probe = Probe::new((curve, of_integral), places, steps, (window, span));
             let known = if is_smooth && is_whole && !has_edges { probe.integrate_whole(&cells) } else { None };
-            match known {
-                Some(known) => *integral = Integral::known(known, window[1] - window[0]),
-                None => {
-                    let usual = median(samples.iter().map(|found| found.value).collect());
-                    probe.integrate(&cells, usual, scale, integral);
-                }
+            if let Some(known) = known {
+                *integral = Integral::known(known, window[1] - window[0]);
+            } else {
+                let usual = median(samples.iter().map(|found| found.value).collect());
+                probe.integrate(&cells, usual, scale, integral);
             }
         }
     }
