@@ -62,9 +62,9 @@ impl Place {
         self.off <= scale.gap(APART).max(APART * self.value.abs())
     }
 
-    /// What the value is at most, as far as it is known at all.
+    /// What the value is at most; of what may be rounding nothing counts but what it is at least.
     fn most(&self, scale: Scale) -> f64 {
-        if self.is_known(scale) { self.value + self.off } else { self.value }
+        if self.is_known(scale) { self.value + self.off } else { self.least }
     }
 }
 
@@ -435,7 +435,9 @@ impl Probe<'_> {
                 extremum.note_edge(at, Found { value, off: KNOWN * value.abs() }, scale);
             }
         }
-        if extremum.oriented(range)[1] == f64::INFINITY {
+        // it may end where it has become too large
+        let is_beside_hole = cell.a.exists() != cell.b.exists();
+        if is_beside_hole || extremum.oriented(range)[1] == f64::INFINITY {
             extremum.is_bounded = false;
             self.see_growth(cell, extremum, scale);
         }

@@ -6,6 +6,7 @@ use crate::analysis::follow::Stretch;
 use crate::analysis::state::State;
 use crate::math::{close_in, power_of_two_below};
 use crate::program::Range;
+use crate::tolerances::results::extremum::TIMES;
 use crate::tolerances::results::probe::{
     ALIKE, DIFFERENT, FACTOR, FARTHEST, MOST_CELLS, MOST_OF_A_STEP, NOTHING, OPAQUE, RELIABLE, ROUNDING, SHORT,
     SHORTEST, SOLVED,
@@ -352,6 +353,13 @@ impl<'r> Probe<'r> {
             for end in [&mut before, &mut behind] {
                 Rc::make_mut(end).shift.time = doubt;
             }
+        }
+        let jump = (before.sample.value - behind.sample.value).abs();
+        if self.curve.holds_forces() && jump > DIFFERENT * self.range {
+            // a load may jump a little beside where its argument says
+            let beside = TIMES / SHORTEST * self.shortest;
+            self.shift(cell.step, &mut before, -beside);
+            self.shift(cell.step, &mut behind, beside);
         }
         self.see_hole(cell.step, [&mut before, &mut behind]);
         let part = |a: &Rc<Point>, b: &Rc<Point>| (b.state.t > a.state.t).then(|| cell.between(a, b));

@@ -134,6 +134,14 @@ impl Probe<'_> {
         for cell in cells {
             self.take(cell.clone(), &mut parts, integral);
         }
+        for pair in cells.windows(2) {
+            // a load may jump a little beside
+            let [before, behind] = [&pair[0].b, &pair[1].a];
+            let jump = (before.sample.value - behind.sample.value).abs();
+            if behind.shift.time > 0.0 && jump.is_finite() {
+                integral.off += jump * behind.shift.time;
+            }
+        }
         let is_open = |parts: &BinaryHeap<Part>, integral: &Integral| {
             let (mut off, mut size) = (0.0, 0.0);
             for part in parts {
@@ -251,8 +259,9 @@ impl Probe<'_> {
         }
         let growth = self.growth_into(cell, integral.usual);
         if growth > LEAST_GROWTH && !known.is_empty() {
-            if growth >= pow(2.0, STEEPEST) && h * largest > integral.steepest[0] {
-                integral.steepest = [h * largest, cell.a.state.t];
+            let held = largest * [&cell.a, &cell.b].map(|end| end.shift.time).into_iter().fold(h, f64::max);
+            if growth >= pow(2.0, STEEPEST) && held > integral.steepest[0] {
+                integral.steepest = [held, cell.a.state.t];
             }
             // all around a pole that is touched values may be rounding
             let part = if self.is_shortest(cell) { PART_OF_POLE } else { 1.0 };
@@ -266,7 +275,8 @@ impl Probe<'_> {
     /// not go on to grow into the cell: a pole does so, and a jump does not.
     fn growth_into(&mut self, cell: &Cell, usual: f64) -> f64 {
         let off = |point: &Point| (point.sample.value - usual).abs();
-        let sides = [(&cell.a, -cell.length()), (&cell.b, cell.length())].map(|(end, way)| {
+        let sides = [(&cell.a, -1.0), (&cell.b, 1.0)].map(|(end, way)| {
+            let way = way * cell.length().max(end.shift.time);
             let mut off_at = |far: f64| {
                 let there = self.point_beside(cell.step, end.state.t + far * way);
                 there.map_or(f64::NAN, |there| off(&there))

@@ -97,7 +97,10 @@ impl Reduced {
         }
         let of_time = |wanted: f64| {
             let found = self.times.iter().find(|asked| asked.t.total_cmp(&wanted).is_eq()).map(|asked| asked.found);
-            found.filter(|found| found.value.is_finite() && found.off < f64::INFINITY).ok_or(Trouble::Missing(wanted))
+            let found = found.filter(|found| found.value.is_finite() && found.off < f64::INFINITY);
+            let found = found.ok_or(Trouble::Missing(wanted))?;
+            let scale = self.scale(0.0);
+            if self.is_uncertain(found, scale.range, scale) { Err(Trouble::Unknown(wanted)) } else { Ok(found) }
         };
         match kind {
             ReductionKind::Extreme { when: true, .. } if self.is_moment() => {
@@ -302,7 +305,7 @@ impl Reduced {
                 let [is_begin, is_end] = edges(&steps[cell.step], [cell.a.state.t, cell.b.state.t], window);
                 for (_, point) in [(is_begin, &cell.a), (is_end, &cell.b)].into_iter().filter(|(is_edge, _)| *is_edge) {
                     let found = probe.curve.found(point);
-                    extremum.note_edge(Found { value: point.state.t, off: 0.0 }, found, scale);
+                    extremum.note_edge(Found { value: point.state.t, off: point.shift.time }, found, scale);
                 }
             }
             *kept = Some(probe.search(&cells, samples, extremum, scale));
@@ -329,7 +332,10 @@ impl Reduced {
         self.take_times(step, places);
         if self.is_of_times_alone() {
             // how large it becomes
-            self.curve.at(step.to.clone(), places);
+            let point = self.curve.at(step.to.clone(), places);
+            if point.exists() {
+                self.samples.push(Found { value: point.sample.value, off: 0.0 });
+            }
             return None;
         }
         let [from, to] = [step.from.t.max(self.window[0]), step.to.t.min(self.window[1])];
