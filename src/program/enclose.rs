@@ -404,7 +404,7 @@ pub(super) fn of_one(function: Unary, a: Interval) -> Interval {
     }
 }
 
-fn of_two(function: Binary, a: Interval, b: Interval) -> Interval {
+pub(super) fn of_two(function: Binary, a: Interval, b: Interval) -> Interval {
     let value = |x: f64, y: f64| binary_value(function, x, y);
     let loosened = |i: Interval| loose(i.low, i.high);
     match function {

@@ -320,6 +320,12 @@ fn peak(op: Op, degrees: &mut [u32]) -> Option<Register> {
 
 /// What a function is where its argument is in its domain, if it is partly so: elsewhere it has no value. It is left in a register.
 fn within_domain(op: Op, v: &[Interval]) -> Option<(Register, Interval)> {
+    if let Op::Binary { function: function @ Binary::Pow, to, a, b } = op {
+        let (base, power) = (v[a as usize], v[b as usize]);
+        let is_partly = base.low < 0.0 && base.high >= 0.0 && power.low > 0.0 && power.low.fract() != 0.0;
+        let base = Interval { low: 0.0, ..base };
+        return is_partly.then(|| (to, super::enclose::of_two(function, base, power)));
+    }
     let Op::Unary { function, to, a } = op else { return None };
     let [least, most] = match function {
         Unary::Sqrt => [0.0, f64::INFINITY],

@@ -134,6 +134,8 @@ pub(super) struct Point {
     pub sample: Sampled,
     /// How far (s) the time that is meant may be from this one, and the value there from the value here.
     pub shift: Shift,
+    /// How far (s) from here the guard that crosses its threshold beside may do so as well.
+    pub doubt: f64,
 }
 
 /// How far off something may be because its time is not known.
@@ -420,7 +422,7 @@ impl Curve {
             self.loads.look_at_rounding((&self.program, &self.registers), &mut self.ranges);
         }
         self.looks += 1;
-        Rc::new(Point { state, moving, loads, marks, is_on_bridge, sample, shift: Shift::default() })
+        Rc::new(Point { state, moving, loads, marks, is_on_bridge, sample, shift: Shift::default(), doubt: 0.0 })
     }
 
     /// Takes note of how large arguments of guards are at a point that is like others: beside a pole they are not.

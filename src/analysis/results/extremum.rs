@@ -59,7 +59,7 @@ struct Place {
 impl Place {
     /// Whether the value is more than rounding.
     fn is_known(&self, scale: Scale) -> bool {
-        self.off <= scale.gap(APART).max(APART * self.value.abs())
+        self.off <= scale.gap(APART)
     }
 
     /// What the value is at most; of what may be rounding nothing counts but what it is at least.
@@ -424,13 +424,13 @@ impl Probe<'_> {
             if goes_on && step <= scale.gap(GAP) {
                 extremum.see(point.state.t, found);
             } else {
-                let off = cell.length().max(point.shift.time);
+                let off = cell.length().max(point.shift.time).max(point.doubt);
                 extremum.note_edge(Found { value: point.state.t, off }, found, scale);
             }
         }
         for value in self.curve.between_points(&cell.a, &cell.b) {
             if sign * value >= extremum.best - scale.alike() && self.goes_to(value, cell, scale) {
-                let off = cell.length().max(cell.b.shift.time);
+                let off = cell.length().max(cell.b.shift.time).max(cell.b.doubt);
                 let at = Found { value: cell.b.state.t, off };
                 extremum.note_edge(at, Found { value, off: KNOWN * value.abs() }, scale);
             }

@@ -351,7 +351,7 @@ impl<'r> Probe<'r> {
             };
             self.doubted = Some((guard, before.state.t, doubt));
             for end in [&mut before, &mut behind] {
-                Rc::make_mut(end).shift.time = doubt;
+                Rc::make_mut(end).doubt = doubt;
             }
         }
         let jump = (before.sample.value - behind.sample.value).abs();

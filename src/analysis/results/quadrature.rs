@@ -255,17 +255,21 @@ impl Probe<'_> {
         let largest = known.iter().fold(0.0, |largest, value| f64::max(largest, (value - integral.usual).abs()));
         if let [a, b] = known[..] {
             // of a jump that may as well be beside
-            integral.off += (a - b).abs() * f64::min(cell.a.shift.time.max(cell.b.shift.time), self.short);
+            let beside = [&cell.a, &cell.b].map(|end| end.shift.time.max(end.doubt)).into_iter().fold(0.0, f64::max);
+            integral.off += (a - b).abs() * beside.min(self.short);
         }
         let growth = self.growth_into(cell, integral.usual);
         if growth > LEAST_GROWTH && !known.is_empty() {
-            let held = largest * [&cell.a, &cell.b].map(|end| end.shift.time).into_iter().fold(h, f64::max);
+            let hole = [&cell.a, &cell.b].map(|end| end.shift.time).into_iter().fold(h, f64::max);
+            let held = largest * hole;
             if growth >= pow(2.0, STEEPEST) && held > integral.steepest[0] {
                 integral.steepest = [held, cell.a.state.t];
             }
             // all around a pole that is touched values may be rounding
             let part = if self.is_shortest(cell) { PART_OF_POLE } else { 1.0 };
-            integral.add(0.0, part * h * largest, h);
+            // what rounding hides grows on as the power tells
+            let hidden = if hole > h { held / (1.0 - log10(growth) / log10(2.0)).max(1.0 - STEEPEST) } else { 0.0 };
+            integral.add(0.0, f64::max(part * h * largest, hidden), h);
         } else if !known.is_empty() {
             integral.add(h * known.iter().sum::<f64>() / known.len() as f64, 2.0 * h * largest, h);
         }
