@@ -1186,3 +1186,16 @@ fn rounding_beside_zeros_and_poles_at_ends_are_no_extrema() {
         arm("t * 1 rad/s", "result a = max(exp(1 / (t / 1 s - 0.3))) result b = min(ln(1 - cos(t / 1 s - 0.3)))");
     assert_eq!(answers(&text, [1.0, 0.1]).0.values, [None, None]);
 }
+
+/// Where a driver turns round, the curvature of a track is a quotient of roundings: it counts in no extremum, nor in the time of one, and is no value.
+#[test]
+fn noise_where_a_driver_turns_round_is_no_value() {
+    let text = arm(
+        "1 rad + 0.8 rad * cos(2 rad/s * t)",
+        "result a = argmax(curvature(arm.tip) * t, from 1 s to 1.9 s) result b = max(curvature(arm.tip) * t, from 1 s to 1.9 s)
+         result c = at(curvature(arm.tip), 1.2 s)",
+    );
+    check(&text, 2.0, &[(1.9, 1e-9), (1.9, 1e-9), (-1.0, 1e-9)]);
+    let text = arm("1 rad + 0.8 rad * cos(2 rad/s * t)", "result a = at(curvature(arm.tip), 1.57079632 s)");
+    assert_eq!(answers(&text, [2.0, 0.1]).0.values, [None]);
+}

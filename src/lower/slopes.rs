@@ -200,6 +200,9 @@ impl Slopes<'_, '_> {
             let is_there = graph.compare(Comparison::LessEqual, between[0], between[1]);
             slope = graph.select(is_there, at_end, slope);
         }
+        // a jump that is at an end may come in
+        let jumping = self.lowering.jumping_elsewhere(value, self.variable);
+        let slope = ENDS.into_iter().fold(slope, |slope, end| self.where_clear(end, (&jumping, holds), slope));
         let met = self.reduce(at, value, holds);
         let slope = self.where_it_is_met((of, largest), met, slope);
         Some(self.where_alone((of, largest), (value, holds), (by, &going), slope))

@@ -217,8 +217,9 @@ impl Extremum {
         let found = |t: f64, part: f64| Found { value: t, off: part * scale.span };
         let Some(first) = self.first(scale) else { return found(self.best_at, TIMES_OF_VALUES) };
         let is_it = |next: &&Place| {
-            let is_behind = next.t > first.t && next.t - first.t <= BESIDE * scale.span;
-            next.kind == Kind::Edge && first.kind == Kind::Turn && is_behind && next.most(scale) >= first.value
+            let beside = if first.kind == Kind::Turn { BESIDE } else { FACTOR * SHORTEST };
+            let is_behind = next.t > first.t && next.t - first.t <= beside * scale.span;
+            next.kind == Kind::Edge && is_behind && next.most(scale) >= first.least
         };
         let place = self.alike(scale).find(is_it).unwrap_or(&first);
         match place.kind {
