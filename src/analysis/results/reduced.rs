@@ -100,7 +100,9 @@ impl Reduced {
             let found = found.filter(|found| found.value.is_finite() && found.off < f64::INFINITY);
             let found = found.ok_or(Trouble::Missing(wanted))?;
             let scale = self.scale(0.0);
-            if self.is_uncertain(found, scale.range, scale) { Err(Trouble::Unknown(wanted)) } else { Ok(found) }
+            // what is nothing was found to be that
+            let is_uncertain = found.value != 0.0 && self.is_uncertain(found, scale.range, scale);
+            if is_uncertain { Err(Trouble::Unknown(wanted)) } else { Ok(found) }
         };
         match kind {
             ReductionKind::Extreme { when: true, .. } if self.is_moment() => {
