@@ -236,8 +236,11 @@ impl Probe<'_> {
 
     /// Whether rounding may make more of the value at a point than values differ elsewhere, if there is one.
     fn is_noise(&mut self, point: &Point) -> bool {
+        if !point.exists() {
+            return true;
+        }
         let found = self.curve.found(point);
-        !point.exists() || found.certain_digits() == 0 && found.off > NOTHING
+        found.certain_digits() == 0 && found.off > NOTHING
     }
 
     /// As [`Probe::integrate`], over a cell too short to be cut. What there is of an integral in one with a pole is counted on both sides of it.
@@ -248,6 +251,7 @@ impl Probe<'_> {
         if known.len() < 2 {
             self.miss(cell.step, cell.a.state.t);
         }
+        let hidden = cell.a.shift.time.max(cell.b.shift.time);
         // both ends of a hole tell of it
         if known.len() < 2 {
             integral.hidden += 0.5 * (cell.a.shift.time + cell.b.shift.time);
@@ -255,21 +259,20 @@ impl Probe<'_> {
         let largest = known.iter().fold(0.0, |largest, value| f64::max(largest, (value - integral.usual).abs()));
         if let [a, b] = known[..] {
             // of a jump that may as well be beside
-            let beside = [&cell.a, &cell.b].map(|end| end.shift.time.max(end.doubt)).into_iter().fold(0.0, f64::max);
+            let beside = hidden.max(cell.a.doubt).max(cell.b.doubt);
             integral.off += (a - b).abs() * beside.min(self.short);
         }
         let growth = self.growth_into(cell, integral.usual);
         if growth > LEAST_GROWTH && !known.is_empty() {
-            let hole = [&cell.a, &cell.b].map(|end| end.shift.time).into_iter().fold(h, f64::max);
-            let held = largest * hole;
+            let held = largest * h.max(hidden);
             if growth >= pow(2.0, STEEPEST) && held > integral.steepest[0] {
                 integral.steepest = [held, cell.a.state.t];
             }
             // all around a pole that is touched values may be rounding
             let part = if self.is_shortest(cell) { PART_OF_POLE } else { 1.0 };
             // what rounding hides grows on as the power tells
-            let hidden = if hole > h { held / (1.0 - log10(growth) / log10(2.0)).max(1.0 - STEEPEST) } else { 0.0 };
-            integral.add(0.0, f64::max(part * h * largest, hidden), h);
+            let grown = if hidden > h { held / (1.0 - log10(growth) / log10(2.0)).max(1.0 - STEEPEST) } else { 0.0 };
+            integral.add(0.0, f64::max(part * h * largest, grown), h);
         } else if !known.is_empty() {
             integral.add(h * known.iter().sum::<f64>() / known.len() as f64, 2.0 * h * largest, h);
         }
