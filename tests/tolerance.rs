@@ -368,7 +368,18 @@ fn an_extremum_has_a_derivative_where_it_is_alone_and_nothing_else_goes_with_the
         ],
     );
     // it begins at an edge that goes with p
-    by_p(0.5, &[("max(step5(t, 0.2, 0, p, 1))", Some(0.0)), ("argmax(step5(t, 0.2, 0, p, 1))", None)]);
+    by_p(0.5, &[("max(step5(t, 0.2, 0, p, 1))", Some(0.0)), ("argmax(step5(t, 0.2, 0, p, 1))", Some(1.0))]);
+    // a rise and a return that meet, without a dwell between
+    let meet = "if t < p then step5(t, 0.2, 0, p, 1) else step5(t, p, 1, 1, 0)";
+    by_p(
+        0.5,
+        &[
+            (&format!("argmax({meet})"), Some(1.0)),
+            (&format!("argmax({})", meet.replace("step5", "harmonic")), Some(1.0)),
+        ],
+    );
+    // at an edge that stays, which a turn passes
+    by_p(0.0, &[("argmax(p * t - (t - 0.5)^2 + max(t - 0.5, 0)^3)", Some(0.5))]);
     // flat to the fourth order
     by_p(0.0, &[("max(p * t - (t - 0.5)^4)", Some(0.5)), ("max(p * sin(t) - (t - 0.5)^2)", Some(0.5_f64.sin()))]);
     // its time: −ė_p/ë
@@ -392,7 +403,7 @@ fn an_extremum_at_an_edge_has_a_derivative_where_the_edge_stays() {
             // also where nothing but the condition holds p
             ("min(if t < p then -t else t)", None),
             ("min(if x(arm.tip) < p * 1 m then -x(arm.tip) else x(arm.tip))", None),
-            ("argmin(if x(arm.tip) < p * 1 m then -x(arm.tip) else x(arm.tip))", None),
+            ("argmin(if x(arm.tip) < p * 1 m then -x(arm.tip) else x(arm.tip))", Some(-0.5 / (TAU * 0.96_f64.sqrt()))),
             // elsewhere they do not matter
             ("max(abs(t - p))", Some(-1.0)),
             ("max(if t < p then -1 else -(t - 0.7)^2 + p * t^2)", Some((0.7_f64 / 0.6).min(1.0).powi(2))),
@@ -407,8 +418,8 @@ fn what_stands_at_an_edge_that_goes_with_the_param_has_no_derivative() {
         1.0,
         &[
             // the time is that of the jump
-            ("argmin(if t < 0.5 * p then 2 + sin(t) else -3)", None),
-            ("argmax(if t < 0.5 * p then -sin(t) else 3)", None),
+            ("argmin(if t < 0.5 * p then 2 + sin(t) else -3)", Some(0.5)),
+            ("argmax(if t < 0.5 * p then -sin(t) else 3)", Some(0.5)),
             // times at an edge, and beside one
             ("last(abs(p - t))", None),
             ("at(abs(y(arm.tip) / 1 m - p), 1/12)", None),

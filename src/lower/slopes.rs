@@ -16,6 +16,7 @@ use super::Lowering;
 use crate::expr::{Comparison, ExprId, Symbol, Unary};
 use crate::ir::{Outcome, Reduction, ReductionKind, Units};
 use crate::model::quotient;
+use crate::tolerances::results::slopes::{NOTHING, SAME};
 use rustc_hash::FxHashMap;
 
 /// The first and the last time of the analysis, or of a window.
@@ -175,12 +176,14 @@ impl Slopes<'_, '_> {
         let of = self.reductions[k as usize].of;
         let time = self.asked(ReductionKind::Extreme { largest, when: true }, of);
         let at = ReductionKind::At(time);
-        let inside = if when { self.of_time_within(at, (value, holds), by)? } else { self.reduce(at, by, holds) };
+        let at_edge = if when { self.of_edge(at, (value, holds)) } else { self.no_value() };
+        let inside =
+            if when { self.of_time_within((at, of), (value, holds), by, at_edge)? } else { self.reduce(at, by, holds) };
         let rate_there = rate.map(|rate| self.reduce(at, rate, holds));
         let mut slope = inside;
         if when || bends {
             slope = match rate_there {
-                Some(rate) => self.where_flat((of, rate), inside),
+                Some(rate) => self.where_flat((of, rate), inside, at_edge),
                 None if when => return None,
                 None => self.where_rounded((of, largest), time, inside),
             };
@@ -224,24 +227,54 @@ impl Slopes<'_, '_> {
         Some(graph.add(still, more))
     }
 
-    /// `−ė_p/ë`
+    /// `−ė_p/ë`, and something else where `ë` is nothing: what rests there has begun to do so at an edge.
     fn of_time_within(
         &mut self,
-        at: ReductionKind,
+        (at, of): (ReductionKind, ExprId),
         (value, holds): (ExprId, Option<ExprId>),
         by: ExprId,
+        at_edge: ExprId,
     ) -> Option<ExprId> {
         let rate = self.lowering.along_the_motion(value)?;
         let second = self.lowering.along_the_motion(rate)?;
         let rate_by = self.lowering.along_the_motion(by)?;
         let [second, rate_by] = [second, rate_by].map(|formula| self.reduce(at, formula, holds));
-        let nothing = self.no_value();
+        let (range, span) = (self.range(of), self.span());
         let graph = &mut self.lowering.graph;
         let quotient = graph.div(rate_by, second);
         let slope = graph.neg(quotient);
-        // what rests there has begun to do so at an edge
-        let (bend, zero) = (graph.unary(Unary::Abs, second), graph.constant(0.0));
-        let turns = graph.compare(Comparison::Less, zero, bend);
-        Some(graph.select(turns, slope, nothing))
+        let (bend, part, square) = (graph.unary(Unary::Abs, second), graph.constant(SAME), graph.mul(span, span));
+        let [bend, flat] = [graph.mul(bend, square), graph.mul(part, range)];
+        let turns = graph.compare(Comparison::Less, flat, bend);
+        Some(graph.select(turns, slope, at_edge))
+    }
+
+    /// `−g_p/ġ`: the slope of the time of the edge `g = 0` of a formula that is at a time. There is none where no edge is, or several that go
+    /// differently.
+    fn of_edge(&mut self, at: ReductionKind, (value, holds): (ExprId, Option<ExprId>)) -> ExprId {
+        let (span, size, nothing) = (self.span(), self.size_of_the_variable(), self.no_value());
+        let edges = self.lowering.edges_of(value, true).into_iter();
+        let edges = edges.filter_map(|of| {
+            let [by, rate] = [self.partial(of)?, self.lowering.along_the_motion(of)?];
+            let [of, by, rate] = [of, by, rate].map(|formula| self.reduce(at, formula, holds));
+            let graph = &mut self.lowering.graph;
+            let [off, steep] = [of, rate].map(|of| graph.unary(Unary::Abs, of));
+            let (part, quotient) = (graph.constant(NOTHING), graph.div(by, rate));
+            let reach = graph.mul(steep, span);
+            let reach = graph.mul(part, reach);
+            Some((graph.compare(Comparison::LessEqual, off, reach), graph.neg(quotient)))
+        });
+        let edges: Vec<(ExprId, ExprId)> = edges.collect();
+        let graph = &mut self.lowering.graph;
+        let found = edges.iter().fold(nothing, |found, &(is_there, slope)| graph.select(is_there, slope, found));
+        edges.iter().fold(found, |found_there, &(is_there, slope)| {
+            let off = graph.sub(slope, found);
+            let off = graph.unary(Unary::Abs, off);
+            let (off, part) = (graph.mul(off, size), graph.constant(NOTHING));
+            let limit = graph.mul(part, span);
+            let agrees = graph.compare(Comparison::LessEqual, off, limit);
+            let otherwise = graph.select(is_there, nothing, found_there);
+            graph.select(agrees, found_there, otherwise)
+        })
     }
 }

@@ -57,7 +57,9 @@ impl Asked {
     ) -> Result<Found, Trouble> {
         let found = of.outcome(kind, at);
         match found {
-            Err(trouble @ (Trouble::Missing(_) | Trouble::Unbounded(_) | Trouble::Uncertain(_))) => Err(trouble),
+            Err(
+                trouble @ (Trouble::Missing(_) | Trouble::Nowhere(_) | Trouble::Unbounded(_) | Trouble::Uncertain(_)),
+            ) => Err(trouble),
             _ => self.is_certain(of, (kind, at), near).and(found),
         }
     }

@@ -13,6 +13,9 @@ pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diag
             format!("result `{name}` has no value: what it speaks of has none at {}", at(t)),
             "infinite or undefined there",
         ),
+        Some(Trouble::Nowhere(_)) => {
+            (format!("result `{name}` has no value: what it speaks of has none at any time"), "infinite or undefined")
+        }
         Some(Trouble::Unbounded(t)) => (
             format!("result `{name}` has no value: what it speaks of grows without bound at {}", at(t)),
             "infinite there",
@@ -24,9 +27,10 @@ pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diag
             ),
             "no time of the analysis",
         ),
-        Some(Trouble::Unknown(t)) => {
-            (format!("result `{name}` could not be found to nine digits around {}", at(t)), "not certain enough")
-        }
+        Some(Trouble::Unknown(t)) => (
+            format!("result `{name}` has no value: none of its digits is certain around {}", at(t)),
+            "not certain enough",
+        ),
         Some(Trouble::Uncertain(t)) => (
             format!("result `{name}` has no value: the position at {} is too near to a singular one", at(t)),
             "more rounding than digits there",
@@ -47,9 +51,7 @@ pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diag
 /// Times at which a formula has no value, the first of which is told (s), are left out of a result.
 pub fn result_with_gaps(outcome: &Outcome, t: f64) -> Diagnostic {
     let message = format!("result `{}` leaves out the times at which what it speaks of has no value", outcome.name);
-    Diagnostic::new(Code::N0605, message)
-        .at(outcome.span, format!("none at {}, for the first time", at(t)))
-        .datum("t", t)
+    Diagnostic::new(Code::N0605, message).at(outcome.span, format!("such as {}", at(t))).datum("t", t)
 }
 
 /// Fewer digits of a result are certain than users count on.

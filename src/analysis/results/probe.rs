@@ -39,8 +39,10 @@ impl Scale {
 /// Why there is no number.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Trouble {
-    /// The formula has no value at a time (s) that is asked for, or at none at all.
+    /// The formula has no value at a time (s) that is asked for.
     Missing(f64),
+    /// It has none at any time from this one (s) on.
+    Nowhere(f64),
     /// The formula grows without bound towards a time (s).
     Unbounded(f64),
     /// It could not be found out around a time (s).
@@ -55,6 +57,7 @@ impl Trouble {
     pub fn t(self) -> f64 {
         match self {
             Trouble::Missing(t)
+            | Trouble::Nowhere(t)
             | Trouble::Unbounded(t)
             | Trouble::Unknown(t)
             | Trouble::Uncertain(t)

@@ -113,12 +113,15 @@ impl Reduced {
             ReductionKind::Extreme { largest, when } => {
                 let which = usize::from(largest);
                 let (Some(extremum), Some(scale)) = (&self.extrema[which], self.scales[which]) else {
-                    return Err(Trouble::Missing(from));
+                    return Err(Trouble::Nowhere(from));
                 };
                 if let Some(t) = extremum.unbounded() {
                     return Err(Trouble::Unbounded(t));
                 }
                 let value = extremum.value(scale);
+                if !value.value.is_finite() {
+                    return Err(Trouble::Nowhere(from));
+                }
                 if value.value.abs() > LARGEST || self.is_uncertain(value, scale.range, scale) {
                     // it may go on to grow where rounding hides it
                     let why = if extremum.is_bounded() { Trouble::Unknown } else { Trouble::Unbounded };
@@ -127,15 +130,11 @@ impl Reduced {
                 let found = if when { extremum.time(scale) } else { value };
                 // rounding alone may decide when it is
                 let is_known = !when || found.off < f64::INFINITY;
-                match found.value.is_finite() {
-                    true if is_known => Ok(found),
-                    true => Err(Trouble::Unknown(found.value)),
-                    false => Err(Trouble::Missing(from)),
-                }
+                if is_known { Ok(found) } else { Err(Trouble::Unknown(found.value)) }
             }
             ReductionKind::Mean | ReductionKind::Integral => {
                 let integral = self.integral.as_ref().filter(|integral| integral.time() > 0.0);
-                let Some(integral) = integral else { return Err(Trouble::Missing(from)) };
+                let Some(integral) = integral else { return Err(Trouble::Nowhere(from)) };
                 if let Some(t) = integral.unbounded() {
                     return Err(Trouble::Unbounded(t));
                 }
@@ -146,7 +145,7 @@ impl Reduced {
                     return Err(integral.grows_at().map_or(Trouble::Unknown(from), Trouble::Unbounded));
                 }
                 let found = Found { value: found.value / over, off: found.off / over };
-                if found.value.is_finite() { Ok(found) } else { Err(Trouble::Missing(from)) }
+                if found.value.is_finite() { Ok(found) } else { Err(Trouble::Nowhere(from)) }
             }
             ReductionKind::First => of_time(from),
             ReductionKind::Last => of_time(to),

@@ -18,14 +18,14 @@ pub(in crate::cli) struct RunArguments {
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub format: Option<Format>,
 
-    /// Where the results go, as a JSON object of names and numbers in SI
+    /// Where the results go, as a JSON object of names and numbers in SI; they are printed to standard error in any case
     #[arg(long, value_name = "OUT.json")]
     pub results: Option<String>,
 
     #[command(flatten)]
     pub interval: Interval,
 
-    /// Only this time, followed from the start of the analysis. Repeatable
+    /// Only this time, followed from the start of the analysis, without results, which are of all of it. Repeatable
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub at: Vec<String>,
 
@@ -34,7 +34,7 @@ pub(in crate::cli) struct RunArguments {
     pub columns: Vec<String>,
 
     /// A result beside those of the file: `--result 'stroke = max(x(P)) - min(x(P))'`. Repeatable
-    #[arg(long, value_name = "NAME=FORMULA")]
+    #[arg(long, value_name = "NAME=FORMULA", conflicts_with = "at")]
     pub result: Vec<String>,
 
     /// Differentiate every column by an input or parameter too: `--by turn` adds `crank.phi.by.turn` and so on. Repeatable

@@ -182,15 +182,14 @@ impl Slopes<'_, '_> {
         graph.select(stands, goes, nothing)
     }
 
-    /// A slope where the formula does not change with time.
-    pub(super) fn where_flat(&mut self, (of, rate): (ExprId, ExprId), slope: ExprId) -> ExprId {
+    /// A slope where the formula does not change with time, and another one elsewhere.
+    pub(super) fn where_flat(&mut self, (of, rate): (ExprId, ExprId), slope: ExprId, elsewhere: ExprId) -> ExprId {
         let (range, span) = (self.range(of), self.span());
         let graph = &mut self.lowering.graph;
         let (steep, part) = (graph.unary(Unary::Abs, rate), graph.constant(FLAT));
         let [steep, range] = [graph.mul(steep, span), graph.mul(part, range)];
         let is_flat = graph.compare(Comparison::LessEqual, steep, range);
-        let nothing = self.no_value();
-        self.lowering.graph.select(is_flat, slope, nothing)
+        graph.select(is_flat, slope, elsewhere)
     }
 
     /// The same of what has no rate: beside the time of its extremum a formula that is flat there is off it by a quarter at half the distance; at a
