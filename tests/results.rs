@@ -1199,3 +1199,28 @@ fn noise_where_a_driver_turns_round_is_no_value() {
     let text = arm("1 rad + 0.8 rad * cos(2 rad/s * t)", "result a = at(curvature(arm.tip), 1.57079632 s)");
     assert_eq!(answers(&text, [2.0, 0.1]).0.values, [None]);
 }
+
+/// A coupler that only shifts: its angle and what becomes of it are nothing but rounding of what moves.
+#[test]
+fn what_rests_beside_what_moves_has_no_digits() {
+    let text = "mechanism parallelogram {
+        ground { point A = (0, 0) point D = (100 mm, 0) }
+        body crank at (0, 0, 90 deg) { point A = (0, 0) point B = (70 mm, 0) }
+        body coupler at (0, 70 mm, 0) { point B = (0, 0) point C = (100 mm, 0) }
+        body rocker at (100 mm, 0, 90 deg) { point D = (0, 0) point C = (70 mm, 0) }
+        joint a: revolute(ground.A, crank.A)
+        joint b: revolute(crank.B, coupler.B)
+        joint c: revolute(coupler.C, rocker.C)
+        joint d: revolute(ground.D, rocker.D)
+        driver motor: rotation(a) = 90 deg + 0.4 rad * sin(3 rad/s * t)
+        result turned = max(angle(coupler))
+        result rate = max(der(angle(coupler)))
+        result mean_rate = mean(der(angle(coupler)))
+        result change = max(abs(der(der(angle(coupler)))))
+        result crank_rate = max(der(angle(crank)))
+        analysis from 0 s to 2 s every 100 ms
+    }";
+    let (answers, _) = answers(text, [2.0, 0.1]);
+    assert_eq!(answers.digits[..4], [0; 4], "{:?}", answers.values);
+    assert!(answers.values.iter().all(Option::is_some) && answers.digits[4] >= 12, "{answers:?}");
+}

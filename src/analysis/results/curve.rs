@@ -4,7 +4,7 @@ use super::guards::{Crossing, Guard, Mark, arguments, guards, slopes};
 use super::loads::{Hidden, Loads};
 use super::places::Places;
 use super::quantity::{Computed, SmoothFormula};
-use super::sizes::Sizes;
+use super::sizes::{Largest, Sizes};
 use super::smooth::Smooth;
 use super::turn::Sampled;
 use crate::analysis::state::State;
@@ -297,6 +297,11 @@ impl Curve {
         moving.sort_unstable();
         moving.dedup();
         let coordinates = system.coordinates().len();
+        let kind = |of: &Moving| match *of {
+            Moving::Coordinate(k) => system.coordinates().get(k).map(|coordinate| coordinate.kind),
+            _ => None,
+        };
+        let kinds = moving.iter().map(kind).collect();
         let coordinates_and_more = coordinates + smooth.count();
         // as many places for them as there are coordinates, which are no fewer than the rows
         let multipliers = if system.forces().is_some() { coordinates_and_more } else { 0 };
@@ -311,7 +316,7 @@ impl Curve {
             (0..own).map(|order| places[if order == 0 { 0 } else { first + order - 1 }]).collect();
         let operations = program.operations_behind(&[&roots[..], &values[1..]].concat(), Stage::Measures);
         Curve {
-            sizes: Sizes::new(moving.len()),
+            sizes: Sizes::new(kinds),
             largest_arguments: vec![0.0; guards.len()],
             ranges: Ranges::new(&program, &registers, &places, Stage::Measures, false),
             program,
@@ -423,6 +428,12 @@ impl Curve {
         }
         self.looks += 1;
         Rc::new(Point { state, moving, loads, marks, is_on_bridge, sample, shift: Shift::default(), doubt: 0.0 })
+    }
+
+    /// Takes note of how large the coordinates of the mechanism are.
+    pub fn note_all(&mut self, of_all: Largest) {
+        self.sizes.note_all(of_all);
+        self.smooth.note_all(of_all);
     }
 
     /// Takes note of how large arguments of guards are at a point that is like others: beside a pole they are not.

@@ -45,6 +45,7 @@ pub use quantities::SmoothFormulas;
 pub use quantity::{Computed, SmoothFormula, moved};
 use reduced::Reduced;
 use rustc_hash::FxHashMap;
+use sizes::Largest;
 pub use spectral::{Settled, SpectralIntegral};
 use std::sync::Arc;
 pub use turn::{MOST_LOOKS, Sampled, Settling, Turning};
@@ -120,6 +121,8 @@ struct Analysis {
     /// What solves for states between these.
     places: Option<Places>,
     near: Near,
+    /// How large the coordinates are in the motion so far.
+    largest: Largest,
 }
 
 impl Asked {
@@ -137,6 +140,7 @@ impl Asked {
             steps: None,
             places: None,
             near: Near::new(),
+            largest: Largest::default(),
         };
         while let Some(level) = analysis.next_level() {
             let followed = analysis.follow(&level);
@@ -239,18 +243,23 @@ impl Analysis {
         let span = to - from;
         if let Some(steps) = &self.steps {
             for reduced in all.iter_mut() {
-                reduced.look(steps, places, span);
+                reduced.look((steps, self.largest), places, span);
             }
             return Ok(());
         }
         let mut motion = self.asked.motion(Times::listed(from, vec![to]));
         let (mut steps, mut is_whole) = (Vec::new(), true);
         self.near = Near::new();
+        let determined = Arc::clone(&self.determined);
         while !self.asked.cancel.is_cancelled() {
             let next = motion.next_stretch()?;
             let is_end = next.is_none();
             if let Some(step) = next {
                 self.near.take_note(&step, &motion);
+                for state in [&step.from, &step.to] {
+                    self.largest
+                        .note(state, determined.system().coordinates().iter().map(|coordinate| coordinate.kind));
+                }
                 push_step(&mut steps, step);
             }
             if is_end && span <= 0.0 {
@@ -265,7 +274,7 @@ impl Analysis {
             if is_end || (is_full && motion.was_clear_here()) {
                 steps = cut_where_unlike(steps, places);
                 for reduced in all.iter_mut() {
-                    reduced.look(&steps, places, span);
+                    reduced.look((&steps, self.largest), places, span);
                 }
                 if is_end {
                     self.steps = is_whole.then_some(steps);

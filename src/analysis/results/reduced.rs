@@ -5,6 +5,7 @@ use super::extremum::Extremum;
 use super::places::Places;
 use super::probe::{Notes, Probe, Scale, Trouble};
 use super::quadrature::Integral;
+use super::sizes::Largest;
 use crate::analysis::follow::Stretch;
 use crate::analysis::state::{State, shortly_after};
 use crate::ir::ReductionKind;
@@ -145,7 +146,7 @@ impl Reduced {
                     return Err(integral.grows_at().map_or(Trouble::Unknown(from), Trouble::Unbounded));
                 }
                 let found = Found { value: found.value / over, off: found.off / over };
-                if found.value.is_finite() { Ok(found) } else { Err(Trouble::Nowhere(from)) }
+                if found.value.is_finite() { Ok(found) } else { Err(Trouble::Unknown(from)) }
             }
             ReductionKind::First => of_time(from),
             ReductionKind::Last => of_time(to),
@@ -264,8 +265,9 @@ impl Reduced {
         if step > 2.0 * change + off { near } else { point }
     }
 
-    /// Looks at some steps.
-    pub fn look(&mut self, steps: &[Stretch], places: &mut Places, span: f64) {
+    /// Looks at some steps of a mechanism whose coordinates are so large.
+    pub fn look(&mut self, (steps, largest): (&[Stretch], Largest), places: &mut Places, span: f64) {
+        self.curve.note_all(largest);
         let mut cells: Vec<Cell> = (0..steps.len()).filter_map(|step| self.cell(step, steps, places)).collect();
         // rounding goes by the largest that was seen
         for Asked { point, found, .. } in &mut self.times {

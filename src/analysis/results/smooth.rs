@@ -3,7 +3,7 @@
 //! What is seen from a body that moves is a sum of this kind, of terms that may be much larger than it is itself: what these can be in
 //! a cell says little of what it can be. So it is looked at as the coordinates are, by its own time derivatives at the ends of the cell.
 
-use super::sizes::Sizes;
+use super::sizes::{Largest, Sizes};
 use crate::analysis::state::State;
 use crate::expr::{Binary, ExprId, Graph, Node, Symbol, Unary};
 use crate::ir::{ConstraintSystem, CoordinateKind};
@@ -103,7 +103,7 @@ impl Smooth {
         let turns = coordinates.iter().copied().filter(is_turn).collect();
         let all_turns = (0..system.coordinates().len()).filter(is_turn).collect();
         let ranges = Ranges::new(&program, &registers, &all, Stage::Measures, false);
-        let sizes = Sizes::new(coordinates.len());
+        let sizes = Sizes::new(coordinates.iter().map(|&k| Some(system.coordinates()[k].kind)).collect());
         Smooth { program, registers, ranges, sizes, towers, kinds, coordinates, turns, all_turns }
     }
 
@@ -121,6 +121,11 @@ impl Smooth {
     /// The order at which one of them stands: it has no derivatives below.
     pub fn order(&self, k: usize) -> usize {
         self.kinds[k].0
+    }
+
+    /// Takes note of how large the coordinates of the mechanism are.
+    pub fn note_all(&mut self, of_all: Largest) {
+        self.sizes.note_all(of_all);
     }
 
     /// Computes all of them at a state.
