@@ -106,7 +106,7 @@ fn next_to_dead_points_variants_stop_where_they_stop_alone() {
     let text = text.replace("rotation(main) = 0.5 + speed * t", "rotation(pivot) = -1.85 + speed * t / 10");
     let subject = subject(&text, Choice::default());
     // with a crank of 1 its dead points are where crank and coupler are in line: at 4.5 and 2.5 from the base
-    let angle = |reach: f64| mechc::rooms::math::acos((16.0 + 9.0 - reach * reach) / 24.0);
+    let angle = |reach: f64| mechc_expr::math::acos((16.0 + 9.0 - reach * reach) / 24.0);
     let mut stopped = 0;
     for dead in [angle(4.5), angle(2.5)] {
         // the rocker stands at π less the angle in the triangle
@@ -124,8 +124,8 @@ fn next_to_dead_points_variants_stop_where_they_stop_alone() {
 fn at_the_end_of_their_reach_variants_are_assembled_as_alone() {
     let subject = subject(&four_bar(TURNS, "0.5"), Choice::default());
     // at the start the crank's pin is so far from the base
-    let (sin, cos) = mechc::rooms::math::sin_cos(0.5);
-    let way = mechc::rooms::math::hypot(4.0 - cos, sin);
+    let (sin, cos) = mechc_expr::math::sin_cos(0.5);
+    let way = mechc_expr::math::hypot(4.0 - cos, sin);
     for asked in [about("rod", way - 3.0), about("lever", way - 3.5), about("rod", way + 3.0)] {
         let (found, abreast) = compare(&subject, &vary(&[&asked]));
         assert!(count(&found, Status::Ok) >= abreast && found.len() >= 2, "{asked}: {found:?}");

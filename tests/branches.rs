@@ -4,8 +4,8 @@
 
 mod support;
 
-use mechc::rooms::math;
 use mechc::{RunOptions, Times};
+use mechc_expr::math;
 use std::f64::consts::TAU;
 use std::fs;
 use support::random::Random;
@@ -96,8 +96,8 @@ fn a_near_miss_of_a_dead_point_is_passed_whatever_the_output_step() {
         let rows = slider_crank(rod, every).expect_success();
         for (t, x) in rows.column("t").iter().zip(rows.column("slider.x")) {
             let phi = t + 0.3;
-            let wanted = mechc::rooms::math::cos(phi)
-                + (rod * rod - mechc::rooms::math::sin(phi) * mechc::rooms::math::sin(phi)).sqrt();
+            let wanted = mechc_expr::math::cos(phi)
+                + (rod * rod - mechc_expr::math::sin(phi) * mechc_expr::math::sin(phi)).sqrt();
             assert!((x - wanted).abs() < 1e-9, "every {every} at t = {t}: {x} instead of {wanted}");
         }
     }
@@ -106,7 +106,7 @@ fn a_near_miss_of_a_dead_point_is_passed_whatever_the_output_step() {
 #[test]
 fn a_dead_point_is_found_whatever_the_output_step() {
     // the rod is in line with the guide's normal at sin φ = 0.8
-    let dead_point = mechc::rooms::math::asin(0.8) - 0.3;
+    let dead_point = mechc_expr::math::asin(0.8) - 0.3;
     for every in [3.0, 0.1, 0.001] {
         let outcome = slider_crank(0.8, every);
         assert_eq!(outcome.codes(), ["E0602"], "{}", outcome.text());
@@ -171,7 +171,7 @@ fn a_parallelogram_goes_through_its_change_points() {
             }
         }
         // the crank is in line with the ground at every half turn
-        let crank = |t: f64| 60.0 + 90.0 * t + 10.0 * mechc::rooms::math::sin(2.0 * t);
+        let crank = |t: f64| 60.0 + 90.0 * t + 10.0 * mechc_expr::math::sin(2.0 * t);
         assert_eq!(passed.len(), 10, "{passed:?}");
         for (k, t) in passed.into_iter().enumerate() {
             let wanted = 180.0 * (k + 1) as f64;
@@ -193,7 +193,7 @@ fn a_quotient_whose_slope_grows_is_followed_whatever_the_output_step() {
         let rows = run("pointer", text, Span { every: Some(every), to: None }).expect_success();
         for (t, phi) in rows.column("t").into_iter().zip(rows.column("b.phi")) {
             assert!(
-                (phi - mechc::rooms::math::atan2(1.0, 1.0 + 20.0 * t)).abs() < 1e-9,
+                (phi - mechc_expr::math::atan2(1.0, 1.0 + 20.0 * t)).abs() < 1e-9,
                 "every {every} at t = {t}: {phi}"
             );
         }
@@ -203,7 +203,7 @@ fn a_quotient_whose_slope_grows_is_followed_whatever_the_output_step() {
 #[test]
 fn lazy_tongs_driven_at_their_far_end_are_one_block_and_no_lock_up() {
     const STAGES: usize = 110;
-    let (sin, cos) = mechc::rooms::math::sin_cos(0.5);
+    let (sin, cos) = mechc_expr::math::sin_cos(0.5);
     let mut text = String::from("mechanism tongs { ground { point O = (0, 0) axis floor = O along (1, 0) }\n");
     for k in 0..STAGES {
         let y = (k as f64 + 0.5) * sin;
@@ -223,7 +223,7 @@ fn lazy_tongs_driven_at_their_far_end_are_one_block_and_no_lock_up() {
     text += &format!("driver lift: angle(a{}) = 0.5 + 0.3 * sin(2 * t) analysis from 0 to 3 every 0.5 }}", STAGES - 1);
     let rows = run("tongs", &text, Span::default()).expect_success();
     for (t, phi) in rows.column("t").into_iter().zip(rows.column("a0.phi")) {
-        assert!((phi - 0.5 - 0.3 * mechc::rooms::math::sin_cos(2.0 * t).0).abs() < 1e-9, "at t = {t}: {phi}");
+        assert!((phi - 0.5 - 0.3 * mechc_expr::math::sin_cos(2.0 * t).0).abs() < 1e-9, "at t = {t}: {phi}");
     }
 }
 

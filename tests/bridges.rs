@@ -5,8 +5,8 @@
 
 mod support;
 
-use mechc::rooms::math;
 use mechc::{Diagnostic, Diagnostics, RunOptions, Times};
+use mechc_expr::math;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write as _;
 use std::fs;

@@ -6,8 +6,8 @@
 mod support;
 
 use mechc::Sources;
-use mechc::rooms::syntax;
-use mechc::rooms::syntax::ast::ItemKind;
+use mechc_syntax as syntax;
+use mechc_syntax::ast::ItemKind;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestRunner};
 use std::f64::consts::TAU;
@@ -183,11 +183,11 @@ impl Draft {
         };
         let [crank, a, b, c] = plan.links;
         let turned = |[x, y]: [f64; 2], length: f64, degrees: f64| {
-            let (sin, cos) = mechc::rooms::math::sin_cos(degrees / 360.0 * TAU);
+            let (sin, cos) = mechc_expr::math::sin_cos(degrees / 360.0 * TAU);
             [x + length * cos, y + length * sin]
         };
         let toward =
-            |[x, y]: [f64; 2], [to_x, to_y]: [f64; 2]| mechc::rooms::math::atan2(to_y - y, to_x - x) / TAU * 360.0;
+            |[x, y]: [f64; 2], [to_x, to_y]: [f64; 2]| mechc_expr::math::atan2(to_y - y, to_x - x) / TAU * 360.0;
         match plan.shape {
             Shape::Chain(count) => {
                 let (mut base, mut at) = (0, plan.origin);
@@ -205,7 +205,7 @@ impl Draft {
                 let pivot = turned(plan.origin, a, 0.0);
                 // where the coupler's end meets the rocker's
                 let (far, line) = (distance(pin, pivot), toward(pin, pivot));
-                let inner = mechc::rooms::math::acos((b * b + far * far - c * c) / (2.0 * b * far)) / TAU * 360.0;
+                let inner = mechc_expr::math::acos((b * b + far * far - c * c) / (2.0 * b * far)) / TAU * 360.0;
                 let knee = turned(pin, b, line + inner);
                 let first = draft.body(plan.origin, plan.start);
                 let main = draft.pin(0, first, plan.origin);
@@ -231,7 +231,7 @@ impl Draft {
             Shape::SliderCrank => {
                 let pin = turned(plan.origin, crank, plan.start);
                 let rise = pin[1] - plan.origin[1];
-                let wrist = [pin[0] + mechc::rooms::math::sqrt(a * a - rise * rise), plan.origin[1]];
+                let wrist = [pin[0] + mechc_expr::math::sqrt(a * a - rise * rise), plan.origin[1]];
                 let first = draft.body(plan.origin, plan.start);
                 let main = draft.pin(0, first, plan.origin);
                 let rod = draft.body(pin, toward(pin, wrist));
@@ -268,7 +268,7 @@ impl Draft {
 
     fn point(&mut self, body: usize, [x, y]: [f64; 2]) -> String {
         let [ox, oy, degrees] = self.bodies[body].pose;
-        let (sin, cos) = mechc::rooms::math::sin_cos(degrees / 360.0 * TAU);
+        let (sin, cos) = mechc_expr::math::sin_cos(degrees / 360.0 * TAU);
         let [x, y] = [x - ox, y - oy];
         self.feature(body, "point", format!("({} mm, {} mm)", cos * x + sin * y, cos * y - sin * x))
     }
@@ -314,7 +314,7 @@ impl Draft {
 }
 
 fn distance([x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) -> f64 {
-    mechc::rooms::math::hypot(to_x - x, to_y - y)
+    mechc_expr::math::hypot(to_x - x, to_y - y)
 }
 
 // ---- breaks

@@ -4,8 +4,8 @@
 
 mod support;
 
-use mechc::rooms::math;
 use mechc::{Cancel, Choice, Compiled, Memory, Parsed, Redundant, RunOptions, Times};
+use mechc_expr::math;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fs;
 use support::change_points::parallelogram_of_names;

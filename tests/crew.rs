@@ -2,7 +2,7 @@
 
 #![cfg(feature = "threads")]
 
-use mechc::rooms::crew::Crew;
+use mechc_parallel::Crew;
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};

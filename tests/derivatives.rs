@@ -4,9 +4,9 @@
 
 mod support;
 
-use mechc::rooms::expr::{Binary, ExprId, Graph, MotionLaw, Symbol, Unary};
-use mechc::rooms::ir::ConstraintSystem;
-use mechc::rooms::math;
+use mechc_expr::math;
+use mechc_expr::{Binary, ExprId, Graph, MotionLaw, Symbol, Unary};
+use mechc_ir::ConstraintSystem;
 use std::fs;
 use support::random::Random;
 use support::{Span, compile, files, run, stem};
@@ -32,7 +32,7 @@ fn check_function(name: &str, range: [f64; 2], build: impl Fn(&mut Graph, ExprId
     };
     let (fx, fy) = (along(&mut graph, f, X), along(&mut graph, f, Y));
     let (fxx, fxy) = (along(&mut graph, fx, X), along(&mut graph, fx, Y));
-    let gradient = graph.gradient(f, mechc::rooms::expr::Dependence::coordinates(0));
+    let gradient = graph.gradient(f, mechc_expr::Dependence::coordinates(0));
     let mut random = Random::new(7);
     for _ in 0..200 {
         let (x, y) = (random.between(range[0], range[1]), random.between(range[0], range[1]));
@@ -136,7 +136,7 @@ fn tables_are_interpolated_smoothly() {
         // a cosine, sampled; the natural spline bends nowhere at its ends
         let rows: Vec<[f64; 2]> = (0..=24)
             .map(|k| f64::from(k) * std::f64::consts::TAU / 24.0)
-            .map(|u| [u, mechc::rooms::math::sin(u)])
+            .map(|u| [u, mechc_expr::math::sin(u)])
             .collect();
         let last = rows.len() - 1;
         let points: Vec<[ExprId; 2]> = rows
@@ -154,7 +154,7 @@ fn tables_are_interpolated_smoothly() {
             }
         }
         for (k, order) in orders.into_iter().enumerate() {
-            let exact = [mechc::rooms::math::sin(1.0), mechc::rooms::math::cos(1.0), -mechc::rooms::math::sin(1.0)][k];
+            let exact = [mechc_expr::math::sin(1.0), mechc_expr::math::cos(1.0), -mechc_expr::math::sin(1.0)][k];
             assert!((value(&g, order, 1.0, 0.0) - exact).abs() < [2e-5, 2e-4, 1e-2][k], "derivative {k}");
         }
         for u in [0.0, rows[last][0]] {
@@ -175,7 +175,7 @@ fn branches_that_do_not_count_do_not_matter() {
     for range in [[0.4, 2.5], [-2.5, -0.4]] {
         check_function(&format!("if on {range:?}"), range, |g, u, v| {
             let zero = g.constant(0.0);
-            let positive = g.compare(mechc::rooms::expr::Comparison::Less, zero, u);
+            let positive = g.compare(mechc_expr::Comparison::Less, zero, u);
             let (root, logarithm) = (g.unary(Unary::Sqrt, u), g.unary(Unary::Ln, u));
             let (there, here) = (g.mul(root, logarithm), g.mul(u, v));
             let choice = g.select(positive, there, here);
@@ -297,8 +297,8 @@ fn jacobians_and_right_sides_of_every_element() {
         let h = 2e-4 * span;
         for _ in 0..3 {
             let scale = |k: usize| match system.coordinates()[k].kind {
-                mechc::rooms::ir::CoordinateKind::Length => system.length().max(1e-3),
-                mechc::rooms::ir::CoordinateKind::Angle | mechc::rooms::ir::CoordinateKind::Argument => 1.0,
+                mechc_ir::CoordinateKind::Length => system.length().max(1e-3),
+                mechc_ir::CoordinateKind::Angle | mechc_ir::CoordinateKind::Argument => 1.0,
             };
             let q: Vec<f64> = (0..n)
                 .map(|k| along(&system, system.coordinates()[k].estimate, 0.0, [&zero; 4], 0.0))
@@ -307,7 +307,7 @@ fn jacobians_and_right_sides_of_every_element() {
                 .collect();
             let mut random_vector = |order: i32| -> Vec<f64> {
                 (0..n)
-                    .map(|k| scale(k) * random.between(-1.0, 1.0) / mechc::rooms::math::pow(span, f64::from(order)))
+                    .map(|k| scale(k) * random.between(-1.0, 1.0) / mechc_expr::math::pow(span, f64::from(order)))
                     .collect()
             };
             let (a, b, c) = (random_vector(1), random_vector(2), random_vector(3));
@@ -317,7 +317,7 @@ fn jacobians_and_right_sides_of_every_element() {
                 let size = 1.0 + along(&system, phi, t, [&q, &zero, &zero, &zero], 0.0).abs() + system.length();
                 let near = |exact: f64, difference: f64, tolerance: f64, order: i32, what: &str| {
                     let bound = tolerance
-                        * (size / mechc::rooms::math::pow(span, f64::from(order)) + exact.abs() + difference.abs());
+                        * (size / mechc_expr::math::pow(span, f64::from(order)) + exact.abs() + difference.abs());
                     assert!((exact - difference).abs() <= bound, "{name}, row {row}, {what}: {exact} and {difference}");
                 };
                 // Φ_q a + Φ_t = dΦ/dτ, with Φ_t = −ν

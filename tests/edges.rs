@@ -4,8 +4,8 @@
 
 mod support;
 
-use mechc::rooms::math;
 use mechc::{Diagnostic, RunOptions, Times};
+use mechc_expr::math;
 use support::random::Random;
 use support::{Outcome, Span, compile_without_redundant, follow, run};
 

@@ -4,7 +4,7 @@
 
 mod support;
 
-use mechc::rooms::math::{cos, sin, sqrt};
+use mechc_expr::math::{cos, sin, sqrt};
 use std::f64::consts::{PI, TAU};
 use support::{Outcome, Span, run};
 

@@ -4,7 +4,7 @@
 
 mod support;
 
-use mechc::rooms::math;
+use mechc_expr::math;
 use std::f64::consts::{PI, TAU};
 use support::{Span, compiled, passing, run};
 

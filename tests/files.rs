@@ -2,10 +2,10 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
-use mechc::rooms::check::{KnownFile, Library, NotKnown};
-use mechc::rooms::syntax::ast::Name;
-use mechc::rooms::syntax::parse;
 use mechc::{Checked, Choice, Color, Contents, Format, Memory, Parsed, Sources, Span, World, render};
+use mechc_lang::check::{KnownFile, Library, NotKnown};
+use mechc_syntax::ast::Name;
+use mechc_syntax::parse;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};

@@ -5,8 +5,8 @@
 
 mod support;
 
-use mechc::rooms::syntax::parse;
 use mechc::{Edit, Parsed, Sources, Span};
+use mechc_syntax::parse;
 use proptest::prelude::*;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -32,7 +32,7 @@ fn numbers(line: &str) -> Vec<f64> {
 fn encoder(k: usize, signal: usize) -> f64 {
     let count = std::f64::consts::TAU / 4096.0;
     let t = 1e-3 * k as f64;
-    let sin = |x: f64| mechc::rooms::math::sin_cos(x).0;
+    let sin = |x: f64| mechc_expr::math::sin_cos(x).0;
     let way = [0.52, 1.571, 3.665, 5.76][signal] + 0.12 * sin(1.3 * t + 2.0 * signal as f64) * sin(7.0 * t);
     let jitter = [0.0, 1.0, 0.0, -1.0, 1.0, 0.0, 0.0][(k * (3 + signal)) % 7];
     ((way / count).round() + jitter) * count

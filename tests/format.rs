@@ -4,12 +4,12 @@
 
 mod support;
 
-use mechc::rooms::syntax::ast::File;
-use mechc::rooms::syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, Name, Sign, Window};
-use mechc::rooms::syntax::format::expression;
-use mechc::rooms::syntax::{ParsedText, format, parse, parse_expression};
 use mechc::{Color, Diagnostics, Format, render};
 use mechc::{Sources, Span};
+use mechc_syntax::ast::File;
+use mechc_syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, Name, Sign, Window};
+use mechc_syntax::format::expression;
+use mechc_syntax::{ParsedText, format, parse, parse_expression};
 use proptest::prelude::*;
 use std::fs;
 use support::files;

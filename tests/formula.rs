@@ -4,9 +4,9 @@
 
 use assert_cmd::Command;
 use mechc::Sources;
-use mechc::rooms::check::{self, FormulaOfTime};
-use mechc::rooms::expr::{ExprId, Printer, Symbol};
-use mechc::rooms::syntax;
+use mechc_expr::{ExprId, Printer, Symbol};
+use mechc_lang::check::{self, FormulaOfTime};
+use mechc_syntax as syntax;
 use proptest::prelude::*;
 
 /// A formula as the command line takes it.

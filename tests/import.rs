@@ -6,9 +6,10 @@ mod matlab;
 mod support;
 
 use mechc::Sources;
-use mechc::rooms::syntax::{self, ast};
-use mechc::rooms::{check, import};
 use mechc::{Code, Color, Diagnostics, Format, Severity, render};
+use mechc_lang::check;
+use mechc_syntax::import;
+use mechc_syntax::{self as syntax, ast};
 use proptest::prelude::*;
 use std::fmt::Write;
 use support::random::Random;

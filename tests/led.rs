@@ -3,11 +3,13 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use mechc::rooms::analysis::{self, Horizon, LeadOptions, Way};
-use mechc::rooms::math::{acos, cos, sin};
-use mechc::rooms::program::Program;
-use mechc::rooms::{check, lower, syntax};
 use mechc::{Cancel, Choice, Compiled, Diagnostics, Memory, Parsed, Redundant, RunOptions, Sources, Times};
+use mechc_engine::analysis::{self, Horizon, LeadOptions, Way};
+use mechc_expr::math::{acos, cos, sin};
+use mechc_ir::program::Program;
+use mechc_lang::check;
+use mechc_pipeline as lower;
+use mechc_syntax as syntax;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -401,7 +403,7 @@ fn lengths_and_points_lead_as_well() {
         [at + cos(phi) * x - sin(phi) * y, to + sin(phi) * x + cos(phi) * y]
     };
     for (one, other) in [(place(0, [0.03, 0.01]), place(1, [0.0; 2])), (place(1, [0.1, 0.0]), place(2, [0.07, 0.0]))] {
-        assert!(mechc::rooms::math::hypot(one[0] - other[0], one[1] - other[1]) < 1e-12, "{row:?}");
+        assert!(mechc_expr::math::hypot(one[0] - other[0], one[1] - other[1]) < 1e-12, "{row:?}");
     }
     // at 145.5 mm coupler and rocker lie in one line
     let (rows, said) = run(&led_over(text, &["coupler_length=300mm"]), &Times::listed(0.0, vec![0.0]));

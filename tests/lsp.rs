@@ -20,7 +20,7 @@ mod writing;
 
 use client::Client;
 use mechc::Memory;
-use mechc::rooms::lsp::Ended;
+use mechc_ide::lsp::Ended;
 use serde_json::{Value, json};
 
 const URI: &str = "file:///work/slider_crank.mech";

@@ -4,7 +4,7 @@
 
 mod support;
 
-use mechc::rooms::math::{atan2, hypot, sin_cos, sqrt};
+use mechc_expr::math::{atan2, hypot, sin_cos, sqrt};
 use std::f64::consts::{PI, TAU};
 use support::random::Random;
 use support::{Outcome, Span, run};

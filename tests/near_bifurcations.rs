@@ -4,8 +4,8 @@
 
 mod support;
 
-use mechc::rooms::math;
 use mechc::{Diagnostics, RunOptions, Times};
+use mechc_expr::math;
 use std::f64::consts::{FRAC_PI_2, PI};
 use support::change_points::{equal_rods, parallelogram};
 use support::random::Random;

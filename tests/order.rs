@@ -4,7 +4,7 @@
 
 mod support;
 
-use mechc::rooms::structure::{Determined, order_of_solution, steps};
+use mechc_ir::structure::{Determined, order_of_solution, steps};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use std::sync::Arc;

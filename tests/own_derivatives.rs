@@ -4,8 +4,8 @@
 
 mod support;
 
-use mechc::rooms::math::{cos, sin};
 use mechc::{Cancel, Choice, Compiled, Diagnostics, Memory, Parsed, Redundant, RunOptions, Times};
+use mechc_expr::math::{cos, sin};
 use support::all_rows;
 use support::table::Table;
 

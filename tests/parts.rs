@@ -178,7 +178,7 @@ fn a_part_is_what_it_is_alone_seen_from_its_own_ground() {
             match run(&whole, &file, "outer_one", Some(&times)) {
                 Err(why) => faults.push(format!("{name} carried {carried} mirrored {is_mirrored}: {why}")),
                 Ok((part, _)) => {
-                    let distance = mechc::rooms::math::hypot(place[0], place[1]) + if carried { size } else { 0.0 };
+                    let distance = mechc_expr::math::hypot(place[0], place[1]) + if carried { size } else { 0.0 };
                     let (difference, column) = largest_difference(&alone, &part, distance);
                     if difference > SAME || difference.is_nan() || part.rows.len() != alone.rows.len() {
                         faults

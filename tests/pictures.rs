@@ -8,18 +8,20 @@
 mod exports;
 mod support;
 
-use mechc::rooms::analysis::{FreeMotion, Horizon, free_motions};
-use mechc::rooms::scene::{
-    Anchor, Look, Motion, Path as Drawn, Pen, Place, Pose, Scene, Segment, Torque, Vector, catalogue, distance, dot,
-    minus, plus, polar, times,
-};
-use mechc::rooms::view::svg::{Options, Plot, Theme, animated, has_vectors, plots, still};
-use mechc::rooms::view::{dxf, first_sentence};
-use mechc::rooms::{check, lower, syntax};
 use mechc::{
     Cancel, Checked, Choice, Code, Compiled, CurveTolerance, Diagnostic, Diagnostics, Parsed, Redundant, RunOptions,
     Seen, Sources, Times,
 };
+use mechc_draw::scene::{
+    Anchor, Look, Motion, Path as Drawn, Pen, Place, Pose, Scene, Segment, Torque, Vector, catalogue, distance, dot,
+    minus, plus, polar, times,
+};
+use mechc_draw::view::svg::{Options, Plot, Theme, animated, has_vectors, plots, still};
+use mechc_draw::view::{dxf, first_sentence};
+use mechc_engine::analysis::{FreeMotion, Horizon, free_motions};
+use mechc_lang::check;
+use mechc_pipeline as lower;
+use mechc_syntax as syntax;
 use std::fs;
 use std::path::Path;
 use support::random::Random;

@@ -4,8 +4,9 @@
 
 mod support;
 
-use mechc::rooms::{math, syntax};
 use mechc::{Choice, Memory, Parsed, RustOptions, Sources};
+use mechc_expr::math;
+use mechc_syntax as syntax;
 use std::f64::consts::PI;
 use std::fs;
 use support::{Outcome, Span, compile, run};

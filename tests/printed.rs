@@ -4,7 +4,7 @@
 
 mod support;
 
-use mechc::rooms::math::sin_cos;
+use mechc_expr::math::sin_cos;
 use std::f64::consts::{PI, TAU};
 use std::fs;
 use std::process::Command;

@@ -4,8 +4,8 @@
 
 mod support;
 
-use mechc::rooms::expr::{Comparison, ExprId, Graph, Printer, Symbol, TableId};
-use mechc::rooms::syntax::ast;
+use mechc_expr::{Comparison, ExprId, Graph, Printer, Symbol, TableId};
+use mechc_syntax::ast;
 use proptest::prelude::*;
 use std::collections::HashMap;
 use support::reading::{self, BINARIES, Names, UNARIES, parse};

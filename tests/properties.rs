@@ -4,10 +4,10 @@
 
 mod support;
 
-use mechc::rooms::expr::{Binary, Comparison, Dependence, ExprId, Graph, MotionLaw, Node, Symbol, Unary};
-use mechc::rooms::math;
-use mechc::rooms::syntax::{self, ast};
 use mechc::{Compiled, Sources};
+use mechc_expr::math;
+use mechc_expr::{Binary, Comparison, Dependence, ExprId, Graph, MotionLaw, Node, Symbol, Unary};
+use mechc_syntax::{self as syntax, ast};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use rustc_hash::FxHashMap;

@@ -4,7 +4,7 @@
 
 mod support;
 
-use mechc::rooms::math;
+use mechc_expr::math;
 use support::{Span, run};
 
 /// Output steps, coarse and fine (s).

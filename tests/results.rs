@@ -4,8 +4,8 @@
 
 mod support;
 
-use mechc::rooms::math::{hypot, sin_cos};
 use mechc::{Answers, RunOptions, Times};
+use mechc_expr::math::{hypot, sin_cos};
 use std::f64::consts::{PI, TAU};
 use support::compiled;
 
@@ -458,7 +458,7 @@ fn kinks_beside_each_other_and_ends_are_told() {
          result a = argmin(peak)
          result b = mean(abs(acos(1.1 * sin(2.35 * t / 1 s + 0.148))), from 1 s to 2 s)",
     );
-    let first = 0.67 - 0.14e-3 * (-mechc::rooms::math::ln(1.0 - 0.01 * 0.669_988_5)).sqrt();
+    let first = 0.67 - 0.14e-3 * (-mechc_expr::math::ln(1.0 - 0.01 * 0.669_988_5)).sqrt();
     check(&text, 3.0, &[(first, 1e-9), (1.863_120_923_071_08, 1e-9)]);
 }
 
@@ -846,7 +846,7 @@ fn a_driver_in_quick_ripples_hides_nothing() {
         "result a = max(angle(arm)) result b = argmax(angle(arm)) result c = mean(angle(arm)) result d = max(der(angle(arm)))",
     );
     // the last ripple but the end: 240 cos 800 t = −1
-    let first = (mechc::rooms::math::acos(-1.0 / 240.0)) / 800.0;
+    let first = (mechc_expr::math::acos(-1.0 / 240.0)) / 800.0;
     let period = TAU / 800.0;
     let last = (0..200).map(|k| first + f64::from(k) * period).rfind(|t| *t <= 1.0).expect("a ripple");
     check(

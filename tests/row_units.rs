@@ -4,9 +4,9 @@
 
 mod support;
 
-use mechc::rooms::expr::{Binary, ExprId, Node, Symbol, Unary};
-use mechc::rooms::ir::{ConstraintSystem, CoordinateKind};
-use mechc::rooms::vocabulary::Dimension;
+use mechc_expr::{Binary, ExprId, Node, Symbol, Unary};
+use mechc_ir::{ConstraintSystem, CoordinateKind};
+use mechc_text::vocabulary::Dimension;
 use std::collections::HashMap;
 use std::fs;
 use support::{compile_number, compiled, files, mechanisms};

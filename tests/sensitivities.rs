@@ -7,9 +7,9 @@
 
 mod support;
 
-use mechc::rooms::analysis::{self, Horizon};
-use mechc::rooms::ir::{BodyId, ConstraintSystem, Param};
 use mechc::{Cancel, Choice, Compiled, Parsed, Redundant, Times};
+use mechc_engine::analysis::{self, Horizon};
+use mechc_ir::{BodyId, ConstraintSystem, Param};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};

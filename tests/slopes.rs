@@ -9,8 +9,8 @@ mod support;
 mod compiling;
 
 use compiling::{bits_of, printed};
-use mechc::rooms::expr::Symbol;
 use mechc::{Cancel, Choice, Compiled, Parsed, Redundant, RustOptions, Times};
+use mechc_expr::Symbol;
 use std::fs;
 use std::path::Path;
 use support::{Disk, all_rows};

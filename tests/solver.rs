@@ -7,10 +7,10 @@
 mod generate;
 mod support;
 
-use mechc::rooms::analysis::{self, Horizon};
-use mechc::rooms::program::Stage;
-use mechc::rooms::solver::{Batch, Bend, Lanes, Segment, Solver};
 use mechc::{Cancel, Compiled, TOLERANCE, Times, Vectors};
+use mechc_engine::analysis::{self, Horizon};
+use mechc_engine::solver::{Batch, Bend, Lanes, Segment, Solver};
+use mechc_ir::program::Stage;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
@@ -207,7 +207,7 @@ fn every_case_is_solved_for_in_lanes() {
 struct Bench {
     compiled: Compiled,
     started: analysis::Started,
-    scalars: mechc::rooms::program::Registers,
+    scalars: mechc_ir::program::Registers,
     bounds: Vec<f64>,
 }
 

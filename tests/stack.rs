@@ -6,9 +6,11 @@
 mod deepest;
 
 use deepest::{all_ways, deepest};
-use mechc::rooms::model::Mechanism;
-use mechc::rooms::{check, math, syntax};
 use mechc::{Choice, Memory, Parsed, Sources};
+use mechc_expr::math;
+use mechc_lang::check;
+use mechc_lang::model::Mechanism;
+use mechc_syntax as syntax;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use std::thread;

@@ -4,8 +4,8 @@
 
 mod support;
 
-use mechc::rooms::math::{cos, sin};
 use mechc::{Answers, Cancel, Choice, Compiled, Memory, Parsed, Redundant, RunOptions, RustOptions, Times};
+use mechc_expr::math::{cos, sin};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use support::all_rows;
 use support::change_points::parallelogram_of_names;

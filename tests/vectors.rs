@@ -5,10 +5,10 @@
 
 mod support;
 
-use mechc::rooms::expr::{Binary, Comparison, Unary, binary_value, compare, unary_value};
-use mechc::rooms::math;
-use mechc::rooms::program::{LaneMachine, LaneValues, Op, Program, truth};
 use mechc::{Compiled, RunOptions, Times, Vectors};
+use mechc_expr::math;
+use mechc_expr::{Binary, Comparison, Unary, binary_value, compare, unary_value};
+use mechc_ir::program::{LaneMachine, LaneValues, Op, Program, truth};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, TestRunner};
@@ -199,7 +199,7 @@ fn carry_out(
     vectors: Vectors,
     v: &mut [LaneValues<LANES>],
     program: &Program,
-    scalars: &mechc::rooms::program::Registers,
+    scalars: &mechc_ir::program::Registers,
 ) {
     let mut lanes = LaneMachine::<LANES, PART>::new(v, LANES / PART, (program, scalars));
     vectors.run(

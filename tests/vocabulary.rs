@@ -4,8 +4,8 @@
 
 mod support;
 
-use mechc::rooms::ir::DeclarationKind;
-use mechc::rooms::vocabulary::{self, Category, KEYWORDS, Keyword, OVERVIEWS, Place, Role, SYNONYMS, Synonym, Unit};
+use mechc_ir::DeclarationKind;
+use mechc_text::vocabulary::{self, Category, KEYWORDS, Keyword, OVERVIEWS, Place, Role, SYNONYMS, Synonym, Unit};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::fs;

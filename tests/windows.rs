@@ -4,8 +4,8 @@
 
 mod support;
 
-use mechc::rooms::math::{cos, sin};
 use mechc::{Answers, Choice, Memory, RunOptions, Status, SweepOptions, Times};
+use mechc_expr::math::{cos, sin};
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2, PI};
 use std::fmt::Write;
 use support::compiled;

@@ -6,9 +6,9 @@ mod support;
 
 use assert_cmd::Command;
 use mechc::Compiled;
-use mechc::rooms::emit;
-use mechc::rooms::expr::{ExprId, Graph, Node, Symbol, TableId};
-use mechc::rooms::ir::{ConstraintSystem, Mechanics};
+use mechc_emit as emit;
+use mechc_expr::{ExprId, Graph, Node, Symbol, TableId};
+use mechc_ir::{ConstraintSystem, Mechanics};
 use serde_json::Value;
 use std::cell::RefCell;
 use std::collections::HashMap;

@@ -1,6 +1,6 @@
 //! The four-bar by hand: the floor.
 
-use mechc::rooms::math;
+use mechc_expr::math;
 
 /// The crank at the start [rad], and how fast it turns [rad/s].
 const START: f64 = 0.5;

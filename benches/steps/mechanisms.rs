@@ -47,7 +47,7 @@ fn slider_crank() -> String {
 
 /// Pairs of crossed bars, one on the other, spread at the bottom.
 pub fn scissor_lift(cells: usize) -> String {
-    let (sin, cos) = mechc::rooms::math::sin_cos(0.5);
+    let (sin, cos) = mechc_expr::math::sin_cos(0.5);
     let mut text = "mechanism scissor_lift {\n    ground { point O = (0, 0) axis floor = O along (1, 0) }\n".to_owned();
     for k in 0..cells {
         let (x, y) = (0.5 * cos, (k as f64 + 0.5) * sin);

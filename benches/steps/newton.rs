@@ -5,9 +5,9 @@
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
-use mechc::rooms::ir::ConstraintSystem;
-use mechc::rooms::program::{Program, Registers, Stage};
-use mechc::rooms::structure::Determined;
+use mechc_ir::ConstraintSystem;
+use mechc_ir::program::{Program, Registers, Stage};
+use mechc_ir::structure::Determined;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 /// A residual below this is none.

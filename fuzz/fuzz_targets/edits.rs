@@ -3,8 +3,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use mechc::rooms::ide::{self, Place, Snapshot, DiagnosticStage};
-use mechc::rooms::syntax;
+use mechc_ide::{self as ide, Place, Snapshot, DiagnosticStage};
+use mechc_syntax as syntax;
 use mechc::{Cancel, Memory, Sources};
 use std::path::Path;
 use std::sync::Arc;

@@ -5,7 +5,7 @@
 //! declares; `⟦k - 1⟧` behind a name means one of its copies, and `«k»` is a number in a formula.
 
 use super::generate::{Bytes, Draft};
-use mechc::rooms::math;
+use mechc_expr::math;
 use std::fmt::Write as _;
 
 /// Copies of one declaration at most, for each index.

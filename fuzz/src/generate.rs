@@ -1,7 +1,7 @@
 //! Mechanisms made of bytes: element after element is hung onto what is there already, drawn where its equations hold at
 //! the start, so that most of them assemble and move; and now and then something is taken away or said twice.
 
-use mechc::rooms::math;
+use mechc_expr::math;
 use std::f64::consts::TAU;
 
 /// Elements of one mechanism at most.

@@ -6,9 +6,9 @@ pub mod oracles;
 #[path = "../../tests/support/shape.rs"]
 mod shape;
 
-use mechc::rooms::program::{Frozen, Program, Stage};
-use mechc::rooms::structure::Determined;
-use mechc::rooms::syntax::{self, ast};
+use mechc_ir::program::{Frozen, Program, Stage};
+use mechc_ir::structure::Determined;
+use mechc_syntax::{self as syntax, ast};
 use mechc::{
     Cancel, Choice, Color, Compiled, Diagnostic, Format, Memory, Parsed, Redundant, Run, RunOptions, RustOptions,
     Sources, Times, render,

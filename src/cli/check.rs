@@ -6,9 +6,9 @@ use super::files;
 use super::report::Reporter;
 use super::timings::Timings;
 use super::{fix, input};
-use crate::analysis::Times;
-use crate::diag::{readable, visible};
-use crate::stages::{Assembly, Compiled, RunOptions};
+use mechc_engine::analysis::Times;
+use mechc_pipeline::{Assembly, Compiled, RunOptions};
+use mechc_text::diag::{readable, visible};
 
 pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let input = &arguments.input;

@@ -1,7 +1,7 @@
 //! What tolerances make of measures and results, as a table to be read, as CSV and as JSON.
 
-use crate::diag::readable;
-use crate::stages::{Affected, Deviation, Shown, Tolerance, Verified};
+use mechc_pipeline::{Affected, Deviation, Shown, Tolerance, Verified};
+use mechc_text::diag::readable;
 use serde_json::{Map, Value, json};
 
 /// Digits of what is to be read.

@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::files::{Disk, Output};
 use super::input;
 use super::report::Reporter;
-use crate::diag::visible;
+use mechc_text::diag::visible;
 
 pub(super) fn dump(arguments: &DumpArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let text = match arguments.stage {

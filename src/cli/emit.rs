@@ -6,9 +6,9 @@ use super::failure::{Failure, unusable};
 use super::files::{self, Output};
 use super::input;
 use super::report::Reporter;
-use crate::diag::{Code, Diagnostic, Severity};
-use crate::emit::{MARK, NOT_IN_ALL};
-use crate::stages::{Compiled, RustOptions};
+use mechc_emit::{MARK, NOT_IN_ALL};
+use mechc_pipeline::{Compiled, RustOptions};
+use mechc_text::diag::{Code, Diagnostic, Severity};
 use std::path::Path;
 
 /// The forms by their endings.

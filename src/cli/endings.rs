@@ -1,7 +1,7 @@
 //! The form of an output: as `--format` says, or by its ending.
 
 use super::failure::{Failure, unusable};
-use crate::diag::Diagnostic;
+use mechc_text::diag::Diagnostic;
 use std::path::Path;
 
 /// The form that is said, else that of the ending, else the usual one: a name without an ending, `-` and what is no file, as

@@ -3,8 +3,8 @@
 use super::arguments::ExplainArguments;
 use super::failure::{Failure, unusable};
 use super::files;
-use crate::diag::{Code, Diagnostic, nearest};
-use crate::vocabulary::{self, OVERVIEWS, Synonym, topics};
+use mechc_text::diag::{Code, Diagnostic, nearest};
+use mechc_text::vocabulary::{self, OVERVIEWS, Synonym, topics};
 
 pub(super) fn explain(arguments: &ExplainArguments) -> Result<(), Failure> {
     match &arguments.name {

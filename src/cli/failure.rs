@@ -1,7 +1,7 @@
 //! What ends a command early, and the exit code that tells it.
 
-use crate::diag::{Blame, Code, Diagnostic, Diagnostics};
-use crate::source::Sources;
+use mechc_text::diag::{Blame, Code, Diagnostic, Diagnostics};
+use mechc_text::source::Sources;
 
 /// The input has errors, or is not as it should be.
 pub(super) const INPUT: u8 = 1;

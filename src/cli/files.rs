@@ -3,9 +3,9 @@
 use super::failure::Failure;
 use super::interrupts;
 use super::spared::{STANDARD_INPUT, Spared, behind_links, refuse_links};
-use crate::diag::{Code, Diagnostic};
-use crate::source::{FileId, Sources};
-use crate::world::{self, Contents, World};
+use mechc_text::diag::{Code, Diagnostic};
+use mechc_text::source::{FileId, Sources};
+use mechc_text::world::{self, Contents, World};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};

@@ -5,8 +5,8 @@ use super::failure::Failure;
 use super::files::{self, Disk, Output};
 use super::input;
 use super::report::Reporter;
-use crate::diag::fixed;
-use crate::stages::{Choice, Parsed};
+use mechc_pipeline::{Choice, Parsed};
+use mechc_text::diag::fixed;
 
 /// A change may let another one be seen; a text that still changes after so many rounds is left as it is then.
 const MOST_ROUNDS: usize = 32;

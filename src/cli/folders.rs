@@ -1,7 +1,7 @@
 //! The `.mech` files that are meant by what a command names: files, and folders with all that is in them.
 
 use super::failure::Failure;
-use crate::world;
+use mechc_text::world;
 use rustc_hash::FxHashSet;
 use std::fs;
 use std::io;

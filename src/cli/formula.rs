@@ -4,10 +4,10 @@ use super::arguments::FormulaArguments;
 use super::failure::{Failure, unusable};
 use super::files;
 use super::report::Reporter;
-use crate::analysis::Times;
-use crate::diag::Diagnostics;
-use crate::expr::number;
-use crate::stages::{self, Formula, NAMES};
+use mechc_engine::analysis::Times;
+use mechc_expr::number;
+use mechc_pipeline::{self as stages, Formula, NAMES};
+use mechc_text::diag::Diagnostics;
 
 pub(super) fn formula(arguments: &FormulaArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     if matches!(arguments.formula.trim(), "" | "-") {

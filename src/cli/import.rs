@@ -4,7 +4,7 @@ use super::arguments::ImportArguments;
 use super::failure::{Failure, unusable};
 use super::files::{self, Output};
 use super::report::Reporter;
-use crate::stages;
+use mechc_pipeline as stages;
 
 pub(super) fn import(arguments: &ImportArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     if arguments.model == "-" && arguments.acf.as_deref() == Some("-") {

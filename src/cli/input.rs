@@ -5,10 +5,10 @@ use super::failure::{Failure, unusable};
 use super::files::{self, Disk};
 use super::report::Reporter;
 use super::timings::{Phase, Timings};
-use crate::cancel::Cancel;
-use crate::diag::Diagnostics;
-use crate::stages::{Checked, Choice, Compiled, Parsed, Redundant};
-use crate::world::World;
+use mechc_pipeline::{Checked, Choice, Compiled, Parsed, Redundant};
+use mechc_text::cancel::Cancel;
+use mechc_text::diag::Diagnostics;
+use mechc_text::world::World;
 use std::mem::ManuallyDrop;
 use std::path::Path;
 

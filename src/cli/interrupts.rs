@@ -1,6 +1,6 @@
 //! What is half done when the user interrupts it is taken away: temporary files, and folders that are still empty.
 
-use crate::cancel::Cancel;
+use mechc_text::cancel::Cancel;
 use std::fs;
 use std::path::PathBuf;
 #[cfg(unix)]

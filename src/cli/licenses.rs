@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::files;
-use crate::view::page;
+use mechc_draw::view::page;
 
 /// Of the crates (`tests/licenses.rs` writes it).
 const OF_CRATES: &str = include_str!("licenses.txt");

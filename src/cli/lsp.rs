@@ -4,7 +4,7 @@ use super::arguments::LspArguments;
 use super::failure::Failure;
 use super::files::{Disk, cannot_write};
 use super::report::Reporter;
-use crate::lsp::{self, Ended, Log};
+use mechc_ide::lsp::{self, Ended, Log};
 use std::fs::File;
 use std::io::{BufWriter, IsTerminal};
 use std::sync::Arc;

@@ -3,8 +3,8 @@
 use super::arguments::{MessageFormat, Messages, When};
 use super::failure::{Failure, exit_code};
 use super::spared::Spared;
-use crate::diag::{Code, Color, Diagnostics, Fix, Format, render, render_made, visible};
-use crate::source::{FileId, Sources};
+use mechc_text::diag::{Code, Color, Diagnostics, Fix, Format, render, render_made, visible};
+use mechc_text::source::{FileId, Sources};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;

@@ -4,9 +4,9 @@ use super::endings;
 use super::failure::{Failure, unusable};
 use super::files::{Output, is_standard_output};
 use super::spared::{Spared, is_same};
-use crate::analysis::Answers;
-use crate::diag::{Diagnostic, readable};
-use crate::layout::ColumnUnit;
+use mechc_engine::analysis::Answers;
+use mechc_ir::layout::ColumnUnit;
+use mechc_text::diag::{Diagnostic, readable};
 use std::io::Write;
 use std::path::Path;
 

@@ -10,11 +10,11 @@ use super::report::Reporter;
 use super::results;
 use super::times;
 use super::timings::{Phase, Timings};
-use crate::analysis::Answers;
-use crate::diag::Diagnostics;
-use crate::layout::ColumnUnit;
-use crate::output::{TableFormat, TableWriter};
-use crate::stages::{Choice, Run, RunOptions};
+use mechc_engine::analysis::Answers;
+use mechc_ir::layout::ColumnUnit;
+use mechc_pipeline::output::{TableFormat, TableWriter};
+use mechc_pipeline::{Choice, Run, RunOptions};
+use mechc_text::diag::Diagnostics;
 use std::io::IsTerminal;
 use std::mem::ManuallyDrop;
 
@@ -172,7 +172,7 @@ const FORMS: [(&str, TableFormat); 3] =
 #[cfg(test)]
 mod tests {
     use super::beforehand;
-    use crate::output::TableFormat;
+    use mechc_pipeline::output::TableFormat;
 
     #[test]
     fn only_what_is_very_large_is_told_beforehand() {

@@ -1,7 +1,7 @@
 //! What no output may be: a file that was read, or that a text names.
 
 use super::failure::{Failure, unusable};
-use crate::source::Sources;
+use mechc_text::source::Sources;
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::fs;

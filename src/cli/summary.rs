@@ -1,7 +1,7 @@
 //! What became of the variants of a sweep, counted, with the first of each kind as a command that shows it in full.
 
 use super::arguments::{Following, Input, Interval};
-use crate::sweep::Status;
+use mechc_engine::sweep::Status;
 use std::collections::BTreeMap;
 
 /// The variants that were written.
@@ -100,7 +100,7 @@ impl Again<'_> {
         }
         at.iter().for_each(|time| add("--at", time));
         result.iter().for_each(|result| add("--result", result));
-        if following.tolerance.to_bits() != crate::stages::RunOptions::default().tolerance.to_bits() {
+        if following.tolerance.to_bits() != mechc_pipeline::RunOptions::default().tolerance.to_bits() {
             add("--tolerance", &following.tolerance.to_string());
         }
         let flags =
@@ -123,8 +123,8 @@ fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::{Summary, quoted};
-    use crate::diag::Code;
-    use crate::sweep::Status;
+    use mechc_engine::sweep::Status;
+    use mechc_text::diag::Code;
 
     #[test]
     fn statuses_are_counted_with_the_first_of_each() {

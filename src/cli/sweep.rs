@@ -10,12 +10,12 @@ use super::progress::Progress;
 use super::report::Reporter;
 use super::summary::{Again, Summary};
 use super::times;
-use crate::cancel::Cancel;
-use crate::diag::{Diagnostic, readable};
-use crate::layout::ColumnUnit;
-use crate::output::{Cells, Kind, Made, Sheet, SheetColumn, SheetWriter, TableFormat};
-use crate::stages::{Checked, Choice, Compiled, Redundant, SweepOptions, SweptColumn, Variants, VaryOptions};
-use crate::sweep::{Method, Status, Swept};
+use mechc_engine::sweep::{Method, Status, Swept};
+use mechc_ir::layout::ColumnUnit;
+use mechc_pipeline::output::{Cells, Kind, Made, Sheet, SheetColumn, SheetWriter, TableFormat};
+use mechc_pipeline::{Checked, Choice, Compiled, Redundant, SweepOptions, SweptColumn, Variants, VaryOptions};
+use mechc_text::cancel::Cancel;
+use mechc_text::diag::{Diagnostic, readable};
 use std::path::Path;
 
 /// More variants than this are asked about.

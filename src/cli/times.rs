@@ -2,8 +2,8 @@
 
 use super::arguments::Interval;
 use super::failure::Failure;
-use crate::source::Sources;
-use crate::stages::AskedTimes;
+use mechc_pipeline::AskedTimes;
+use mechc_text::source::Sources;
 
 /// As the options of a command say, with what the file's analysis says beside them.
 pub(super) fn asked(

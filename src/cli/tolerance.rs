@@ -10,9 +10,9 @@ use super::progress::Progress;
 use super::report::Reporter;
 use super::summary::Again;
 use super::times;
-use crate::diag::Diagnostics;
-use crate::source::Sources;
-use crate::stages::{Choice, Redundant, SweepOptions};
+use mechc_pipeline::{Choice, Redundant, SweepOptions};
+use mechc_text::diag::Diagnostics;
+use mechc_text::source::Sources;
 
 pub(super) fn tolerance(arguments: &ToleranceArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let format = endings::form(arguments.format, &arguments.output, &FORMS, ContributionFormat::Table)?;

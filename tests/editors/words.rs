@@ -1,7 +1,7 @@
 //! The words of the vocabulary, as each editor wants them written.
 
 use crate::holds;
-use mechc::rooms::vocabulary::{
+use mechc_text::vocabulary::{
     CONSTANTS, FUNCTIONS, JOINTS, KEYWORDS, Keyword, QUANTITIES, REDUCTIONS, Role, StandsFor, UNITS, is_before_a_name,
 };
 use serde_json::{Value, json};

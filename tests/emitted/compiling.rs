@@ -4,9 +4,9 @@
 
 use crate::support::random::Random;
 use crate::support::{all_rows, compile_number, compile_with_forces, compile_without_redundant};
-use mechc::rooms::layout::RowLayout;
-use mechc::rooms::program::Stage;
 use mechc::{Compiled, LARGEST_STRAIGHT, RustOptions};
+use mechc_ir::layout::RowLayout;
+use mechc_ir::program::Stage;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

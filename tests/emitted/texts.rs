@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 /// A scissor lift of so many cells, driven at its upper end: one block, whose loop is too long for one function.
 pub fn scissor_lift(cells: usize) -> String {
-    let (sin, cos) = mechc::rooms::math::sin_cos(0.5);
+    let (sin, cos) = mechc_expr::math::sin_cos(0.5);
     let mut text = "mechanism lift {\n ground { point O = (0, 0) axis floor = O along (1, 0) }\n".to_owned();
     for k in 0..cells {
         let y = (k as f64 + 0.5) * sin;
@@ -82,7 +82,7 @@ pub fn planets(count: usize, random: &[f64]) -> String {
     );
     let mut pins = String::new();
     for k in 0..count {
-        let (sin, cos) = mechc::rooms::math::sin_cos(TAU * k as f64 / count as f64);
+        let (sin, cos) = mechc_expr::math::sin_cos(TAU * k as f64 / count as f64);
         let (x, y) = (arm * cos, arm * sin);
         pins += &format!(" point pin{k} = ({x} mm, {y} mm)");
         text += &format!(
@@ -99,7 +99,7 @@ pub fn planets(count: usize, random: &[f64]) -> String {
 pub fn cranks(count: usize, random: &[f64]) -> String {
     let (length, turn) = (0.3 + 0.1 * random[0], 60.0 + 10.0 * random[1]);
     let (mut ground, mut seat, mut rest) = (String::new(), String::new(), String::new());
-    let (sin, cos) = mechc::rooms::math::sin_cos(turn.to_radians());
+    let (sin, cos) = mechc_expr::math::sin_cos(turn.to_radians());
     for k in 0..count {
         let (x, y) = (k as f64 + 0.3 * random[2 + k], 0.4 * random[7 - k]);
         ground += &format!(" point P{k} = ({x} m, {y} m)");

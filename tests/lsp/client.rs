@@ -1,8 +1,8 @@
 //! A client in memory: what an editor would say, and what it would show.
 
 use lsp_server::{Connection, Message, Notification, Request, Response};
-use mechc::rooms::lsp::{Ended, Log, serve};
 use mechc::{Memory, World};
+use mechc_ide::lsp::{Ended, Log, serve};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;

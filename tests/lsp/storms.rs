@@ -6,9 +6,9 @@
 mod random;
 
 use crate::client::Client;
-use mechc::rooms::ide::{self, DiagnosticStage, Snapshot};
-use mechc::rooms::lsp::methods;
 use mechc::{Cancel, Contents, World};
+use mechc_ide::lsp::methods;
+use mechc_ide::{self as ide, DiagnosticStage, Snapshot};
 use random::Random;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

@@ -1,8 +1,8 @@
 //! MATLAB's meaning of a formula, and the language's, each evaluated on its own; and random formulas to compare them.
 
 use crate::support::random::Random;
-use mechc::rooms::math;
-use mechc::rooms::syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, Sign};
+use mechc_expr::math;
+use mechc_syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, Sign};
 use std::f64::consts::PI;
 
 // ---- random formulas

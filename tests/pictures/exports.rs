@@ -5,10 +5,10 @@
 
 use super::{Polyline, attribute, boxes, numbers, one_row, read_dxf, refined, seen_text, seen_to_cut, seen_within};
 use crate::support::random::Random;
-use mechc::rooms::scene::{Vector, distance, minus, plus, polar, times};
-use mechc::rooms::view::dxf;
-use mechc::rooms::view::svg::{Options, Plot, plots, still};
 use mechc::{Code, CurveTolerance, Diagnostic};
+use mechc_draw::scene::{Vector, distance, minus, plus, polar, times};
+use mechc_draw::view::dxf;
+use mechc_draw::view::svg::{Options, Plot, plots, still};
 use std::f64::consts::TAU;
 use std::path::Path;
 

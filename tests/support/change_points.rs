@@ -1,6 +1,6 @@
 //! Linkages that go through change points, as texts.
 
-use mechc::rooms::math;
+use mechc_expr::math;
 
 /// A crank and a rod of equal length, turned by a driver, with what is measured.
 pub fn equal_rods(length: f64, angle: &str, start: f64, analysis: &str) -> String {

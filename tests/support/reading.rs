@@ -1,8 +1,8 @@
 //! Printed formulas read back, with the graph's own constructors.
 
 use mechc::Sources;
-use mechc::rooms::expr::{Binary, Comparison, ExprId, Graph, TableId, Unary};
-use mechc::rooms::syntax::{self, ast};
+use mechc_expr::{Binary, Comparison, ExprId, Graph, TableId, Unary};
+use mechc_syntax::{self as syntax, ast};
 
 /// The functions of one argument that the language has.
 pub const UNARIES: [Unary; 15] = [

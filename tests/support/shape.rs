@@ -1,6 +1,6 @@
 //! Trees without their places: what two texts of one meaning share.
 
-use mechc::rooms::syntax::ast::{
+use mechc_syntax::ast::{
     Binding, Expr, ExprKind, Feature, FeatureKind, File, IndexRange, Item, ItemKind, Mechanism, Name, Part,
     PathSegment, TableRows, UsedFile, WrittenUnit,
 };

@@ -1,6 +1,6 @@
 //! Typeset formulas read as a person reads them: their values, at a point.
 
-use mechc::rooms::expr::{Binary, Unary, binary_value, unary_value};
+use mechc_expr::{Binary, Unary, binary_value, unary_value};
 use std::cell::RefCell;
 use std::collections::HashMap;
 

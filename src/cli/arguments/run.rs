@@ -1,8 +1,8 @@
 //! `run`.
 
 use super::shared::{Following, Input, Interval, vectors};
-use crate::stages::Vectors;
 use clap::{Args, ValueEnum};
+use mechc_pipeline::Vectors;
 
 #[derive(Args, Debug)]
 #[allow(clippy::struct_excessive_bools)] // each is an option of its own

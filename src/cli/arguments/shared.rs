@@ -1,7 +1,7 @@
 //! What several commands share.
 
-use crate::stages::Vectors;
 use clap::{Args, ValueEnum};
+use mechc_pipeline::Vectors;
 use std::path::PathBuf;
 
 /// What all commands that read a .mech file share.

@@ -1,8 +1,8 @@
 //! `sweep` and `tolerance`.
 
 use super::shared::{Following, Input, Interval, jobs, vectors};
-use crate::stages::Vectors;
 use clap::{Args, ValueEnum};
+use mechc_pipeline::Vectors;
 
 #[derive(Args, Debug)]
 #[allow(clippy::struct_excessive_bools)] // each is an option of its own

@@ -2,19 +2,19 @@
 
 use super::form;
 use super::watch::Watch;
-use crate::analysis::Times;
-use crate::cancel::Cancel;
 use crate::cli::arguments::{Interval, ViewArguments};
 use crate::cli::failure::{Failure, is_of_options, unusable};
 use crate::cli::files::{self, Disk, Output};
 use crate::cli::report::Reporter;
 use crate::cli::times;
 use crate::cli::{input, interrupts};
-use crate::diag::{Code, Diagnostics};
-use crate::live::{Host, Server, Workshop};
-use crate::source::Sources;
-use crate::stages::{Choice, Compiled, Parsed, Redundant};
-use crate::world::World;
+use mechc_engine::analysis::Times;
+use mechc_live::{Host, Server, Workshop};
+use mechc_pipeline::{Choice, Compiled, Parsed, Redundant};
+use mechc_text::cancel::Cancel;
+use mechc_text::diag::{Code, Diagnostics};
+use mechc_text::source::Sources;
+use mechc_text::world::World;
 use std::io::Write;
 use std::process::{Command, Stdio};
 use std::sync::Arc;

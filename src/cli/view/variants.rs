@@ -1,7 +1,6 @@
 //! A page with sliders: a mechanism solved for each value of what varies.
 
 use super::MOST_ROWS;
-use crate::analysis::Times;
 use crate::cli::arguments::ViewArguments;
 use crate::cli::failure::{Failure, unusable};
 use crate::cli::files::{AskedOnce, Output};
@@ -9,12 +8,13 @@ use crate::cli::input;
 use crate::cli::progress::Progress;
 use crate::cli::report::Reporter;
 use crate::cli::times;
-use crate::diag::{Diagnostic, Diagnostics};
-use crate::live::page;
-use crate::scene::{Motion, Pose, bounds};
-use crate::source::Sources;
-use crate::stages::{Checked, Choice, Compiled, Parsed, RunOptions, Seen, Varied};
-use crate::view::page::{LONGEST, Variant, Vary};
+use mechc_draw::scene::{Motion, Pose, bounds};
+use mechc_draw::view::page::{LONGEST, Variant, Vary};
+use mechc_engine::analysis::Times;
+use mechc_live::page;
+use mechc_pipeline::{Checked, Choice, Compiled, Parsed, RunOptions, Seen, Varied};
+use mechc_text::diag::{Diagnostic, Diagnostics};
+use mechc_text::source::Sources;
 use std::mem::ManuallyDrop;
 
 /// So many numbers all tables have together at the most, which is more than goes into a page; the rest need not be kept.

@@ -2,10 +2,10 @@
 
 use crate::cli::arguments::{ThemeChoice, ViewArguments};
 use crate::cli::failure::{Failure, unusable};
-use crate::diag::{Code, Diagnostic, nearest};
-use crate::scene::{Anchor, Scene};
-use crate::stages::Seen;
-use crate::view::svg::{Options, Theme};
+use mechc_draw::scene::{Anchor, Scene};
+use mechc_draw::view::svg::{Options, Theme};
+use mechc_pipeline::Seen;
+use mechc_text::diag::{Code, Diagnostic, nearest};
 
 /// What is asked for beside the mechanism.
 pub(super) fn pictured(arguments: &ViewArguments, seen: &Seen) -> Result<Options, Failure> {

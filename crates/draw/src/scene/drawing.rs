@@ -1,0 +1,223 @@
+//! A scene in the making: what all kinds of symbols share.
+
+use super::features::Features;
+use super::plane::{Path, Vector, bounds, distance};
+use super::{Anchor, Look, Motion, Node, Pen, Place, Profile, Sample, Shape, Trace};
+use mechc_lang::model::{self, PointId};
+use std::f64::consts::PI;
+
+/// What is drawn above what, from below.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) enum Layer {
+    Ground,
+    Wheels,
+    /// What holds pins on the ground, which is seen before a wheel.
+    Feet,
+    Bodies,
+    Slots,
+    Links,
+    Blocks,
+    Pins,
+    Arrows,
+}
+
+/// The radius of a dot, in units.
+pub(super) const DOT: f64 = 0.17;
+/// Rows that are looked at to learn how far something goes.
+pub(super) const LOOKED_AT: usize = 400;
+/// Places on a profile.
+const PLACES_ON_PROFILE: u32 = 360;
+/// What the cubic between two samples may be off the profile (m), and how often a way is halved to keep to that.
+const CUBIC_OFF: f64 = 1e-9;
+const DEEPEST: u32 = 8;
+/// A profile is closed if its ends are no farther apart than this part of its size.
+const CLOSED: f64 = 1e-6;
+
+/// What is to become the outline of a body.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Outline {
+    /// Places in its frame that it holds (m).
+    pub places: Vec<Vector>,
+    /// Whether something else shows the body, if it is no more than a place.
+    pub is_shown: bool,
+    /// Whether there is a slot in it, for which it has to be wider.
+    pub is_slotted: bool,
+    /// Discs that are drawn of it, with their centres and radii (m): what lies in one of them needs no link.
+    pub discs: Vec<(Vector, f64)>,
+}
+
+pub(super) struct Drawing<'m> {
+    pub features: Features<'m>,
+    pub motion: &'m Motion,
+    pub unit: f64,
+    /// By frame.
+    pub outlines: Vec<Outline>,
+    /// Where pins stand on the ground (m).
+    pub feet: Vec<Vector>,
+    pub pins: Vec<super::Pin>,
+    pub profiles: Vec<Profile>,
+    /// Of wheels, rings and racks.
+    pub pitch_lines: Vec<super::PitchLine>,
+    /// The number of each model point among the points of the scene.
+    pub numbers: Vec<Option<usize>>,
+    /// The declarations of the first joint, equation, circle and curve.
+    pub first: First,
+    pub nodes: Vec<(Layer, Node)>,
+}
+
+/// Where the declarations of a kind begin.
+#[derive(Clone, Copy, Default)]
+pub(super) struct First {
+    pub circles: usize,
+    pub curves: usize,
+    pub joints: usize,
+    pub equations: usize,
+    pub traces: usize,
+    pub loads: usize,
+}
+
+impl Drawing<'_> {
+    pub fn add(&mut self, layer: Layer, node: Node) {
+        self.nodes.push((layer, node));
+    }
+
+    /// Adds shapes that move with a frame.
+    pub fn add_fixed(&mut self, layer: Layer, declaration: usize, frame: usize, shapes: Vec<Shape>) {
+        self.add(layer, Node { declaration, place: Place::Fixed(frame), shapes });
+    }
+
+    /// The number of a point in the scene; of a joint's two the first that has a name and is on a body.
+    pub fn shown(&self, points: &[PointId]) -> Option<usize> {
+        let on_body = points.iter().find(|id| self.features.frame(self.features.model[**id].frame) > 0);
+        let named = |id: &PointId| self.numbers[id.index()];
+        on_body.and_then(named).or_else(|| points.iter().find_map(named))
+    }
+
+    /// What a number is along the motion at least and at most, in some rows.
+    pub fn range(&self, of: impl Fn(usize) -> f64) -> [f64; 2] {
+        let values = self.motion.sampled(LOOKED_AT).map(of).filter(|value| value.is_finite());
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+    }
+
+    /// A place of a frame, in another one, in a row.
+    pub fn seen(&self, anchor: Anchor, frame: usize, row: usize) -> Vector {
+        let poses = self.motion.poses(row);
+        poses[frame].located(anchor.placed(poses))
+    }
+
+    /// The own coordinate of a joint, row by row: its `u`, `w` or `theta`.
+    pub fn own_coordinate(&self, joint: usize, part: &str) -> Option<Vec<f64>> {
+        let name = &self.features.model.joints[joint].declared.name;
+        Some(self.motion.column(&format!("{name}.{part}"))?.collect())
+    }
+
+    /// A profile that a contact runs along, with arguments between these at least if it is open; its number.
+    pub fn profile(&mut self, profile: model::Profile, used: Option<[f64; 2]>) -> usize {
+        let declaration = match profile {
+            model::Profile::Curve(id) => self.first.curves + id.index(),
+            model::Profile::Circle(id) => self.first.circles + id.index(),
+        };
+        if let Some(known) = self.profiles.iter().position(|known| known.declaration == declaration) {
+            return known;
+        }
+        let frame = self.features.frame(profile.frame(self.features.model));
+        let sampled = |from: f64, to: f64| -> Vec<Sample> {
+            let place = |k: u32| from + (to - from) * f64::from(k) / f64::from(PLACES_ON_PROFILE);
+            let samples = (0..=PLACES_ON_PROFILE).map(|k| self.features.sample(profile, place(k)));
+            samples.filter(|sample| super::is_finite(sample.at)).collect()
+        };
+        let turn = sampled(-PI, PI);
+        let size = bounds(turn.iter().map(|sample| sample.at)).map_or(0.0, |[low, high]| distance(low, high));
+        let is_closed = turn.len() == PLACES_ON_PROFILE as usize + 1
+            && distance(turn[0].at, turn[PLACES_ON_PROFILE as usize].at) <= CLOSED * size;
+        let samples = match used {
+            Some([from, to]) if !is_closed => {
+                let beyond = (0.05 * (to - from)).max(1e-3);
+                sampled(from - beyond, to + beyond)
+            }
+            _ => turn,
+        };
+        let samples = refined(samples, |u| self.features.sample(profile, u));
+        self.profiles.push(Profile { declaration, frame, is_closed, samples });
+        self.profiles.len() - 1
+    }
+
+    /// A dot at what draws a trace.
+    pub fn mark_pens(&mut self, traces: &[Trace]) {
+        for trace in traces {
+            let Pen::Point(Anchor { frame, at }) = trace.pen else { continue };
+            let model = self.features.model;
+            let number = trace.declaration - self.first.traces;
+            let point = model.traces.get(number).and_then(|trace| self.shown(&[trace.point?]));
+            let path = Path::Circle { at, radius: DOT * self.unit };
+            self.add_fixed(Layer::Pins, trace.declaration, frame, vec![Shape { path, look: Look::Dot, point }]);
+        }
+    }
+
+    /// Whether a frame has a node of a declaration.
+    pub fn has_node(&self, declaration: usize) -> bool {
+        self.nodes.iter().any(|(_, node)| node.declaration == declaration)
+    }
+
+    /// Says of the first block of a frame that it is the body itself; whether there is one.
+    pub fn declare_block(&mut self, frame: usize) -> bool {
+        let is_block = |node: &Node| {
+            node.place == Place::Fixed(frame) && node.shapes.iter().any(|shape| shape.look == Look::Block)
+        };
+        match self.nodes.iter_mut().find(|(_, node)| is_block(node)) {
+            Some((_, node)) => {
+                node.declaration = frame;
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// How many arrows there are around a place.
+    pub fn arrows_at(&self, anchor: Anchor) -> usize {
+        let poses = self.motion.poses(0);
+        let at = anchor.placed(poses);
+        let is_there = |node: &Node| match node.place {
+            Place::Upright(other) => distance(other.placed(poses), at) < 0.5 * self.unit,
+            _ => false,
+        };
+        self.nodes.iter().filter(|(layer, node)| *layer == Layer::Arrows && is_there(node)).count()
+    }
+
+    pub fn traces(&self) -> Vec<Trace> {
+        let model = self.features.model;
+        let pen = |trace: &model::Trace| {
+            if let Some(point) = trace.point {
+                return Pen::Point(self.features.point(point));
+            }
+            let (frame, pose, is_mirrored) = self.features.text_of(trace.part);
+            Pen::Columns { name: trace.declared.name.clone(), frame, pose, is_mirrored }
+        };
+        let numbered = model.traces.iter().enumerate();
+        numbered.map(|(k, trace)| Trace { declaration: self.first.traces + k, pen: pen(trace) }).collect()
+    }
+}
+
+/// With samples between those whose cubic is off the profile.
+fn refined(samples: Vec<Sample>, of: impl Fn(f64) -> Sample) -> Vec<Sample> {
+    let mut found: Vec<Sample> = Vec::with_capacity(samples.len());
+    // what is still to come, the next one last, with how often its way was halved
+    let mut coming: Vec<(Sample, u32)> = samples.into_iter().rev().map(|sample| (sample, 0)).collect();
+    while let Some((next, depth)) = coming.pop() {
+        if let Some(last) = found.last().filter(|_| depth < DEEPEST) {
+            let is_off =
+                |part: f64| distance(last.between(&next, part), of(last.u + part * (next.u - last.u)).at) > CUBIC_OFF;
+            if is_off(0.5) || is_off(0.25) {
+                coming.extend([(next, depth + 1), (of(0.5 * (last.u + next.u)), depth + 1)]);
+                continue;
+            }
+        }
+        found.push(next);
+    }
+    found
+}
+
+/// A shape that shows no point.
+pub(super) fn shape(look: Look, path: Path) -> Shape {
+    Shape { path, look, point: None }
+}

@@ -1,0 +1,234 @@
+//! Forces as arrows: what joints exert, what loads are, weights. What they are at a time stands in columns of the table.
+
+use super::drawing::Drawing;
+use super::features::Features;
+use super::plane::{Vector, length, minus, polar, times};
+use super::{Anchor, Motion};
+use mechc_expr::{ExprId, Node, Symbol};
+use mechc_lang::model::{EquationForm, JointKind, Mechanism, Named, PartId, Profile, Quantity};
+use std::f64::consts::PI;
+
+/// What a force is of.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum ForceKind {
+    /// What a joint exerts on the body of its second argument, or what keeps or drives a distance.
+    Reaction,
+    /// A load.
+    Load,
+    /// The weight of a mass.
+    Weight,
+}
+
+impl ForceKind {
+    /// All of them.
+    pub const ALL: [ForceKind; 3] = [ForceKind::Reaction, ForceKind::Load, ForceKind::Weight];
+
+    /// A word for it.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            ForceKind::Reaction => "reaction",
+            ForceKind::Load => "load",
+            ForceKind::Weight => "weight",
+        }
+    }
+}
+
+/// A force that takes hold of a place.
+#[derive(Clone, PartialEq, Debug)]
+pub struct ForceVector {
+    /// Whose it is.
+    pub declaration: usize,
+    /// What it is of.
+    pub kind: ForceKind,
+    /// Where it takes hold.
+    pub at: Anchor,
+    /// What it is.
+    pub value: ForceValue,
+}
+
+/// What a force is, in the directions of the ground (N).
+#[derive(Clone, PartialEq, Debug)]
+pub enum ForceValue {
+    /// Always the same.
+    Constant(Vector),
+    /// Two columns.
+    Components([String; 2]),
+    /// A column times a direction of a frame.
+    Along {
+        /// The column.
+        column: String,
+        /// The number of the frame.
+        frame: usize,
+        /// In the frame, of length 1.
+        direction: Vector,
+    },
+    /// A column times the direction from one place to another.
+    Apart {
+        /// The column.
+        column: String,
+        /// The one.
+        from: Anchor,
+        /// The other.
+        to: Anchor,
+    },
+}
+
+impl ForceVector {
+    /// What it is in a row (N); not finite where the table does not tell.
+    #[must_use]
+    pub fn value(&self, motion: &Motion, row: usize) -> Vector {
+        let poses = motion.poses(row);
+        let value = |column: &String| motion.value(column, row);
+        match &self.value {
+            ForceValue::Constant(force) => *force,
+            ForceValue::Components(columns) => columns.each_ref().map(value),
+            ForceValue::Along { column, frame, direction } => times(value(column), poses[*frame].turned(*direction)),
+            ForceValue::Apart { column, from, to } => {
+                let way = minus(to.placed(poses), from.placed(poses));
+                times(value(column) / length(way), way)
+            }
+        }
+    }
+
+    /// The columns that tell it.
+    fn columns(&self) -> &[String] {
+        match &self.value {
+            ForceValue::Constant(_) => &[],
+            ForceValue::Components(columns) => columns,
+            ForceValue::Along { column, .. } | ForceValue::Apart { column, .. } => std::slice::from_ref(column),
+        }
+    }
+}
+
+/// All forces that the motion's table tells of, and the weights beside them; none where it tells of none, and of no torques either.
+pub(super) fn vectors(drawing: &Drawing, has_torques: bool) -> Vec<ForceVector> {
+    let (features, first) = (&drawing.features, drawing.first);
+    let model = features.model;
+    let mut found: Vec<ForceVector> = Vec::new();
+    for (number, joint) in model.joints.iter().enumerate() {
+        let name = &joint.declared.name;
+        let columns = [format!("{name}.fx"), format!("{name}.fy")];
+        found.extend(place(features, &joint.kind).map(|at| ForceVector {
+            declaration: first.joints + number,
+            kind: ForceKind::Reaction,
+            at,
+            value: ForceValue::Components(columns),
+        }));
+    }
+    for (number, equation) in model.equations.iter().enumerate() {
+        let of = (first.equations + number, ForceKind::Reaction, format!("{}.effort", equation.declared.name));
+        match equation.form {
+            EquationForm::Distance(p, q, _) => {
+                found.extend(apart(&of, [p, q].map(|point| features.point(point)), 1.0));
+            }
+            // what it supplies works on the left side less the right side
+            EquationForm::Equality(left, right) => {
+                for (side, sign) in [(left, 1.0), (right, -1.0)] {
+                    let quantity = bare_quantity(model, side);
+                    found.extend(quantity.into_iter().flat_map(|on| of_quantity(features, &of, on, sign)));
+                }
+            }
+        }
+    }
+    for (number, load) in model.loads.iter().enumerate() {
+        let of = (first.loads + number, ForceKind::Load, format!("{}.load", load.declared.name));
+        found.extend(of_quantity(features, &of, (load.part, load.on), 1.0));
+    }
+    found.retain(|force| force.columns().iter().all(|column| drawing.motion.column(column).is_some()));
+    if !found.is_empty() || has_torques {
+        found.extend(weights(features));
+    }
+    found
+}
+
+/// The quantity that a side of an equation is, and from the ground of which part it is seen; none of a formula that holds more.
+pub(super) fn bare_quantity(model: &Mechanism, side: ExprId) -> Option<(Option<PartId>, Quantity)> {
+    match model.graph.node(side) {
+        Node::Symbol(Symbol::Named(k)) => match model.named[k as usize] {
+            Named::Quantity(view, quantity) => Some((view, quantity)),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// Where a joint's reaction takes hold, as the language has it. What presses a circle passes its centre.
+pub(super) fn place(features: &Features, kind: &JointKind) -> Option<Anchor> {
+    let model = features.model;
+    Some(match *kind {
+        JointKind::Revolute(_, q) | JointKind::Weld(_, q, _) | JointKind::RevoluteRevolute(_, q, _) => {
+            features.point(q)
+        }
+        JointKind::Translational(_, axis)
+        | JointKind::RevoluteTranslational(_, axis, _)
+        | JointKind::RackPinion { rack: axis, .. } => features.point(model[axis].origin),
+        JointKind::Gear { circles: [_, second], .. } => features.circle(second).center,
+        JointKind::PointFollower(point, _) => features.point(point),
+        JointKind::Cam(Profile::Circle(circle), _)
+        | JointKind::Cam(_, Profile::Circle(circle))
+        | JointKind::FlatFollower(Profile::Circle(circle), _) => features.circle(circle).center,
+        JointKind::Cam(..) | JointKind::FlatFollower(..) => return None,
+    })
+}
+
+/// Whose a force is, what it is of, and the column that tells it.
+type Of = (usize, ForceKind, String);
+
+/// A force that takes two places apart, or draws them together, on each of them.
+fn apart((declaration, kind, column): &Of, ends: [Anchor; 2], sign: f64) -> [ForceVector; 2] {
+    let [p, q] = ends;
+    [[p, q], [q, p]].map(|[at, other]| ForceVector {
+        declaration: *declaration,
+        kind: *kind,
+        at,
+        value: if sign > 0.0 {
+            ForceValue::Apart { column: column.clone(), from: other, to: at }
+        } else {
+            ForceValue::Apart { column: column.clone(), from: at, to: other }
+        },
+    })
+}
+
+/// The arrows of what works on a length, as its column or against it; a torque has none.
+fn of_quantity(features: &Features, of: &Of, (view, on): (Option<PartId>, Quantity), sign: f64) -> Vec<ForceVector> {
+    let (declaration, kind, column) = of;
+    let along = |at: Anchor, frame: usize, direction: Vector| ForceVector {
+        declaration: *declaration,
+        kind: *kind,
+        at,
+        value: ForceValue::Along { column: column.clone(), frame, direction: times(sign, direction) },
+    };
+    match on {
+        Quantity::X(from, to) | Quantity::Y(from, to) => {
+            let (frame, pose, is_mirrored) = features.text_of(view);
+            let direction = match on {
+                Quantity::X(..) => polar(1.0, pose.phi),
+                _ if is_mirrored => polar(1.0, pose.phi - 0.5 * PI),
+                _ => polar(1.0, pose.phi + 0.5 * PI),
+            };
+            let from = from.map(|point| along(features.point(point), frame, times(-1.0, direction)));
+            from.into_iter().chain([along(features.point(to), frame, direction)]).collect()
+        }
+        Quantity::Distance(p, q) => apart(of, [p, q].map(|point| features.point(point)), sign).into(),
+        Quantity::Displacement(_, a, b) => {
+            let (guide, slider) = (features.axis(a), features.axis(b));
+            vec![along(Anchor { frame: slider.frame, at: slider.at }, guide.frame, guide.along)]
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn weights(features: &Features) -> Vec<ForceVector> {
+    let model = features.model;
+    let Some(gravity) = model.gravity.map(|gravity| gravity.map(|part| features.value(part))) else {
+        return Vec::new();
+    };
+    let of = |mass: &mechc_lang::model::Mass| ForceVector {
+        declaration: mass.body.index() + 1,
+        kind: ForceKind::Weight,
+        at: features.point(mass.at),
+        value: ForceValue::Constant(times(features.value(mass.amount), gravity)),
+    };
+    model.masses.iter().map(of).collect()
+}

@@ -1,0 +1,71 @@
+//! Lengths that do not let a mechanism be assembled: what is said of them stands beside them, and those of the ground, which no body
+//! shows, are lines.
+
+use super::features::Features;
+use super::plane::{Path, Pose, Vector, is_finite, plus, times};
+use super::{Anchor, Look, Node, Place, Remark, Scene, Shape};
+use mechc_lang::model::{EquationForm, PointId};
+
+/// A length that a message blames, between the places that declarations have on a body.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Length {
+    /// The frame that it is of; none if a declaration prescribes it between its own two places.
+    pub frame: Option<usize>,
+    /// The declarations that it runs between; one and the same if that prescribes it.
+    pub ends: [usize; 2],
+    /// What is said of it.
+    pub text: String,
+}
+
+/// A mechanism at rest, which is when lengths are blamed.
+pub(super) struct Blamed<'m> {
+    pub features: &'m Features<'m>,
+    pub poses: &'m [Pose],
+    /// The declarations of the first joint and of the first equation.
+    pub joints: usize,
+    pub equations: usize,
+}
+
+impl Blamed<'_> {
+    /// Says beside lengths what is said of them.
+    pub fn add(&self, scene: &mut Scene, lengths: &[Length]) {
+        for length in lengths {
+            let Some(ends) = self.ends(length) else { continue };
+            let [from, to] = ends.map(|end| end.placed(self.poses));
+            if !is_finite(from) || !is_finite(to) {
+                continue;
+            }
+            scene.remarks.push(Remark { at: times(0.5, plus(from, to)), text: length.text.clone() });
+            if length.frame == Some(0) {
+                scene.nodes.push(line_of_ground([from, to]));
+            }
+        }
+    }
+
+    /// The places that a length runs between.
+    fn ends(&self, length: &Length) -> Option<[Anchor; 2]> {
+        let [first, second] = length.ends;
+        let anchors = |declaration| self.points(declaration).into_iter().map(|point| self.features.point(point));
+        let Some(frame) = length.frame else { return anchors(first).collect::<Vec<_>>().try_into().ok() };
+        let on_frame = |declaration| anchors(declaration).find(|anchor| anchor.frame == frame);
+        Some([on_frame(first)?, on_frame(second)?])
+    }
+
+    /// The points of a joint, or of a distance that is prescribed.
+    fn points(&self, declaration: usize) -> Vec<PointId> {
+        let model = self.features.model;
+        if let Some(equation) = declaration.checked_sub(self.equations).and_then(|number| model.equations.get(number)) {
+            return match equation.form {
+                EquationForm::Distance(p, q, _) => vec![p, q],
+                EquationForm::Equality(..) => Vec::new(),
+            };
+        }
+        let joint = declaration.checked_sub(self.joints).and_then(|number| model.joints.get(number));
+        joint.map_or_else(Vec::new, |joint| joint.kind.points(model))
+    }
+}
+
+fn line_of_ground(ends: [Vector; 2]) -> Node {
+    let shapes = vec![Shape { path: Path::line(ends), look: Look::Named, point: None }];
+    Node { declaration: 0, place: Place::Fixed(0), shapes }
+}

@@ -1,0 +1,102 @@
+//! Pins, with what holds them on the ground; welds; links that are no bodies.
+
+use super::drawing::{Drawing, Layer, shape};
+use super::plane::{Path, Vector, distance, rectangle};
+use super::symbols::{Symbols, THIN_BAR};
+use super::{Anchor, Held, Look, Node, Pin, Place};
+use mechc_lang::model::PointId;
+
+/// Two supports are one if they are no farther apart than this, in units.
+const SAME_PLACE: f64 = 0.3;
+
+pub(super) fn revolute(drawing: &mut Drawing, declaration: usize, [p, q]: [PointId; 2]) {
+    pin(drawing, declaration, [p, q], drawing.features.point(p));
+    let (p, q) = (drawing.features.point(p), drawing.features.point(q));
+    for anchor in [p, q] {
+        drawing.pins.push(Pin { declaration, anchor });
+        if anchor.frame == 0 {
+            foot(drawing, declaration, anchor.at);
+        }
+    }
+}
+
+/// A pin that moves with one of its bodies, the first of them unless that is the ground.
+fn pin(drawing: &mut Drawing, declaration: usize, points: [PointId; 2], at: Anchor) {
+    let other = drawing.features.point(points[1]);
+    let at = if at.frame == 0 { other } else { at };
+    let point = drawing.shown(&points);
+    let pin = Symbols { unit: drawing.unit }.pin(at.at, point);
+    drawing.add_fixed(Layer::Pins, declaration, at.frame, vec![pin]);
+}
+
+/// A pin of one body alone, or on the ground with its support.
+pub(super) fn single_pin(drawing: &mut Drawing, declaration: usize, point: PointId) {
+    let at = drawing.features.point(point);
+    let shown = drawing.shown(&[point]);
+    let pin = Symbols { unit: drawing.unit }.pin(at.at, shown);
+    drawing.add_fixed(Layer::Pins, declaration, at.frame, vec![pin]);
+    drawing.pins.push(Pin { declaration, anchor: at });
+    if at.frame == 0 {
+        foot(drawing, declaration, at.at);
+    }
+}
+
+/// What holds a pin on the ground, unless it is there.
+fn foot(drawing: &mut Drawing, declaration: usize, at: Vector) {
+    let near = SAME_PLACE * drawing.unit;
+    if drawing.feet.iter().any(|known| distance(*known, at) <= near) {
+        return;
+    }
+    drawing.feet.push(at);
+    let shapes = Symbols { unit: drawing.unit }.foot(at);
+    drawing.add_fixed(Layer::Feet, declaration, 0, shapes);
+}
+
+pub(super) fn weld(drawing: &mut Drawing, declaration: usize, [p, q]: [PointId; 2]) {
+    let (first, second) = (drawing.features.point(p), drawing.features.point(q));
+    let symbols = Symbols { unit: drawing.unit };
+    if first.frame == 0 || second.frame == 0 {
+        let at = if first.frame == 0 { first.at } else { second.at };
+        foot(drawing, declaration, at);
+    }
+    let mut shapes = symbols.weld(first.at);
+    shapes[0].point = drawing.shown(&[p, q]);
+    drawing.add_fixed(Layer::Pins, declaration, first.frame, shapes);
+}
+
+pub(super) fn massless_link(drawing: &mut Drawing, declaration: usize, [p, q]: [PointId; 2], length: f64) {
+    let (from, to) = (drawing.features.point(p), drawing.features.point(q));
+    let reach = THIN_BAR * drawing.unit;
+    let bar = rectangle([0.5 * length, 0.0], [1.0, 0.0], 0.5 * length, reach);
+    let place = Place::Between { from, to, held: Held::From };
+    drawing.add(Layer::Links, Node { declaration, place, shapes: vec![shape(Look::MasslessLink, bar)] });
+    single_pin(drawing, declaration, p);
+    single_pin(drawing, declaration, q);
+}
+
+/// A distance that is driven: a cylinder with its rod, between two pins.
+pub(super) fn cylinder(drawing: &mut Drawing, declaration: usize, [p, q]: [PointId; 2]) {
+    let (from, to) = (drawing.features.point(p), drawing.features.point(q));
+    let apart = |row: usize| {
+        let poses = drawing.motion.poses(row);
+        distance(from.placed(poses), to.placed(poses))
+    };
+    let [least, most] = drawing.range(apart);
+    if !(least.is_finite() && least > 0.0) {
+        return;
+    }
+    let symbols = Symbols { unit: drawing.unit };
+    let length = 0.62 * least;
+    let rod = (most - length + 0.1 * least).min(0.95 * least);
+    let mut node = |held, shapes| {
+        drawing.add(Layer::Links, Node { declaration, place: Place::Between { from, to, held }, shapes });
+    };
+    if length + rod < most {
+        // it goes out farther than one rod can reach
+        node(Held::Stretched, vec![shape(Look::Rod, Path::line([[0.0, 0.0], [1.0, 0.0]]))]);
+    }
+    node(Held::To, vec![symbols.rod(rod)]);
+    node(Held::From, vec![symbols.cylinder(length)]);
+    single_pin(drawing, declaration, p);
+    single_pin(drawing, declaration, q);
+}

@@ -1,0 +1,446 @@
+//! The plane: vectors, poses, and the paths that shapes are made of.
+
+use mechc_expr::math;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// A place or a way (m), or a direction.
+pub type Vector = [f64; 2];
+
+/// Where a frame is in that of the ground.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Pose {
+    /// Its origin (m).
+    pub at: Vector,
+    /// The direction of its x axis (rad), not wrapped.
+    pub phi: f64,
+}
+
+impl Pose {
+    /// A vector of the frame, in the ground's.
+    #[must_use]
+    pub fn turned(&self, [x, y]: Vector) -> Vector {
+        let (sin, cos) = math::sin_cos(self.phi);
+        [x * cos - y * sin, x * sin + y * cos]
+    }
+
+    /// A point of the frame, in the ground's.
+    #[must_use]
+    pub fn placed(&self, local: Vector) -> Vector {
+        plus(self.at, self.turned(local))
+    }
+
+    /// A vector of the ground's frame, in this one.
+    #[must_use]
+    pub fn seen(&self, [x, y]: Vector) -> Vector {
+        let (sin, cos) = math::sin_cos(self.phi);
+        [x * cos + y * sin, y * cos - x * sin]
+    }
+
+    /// A point of the ground's frame, in this one.
+    #[must_use]
+    pub fn located(&self, global: Vector) -> Vector {
+        self.seen(minus(global, self.at))
+    }
+
+    /// The velocity of a point of the frame [m/s], this being the frame's rate [m/s, rad/s] and `pose` where it is.
+    #[must_use]
+    pub fn velocity(&self, pose: &Pose, local: Vector) -> Vector {
+        let arm = pose.turned(local);
+        plus(self.at, times(self.phi, left(arm)))
+    }
+
+    /// The acceleration of a point of the frame [m/s²], this being the frame's acceleration, `rate` its rate and `pose` where it is.
+    #[must_use]
+    pub fn acceleration(&self, rate: &Pose, pose: &Pose, local: Vector) -> Vector {
+        let arm = pose.turned(local);
+        plus(self.velocity(pose, local), times(-rate.phi * rate.phi, arm))
+    }
+}
+
+/// `a + b`
+#[must_use]
+pub fn plus(a: Vector, b: Vector) -> Vector {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+/// `a − b`
+#[must_use]
+pub fn minus(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+/// `k a`
+#[must_use]
+pub fn times(k: f64, a: Vector) -> Vector {
+    [k * a[0], k * a[1]]
+}
+
+/// `aᵀ b`
+#[must_use]
+pub fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+/// `(a^⊥)ᵀ b`: how far `b` goes to the left of `a`, times the length of `a`.
+#[must_use]
+pub fn cross(a: Vector, b: Vector) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// A vector turned by 90° to the left.
+#[must_use]
+pub fn left(a: Vector) -> Vector {
+    [-a[1], a[0]]
+}
+
+/// The length of a vector.
+#[must_use]
+pub fn length(a: Vector) -> f64 {
+    math::hypot(a[0], a[1])
+}
+
+/// How far two places are apart.
+#[must_use]
+pub fn distance(a: Vector, b: Vector) -> f64 {
+    length(minus(a, b))
+}
+
+/// A vector of length 1 in the same direction; along x if it has none.
+#[must_use]
+pub fn unit(a: Vector) -> Vector {
+    let length = length(a);
+    if length > 0.0 { times(1.0 / length, a) } else { [1.0, 0.0] }
+}
+
+/// The direction of a vector (rad), in (−π, π].
+#[must_use]
+pub fn direction(a: Vector) -> f64 {
+    math::atan2(a[1], a[0])
+}
+
+/// The vector of a length in a direction (rad).
+#[must_use]
+pub fn polar(length: f64, direction: f64) -> Vector {
+    let (sin, cos) = math::sin_cos(direction);
+    [length * cos, length * sin]
+}
+
+/// Whether both coordinates are numbers.
+#[must_use]
+pub fn is_finite(a: Vector) -> bool {
+    a[0].is_finite() && a[1].is_finite()
+}
+
+/// The least and the greatest coordinates of some places; none where there is no place.
+#[must_use]
+pub fn bounds(places: impl IntoIterator<Item = Vector>) -> Option<[Vector; 2]> {
+    places.into_iter().filter(|place| is_finite(*place)).fold(None, |found: Option<[Vector; 2]>, [x, y]| {
+        let [low, high] = found.unwrap_or([[x, y]; 2]);
+        Some([[low[0].min(x), low[1].min(y)], [high[0].max(x), high[1].max(y)]])
+    })
+}
+
+/// A line with arcs in it, open or closed.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Contour {
+    /// Where it begins.
+    pub start: Vector,
+    /// What follows.
+    pub segments: Vec<Segment>,
+    /// Whether it ends where it begins.
+    pub is_closed: bool,
+}
+
+/// A part of a contour.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Segment {
+    /// Straight to a place.
+    Line(Vector),
+    /// Along a circle to a place, no more than half of it.
+    Arc {
+        /// Where it ends.
+        to: Vector,
+        /// Of the circle (m).
+        radius: f64,
+        /// Whether it turns to the left.
+        is_left: bool,
+    },
+}
+
+impl Segment {
+    /// Where it ends.
+    #[must_use]
+    pub fn end(self) -> Vector {
+        match self {
+            Segment::Line(to) | Segment::Arc { to, .. } => to,
+        }
+    }
+}
+
+/// What is drawn as one.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Path {
+    /// A whole circle.
+    Circle {
+        /// Its centre (m).
+        at: Vector,
+        /// Its radius (m).
+        radius: f64,
+    },
+    /// Some lines; what is filled lies in an odd number of them.
+    Lines(Vec<Contour>),
+}
+
+impl Path {
+    /// An open polygon; nothing where there is no place.
+    #[must_use]
+    pub fn line(places: impl IntoIterator<Item = Vector>) -> Path {
+        Path::Lines(Contour::of(places, false).into_iter().collect())
+    }
+
+    /// A closed polygon; nothing where there is no place.
+    #[must_use]
+    pub fn polygon(places: impl IntoIterator<Item = Vector>) -> Path {
+        Path::Lines(Contour::of(places, true).into_iter().collect())
+    }
+
+    /// Some straight lines, each from one place to another.
+    #[must_use]
+    pub fn strokes(strokes: impl IntoIterator<Item = [Vector; 2]>) -> Path {
+        let contour =
+            |[start, end]: [Vector; 2]| Contour { start, segments: vec![Segment::Line(end)], is_closed: false };
+        Path::Lines(strokes.into_iter().map(contour).collect())
+    }
+
+    /// An arc around a centre, from one direction (rad) to another, with less than a turn between them.
+    #[must_use]
+    pub fn arc(at: Vector, radius: f64, from: f64, to: f64) -> Path {
+        let middle = 0.5 * (from + to);
+        let place = |angle| plus(at, polar(radius, angle));
+        let arc = |angle| Segment::Arc { to: place(angle), radius, is_left: to > from };
+        Path::Lines(vec![Contour { start: place(from), segments: vec![arc(middle), arc(to)], is_closed: false }])
+    }
+
+    /// Places whose hull holds it, but for what arcs reach beyond their ends.
+    #[must_use]
+    pub fn places(&self) -> Vec<Vector> {
+        match self {
+            Path::Circle { at, radius } => {
+                (0..8).map(|k| plus(*at, polar(*radius, f64::from(k) * TAU / 8.0))).collect()
+            }
+            Path::Lines(contours) => contours
+                .iter()
+                .flat_map(|one| std::iter::once(one.start).chain(one.segments.iter().map(|part| part.end())))
+                .collect(),
+        }
+    }
+
+    /// Places along it, no farther apart than a step (m).
+    #[must_use]
+    pub fn sampled(&self, step: f64) -> Vec<Vector> {
+        let mut found = Vec::new();
+        match self {
+            Path::Circle { at, radius } => add_arc(&mut found, *at, *radius, [0.0, TAU], step),
+            Path::Lines(contours) => contours.iter().for_each(|contour| contour.add_samples(&mut found, step)),
+        }
+        found
+    }
+
+    /// The same, elsewhere: seen from the frame that holds the pose.
+    #[must_use]
+    pub fn moved(&self, pose: &Pose) -> Path {
+        match self {
+            Path::Circle { at, radius } => Path::Circle { at: pose.placed(*at), radius: *radius },
+            Path::Lines(contours) => Path::Lines(contours.iter().map(|one| one.moved(pose)).collect()),
+        }
+    }
+}
+
+impl Contour {
+    fn of(places: impl IntoIterator<Item = Vector>, is_closed: bool) -> Option<Contour> {
+        let mut places = places.into_iter();
+        let start = places.next()?;
+        Some(Contour { start, segments: places.map(Segment::Line).collect(), is_closed })
+    }
+
+    fn add_samples(&self, found: &mut Vec<Vector>, step: f64) {
+        let mut from = self.start;
+        let closing = self.is_closed.then_some(Segment::Line(self.start));
+        for segment in self.segments.iter().copied().chain(closing) {
+            let way = minus(segment.end(), from);
+            match segment {
+                Segment::Line(_) => {
+                    let count = pieces(length(way), step);
+                    found.extend((0..=count).map(|k| plus(from, times(f64::from(k) / f64::from(count), way))));
+                }
+                Segment::Arc { to, radius, is_left } => {
+                    let half = 0.5 * length(way);
+                    let away = (radius * radius - half * half).max(0.0).sqrt() * if is_left { 1.0 } else { -1.0 };
+                    let center = plus(plus(from, times(0.5, way)), times(away, left(unit(way))));
+                    let [begin, end] = [from, to].map(|place| direction(minus(place, center)));
+                    // no more than half a turn, either way
+                    let turn = if is_left { end - begin } else { begin - end };
+                    let turn = turn - TAU * math::floor(turn / TAU);
+                    add_arc(found, center, radius, [begin, begin + if is_left { turn } else { -turn }], step);
+                }
+            }
+            from = segment.end();
+        }
+    }
+
+    fn moved(&self, pose: &Pose) -> Contour {
+        let segment = |segment: &Segment| match *segment {
+            Segment::Line(to) => Segment::Line(pose.placed(to)),
+            Segment::Arc { to, radius, is_left } => Segment::Arc { to: pose.placed(to), radius, is_left },
+        };
+        Contour { start: pose.placed(self.start), segments: self.segments.iter().map(segment).collect(), ..*self }
+    }
+}
+
+/// Adds places on a circle, from one direction (rad) to another.
+fn add_arc(found: &mut Vec<Vector>, at: Vector, radius: f64, [from, to]: [f64; 2], step: f64) {
+    let count = pieces(radius * (to - from).abs(), step);
+    let angle = |k: u32| from + (to - from) * f64::from(k) / f64::from(count);
+    found.extend((0..=count).map(|k| plus(at, polar(radius, angle(k)))));
+}
+
+/// How many pieces no longer than a step a way has.
+fn pieces(way: f64, step: f64) -> u32 {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // between 1 and 1000
+    let count = (way / step).clamp(0.0, 999.0) as u32;
+    count + 1
+}
+
+/// The corners of the smallest convex polygon around some places, to the left all along; those that are nearer to each other than
+/// `near` (m) count once.
+#[must_use]
+pub fn hull(places: &[Vector], near: f64) -> Vec<Vector> {
+    let mut sorted: Vec<Vector> = places.iter().copied().filter(|place| is_finite(*place)).collect();
+    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let mut distinct: Vec<Vector> = Vec::with_capacity(sorted.len());
+    for place in sorted {
+        let is_known = distinct.iter().rev().take_while(|known| place[0] - known[0] <= near);
+        if !is_known.into_iter().any(|known| distance(*known, place) <= near) {
+            distinct.push(place);
+        }
+    }
+    if distinct.len() < 3 {
+        return distinct;
+    }
+    let half = |places: &mut dyn Iterator<Item = Vector>| {
+        let mut chain: Vec<Vector> = Vec::new();
+        for place in places {
+            while let [.., a, b] = chain[..] {
+                let width = distance(a, place).max(near);
+                if cross(minus(b, a), minus(place, a)) > near * width {
+                    break;
+                }
+                chain.pop();
+            }
+            chain.push(place);
+        }
+        chain.pop();
+        chain
+    };
+    let mut lower = half(&mut distinct.iter().copied());
+    lower.extend(half(&mut distinct.iter().rev().copied()));
+    lower
+}
+
+/// What lies within a distance of a convex polygon: a disc around one corner, a bar around two, a rounded plate around more.
+#[must_use]
+pub fn around(corners: &[Vector], reach: f64) -> Path {
+    match corners {
+        [] => Path::Lines(Vec::new()),
+        [at] => Path::Circle { at: *at, radius: reach },
+        _ => {
+            let count = corners.len();
+            let outward = |k: usize| {
+                let along = unit(minus(corners[(k + 1) % count], corners[k]));
+                times(-reach, left(along))
+            };
+            let start = plus(corners[0], outward(0));
+            let mut segments = Vec::with_capacity(3 * count);
+            for k in 0..count {
+                let corner = corners[(k + 1) % count];
+                let (before, behind) = (outward(k), outward((k + 1) % count));
+                segments.push(Segment::Line(plus(corner, before)));
+                let turn = direction(behind) - direction(before);
+                let turn = turn - TAU * math::floor(turn / TAU);
+                if turn > FRAC_PI_2 * 1.9 {
+                    // half a turn could be drawn to either side
+                    let middle = plus(corner, polar(reach, direction(before) + 0.5 * turn.min(PI)));
+                    segments.push(Segment::Arc { to: middle, radius: reach, is_left: true });
+                }
+                segments.push(Segment::Arc { to: plus(corner, behind), radius: reach, is_left: true });
+            }
+            Path::Lines(vec![Contour { start, segments, is_closed: true }])
+        }
+    }
+}
+
+/// A rectangle around a centre, its half length along a direction of length 1, and its half width.
+#[must_use]
+pub fn rectangle(at: Vector, along: Vector, half: f64, across: f64) -> Path {
+    let (x, y) = (times(half, along), times(across, left(along)));
+    Path::polygon([minus(minus(at, x), y), minus(plus(at, x), y), plus(plus(at, x), y), plus(minus(at, x), y)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hull_has_the_corners_and_nothing_between() {
+        let square = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.0], [1.0, 1.0], [0.5, 0.5], [0.0, 1.0], [0.0, 1e-15]];
+        assert_eq!(hull(&square, 1e-9), [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        assert_eq!(hull(&[[0.0, 0.0], [2.0, 2.0], [1.0, 1.0]], 1e-9), [[0.0, 0.0], [2.0, 2.0]], "a bar");
+        assert_eq!(hull(&[[3.0, 4.0]; 5], 1e-9).len(), 1);
+        assert!(hull(&[[f64::NAN, 0.0]], 1e-9).is_empty());
+    }
+
+    #[test]
+    fn what_lies_around_a_polygon_keeps_its_distance() {
+        for corners in [vec![[0.0, 0.0], [3.0, 0.0]], vec![[0.0, 0.0], [4.0, 0.0], [1.0, 2.0]]] {
+            for place in around(&corners, 0.5).places() {
+                let nearest = |k: usize| {
+                    let (a, b) = (corners[k], corners[(k + 1) % corners.len()]);
+                    let way = minus(b, a);
+                    let part = (dot(minus(place, a), way) / dot(way, way)).clamp(0.0, 1.0);
+                    distance(place, plus(a, times(part, way)))
+                };
+                let least = (0..corners.len()).map(nearest).fold(f64::INFINITY, f64::min);
+                assert!((least - 0.5).abs() < 1e-12, "{place:?} is {least} away");
+            }
+        }
+    }
+
+    #[test]
+    fn samples_are_on_the_path() {
+        let bar = around(&[[0.0, 0.0], [3.0, 0.0]], 0.5);
+        let samples = bar.sampled(0.05);
+        for [x, y] in &samples {
+            let off = distance([*x, *y], [x.clamp(0.0, 3.0), 0.0]);
+            assert!((off - 0.5).abs() < 1e-12, "{x}, {y} is {off} away");
+        }
+        assert!(samples.windows(2).all(|pair| distance(pair[0], pair[1]) <= 0.05 + 1e-12));
+        assert!(distance(samples[0], samples[samples.len() - 1]) < 1e-12, "all around");
+        for to in [-2.0, 2.0] {
+            let arc = Path::arc([1.0, 1.0], 2.0, 0.3, 0.3 + to);
+            let inner = [1.0, 1.0];
+            assert!(arc.sampled(0.1).iter().all(|place| (distance(*place, inner) - 2.0).abs() < 1e-12));
+        }
+    }
+
+    #[test]
+    fn velocities_and_accelerations_are_slopes() {
+        let at = |t: f64| Pose { at: [t * t, 3.0 * t], phi: 0.5 * t * t };
+        let (rate, acceleration) = (Pose { at: [2.0, 3.0], phi: 1.0 }, Pose { at: [2.0, 0.0], phi: 1.0 });
+        let (local, h) = ([0.3, -0.2], 1e-4);
+        let [before, now, behind] = [1.0 - h, 1.0, 1.0 + h].map(|t| at(t).placed(local));
+        let slope = times(0.5 / h, minus(behind, before));
+        let bend = times(1.0 / (h * h), minus(plus(before, behind), times(2.0, now)));
+        assert!(distance(slope, rate.velocity(&at(1.0), local)) < 1e-6);
+        assert!(distance(bend, acceleration.acceleration(&rate, &at(1.0), local)) < 1e-5);
+    }
+}

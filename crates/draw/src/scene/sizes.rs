@@ -1,0 +1,69 @@
+//! How large symbols are: by the extent of the mechanism along its whole motion, and no larger than its links allow.
+
+use super::drawing::Outline;
+use super::features::Features;
+use super::plane::{Vector, bounds, distance};
+use super::{Anchor, Motion};
+use mechc_lang::model::{JointKind, Profile};
+
+/// Symbols are such a part of the mechanism's extent, if its links are long enough.
+const OF_EXTENT: f64 = 1.0 / 46.0;
+/// And such a part of what is short among its links.
+const OF_LINKS: f64 = 0.2;
+/// But not less than this part of the extent.
+const LEAST_OF_EXTENT: f64 = 1.0 / 400.0;
+/// So many rows tell the extent.
+const LOOKED_AT: usize = 60;
+
+/// The size of symbols (m), positive.
+pub(super) fn unit(features: &Features, motion: &Motion, outlines: &[Outline]) -> f64 {
+    let places = places(features, outlines);
+    let corners = motion.sampled(LOOKED_AT).filter_map(|row| {
+        let poses = motion.poses(row);
+        bounds(places.iter().map(|anchor| anchor.placed(poses)))
+    });
+    let extent = bounds(corners.flatten()).map_or(0.0, |[low, high]| distance(low, high));
+    if !(extent.is_finite() && extent > 0.0) {
+        // a point that rests
+        return 1.0;
+    }
+    let short = short_link(features, outlines).map_or(f64::INFINITY, |length| OF_LINKS * length);
+    (OF_EXTENT * extent).min(short.max(LEAST_OF_EXTENT * extent))
+}
+
+/// Places that the picture has to hold.
+fn places(features: &Features, outlines: &[Outline]) -> Vec<Anchor> {
+    let model = features.model;
+    let held = outlines
+        .iter()
+        .enumerate()
+        .flat_map(|(frame, outline)| outline.places.iter().map(move |at| Anchor { frame, at: *at }));
+    let mut places: Vec<Anchor> = held.collect();
+    for joint in &model.joints {
+        places.extend(joint.kind.points(model).into_iter().map(|point| features.point(point)));
+        let profiles: &[Profile] = match joint.kind {
+            JointKind::Gear { circles: [c, d], .. } => &[Profile::Circle(c), Profile::Circle(d)],
+            JointKind::RackPinion { pinion, .. } => &[Profile::Circle(pinion)],
+            JointKind::PointFollower(_, k) | JointKind::FlatFollower(k, _) => &[k],
+            JointKind::Cam(k, m) => &[k, m],
+            _ => &[],
+        };
+        for profile in profiles {
+            places.extend((0..8).map(|k| features.on_profile(*profile, f64::from(k) * std::f64::consts::FRAC_PI_4)));
+        }
+    }
+    places
+}
+
+/// What is short among the distances of what bodies join.
+fn short_link(features: &Features, outlines: &[Outline]) -> Option<f64> {
+    let widest = |places: &[Vector]| bounds(places.iter().copied()).map(|[low, high]| distance(low, high));
+    let mut lengths: Vec<f64> = outlines.iter().filter_map(|outline| widest(&outline.places)).collect();
+    lengths.extend(features.model.joints.iter().filter_map(|joint| match joint.kind {
+        JointKind::RevoluteRevolute(_, _, length) => Some(features.value(length)),
+        _ => None,
+    }));
+    lengths.retain(|length| length.is_finite() && *length > 0.0);
+    lengths.sort_by(f64::total_cmp);
+    lengths.get(lengths.len() / 4).copied()
+}

@@ -1,0 +1,247 @@
+//! Teeth: involutes of 25°, a little shorter than those of a gear catalogue, so that wheels of twelve teeth need no undercut.
+
+use super::plane::{Contour, Segment, Vector, left, plus, polar, times};
+use mechc_expr::math;
+use std::f64::consts::{PI, TAU};
+
+/// The pressure angle (rad).
+const PRESSURE: f64 = 25.0 * PI / 180.0;
+/// How far teeth reach beyond the pitch circle, and how deep gaps go below it, in modules.
+pub(super) const ADDENDUM: f64 = 0.8;
+pub(super) const DEDENDUM: f64 = 1.0;
+/// The part of a pitch by which a tooth is thinner than a gap.
+const BACKLASH: f64 = 0.03;
+/// Places on a flank.
+const ON_FLANK: u32 = 4;
+
+/// A wheel with its teeth.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Wheel {
+    pub at: Vector,
+    /// Of the pitch circle (m).
+    pub radius: f64,
+    pub teeth: u32,
+    /// The direction of the middle of a tooth in the wheel's frame (rad).
+    pub phase: f64,
+}
+
+/// What reaches from one radius to another for each tooth.
+struct Bumps {
+    /// The lower and the higher radius (m).
+    radii: [f64; 2],
+    /// On the pitch circle, as a part of half a pitch.
+    thickness: f64,
+    /// The direction of the middle of one of them (rad).
+    phase: f64,
+}
+
+impl Wheel {
+    /// The pitch diameter over the number of teeth (m).
+    pub fn module(&self) -> f64 {
+        2.0 * self.radius / f64::from(self.teeth)
+    }
+
+    /// Its teeth, which point outward.
+    pub fn outline(&self) -> Contour {
+        self.bumps(&self.teeth_of_wheel())
+    }
+
+    /// The inner side of a ring, whose teeth point inward: its gaps are what a wheel's teeth are.
+    pub fn inner_outline(&self) -> Contour {
+        self.bumps(&self.gaps_of_ring())
+    }
+
+    fn teeth_of_wheel(&self) -> Bumps {
+        let module = self.module();
+        let radii = [self.radius - DEDENDUM * module, self.radius + ADDENDUM * module];
+        Bumps { radii, thickness: 1.0 - 2.0 * BACKLASH, phase: self.phase }
+    }
+
+    fn gaps_of_ring(&self) -> Bumps {
+        let module = self.module();
+        let radii = [self.radius - ADDENDUM * module, self.radius + DEDENDUM * module];
+        Bumps { radii, thickness: 1.0 + 2.0 * BACKLASH, phase: self.phase + PI / f64::from(self.teeth) }
+    }
+
+    fn bumps(&self, bumps: &Bumps) -> Contour {
+        let Bumps { radii: [low, high], thickness, phase } = *bumps;
+        let base = self.radius * math::cos(PRESSURE);
+        let involute = |radius: f64| {
+            let angle = math::acos((base / radius).min(1.0));
+            math::tan(angle) - angle
+        };
+        let half = thickness * PI / (2.0 * f64::from(self.teeth)) + involute(self.radius);
+        let from = low.max(base);
+        let radius = |k: u32| from + (high - from) * f64::from(k) / f64::from(ON_FLANK - 1);
+        // from the foot to the tip: the radius, and how far from the middle of the tooth
+        let mut flank: Vec<[f64; 2]> = (0..ON_FLANK).map(|k| [radius(k), half - involute(radius(k))]).collect();
+        if low < from {
+            flank.insert(0, [low, flank[0][1]]);
+        }
+        let mut places = Vec::with_capacity(2 * flank.len() * self.teeth as usize);
+        for tooth in 0..self.teeth {
+            let middle = phase + TAU * f64::from(tooth) / f64::from(self.teeth);
+            let place = |[radius, angle]: [f64; 2]| plus(self.at, polar(radius, angle));
+            places.extend(flank.iter().map(|[radius, off]| place([*radius, middle - off])));
+            places.extend(flank.iter().rev().map(|[radius, off]| place([*radius, middle + off])));
+        }
+        closed(places)
+    }
+}
+
+/// A straight row of teeth along a line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rack {
+    /// A point of the pitch line (m), and its direction, of length 1.
+    pub at: Vector,
+    pub along: Vector,
+    /// 1 if teeth point to the left, −1 if to the right.
+    pub side: f64,
+    /// From one tooth to the next (m).
+    pub pitch: f64,
+    /// Where the middle of a tooth is on the line (m).
+    pub phase: f64,
+}
+
+impl Rack {
+    /// Its teeth from one place on the line to another (m), on a bar so thick below them (m).
+    pub fn outline(&self, [from, to]: [f64; 2], bar: f64) -> Contour {
+        let module = self.pitch / PI;
+        let place = |x: f64, y: f64| plus(plus(self.at, times(x, self.along)), times(self.side * y, left(self.along)));
+        let slope = math::tan(PRESSURE);
+        let half = 0.25 * self.pitch * (1.0 - 2.0 * BACKLASH);
+        let flank = [
+            [half + slope * DEDENDUM * module, -DEDENDUM * module],
+            [half - slope * ADDENDUM * module, ADDENDUM * module],
+        ];
+        let first = math::floor((from - self.phase) / self.pitch);
+        let last = -math::floor(-(to - self.phase) / self.pitch);
+        let count = (last - first).clamp(0.0, 2000.0);
+        #[allow(clippy::cast_sign_loss)] // clamped
+        let middles = (0..=count as u32).map(|k| self.phase + (first + f64::from(k)) * self.pitch);
+        let mut places = Vec::new();
+        let ends = [self.phase + (first - 0.5) * self.pitch, self.phase + (first + count + 0.5) * self.pitch];
+        let depth = -(DEDENDUM * module + bar);
+        places.extend([place(ends[0], depth), place(ends[0], flank[0][1])]);
+        for middle in middles {
+            let [[wide, foot], [narrow, tip]] = flank;
+            places.extend([
+                place(middle - wide, foot),
+                place(middle - narrow, tip),
+                place(middle + narrow, tip),
+                place(middle + wide, foot),
+            ]);
+        }
+        places.extend([place(ends[1], flank[0][1]), place(ends[1], depth)]);
+        closed(places)
+    }
+}
+
+fn closed(places: Vec<Vector>) -> Contour {
+    let mut places = places.into_iter();
+    let start = places.next().unwrap_or([0.0; 2]);
+    Contour { start, segments: places.map(Segment::Line).collect(), is_closed: true }
+}
+
+/// How far along the tangent of a wheel's circle its next tooth is from the place where it meshes, in pitches: the wheel stands at an
+/// angle, and meshes in a direction (rad).
+pub(super) fn offset(wheel: &Wheel, angle: f64, direction: f64) -> f64 {
+    f64::from(wheel.teeth) * (angle + wheel.phase - direction) / TAU
+}
+
+/// The way from a number to the nearest whole one.
+pub(super) fn to_whole(value: f64) -> f64 {
+    value - math::floor(value + 0.5)
+}
+
+/// Whether a place lies within a closed polygon of straight lines.
+#[cfg(test)]
+pub(super) fn is_inside(place: Vector, corners: &[Vector]) -> bool {
+    let mut is_inside = false;
+    for (k, b) in corners.iter().enumerate() {
+        let a = corners[(k + corners.len() - 1) % corners.len()];
+        if (a[1] > place[1]) != (b[1] > place[1]) {
+            let x = a[0] + (place[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+            is_inside ^= place[0] < x;
+        }
+    }
+    is_inside
+}
+
+/// How deep a place lies within a closed polygon; 0 outside.
+#[cfg(test)]
+pub(super) fn depth(place: Vector, corners: &[Vector]) -> f64 {
+    if !is_inside(place, corners) {
+        return 0.0;
+    }
+    let edge = |k: usize| {
+        let (a, b) = (corners[k], corners[(k + 1) % corners.len()]);
+        let way = super::plane::minus(b, a);
+        let part =
+            (super::plane::dot(super::plane::minus(place, a), way) / super::plane::dot(way, way)).clamp(0.0, 1.0);
+        super::plane::distance(place, plus(a, times(part, way)))
+    };
+    (0..corners.len()).map(edge).fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::plane::{Path, Pose};
+
+    fn corners(contour: Contour, pose: &Pose) -> Vec<Vector> {
+        Path::Lines(vec![contour]).moved(pose).places()
+    }
+
+    #[test]
+    fn teeth_of_two_wheels_do_not_overlap() {
+        for [z, other] in [[12, 12], [12, 40], [17, 23]] {
+            let radii = [z, other].map(|z| f64::from(z) * 0.5);
+            let wheel = Wheel { at: [0.0; 2], radius: radii[0], teeth: z, phase: 0.0 };
+            // a tooth of one is in a gap of the other
+            let facing = Wheel { at: [0.0; 2], radius: radii[1], teeth: other, phase: PI + PI / f64::from(other) };
+            for step in 0..40 {
+                let turn = f64::from(step) * 0.02;
+                let first = corners(wheel.outline(), &Pose { at: [0.0; 2], phi: turn });
+                let phi = -turn * radii[0] / radii[1];
+                let second = corners(facing.outline(), &Pose { at: [radii[0] + radii[1], 0.0], phi });
+                let overlap = first.iter().map(|p| depth(*p, &second)).chain(second.iter().map(|p| depth(*p, &first)));
+                let deepest = overlap.fold(0.0, f64::max);
+                assert!(deepest < 0.02, "{z} and {other}: {deepest} modules at {turn}");
+            }
+        }
+    }
+
+    #[test]
+    fn teeth_of_a_wheel_stay_in_the_gaps_of_a_ring() {
+        let [z, other] = [12, 36];
+        let ring = Wheel { at: [0.0; 2], radius: 18.0, teeth: other, phase: PI / f64::from(other) };
+        let wheel = Wheel { at: [0.0; 2], radius: 6.0, teeth: z, phase: 0.0 };
+        for step in 0..40 {
+            let turn = f64::from(step) * 0.02;
+            let first = corners(wheel.outline(), &Pose { at: [12.0, 0.0], phi: turn });
+            let gap = corners(ring.inner_outline(), &Pose { at: [0.0; 2], phi: turn / 3.0 });
+            // what is not inside the gaps is in the ring
+            let out = first.iter().filter(|p| !is_inside(**p, &gap)).map(|p| {
+                let away = gap.iter().map(|q| super::super::plane::distance(*p, *q)).fold(f64::INFINITY, f64::min);
+                away.min(1.0)
+            });
+            let worst = out.fold(0.0, f64::max);
+            assert!(worst < 0.05, "{worst} modules at {turn}");
+        }
+    }
+
+    #[test]
+    fn teeth_of_a_wheel_and_a_rack_do_not_overlap() {
+        let wheel = Wheel { at: [0.0; 2], radius: 6.0, teeth: 12, phase: -PI / 2.0 };
+        let rack = Rack { at: [0.0; 2], along: [1.0, 0.0], side: 1.0, pitch: PI, phase: 0.5 * PI };
+        let teeth = corners(rack.outline([-12.0, 12.0], 2.0), &Pose::default());
+        for step in 0..40 {
+            let turn = f64::from(step) * 0.02;
+            let first = corners(wheel.outline(), &Pose { at: [-turn * 6.0, 6.0], phi: turn });
+            let overlap = first.iter().map(|p| depth(*p, &teeth)).chain(teeth.iter().map(|p| depth(*p, &first)));
+            let deepest = overlap.fold(0.0, f64::max);
+            assert!(deepest < 0.02, "{deepest} modules at {turn}");
+        }
+    }
+}

@@ -1,0 +1,363 @@
+//! DXF for cutting: traces, lines that contacts run along, pitch circles, and where pins are, in millimetres.
+//!
+//! The form is that of R12, the oldest that is still read by everything, of which polylines and points are all that is needed. Written
+//! here, for the same input has to give the same bytes: libraries write the time and identities of their own making.
+
+use super::text::number;
+use crate::scene::{
+    Anchor, Motion, Path, Pen, Pin, Pose, Scene, Segment, Vector, bounds, direction, distance, is_finite, minus, plus,
+    polar, times,
+};
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+/// What a polyline may be off from the line that it stands for, as it is cut (m).
+const OFF: f64 = 0.25e-6;
+/// Places that are no farther apart than this part of a line's size are one.
+const SAME: f64 = 1e-9;
+/// How often a piece is halved at most, to keep to that.
+const DEEPEST: u32 = 14;
+/// The same of what is very small, as a part of its size.
+const OFF_OF_SIZE: f64 = 5e-5;
+/// The widest angle of a chord of a circle (rad), however small that is.
+const WIDEST: f64 = 0.02;
+/// Decimals of millimetres; and of a drawing that is no larger than a millimetre.
+const DECIMALS: usize = 6;
+const DECIMALS_OF_SMALL: usize = 9;
+/// Names of layers are no longer.
+const LONGEST: usize = 31;
+
+/// What is drawn on one layer, that of a declaration.
+#[derive(Clone, PartialEq, Debug)]
+struct Entity {
+    layer: String,
+    /// In millimetres.
+    places: Vec<Vector>,
+    kind: Kind,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Kind {
+    Point,
+    Open,
+    Closed,
+}
+
+/// What there is to cut, with all frames at a moment, and traces along the motion, those of some points beside those that the text
+/// asks for; `scale` is what a length of 1 becomes. Nothing where there is nothing to draw.
+#[must_use]
+pub fn written(
+    scene: &Scene,
+    motion: &Motion,
+    poses: &[Pose],
+    traces: &[(String, Anchor)],
+    scale: f64,
+) -> Option<String> {
+    // what is cut larger than it is has to be finer
+    let off = OFF / scale.max(1.0);
+    let mut sheet = Sheet { scene, poses, scale: 1000.0 * scale, off, layers: Vec::new(), entities: Vec::new() };
+    sheet.add_profiles();
+    sheet.add_pitch_lines();
+    sheet.add_traces(motion);
+    for (name, anchor) in traces {
+        let declaration = scene.point_named(name).map_or(anchor.frame, |point| point.declaration);
+        if scene.traces.iter().all(|trace| trace.pen != Pen::Point(*anchor)) {
+            sheet.add_trace(declaration, &Pen::Point(*anchor), motion);
+        }
+    }
+    sheet.add_pins();
+    (!sheet.entities.is_empty()).then(|| sheet.text())
+}
+
+struct Sheet<'s> {
+    scene: &'s Scene,
+    poses: &'s [Pose],
+    /// Millimetres in a metre.
+    scale: f64,
+    /// What a polyline may be off, as it is (m).
+    off: f64,
+    /// The declaration of each layer, and its name.
+    layers: Vec<(usize, String)>,
+    entities: Vec<Entity>,
+}
+
+impl Sheet<'_> {
+    /// Places of the ground (m), on the layer of a declaration.
+    fn add(&mut self, declaration: usize, places: &[Vector], kind: Kind) {
+        if places.is_empty() || !places.iter().all(|place| is_finite(*place)) {
+            return;
+        }
+        let layer = self.layer(declaration);
+        let places = places.iter().map(|place| times(self.scale, *place)).collect();
+        self.entities.push(Entity { layer, places, kind });
+    }
+
+    /// The layer of a declaration: its name, as far as names of layers can be so.
+    fn layer(&mut self, declaration: usize) -> String {
+        if let Some((_, known)) = self.layers.iter().find(|(known, _)| *known == declaration) {
+            return known.clone();
+        }
+        let name = self.scene.declarations.get(declaration).map_or("0", |declaration| &declaration.name);
+        let letter = |c: char| if c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '$') { c } else { '_' };
+        let plain: String = name.chars().map(letter).take(LONGEST).collect();
+        let is_free = |name: &str| !self.layers.iter().any(|(_, known)| known.eq_ignore_ascii_case(name));
+        let numbered = |k: usize| {
+            let number = format!("-{k}");
+            format!("{}{number}", plain.chars().take(LONGEST - number.len()).collect::<String>())
+        };
+        let found = if is_free(&plain) {
+            plain.clone()
+        } else {
+            (2..=self.layers.len() + 2).map(numbered).find(|name| is_free(name)).unwrap_or_default()
+        };
+        self.layers.push((declaration, found.clone()));
+        found
+    }
+
+    fn add_profiles(&mut self) {
+        let scene = self.scene;
+        for profile in &scene.profiles {
+            let pose = self.poses[profile.frame];
+            let mut places: Vec<Vector> = profile.samples.first().map(|sample| sample.at).into_iter().collect();
+            for pair in profile.samples.windows(2) {
+                flatten(&mut |part| pair[0].between(&pair[1], part), self.off, &mut places);
+            }
+            if profile.is_closed {
+                places.pop();
+            }
+            let places: Vec<Vector> = places.into_iter().map(|place| pose.placed(place)).collect();
+            self.add(profile.declaration, &places, if profile.is_closed { Kind::Closed } else { Kind::Open });
+        }
+    }
+
+    fn add_pitch_lines(&mut self) {
+        let scene = self.scene;
+        for line in &scene.pitch_lines {
+            let pose = self.poses[line.frame];
+            for (places, is_closed) in polylines(&line.path, self.off) {
+                let places: Vec<Vector> = places.into_iter().map(|place| pose.placed(place)).collect();
+                self.add(line.declaration, &places, if is_closed { Kind::Closed } else { Kind::Open });
+            }
+        }
+    }
+
+    fn add_traces(&mut self, motion: &Motion) {
+        let scene = self.scene;
+        for trace in &scene.traces {
+            self.add_trace(trace.declaration, &trace.pen, motion);
+        }
+    }
+
+    /// What a pen draws: closed lines as such, with gaps where it has no place, and a point where it rests.
+    fn add_trace(&mut self, declaration: usize, pen: &Pen, motion: &Motion) {
+        let track = motion.track(pen);
+        let place = |t: f64| track.at(motion, t)[0];
+        for stretch in motion.strokes(pen) {
+            let ends = || stretch.pieces.iter().flatten().map(|t| place(*t));
+            let size = bounds(ends()).map_or(0.0, |[low, high]| distance(low, high));
+            let off = self.off.min(OFF_OF_SIZE * size);
+            let mut places: Vec<Vector> = ends().take(1).collect();
+            for [from, to] in &stretch.pieces {
+                flatten(&mut |part| place(from + part * (to - from)), off, &mut places);
+            }
+            // a line that rests for a while has one corner there
+            places.dedup_by(|next, last| distance(*next, *last) <= SAME * size);
+            if stretch.is_closed && places.len() > 2 {
+                places.pop();
+                self.add(declaration, &places, Kind::Closed);
+            } else if places.len() > 1 {
+                self.add(declaration, &places, Kind::Open);
+            } else {
+                self.add(declaration, &places, Kind::Point);
+            }
+        }
+    }
+
+    fn add_pins(&mut self) {
+        let scene = self.scene;
+        for point in scene.points.iter().filter(|point| point.is_pin) {
+            let place = self.poses[point.frame].placed(point.at);
+            self.add(point.declaration, &[place], Kind::Point);
+        }
+        // a joint may take hold of a place that has no name
+        let is_named = |pin: &Pin| {
+            let named = scene.points.iter().filter(|point| point.is_pin && point.frame == pin.anchor.frame);
+            named.map(|point| distance(point.at, pin.anchor.at)).any(|apart| apart <= SAME * scene.unit)
+        };
+        for pin in scene.pins.iter().filter(|pin| !is_named(pin)) {
+            self.add(pin.declaration, &[pin.anchor.placed(self.poses)], Kind::Point);
+        }
+    }
+
+    /// The whole file.
+    fn text(&self) -> String {
+        let all = self.entities.iter().flat_map(|entity| entity.places.iter().copied());
+        let [low, high] = bounds(all).unwrap_or_default();
+        let decimals = if distance(low, high) > 1.0 { DECIMALS } else { DECIMALS_OF_SMALL };
+        let mut text = String::from("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$INSUNITS\n70\n4\n");
+        for (name, place) in [("$EXTMIN", low), ("$EXTMAX", high)] {
+            let _ = write!(text, "9\n{name}\n{}", placed(place, decimals));
+        }
+        text += "0\nENDSEC\n0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLTYPE\n70\n1\n0\nLTYPE\n2\nCONTINUOUS\n70\n0\n3\nSolid line\n72\n65\n73\n0\n40\n0.0\n\
+                 0\nENDTAB\n";
+        let _ = write!(text, "0\nTABLE\n2\nLAYER\n70\n{}\n", self.layers.len() + 1);
+        for layer in std::iter::once("0").chain(self.layers.iter().map(|(_, name)| name.as_str())) {
+            let _ = write!(text, "0\nLAYER\n2\n{layer}\n70\n0\n62\n7\n6\nCONTINUOUS\n");
+        }
+        text += "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
+        self.entities.iter().for_each(|entity| entity.add_to(&mut text, decimals));
+        text + "0\nENDSEC\n0\nEOF\n"
+    }
+}
+
+impl Entity {
+    fn add_to(&self, text: &mut String, decimals: usize) {
+        let Entity { layer, places, kind } = self;
+        if *kind == Kind::Point {
+            for place in places {
+                let _ = write!(text, "0\nPOINT\n8\n{layer}\n{}", placed(*place, decimals));
+            }
+            return;
+        }
+        let flag = u8::from(*kind == Kind::Closed);
+        let _ = write!(text, "0\nPOLYLINE\n8\n{layer}\n66\n1\n70\n{flag}\n{}", placed([0.0; 2], decimals));
+        for place in places {
+            let _ = write!(text, "0\nVERTEX\n8\n{layer}\n{}", placed(*place, decimals));
+        }
+        let _ = write!(text, "0\nSEQEND\n8\n{layer}\n");
+    }
+}
+
+/// A place as a file has it.
+fn placed([x, y]: Vector, decimals: usize) -> String {
+    let written = |value: f64| {
+        let text = number(value, decimals);
+        if text.contains('.') { text } else { text + ".0" }
+    };
+    format!("10\n{}\n20\n{}\n30\n0.0\n", written(x), written(y))
+}
+
+/// The places that a line from part 0 to part 1 takes as a polyline, without the first.
+fn flatten(of: &mut dyn FnMut(f64) -> Vector, off: f64, places: &mut Vec<Vector>) {
+    let (start, end) = (of(0.0), of(1.0));
+    halve(of, [(0.0, start), (1.0, end)], (off, 0), places);
+}
+
+fn halve(
+    of: &mut dyn FnMut(f64) -> Vector,
+    ends: [(f64, Vector); 2],
+    (off, depth): (f64, u32),
+    places: &mut Vec<Vector>,
+) {
+    let [(from, start), (to, end)] = ends;
+    let at = [0.25, 0.5, 0.75].map(|part| (from + part * (to - from), of(from + part * (to - from))));
+    let is_straight = at.iter().all(|(_, place)| from_chord(*place, [start, end]) <= 0.8 * off);
+    if is_straight || depth >= DEEPEST || !is_finite(start) || !is_finite(end) {
+        places.push(end);
+        return;
+    }
+    halve(of, [ends[0], at[1]], (off, depth + 1), places);
+    halve(of, [at[1], ends[1]], (off, depth + 1), places);
+}
+
+/// How far a place is from a chord.
+fn from_chord(place: Vector, [start, end]: [Vector; 2]) -> f64 {
+    let way = minus(end, start);
+    let square = way[0] * way[0] + way[1] * way[1];
+    let along = minus(place, start);
+    let part = if square > 0.0 { ((along[0] * way[0] + along[1] * way[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
+    distance(along, times(part, way))
+}
+
+/// A path as polylines that may be so much off (m), and which of them are closed.
+fn polylines(path: &Path, off: f64) -> Vec<(Vec<Vector>, bool)> {
+    match path {
+        Path::Circle { at, radius } => {
+            let count = steps(*radius, TAU, off);
+            let place = |k: u32| plus(*at, polar(*radius, TAU * f64::from(k) / f64::from(count)));
+            vec![((0..count).map(place).collect(), true)]
+        }
+        Path::Lines(contours) => contours
+            .iter()
+            .map(|contour| {
+                let mut places = vec![contour.start];
+                let mut from = contour.start;
+                for segment in &contour.segments {
+                    if let Segment::Arc { to, radius, is_left } = *segment {
+                        add_arc(&mut places, [from, to], (radius, is_left), off);
+                    } else {
+                        places.push(segment.end());
+                    }
+                    from = segment.end();
+                }
+                // a closed one says that it is
+                if contour.is_closed && places.len() > 1 && distance(contour.start, from) < off {
+                    places.pop();
+                }
+                (places, contour.is_closed)
+            })
+            .collect(),
+    }
+}
+
+/// The places of an arc behind its first, no more than half a circle.
+fn add_arc(places: &mut Vec<Vector>, [from, to]: [Vector; 2], (radius, is_left): (f64, bool), off: f64) {
+    let (half, sign) = (0.5 * distance(from, to), if is_left { 1.0 } else { -1.0 });
+    let way = minus(to, from);
+    let middle = times(0.5, plus(from, to));
+    let aside = (radius * radius - half * half).max(0.0).sqrt();
+    let across = if half > 0.0 { times(sign * aside / (2.0 * half), [-way[1], way[0]]) } else { [0.0; 2] };
+    let center = plus(middle, across);
+    let (first, last) = (direction(minus(from, center)), direction(minus(to, center)));
+    let turn = (sign * (last - first)).rem_euclid(TAU);
+    let count = steps(radius, turn, off);
+    for k in 1..count {
+        places.push(plus(center, polar(radius, first + sign * turn * f64::from(k) / f64::from(count))));
+    }
+    places.push(to);
+}
+
+/// How many chords a turn takes.
+fn steps(radius: f64, turn: f64, off: f64) -> u32 {
+    let each = (8.0 * off / radius.max(off)).sqrt().min(WIDEST);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // clamped
+    let count = mechc_expr::math::floor((turn / each).clamp(1.0, 1e5)) as u32 + 1;
+    count.max(3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{OFF, flatten, from_chord, polylines};
+    use crate::scene::{Path, distance, polar};
+
+    #[test]
+    fn circles_and_arcs_keep_to_their_lines() {
+        let circle = Path::Circle { at: [1.0, 2.0], radius: 0.05 };
+        let arc = Path::arc([1.0, 2.0], 0.05, 0.3, 3.9);
+        for (path, wanted) in [(circle, true), (arc, false)] {
+            let found = polylines(&path, OFF);
+            let [(places, is_closed)] = &found[..] else { panic!("{found:?}") };
+            assert_eq!(*is_closed, wanted);
+            for pair in places.windows(2) {
+                let middle = [0, 1].map(|part| 0.5 * (pair[0][part] + pair[1][part]));
+                assert!((distance(pair[0], [1.0, 2.0]) - 0.05).abs() < 1e-12);
+                assert!((distance(middle, [1.0, 2.0]) - 0.05).abs() < 1.01 * OFF, "{places:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn curves_take_as_many_pieces_as_they_need() {
+        let mut places = vec![[0.1, 0.0]];
+        flatten(&mut |part| polar(0.1, 1.5 * part), OFF, &mut places);
+        assert!((20..=1000).contains(&places.len()), "{}", places.len());
+        for k in 0..=1000 {
+            let place = polar(0.1, 1.5 * f64::from(k) / 1000.0);
+            let nearest = places.windows(2).map(|pair| from_chord(place, [pair[0], pair[1]])).fold(1.0, f64::min);
+            assert!(nearest <= OFF, "{nearest} off");
+        }
+        let mut straight = vec![[0.0, 0.0]];
+        flatten(&mut |part| [part, 2.0 * part], OFF, &mut straight);
+        assert_eq!(straight.len(), 2);
+    }
+}

@@ -1,0 +1,327 @@
+//! The data of a page as JSON.
+
+use super::places::Texts;
+use super::{Column, FORMAT, Page, Variant, columns};
+use crate::scene::{Anchor, Contact, ForceValue, ForceVector, Held, Node, Pen, Place, Scene, Torque, Touch, Trace};
+use crate::view::path::data;
+use mechc_text::diag::Diagnostic;
+use mechc_text::source::Source;
+use serde_json::{Map, Value, json};
+use std::path::Path;
+
+/// What is as large as a symbol is written with six digits, which are enough for what is drawn.
+const LEAST_DIGITS: f64 = 1e5;
+/// Nothing is so small that it takes more decimals than this.
+const MOST_DECIMALS: usize = 30;
+
+/// The data, of whose tables every so-manyth row is there, and the last. Nothing in it ends the element that it stands in.
+pub(super) fn written(page: &Page, every: usize) -> String {
+    // an element of a script ends at `</script`, and `<!--` begins something else
+    value(page, every, Tables::Within).to_string().replace('<', "\\u003c")
+}
+
+/// Where the numbers of tables are.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Tables {
+    Within,
+    Beside,
+}
+
+/// The data; null where there is no variant to show.
+pub(super) fn value(page: &Page, every: usize, tables: Tables) -> Value {
+    let texts = Texts::of(&page.texts);
+    let Some(first) = page.first() else { return Value::Null };
+    let scene = scene(first.scene, &texts);
+    let variants: Vec<Value> = page
+        .variants
+        .iter()
+        .map(|variant| {
+            let table = if tables == Tables::Within { table(variant, every, page.columns.len()) } else { Vec::new() };
+            let packed = if table.is_empty() { String::new() } else { columns::written(&table) };
+            variant_with(variant, every, &packed, &texts, (first.scene, &scene))
+        })
+        .collect();
+    let mut all = json!({
+        "format": FORMAT,
+        "mechc": env!("CARGO_PKG_VERSION"),
+        "bytes": 0,
+        "name": first.scene.name,
+        "docs": first.scene.docs.join("\n"),
+        "texts": page.texts.iter().map(|(_, source)| text(source)).collect::<Vec<_>>(),
+        "scene": scene,
+        "columns": page.columns.iter().map(|column| Value::Object(column_of(column))).collect::<Vec<_>>(),
+        "vary": page.vary.iter().map(|vary| {
+            json!({ "name": vary.name, "unit": vary.unit, "values": vary.values, "nearest": vary.nearest, "own": vary.own })
+        }).collect::<Vec<_>>(),
+        "variants": variants,
+    });
+    if let (Some(said), Some(object)) = (thinned(first, every), all.as_object_mut()) {
+        object.insert("thinned".to_owned(), said.into());
+    }
+    all
+}
+
+/// A text by the name of its file: where that lies is nobody's business.
+fn text(source: &Source) -> Value {
+    let name = Path::new(&source.name).file_name().map_or(source.name.clone().into(), |name| name.to_string_lossy());
+    json!({ "name": name, "text": source.text })
+}
+
+fn column_of(column: &Column) -> Map<String, Value> {
+    let mut object = Map::new();
+    object.insert("name".to_owned(), column.name.into());
+    object.insert("unit".to_owned(), column.unit.into());
+    if column.scale.iter().any(|part| part.to_bits() != 1.0_f64.to_bits()) {
+        object.insert("scale".to_owned(), json!(column.scale));
+    }
+    if !column.kind.is_empty() {
+        object.insert("kind".to_owned(), column.kind.into());
+    }
+    object
+}
+
+/// What is said of rows that are not there.
+fn thinned(variant: &Variant, every: usize) -> Option<String> {
+    let (all, kept) = (variant.all_rows, kept(variant.motion.rows().len(), every).count());
+    (kept < all).then(|| format!("This page has {kept} of the {all} rows of the motion, evenly spread."))
+}
+
+/// Every so-manyth row, and the last.
+fn kept(rows: usize, every: usize) -> impl Iterator<Item = usize> {
+    let last = rows.checked_sub(1);
+    (0..rows).step_by(every).chain(last.filter(move |last| last % every != 0))
+}
+
+/// The columns of a table; none where there are no rows.
+pub(super) fn table(variant: &Variant, every: usize, count: usize) -> Vec<Vec<f64>> {
+    let table = variant.motion.rows();
+    let rows: Vec<usize> = kept(table.len(), every).collect();
+    let of_column = |column: usize| {
+        // what is infinite has no place in a table either
+        let finite = |value: f64| if value.is_finite() { value } else { f64::NAN };
+        rows.iter().map(|row| finite(table[*row].get(column).copied().unwrap_or(f64::NAN))).collect()
+    };
+    if rows.is_empty() { Vec::new() } else { (0..count).map(of_column).collect() }
+}
+
+fn variant_with(
+    variant: &Variant,
+    every: usize,
+    packed: &str,
+    texts: &Texts,
+    (first, shared): (&Scene, &Value),
+) -> Value {
+    let motion = variant.motion;
+    let rows = kept(motion.rows().len(), every).count();
+    let results = variant.results.iter().map(|(column, value)| {
+        let mut object = column_of(column);
+        object.insert("value".to_owned(), json!(value));
+        Value::Object(object)
+    });
+    let mut object = json!({
+        "rows": rows,
+        "data": packed,
+        "results": results.collect::<Vec<_>>(),
+        "messages": variant.messages.iter().map(|said| message(said, texts)).collect::<Vec<_>>(),
+        "edges": motion.edges,
+    });
+    if let Some(object) = object.as_object_mut() {
+        if rows == 0 && !motion.is_empty() {
+            let drawn: Vec<[f64; 3]> = motion.poses(0).iter().map(|pose| [pose.at[0], pose.at[1], pose.phi]).collect();
+            object.insert("drawn".to_owned(), json!(drawn));
+        }
+        if !variant.scene.named.is_empty() {
+            object.insert("named".to_owned(), json!(variant.scene.named));
+        }
+        let is_first = std::ptr::eq(first, variant.scene);
+        let own = if is_first { None } else { changes(shared, &scene(variant.scene, texts)) };
+        if let Some(changes) = own {
+            object.insert("scene".to_owned(), changes);
+        }
+    }
+    object
+}
+
+/// What makes one value of another; nothing where they are the same. What is another thing altogether stands in an array of one; of arrays of
+/// one length, and of objects with the same keys, only what differs is there, by its place or key.
+fn changes(from: &Value, to: &Value) -> Option<Value> {
+    if from == to {
+        return None;
+    }
+    let changed = match (from, to) {
+        (Value::Array(from), Value::Array(to)) if from.len() == to.len() => {
+            let pairs = from.iter().zip(to).enumerate();
+            pairs.filter_map(|(place, (from, to))| Some((place.to_string(), changes(from, to)?))).collect()
+        }
+        (Value::Object(from), Value::Object(to)) if from.keys().eq(to.keys()) => {
+            let pairs = from.iter().zip(to.values());
+            pairs.filter_map(|((key, from), to)| Some((key.clone(), changes(from, to)?))).collect()
+        }
+        _ => return Some(json!([to])),
+    };
+    Some(Value::Object(changed))
+}
+
+fn message(said: &Diagnostic, texts: &Texts) -> Value {
+    let label = |label: &mechc_text::diag::Label| {
+        let (text, from, to) = texts.place(label.span)?;
+        Some(json!({ "text": text, "from": from, "to": to, "says": label.text }))
+    };
+    let mut object = json!({
+        "severity": said.severity().as_str(),
+        "code": said.code.as_str(),
+        "text": said.message,
+        "labels": said.labels.iter().filter_map(label).collect::<Vec<_>>(),
+        "notes": said.notes,
+        "help": said.help,
+    });
+    if let (Some(time), Some(object)) = (said.data.get("t").and_then(Value::as_f64), object.as_object_mut()) {
+        object.insert("time".to_owned(), time.into());
+    }
+    object
+}
+
+/// What there is to draw, with the places of declarations in the texts.
+pub(super) fn scene(scene: &Scene, texts: &Texts) -> Value {
+    let decimals = decimals(scene.unit);
+    let declarations = scene.declarations.iter().map(|declaration| {
+        let (text, from, to) = texts.place(declaration.span).unwrap_or_default();
+        json!([declaration.name, declaration.kind, text, from, to])
+    });
+    let points = scene.points.iter().map(|point| {
+        json!({
+            "name": point.name, "declaration": point.declaration, "frame": point.frame, "at": point.at, "pin": point.is_pin,
+        })
+    });
+    // where nothing is finite the page makes an extent of its own
+    let extent = if scene.extent.iter().flatten().all(|part| part.is_finite()) { scene.extent } else { [[0.0; 2]; 2] };
+    let mut all = json!({
+        "unit": scene.unit,
+        "extent": extent,
+        "declarations": declarations.collect::<Vec<_>>(),
+        "frames": scene.frames,
+        "points": points.collect::<Vec<_>>(),
+        "nodes": scene.nodes.iter().map(|node| written_node(node, decimals)).collect::<Vec<_>>(),
+        "traces": scene.traces.iter().map(trace).collect::<Vec<_>>(),
+        "profiles": scene.profiles.iter().map(|profile| {
+            json!({ "declaration": profile.declaration, "frame": profile.frame })
+        }).collect::<Vec<_>>(),
+        "contacts": scene.contacts.iter().map(contact).collect::<Vec<_>>(),
+    });
+    let lists = [
+        ("forces", scene.forces.iter().map(force).collect::<Vec<Value>>()),
+        ("torques", scene.torques.iter().map(torque).collect()),
+    ];
+    for (name, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
+        if let Some(object) = all.as_object_mut() {
+            object.insert(name.to_owned(), list.into());
+        }
+    }
+    all
+}
+
+/// Decimals of metres that give what is as large as a symbol so many digits.
+fn decimals(unit: f64) -> usize {
+    // without logarithms, whose bits are not the same everywhere
+    let (mut decimals, mut size) = (0, unit * (1.0 + f64::EPSILON));
+    while size < LEAST_DIGITS && decimals < MOST_DECIMALS {
+        size *= 10.0;
+        decimals += 1;
+    }
+    decimals
+}
+
+fn placed(anchor: &Anchor) -> Value {
+    json!([anchor.frame, anchor.at[0], anchor.at[1]])
+}
+
+fn force(force: &ForceVector) -> Value {
+    let mut all = json!({ "declaration": force.declaration, "kind": force.kind.word(), "at": placed(&force.at) });
+    let (name, value) = match &force.value {
+        ForceValue::Constant(force) => ("constant", json!(force)),
+        ForceValue::Components(columns) => ("columns", json!(columns)),
+        ForceValue::Along { column, frame, direction } => ("along", json!([column, frame, direction])),
+        ForceValue::Apart { column, from, to } => ("apart", json!([column, placed(from), placed(to)])),
+    };
+    if let Some(object) = all.as_object_mut() {
+        object.insert(name.to_owned(), value);
+    }
+    all
+}
+
+fn torque(Torque { declaration, kind, at, column, sign }: &Torque) -> Value {
+    json!({ "declaration": declaration, "kind": kind.word(), "at": placed(at), "column": column, "sign": sign })
+}
+
+fn written_node(node: &Node, decimals: usize) -> Value {
+    let (name, place) = match &node.place {
+        Place::Fixed(frame) => ("fixed", json!(frame)),
+        Place::Upright(at) => ("upright", placed(at)),
+        Place::Between { from, to, held } => {
+            let held = match held {
+                Held::From => "from",
+                Held::To => "to",
+                Held::Stretched => "stretched",
+            };
+            ("between", json!([placed(from), placed(to), held]))
+        }
+    };
+    let shapes =
+        node.shapes.iter().map(|shape| json!({ "look": shape.look.word(), "d": data(&shape.path, 1.0, decimals) }));
+    json!({ "declaration": node.declaration, name: place, "shapes": shapes.collect::<Vec<_>>() })
+}
+
+fn contact(contact: &Contact) -> Value {
+    let Contact { declaration, cam, follower, .. } = contact;
+    let (kind, touch) = match &contact.touch {
+        Touch::Tip(at) => ("tip", json!(at)),
+        Touch::Roller { centre, arms, argument } => {
+            ("roller", json!({ "centre": centre, "arms": arms, "argument": argument }))
+        }
+        Touch::Face(at, along) => ("face", json!([at, along])),
+    };
+    json!({ "declaration": declaration, "cam": cam, "follower": follower, kind: touch })
+}
+
+fn trace(trace: &Trace) -> Value {
+    match &trace.pen {
+        Pen::Point(anchor) => json!({ "declaration": trace.declaration, "frame": anchor.frame, "at": anchor.at }),
+        Pen::Columns { name, frame, pose, is_mirrored } => json!({
+            "declaration": trace.declaration, "frame": frame, "columns": name,
+            "pose": [pose.at[0], pose.at[1], pose.phi], "mirrored": is_mirrored,
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{changes, decimals, kept};
+    use serde_json::json;
+
+    #[test]
+    fn only_what_differs_is_told() {
+        let from = json!({ "a": [1, [2, 3]], "b": { "c": "d" } });
+        assert_eq!(changes(&from, &from), None);
+        let to = json!({ "a": [1, [2, 4]], "b": { "c": "e" } });
+        assert_eq!(changes(&from, &to), Some(json!({ "a": { "1": { "1": [4] } }, "b": { "c": ["e"] } })));
+        let to = json!({ "a": [1], "b": { "c": "d", "f": null } });
+        assert_eq!(changes(&from, &to), Some(json!({ "a": [[1]], "b": [{ "c": "d", "f": null }] })));
+    }
+
+    #[test]
+    fn the_last_row_is_kept() {
+        let kept = |rows, every| kept(rows, every).collect::<Vec<_>>();
+        assert_eq!(kept(7, 3), [0, 3, 6]);
+        assert_eq!(kept(6, 3), [0, 3, 5]);
+        assert_eq!(kept(3, 1), [0, 1, 2]);
+        assert_eq!(kept(1, 5), [0]);
+        assert!(kept(0, 2).is_empty());
+    }
+
+    #[test]
+    fn shapes_have_six_digits_of_a_symbol() {
+        for (unit, wanted) in [(0.004, 8), (40.0, 4), (4e-8, 13), (1.0, 5)] {
+            assert_eq!(decimals(unit), wanted, "{unit}");
+        }
+    }
+}

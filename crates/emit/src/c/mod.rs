@@ -1,0 +1,135 @@
+//! A mechanism for C: a header, and the functions behind it, which are all that is unsafe in a crate.
+//!
+//! The caller has the memory of everything. A state is so many words, which only these functions look into; params and inputs are plain
+//! structures, those of the crate laid out as C does. What a function is given, and what it gives, stands in one list (`functions.rs`),
+//! from which both files are written.
+
+mod functions;
+mod header;
+mod names;
+
+use super::errors::ERRORS;
+use super::names::Case;
+use super::rust::Module;
+use super::text::{one_line, unit};
+use super::{CrateFile, TranslationUnit};
+use mechc_ir::layout::{ColumnUnit, Holds, columns, holds};
+
+/// What both files are written from.
+struct Interface<'i> {
+    unit: &'i TranslationUnit<'i>,
+    /// What names begin with: `four_bar`.
+    prefix: &'i str,
+    /// One of the first lines.
+    mark: &'i str,
+    /// Words of 8 bytes that a state takes.
+    words: usize,
+    /// How many steps calls take at most, and how many evaluations these are.
+    bounds: &'i [(&'static str, usize)],
+}
+
+/// The header and the functions of a crate's library, whose name all names begin with.
+pub(super) fn files(unit: &TranslationUnit<'_>, module: &Module, library: &str, mark: &str) -> Vec<CrateFile> {
+    let interface = Interface { unit, prefix: library, mark, words: module.words + 1, bounds: &module.bounds };
+    vec![
+        CrateFile { path: format!("include/{library}.h"), text: interface.header() },
+        CrateFile { path: "src/unsafe_c.rs".to_owned(), text: interface.functions() },
+    ]
+}
+
+/// What a function answers with.
+struct Code {
+    /// `LOCK_UP`
+    name: String,
+    says: &'static str,
+    /// The error in Rust; none of what only C can do wrong.
+    error: Option<&'static str>,
+}
+
+/// What only C can do wrong; their codes come behind those of errors, from this number on.
+const FIRST_OF_C: i32 = 101;
+/// What is no error, and has a number below 0.
+const ON_THE_WAY: &str = "the state is on its way, and the same call goes on";
+const OF_C: [(&str, &str); 4] = [
+    ("BAD_POINTER", "a pointer is null or not aligned"),
+    ("NOT_ASSEMBLED", "the state is not one that was assembled for this mechanism"),
+    ("WRONG_LENGTH", "the list has another length"),
+    ("NO_SUCH_COLUMN", "there is no such column"),
+];
+
+/// All codes with their numbers, that of no error and 0 among them.
+fn codes() -> Vec<(i32, Code)> {
+    let fine = Code { name: "OK".to_owned(), says: "all went well", error: None };
+    let errors = ERRORS.iter().map(|told| Code { name: apart(told.name), says: told.says, error: Some(told.name) });
+    let of_c = OF_C.iter().map(|(name, says)| Code { name: (*name).to_owned(), says, error: None });
+    let numbers = (0..).take(ERRORS.len() + 1).chain(FIRST_OF_C..);
+    let on_the_way = Code { name: "ON_THE_WAY".to_owned(), says: ON_THE_WAY, error: None };
+    let all = numbers.zip(std::iter::once(fine).chain(errors).chain(of_c));
+    std::iter::once((-1, on_the_way)).chain(all).collect()
+}
+
+/// `NOT_A_NUMBER` of `NotANumber`.
+fn apart(name: &str) -> String {
+    let mut text = String::new();
+    for c in name.chars() {
+        if c.is_ascii_uppercase() && !text.is_empty() {
+            text.push('_');
+        }
+        text.push(c.to_ascii_uppercase());
+    }
+    text
+}
+
+impl Interface<'_> {
+    fn has_params(&self) -> bool {
+        !self.unit.system.params().is_empty()
+    }
+
+    fn has_inputs(&self) -> bool {
+        self.unit.following.is_some()
+    }
+
+    fn has_sensitivity(&self) -> bool {
+        self.has_params() && self.unit.has_sensitivity()
+    }
+
+    /// What constants begin with: `FOUR_BAR`.
+    fn constants(&self) -> String {
+        self.prefix.to_uppercase()
+    }
+
+    /// The columns of a row: their names in C, and what they hold, in SI.
+    fn columns(&self) -> Vec<(String, String)> {
+        let system = self.unit.system;
+        // forces have a list of their own
+        let columns = columns(system).into_iter().zip(holds(system));
+        let columns: Vec<_> = columns.filter(|(_, holds)| !matches!(holds, Holds::Reaction(_))).collect();
+        let names = Case::Constant.names(columns.iter().map(|(column, _)| column.name.as_str()));
+        let said = columns.iter().map(|(column, holds)| {
+            let (name, ColumnUnit { text, .. }) = (one_line(&column.name), &column.unit);
+            match *holds {
+                Holds::Measure { index, .. }
+                    if system.measures()[index].units.si != system.measures()[index].units.printed[0] =>
+                {
+                    format!("{name} (SI; tables have it in {text})")
+                }
+                _ => format!("{name} ({})", unit(text)),
+            }
+        });
+        names.into_iter().zip(said).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FIRST_OF_C, codes};
+
+    #[test]
+    fn codes_have_names_and_numbers_of_their_own() {
+        let codes = codes();
+        let names: Vec<&str> = codes.iter().map(|(_, code)| code.name.as_str()).collect();
+        assert_eq!(names[..4], ["ON_THE_WAY", "OK", "NOT_A_NUMBER", "LOCK_UP"]);
+        assert!((-1..8).zip(&codes).all(|(k, (number, _))| k == *number));
+        assert_eq!(codes[9].0, FIRST_OF_C);
+    }
+}

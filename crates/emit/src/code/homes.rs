@@ -1,0 +1,130 @@
+//! Where values live: in a loop, in a function, or among the terms that functions hand on.
+
+use super::parts::Part;
+use super::{Code, Scene};
+use mechc_engine::solver::Instruction;
+use mechc_ir::program::Register;
+use std::ops::Range;
+
+/// Where a value lives.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Home {
+    /// Written by no operation.
+    Given,
+    /// In its function, and there in its loop if it is in one.
+    Local { function: u32, of_loop: u32 },
+    /// In its function, beyond its loop.
+    BeyondLoop { function: u32 },
+    /// Among the terms that functions hand on.
+    Term(u32),
+}
+
+/// No loop.
+const STRAIGHT: u32 = 0;
+/// No function in particular.
+const OTHERS: u32 = u32::MAX;
+
+/// Where all values live, by their registers.
+pub(super) struct Homes<'p, S> {
+    scene: &'p S,
+    instructions: &'p [Instruction],
+    of: Vec<Home>,
+    is_read: Vec<bool>,
+    /// How many terms functions hand on.
+    pub terms: u32,
+    /// Names that values shall have.
+    pub wanted: Vec<Option<String>>,
+}
+
+impl<'p, S: Scene> Homes<'p, S> {
+    /// Of what is printed in some parts.
+    pub fn of(code: &Code<'p>, scene: &'p S, parts: &[Part<'p>]) -> Homes<'p, S> {
+        let mut homes = Homes {
+            scene,
+            instructions: code.instructions,
+            of: vec![Home::Given; code.registers],
+            is_read: vec![false; code.registers],
+            terms: 0,
+            wanted: vec![None; code.registers],
+        };
+        homes.find(parts);
+        homes
+    }
+
+    /// Where a value lives.
+    pub fn home(&self, register: Register) -> Home {
+        self.of[register as usize]
+    }
+
+    /// Whether anybody reads it.
+    pub fn is_read(&self, register: Register) -> bool {
+        self.is_read[register as usize]
+    }
+
+    /// Finds out which values go beyond their loop or function.
+    fn find(&mut self, parts: &[Part<'_>]) {
+        let (mut function, mut loops) = (0, STRAIGHT);
+        for part in parts {
+            match part {
+                Part::Straight(pieces) => {
+                    for piece in pieces {
+                        loops += u32::from(piece.tears.is_some());
+                        let of_loop = if piece.tears.is_some() { loops } else { STRAIGHT };
+                        self.settle_in(piece.range.clone(), function, of_loop);
+                        for tear in piece.tears.unwrap_or(&[]) {
+                            // in lanes loops beside its own have the corrections too
+                            let reader = if self.scene.has_lanes() { OTHERS } else { function };
+                            self.read(tear.x, function, STRAIGHT);
+                            self.read(tear.delta, reader, STRAIGHT);
+                        }
+                    }
+                }
+                Part::Loop { bodies, tears } => {
+                    for body in bodies {
+                        self.settle_in(body.clone(), function, STRAIGHT);
+                        function += 1;
+                    }
+                    for register in tears.iter().flat_map(|tear| [tear.x, tear.delta]) {
+                        self.read(register, function, STRAIGHT);
+                    }
+                }
+            }
+            function += 1;
+        }
+    }
+
+    fn settle_in(&mut self, range: Range<usize>, function: u32, of_loop: u32) {
+        for at in range {
+            let instruction = self.instructions[at];
+            for register in instruction.reads() {
+                self.read(register, function, of_loop);
+            }
+            if let Some((table, column)) = instruction.column() {
+                self.scene.cells(table, column).into_iter().for_each(|cell| self.read(cell, function, of_loop));
+            }
+            for register in instruction.writes() {
+                self.of[register as usize] = Home::Local { function, of_loop };
+            }
+            if let Instruction::Store { column, a } = instruction
+                && self.wanted[a as usize].is_none()
+            {
+                self.wanted[a as usize] = self.scene.name(column);
+            }
+        }
+    }
+
+    fn read(&mut self, register: Register, reader: u32, reading_loop: u32) {
+        self.is_read[register as usize] = true;
+        let home = &mut self.of[register as usize];
+        match *home {
+            Home::Local { function, .. } | Home::BeyondLoop { function } if function != reader => {
+                *home = Home::Term(self.terms);
+                self.terms += 1;
+            }
+            Home::Local { function, of_loop } if of_loop != STRAIGHT && of_loop != reading_loop => {
+                *home = Home::BeyondLoop { function };
+            }
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Instructions, line by line.
+
+use super::homes::Home;
+use super::{AT, GUESS, MODULE, Printer, Scene, T, TERMS};
+use crate::operand::Operand;
+use crate::operations::Expression;
+use crate::text::{LONGEST_LINE, lines, literal};
+use mechc_engine::solver::{Instruction, from_bits};
+use mechc_expr::math::A_MILLION;
+use mechc_ir::program::{Column, Op, Register};
+use std::fmt::{self, Display, Formatter};
+
+/// What a value is assigned to.
+pub(super) enum Target {
+    /// A variable of its own.
+    Let(Operand),
+    /// What is there already.
+    Set(Operand),
+    /// Nobody asks for it.
+    Nobody,
+}
+
+impl Target {
+    /// What it is called in a pattern.
+    fn name(&self) -> String {
+        match self {
+            Target::Let(name) | Target::Set(name) => name.to_string(),
+            Target::Nobody => "_".to_owned(),
+        }
+    }
+}
+
+impl Display for Target {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Target::Let(name) => write!(f, "let {name}"),
+            Target::Set(name) => write!(f, "{name}"),
+            Target::Nobody => f.write_str("let _"),
+        }
+    }
+}
+
+impl<S: Scene> Printer<'_, S> {
+    /// What a column of a table is called, after it has been built where that is needed.
+    fn column(&mut self, table: u32, column: Column, indent: &str, text: &mut String) -> String {
+        let (name, cells) = (self.scene.table(table, column), self.scene.cells(table, column));
+        self.used.extend(name.arguments());
+        if cells.is_empty() {
+            return format!("&{name}");
+        }
+        if self.built.insert((table, column)) {
+            let values: Vec<String> = cells.into_iter().map(|cell| self.value(cell).to_string()).collect();
+            *text +=
+                &format!("{indent}#[rustfmt::skip]\n{indent}let {name} = [\n{}{indent}];\n", lines(&values, indent));
+        }
+        format!("&{name}")
+    }
+
+    pub(super) fn instruction(&mut self, instruction: Instruction, indent: &str, text: &mut String) {
+        match instruction {
+            Instruction::Compute(op) => self.operation(op, indent, text),
+            Instruction::Multiplier { to, a, b, weight } => {
+                self.operation(Op::Mul { to, a, b }, indent, text);
+                let value = self.value(to);
+                self.line(indent, self.scene.watch(weight, &value), text);
+            }
+            Instruction::Number { to, bits } => self.names[to as usize] = Some(Operand::Number(from_bits(bits))),
+            Instruction::Load { to, from } => self.load(to, from, indent, text),
+            Instruction::Time { to } => {
+                let lane = if self.scene.has_lanes() { "[k]" } else { "" };
+                self.names[to as usize] = Some(Operand::of(format!("{T}{lane}"), &[T]));
+            }
+            Instruction::Column { to, column } => self.names[to as usize] = Some(self.scene.place(column)),
+            Instruction::Curve { to, tear } => self.guess(to, tear, indent, text),
+            Instruction::Residual { a, .. } | Instruction::Pivot { a, .. } => {
+                let value = self.value(a);
+                self.line(indent, self.scene.act(instruction, &value), text);
+            }
+            Instruction::Store { column, a } => self.store(column, a, indent, text),
+        }
+    }
+
+    fn store(&mut self, column: u32, a: Register, indent: &str, text: &mut String) {
+        if !self.scene.stores(column) {
+            return;
+        }
+        let value = self.known(a);
+        if let Some(line) = self.scene.store(column, &value) {
+            self.used.extend(value.arguments());
+            // what is worked out, and what comes of it
+            if std::mem::take(&mut self.is_set_off) && !text.is_empty() {
+                text.push('\n');
+            }
+            self.line(indent, line, text);
+        }
+    }
+
+    fn operation(&mut self, op: Op, indent: &str, text: &mut String) {
+        if let Op::SinCos { sin, cos, a } = op {
+            return self.pair(sin, cos, a, indent, text);
+        }
+        if let Op::Copy { to, a } = op {
+            return self.copy(to, a, indent, text);
+        }
+        let column = op.column().map(|(table, column)| self.column(table, column, indent, text)).unwrap_or_default();
+        let mut expression = Expression { value: |register| self.value(register).to_string(), column, result: None };
+        op.run(&mut expression);
+        let Some((to, expression)) = expression.result else {
+            return;
+        };
+        self.count += 1;
+        let target = self.target(to, 'v');
+        *text += &self.assigned(indent, &target.to_string(), &expression);
+    }
+
+    /// A value of the program, by a name of its own if it is long.
+    fn load(&mut self, to: Register, from: Register, indent: &str, text: &mut String) {
+        let value = self.scene.load(from);
+        if value.is_short() {
+            self.names[to as usize] = Some(value);
+        } else {
+            self.count += 1;
+            self.used.extend(value.arguments());
+            let target = self.target(to, 'v');
+            *text += &format!("{indent}{target} = {value};\n");
+        }
+    }
+
+    /// An assignment, on two lines if it is too long for one.
+    fn assigned(&self, indent: &str, target: &str, expression: &str) -> String {
+        let line = format!("{indent}{target} = {expression};\n");
+        let margin = if self.scene.has_lanes() { MODULE.len() } else { 0 };
+        if line.len() + margin <= LONGEST_LINE + 1 {
+            return line;
+        }
+        format!("{indent}{target} =\n{indent}    {expression};\n")
+    }
+
+    /// Another name for the same value; where a later function needs it, a place among the terms.
+    fn copy(&mut self, to: Register, a: Register, indent: &str, text: &mut String) {
+        if let Home::Term(_) = self.homes.home(to) {
+            let value = self.value(a);
+            let target = self.target(to, 'v');
+            *text += &format!("{indent}{target} = {value};\n");
+        } else {
+            self.names[to as usize] = Some(self.known(a));
+        }
+    }
+
+    /// Where Newton begins with a coordinate.
+    fn guess(&mut self, to: Register, tear: u32, indent: &str, text: &mut String) {
+        self.guessed.insert(to, tear);
+        self.used.insert(GUESS);
+        let lane = if self.scene.has_lanes() { "[k]" } else { "" };
+        if let Home::Term(place) = self.homes.home(to) {
+            let term = self.term(place);
+            self.used.insert(TERMS);
+            *text += &format!("{indent}{term} = {GUESS}[{tear}]{lane};\n");
+            self.names[to as usize] = Some(term);
+        } else {
+            let name = format!("x{}", self.guessed.len());
+            *text += &format!("{indent}let mut {name} = {GUESS}[{tear}];\n");
+            self.names[to as usize] = Some(Operand::own(name));
+        }
+    }
+
+    fn pair(&mut self, sin: Register, cos: Register, a: Register, indent: &str, text: &mut String) {
+        let a = self.value(a);
+        self.count += 1;
+        if self.scene.has_lanes() {
+            self.used.insert(AT);
+            // times this, rounded, it is above 1 from a million itself on
+            let per_million = (1.0 / A_MILLION).next_up();
+            *text += &format!("{indent}at.watch(k, {a}, {});\n", literal(per_million));
+        }
+        let sin_cos = if self.scene.has_lanes() { "sin_cos_below_a_million" } else { "sin_cos" };
+        let target = |printer: &mut Self, register: Register, prefix: char| {
+            if printer.homes.is_read(register) { printer.target(register, prefix) } else { Target::Nobody }
+        };
+        let targets = [target(self, sin, 's'), target(self, cos, 'c')];
+        *text += &match &targets {
+            [Target::Set(sin), Target::Set(cos)] => format!("{indent}({sin}, {cos}) = {sin_cos}({a});\n"),
+            [Target::Set(_), _] | [_, Target::Set(_)] => {
+                let name = format!("pair{}", self.count);
+                let [sin, cos] = &targets;
+                format!("{indent}let {name} = {sin_cos}({a});\n{indent}{sin} = {name}.0;\n{indent}{cos} = {name}.1;\n")
+            }
+            [sin, cos] => format!("{indent}let ({}, {}) = {sin_cos}({a});\n", sin.name(), cos.name()),
+        };
+    }
+}

@@ -1,0 +1,355 @@
+//! Operations as Rust, `let` by `let`, in functions of a bearable length.
+//!
+//! Every register is written by one operation. What one function computes and a later one needs is handed on in an array of
+//! terms, `w`.
+
+mod homes;
+mod lines;
+mod loops;
+mod parts;
+
+use super::operand::{Arguments, Operand};
+use super::text::{documented, signature};
+use homes::{Home, Homes};
+use lines::Target;
+use mechc_engine::solver::{Instruction, Segment};
+use mechc_ir::program::{Column, Op, Register};
+use parts::{Part, Piece};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// What functions of a module within the file are indented by.
+pub(super) const MODULE: &str = "    ";
+
+/// A loop over lanes is vectorised if it is known that what it writes does not overlap, as what a function is given does not.
+const APART: &str = "#[inline(never)]\n";
+
+/// What operations are printed among.
+pub(super) trait Scene {
+    /// The name and the value of a register that no operation writes.
+    fn input(&self, register: Register) -> Input;
+    /// What stands in a register of the program.
+    fn load(&self, register: Register) -> Operand;
+    /// A column of a result.
+    fn place(&self, column: u32) -> Operand;
+    /// The name of a value that is left in a column, `rod_phi`; none where it is no name of its own.
+    fn name(&self, column: u32) -> Option<String>;
+    /// What a column of a table is called.
+    fn table(&self, table: u32, column: Column) -> Operand;
+    /// The registers that a function has to build a column from; none where it is known by its name.
+    fn cells(&self, table: u32, column: Column) -> Vec<Register>;
+    /// Whether values are left in a column at all.
+    fn stores(&self, _column: u32) -> bool {
+        true
+    }
+    /// The line that leaves a value in a column, with what it names; none where that holds it already.
+    fn store(&self, column: u32, value: &Operand) -> Option<(String, Arguments)>;
+    /// The line that is written for an operation without a result, with what it names.
+    fn act(&self, instruction: Instruction, value: &Operand) -> (String, Arguments);
+    /// The line that watches a multiplier, with what it names.
+    fn watch(&self, weight: u32, value: &Operand) -> (String, Arguments);
+    /// Whether every number stands for several lanes, which loops go over.
+    fn has_lanes(&self) -> bool {
+        false
+    }
+}
+
+/// A value that a function is given.
+pub(super) enum Input {
+    /// A number, or what is as short as a name.
+    Is(Operand),
+    /// What is bound to a name first.
+    Bound { name: String, value: Operand },
+}
+
+/// A function, or several that follow one another.
+pub(super) struct Function<'f> {
+    pub name: &'f str,
+    /// Lines of documentation.
+    pub docs: String,
+    pub is_public: bool,
+    /// Names and types.
+    pub arguments: Vec<(&'static str, String)>,
+    /// What is written and returned.
+    pub out: Out<'f>,
+    /// Columns that it will be indented by.
+    pub margin: usize,
+}
+
+/// Where a function leaves its results.
+pub(super) enum Out<'f> {
+    /// In a list, by its type and its first value, that it returns as `out`.
+    List { of: &'f str, first: &'f str },
+    /// In what it is given; the line that makes that ready, with what it names.
+    Given { begin: &'f str, names: Arguments },
+}
+
+/// What is to be printed.
+pub(super) struct Code<'c> {
+    pub instructions: &'c [Instruction],
+    pub segments: &'c [Segment],
+    pub registers: usize,
+}
+
+impl Code<'_> {
+    /// The functions as text.
+    pub fn print(&self, scene: &impl Scene, function: &Function<'_>) -> String {
+        let parts = self.parts(scene.has_lanes());
+        let mut printer = Printer::new(self, scene, &parts);
+        match parts.as_slice() {
+            [Part::Straight(pieces)] => printer.alone(function, pieces),
+            _ => printer.several(function, &parts),
+        }
+    }
+
+    /// How many instructions compute something.
+    pub fn count(&self) -> usize {
+        self.instructions.iter().filter(|instruction| is_work(**instruction)).count()
+    }
+}
+
+/// Whether an instruction computes something.
+fn is_work(instruction: Instruction) -> bool {
+    match instruction {
+        Instruction::Compute(op) => !matches!(op, Op::Copy { .. }),
+        _ => matches!(instruction, Instruction::Multiplier { .. }),
+    }
+}
+
+/// Arguments that the printer names itself.
+const OUT: &str = "out";
+const TERMS: &str = "w";
+const AT: &str = "at";
+const GUESS: &str = "guess";
+const T: &str = "t";
+
+struct Printer<'p, S> {
+    scene: &'p S,
+    instructions: &'p [Instruction],
+    homes: Homes<'p, S>,
+    names: Vec<Option<Operand>>,
+    taken: FxHashSet<String>,
+    /// Inputs that the function being written has bound.
+    bound: FxHashSet<Register>,
+    bindings: String,
+    /// The arguments that it names.
+    used: FxHashSet<&'static str>,
+    /// Whether a blank line comes before the first result.
+    is_set_off: bool,
+    /// Columns of tables that it has built.
+    built: FxHashSet<(u32, Column)>,
+    count: usize,
+    /// By register: the number of the coordinate that Newton solves for there.
+    guessed: FxHashMap<Register, u32>,
+}
+
+impl<'p, S: Scene> Printer<'p, S> {
+    fn new(code: &Code<'p>, scene: &'p S, parts: &[Part<'p>]) -> Printer<'p, S> {
+        Printer {
+            scene,
+            instructions: code.instructions,
+            homes: Homes::of(code, scene, parts),
+            names: vec![None; code.registers],
+            taken: FxHashSet::default(),
+            bound: FxHashSet::default(),
+            bindings: String::new(),
+            used: FxHashSet::default(),
+            is_set_off: false,
+            built: FxHashSet::default(),
+            count: 0,
+            guessed: FxHashMap::default(),
+        }
+    }
+
+    /// A register's value, for a line that holds it.
+    fn value(&mut self, register: Register) -> Operand {
+        let operand = self.known(register);
+        self.used.extend(operand.arguments());
+        operand
+    }
+
+    /// The same, for nobody yet.
+    fn known(&mut self, register: Register) -> Operand {
+        if let Some(operand) = &self.names[register as usize] {
+            return operand.clone();
+        }
+        match self.scene.input(register) {
+            Input::Is(operand) => operand,
+            Input::Bound { name, value } => {
+                if self.bound.insert(register) {
+                    self.used.extend(value.arguments());
+                    self.bindings += &format!("    let {name} = {value};\n");
+                }
+                Operand::own(name)
+            }
+        }
+    }
+
+    /// What an operation writes to, the register being named so from now on.
+    fn target(&mut self, register: Register, prefix: char) -> Target {
+        let (operand, target) = match self.homes.home(register) {
+            Home::Term(place) => {
+                let term = self.term(place);
+                self.used.insert(TERMS);
+                (term.clone(), Target::Set(term))
+            }
+            home => {
+                let name = Operand::own(self.fresh(register, prefix));
+                let is_declared = matches!(home, Home::BeyondLoop { .. });
+                (name.clone(), if is_declared { Target::Set(name) } else { Target::Let(name) })
+            }
+        };
+        self.names[register as usize] = Some(operand);
+        target
+    }
+
+    /// A place among the terms.
+    fn term(&self, place: u32) -> Operand {
+        let lane = if self.scene.has_lanes() { "[k]" } else { "" };
+        Operand::of(format!("{TERMS}[{place}]{lane}"), &[TERMS])
+    }
+
+    /// A line, with what it names.
+    fn line(&mut self, indent: &str, (line, names): (String, Arguments), text: &mut String) {
+        self.used.extend(names);
+        *text += &format!("{indent}{line}\n");
+    }
+
+    fn fresh(&mut self, register: Register, prefix: char) -> String {
+        match self.homes.wanted[register as usize].take() {
+            Some(name) if self.taken.insert(name.clone()) => name,
+            _ => format!("{prefix}{}", self.count),
+        }
+    }
+
+    /// A function that is not cut.
+    fn alone(&mut self, function: &Function<'_>, pieces: &[Piece<'_>]) -> String {
+        self.is_set_off = matches!(function.out, Out::List { .. });
+        let (body, mut used) = self.body(pieces);
+        let (body, result) = match function.out {
+            Out::Given { begin, names } => {
+                used.extend(names);
+                (format!("    {begin}\n{body}"), "")
+            }
+            Out::List { of, first } if used.contains(OUT) => {
+                (format!("    let mut out = {first};\n{body}    out\n"), of)
+            }
+            Out::List { of, first } => {
+                debug_assert!(body.is_empty(), "nothing of it is left anywhere");
+                (format!("    {first}\n"), of)
+            }
+        };
+        head(function, result, &|name| used.contains(name)) + &body + "}\n\n"
+    }
+
+    /// A function that calls others in turn, and these.
+    fn several(&mut self, function: &Function<'_>, parts: &[Part<'_>]) -> String {
+        let mut arguments = function.arguments.clone();
+        let mut given = names(&function.arguments) + ", ";
+        if let Out::List { of, .. } = function.out {
+            arguments.push((OUT, format!("&mut {of}")));
+            given += "&mut out, ";
+        }
+        let (of, zero) = if self.scene.has_lanes() { ("Each", "[0.0; LANES]") } else { ("f64", "0.0") };
+        arguments.push((TERMS, format!("&mut [{of}; {}]", self.homes.terms)));
+        let attribute = if self.scene.has_lanes() { APART } else { "" };
+        let (name, margin) = (function.name, function.margin);
+        let mut written = Parts { name, arguments: &arguments, margin, attribute, text: String::new(), count: 0 };
+        let mut calls = String::new();
+        for part in parts {
+            let (body, used) = match part {
+                Part::Straight(pieces) => self.body(pieces),
+                Part::Loop { bodies, tears } => {
+                    let mut inner = String::new();
+                    for range in bodies {
+                        let (body, used) = self.body(&[Piece { range: range.clone(), tears: None }]);
+                        let name = written.add(&body, &used);
+                        inner += &format!("        {name}({}, {TERMS});\n", names(&function.arguments));
+                    }
+                    let body = self.around(tears, &inner);
+                    self.used.extend(arguments.iter().map(|(name, _)| *name));
+                    (body, std::mem::take(&mut self.used))
+                }
+            };
+            if !body.is_empty() {
+                calls += &format!("    {}({given}&mut {TERMS});\n", written.add(&body, &used));
+            }
+        }
+        let terms = format!("    let mut {TERMS} = [{zero}; {}];\n", self.homes.terms);
+        let (body, result) = match function.out {
+            Out::Given { begin, .. } => (format!("    {begin}\n{terms}{calls}"), ""),
+            Out::List { of, first } => (format!("    let mut out = {first};\n{terms}{calls}    out\n"), of),
+        };
+        // it hands all on
+        let head = head(function, result, &|_| !calls.is_empty());
+        head + &body + "}\n\n" + &written.text
+    }
+
+    /// The body of a function: what it is given, and then its lines; with the arguments that it names.
+    fn body(&mut self, pieces: &[Piece<'_>]) -> (String, FxHashSet<&'static str>) {
+        self.bound.clear();
+        self.bindings.clear();
+        self.built.clear();
+        self.used.clear();
+        let mut text = String::new();
+        for piece in pieces {
+            match piece.tears {
+                Some(tears) if self.scene.has_lanes() => self.newton_of_lanes(piece.range.clone(), tears, &mut text),
+                Some(tears) => self.newton(piece.range.clone(), tears, &mut text),
+                None if self.scene.has_lanes() => {
+                    let mut body = String::new();
+                    for at in piece.range.clone() {
+                        self.instruction(self.instructions[at], "        ", &mut body);
+                    }
+                    if !body.is_empty() {
+                        text += &format!("    for k in 0..LANES {{\n{body}    }}\n");
+                    }
+                }
+                None => {
+                    for at in piece.range.clone() {
+                        self.instruction(self.instructions[at], "    ", &mut text);
+                    }
+                }
+            }
+        }
+        let mut bindings = std::mem::take(&mut self.bindings);
+        if !bindings.is_empty() && !text.is_empty() {
+            // what is given, and what is made of it
+            bindings.push('\n');
+        }
+        (bindings + &text, std::mem::take(&mut self.used))
+    }
+}
+
+/// The names of arguments, as they are handed on.
+fn names(arguments: &[(&'static str, String)]) -> String {
+    arguments.iter().map(|(name, _)| *name).collect::<Vec<&str>>().join(", ")
+}
+
+/// Documentation and head of a function; an argument that is not used is marked.
+fn head(function: &Function<'_>, result: &str, is_used: &dyn Fn(&str) -> bool) -> String {
+    let arguments: Vec<(&str, &str)> = function.arguments.iter().map(|(name, of)| (*name, of.as_str())).collect();
+    let visibility = if function.is_public { "pub " } else { "" };
+    documented(&function.docs, "") + &signature(visibility, function.name, &arguments, result, is_used, function.margin)
+}
+
+/// The functions that a long one is cut into.
+struct Parts<'p> {
+    name: &'p str,
+    arguments: &'p [(&'static str, String)],
+    margin: usize,
+    attribute: &'p str,
+    text: String,
+    count: usize,
+}
+
+impl Parts<'_> {
+    /// Adds one, which uses some of the arguments, and gives its name.
+    fn add(&mut self, body: &str, used: &FxHashSet<&str>) -> String {
+        self.count += 1;
+        let name = format!("{}_{}", self.name, self.count);
+        let types: Vec<(&str, &str)> = self.arguments.iter().map(|(name, of)| (*name, of.as_str())).collect();
+        self.text += &format!("/// Part {} of [`{}`].\n{}", self.count, self.name, self.attribute);
+        self.text += &(signature("", &name, &types, "", &|name| used.contains(name), self.margin) + body + "}\n\n");
+        name
+    }
+}

@@ -1,0 +1,96 @@
+//! How operations fall into functions of a bearable length.
+
+use super::Code;
+use mechc_engine::solver::{Segment, Tear};
+use std::ops::Range;
+
+/// Operations of a function at most: rustc takes more than proportionally longer for longer ones.
+const LONGEST_FUNCTION: usize = 2000;
+/// Of a loop over lanes, which is to become vector instructions.
+const LONGEST_LOOP: usize = 400;
+
+/// A run of operations in a function of its own.
+pub(super) enum Part<'c> {
+    Straight(Vec<Piece<'c>>),
+    /// A loop whose body is so long that it is made of several functions.
+    Loop {
+        bodies: Vec<Range<usize>>,
+        tears: &'c [Tear],
+    },
+}
+
+pub(super) struct Piece<'c> {
+    pub range: Range<usize>,
+    /// Of a loop.
+    pub tears: Option<&'c [Tear]>,
+}
+
+impl<'c> Code<'c> {
+    /// Cuts the segments into parts that are short enough; with lanes each loop is a part of its own.
+    pub(super) fn parts(&self, has_lanes: bool) -> Vec<Part<'c>> {
+        let longest = if has_lanes { LONGEST_LOOP } else { LONGEST_FUNCTION };
+        let mut cut = Cut { parts: Vec::new(), pieces: Vec::new(), length: 0, longest };
+        for segment in self.segments {
+            match segment {
+                Segment::Once(range) => cut.straight(range.clone()),
+                Segment::Newton { instructions, tears } if has_lanes => cut.push(instructions.clone(), Some(tears)),
+                Segment::Newton { instructions, tears } => cut.newton(instructions.clone(), tears),
+            }
+            if has_lanes {
+                cut.close();
+            }
+        }
+        cut.close();
+        if cut.parts.is_empty() {
+            cut.parts.push(Part::Straight(Vec::new()));
+        }
+        cut.parts
+    }
+}
+
+/// Parts in the making.
+struct Cut<'c> {
+    parts: Vec<Part<'c>>,
+    pieces: Vec<Piece<'c>>,
+    length: usize,
+    longest: usize,
+}
+
+impl<'c> Cut<'c> {
+    fn straight(&mut self, range: Range<usize>) {
+        let mut from = range.start;
+        while from < range.end {
+            let to = range.end.min(from + self.longest - self.length);
+            self.push(from..to, None);
+            from = to;
+        }
+    }
+
+    fn newton(&mut self, range: Range<usize>, tears: &'c [Tear]) {
+        if self.length + range.len() > self.longest {
+            self.close();
+        }
+        if range.len() > LONGEST_FUNCTION {
+            let starts = range.clone().step_by(LONGEST_FUNCTION);
+            let bodies = starts.map(|from| from..range.end.min(from + LONGEST_FUNCTION)).collect();
+            self.parts.push(Part::Loop { bodies, tears });
+        } else {
+            self.push(range, Some(tears));
+        }
+    }
+
+    fn push(&mut self, range: Range<usize>, tears: Option<&'c [Tear]>) {
+        self.length += range.len();
+        self.pieces.push(Piece { range, tears });
+        if self.length >= self.longest {
+            self.close();
+        }
+    }
+
+    fn close(&mut self) {
+        if !self.pieces.is_empty() {
+            self.parts.push(Part::Straight(std::mem::take(&mut self.pieces)));
+        }
+        self.length = 0;
+    }
+}

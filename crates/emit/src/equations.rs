@@ -1,0 +1,372 @@
+//! `Φ`, `Φ_q`, `Φ_t`, `ν`, `γ` and what else the program evaluates, as functions of the coordinates.
+
+use super::code::{Code, Function, Input, Out, Scene};
+use super::goods::Uses;
+use super::names::{MULTIPLIERS, Names, VARIED};
+use super::operand::{Arguments, Operand};
+use super::operations::slice;
+use super::print::{Head, Page};
+use super::tables::{self, Tables};
+use super::tape::{self, Book, Loaded, Notes};
+use mechc_engine::solver::{Instruction, Segment};
+use mechc_ir::program::{Column, Program, Register};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::cell::RefCell;
+
+/// What the functions of the equations are written from.
+pub(super) struct Equations<'e> {
+    pub program: &'e Program,
+    pub names: &'e Names,
+    pub tables: &'e Tables,
+    pub constants: FxHashMap<Register, f64>,
+    /// The results of switches, by their places among the sides.
+    pub sides: FxHashMap<Register, usize>,
+    /// Whether they are those of a mechanism that is led by its inputs: these are given, as a `Way`.
+    pub is_led: bool,
+    /// What operations written as numbers share; none where they are written as lines.
+    pub book: Option<RefCell<Book>>,
+    /// What the functions use.
+    pub uses: RefCell<Uses>,
+}
+
+/// A function to write.
+#[allow(clippy::struct_excessive_bools)] // what it is given and what it gives are said one by one
+pub(super) struct Wanted<'f> {
+    pub name: &'f str,
+    pub docs: &'f str,
+    pub is_public: bool,
+    /// How many derivatives of the coordinates it is given, itself counted: 0 for none.
+    pub orders: usize,
+    pub has_time: bool,
+    /// Whether it is given the derivatives by inputs and parameters too, of a mechanism that has such.
+    pub varied: bool,
+    /// Whether it is given the multipliers too, of a mechanism whose forces are asked for.
+    pub multipliers: bool,
+    /// Its outputs, and the length of the array that they make.
+    pub outputs: &'f [Register],
+    pub length: &'f str,
+    pub negated: bool,
+    /// Which switches are given instead of computed.
+    pub given: Given,
+}
+
+impl<'f> Wanted<'f> {
+    /// A function of its own of time, on branches that are given.
+    pub fn of(name: &'f str, docs: &'f str, outputs: &'f [Register], length: &'f str) -> Wanted<'f> {
+        let (is_public, has_time, negated) = (false, true, false);
+        let (orders, varied, multipliers, given) = (0, false, false, Given::All);
+        Wanted { name, docs, is_public, orders, has_time, varied, multipliers, outputs, length, negated, given }
+    }
+}
+
+/// Which switches a function is given.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Given {
+    None,
+    OfTime,
+    All,
+}
+
+/// A formatter sets wider ones in a column.
+const WIDEST_ARRAY: usize = 56;
+
+/// The arrays of the coordinates and their derivatives.
+pub(super) const ARRAYS: [&str; 4] = ["q", "qd", "qdd", "qddd"];
+const OF_ARRAYS: [Arguments; 4] = [&["q"], &["qd"], &["qdd"], &["qddd"]];
+
+/// How a function reaches what it is given.
+pub(super) struct Reached {
+    /// The parameters, or the way: `p`, `m.params`.
+    pub given: String,
+    /// The argument that this names.
+    pub names: Arguments,
+    /// The same and the time.
+    pub names_with_time: Arguments,
+    /// What picks a lane.
+    pub lane: &'static str,
+}
+
+impl Equations<'_> {
+    /// A function with its documentation.
+    pub fn function(&self, wanted: &Wanted<'_>, page: &mut Page) {
+        let given: FxHashSet<Register> = match wanted.given {
+            Given::None => FxHashSet::default(),
+            Given::All => self.sides.keys().copied().collect(),
+            Given::OfTime => {
+                let of_time = self.program.switches().iter().filter(|switch| switch.on_time);
+                of_time.map(|switch| switch.to).collect()
+            }
+        };
+        let instructions = slice(self.program, wanted.outputs, &given);
+        let mut arguments: Vec<(&'static str, String)> =
+            ARRAYS[..wanted.orders].iter().map(|name| (*name, "&[f64; N]".to_owned())).collect();
+        if wanted.varied && self.has_varied() {
+            arguments.push((VARIED, "&[f64; VARIED]".to_owned()));
+        }
+        if wanted.multipliers && self.has_forces() {
+            arguments.push((MULTIPLIERS, "&[f64; N]".to_owned()));
+        }
+        if wanted.has_time {
+            arguments.push(("t", "f64".to_owned()));
+        }
+        arguments.push(("p", if self.is_led { "&Way" } else { "&Params" }.to_owned()));
+        if wanted.given != Given::None && !self.sides.is_empty() {
+            arguments.push(("sides", "&Sides".to_owned()));
+        }
+        if let Some(book) = &self.book {
+            return self.as_numbers(wanted, &instructions, &arguments, &mut book.borrow_mut(), page);
+        }
+        self.uses.borrow_mut().instructions(&instructions, false);
+        let segments = [Segment::Once(0..instructions.len())];
+        let code = Code { instructions: &instructions, segments: &segments, registers: self.program.registers() };
+        let (result, first) = (format!("[f64; {}]", wanted.length), format!("[0.0; {}]", wanted.length));
+        let function = Function {
+            name: wanted.name,
+            docs: format!("{}\n\n{} operations.", wanted.docs, code.count()),
+            is_public: wanted.is_public,
+            arguments,
+            out: Out::List { of: &result, first: &first },
+            margin: 0,
+        };
+        page.text(&code.print(&EquationScene { equations: self, negated: wanted.negated, given }, &function));
+    }
+
+    /// A function that reads its operations from a list of numbers.
+    fn as_numbers(
+        &self,
+        wanted: &Wanted<'_>,
+        instructions: &[Instruction],
+        arguments: &[(&'static str, String)],
+        book: &mut Book,
+        page: &mut Page,
+    ) {
+        let count = instructions.iter().filter(|each| !matches!(each, Instruction::Store { .. })).count();
+        let instructions = tape::with_loads(instructions, self.program.registers());
+        let segments = [Segment::Once(0..instructions.len())];
+        let shared = tape::share(&instructions, &segments, self.program.registers());
+        let loaded = |register| self.loaded(register, &FxHashMap::default());
+        let notes = Notes { loaded: &loaded, pivot: &|_| (0, 0.0), weight: &|_| 0.0, bound: &|_| 0.0 };
+        let words = book.encode(&shared.instructions, &notes).words;
+        let name = wanted.name.to_uppercase();
+        let params = match (self.names.params.is_empty(), self.is_led) {
+            (true, _) => "&[]",
+            (false, false) => "&p.list()",
+            (false, true) => "&p.params.list()",
+        };
+        let mut lists: Vec<String> = vec![params.to_owned()];
+        lists.push("&[]".to_owned());
+        let given = |argument: &str| arguments.iter().any(|(name, _)| *name == argument);
+        lists.push(if given("sides") { "sides" } else { "&[]" }.to_owned());
+        let time = if self.is_led { "&p.list::<{ 3 * SIGNALS }>(t)" } else { "&[t]" };
+        lists.push(if given("t") { time } else { "&[]" }.to_owned());
+        lists.extend(ARRAYS.map(|array| if given(array) { array } else { "&[]" }.to_owned()));
+        lists.extend([VARIED, MULTIPLIERS].map(|array| if given(array) { array } else { "&[]" }.to_owned()));
+        let mut uses = self.uses.borrow_mut();
+        uses.name("tables", "Arrays");
+        uses.name("tables", "run");
+        if self.is_led {
+            uses.file("way_list");
+        }
+        // it hands all on, and parameters where there are any
+        let reads_params = !self.names.params.is_empty() || (self.is_led && wanted.has_time);
+        let marked = |name: &'static str| if name == "p" && !reads_params { "_p" } else { name };
+        let types: Vec<(&str, &str)> = arguments.iter().map(|(name, of)| (marked(name), of.as_str())).collect();
+        let kind = if wanted.is_public { "pub fn" } else { "fn" };
+        let result = format!("[f64; {}]", wanted.length);
+        page.docs(&format!("{}\n\n{count} operations, in [`{name}_CODE`].", wanted.docs));
+        let lists = lists.join(", ");
+        if lists.len() > WIDEST_ARRAY {
+            page.line("#[rustfmt::skip]");
+        }
+        page.function(&Head { kind, name: wanted.name, arguments: &types, result: &result }, |page| {
+            page.line(&format!("let inputs: Arrays<'_> = [{lists}];"));
+            page.line(&format!("let mut out = [0.0; {}];", wanted.length));
+            page.line(&format!("let mut v = [0.0; {}];", shared.registers));
+            page.line(&format!("run::<Numbers>(&{name}_CODE, &[], &inputs, &mut v, &mut out);"));
+            if wanted.negated {
+                page.line("out = out.map(|value| -value);");
+            }
+            page.line("out");
+        });
+        tape::list(&format!("The operations of [`{}`].", wanted.name), &format!("{name}_CODE"), &words, page);
+    }
+
+    /// Where a register of the program gets its value.
+    pub fn loaded(&self, register: Register, known: &FxHashMap<Register, usize>) -> Loaded {
+        let inputs = &self.program.inputs;
+        let input = |array: u32, index: usize| Loaded::Input { array, index: index as u32 };
+        if let Some(&value) = self.constants.get(&register) {
+            return Loaded::Number(value);
+        }
+        if let Some(&place) = known.get(&register) {
+            return input(1, place);
+        }
+        if let Some(&side) = self.sides.get(&register) {
+            return input(2, side);
+        }
+        if register == inputs.time {
+            return input(3, 0);
+        }
+        if inputs.all_signals().contains(&register) {
+            return input(3, (register - inputs.signals) as usize);
+        }
+        if register < inputs.time {
+            return input(0, (register - inputs.params) as usize);
+        }
+        if let Some(place) = self.varied(register) {
+            return input(4 + ARRAYS.len() as u32, place);
+        }
+        if let Some(place) = self.multiplier(register) {
+            return input(5 + ARRAYS.len() as u32, place);
+        }
+        let order =
+            (0..4).find(|&order| (inputs.coordinates[order]..inputs.coordinates[order] + inputs.n).contains(&register));
+        order.map_or(Loaded::Number(f64::NAN), |order| {
+            input(4 + order as u32, (register - inputs.coordinates[order]) as usize)
+        })
+    }
+
+    /// A register of the program that no operation of a function writes.
+    pub fn input(&self, register: Register, reached: &Reached) -> Input {
+        let inputs = &self.program.inputs;
+        if let Some(&value) = self.constants.get(&register) {
+            return Input::Is(Operand::Number(value));
+        }
+        if let Some(side) = self.sides.get(&register) {
+            return Input::Is(Operand::of(format!("sides{}[{side}]", reached.lane), &["sides"]));
+        }
+        if register == inputs.time {
+            return Input::Is(Operand::of("t".to_owned(), &["t"]));
+        }
+        let given = &reached.given;
+        if let Some(k) = register.checked_sub(inputs.params).filter(|&k| register < inputs.time && k < inputs.time) {
+            let name = &self.names.params[k as usize];
+            let of = if self.is_led { ".params" } else { "" };
+            return Input::Bound {
+                name: self.names.param_variables[k as usize].clone(),
+                value: Operand::of(format!("{given}{of}.{name}"), reached.names),
+            };
+        }
+        if inputs.all_signals().contains(&register) {
+            let place = register - inputs.signals;
+            let (signal, order) = ((place / 3) as usize, (place % 3) as usize);
+            let value = match order {
+                0 => Operand::of(format!("{given}.value({signal}, t)"), reached.names_with_time),
+                1 => Operand::of(format!("{given}.rates[{signal}]"), reached.names),
+                _ => Operand::of(format!("{given}.accelerations[{signal}]"), reached.names),
+            };
+            return Input::Bound { name: self.names.signal(signal, order).to_owned(), value };
+        }
+        if let Some(place) = self.varied(register) {
+            return Input::Is(Operand::of(format!("{VARIED}[{place}]"), &[VARIED]));
+        }
+        if let Some(place) = self.multiplier(register) {
+            return Input::Is(Operand::of(format!("{MULTIPLIERS}[{place}]"), &[MULTIPLIERS]));
+        }
+        for (order, (array, of)) in ARRAYS.iter().zip(OF_ARRAYS).enumerate() {
+            let first = inputs.coordinates[order];
+            if (first..first + inputs.n).contains(&register) {
+                let k = (register - first) as usize;
+                let value = Operand::of(format!("{array}[{k}]"), of);
+                return Input::Bound { name: self.names.coordinate(order, k), value };
+            }
+        }
+        Input::Is(Operand::Number(f64::NAN))
+    }
+
+    /// Whether measures hold derivatives by inputs or parameters.
+    pub fn has_varied(&self) -> bool {
+        !self.program.outputs.variations.is_empty()
+    }
+
+    /// The place of a register among the derivatives by inputs and parameters.
+    fn varied(&self, register: Register) -> Option<usize> {
+        let (first, count) = (self.program.inputs.varied, self.program.outputs.variations.len() as u32);
+        let is_varied = (first..first + 3 * count * self.program.inputs.n).contains(&register);
+        is_varied.then(|| (register - first) as usize)
+    }
+
+    /// Whether forces are asked for.
+    pub fn has_forces(&self) -> bool {
+        !self.program.outputs.forces.is_empty()
+    }
+
+    /// The place of a register among the multipliers.
+    fn multiplier(&self, register: Register) -> Option<usize> {
+        let (first, count) = (self.program.inputs.multipliers, self.program.outputs.forces.len() as u32);
+        (first..first + count).contains(&register).then(|| (register - first) as usize)
+    }
+
+    /// What a column of a table is called: a constant, or a variable where it depends on parameters.
+    pub fn table(&self, table: u32, column: Column) -> String {
+        let name = self.tables.of(table, column);
+        if self.is_constant(table, column) { name.to_owned() } else { name.to_lowercase() }
+    }
+
+    /// What lists of operations share, if there are any.
+    pub fn print_book(&self, page: &mut Page) {
+        if let Some(book) = &self.book {
+            let called = |table, column| self.table(table, column);
+            book.borrow().print(self.program.tables().len(), called, &mut self.uses.borrow_mut(), page);
+        }
+    }
+
+    /// Whether a column of a table holds numbers alone.
+    pub fn is_constant(&self, table: u32, column: Column) -> bool {
+        tables::numbers(self.program, &self.constants, table, column).is_some()
+    }
+}
+
+struct EquationScene<'s, 'e> {
+    equations: &'s Equations<'e>,
+    negated: bool,
+    given: FxHashSet<Register>,
+}
+
+impl Scene for EquationScene<'_, '_> {
+    fn input(&self, register: Register) -> Input {
+        debug_assert!(!self.equations.sides.contains_key(&register) || self.given.contains(&register));
+        let reached = Reached { given: "p".to_owned(), names: &["p"], names_with_time: &["p", "t"], lane: "" };
+        self.equations.input(register, &reached)
+    }
+
+    fn load(&self, register: Register) -> Operand {
+        debug_assert!(false, "register {register} is loaded by solvers alone");
+        Operand::Number(f64::NAN)
+    }
+
+    fn place(&self, column: u32) -> Operand {
+        Operand::of(format!("out[{column}]"), &["out"])
+    }
+
+    fn name(&self, _: u32) -> Option<String> {
+        None
+    }
+
+    fn table(&self, table: u32, column: Column) -> Operand {
+        Operand::own(self.equations.table(table, column))
+    }
+
+    fn cells(&self, table: u32, column: Column) -> Vec<Register> {
+        if self.equations.is_constant(table, column) {
+            return Vec::new();
+        }
+        self.equations.program.tables()[table as usize].column(column).collect()
+    }
+
+    fn store(&self, column: u32, value: &Operand) -> Option<(String, Arguments)> {
+        let value = if self.negated { value.negated() } else { value.clone() };
+        let is_zero = matches!(value, Operand::Number(value) if value == 0.0);
+        (!is_zero).then(|| (format!("out[{column}] = {value};"), &["out"][..]))
+    }
+
+    fn act(&self, instruction: Instruction, _: &Operand) -> (String, Arguments) {
+        debug_assert!(false, "{instruction:?} is of solvers alone");
+        (String::new(), &[])
+    }
+
+    fn watch(&self, weight: u32, _: &Operand) -> (String, Arguments) {
+        debug_assert!(false, "weight {weight} is of solvers alone");
+        (String::new(), &[])
+    }
+}

@@ -1,0 +1,111 @@
+//! A constraint system for others: as Rust, a module or a whole crate, with functions for C, as LaTeX for a report, as JSON for other programs.
+//!
+//! What is emitted as Rust are the operations that the interpreter runs, those of the program and those of the solver, one by one, so
+//! that both give the same bits (the sign of a zero in `phi_t`, which is `-nu`, aside).
+
+mod c;
+mod code;
+mod equations;
+mod errors;
+mod files;
+mod goods;
+mod json;
+mod latex;
+mod limits;
+mod names;
+mod operand;
+mod operations;
+mod package;
+mod params;
+mod print;
+#[cfg(test)]
+// it is written for crates whose lints are the usual ones; only generic types copy themselves by hand
+#[allow(clippy::expl_impl_clone_on_copy, clippy::needless_for_each)]
+mod runtime;
+mod rust;
+mod solution;
+mod tables;
+mod tape;
+mod text;
+
+pub use files::{CrateFile, MARK, NOT_IN_ALL};
+pub use json::json;
+pub use latex::latex;
+pub use package::{Reference, package};
+pub use rust::{is_large, rust};
+pub use tape::LARGEST_STRAIGHT;
+
+use mechc_engine::solver::{BlockTables, Solver};
+use mechc_ir::ConstraintSystem;
+use mechc_ir::program::Program;
+use mechc_text::source::Sources;
+
+/// What there is to emit.
+pub struct TranslationUnit<'u> {
+    /// The system, which is determined.
+    pub system: &'u ConstraintSystem,
+    /// Its program.
+    pub program: &'u Program,
+    /// The texts that it comes from.
+    pub sources: &'u Sources,
+    /// The name of the file among them.
+    pub file: &'u str,
+    /// What solves it, if that is wanted.
+    pub motion: Option<EmittedMotion>,
+    /// How many lanes are solved at once, beside one at a time.
+    pub lanes: Option<usize>,
+    /// Beyond so many operations they are written as numbers instead of lines; mostly [`LARGEST_STRAIGHT`].
+    pub largest_straight: usize,
+    /// Whether C is to read its parameters and inputs.
+    pub for_c: bool,
+    /// The same with its inputs as signals, where it has any and is to be solved.
+    pub following: Option<Following<'u>>,
+}
+
+impl TranslationUnit<'_> {
+    /// Whether it gives what joints exert and drivers supply.
+    fn has_forces(&self) -> bool {
+        self.motion.as_ref().is_some_and(|motion| motion.forced.is_some())
+    }
+
+    /// Whether it gives the derivatives of the coordinates by parameters.
+    fn has_sensitivity(&self) -> bool {
+        self.motion.as_ref().is_some_and(|motion| motion.sensitive.is_some())
+    }
+}
+
+/// A mechanism once more, with its inputs as signals.
+pub struct Following<'u> {
+    /// Its system, in which they are signals; the program holds no operation that says what they are by the text.
+    pub unit: Box<TranslationUnit<'u>>,
+    /// The program with these operations; its registers are the same.
+    pub by_text: &'u Program,
+}
+
+/// What it takes to follow the motion from the assembled start.
+pub struct EmittedMotion {
+    /// The operations that solve the system, laid out for code.
+    pub solver: Solver,
+    /// The same with the derivatives of the coordinates by parameters, where these are wanted.
+    pub sensitive: Option<Solver>,
+    /// The operations that give what joints exert and drivers supply too, where there are masses or loads.
+    pub forced: Option<Solver>,
+    /// For elimination with partial pivoting; none where a block is too large.
+    pub blocks: Option<BlockTables>,
+    /// The assembled position [m, rad].
+    pub q: Vec<f64>,
+    /// By row of `Φ`: what may be left of it.
+    pub bounds: Vec<f64>,
+    /// The first time (s).
+    pub from: f64,
+    /// The last time (s), where the earlier side of an edge counts; none if the file has no analysis.
+    pub to: Option<f64>,
+    /// What the parts of rows of `Φ` may be left open by, scaled.
+    pub tolerance: f64,
+}
+
+/// Why a measure's formula is not written for others; nothing where it is.
+fn not_written(system: &mechc_ir::ConstraintSystem, formula: mechc_expr::ExprId) -> Option<&'static str> {
+    let is_varied = system.graph().dependence(formula).is_varied();
+    is_varied.then_some("a derivative by an input or parameter, which only a run computes")
+}

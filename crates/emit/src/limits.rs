@@ -1,0 +1,132 @@
+//! The limits that emitted code names, as `tolerances` has them.
+
+use super::text::{documented, literal};
+use mechc_ir::tolerances::emitted::{assemble, close, explain, follow, reach, rims as looks, step};
+use mechc_ir::tolerances::singular::reasons;
+use mechc_ir::tolerances::solving::{lanes, solver, trust};
+use mechc_ir::tolerances::steps::{edges, limits as sides, march, rims};
+use mechc_ir::tolerances::{checks, jumps};
+
+/// A limit of emitted code.
+struct Limit {
+    name: &'static str,
+    docs: &'static str,
+    value: Value,
+}
+
+enum Value {
+    Number(f64),
+    Count(usize),
+}
+
+macro_rules! limits {
+    ($($kind:ident $name:ident = $value:expr, $docs:literal;)*) => {
+        const LIMITS: &[Limit] =
+            &[$(Limit { name: stringify!($name), docs: $docs, value: Value::$kind($value) },)*];
+
+        /// For the files that go along, where this crate compiles them itself.
+        #[cfg(test)]
+        #[allow(dead_code)] // one is named by code that is printed, and by no file
+        pub(super) mod values {
+            use super::*;
+            $(limits!(@constant $kind $name = $value);)*
+        }
+    };
+    (@constant Number $name:ident = $value:expr) => { pub const $name: f64 = $value; };
+    (@constant Count $name:ident = $value:expr) => { pub const $name: usize = $value; };
+}
+
+limits! {
+    Number ACCURACY = trust::ACCURACY, "Rounding may make so much of velocities and accelerations that are given out.";
+    Number AHEAD = edges::AHEAD,
+        "How far the motion is looked ahead to tell on which side of an edge it goes on, as a part of the span.";
+    Number LONGEST_AHEAD = edges::LONGEST_AHEAD, "And at most (s).";
+    Number BORDER = lanes::BORDER,
+        "A correction that is no farther from half a cell of the grid than this, in cells, leads to the border of two.";
+    Number CALM_BETWEEN = march::CALM_BETWEEN,
+        "A step is calm, so that a longer one would do as well, if its gap is so many times less than the largest.";
+    Number CALM_CORRECTION = march::CALM_CORRECTION, "And if its first correction is so many times less.";
+    Number CRUMB = march::CRUMB, "A step that makes this part of what is left makes all of it.";
+    Number FARTHEST_AHEAD = edges::FARTHEST_AHEAD, "Nothing may move farther than this meanwhile, scaled.";
+    Number FARTHEST_BEND = step::FARTHEST_BEND,
+        "The step before tells of one that is so many times as long at most.";
+    Count FIRST_PARTS = assemble::FIRST_PARTS,
+        "Trials on the way from the file's parameters to others before its poses are tried.";
+    Count FEWEST_LOOKS = looks::FEWEST_LOOKS, "How often both sides of a rim are looked at at least.";
+    Number GROWTH = sides::GROWTH, "What grows by so much with each look has no bound.";
+    Count ITERATIONS = lanes::ITERATIONS, "Iterations of Newton at most.";
+    Number JUMP = follow::JUMP, "A position jumps that is so many times farther away than slopes lead.";
+    Number LARGEST_CORRECTION = lanes::LARGEST_CORRECTION,
+        "Newton's first correction at most, beside the size of a body or 1 rad.";
+    Number LARGEST_GAP = step::LARGEST_GAP,
+        "How far velocities may lead elsewhere than positions, likewise: more is another branch.";
+    Number LARGEST_MOTION = march::LARGEST_MOTION, "The largest motion of a step, beside the size of a body or 1 rad.";
+    Number LARGEST_MULTIPLIER = solver::LARGEST_MULTIPLIER, "A multiplier beyond this loses digits.";
+    Number LARGEST_OPENING = checks::LARGEST_OPENING,
+        "How far equations that were left out may be open, beside their scales.";
+    Number LARGEST_TURN = follow::LARGEST_TURN,
+        "Signals go straight on if the square of what leads aside is no larger part of that of the whole.";
+    Number LEAD = rims::FARTHEST, "How far before a rim its sides are looked at, as a part of the span.";
+    Number MISSES = checks::MISSES,
+        "What equations that were left out may miss by, beside how much everything changes with a parameter, scaled.";
+    Number MOMENT = rims::MOMENT,
+        "A rounding of the time, in units in its last place, that changes a gauge by more than itself shows that it is zero there.";
+    Count MOST_BRANCHES = reach::MOST_BRANCHES, "How often the branches of formulas are chosen anew at one time.";
+    Count MOST_HALVINGS = rims::MOST_HALVINGS, "Halvings until two times are neighbours.";
+    Count MOST_LOOKS = looks::MOST_LOOKS,
+        "How often both sides of a rim are looked at, each time at a quarter of the distance.";
+    Count MOST_PARTS = assemble::MOST_PARTS, "Trials on it at most where these have not helped either.";
+    Count MOST_SHORTER = close::MOST_SHORTER, "How often a correction is made half as long before it is taken as it is.";
+    Count MOST_STEPS = step::MOST_STEPS, "Steps that `step` takes at most.";
+    Count MOST_STEPS_TO_FOLLOW = follow::MOST_STEPS_TO_FOLLOW, "Steps that `follow` takes at most.";
+    Count MOST_TRIALS = close::MOST_TRIALS, "Corrections at most from far away.";
+    Number NEAR = close::NEAR, "A correction that is so small, scaled, is the last one from far away.";
+    Number NEAREST_TURN = follow::NEAREST_TURN,
+        "A dead point that is so near by a signal's change, while a longer step is refused, is not passed.";
+    Number NEAR_TURN = follow::NEAR_TURN, "Where a step is refused, this is steep enough for a dead point to be looked for.";
+    Number NEAR_FOLD = reasons::NEAR_FOLD, "A dead point is no further off than this part of the span.";
+    Number PASSED = looks::PASSED, "A rim within this part of the span is one that was looked at.";
+    Number POSITION_JUMP = jumps::POSITION_JUMP, "A position that changes by more than this at an edge jumps, scaled.";
+    Number REST = jumps::REST, "A speed below this part of one per span is rest, scaled.";
+    Number ROUNDING = rims::ROUNDING, "A gauge is zero that is no more than so many units in the last place.";
+    Number SHORTEST_STEP = follow::SHORTEST_STEP,
+        "The shortest step, as a part of the way of signals; of a long one, as a change of a signal.";
+    Number SINGULAR = explain::SINGULAR,
+        "Where steps become too small, this is steep enough for a singular position to be the reason.";
+    Number SLACK = edges::SLACK,
+        "So many units in the last place of a time it may be off from what is meant to happen then.";
+    Number SLOW = looks::SLOW, "A speed below this part of one per span is rest, beside a rim.";
+    Number SMALLEST_PART = assemble::SMALLEST_PART, "The smallest part of the way to other parameters.";
+    Number SPEED_JUMP = looks::SPEED_JUMP,
+        "A velocity that changes at a rim by more than this jumps, beside the fastest motion.";
+    Number STEEP = reach::STEEP, "One over a pivot, scaled: beyond this the position is looked at more closely.";
+    Number STEEPEST = reach::STEEPEST, "One over a pivot, scaled: beyond this it is too near to a singular one.";
+    Number VELOCITY_JUMP = jumps::VELOCITY_JUMP,
+        "A velocity that changes by more than this part of the fastest at an edge jumps.";
+}
+
+/// A limit as it is declared.
+pub(super) fn printed(name: &str) -> String {
+    let limit = LIMITS.iter().find(|limit| limit.name == name);
+    debug_assert!(limit.is_some(), "`{name}` is no limit");
+    limit.map_or_else(String::new, |limit| {
+        let value = match limit.value {
+            Value::Number(value) => format!("f64 = {}", literal(value)),
+            Value::Count(value) => format!("usize = {}", grouped(value)),
+        };
+        format!("{}pub const {}: {value};\n", documented(limit.docs, ""), limit.name)
+    })
+}
+
+/// A count with its thousands apart.
+fn grouped(count: usize) -> String {
+    let digits = count.to_string();
+    let mut text = String::new();
+    for (k, digit) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) && digits.len() > 4 {
+            text.push('_');
+        }
+        text.push(digit);
+    }
+    text
+}

@@ -1,0 +1,271 @@
+//! Names of the source made safe for the target: valid, of the usual case, and unique.
+
+use mechc_ir::{ConstraintSystem, Input};
+use rustc_hash::FxHashSet;
+
+/// Words that Rust keeps for itself.
+const KEYWORDS: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn", "else",
+    "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro", "match", "mod",
+    "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super", "trait", "true",
+    "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+
+/// Longer names are cut, but those of paths; the documentation beside them has the whole.
+const LONGEST: usize = 40;
+
+/// Names in a body that are its own.
+const RESERVED: &[&str] = &[
+    "q", "qd", "qdd", "qddd", "t", "p", "m", "w", "x", "at", "out", "guess", "known", "sides", "newton", "sin_cos",
+    "select", "either", "sign", "lesser", "greater", "piece", "pick", "on_grid", "libm", "blocks",
+];
+
+/// What time is called, among inputs too.
+pub(super) const TIME: &str = "t";
+
+/// The array of the derivatives by inputs and parameters, of a mechanism that has such.
+pub(super) const VARIED: &str = "varied";
+
+/// What forces are written to.
+pub(super) const FORCES: &str = "forces";
+
+/// The array of the multipliers, of a mechanism whose forces are asked for.
+pub(super) const MULTIPLIERS: &str = "multipliers";
+
+/// Longer names of variables would make lines that a formatter breaks.
+const LONGEST_VARIABLE: usize = 20;
+
+/// The names of a system's parameters and coordinates.
+pub(super) struct Names {
+    /// How parameters are reached: `leg[1].shank`.
+    pub params: Vec<String>,
+    /// What they are called in a body.
+    pub param_variables: Vec<String>,
+    /// What coordinates, velocities and accelerations are called in a body.
+    coordinates: [Vec<String>; 3],
+    /// Fields of the inputs, where they are signals.
+    pub inputs: Vec<String>,
+    /// What their values, rates and accelerations are called in a body.
+    signals: [Vec<String>; 3],
+}
+
+impl Names {
+    /// The names of a system whose parameters are reached by some paths, in bodies that may hold some arrays.
+    pub fn new(system: &ConstraintSystem, paths: Vec<String>, arrays: &[String]) -> Names {
+        let params: Vec<String> = Case::Snake.names(system.params().iter().map(|param| param.name.as_str()));
+        let mut variables = Namer::default();
+        for word in RESERVED {
+            variables.snake(word);
+        }
+        if !system.variations().is_empty() {
+            variables.snake(VARIED);
+        }
+        if system.forces().is_some() {
+            variables.snake(MULTIPLIERS);
+            variables.snake(FORCES);
+        }
+        for array in arrays {
+            variables.snake(array);
+        }
+        let mut variable = |wanted: String, short: String| {
+            // what looks like a numbered one could be mistaken for it
+            let is_plain = wanted.len() <= LONGEST_VARIABLE && Names::is_telling(&wanted);
+            variables.snake(if is_plain { &wanted } else { &short })
+        };
+        let param_variables =
+            params.iter().enumerate().map(|(k, name)| variable(name.clone(), format!("p{k}"))).collect();
+        let coordinates = [("q", ""), ("qd", "_d"), ("qdd", "_dd")].map(|(array, end)| {
+            let coordinates = system.coordinates().iter().enumerate();
+            coordinates.map(|(k, c)| variable(words(&c.name).to_lowercase() + end, format!("{array}{k}"))).collect()
+        });
+        let inputs = Case::Snake.names_of_inputs(system.inputs());
+        let signals = ["", "_d", "_dd"].map(|end| {
+            let signals = inputs.iter().enumerate();
+            signals
+                .map(|(k, name)| variable(name.trim_end_matches('_').to_owned() + end, format!("u{k}{end}")))
+                .collect()
+        });
+        Names { params: paths, param_variables, coordinates, inputs, signals }
+    }
+
+    /// What a signal or a derivative of it is called in a body.
+    pub fn signal(&self, signal: usize, order: usize) -> &str {
+        self.signals.get(order).and_then(|names| names.get(signal)).map_or("u", String::as_str)
+    }
+
+    /// What a coordinate or a derivative of it is called in a body.
+    pub fn coordinate(&self, order: usize, k: usize) -> String {
+        self.coordinates.get(order).map_or_else(|| format!("qddd{k}"), |names| names[k].clone())
+    }
+
+    /// Whether a name is no letter with a number.
+    pub fn is_telling(name: &str) -> bool {
+        let number = name.trim_start_matches(|c: char| c.is_ascii_lowercase());
+        number.is_empty() || !number.chars().all(|c| c.is_ascii_digit()) || name.len() - number.len() > 4
+    }
+}
+
+/// How names are written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Case {
+    /// Of fields: `crank_length`.
+    Snake,
+    /// Of variants: `CrankPin`.
+    Camel,
+    /// Of constants: `CRANK_PHI`.
+    Constant,
+}
+
+impl Case {
+    /// Names that live in one space, in the order of their sources. Where two meet, the one that is less of a path keeps its name
+    /// (`pen_x` before `pen.x`, `leg_0.x` before `leg[0].x`), and of such that are alike the first; the other gets a number that makes
+    /// it no third one's. So what is declared behind others takes a name only from a path that it spells.
+    pub fn names<'s>(self, sources: impl IntoIterator<Item = &'s str>) -> Vec<String> {
+        let sources: Vec<&str> = sources.into_iter().collect();
+        let mut order: Vec<usize> = (0..sources.len()).collect();
+        let is_path = |c: &char| ".[ ".contains(*c);
+        order.sort_by_key(|&k| sources[k].chars().filter(is_path).count());
+        let (mut namer, mut names) = (Namer::default(), vec![String::new(); sources.len()]);
+        let mut met = Vec::new();
+        for k in order {
+            names[k] = self.name(sources[k]);
+            if !namer.taken.insert(names[k].clone()) {
+                met.push(k);
+            }
+        }
+        for k in met {
+            names[k] = namer.name(self, sources[k]);
+        }
+        names
+    }
+
+    /// A name that other sources may give too.
+    fn name(self, source: &str) -> String {
+        let words = words(source);
+        match self {
+            Case::Snake => safe(words.to_lowercase()),
+            Case::Camel => {
+                let capital = |word: &str| {
+                    let (first, rest) = word.split_at(word.len().min(1));
+                    first.to_uppercase() + rest
+                };
+                let name = words.split('_').map(capital).collect::<String>();
+                // `Self` is a word of its own
+                if name == "Self" { "SelfBody".to_owned() } else { name }
+            }
+            Case::Constant => words.to_uppercase(),
+        }
+    }
+
+    /// Names of inputs, and of time where it is one of them, behind all others. The name `t` is that of time, whether formulas hold it
+    /// or not, so that one which holds it changes no name of an input.
+    pub fn names_of_inputs(self, inputs: &[Input]) -> Vec<String> {
+        let own = inputs.iter().filter(|input| !input.is_time()).map(|input| input.name.as_str());
+        let mut names = self.names(std::iter::once(TIME).chain(own));
+        names.rotate_left(1);
+        names.truncate(inputs.len());
+        names
+    }
+}
+
+/// Hands out names, each once.
+#[derive(Default)]
+pub(super) struct Namer {
+    taken: FxHashSet<String>,
+}
+
+impl Namer {
+    /// A name for a field or variable: `crank_length`.
+    pub fn snake(&mut self, source: &str) -> String {
+        self.name(Case::Snake, source)
+    }
+
+    /// A name for a constant: `CRANK_PHI`.
+    pub fn constant(&mut self, source: &str) -> String {
+        self.name(Case::Constant, source)
+    }
+
+    /// The name, with a number if it is taken.
+    fn name(&mut self, case: Case, source: &str) -> String {
+        // a number behind it stands without a line in a variant
+        let separator = if case == Case::Camel { "" } else { "_" };
+        let name = case.name(source);
+        let mut candidate = name.clone();
+        let mut count = 1;
+        while !self.taken.insert(candidate.clone()) {
+            count += 1;
+            candidate = format!("{}{separator}{count}", name.trim_end_matches('_'));
+        }
+        candidate
+    }
+}
+
+/// A name that is no word of Rust.
+fn safe(name: String) -> String {
+    if is_keyword(&name) { name + "_" } else { name }
+}
+
+/// Whether a name is a word of Rust.
+pub(super) fn is_keyword(name: &str) -> bool {
+    KEYWORDS.contains(&name)
+}
+
+/// ASCII letters, digits and single underscores: `crank.phi` is `crank_phi`, `leg[3].x` is `leg_3_x`, `leg[-1]` is `leg_m1`, `é` is
+/// `u00e9`, `gearA` stays one word.
+fn words(source: &str) -> String {
+    let mut text = String::new();
+    for c in source.chars() {
+        if c.is_ascii_alphanumeric() {
+            text.push(c);
+        } else if c == '-' && text.ends_with('_') {
+            text.push('m');
+        } else if "_. [],".contains(c) {
+            if !text.is_empty() && !text.ends_with('_') {
+                text.push('_');
+            }
+        } else {
+            text += &format!("u{:04x}", u32::from(c));
+        }
+    }
+    // what is reached by a path would not be told apart
+    let longest = if source.contains(['.', '[']) { usize::MAX } else { LONGEST };
+    let cut = text.char_indices().nth(longest).map_or(text.len(), |(at, _)| at);
+    let text = text[..cut].trim_end_matches('_');
+    match text.chars().next() {
+        None => "unnamed".to_owned(),
+        Some(first) if first.is_ascii_digit() => format!("n{text}"),
+        Some(_) => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Case, Namer};
+
+    #[test]
+    fn names_are_valid_and_unique() {
+        let mut namer = Namer::default();
+        let names = ["fn", "type", "Self", "é", "R", "r", "crank.phi", "__", "_1", "R"].map(|name| namer.snake(name));
+        assert_eq!(names, ["fn_", "type_", "self_", "u00e9", "r", "r_2", "crank_phi", "unnamed", "n1", "r_3"]);
+        let mut namer = Namer::default();
+        assert_eq!(["a.x", "A.x"].map(|name| namer.constant(name)), ["A_X", "A_X_2"]);
+    }
+
+    #[test]
+    fn where_two_names_meet_the_plainer_one_keeps_it() {
+        let names = |sources: [&'static str; 3]| Case::Constant.names(sources);
+        assert_eq!(names(["pen.x", "pen_x", "pen.y"]), ["PEN_X_2", "PEN_X", "PEN_Y"]);
+        assert_eq!(names(["leg[0].x", "leg[1].x", "leg_0.x"]), ["LEG_0_X_2", "LEG_1_X", "LEG_0_X"]);
+        assert_eq!(Case::Snake.names(["R", "r", "s"]), ["r", "r_2", "s"]);
+        assert_eq!(Case::Snake.names(["R", "r", "r_2"]), ["r", "r_3", "r_2"]);
+        assert_eq!(Case::Snake.names(["Fn", "fn", "r"]), ["fn_", "fn_2", "r"]);
+        assert_eq!(Case::Camel.names(["leg[0]", "leg_0"]), ["Leg02", "Leg0"]);
+    }
+
+    #[test]
+    fn paths_are_not_cut() {
+        let path = format!("front.{}.x", "a".repeat(60));
+        assert_eq!(Case::Snake.names([path.as_str()]), [path.replace('.', "_")]);
+        assert_eq!(Case::Snake.names(["a".repeat(60).as_str()]), ["a".repeat(40)]);
+    }
+}

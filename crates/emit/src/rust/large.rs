@@ -1,0 +1,117 @@
+//! Solvers whose operations are written as numbers.
+
+use super::Writer;
+use crate::print::{Head, Page};
+use crate::solution::Solution;
+use crate::tape::Book;
+use mechc_engine::solver::Solver;
+
+/// What a solver gives beside the motion.
+struct More {
+    /// The function's.
+    name: &'static str,
+    what: &'static str,
+    /// What it is written to.
+    argument: (&'static str, &'static str),
+    /// That as a list.
+    list: &'static str,
+    /// What its constants end with.
+    ending: &'static str,
+}
+
+impl Writer<'_> {
+    /// The function that solves.
+    pub fn solver_as_numbers(&self, solution: &Solution<'_>, book: &mut Book, page: &mut Page) {
+        page.docs("Position, velocity and acceleration at a time, by the operations of [`SOLVE`].");
+        self.listed(solution, "solve", &[], page, |page| {
+            page.line("listed::solve::<Numbers, REGISTERS>(&LISTING, guess, &inputs, at);");
+        });
+        solution.listing(&solution.motion.solver, "", book, page);
+    }
+
+    /// The same with the derivatives by parameters.
+    pub fn sensitive_solver_as_numbers(&self, solution: &Solution<'_>, book: &mut Book, page: &mut Page) {
+        let more = More {
+            name: "solve_by_params",
+            what: "the derivatives of the coordinates by parameters",
+            argument: ("by", "&mut [Q; PARAMS]"),
+            list: "by.as_flattened_mut()",
+            ending: "_BY_PARAMS",
+        };
+        self.solver_with_more_as_numbers(solution, solution.motion.sensitive.as_ref(), &more, book, page);
+    }
+
+    /// The same with what joints exert and drivers supply.
+    pub fn forced_solver_as_numbers(&self, solution: &Solution<'_>, book: &mut Book, page: &mut Page) {
+        let more = More {
+            name: "solve_with_forces",
+            what: "what joints exert and drivers supply",
+            argument: ("forces", "&mut Forces"),
+            list: "forces",
+            ending: "_WITH_FORCES",
+        };
+        self.solver_with_more_as_numbers(solution, solution.motion.forced.as_ref(), &more, book, page);
+    }
+
+    fn solver_with_more_as_numbers(
+        &self,
+        solution: &Solution<'_>,
+        solver: Option<&Solver>,
+        More { name, what, argument, list, ending }: &More,
+        book: &mut Book,
+        page: &mut Page,
+    ) {
+        let Some(solver) = solver else {
+            return;
+        };
+        self.uses("listed_more", "WithMore");
+        page.docs(&format!("As [`solve`], with {what}."));
+        self.listed(solution, name, &[*argument], page, |page| {
+            let first = solution.first_of_more();
+            page.line(&format!("let mut all = WithMore {{ at, more: {list}, first: {first} }};"));
+            page.line(&format!(
+                "listed::solve::<Numbers, REGISTERS{ending}>(&LISTING{ending}, guess, &inputs, &mut all);"
+            ));
+        });
+        solution.listing(solver, ending, book, page);
+    }
+
+    /// A function that runs a listing.
+    fn listed(
+        &self,
+        solution: &Solution<'_>,
+        name: &str,
+        more: &[(&str, &str)],
+        page: &mut Page,
+        run: impl FnOnce(&mut Page),
+    ) {
+        self.uses("tables", "Arrays");
+        let runtime = if self.equations.is_led { "super::runtime" } else { "runtime" };
+        let (is_led, has_params) = (self.equations.is_led, !self.unit.system.params().is_empty());
+        let model = if solution.known.is_empty() && !has_params && !is_led { "_m" } else { "m" };
+        let mut arguments = vec![("guess", "&[f64; TEARS]"), ("t", "f64"), (model, "&Model")];
+        arguments.extend(self.has_sides().then_some(("sides", "&Sides")));
+        arguments.push(("at", "&mut Solution"));
+        arguments.extend(more);
+        page.line("#[rustfmt::skip]");
+        page.function(&Head { kind: "fn", name, arguments: &arguments, result: "" }, |page| {
+            page.line(&format!("use {runtime}::listed;\n"));
+            page.line("at.begin(t);");
+            let params = match (has_params, is_led) {
+                (false, _) => "&[]",
+                (true, false) => "&m.params.list()",
+                (true, true) => "&m.way.params.list()",
+            };
+            let known = if solution.known.is_empty() { "&[]" } else { "&m.known" };
+            let sides = if self.has_sides() { "sides" } else { "&[]" };
+            let time = if is_led { "&m.way.list::<{ 3 * SIGNALS }>(t)" } else { "&[t]" };
+            if is_led {
+                self.equations.uses.borrow_mut().file("way_list");
+            }
+            page.line(&format!(
+                "let inputs: Arrays<'_> = [{params}, {known}, {sides}, {time}, &[], &[], &[], &[], &[], &[]];"
+            ));
+            run(page);
+        });
+    }
+}

@@ -1,0 +1,191 @@
+//! What decides the branches of formulas, and what must hold on them.
+
+use super::Writer;
+use crate::equations::{Given, Wanted};
+use crate::print::{Head, Page};
+use crate::solution::Solution;
+use crate::text::{constant, literal};
+use mechc_ir::program::{PlacedRim, Register};
+
+impl Writer<'_> {
+    /// The branches of formulas.
+    pub fn sides(&self, page: &mut Page) {
+        let switches = self.unit.program.switches();
+        let docs = "Number of places where formulas have branches.";
+        page.constant(docs, "const SIDES: usize", &switches.len().to_string());
+        let docs = "Which branch is taken at each: what a comparison gives, the number of a piece.";
+        page.constant(docs, "type Sides", "[f64; SIDES]");
+        let (of_time, of_motion) = self.switches();
+        if of_time {
+            let zero = self.zero();
+            let only: Vec<Register> =
+                switches.iter().map(|switch| if switch.on_time { switch.to } else { zero }).collect();
+            let docs = "The branches that time alone decides, the others as 0.";
+            self.equations.function(&wanted_of_sides("sides_of_time", docs, 0, &only, Given::None), page);
+        }
+        if of_motion {
+            let is_of_time: Vec<String> = switches.iter().map(|switch| switch.on_time.to_string()).collect();
+            page.text(&constant("Which of them time alone decides.", "IS_OF_TIME", "bool", "SIDES", &is_of_time));
+            let all: Vec<Register> = switches.iter().map(|switch| switch.to).collect();
+            let docs = "The branches at a position, those of time being known.";
+            self.equations.function(&wanted_of_sides("sides_of_motion", docs, 1, &all, Given::OfTime), page);
+        }
+    }
+
+    /// A register that holds 0, or what no function computes.
+    fn zero(&self) -> Register {
+        let zero =
+            self.equations.constants.iter().filter(|(_, value)| value.to_bits() == 0).map(|(register, _)| *register);
+        zero.min().unwrap_or(Register::MAX)
+    }
+
+    /// What decides them, for who solves the equations.
+    pub fn branches(&self, solution: &Solution<'_>, page: &mut Page) {
+        self.uses("equations", "Branches");
+        let (of_time, of_motion) = self.switches();
+        if !of_time && !of_motion {
+            page.line("impl Branches for Model {}\n");
+            return;
+        }
+        page.item("impl Branches for Model", |page| {
+            if of_time {
+                page.line("const OF_TIME: bool = true;");
+            }
+            if of_motion {
+                page.line("const OF_MOTION: bool = true;");
+            }
+            if let Some(to) = solution.motion.to.filter(|_| !self.equations.is_led) {
+                page.line(&format!("const END: Option<f64> = Some({});", literal(to)));
+            }
+            page.blank();
+            if of_time {
+                self.method(page, "sides_of_time", "sides_of_time", &[], "Sides", Given::None);
+            }
+            if of_motion {
+                let head = Head { kind: "fn", name: "is_of_time", arguments: &[], result: "&'static [bool]" };
+                page.function(&head, |page| page.line("&IS_OF_TIME"));
+                self.method(page, "sides_of_motion", "sides_of_motion", &[("q", "&Q")], "Sides", Given::All);
+            }
+        });
+    }
+
+    /// The functions of what must hold beside the equations.
+    pub fn checks(&self, page: &mut Page) {
+        let (outputs, watches) = (self.open_conditions(), &self.unit.program.outputs.watches);
+        let mut function = |name: &str, docs: &str, outputs: &[Register], length: &str| {
+            self.equations.function(&Wanted { orders: 1, ..Wanted::of(name, docs, outputs, length) }, page);
+        };
+        if !outputs.is_empty() {
+            let docs = "Distances, and places within intervals and tables: all must be positive.";
+            function("conditions", docs, &outputs, &outputs.len().to_string());
+        }
+        if !watches.is_empty() {
+            let docs = "What keeps its sign along a branch of the motion.";
+            function("watched", docs, watches, &watches.len().to_string());
+        }
+        let checks = self.unit.system.checks();
+        if !checks.is_empty() {
+            let scales: Vec<String> = checks.iter().map(|check| literal(check.scale)).collect();
+            let docs = "What each equation that was left out is judged against.";
+            page.text(&constant(docs, "LEFT_OUT_SCALES", "f64", "LEFT_OUT", &scales));
+        }
+    }
+
+    /// Formulas that must be positive, but those that always are what they are.
+    fn open_conditions(&self) -> Vec<Register> {
+        let is_open = |register: &&Register| !self.equations.constants.contains_key(register);
+        self.unit.program.outputs.conditions.iter().filter(is_open).copied().collect()
+    }
+
+    /// Whether anything must hold beside the equations.
+    pub fn has_checks(&self) -> bool {
+        let is_left_out = !self.unit.system.checks().is_empty();
+        let is_watched = !self.unit.system.watches().is_empty();
+        self.has_sides() || is_left_out || is_watched || self.has_rims() || !self.open_conditions().is_empty()
+    }
+
+    /// What must hold, for who solves the equations.
+    pub fn checked(&self, page: &mut Page) {
+        self.uses("equations", "Checks");
+        let watches = self.unit.program.outputs.watches.len();
+        let call = |name: &str, given: Given| self.call(name, &["q"], given);
+        let answer = |page: &mut Page, name: &str, result: &str, body: [&str; 2]| {
+            let sides = if self.has_sides() { "sides" } else { "_sides" };
+            let arguments = [("&self", ""), ("q", "&Q"), ("t", "f64"), (sides, "&Sides")];
+            page.function(&Head { kind: "fn", name, arguments: &arguments, result }, |page| {
+                for line in body {
+                    page.line(line);
+                }
+            });
+        };
+        page.item("impl Checks for Model", |page| {
+            page.line(&format!("type Watched = [bool; {watches}];"));
+            if !self.unit.system.checks().is_empty() {
+                page.line("const LEAVES_OUT: bool = true;");
+            }
+            page.blank();
+            if !self.open_conditions().is_empty() {
+                let all = format!("let all = {};", call("conditions", Given::All));
+                answer(page, "conditions_hold", "bool", [&all, "all.iter().all(|value| *value > 0.0)"]);
+            }
+            if !self.unit.system.checks().is_empty() {
+                self.uses("left_out", "left_out_holds");
+                let left = format!("let left = {};", call(&self.on_sides("left_out"), Given::All));
+                answer(page, "left_out_holds", "bool", [&left, "left_out_holds(&left, &LEFT_OUT_SCALES)"]);
+            }
+            if watches > 0 {
+                self.uses("watched", "positive");
+                let all = format!("let all = {};", call("watched", Given::All));
+                answer(page, "watched", "Self::Watched", [&all, "positive(&all)"]);
+            }
+        });
+    }
+
+    /// Whether formulas of time may end.
+    pub fn has_rims(&self) -> bool {
+        self.rims().next().is_some()
+    }
+
+    pub fn rims(&self) -> impl Iterator<Item = &PlacedRim> {
+        let is_led = self.equations.is_led;
+        self.unit.program.outputs.rims.iter().filter(move |rim| rim.on_time && !is_led)
+    }
+
+    /// What looks for times at which formulas of time come to the end of what their functions take; nothing where none may.
+    pub fn rimmed(&self, page: &mut Page) {
+        if !self.has_rims() {
+            return;
+        }
+        let outputs: Vec<Register> = self.rims().map(|rim| rim.gauge).chain(self.rims().map(|rim| rim.slope)).collect();
+        let docs = "Number of places where a formula of time may end.";
+        page.constant(docs, "const RIMS: usize", &self.rims().count().to_string());
+        self.equations.function(
+            &Wanted {
+                given: Given::None,
+                ..Wanted::of(
+                    "rims_of_time",
+                    "Quantities that are zero where a formula of time may end, and then their slopes.",
+                    &outputs,
+                    "2 * RIMS",
+                )
+            },
+            page,
+        );
+        self.uses("rims", "Rimmed");
+        page.item("impl Rimmed for Model", |page| {
+            page.line("type Gauges = [f64; 2 * RIMS];\n");
+            self.method(page, "gauges", "rims_of_time", &[], "Self::Gauges", Given::None);
+        });
+    }
+}
+
+/// A function that gives the branches of formulas.
+fn wanted_of_sides<'f>(
+    name: &'f str,
+    docs: &'f str,
+    orders: usize,
+    outputs: &'f [Register],
+    given: Given,
+) -> Wanted<'f> {
+    Wanted { orders, given, ..Wanted::of(name, docs, outputs, "SIDES") }
+}

@@ -1,0 +1,468 @@
+//! The solver's operations as a function that solves for position, velocity and acceleration at a time.
+
+use super::code::{Code, Function, Input, MODULE, Out, Scene};
+use super::equations::{ARRAYS, Equations, Reached};
+use super::names::{FORCES, Names};
+use super::operand::{Arguments, Operand};
+use super::print::Page;
+use super::tape::{self, Book, Notes, Shared, Tape};
+use super::text::literal;
+use super::{EmittedMotion, TranslationUnit};
+use mechc_engine::solver::{Instruction, Segment, Solver};
+use mechc_ir::With;
+use mechc_ir::layout::{Holds, row_holds};
+use mechc_ir::program::{Column, Register};
+use mechc_ir::tolerances::solving::solver::LARGEST_MULTIPLIER;
+use rustc_hash::FxHashMap;
+
+/// What the solver's function is written from.
+pub(super) struct Solution<'s> {
+    pub unit: &'s TranslationUnit<'s>,
+    pub motion: &'s EmittedMotion,
+    pub equations: &'s Equations<'s>,
+    /// Registers of the program that follow from parameters alone, by their places in `known`.
+    pub known: FxHashMap<Register, usize>,
+    /// Columns of what measures join that is no result, in order.
+    pub joined: Vec<u32>,
+    /// What the columns hold that operations leave values in.
+    holds: Vec<Holds>,
+}
+
+impl<'s> Solution<'s> {
+    pub fn new(unit: &'s TranslationUnit<'s>, motion: &'s EmittedMotion, equations: &'s Equations<'s>) -> Solution<'s> {
+        let joined = joined([Some(&motion.solver), motion.forced.as_ref()].into_iter().flatten());
+        let mut solution =
+            Solution { unit, motion, equations, known: FxHashMap::default(), joined, holds: row_holds(unit.system) };
+        let instructions = || {
+            let more = motion.sensitive.iter().chain(&motion.forced).flat_map(Solver::instructions);
+            motion.solver.instructions().iter().chain(more)
+        };
+        for instruction in instructions() {
+            if let Some((table, column)) = instruction.column()
+                && !equations.is_constant(table, column)
+            {
+                // one behind the other
+                unit.program.tables()[table as usize].column(column).for_each(|cell| solution.know(cell));
+            }
+        }
+        for instruction in instructions() {
+            if let Instruction::Load { from, .. } = *instruction
+                && from >= unit.program.inputs.time
+                && !unit.program.inputs.all_signals().contains(&from)
+                && !equations.sides.contains_key(&from)
+            {
+                solution.know(from);
+            }
+        }
+        solution
+    }
+
+    /// Gives a register a place in `known`.
+    fn know(&mut self, register: Register) {
+        let next = self.known.len();
+        self.known.entry(register).or_insert(next);
+    }
+
+    /// What a column of a table is called, in a lane or alone.
+    fn column(&self, table: u32, column: Column, lane: &str) -> Operand {
+        if self.equations.is_constant(table, column) {
+            return Operand::own(self.equations.table(table, column));
+        }
+        let cells = self.unit.program.tables()[table as usize].column(column);
+        let first = self.known.get(&cells.start).copied().unwrap_or(0);
+        Operand::of(format!("m{lane}.known[{first}..{}]", first + cells.len()), &["m"])
+    }
+
+    /// Whether anything is left to iterate for.
+    pub fn has_newton(&self) -> bool {
+        !self.motion.solver.tears().is_empty()
+    }
+
+    /// The registers that follow from parameters alone, in the order of their places.
+    pub fn known_registers(&self) -> Vec<Register> {
+        let mut registers: Vec<(usize, Register)> =
+            self.known.iter().map(|(&register, &place)| (place, register)).collect();
+        registers.sort_unstable();
+        registers.into_iter().map(|(_, register)| register).collect()
+    }
+
+    /// The function, for one mechanism or for several lanes.
+    pub fn function(&self, has_lanes: bool) -> String {
+        let solver = &self.motion.solver;
+        let code =
+            Code { instructions: solver.instructions(), segments: solver.segments(), registers: solver.registers() };
+        let names: Vec<String> = solver
+            .tears()
+            .iter()
+            .take(20)
+            .map(|&tear| format!("`{}`", self.unit.system.coordinates()[tear as usize].name))
+            .collect();
+        let more = if solver.tears().len() > names.len() { " and others" } else { "" };
+        let how = if names.is_empty() {
+            "Every coordinate follows from those before it.".to_owned()
+        } else {
+            format!("Newton begins with a guess of {}{more}; all else follows.", names.join(", "))
+        };
+        let types = if has_lanes {
+            ["&[Each; TEARS]", "&Each", "&[Model; LANES]", "&[Sides; LANES]", "&mut Solutions"]
+        } else {
+            ["&[f64; TEARS]", "f64", "&Model", "&Sides", "&mut Solution"]
+        };
+        let has_sides = !self.equations.sides.is_empty();
+        let names = ["guess", "t", "m", "sides", "at"].into_iter().zip(types);
+        let arguments =
+            names.filter(|(name, _)| has_sides || *name != "sides").map(|(name, of)| (name, of.to_owned())).collect();
+        let function = Function {
+            name: "solve",
+            docs: wrapped(&format!(
+                "Position, velocity and acceleration {}. {how}\n\n{} operations{}.",
+                if has_lanes { "in every lane" } else { "at a time" },
+                code.count(),
+                if has_lanes { " a lane" } else { "" },
+            )),
+            is_public: false,
+            arguments,
+            out: Out::Given { begin: "at.begin(t);", names: &["at", "t"] },
+            margin: if has_lanes { MODULE.len() } else { 0 },
+        };
+        self.note(solver, has_lanes);
+        code.print(&SolverScene { solution: self, solver, has_lanes }, &function)
+    }
+
+    /// Notes what a solver's operations use as lines.
+    fn note(&self, solver: &Solver, has_lanes: bool) {
+        let mut uses = self.equations.uses.borrow_mut();
+        uses.instructions(solver.instructions(), has_lanes);
+        if !solver.tears().is_empty() {
+            uses.name("limits", "ITERATIONS");
+            uses.name("grid", "on_grid");
+            let (file, name) = if has_lanes { ("lane_newton", "Settling") } else { ("newton", "Newton") };
+            uses.name(file, name);
+        }
+    }
+
+    /// The function that gives the derivatives of the coordinates by parameters too; none where they are not wanted.
+    pub fn sensitive_function(&self) -> Option<String> {
+        let what = "the derivatives of the coordinates by parameters";
+        Some(self.function_with(self.motion.sensitive.as_ref()?, "solve_by_params", what, ("by", "&mut [Q; PARAMS]")))
+    }
+
+    /// The function that gives what joints exert and drivers supply too; none where there are no masses and loads.
+    pub fn forced_function(&self) -> Option<String> {
+        let what = "what joints exert and drivers supply";
+        Some(self.function_with(self.motion.forced.as_ref()?, "solve_with_forces", what, (FORCES, "&mut Forces")))
+    }
+
+    /// The function of a solver that gives more.
+    fn function_with(&self, solver: &Solver, name: &str, what: &str, more: (&'static str, &str)) -> String {
+        let code =
+            Code { instructions: solver.instructions(), segments: solver.segments(), registers: solver.registers() };
+        let has_sides = !self.equations.sides.is_empty();
+        let arguments = [
+            ("guess", "&[f64; TEARS]"),
+            ("t", "f64"),
+            ("m", "&Model"),
+            ("sides", "&Sides"),
+            ("at", "&mut Solution"),
+            more,
+        ];
+        let arguments = arguments.into_iter().filter(|(name, _)| has_sides || *name != "sides");
+        let function = Function {
+            name,
+            docs: format!("As [`solve`], with {what}.\n\n{} operations.", code.count()),
+            is_public: false,
+            arguments: arguments.map(|(name, of)| (name, of.to_owned())).collect(),
+            out: Out::Given { begin: "at.begin(t);", names: &["at", "t"] },
+            margin: 0,
+        };
+        self.note(solver, false);
+        code.print(&SolverScene { solution: self, solver, has_lanes: false }, &function)
+    }
+
+    /// A solver's operations as numbers: the listing, the registers that it takes, by names with an ending.
+    pub fn listing(&self, solver: &Solver, ending: &str, book: &mut Book, page: &mut Page) {
+        let Shared { instructions, segments, registers } =
+            tape::share(solver.instructions(), solver.segments(), solver.registers());
+        let notes = Notes {
+            loaded: &|register| self.equations.loaded(register, &self.known),
+            pivot: &|number| {
+                let pivot = solver.pivots()[number as usize];
+                (pivot.turn, pivot.weight)
+            },
+            weight: &|number| solver.weight(number),
+            bound: &|row| self.motion.bounds[row as usize],
+        };
+        let instructions: Vec<Instruction> = instructions.into_iter().map(|each| self.listed(each)).collect();
+        let Tape { words, starts } = book.encode(&instructions, &notes);
+        let (mut list, mut settling) = (Vec::new(), Vec::new());
+        for segment in &segments {
+            let (range, tears) = match segment {
+                Segment::Once(range) => (range, &[][..]),
+                Segment::Newton { instructions, tears } => (instructions, tears.as_slice()),
+            };
+            let (first, code) = (settling.len(), [starts[range.start], starts[range.end]]);
+            settling.extend(tears.iter().map(|tear| {
+                let (registers, sizes) = ([tear.x, tear.delta], [tear.cell, tear.scale]);
+                format!("Settling {{ registers: {registers:?}, sizes: {sizes:?} }}")
+            }));
+            list.push(format!("Segment {{ code: {code:?}, tears: [{first}, {}] }}", settling.len()));
+        }
+        let mut uses = self.equations.uses.borrow_mut();
+        uses.name("listed", "Listing");
+        uses.name("listed", "Segment");
+        if !settling.is_empty() {
+            uses.name("listed", "Settling");
+        }
+        let solve = format!("solve{}", ending.to_lowercase());
+        page.constant(
+            &format!("Registers of [`{solve}`]."),
+            &format!("const REGISTERS{ending}: usize"),
+            &registers.to_string(),
+        );
+        page.docs(&format!("What [`{solve}`] runs."));
+        page.line("#[rustfmt::skip]");
+        page.block(&format!("static LISTING{ending}: Listing = Listing"), |page| {
+            for (name, values) in [("segments", list), ("settling", settling)] {
+                page.line(&format!("{name}: &["));
+                for value in values {
+                    page.line(&format!("    {value},"));
+                }
+                page.line("],");
+            }
+            page.line(&format!("code: &SOLVE{ending},"));
+        });
+        page.end_statement();
+        tape::list(&format!("The operations of [`{solve}`]."), &format!("SOLVE{ending}"), &words, page);
+    }
+
+    /// What a column holds.
+    fn holds(&self, column: u32) -> Holds {
+        debug_assert!((column as usize) < self.holds.len(), "column {column} is none of a row's");
+        self.holds.get(column as usize).copied().unwrap_or(Holds::Time)
+    }
+
+    /// The place of a column among those that are joined.
+    fn joined(&self, column: u32) -> Option<usize> {
+        self.joined.binary_search(&column).ok()
+    }
+
+    /// The column of what stands behind all else: the derivatives by parameters, or forces.
+    pub fn first_of_more(&self) -> u32 {
+        self.results() + self.joined.len() as u32
+    }
+
+    /// The place behind the lists of results of a solution, one behind the other.
+    fn results(&self) -> u32 {
+        let inputs = &self.unit.program.inputs;
+        self.columns() + inputs.n * inputs.count
+    }
+
+    /// Columns of a row, in which no reactions stand.
+    pub fn columns(&self) -> u32 {
+        (self.motion.solver.layout().printed - self.unit.system.reactions().len()) as u32
+    }
+
+    /// An operation whose column is the place in the lists of a solution, one behind the other: what is joined behind the results, and
+    /// behind that the derivatives by parameters.
+    fn listed(&self, op: Instruction) -> Instruction {
+        let inputs = &self.unit.program.inputs;
+        let place = |column: u32| match (self.joined(column), self.holds(column)) {
+            (Some(place), _) => self.results() + place as u32,
+            (None, Holds::Slope { of, by: With::Input(input) }) => self.columns() + input as u32 * inputs.n + of as u32,
+            (None, Holds::Slope { of, by: With::Param(param) }) => {
+                self.first_of_more() + param as u32 * inputs.n + of as u32
+            }
+            (None, Holds::Reaction(k)) => self.first_of_more() + k as u32,
+            (None, _) if column < self.motion.solver.layout().reactions => column,
+            (None, _) => column - self.unit.system.reactions().len() as u32,
+        };
+        match op {
+            Instruction::Column { to, column } => Instruction::Column { to, column: place(column) },
+            Instruction::Store { column, a } => Instruction::Store { column: place(column), a },
+            op => op,
+        }
+    }
+
+    /// By coordinate that Newton solves for: the width of a cell of its grid.
+    pub fn cells(&self) -> Vec<f64> {
+        let solver = &self.motion.solver;
+        let mut cell_of: FxHashMap<Register, f64> = FxHashMap::default();
+        for segment in solver.segments() {
+            if let Segment::Newton { tears, .. } = segment {
+                cell_of.extend(tears.iter().map(|tear| (tear.x, tear.cell)));
+            }
+        }
+        let mut cells = vec![0.0; solver.tears().len()];
+        for op in solver.instructions() {
+            if let Instruction::Curve { to, tear } = op {
+                cells[*tear as usize] = cell_of.get(to).copied().unwrap_or(0.0);
+            }
+        }
+        cells
+    }
+}
+
+/// The columns that solvers store to read them again, but those of results.
+fn joined<'s>(solvers: impl Iterator<Item = &'s Solver>) -> Vec<u32> {
+    let read = |solver: &'s Solver| {
+        let printed = solver.layout().printed as u32;
+        solver.instructions().iter().filter_map(move |op| match *op {
+            Instruction::Column { column, .. } => Some(column).filter(|column| *column >= printed),
+            _ => None,
+        })
+    };
+    let mut columns: Vec<u32> = solvers.flat_map(read).collect();
+    columns.sort_unstable();
+    columns.dedup();
+    columns
+}
+
+/// Breaks documentation into lines.
+pub(super) fn wrapped(text: &str) -> String {
+    let mut lines = Vec::new();
+    for paragraph in text.split('\n') {
+        let mut line = String::new();
+        for word in paragraph.split(' ') {
+            if line.len() + word.len() > 92 && !line.is_empty() {
+                lines.push(std::mem::take(&mut line));
+            }
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line += word;
+        }
+        lines.push(line);
+    }
+    lines.join("\n")
+}
+
+struct SolverScene<'s> {
+    solution: &'s Solution<'s>,
+    solver: &'s Solver,
+    has_lanes: bool,
+}
+
+impl SolverScene<'_> {
+    /// What picks a lane.
+    fn lane(&self) -> &'static str {
+        if self.has_lanes { "[k]" } else { "" }
+    }
+}
+
+impl Scene for SolverScene<'_> {
+    fn input(&self, register: Register) -> Input {
+        debug_assert!(false, "register {register} has no operation");
+        Input::Is(Operand::Number(f64::NAN))
+    }
+
+    fn load(&self, register: Register) -> Operand {
+        let lane = self.lane();
+        if let Some(place) = self.solution.known.get(&register) {
+            return Operand::of(format!("m{lane}.known[{place}]"), &["m"]);
+        }
+        let of = if self.solution.equations.is_led { "way" } else { "params" };
+        let given = format!("m{lane}.{of}");
+        let reached = Reached { given, names: &["m"], names_with_time: &["m", "t"], lane };
+        match self.solution.equations.input(register, &reached) {
+            Input::Bound { value, .. } | Input::Is(value) => value,
+        }
+    }
+
+    fn place(&self, column: u32) -> Operand {
+        let at = |text: String| Operand::of(text, &["at"]);
+        if let Some(place) = self.solution.joined(column) {
+            return at(format!("at.joined[{place}]{}", self.lane()));
+        }
+        let held = self.solution.holds(column);
+        match held {
+            Holds::Coordinate { index, order } => at(format!("at.{}[{index}]{}", ARRAYS[order], self.lane())),
+            Holds::Measure { order, .. } => {
+                let of = if self.has_lanes { "" } else { "measures." };
+                let place = column - self.solver.layout().measures[order];
+                at(format!("at.{of}{}[{place}]{}", ["values", "rates", "accelerations"][order], self.lane()))
+            }
+            Holds::Slope { of, by: With::Input(input) } => at(format!("at.along.by_signal[{input}][{of}]")),
+            Holds::Slope { of, by: With::Param(param) } => Operand::of(format!("by[{param}][{of}]"), &["by"]),
+            Holds::Reaction(k) => Operand::of(format!("{FORCES}[{k}]"), &[FORCES]),
+            Holds::Time
+            | Holds::Slope { by: With::Time(_), .. }
+            | Holds::Appended(_)
+            | Holds::Varied
+            | Holds::Multiplier => {
+                debug_assert!(false, "no code has a place for {held:?}");
+                Operand::Number(f64::NAN)
+            }
+        }
+    }
+
+    fn name(&self, column: u32) -> Option<String> {
+        let names: &Names = self.solution.equations.names;
+        match self.solution.holds(column) {
+            Holds::Coordinate { index, order } if order < 3 => {
+                Some(names.coordinate(order, index)).filter(|name| Names::is_telling(name))
+            }
+            _ => None,
+        }
+    }
+
+    fn table(&self, table: u32, column: Column) -> Operand {
+        self.solution.column(table, column, self.lane())
+    }
+
+    fn cells(&self, _: u32, _: Column) -> Vec<Register> {
+        Vec::new()
+    }
+
+    fn stores(&self, column: u32) -> bool {
+        // third derivatives are no results
+        let is_third = matches!(self.solution.holds(column), Holds::Coordinate { order: 3, .. });
+        !is_third || self.solution.joined(column).is_some()
+    }
+
+    fn store(&self, column: u32, value: &Operand) -> Option<(String, Arguments)> {
+        let place = self.place(column);
+        let line = match value {
+            // +0 where it is −0
+            Operand::Number(value) if value.to_bits() << 1 == 0 => return None,
+            Operand::Number(_) => format!("{place} = {value};"),
+            Operand::Held { .. } => format!("{place} = {value} + 0.0;"),
+        };
+        Some((line, place.arguments()))
+    }
+
+    fn act(&self, op: Instruction, value: &Operand) -> (String, Arguments) {
+        let (solver, bounds) = (self.solver, &self.solution.motion.bounds);
+        let line = match (op, self.has_lanes) {
+            (Instruction::Pivot { pivot, .. }, has_lanes) => {
+                let pivot = solver.pivots()[pivot as usize];
+                let lane = if has_lanes { "k, " } else { "" };
+                format!("at.pivot({lane}{}, {value}, {});", pivot.turn, literal(pivot.weight))
+            }
+            (Instruction::Residual { row, .. }, false) => {
+                format!("at.holds &= {} <= {};", value.absolute(), literal(bounds[row as usize]))
+            }
+            (Instruction::Residual { row, .. }, true) => strain(value, 1.0 / bounds[row as usize]),
+            _ => String::new(),
+        };
+        (line, &["at"])
+    }
+
+    fn watch(&self, weight: u32, value: &Operand) -> (String, Arguments) {
+        let weight = self.solver.weight(weight);
+        let line = if self.has_lanes {
+            strain(value, weight / LARGEST_MULTIPLIER)
+        } else {
+            format!("at.holds &= {value}.abs() * {} <= LARGEST_MULTIPLIER;", literal(weight))
+        };
+        (line, &["at"])
+    }
+
+    fn has_lanes(&self) -> bool {
+        self.has_lanes
+    }
+}
+
+/// The line that watches a value of a lane, which must not be above 1 when it is multiplied by a factor.
+fn strain(value: &Operand, factor: f64) -> String {
+    format!("at.watch(k, {value}, {});", literal(factor))
+}

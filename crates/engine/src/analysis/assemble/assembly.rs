@@ -1,0 +1,442 @@
+//! From the estimates of the file to a position that satisfies every equation at the first time.
+//!
+//! First Newton's method with damped steps; where that fails, Levenberg–Marquardt, which also works through singular
+//! positions, from the estimates and then from perturbed ones. What comes out is assembled, or nothing does.
+
+use super::search::{Noise, levenberg_marquardt};
+use crate::analysis::explain::{errors, open_loop, singular};
+use crate::analysis::state::{Fault, Horizon, Kinematics, State, behind_start};
+use mechc_ir::tolerances::assembly::newton::{
+    AGREES, BESIDE, EXPLICIT_STEPS, LARGEST_DENSE, LARGEST_STEP, MOVED, NEARBY, NEWTON_STEPS, OPEN_NEARBY,
+    PERTURBATIONS, SETTLED, SINGULAR_START, SMALLEST_DAMPING, VANISHING_TANGENT, WITHOUT_SLOPE,
+};
+use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, WatchKind};
+use mechc_text::diag::Diagnostic;
+use std::f64::consts::PI;
+
+/// How far assembly moved the bodies from their estimates.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Moved {
+    /// Largest move of a body's origin in x or y (m).
+    pub length: f64,
+    /// That body.
+    pub length_body: BodyId,
+    /// Largest turn (rad).
+    pub angle: f64,
+    /// That body.
+    pub angle_body: BodyId,
+}
+
+/// A position that satisfies every equation.
+pub struct Assembled {
+    /// Where and when.
+    pub state: State,
+    /// How far it is from the estimates.
+    pub moved: Moved,
+    /// Whether the estimates led nowhere, and others near them had to be tried.
+    pub is_perturbed: bool,
+}
+
+/// Assembles at time `t`, from the estimates or from a position that is known to be near.
+pub fn assemble(kinematics: &mut Kinematics, t: f64, near: Option<&[f64]>) -> Result<Assembled, Box<Diagnostic>> {
+    let determined = kinematics.determined();
+    let system = determined.system();
+    let estimates = kinematics.estimates();
+    let from = near.unwrap_or(&estimates);
+    set_start(kinematics, t);
+    if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = kinematics.set_position(from) {
+        return Err(Box::new(errors::no_value(system, fault, t)));
+    }
+    let start = explicit_first(kinematics, from);
+    let (q, is_perturbed) = match assembled(kinematics, &start) {
+        Some(q) => (q, false),
+        None => by_least_squares(kinematics, &start, t)?,
+    };
+    let moved = moved(system, &estimates, &q);
+    refuse_vanishing_tangents(kinematics, &q, t)?;
+    refuse_singular(kinematics, &q, t)?;
+    Ok(Assembled { state: State::new(t, q), moved, is_perturbed })
+}
+
+/// Rows of all equations, those that are left out among them, each with the value of `Φ` at some position.
+pub type Residuals = Vec<(usize, f64)>;
+
+/// What the drivers ask for and the estimates leave open at time `t`: by row, `Φ` there. None where there is nothing to be driven: the
+/// estimates agree with the drivers, or have no value, or every coordinate follows from others without iteration.
+pub fn driver_residuals(kinematics: &mut Kinematics, t: f64) -> Option<Residuals> {
+    let determined = kinematics.determined();
+    if determined.system().has_signals() || determined.blocks().iter().all(|block| block.explicit) {
+        return None;
+    }
+    let estimates = kinematics.estimates();
+    let residuals = residuals_of_drivers(kinematics, t, &estimates)?;
+    let system = kinematics.system();
+    let kept = driving_rows(system).into_iter().map(|row| kinematics.residual(row));
+    let left_out = driving_checks(system).into_iter().map(|k| kinematics.check(k).abs() / system.checks()[k].scale);
+    kept.chain(left_out).any(|open| open > AGREES).then_some(residuals)
+}
+
+/// `Φ` of the rows of drivers, and of others that time moves, at a position, those that are left out among them; none where one has no value.
+/// What was set is factored.
+fn residuals_of_drivers(kinematics: &mut Kinematics, t: f64, q: &[f64]) -> Option<Residuals> {
+    set_start(kinematics, t);
+    kinematics.set_position(q).ok()?;
+    // blocks may well be singular there
+    let _ = kinematics.factor();
+    let (determined, system) = (kinematics.determined(), kinematics.system());
+    let numbers = determined.kept();
+    let kept = driving_rows(system).into_iter().map(|row| (numbers[row], kinematics.phi(row)));
+    let left_out = driving_checks(system).into_iter().map(|k| (determined.left_out()[k], kinematics.check(k)));
+    Some(kept.chain(left_out).collect())
+}
+
+/// The rows that are solved and drive the mechanism.
+fn driving_rows(system: &ConstraintSystem) -> Vec<usize> {
+    let rows = system.rows();
+    (0..rows.len()).filter(|&k| system.drives(rows[k].declaration, rows[k].phi)).collect()
+}
+
+/// The equations that are left out and drive the mechanism, by their number among the checks.
+fn driving_checks(system: &ConstraintSystem) -> Vec<usize> {
+    let checks = system.checks();
+    (0..checks.len()).filter(|&k| system.drives(checks[k].declaration, checks[k].phi)).collect()
+}
+
+/// Where the estimates lead if drivers let go, and what these ask for and that leaves open; none if nothing closes there.
+pub fn close_without_drivers(kinematics: &mut Kinematics, t: f64) -> Option<(Vec<f64>, Residuals)> {
+    let mut q = kinematics.estimates();
+    if q.len() > LARGEST_DENSE {
+        return None;
+    }
+    set_start(kinematics, t);
+    let driving = driving_rows(kinematics.system());
+    let columns: Vec<u32> = (0..q.len() as u32).collect();
+    let rows: Vec<u32> = columns.iter().copied().filter(|&row| !driving.contains(&(row as usize))).collect();
+    levenberg_marquardt(kinematics, &mut q, &rows, &columns);
+    let residuals = residuals_of_drivers(kinematics, t, &q)?;
+    (kinematics.hold_nearly(&rows, OPEN_NEARBY) && kinematics.turned_lines().is_empty()).then_some((q, residuals))
+}
+
+/// At a switch the later side counts.
+fn set_start(kinematics: &mut Kinematics, t: f64) {
+    let span = kinematics.span();
+    kinematics.settle_time(behind_start(t, span));
+    kinematics.freeze(true, false);
+    kinematics.set_time(t);
+}
+
+/// Where all is closed but what is told to be open, if [`assemble`] finds no position.
+pub fn nearest(kinematics: &mut Kinematics, t: f64) -> Option<Vec<f64>> {
+    let estimates = kinematics.estimates();
+    set_start(kinematics, t);
+    kinematics.set_position(&estimates).ok()?;
+    let start = explicit_first(kinematics, &estimates);
+    kinematics.set_position(&start).ok()?;
+    let q = least_squares(kinematics, start).q;
+    open_loop::opened(&kinematics.determined(), &q, t)
+}
+
+/// How far the bodies of a system are from one position to another.
+pub(super) fn moved(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Moved {
+    let mut moved = Moved::default();
+    for (k, (a, b)) in from.iter().zip(to).enumerate() {
+        let Some(body) = system.body_of(k) else {
+            continue;
+        };
+        let way = (b - a).abs();
+        match system.coordinates()[k].kind {
+            CoordinateKind::Length if way > moved.length => (moved.length, moved.length_body) = (way, body),
+            CoordinateKind::Angle if way > moved.angle => (moved.angle, moved.angle_body) = (way, body),
+            _ => {}
+        }
+    }
+    moved
+}
+
+/// The estimates with those coordinates put right that follow from others without iteration: a driven crank, the
+/// places of the bodies on it. So they may be as far off as they like.
+fn explicit_first(kinematics: &mut Kinematics, estimates: &[f64]) -> Vec<f64> {
+    let mut q = estimates.to_vec();
+    let mut delta = vec![0.0; q.len()];
+    for _ in 0..EXPLICIT_STEPS {
+        if kinematics.set_position(&q).is_err() {
+            return estimates.to_vec();
+        }
+        // other blocks may well be singular still
+        let _ = kinematics.factor();
+        let size = kinematics.explicit_correction(&mut delta);
+        if !size.is_finite() {
+            return estimates.to_vec();
+        }
+        for (q, delta) in q.iter_mut().zip(&delta) {
+            *q += delta;
+        }
+        if size <= SETTLED {
+            return q;
+        }
+    }
+    estimates.to_vec()
+}
+
+/// Where Newton's method arrives, with every line of centres pointing from the first centre to the second: the equations
+/// alone would let it point the other way.
+fn assembled(kinematics: &mut Kinematics, start: &[f64]) -> Option<Vec<f64>> {
+    let q = newton(kinematics, start)?;
+    let turned = kinematics.turned_lines();
+    if turned.is_empty() {
+        return kinematics.broken_check().is_none().then_some(q);
+    }
+    let mut again = q;
+    for theta in turned {
+        again[theta] += if again[theta] > start[theta] { -PI } else { PI };
+    }
+    let q = newton(kinematics, &again)?;
+    (kinematics.turned_lines().is_empty() && kinematics.broken_check().is_none()).then_some(q)
+}
+
+/// Damped Newton, judged by the size of the next correction with the same factors (P. Deuflhard, *Newton Methods for
+/// Nonlinear Problems*, 2004, section 3.3): the judgement does not depend on how rows are scaled.
+fn newton(kinematics: &mut Kinematics, start: &[f64]) -> Option<Vec<f64>> {
+    let n = start.len();
+    let (mut q, mut trial) = (start.to_vec(), start.to_vec());
+    let (mut delta, mut next) = (vec![0.0; n], vec![0.0; n]);
+    kinematics.set_position(&q).ok()?;
+    for _ in 0..NEWTON_STEPS {
+        kinematics.factor().ok()?;
+        let size = kinematics.correction(&mut delta);
+        if !size.is_finite() {
+            return None;
+        }
+        let mut damping = f64::min(1.0, LARGEST_STEP / kinematics.linear().largest_implicit(&delta));
+        loop {
+            for k in 0..n {
+                trial[k] = q[k] + damping * delta[k];
+            }
+            let smaller = kinematics.set_position(&trial).is_ok() && {
+                let next_size = kinematics.correction(&mut next);
+                next_size <= (1.0 - 0.25 * damping) * size || size <= SETTLED
+            };
+            if smaller {
+                break;
+            }
+            damping *= 0.5;
+            if damping < SMALLEST_DAMPING {
+                return None;
+            }
+        }
+        q.copy_from_slice(&trial);
+        if size <= SETTLED && kinematics.violated().is_none() {
+            return Some(q);
+        }
+    }
+    None
+}
+
+/// The assembled position, and whether the estimates had to be perturbed to find it.
+fn by_least_squares(
+    kinematics: &mut Kinematics,
+    estimates: &[f64],
+    t: f64,
+) -> Result<(Vec<f64>, bool), Box<Diagnostic>> {
+    let mut nearest = None;
+    let mut noise = Noise::new();
+    let mut start = estimates.to_vec();
+    let mut is_moved = vec![true; estimates.len()];
+    for size in std::iter::once(0.0).chain(PERTURBATIONS) {
+        if kinematics.is_cancelled() {
+            break;
+        }
+        for (k, start) in start.iter_mut().enumerate() {
+            let aside = size * kinematics.linear().column_scale(k) * noise.next();
+            *start = if is_moved[k] { estimates[k] + aside } else { *start };
+        }
+        let Rest { q, open } = least_squares(kinematics, start.clone());
+        if let Some(polished) = assembled(kinematics, &q) {
+            return Ok((polished, size > 0.0));
+        }
+        let _ = kinematics.set_position(&q);
+        let _ = kinematics.factor();
+        let is_closed = kinematics.violated().is_none() && kinematics.turned_lines().is_empty();
+        if is_closed && kinematics.broken_check().is_none() {
+            // assembled, but Newton does not settle: a singular position
+            return Ok((q, size > 0.0));
+        }
+        if let Some(open) = open {
+            // what closes without it stays where it is
+            start.copy_from_slice(&q);
+            let determined = kinematics.determined();
+            let needed = determined.needed_by(open).into_iter().flat_map(|block| &determined.blocks()[block].columns);
+            is_moved.fill(false);
+            needed.for_each(|&column| is_moved[column as usize] = true);
+        }
+        nearest.get_or_insert(q);
+    }
+    let q = nearest.unwrap_or_else(|| estimates.to_vec());
+    Err(Box::new(explain(kinematics, &q, t)))
+}
+
+/// Which loop stays open.
+fn explain(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Diagnostic {
+    if let Err(fault) = kinematics.set_position(q) {
+        return errors::no_value(kinematics.system(), fault, t);
+    }
+    if let Some(open) = open_loop::found(&kinematics.determined(), q, t) {
+        return errors::open_loop(kinematics.system(), &open, t);
+    }
+    let _ = kinematics.factor();
+    if kinematics.violated().is_none()
+        && let Some(index) = kinematics.broken_check()
+    {
+        return errors::does_not_hold(kinematics.system(), index, t);
+    }
+    let open = |row: usize| kinematics.residual(row);
+    let worst = (0..q.len()).max_by(|&a, &b| open(a).total_cmp(&open(b))).unwrap_or(0);
+    errors::cannot_assemble(kinematics.system(), worst, open(worst), t)
+}
+
+/// Where a tangent vanishes the condition that tangents are parallel says nothing: a spurious root.
+fn refuse_vanishing_tangents(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(), Box<Diagnostic>> {
+    let determined = kinematics.determined();
+    let system = determined.system();
+    if kinematics.set_position(q).is_err() {
+        return Ok(());
+    }
+    let vanishes = |k: &usize| {
+        system.watches()[*k].kind == WatchKind::Tangents && kinematics.watched(*k).abs() < VANISHING_TANGENT
+    };
+    match (0..system.watches().len()).find(vanishes) {
+        Some(index) => Err(Box::new(errors::no_contact(system, index, t))),
+        None => Ok(()),
+    }
+}
+
+/// The equations must be independent where the motion starts.
+fn refuse_singular(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(), Box<Diagnostic>> {
+    let determined = kinematics.determined();
+    let system = determined.system();
+    kinematics.measure_slopes(q);
+    let factored = kinematics.set_position(q).and_then(|()| kinematics.factor());
+    if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = factored {
+        return Err(Box::new(errors::no_value(system, fault, t)));
+    }
+    if let Some(row) = kinematics.row_without_slope(WITHOUT_SLOPE) {
+        return Err(Box::new(errors::without_effect(system, row, t)));
+    }
+    if factored.is_ok() && kinematics.nearness(SINGULAR_START) > SINGULAR_START {
+        return Ok(());
+    }
+    let vectors = kinematics.worst();
+    let elsewhere = independent_elsewhere(kinematics, q, &vectors.right, t)
+        .or_else(|| independent_without(kinematics, q, singular::driver_in(system, &vectors.left)?, &vectors.right, t));
+    Err(Box::new(singular::name_start(
+        system,
+        (&vectors.left, &vectors.right),
+        elsewhere,
+        Horizon { from: t, span: kinematics.span() },
+    )))
+}
+
+/// Whether the equations are independent in a position nearby; none if there is no other one.
+fn independent_elsewhere(kinematics: &mut Kinematics, q: &[f64], free: &[f64], t: f64) -> Option<bool> {
+    independent_later(kinematics, q, t).or_else(|| {
+        kinematics.set_time(t);
+        independent_beside(kinematics, q, free)
+    })
+}
+
+/// Whether the equations are independent beside a position, where its free motion leads if a driver lets go; none if it
+/// leads nowhere.
+fn independent_without(kinematics: &mut Kinematics, q: &[f64], driver: usize, free: &[f64], t: f64) -> Option<bool> {
+    if q.len() > LARGEST_DENSE {
+        return None;
+    }
+    kinematics.set_time(t);
+    let columns: Vec<u32> = (0..q.len() as u32).collect();
+    let rows: Vec<u32> = columns.iter().copied().filter(|&row| row as usize != driver).collect();
+    [BESIDE, -BESIDE].into_iter().find_map(|way| {
+        let mut near = moved_along(kinematics, q, free, way);
+        levenberg_marquardt(kinematics, &mut near, &rows, &columns);
+        independent_where(kinematics, q, &near, &rows)
+    })
+}
+
+/// Whether the equations are independent beside a position, where its free motion leads; none if it leads nowhere.
+fn independent_beside(kinematics: &mut Kinematics, q: &[f64], free: &[f64]) -> Option<bool> {
+    [BESIDE, -BESIDE].into_iter().find_map(|way| {
+        let start = moved_along(kinematics, q, free, way);
+        independent_at(kinematics, q, start)
+    })
+}
+
+/// A position moved along a free motion, scaled.
+fn moved_along(kinematics: &Kinematics, q: &[f64], free: &[f64], way: f64) -> Vec<f64> {
+    (0..q.len()).map(|k| q[k] + way * free[k] * kinematics.linear().column_scale(k)).collect()
+}
+
+/// Whether the equations are independent at a time nearby; none if no position can be had there, as when every driver rests.
+fn independent_later(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Option<bool> {
+    let span = kinematics.span();
+    NEARBY.into_iter().find_map(|part| {
+        kinematics.set_time(t + part * span);
+        independent_at(kinematics, q, q.to_vec())
+    })
+}
+
+/// Whether the equations are independent where least squares lead from a start; none if that is `q` again, or nowhere.
+fn independent_at(kinematics: &mut Kinematics, q: &[f64], start: Vec<f64>) -> Option<bool> {
+    let near = least_squares(kinematics, start).q;
+    let all: Vec<u32> = (0..q.len() as u32).collect();
+    independent_where(kinematics, q, &near, &all)
+}
+
+/// Whether the equations are independent in a position where some of them hold; none if it is `q`, or they do not hold.
+fn independent_where(kinematics: &mut Kinematics, q: &[f64], near: &[f64], rows: &[u32]) -> Option<bool> {
+    let far = |k: usize| (near[k] - q[k]).abs() > MOVED * kinematics.linear().column_scale(k);
+    let moved = (0..q.len()).any(far);
+    let holds = kinematics.set_position(near).is_ok() && {
+        let _ = kinematics.factor();
+        kinematics.hold_nearly(rows, OPEN_NEARBY)
+    };
+    (moved && holds).then(|| kinematics.nearness(SINGULAR_START) > SINGULAR_START)
+}
+
+/// Where least squares come to rest.
+struct Rest {
+    q: Vec<f64>,
+    /// The first block that stays open, by its number, where blocks were gone through.
+    open: Option<usize>,
+}
+
+/// Levenberg–Marquardt on the whole or block by block.
+fn least_squares(kinematics: &mut Kinematics, mut q: Vec<f64>) -> Rest {
+    let n = q.len();
+    if n > LARGEST_DENSE {
+        return block_by_block(kinematics, q);
+    }
+    let all: Vec<u32> = (0..n as u32).collect();
+    levenberg_marquardt(kinematics, &mut q, &all, &all);
+    Rest { q, open: None }
+}
+
+/// The same block by block, up to the first that stays open: those behind it may depend on it. Those that are closed take no time.
+fn block_by_block(kinematics: &mut Kinematics, mut q: Vec<f64>) -> Rest {
+    let determined = kinematics.determined();
+    let mut is_there = kinematics.set_position(&q).is_ok();
+    let _ = kinematics.factor();
+    for (number, block) in determined.blocks().iter().enumerate().filter(|(_, block)| block.rows.len() <= LARGEST_DENSE)
+    {
+        if !is_there {
+            break;
+        }
+        if kinematics.hold(&block.rows) {
+            continue;
+        }
+        levenberg_marquardt(kinematics, &mut q, &block.rows, &block.columns);
+        is_there = kinematics.set_position(&q).is_ok();
+        let _ = kinematics.factor();
+        if is_there && !kinematics.hold(&block.rows) {
+            return Rest { q, open: Some(number) };
+        }
+    }
+    Rest { q, open: None }
+}

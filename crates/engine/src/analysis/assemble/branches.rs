@@ -1,0 +1,200 @@
+//! Whether estimates that are far off leave in doubt which position is meant.
+//!
+//! Most loops can be assembled in more than one way, and assembly takes the one that it comes to. Where it had to move a
+//! body of a loop far, others are looked for; where one of them is not clearly farther from the estimates, the reader is
+//! told. What follows from drivers and joints without iteration is right however far off its estimate is.
+
+use super::search::{Noise, levenberg_marquardt};
+use crate::analysis::state::{Kinematics, State};
+use mechc_ir::structure::Determined;
+use mechc_ir::tolerances::assembly::branches::{
+    AS_NEAR, LARGEST_LOOP, LARGEST_SYSTEM, MOST_LOOPS, RANDOM_STARTS, SAME, TURNED_OVER,
+};
+use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind};
+use std::f64::consts::{PI, TAU};
+
+/// Why the position taken may not be the one meant.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Doubt {
+    /// The estimates led nowhere, and others near them were tried.
+    Perturbed,
+    /// The equations do not close with the drivers where the estimates have them: they were closed without the drivers, which were led to
+    /// where they begin then.
+    DriversLeftOut,
+    /// No way leads through all turns between where the drivers are drawn and where they begin: they were led the shortest way.
+    ShortestWay,
+    /// A bifurcation was passed on the way from where the drivers are drawn to where they begin.
+    Passed,
+    /// No way leads from the drawn position to where the drivers begin: the equations were closed from the estimates with the drivers there.
+    NotLed,
+    /// The estimate of a body is far off.
+    Far(FarBody),
+}
+
+/// A body whose estimate is far off.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct FarBody {
+    /// The body.
+    pub body: BodyId,
+    /// How far.
+    pub off: Off,
+}
+
+/// How far a body's estimate is off.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Off {
+    /// It was turned by this much (rad).
+    Turned(f64),
+    /// It was moved by this much (m), and the loop can be assembled otherwise, hardly farther from the estimates, or is too
+    /// large to look.
+    Moved(f64),
+}
+
+/// Equations that have to be solved by iteration, with those that follow from them one after the other.
+#[derive(Default)]
+struct Loop {
+    rows: Vec<u32>,
+    columns: Vec<u32>,
+}
+
+/// Whether the estimates `from` leave in doubt that the assembled state is the one meant.
+pub fn doubt(kinematics: &mut Kinematics, from: &[f64], state: &State) -> Option<FarBody> {
+    let determined = kinematics.determined();
+    let system = determined.system();
+    // most estimates are near
+    farthest(system, 0..from.len(), from, &state.q)?;
+    let is_large = |found: &Loop| from.len() > LARGEST_SYSTEM || found.columns.len() > LARGEST_LOOP;
+    let loops = loops(&determined);
+    let far = loops.iter().filter_map(|found| Some((found, farthest(system, found.columns(), from, &state.q)?)));
+    let doubt = far.take(MOST_LOOPS).find(|(found, doubt)| {
+        matches!(doubt.off, Off::Turned(_)) || is_large(found) || is_another_as_near(kinematics, found, from, &state.q)
+    });
+    kinematics.restore(state);
+    doubt.map(|(_, doubt)| doubt)
+}
+
+/// How far what has to be solved for by iteration, and what follows from it, moved; the largest way, scaled.
+pub fn moved_in_loops(determined: &Determined, from: &[f64], to: &[f64]) -> f64 {
+    let system = determined.system();
+    let of_bodies = |column: &usize| system.body_of(*column).is_some();
+    let way = |column: usize| {
+        let coordinate = &system.coordinates()[column];
+        distance_of(coordinate.kind, from[column], to[column]) / coordinate.scale
+    };
+    let loops = loops(determined);
+    loops.iter().flat_map(Loop::columns).filter(of_bodies).map(way).fold(0.0, f64::max)
+}
+
+/// The first body that turned over, or else the one that moved farthest, if that is far.
+fn farthest(
+    system: &ConstraintSystem,
+    columns: impl Iterator<Item = usize>,
+    from: &[f64],
+    to: &[f64],
+) -> Option<FarBody> {
+    let (mut farthest, mut moved) = (system.length(), None);
+    for column in columns {
+        let Some(body) = system.body_of(column) else { continue };
+        let kind = system.coordinates()[column].kind;
+        let way = distance_of(kind, from[column], to[column]);
+        match kind {
+            CoordinateKind::Angle if way > TURNED_OVER => return Some(FarBody { body, off: Off::Turned(way) }),
+            CoordinateKind::Length if way > farthest => {
+                (farthest, moved) = (way, Some(FarBody { body, off: Off::Moved(way) }));
+            }
+            _ => {}
+        }
+    }
+    moved
+}
+
+/// The loops, in their order of solution. What follows from drivers and joints without iteration is in none.
+fn loops(determined: &Determined) -> Vec<Loop> {
+    let system = determined.system();
+    let mut loops: Vec<Loop> = Vec::new();
+    let mut loop_of: Vec<Option<usize>> = vec![None; system.coordinates().len()];
+    for block in determined.blocks() {
+        let used = block.rows.iter().flat_map(|&row| system.phi_q().row(row as usize));
+        let found = if block.explicit {
+            used.filter_map(|&(column, _)| loop_of[column as usize]).max()
+        } else {
+            loops.push(Loop::default());
+            Some(loops.len() - 1)
+        };
+        let Some(k) = found else { continue };
+        block.columns.iter().for_each(|&column| loop_of[column as usize] = Some(k));
+        loops[k].rows.extend(&block.rows);
+        loops[k].columns.extend(&block.columns);
+    }
+    loops
+}
+
+impl Loop {
+    fn columns(&self) -> impl Iterator<Item = usize> {
+        self.columns.iter().map(|&column| column as usize)
+    }
+}
+
+/// Whether a loop can be assembled in another position that is as near to the estimates.
+fn is_another_as_near(kinematics: &mut Kinematics, within: &Loop, from: &[f64], to: &[f64]) -> bool {
+    let most = AS_NEAR * distance(kinematics, within, from, to);
+    starts(kinematics, within, from, to).into_iter().any(|mut q| {
+        if kinematics.is_cancelled() {
+            return false;
+        }
+        levenberg_marquardt(kinematics, &mut q, &within.rows, &within.columns);
+        let is_assembled = kinematics.set_position(&q).is_ok()
+            && kinematics.factor().is_ok()
+            && kinematics.hold(&within.rows)
+            && kinematics.turned_lines().is_empty();
+        is_assembled && distance(kinematics, within, to, &q) > SAME && distance(kinematics, within, from, &q) <= most
+    })
+}
+
+/// Where to look from: on the other side of the estimates, with one body after the other turned round, and at random.
+fn starts(kinematics: &Kinematics, within: &Loop, from: &[f64], to: &[f64]) -> Vec<Vec<f64>> {
+    let system = kinematics.system();
+    let mut mirrored = to.to_vec();
+    within.columns().for_each(|column| mirrored[column] = 2.0 * from[column] - to[column]);
+    let mut starts = vec![mirrored];
+    for column in within.columns().filter(|&column| system.coordinates()[column].kind == CoordinateKind::Angle) {
+        let mut turned = to.to_vec();
+        turned[column] += PI;
+        starts.push(turned);
+    }
+    let mut noise = Noise::new();
+    starts.extend((0..RANDOM_STARTS).map(|_| {
+        let mut start = to.to_vec();
+        within.columns().for_each(|column| {
+            start[column] = match system.coordinates()[column].kind {
+                CoordinateKind::Angle | CoordinateKind::Argument => to[column] + PI * noise.next(),
+                CoordinateKind::Length => from[column] + system.length() * noise.next(),
+            }
+        });
+        start
+    }));
+    starts
+}
+
+/// How far two positions of a loop's bodies are apart, in lengths of the mechanism and radians.
+fn distance(kinematics: &Kinematics, within: &Loop, a: &[f64], b: &[f64]) -> f64 {
+    let system = kinematics.system();
+    let squares = within.columns().filter(|&c| system.body_of(c).is_some()).map(|c| {
+        let kind = system.coordinates()[c].kind;
+        let unit = if kind == CoordinateKind::Length { system.length() } else { 1.0 };
+        let way = distance_of(kind, a[c], b[c]) / unit;
+        way * way
+    });
+    squares.sum::<f64>().sqrt()
+}
+
+/// How far a coordinate is from another value of it; whole turns are none.
+fn distance_of(kind: CoordinateKind, a: f64, b: f64) -> f64 {
+    match kind {
+        CoordinateKind::Length | CoordinateKind::Argument => (a - b).abs(),
+        CoordinateKind::Angle => {
+            let way = (a - b).abs() % TAU;
+            way.min(TAU - way)
+        }
+    }
+}

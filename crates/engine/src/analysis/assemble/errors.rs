@@ -1,0 +1,161 @@
+//! What is said of a position that was found, but may not be the one meant.
+
+use super::assembly::Moved;
+use super::branches::{Doubt, FarBody, Off};
+use crate::analysis::explain::errors::{at, degrees, length};
+use mechc_ir::tolerances::determinacy::fits::{LARGEST_MISFIT, MOVED, NOTHING};
+use mechc_ir::{ConstraintSystem, DeclarationKind, Fit, JointKind};
+use mechc_text::diag::{Applies, Code, Diagnostic, Fix, readable};
+
+/// A remark on what leaves in doubt that the position taken is the one meant.
+///
+/// From the estimates to the assembled position.
+pub fn far_estimates(system: &ConstraintSystem, doubt: Doubt, [from, to]: [&[f64]; 2], t: f64) -> Diagnostic {
+    const NEARER: &str = "give estimates in `at` that are nearer to the position meant";
+    let (message, place, label, help) = match doubt {
+        Doubt::Perturbed => (
+            format!("the estimates do not say which way the mechanism is assembled at {}", at(t)),
+            system.span(),
+            "one of several positions was taken",
+            NEARER,
+        ),
+        Doubt::DriversLeftOut => (
+            format!("the mechanism does not close as it is drawn at {}", at(t)),
+            system.span(),
+            "closed with its drivers left out, which then led it to where they begin",
+            NEARER,
+        ),
+        Doubt::ShortestWay => (
+            format!("the drivers cannot turn as far as from where they are drawn to where they begin at {}", at(t)),
+            system.span(),
+            "the way ends at a singular position: they were turned the shortest way, so that what turns with them may lack whole turns",
+            "draw it less than half a turn from where its drivers begin",
+        ),
+        Doubt::Passed => (
+            format!(
+                "a bifurcation was passed on the way from the drawn position to where the drivers begin at {}",
+                at(t)
+            ),
+            system.span(),
+            "went on along the branch that continues smoothly",
+            "draw it beyond the bifurcation, with poses in `at`",
+        ),
+        Doubt::NotLed => (
+            format!("no way leads from the drawn position to where the drivers begin at {}", at(t)),
+            system.span(),
+            "assembled from the estimates with the drivers there, which may mean another branch",
+            "draw it where its drivers begin, with poses in `at`",
+        ),
+        Doubt::Far(FarBody { body, off }) => {
+            let body = &system.bodies()[body];
+            let how = match off {
+                Off::Moved(by) => format!("moved by {}", length(by)),
+                Off::Turned(by) => format!("turned by {}", degrees(by)),
+            };
+            (
+                format!("body `{}` was {how} by the assembly at {}", body.name, at(t)),
+                body.span,
+                "far from its estimate",
+                "if this is not the branch meant, give better estimates in `at`",
+            )
+        }
+    };
+    Diagnostic::new(Code::N0601, message).at(place, label).help(help).change(assembled_poses(system, from, to))
+}
+
+/// The assembled poses as the estimates of those bodies that assembly has moved by more than rounding.
+fn assembled_poses(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Option<Fix> {
+    let mut edits = Vec::new();
+    for (id, body) in system.bodies().pairs() {
+        let pose @ [x, y, phi] = system.pose_of(id);
+        let has_moved =
+            |&column: &usize| (to[column] - from[column]).abs() > MOVED * system.coordinates()[column].scale;
+        if !pose.iter().any(has_moved) {
+            continue;
+        }
+        let nine = |value: f64| format!("{value:.8e}").parse().unwrap_or(value) + 0.0;
+        let [x, y] = [x, y].map(|column| if to[column].abs() < NOTHING { 0.0 } else { nine(1e3 * to[column]) });
+        let phi = if to[phi].abs() < NOTHING { 0.0 } else { nine(to[phi].to_degrees()) };
+        let pose = format!("({x} mm, {y} mm, {phi} deg)");
+        let written = match body.pose_span {
+            Some(span) => Fix::replace(span, pose, "", Applies::Probably),
+            None => Fix::append(body.span, format!(" at {pose}"), "", Applies::Probably),
+        };
+        edits.extend(written.edits);
+    }
+    let message = "write the assembled position into `at`".to_owned();
+    (!edits.is_empty()).then_some(Fix { message, edits, applies: Applies::Probably })
+}
+
+/// A warning where the centres of gears, or of a pinion and its rack, are not as far apart as the radii have it.
+pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option<Diagnostic> {
+    let [distance, wanted, radius] = [fit.distance, fit.wanted, fit.radius].map(|id| system.value_at(id, q));
+    let off = distance - wanted;
+    if off.abs() <= LARGEST_MISFIT * radius {
+        return None;
+    }
+    let joint = &system.declarations()[fit.declaration];
+    if distance < -LARGEST_MISFIT * radius {
+        let message =
+            format!("the pinion of `{}` is on the other side of its rack than is said at {}", joint.name, at(t));
+        return Some(
+            Diagnostic::new(Code::W0501, message)
+                .at(joint.span, "it turns the other way there")
+                .help("left and right are seen along the direction of the rack's axis"),
+        );
+    }
+    let (what, why, other) = match joint.kind {
+        DeclarationKind::Joint(JointKind::Gear) => ("centres", "the sum of the radii", Some("internal_gear")),
+        DeclarationKind::Joint(JointKind::InternalGear) => ("centres", "the difference of the radii", Some("gear")),
+        _ => ("centre and axis", "the radius", None),
+    };
+    // the sum of the radii, of gears whose difference was asked for, and the other way round
+    let fits_another = (distance - (2.0 * radius - wanted)).abs() <= LARGEST_MISFIT * radius;
+    let message = format!(
+        "the {what} of `{}` are {} apart at {}, and {why} is {}",
+        joint.name,
+        digits_that_differ(distance, wanted),
+        at(t),
+        digits_that_differ(wanted, distance)
+    );
+    let label =
+        format!("{} too {}", in_one_unit(off.abs(), 2, distance.max(wanted)), if off < 0.0 { "near" } else { "far" });
+    let help = match other.filter(|_| fits_another) {
+        Some(other) => format!("was `{other}` meant? its centres would be right"),
+        None => format!(
+            "set them {} apart by the joints of their bodies, or change a radius: a mesh does not hold its distance",
+            digits_that_differ(wanted, distance)
+        ),
+    };
+    Some(Diagnostic::new(Code::W0501, message).at(joint.span, label).help(help))
+}
+
+/// A length (m) with as many digits as tell it from another.
+fn digits_that_differ(value: f64, other: f64) -> String {
+    if value.abs() < NOTHING {
+        return "0 mm".to_owned();
+    }
+    let digits = (3..=9).find(|&digits| format!("{value:.digits$e}") != format!("{other:.digits$e}")).unwrap_or(9);
+    in_one_unit(value, digits, value.abs().max(other.abs()))
+}
+
+/// A length (m) with so many digits behind the first one, in the unit that suits the larger length beside it.
+fn in_one_unit(value: f64, digits: usize, beside: f64) -> String {
+    let (times, unit) = if beside.abs() < 1.0 { (1e3, "mm") } else { (1.0, "m") };
+    let rounded: f64 = format!("{:.digits$e}", value * times).parse().unwrap_or(value);
+    format!("{} {unit}", readable(rounded))
+}
+
+impl Moved {
+    /// In a sentence.
+    #[must_use]
+    pub fn in_words(&self, system: &ConstraintSystem) -> String {
+        format!(
+            "assembled: moved by at most {} (`{}`) and {} (`{}`) from the estimates",
+            length(self.length),
+            system.bodies()[self.length_body].name,
+            degrees(self.angle),
+            system.bodies()[self.angle_body].name,
+        )
+    }
+}

@@ -1,0 +1,194 @@
+//! Where parts begin: each where it comes to alone, carried to where its mount is.
+//!
+//! What a part is led by, and what carries it, must be known before. So equations of the mechanism around are solved block by block, as
+//! far as parts need it, and parts are placed as soon as all is known that they follow. A part that follows what cannot be known before it
+//! is placed where it is without having been led.
+
+use super::search::levenberg_marquardt;
+use crate::analysis::state::{Horizon, Kinematics};
+use mechc_expr::math;
+use mechc_expr::{ExprId, Symbol};
+use mechc_ir::PartStart;
+use mechc_ir::program::Program;
+use mechc_ir::structure::{Block, Determined};
+use mechc_ir::tolerances::assembly::parts::LARGEST;
+use mechc_text::cancel::Cancel;
+use std::sync::Arc;
+
+/// A part whose coordinates are asked for, as it is alone.
+pub struct Request {
+    /// Its number.
+    pub part: usize,
+    /// What its inputs are to be led to (SI), if they are to be led.
+    pub inputs: Option<Vec<f64>>,
+}
+
+/// Gives the coordinates of parts, all those at once that can be known at once.
+pub type Leader<'l> = dyn FnMut(&[Request]) -> Vec<Option<Vec<f64>>> + 'l;
+
+/// The estimates of a mechanism at a time (s) [m, rad], with its parts where they begin.
+#[must_use]
+pub fn with_parts(
+    determined: &Arc<Determined>,
+    program: &Arc<Program>,
+    horizon: Horizon,
+    estimates: Vec<f64>,
+    leader: &mut Leader<'_>,
+    cancel: &Cancel,
+) -> Vec<f64> {
+    let kinematics =
+        Kinematics::new(Arc::clone(determined), Arc::clone(program), horizon.span, f64::INFINITY, cancel.clone());
+    let mut placing = Placing::new(kinematics, determined, horizon.from, estimates);
+    while !placing.open.is_empty() && !cancel.is_cancelled() {
+        let (known, open): (Vec<usize>, Vec<usize>) = placing.open.iter().partition(|&&part| placing.is_known(part));
+        if !known.is_empty() {
+            placing.open = open;
+            placing.place(&known, true, leader);
+        } else if !placing.solve_what_is_needed() {
+            // it depends on itself
+            let part = placing.open.remove(0);
+            placing.place(&[part], false, leader);
+        }
+    }
+    placing.q
+}
+
+struct Placing<'d> {
+    kinematics: Kinematics,
+    determined: &'d Determined,
+    parts: &'d [PartStart],
+    t: f64,
+    q: Vec<f64>,
+    /// By coordinate.
+    is_settled: Vec<bool>,
+    /// By coordinate.
+    is_of_an_open_part: Vec<bool>,
+    block_of: Vec<usize>,
+    /// By part: the coordinates that it follows.
+    needs: Vec<Vec<u32>>,
+    /// Not placed yet.
+    open: Vec<usize>,
+}
+
+impl<'d> Placing<'d> {
+    fn new(mut kinematics: Kinematics, determined: &'d Determined, t: f64, q: Vec<f64>) -> Placing<'d> {
+        kinematics.set_time(t);
+        let system = determined.system();
+        let needs = |part: &PartStart| {
+            let formulas: Vec<ExprId> = part.inputs.iter().map(|(_, id)| *id).chain(part.mount).collect();
+            let symbols = system.graph().symbols_of_all(&formulas).into_iter();
+            symbols.filter_map(coordinate).collect::<Vec<u32>>()
+        };
+        let parts = system.parts();
+        let mut is_of_an_open_part = vec![false; q.len()];
+        for part in parts {
+            is_of_an_open_part[part.poses.clone()].fill(true);
+            is_of_an_open_part[part.own.clone()].fill(true);
+        }
+        Placing {
+            kinematics,
+            determined,
+            parts,
+            t,
+            is_settled: vec![false; q.len()],
+            is_of_an_open_part,
+            q,
+            block_of: determined.block_of_columns(),
+            needs: parts.iter().map(needs).collect(),
+            open: (0..parts.len()).collect(),
+        }
+    }
+
+    fn is_known(&self, part: usize) -> bool {
+        self.needs[part].iter().all(|&k| self.is_settled[k as usize])
+    }
+
+    fn value(&self, id: ExprId) -> f64 {
+        let system = self.determined.system();
+        system.graph().value(id, |symbol| match symbol {
+            Symbol::Param(k) => system.params()[k as usize].value,
+            Symbol::Time => self.t,
+            Symbol::Coordinate { index, order: 0 } => self.q[index as usize],
+            _ => f64::NAN,
+        })
+    }
+
+    /// Puts parts to where they come to alone, on their mounts.
+    fn place(&mut self, parts: &[usize], are_led: bool, leader: &mut Leader<'_>) {
+        let mounts: Vec<[f64; 3]> = parts.iter().map(|&part| self.parts[part].mount.map(|id| self.value(id))).collect();
+        let asked = |(&part, mount): (&usize, &[f64; 3])| {
+            let inputs: Vec<f64> = self.parts[part].inputs.iter().map(|(_, id)| self.value(*id)).collect();
+            let is_whole = inputs.iter().chain(mount).all(|value| value.is_finite());
+            Request { part, inputs: Some(inputs).filter(|_| are_led && is_whole) }
+        };
+        let asked: Vec<Request> = parts.iter().zip(&mounts).map(asked).collect();
+        for ((&part, mount), alone) in parts.iter().zip(&mounts).zip(leader(&asked)) {
+            self.set_on_its_mount(part, *mount, alone);
+        }
+    }
+
+    fn set_on_its_mount(&mut self, part: usize, [x, y, phi]: [f64; 3], alone: Option<Vec<f64>>) {
+        let start = &self.parts[part];
+        let (poses, own) = (start.poses.clone(), start.own.clone());
+        poses.clone().chain(own.clone()).for_each(|column| self.is_of_an_open_part[column] = false);
+        let is_whole = [x, y, phi].iter().all(|value| value.is_finite());
+        let Some(alone) = alone.filter(|q| q.len() == poses.len() + own.len() && is_whole) else {
+            return;
+        };
+        let (sin, cos) = math::sin_cos(phi);
+        let side = if start.is_mirrored { -1.0 } else { 1.0 };
+        for &body in &start.bodies {
+            let pose = self.determined.system().pose_of(body);
+            let [along, across, turn] = pose.map(|column| alone[column - poses.start]);
+            let across = side * across;
+            let placed = [x + along * cos - across * sin, y + along * sin + across * cos, phi + side * turn];
+            pose.into_iter().zip(placed).for_each(|(column, value)| self.q[column] = value);
+        }
+        self.q[own.clone()].copy_from_slice(&alone[poses.len()..]);
+        self.is_settled[poses].fill(true);
+        self.is_settled[own].fill(true);
+    }
+
+    /// Solves blocks that parts need, each once those before it are settled; whether there was one.
+    fn solve_what_is_needed(&mut self) -> bool {
+        let mut wanted: Vec<u32> = self.open.iter().flat_map(|&part| self.needs[part].iter().copied()).collect();
+        let mut numbers: Vec<usize> = Vec::new();
+        let mut is_wanted = vec![false; self.determined.blocks().len()];
+        while let Some(column) = wanted.pop() {
+            let number = self.block_of[column as usize];
+            if self.is_settled[column as usize] || std::mem::replace(&mut is_wanted[number], true) {
+                continue;
+            }
+            numbers.push(number);
+            wanted.extend(self.behind(&self.determined.blocks()[number]));
+        }
+        numbers.sort_unstable();
+        let mut was_solved = false;
+        for number in numbers {
+            let block = &self.determined.blocks()[number];
+            let holds_open_part = block.columns.iter().any(|&column| self.is_of_an_open_part[column as usize]);
+            let is_ready = self.behind(block).all(|column| self.is_settled[column as usize]);
+            if is_ready && !holds_open_part && block.columns.len() <= LARGEST {
+                levenberg_marquardt(&mut self.kinematics, &mut self.q, &block.rows, &block.columns);
+                block.columns.iter().for_each(|&column| self.is_settled[column as usize] = true);
+                was_solved = true;
+            }
+        }
+        was_solved
+    }
+
+    /// The coordinates of other blocks that the equations of a block hold.
+    fn behind(&self, block: &'d Block) -> impl Iterator<Item = u32> + use<'d> {
+        let system = self.determined.system();
+        let own = &block.columns;
+        let of_row = move |&row: &'d u32| system.phi_q().row(row as usize).iter().map(|&(column, _)| column);
+        block.rows.iter().flat_map(of_row).filter(move |column| !own.contains(column))
+    }
+}
+
+fn coordinate(symbol: Symbol) -> Option<u32> {
+    match symbol {
+        Symbol::Coordinate { index, .. } => Some(index),
+        _ => None,
+    }
+}

@@ -1,0 +1,278 @@
+//! A mechanism that is assembled at its first time: what can be followed from there on.
+
+use super::assembly::{self, Assembled, Moved};
+use super::branches::{self, Doubt};
+use super::errors::{far_estimates, misfit};
+use crate::analysis::state::{Horizon, Kinematics, State};
+use crate::solver::Solver;
+use mechc_expr::math::Vectors;
+use mechc_ir::ConstraintSystem;
+use mechc_ir::program::Program;
+use mechc_ir::structure::Determined;
+use mechc_text::cancel::Cancel;
+use mechc_text::diag::{Diagnostic, Diagnostics};
+use std::sync::Arc;
+
+/// A mechanism that is assembled at its first time, in a position of full rank.
+#[derive(Clone)]
+pub struct Started {
+    kinematics: Kinematics,
+    state: State,
+    moved: Moved,
+    /// Why this may not be the position that the estimates mean.
+    doubt: Option<Doubt>,
+    /// What solves for the rows; none where it would be too large, or nobody asks for them.
+    solver: Option<Arc<Solver>>,
+}
+
+/// What solves for the rows of a mechanism that is assembled.
+#[derive(Clone)]
+pub enum Solving {
+    /// A solver that is made for the position found.
+    New,
+    /// This solver, of the same equations; or none, where only positions are wanted.
+    With(Option<Arc<Solver>>),
+}
+
+/// A mechanism that is to be assembled.
+#[derive(Clone)]
+pub struct Unassembled {
+    /// Its equations.
+    pub determined: Arc<Determined>,
+    /// What evaluates them.
+    pub program: Arc<Program>,
+    /// When it is assembled, and how far it is looked at.
+    pub horizon: Horizon,
+    /// Bounds each row of Φ, scaled.
+    pub tolerance: f64,
+    /// Whether bifurcations are passed between where it is drawn and where it begins.
+    pub pass_bifurcations: bool,
+    /// Ends it.
+    pub cancel: Cancel,
+}
+
+impl Unassembled {
+    /// Closes the equations from the estimates of the file, or from others [m, rad], with the drivers where they are at that time.
+    ///
+    /// # Errors
+    /// It cannot be assembled, starts in a singular position, or a formula has no value there.
+    pub fn close(&self, estimates: Option<&[f64]>, solving: Solving) -> Result<Started, Box<Diagnostic>> {
+        self.close_with(self.kinematics(estimates), solving)
+    }
+
+    /// Closes the equations from the estimates of what evaluates them.
+    ///
+    /// # Errors
+    /// As [`Unassembled::close`].
+    pub fn close_with(&self, mut kinematics: Kinematics, solving: Solving) -> Result<Started, Box<Diagnostic>> {
+        let Assembled { state, moved, is_perturbed } = assembly::assemble(&mut kinematics, self.horizon.from, None)?;
+        let mut started = Started::of(kinematics, (state, moved), solving);
+        started.doubt = if is_perturbed {
+            Some(Doubt::Perturbed)
+        } else {
+            let (kinematics, state) = (&mut started.kinematics, &started.state);
+            let estimates = kinematics.estimates();
+            branches::doubt(kinematics, &estimates, state).map(Doubt::Far)
+        };
+        Ok(started)
+    }
+
+    /// Assembles at a position [m, rad] to which the mechanism was followed, which is the one meant.
+    ///
+    /// # Errors
+    /// As [`Unassembled::close`].
+    pub fn assemble_at(&self, q: &[f64], solving: Solving) -> Result<Started, Box<Diagnostic>> {
+        self.assemble_at_with(self.kinematics(Some(q)), q, solving)
+    }
+
+    /// The same, of what evaluates the equations, whose estimates may be others.
+    ///
+    /// # Errors
+    /// As [`Unassembled::close`].
+    pub fn assemble_at_with(
+        &self,
+        mut kinematics: Kinematics,
+        q: &[f64],
+        solving: Solving,
+    ) -> Result<Started, Box<Diagnostic>> {
+        let Assembled { state, moved, .. } = assembly::assemble(&mut kinematics, self.horizon.from, Some(q))?;
+        Ok(Started::of(kinematics, (state, moved), solving))
+    }
+
+    /// What evaluates the equations, before they are assembled, with the estimates of the file or with others [m, rad].
+    #[must_use]
+    pub fn kinematics(&self, estimates: Option<&[f64]>) -> Kinematics {
+        let (determined, program) = (Arc::clone(&self.determined), Arc::clone(&self.program));
+        let mut kinematics =
+            Kinematics::new(determined, program, self.horizon.span, self.tolerance, self.cancel.clone());
+        if let Some(estimates) = estimates {
+            kinematics.begin_from(estimates);
+        }
+        kinematics
+    }
+
+    /// Where its bodies come nearest to being assembled, from the file's estimates or from others, if it cannot be: all is closed but what is
+    /// told to be open. None where that is not known, or hopeless [m, rad].
+    #[must_use]
+    pub fn nearest(&self, estimates: Option<&[f64]>) -> Option<Vec<f64>> {
+        assembly::nearest(&mut self.kinematics(estimates), self.horizon.from)
+    }
+}
+
+impl Started {
+    fn of(mut kinematics: Kinematics, (state, moved): (State, Moved), solving: Solving) -> Started {
+        // by the position at the start, which is what was factored last
+        kinematics.choose_orders();
+        let solver = match solving {
+            Solving::New => kinematics.solver().map(Arc::new),
+            Solving::With(solver) => solver,
+        };
+        Started { kinematics, state, moved, doubt: None, solver }
+    }
+
+    /// What is to be said of the assembly: whether it moved bodies far, and whether gears fit.
+    #[must_use]
+    pub fn remarks(&self) -> Diagnostics {
+        let (system, state) = (self.kinematics.system(), &self.state);
+        let mut diagnostics = self.far_estimates_at(state.t);
+        diagnostics.extend(system.fits().iter().filter_map(|fit| misfit(system, fit, &state.q, state.t)));
+        diagnostics
+    }
+
+    /// Whether the assembly moved bodies far, said of a time (s).
+    #[must_use]
+    pub fn far_estimates_at(&self, t: f64) -> Diagnostics {
+        let (system, from) = (self.kinematics.system(), self.kinematics.estimates());
+        let ends = [from.as_slice(), &self.state.q];
+        let mut diagnostics = Diagnostics::default();
+        diagnostics.extend(self.doubt.map(|doubt| far_estimates(system, doubt, ends, t)));
+        diagnostics
+    }
+
+    /// The same, with why this may not be the position that the estimates mean.
+    #[must_use]
+    pub fn with_doubt(self, doubt: Option<Doubt>) -> Started {
+        Started { doubt, ..self }
+    }
+
+    /// Why this may not be the position that the estimates mean.
+    #[must_use]
+    pub fn doubt(&self) -> Option<Doubt> {
+        self.doubt
+    }
+
+    /// The equations.
+    #[must_use]
+    pub fn system(&self) -> &ConstraintSystem {
+        self.kinematics.system()
+    }
+
+    /// From now on rows are solved for with these vector instructions, which changes no bit.
+    pub fn use_vectors(&mut self, vectors: Vectors) {
+        self.kinematics.use_vectors(vectors);
+    }
+
+    /// Tells from now on how far the start is from these estimates [m, rad], rather than from those that it was assembled from.
+    #[must_use]
+    pub fn moved_from(self, estimates: &[f64]) -> Started {
+        let moved = assembly::moved(self.kinematics.system(), estimates, &self.state.q);
+        Started { moved, ..self }
+    }
+
+    /// How far assembly moved the bodies from their estimates.
+    #[must_use]
+    pub fn moved(&self) -> &Moved {
+        &self.moved
+    }
+
+    /// How far the assembly moved from their estimates what it had to iterate for, and what follows from that; the largest way, scaled.
+    #[must_use]
+    pub fn moved_in_loops(&self) -> f64 {
+        let estimates = self.kinematics.estimates();
+        branches::moved_in_loops(&self.kinematics.determined(), &estimates, &self.state.q)
+    }
+
+    /// The assembled coordinates [m, rad].
+    #[must_use]
+    pub fn q(&self) -> &[f64] {
+        &self.state.q
+    }
+
+    /// The velocities at the start [m/s, rad/s]; none where they have no values.
+    #[must_use]
+    pub fn velocities(&mut self) -> Option<Vec<f64>> {
+        let mut state = self.state.clone();
+        self.kinematics.restore(&state);
+        self.kinematics.derivatives(&mut state).ok()?;
+        Some(state.qd)
+    }
+
+    /// The smallest singular value of any block of the scaled `Φ_q` at the start: 1 is best, 0 a singular position.
+    #[must_use]
+    pub fn conditioning(&mut self) -> f64 {
+        self.kinematics.restore(&self.state);
+        self.kinematics.worst().sigma
+    }
+
+    /// Returns the row of a state that the motion from here has passed, which is not solved for anew.
+    #[must_use]
+    pub fn row_of(&mut self, state: &State) -> Vec<f64> {
+        let mut row = vec![0.0; self.kinematics.row_length()];
+        self.kinematics.restore(state);
+        self.kinematics.write_given_row(state, &mut row);
+        row
+    }
+
+    /// What solves for rows; none where it would be too large, or is left out.
+    #[must_use]
+    pub fn solver(&self) -> Option<&Solver> {
+        self.solver.as_deref()
+    }
+
+    /// The same, for others to hold.
+    #[must_use]
+    pub fn shared_solver(&self) -> Option<Arc<Solver>> {
+        self.solver.clone()
+    }
+
+    /// The same operations, to be written as code; by a program that may leave inputs open, and has the same registers.
+    #[must_use]
+    pub fn solver_for_code_of(&mut self, program: &Program) -> Option<Solver> {
+        self.kinematics.restore(&self.state);
+        self.kinematics.solver_for_code_of(program)
+    }
+
+    /// What solves for some columns of several variants at once; none where it would be too large.
+    #[must_use]
+    pub fn solver_of_variants(&mut self, is_wanted: &dyn Fn(u32) -> bool) -> Option<Solver> {
+        self.kinematics.restore(&self.state);
+        self.kinematics.solver_of_variants(is_wanted)
+    }
+
+    /// Whether the equations are smooth wherever the motion is, and nothing is looked at beside them.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        self.kinematics.is_plain()
+    }
+
+    /// By row of `Φ`: what may be left of it at the start.
+    #[must_use]
+    pub fn bounds(&mut self) -> Vec<f64> {
+        self.kinematics.restore(&self.state);
+        let mut inverses = vec![0.0; self.state.q.len()];
+        self.kinematics.write_bounds(&mut inverses);
+        inverses.iter().map(|inverse| 1.0 / inverse).collect()
+    }
+
+    /// What a motion from the start on needs: what evaluates it, the state there, and what solves for its rows.
+    #[must_use]
+    pub fn into_parts(self) -> (Kinematics, State, Option<Arc<Solver>>) {
+        (self.kinematics, self.state, self.solver)
+    }
+
+    /// The same, to be followed by another one too.
+    #[must_use]
+    pub fn parts(&self) -> (Kinematics, State, Option<Arc<Solver>>) {
+        (self.kinematics.clone(), self.state.clone(), self.solver.clone())
+    }
+}

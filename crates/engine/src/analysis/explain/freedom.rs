@@ -1,0 +1,227 @@
+//! Too few equations: what is left free, told as motions.
+
+use super::errors;
+use super::evaluator::Evaluator;
+use super::free_motion::motion_in_words;
+use super::orthonormal::Orthonormal;
+use super::proposals::Proposals;
+use super::redundancy::basis_of;
+use mechc_ir::structure::Subsystem;
+use mechc_ir::tolerances::determinacy::freedom::{ANGLE_SHARE, ASSEMBLED, LOOSE, MOVES, TOLD};
+use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationKind, IdVec};
+use nalgebra::DVector;
+
+/// How bodies move in one of the motions that equations leave free: at whichever speed, and either way.
+#[derive(Clone, PartialEq, Debug)]
+pub struct FreeMotion {
+    /// The bodies that move, with the velocities of their frames [m, m, rad]. Of all coordinates, in sizes of
+    /// their bodies and in radians, the fastest moves by 1.
+    pub bodies: Vec<(BodyId, [f64; 3])>,
+}
+
+/// The motions that equations leave free.
+#[derive(Clone, Debug)]
+pub struct Freedom {
+    /// Independent motions, by coordinates, scaled.
+    motions: Vec<Vec<f64>>,
+    /// Bodies that nothing holds.
+    loose: Vec<BodyId>,
+    /// Bodies that can move.
+    moving: Vec<BodyId>,
+    /// What would take them where it is driven: `rotation(main)`.
+    drivers: Vec<String>,
+    /// Joints that may have been forgotten, as text to write.
+    joints: Vec<String>,
+    /// The same of joints that slide.
+    guides: Vec<String>,
+    /// Whether the mechanism has a driver.
+    is_driven: bool,
+}
+
+impl Freedom {
+    /// What the rows of a part leave free of its columns at a time (s); none where they cannot be met.
+    pub fn of(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64) -> Option<Freedom> {
+        let linear = evaluator.assemble(&part.rows, &part.columns, None, t)?;
+        if linear.residual.iter().any(|open| open.abs() > ASSEMBLED) {
+            return None;
+        }
+        let jacobian = evaluator.linear(&part.rows, &part.columns, None, t)?.jacobian;
+        let system = evaluator.system;
+        let taken = basis_of(&jacobian, part.columns.len()).span;
+        let shares = taken.shares_left();
+        let with_share = |least: f64| {
+            let mut count = system.bodies().map(|_| 0);
+            for (&column, &share) in part.columns.iter().zip(&shares) {
+                if let Some(body) = system.body_of(column as usize)
+                    && share > least
+                {
+                    count[body] += 1;
+                }
+            }
+            count
+        };
+        let bodies_where = |counts: IdVec<BodyId, usize>, least: usize| -> Vec<BodyId> {
+            counts.ids().filter(|&body| counts[body] >= least).collect()
+        };
+        let loose = bodies_where(with_share(LOOSE), 3);
+        let moving = bodies_where(with_share(MOVES), 1);
+        let motions = motions_beside(system, part, taken);
+        let is_driven = system.declarations().iter().any(|one| one.kind == DeclarationKind::Driver);
+        let mut freedom =
+            Freedom { motions, loose, moving, drivers: Vec::new(), joints: Vec::new(), guides: Vec::new(), is_driven };
+        let proposals = Proposals { evaluator, motions: &freedom.motions, moving: &freedom.moving };
+        (freedom.drivers, freedom.joints, freedom.guides) =
+            (proposals.drivers(), proposals.joints(), proposals.guides());
+        Some(freedom)
+    }
+
+    /// What its motions do with the bodies.
+    pub fn motions_of_bodies(&self, system: &ConstraintSystem) -> Vec<FreeMotion> {
+        self.motions.iter().map(|motion| of_bodies(system, motion)).collect()
+    }
+
+    /// How many degrees of freedom are left.
+    pub fn degrees(&self) -> usize {
+        self.motions.len()
+    }
+
+    /// The bodies that can move.
+    pub fn moving(&self) -> &[BodyId] {
+        &self.moving
+    }
+
+    /// What could be driven to take the freedom: `rotation(main)`.
+    pub fn drives(&self) -> &[String] {
+        &self.drivers
+    }
+
+    /// What is left free, in sentences.
+    pub fn in_words(&self, system: &ConstraintSystem) -> Vec<String> {
+        let is_loose = |column: usize| system.body_of(column).is_some_and(|body| self.loose.contains(&body));
+        let mut sentences: Vec<String> = Vec::new();
+        for motion in &self.motions {
+            let moves = |k: &usize| motion[*k].abs() > MOVES;
+            if !(0..motion.len()).filter(moves).all(is_loose) {
+                sentences.push(motion_in_words(system, motion));
+            }
+        }
+        let left_out = sentences.len().saturating_sub(TOLD);
+        sentences.truncate(TOLD);
+        if left_out > 0 {
+            sentences.push(format!("and {left_out} more motions"));
+        }
+        let loose: Vec<String> = self.loose.iter().map(|&body| format!("`{}`", system.bodies()[body].name)).collect();
+        if !loose.is_empty() {
+            sentences.push(format!("nothing holds {}", errors::cut_list(&loose)));
+        }
+        sentences
+    }
+
+    /// What could be written to take the freedom.
+    pub fn helps(&self) -> Vec<String> {
+        let mut helps = Vec::new();
+        if !self.joints.is_empty() {
+            let what = if self.joints.len() == 1 { "a joint is missing?" } else { "joints are missing?" };
+            helps.push(format!(
+                "{what} These points are drawn onto each other, or nearly so: {}",
+                self.joints.join(", ")
+            ));
+        }
+        if !self.guides.is_empty() {
+            helps
+                .push(format!("a joint is missing? No joint takes these axes of one name: {}", self.guides.join(", ")));
+        }
+        let one = if helps.is_empty() { "add" } else { "or add" };
+        match (self.drivers.as_slice(), self.degrees()) {
+            ([], _) => {}
+            (drivers, 1) => {
+                let drivers: Vec<String> =
+                    drivers.iter().map(|driven| format!("`driver NAME: {driven} = …`")).collect();
+                helps.push(format!("{one} a driver: {}", drivers.join(" or ")));
+            }
+            (drivers, count) => {
+                let how_many = if drivers.len() == count { format!("{count} drivers") } else { "drivers".to_owned() };
+                let named = |(k, driven): (usize, &String)| format!("`driver NAME_{}: {driven} = …`", k + 1);
+                let drivers: Vec<String> = drivers.iter().enumerate().map(named).collect();
+                helps.push(format!("{one} {how_many}: {}", errors::cut_list(&drivers)));
+            }
+        }
+        if !self.is_driven {
+            helps.push("free motion is not computed: a driver prescribes each degree of freedom over time".to_owned());
+        }
+        helps
+    }
+}
+
+/// The motions that the rows of a part leave free where it is drawn, whether or not it can be assembled; none where they have no
+/// value at that time (s).
+pub fn motions_as_drawn(system: &ConstraintSystem, part: &Subsystem, t: f64) -> Option<Vec<FreeMotion>> {
+    let jacobian = Evaluator::new(system).linear(&part.rows, &part.columns, None, t)?.jacobian;
+    let taken = basis_of(&jacobian, part.columns.len()).span;
+    Some(motions_beside(system, part, taken).iter().map(|motion| of_bodies(system, motion)).collect())
+}
+
+/// A motion of all coordinates, scaled, as one of the bodies.
+fn of_bodies(system: &ConstraintSystem, motion: &[f64]) -> FreeMotion {
+    let fastest = motion.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let velocity = |body: BodyId| system.pose_of(body).map(|column| (column, motion[column]));
+    let moves = |body: &BodyId| velocity(*body).iter().any(|(_, x)| x.abs() > MOVES * fastest);
+    let moved = |body: BodyId| {
+        let of_rounding = |x: f64| if x.abs() > MOVES * fastest { x / fastest } else { 0.0 };
+        (body, velocity(body).map(|(column, x)| of_rounding(x) * system.coordinates()[column].scale))
+    };
+    FreeMotion { bodies: system.bodies().ids().filter(moves).map(moved).collect() }
+}
+
+/// The motions beside what is held, each told by itself, of all coordinates.
+fn motions_beside(system: &ConstraintSystem, part: &Subsystem, mut taken: Orthonormal) -> Vec<Vec<f64>> {
+    let mut motions = Vec::new();
+    while let Some(motion) = next_motion(system, part, &mut taken) {
+        motions.push(motion);
+    }
+    apart(motions).iter().map(|motion| spread(motion.as_slice(), part, system.coordinates().len())).collect()
+}
+
+/// A free motion beside those taken, of unit norm: that of the angle, or else the coordinate, which is freest. It is taken too.
+fn next_motion(system: &ConstraintSystem, part: &Subsystem, taken: &mut Orthonormal) -> Option<DVector<f64>> {
+    let n = part.columns.len();
+    if taken.is_whole() {
+        return None;
+    }
+    let shares = taken.shares_left();
+    let is_angle = |k: usize| system.coordinates()[part.columns[k] as usize].kind == CoordinateKind::Angle;
+    let freest =
+        |wanted: &dyn Fn(usize) -> bool| (0..n).filter(|&k| wanted(k)).max_by(|&a, &b| shares[a].total_cmp(&shares[b]));
+    let any = freest(&|_| true)?;
+    let of_angle = freest(&is_angle).filter(|&k| shares[k] > ANGLE_SHARE * shares[any]);
+    let mut axis = DVector::zeros(n);
+    axis[of_angle.unwrap_or(any)] = 1.0;
+    let (rest, _) = taken.beside(axis);
+    taken.take(&rest, 0.0).then(|| taken.last())?
+}
+
+/// The same motions, each without the leading coordinates of the others: so it can be told by itself.
+fn apart(mut motions: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
+    for k in 0..motions.len() {
+        let motion = &motions[k];
+        let largest = (0..motion.len()).max_by(|&a, &b| motion[a].abs().total_cmp(&motion[b].abs()));
+        let Some(leading) = largest else { return motions };
+        let reference = motion / motion[leading];
+        for (j, other) in motions.iter_mut().enumerate() {
+            if j != k {
+                other.axpy(-other[leading], &reference, 1.0);
+            }
+        }
+        motions[k] = reference;
+    }
+    motions
+}
+
+/// A motion of a part's coordinates as one of all coordinates.
+fn spread(motion: &[f64], part: &Subsystem, n: usize) -> Vec<f64> {
+    let mut all = vec![0.0; n];
+    for (&column, x) in part.columns.iter().zip(motion) {
+        all[column as usize] = *x;
+    }
+    all
+}

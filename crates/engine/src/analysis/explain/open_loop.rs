@@ -1,0 +1,293 @@
+//! Why a mechanism cannot be assembled: which closed loop stays open, by how much, and which lengths are too short or too
+//! long for it.
+//!
+//! Where the equations come nearest to zero their residuals are in balance, as the forces of springs in the joints would
+//! be. So they pull at the links: one that is drawn apart is too short, one that is pressed together is too long.
+
+use super::errors;
+use super::evaluator::Evaluator;
+use crate::analysis::state::Linear;
+use mechc_expr::math;
+use mechc_ir::structure::{Block, Determined, Subsystem};
+use mechc_ir::tolerances::determinacy::open_loop::{
+    ALONG, CLOSED, FAR, IN_LENGTH, LARGEST, LIGHT, PULLS, TAKES_PART, WIDE,
+};
+use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, PointId};
+
+/// A loop that does not close.
+pub struct OpenLoop {
+    /// The declaration at which it is told to be open.
+    pub at: DeclarationId,
+    /// By how much there (m or rad), all else being closed.
+    pub by: f64,
+    /// In what.
+    pub kind: CoordinateKind,
+    /// All declarations that take part, in order.
+    pub declarations: Vec<DeclarationId>,
+    /// Lengths that stand in the way.
+    pub links: Vec<Link>,
+    /// The largest residual that is left, scaled.
+    pub residual: f64,
+}
+
+/// A length that is too short or too long.
+pub struct Link {
+    /// What it is of.
+    pub of: LinkOf,
+    /// The length (m).
+    pub length: f64,
+    /// Whether it is too short.
+    pub too_short: bool,
+}
+
+/// What a length is of.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum LinkOf {
+    /// The distance between two declarations' points on a body; none for the ground.
+    Body(Option<BodyId>, [DeclarationId; 2]),
+    /// The distance that a declaration prescribes.
+    Declaration(DeclarationId),
+}
+
+/// What does not close where the nearest position is `q`.
+pub fn found(determined: &Determined, q: &[f64], t: f64) -> Option<OpenLoop> {
+    told(determined, q, t).map(|told| told.open)
+}
+
+/// The coordinates [m, rad] where all is closed but what is told to be open.
+pub fn opened(determined: &Determined, q: &[f64], t: f64) -> Option<Vec<f64>> {
+    let Told { open, mut evaluator, blocks } = told(determined, q, t)?;
+    // what hangs on the loop is shown where it would be then
+    for block in determined.blocks()[blocks..].iter().filter(|block| block.rows.len() <= LARGEST) {
+        evaluator.assemble(&block.rows, &block.columns, None, t);
+    }
+    let q = evaluator.q;
+    let far = if open.kind == CoordinateKind::Length { FAR * determined.system().length() } else { FAR };
+    (open.by <= far && q.iter().all(|x| x.is_finite())).then_some(q)
+}
+
+/// A loop that does not close.
+struct Told<'s> {
+    open: OpenLoop,
+    /// Where all but one declaration of it is.
+    evaluator: Evaluator<'s>,
+    /// How many blocks it is among, or behind.
+    blocks: usize,
+}
+
+fn told<'s>(determined: &'s Determined, q: &[f64], t: f64) -> Option<Told<'s>> {
+    let mut evaluator = Evaluator::new(determined.system());
+    evaluator.q.copy_from_slice(q);
+    let part = open_part(&mut evaluator, determined, t)?;
+    evaluator.q.copy_from_slice(q);
+    let open = open_loop(&mut evaluator, &part.equations, t)?;
+    Some(Told { open, evaluator, blocks: part.blocks })
+}
+
+/// The equations that are looked at together, and how many of the blocks need not be looked at beside them.
+struct OpenPart {
+    equations: Subsystem,
+    blocks: usize,
+}
+
+/// The first block that stays open, and what it needs, unless that is large; all, where each block closes by itself.
+fn open_part(evaluator: &mut Evaluator<'_>, determined: &Determined, t: f64) -> Option<OpenPart> {
+    let blocks = determined.blocks();
+    let closes =
+        |linear: Option<Linear>| linear.is_some_and(|linear| linear.residual.iter().all(|open| open.abs() <= CLOSED));
+    let together = |numbers: &[usize]| Some(in_order(blocks, numbers)).filter(|part| part.rows.len() <= LARGEST);
+    evaluator.evaluate(t);
+    for (k, block) in blocks.iter().enumerate().filter(|(_, block)| block.rows.len() <= LARGEST) {
+        // most are closed where they are
+        if !closes(evaluator.linear_there(&block.rows, &block.columns, None))
+            && !closes(evaluator.assemble(&block.rows, &block.columns, None, t))
+        {
+            let equations = together(&determined.needed_by(k)).unwrap_or_else(|| in_order(blocks, &[k]));
+            return Some(OpenPart { equations, blocks: k + 1 });
+        }
+    }
+    let all: Vec<usize> = (0..blocks.len()).collect();
+    together(&all).map(|equations| OpenPart { equations, blocks: blocks.len() })
+}
+
+/// Some blocks, by their numbers, in the order of the file, which is that of what is said.
+fn in_order(blocks: &[Block], numbers: &[usize]) -> Subsystem {
+    let mut part = Subsystem { rows: Vec::new(), columns: Vec::new() };
+    for &number in numbers {
+        part.rows.extend(&blocks[number].rows);
+        part.columns.extend(&blocks[number].columns);
+    }
+    part.rows.sort_unstable();
+    part.columns.sort_unstable();
+    part
+}
+
+fn open_loop(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64) -> Option<OpenLoop> {
+    let system = evaluator.system;
+    let linear = evaluator.assemble(&part.rows, &part.columns, None, t)?;
+    let largest = linear.residual.iter().fold(0.0, |m: f64, open| m.max(open.abs()));
+    if largest < CLOSED {
+        return None;
+    }
+    let mut declarations: Vec<DeclarationId> = part
+        .rows
+        .iter()
+        .zip(&linear.residual)
+        .filter(|(_, open)| open.abs() > TAKES_PART * largest)
+        .map(|(&row, _)| system.rows()[row as usize].declaration)
+        .collect();
+    declarations.dedup();
+    let links = links(evaluator, part, &linear, &declarations);
+    let at = weakest(system, part, &linear, &declarations)?;
+    let weights: Vec<f64> = part
+        .rows
+        .iter()
+        .zip(&linear.weights)
+        .map(|(&row, weight)| if system.rows()[row as usize].declaration == at { weight * LIGHT } else { *weight })
+        .collect();
+    evaluator.assemble(&part.rows, &part.columns, Some(&weights), t)?;
+    let rows = part.rows.iter().map(|&row| row as usize).filter(|&row| system.rows()[row].declaration == at);
+    let (kind, by) = widest_gap(evaluator, rows)?;
+    Some(OpenLoop { at, by, kind, declarations, links, residual: largest })
+}
+
+/// In what rows are open, and by how much all of these (m or rad); none where they close.
+fn widest_gap(evaluator: &Evaluator<'_>, rows: impl Iterator<Item = usize>) -> Option<(CoordinateKind, f64)> {
+    let system = evaluator.system;
+    let gaps: Vec<(CoordinateKind, f64)> =
+        rows.map(|row| (errors::gap_kind(system, row), evaluator.gap(row))).filter(|(_, by)| by.is_finite()).collect();
+    if gaps.is_empty() {
+        // no motion that could be seen closes it
+        return Some((CoordinateKind::Length, f64::INFINITY));
+    }
+    let of_kind = |wanted: CoordinateKind| {
+        let squares = gaps.iter().filter(|(kind, _)| *kind == wanted).map(|(_, by)| by * by);
+        squares.sum::<f64>().sqrt()
+    };
+    let (length, angle) = (of_kind(CoordinateKind::Length), of_kind(CoordinateKind::Angle));
+    // from elsewhere it closes: the estimates are too far off, and no length is wrong
+    if length <= CLOSED * system.length() && angle <= CLOSED {
+        return None;
+    }
+    let is_length = length / system.length() > IN_LENGTH * angle;
+    Some(if is_length { (CoordinateKind::Length, length) } else { (CoordinateKind::Angle, angle) })
+}
+
+/// Where the loop is told to be open: a prescribed length is more often wrong than where something is driven to, and that
+/// than a pin.
+fn weakest(
+    system: &ConstraintSystem,
+    part: &Subsystem,
+    linear: &Linear,
+    declarations: &[DeclarationId],
+) -> Option<DeclarationId> {
+    let is_about_places = |k: DeclarationId| {
+        let own = (0..system.rows().len()).find(|&row| system.rows()[row].declaration == k);
+        own.is_some_and(|row| errors::gap_kind(system, row) == CoordinateKind::Length)
+    };
+    let rank = |k: DeclarationId| match system.declarations()[k].kind {
+        DeclarationKind::Joint(JointKind::RevoluteRevolute) => 2,
+        DeclarationKind::Constraint => 1,
+        DeclarationKind::Driver if is_about_places(k) => 1,
+        _ => 0,
+    };
+    let open = |k: DeclarationId| {
+        let own =
+            part.rows.iter().zip(&linear.residual).filter(|(row, _)| system.rows()[**row as usize].declaration == k);
+        own.map(|(_, open)| open * open).sum::<f64>()
+    };
+    // of pins that are equally open the last one closes the loop
+    let is_no_driver = |k: DeclarationId| system.declarations()[k].kind != DeclarationKind::Driver;
+    let largest = declarations.iter().map(|&k| open(k)).fold(0.0, f64::max);
+    declarations.iter().copied().filter(|&k| open(k) > WIDE * largest).max_by_key(|&k| (rank(k), is_no_driver(k), k))
+}
+
+/// The lengths along which the residuals pull or press.
+fn links(evaluator: &Evaluator<'_>, part: &Subsystem, linear: &Linear, declarations: &[DeclarationId]) -> Vec<Link> {
+    let system = evaluator.system;
+    let mut links = Vec::new();
+    for &k in declarations {
+        let link = |[length, found]: [f64; 2]| Link { of: LinkOf::Declaration(k), length, too_short: found > length };
+        links.extend(evaluator.distance(k).map(link));
+    }
+    let bodies = std::iter::once(None).chain(system.bodies().ids().map(Some));
+    let pulls: Vec<(Option<BodyId>, Vec<Pull>)> =
+        bodies.map(|body| (body, pulls(evaluator, part, linear, declarations, body))).collect();
+    let largest = pulls.iter().flat_map(|(_, own)| own).map(Pull::size).fold(0.0, f64::max);
+    for (body, own) in &pulls {
+        let acting: Vec<&Pull> = own.iter().filter(|pull| pull.size() > PULLS * largest).collect();
+        let &[first, second] = acting.as_slice() else {
+            continue;
+        };
+        let (from, to) = (evaluator.place_of(first.point), evaluator.place_of(second.point));
+        let way = [to[0] - from[0], to[1] - from[1]];
+        let length = math::hypot(way[0], way[1]);
+        let along = (second.force[0] * way[0] + second.force[1] * way[1]) / length;
+        if length > CLOSED * system.length() && along.abs() > ALONG * f64::max(first.size(), second.size()) {
+            let ends = [first.declaration, second.declaration];
+            links.push(Link { of: LinkOf::Body(*body, ends), length, too_short: along > 0.0 });
+        }
+    }
+    links
+}
+
+/// What a declaration pulls at a point of a body with.
+struct Pull {
+    declaration: DeclarationId,
+    point: PointId,
+    force: [f64; 2],
+}
+
+impl Pull {
+    fn size(&self) -> f64 {
+        math::hypot(self.force[0], self.force[1])
+    }
+}
+
+/// The pulls at a body or the ground.
+fn pulls(
+    evaluator: &Evaluator<'_>,
+    part: &Subsystem,
+    linear: &Linear,
+    declarations: &[DeclarationId],
+    body: Option<BodyId>,
+) -> Vec<Pull> {
+    let system = evaluator.system;
+    let of_body = |declaration: DeclarationId| {
+        let mut points = system.declarations()[declaration].points.iter().copied();
+        let point = points.find(|&point| system.points()[point].body == body)?;
+        Some(Pull { declaration, point, force: force(evaluator, part, linear, declaration, body) })
+    };
+    declarations.iter().filter_map(|&k| of_body(k)).collect()
+}
+
+/// What a declaration pulls at a body or the ground with, its residuals taken for springs.
+fn force(
+    evaluator: &Evaluator<'_>,
+    part: &Subsystem,
+    linear: &Linear,
+    declaration: DeclarationId,
+    body: Option<BodyId>,
+) -> [f64; 2] {
+    let system = evaluator.system;
+    let mut force = [0.0; 2];
+    for (k, &row) in part.rows.iter().enumerate() {
+        let row = row as usize;
+        if system.rows()[row].declaration != declaration {
+            continue;
+        }
+        let pull = linear.residual[k] / linear.weights[k];
+        for (column, slope) in evaluator.slopes(row) {
+            let Some(of) = system.body_of(column) else { continue };
+            let [x, y, _] = system.pose_of(of);
+            let Some(axis) = [x, y].iter().position(|&place| place == column) else { continue };
+            match body {
+                Some(wanted) if of == wanted => force[axis] -= pull * slope,
+                // what holds the ground is what it holds the bodies with
+                None => force[axis] += pull * slope,
+                Some(_) => {}
+            }
+        }
+    }
+    force
+}

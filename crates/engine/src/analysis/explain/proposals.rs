@@ -1,0 +1,238 @@
+//! What could be written to take a freedom: drivers, and joints that may have been forgotten.
+
+use super::evaluator::Evaluator;
+use super::orthonormal::Orthonormal;
+use mechc_expr::math;
+use mechc_ir::tolerances::determinacy::freedom::{COINCIDE, DANGLING, MOST_POINTS, SUGGESTED, TAKEN};
+use mechc_ir::{
+    Axis, AxisId, BodyId, ConstraintSystem, Declaration, DeclarationKind, IdVec, JointKind, Point, PointId,
+};
+use nalgebra::DVector;
+use rustc_hash::FxHashMap;
+use std::collections::hash_map::Entry;
+
+/// What proposals are made from.
+pub struct Proposals<'p, 's> {
+    /// Where it is assembled.
+    pub evaluator: &'p Evaluator<'s>,
+    /// The independent motions that are free, by coordinates, scaled.
+    pub motions: &'p [Vec<f64>],
+    /// Bodies that can move.
+    pub moving: &'p [BodyId],
+}
+
+impl Proposals<'_, '_> {
+    /// For one degree of freedom some drivers to choose from, else as many as take all degrees together.
+    pub fn drivers(&self) -> Vec<String> {
+        let candidates = self.candidates();
+        if self.motions.len() == 1 {
+            let takes = |(_, rates): &(String, Vec<f64>)| rates[0].abs() > TAKEN;
+            return candidates.into_iter().filter(takes).map(|(text, _)| text).take(SUGGESTED).collect();
+        }
+        let mut taken = Orthonormal::of_dimension(self.motions.len());
+        let mut chosen = Vec::new();
+        for (text, rates) in candidates {
+            let (rest, _) = taken.beside(DVector::from_vec(rates));
+            if taken.take(&rest, TAKEN) {
+                chosen.push(text);
+            }
+        }
+        chosen
+    }
+
+    /// What could be driven: of joints first, then of the bodies that move. Each with its rate in every motion.
+    fn candidates(&self) -> Vec<(String, Vec<f64>)> {
+        let (evaluator, system) = (self.evaluator, self.evaluator.system);
+        let mut candidates = Vec::new();
+        // motors mostly stand on the ground
+        let on_ground = |one: &&Declaration| one.points.iter().any(|&point| system.points()[point].body.is_none());
+        let (grounded, others): (Vec<&Declaration>, Vec<&Declaration>) =
+            system.declarations().iter().partition(on_ground);
+        for declaration in grounded.into_iter().chain(others) {
+            let [Some(&p), Some(&q)] = [0, 1].map(|k| declaration.points.get(k)) else {
+                continue;
+            };
+            let rates: Vec<f64> = match declaration.kind {
+                DeclarationKind::Joint(JointKind::Revolute) => {
+                    self.motions.iter().map(|motion| turn(system, motion, q) - turn(system, motion, p)).collect()
+                }
+                DeclarationKind::Joint(JointKind::Translational) => self.slides(p, q),
+                _ => continue,
+            };
+            let quantity = if declaration.kind == DeclarationKind::Joint(JointKind::Revolute) {
+                "rotation"
+            } else {
+                "displacement"
+            };
+            candidates.push((format!("{quantity}({})", declaration.name), rates));
+        }
+        for &body in self.moving {
+            let name = &system.bodies()[body].name;
+            let turns = self.motions.iter().map(|motion| motion[system.pose_of(body)[2]]).collect();
+            let of_body = |point: &PointId| system.points()[*point].body == Some(body);
+            let point =
+                system.points().ids().filter(of_body).find_map(|k| Some((k, system.points()[k].name.as_ref()?)));
+            if let Some((point, point_name)) = point {
+                for (part, word) in [(0, "x"), (1, "y")] {
+                    let rates =
+                        self.motions.iter().map(|motion| velocity(evaluator, motion, point)[part] / system.length());
+                    candidates.push((format!("{word}({name}.{point_name})"), rates.collect()));
+                }
+            }
+            candidates.push((format!("angle({name})"), turns));
+        }
+        candidates
+    }
+
+    /// How fast a second point moves away from a first one, along the way it takes.
+    fn slides(&self, p: PointId, q: PointId) -> Vec<f64> {
+        let (evaluator, system) = (self.evaluator, self.evaluator.system);
+        let (from, to) = (evaluator.place_of(p), evaluator.place_of(q));
+        let relative = |motion: &Vec<f64>| {
+            let (vp, vq) = (velocity(evaluator, motion, p), velocity(evaluator, motion, q));
+            // seen from the first body
+            let turn = turn(system, motion, p);
+            [vq[0] - vp[0] + turn * (to[1] - from[1]), vq[1] - vp[1] - turn * (to[0] - from[0])]
+        };
+        let all: Vec<[f64; 2]> = self.motions.iter().map(relative).collect();
+        let size = |v: &[f64; 2]| math::hypot(v[0], v[1]);
+        let fastest = all.iter().copied().max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or([0.0; 2]);
+        let norm = f64::max(size(&fastest), f64::MIN_POSITIVE);
+        all.iter().map(|v| (v[0] * fastest[0] + v[1] * fastest[1]) / norm / system.length()).collect()
+    }
+
+    /// Points of moving bodies that lie on points of others, and that no joint holds together.
+    pub fn joints(&self) -> Vec<String> {
+        let system = self.evaluator.system;
+        // a joint takes two; it may hold what is held already, and leave one
+        let is_enough = self.motions.len() >= 2 || system.ndof() < self.motions.len().cast_signed();
+        if !is_enough || system.points().len() > MOST_POINTS {
+            return Vec::new();
+        }
+        let pinned = pinned_together(system);
+        let mut pairs = self.pairs_drawn_together(&pinned);
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let text = |&(_, p, q): &(f64, PointId, PointId)| {
+            Some(format!("`joint NAME: revolute({}, {})`", system.point_name(p)?, system.point_name(q)?))
+        };
+        // of points that are pinned together one will do
+        let mut told: Vec<[PointId; 2]> = Vec::new();
+        pairs.retain(|&(_, p, q)| {
+            let mut both = [pinned[p], pinned[q]];
+            both.sort_unstable();
+            let is_new = !told.contains(&both);
+            told.push(both);
+            is_new
+        });
+        pairs.iter().filter_map(text).take(SUGGESTED.min(usize::max(self.motions.len() / 2, 1))).collect()
+    }
+
+    /// Axes of one name that no joint takes, of bodies that move on each other: a slider's way is missing.
+    pub fn guides(&self) -> Vec<String> {
+        let system = self.evaluator.system;
+        let is_free = |axis: AxisId| !system.declarations().iter().any(|one| one.axes.contains(&axis));
+        let free: Vec<&Axis> = system.axes().pairs().filter(|&(id, _)| is_free(id)).map(|(_, axis)| axis).collect();
+        let body_of = |axis: &Axis| system.points()[axis.origin].body;
+        let own_name = |axis: &Axis| axis.name.rsplit('.').next().map(str::to_owned);
+        let mut told = Vec::new();
+        for (k, one) in free.iter().enumerate() {
+            let moves = |other: &&&Axis| {
+                let bodies = [body_of(one), body_of(other)];
+                bodies[0] != bodies[1] && bodies.iter().flatten().any(|body| self.moving.contains(body))
+            };
+            let fits = |other: &&&Axis| own_name(one) == own_name(other) && moves(other);
+            let others = free[k + 1..].iter().filter(fits);
+            told.extend(others.map(|other| format!("`joint NAME: translational({}, {})`", one.name, other.name)));
+        }
+        told.truncate(SUGGESTED);
+        told
+    }
+
+    /// Whether it is known where a point is drawn: what lies at the origin of a body without a pose lies at no place of a drawing.
+    fn has_place(&self, point: PointId) -> bool {
+        let system = self.evaluator.system;
+        let Point { body, at, .. } = &system.points()[point];
+        let is_origin = || at.iter().all(|&id| system.value_at(id, &[]) == 0.0);
+        body.is_none_or(|body| system.bodies()[body].pose_span.is_some() || !is_origin())
+    }
+
+    /// Such points, and how far they are drawn apart (m).
+    fn pairs_drawn_together(&self, pinned: &IdVec<PointId, PointId>) -> Vec<(f64, PointId, PointId)> {
+        let system = self.evaluator.system;
+        let drawn = Evaluator::new(system);
+        let bodies_of = |p: PointId, q: PointId| [p, q].map(|point| system.points()[point].body);
+        let held = |p: PointId, q: PointId| {
+            let bodies = bodies_of(p, q);
+            let holds = |points: &[PointId]| matches!(points, &[a, b] if bodies_of(a, b) == bodies || bodies_of(b, a) == bodies);
+            pinned[p] == pinned[q] || system.declarations().iter().any(|declaration| holds(&declaration.points))
+        };
+        let is_used = |point: PointId| system.declarations().iter().any(|one| one.points.contains(&point));
+        let mut pairs = Vec::new();
+        for p in system.points().ids() {
+            for q in system.points().ids().skip(p.index() + 1) {
+                let bodies = bodies_of(p, q);
+                let moves = bodies.iter().flatten().any(|body| self.moving.contains(body));
+                let is_drawn =
+                    self.has_place(p) && self.has_place(q) || system.points()[p].name == system.points()[q].name;
+                if bodies[0] == bodies[1] || !moves || !is_drawn {
+                    continue;
+                }
+                let (a, b) = (drawn.place_of(p), drawn.place_of(q));
+                let apart = math::hypot(b[0] - a[0], b[1] - a[1]);
+                let near = if is_used(p) || is_used(q) { COINCIDE } else { DANGLING };
+                if apart < near * system.length() && !held(p, q) {
+                    pairs.push((apart, p, q));
+                }
+            }
+        }
+        pairs
+    }
+}
+
+/// For each point, one that stands for all that are pinned together with it, also by way of others.
+fn pinned_together(system: &ConstraintSystem) -> IdVec<PointId, PointId> {
+    let mut stands_for: IdVec<PointId, PointId> = system.points().ids().collect();
+    let mut join = |a: PointId, b: PointId| {
+        let (from, to) = (stands_for[a], stands_for[b]);
+        for point in stands_for.iter_mut() {
+            if *point == from {
+                *point = to;
+            }
+        }
+    };
+    for declaration in system.declarations() {
+        if let (DeclarationKind::Joint(JointKind::Revolute | JointKind::Weld), &[a, b]) =
+            (declaration.kind, declaration.points.as_slice())
+        {
+            join(a, b);
+        }
+    }
+    // a point may stand in a body under several names
+    let mut first_at: FxHashMap<(Option<BodyId>, [u64; 2]), PointId> = FxHashMap::default();
+    for (k, point) in system.points().pairs() {
+        let place = point.at.map(|id| (system.value_at(id, &[]) + 0.0).to_bits());
+        match first_at.entry((point.body, place)) {
+            Entry::Occupied(known) => join(k, *known.get()),
+            Entry::Vacant(free) => drop(free.insert(k)),
+        }
+    }
+    stands_for
+}
+
+/// How fast the body of a point turns.
+fn turn(system: &ConstraintSystem, motion: &[f64], point: PointId) -> f64 {
+    system.points()[point].body.map_or(0.0, |body| motion[system.pose_of(body)[2]])
+}
+
+/// How fast a point moves (m).
+fn velocity(evaluator: &Evaluator<'_>, motion: &[f64], point: PointId) -> [f64; 2] {
+    let system = evaluator.system;
+    let Some(body) = system.points()[point].body else {
+        return [0.0; 2];
+    };
+    let [x, y] = evaluator.place_of(point);
+    let along = |k: usize| motion[k] * system.coordinates()[k].scale;
+    let [origin_x, origin_y, phi] = system.pose_of(body);
+    let turn = motion[phi];
+    [along(origin_x) - turn * (y - evaluator.q[origin_y]), along(origin_y) + turn * (x - evaluator.q[origin_x])]
+}

@@ -1,0 +1,302 @@
+//! Why an analysis cannot go on: which formula, which lock-up, which bifurcation.
+
+use super::determine::explain_dependent;
+use super::errors::{self, StartVerdict};
+use super::free_motion::motion_in_words;
+use crate::analysis::state::{Fault, Horizon, Kinematics, Singular, State};
+use mechc_ir::program::PlacedRim;
+use mechc_ir::tolerances::singular::reasons::{
+    AT_HAND, CUSP, FLAT, NEAR, NEAR_FOLD, PARABOLA, STEPS_AHEAD, TAKES_PART, TOLD, WEIGHTS,
+};
+use mechc_ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, Watch, WatchKind};
+use mechc_text::diag::Diagnostic;
+
+/// The diagnosis at the last good state, where even a step as small as `h` (s) towards `target` (s) failed.
+pub fn explain(kinematics: &mut Kinematics, state: &State, fault: Fault, h: f64, target: f64) -> Diagnostic {
+    explain_fold(kinematics, state, fault, [h, target], None)
+}
+
+/// The same, where it may be known when the mechanism comes to the end of its reach, `fold` (s).
+pub fn explain_fold(
+    kinematics: &mut Kinematics,
+    state: &State,
+    fault: Fault,
+    [h, target]: [f64; 2],
+    fold: Option<f64>,
+) -> Diagnostic {
+    let determined = kinematics.determined();
+    let system = determined.system();
+    if let Fault::NotFinite { .. } | Fault::Condition { .. } = fault {
+        return errors::no_value(system, fault, state.t + h);
+    }
+    if let Fault::Check { index } = fault {
+        return errors::ceases_to_hold(system, index, state.t);
+    }
+    // a formula that ends just ahead, or at the end of the step, explains more than the equations do
+    let just_ahead = f64::min(state.t + STEPS_AHEAD * h, target);
+    if let Some(fault) = without_value(kinematics, state, just_ahead) {
+        return errors::no_value(system, fault, state.t);
+    }
+    kinematics.restore(state);
+    let residual = kinematics.largest_residual();
+    let singular = kinematics.worst();
+    if let Some(index) = contact_that_ends(kinematics, fault, singular.sigma) {
+        return explain_contact_that_ends(kinematics, index, state.t);
+    }
+    let diagnostic = if singular.sigma < NEAR {
+        explain_position(kinematics, state, &singular, fold)
+    } else if let Some(fault) = without_value(kinematics, state, target) {
+        errors::no_value(system, fault, target)
+    } else if let Some(at_rim) = rim_at_hand(kinematics, state) {
+        at_rim
+    } else {
+        errors::cannot_follow(system, state.t, fastest_driver(kinematics, state, just_ahead))
+    };
+    diagnostic.datum("residual", residual)
+}
+
+/// The watch over a contact that ends where the position was set.
+fn contact_that_ends(kinematics: &Kinematics, fault: Fault, sigma: f64) -> Option<usize> {
+    let watches = kinematics.system().watches();
+    match fault {
+        // a curvature that comes to zero makes the position singular, one that jumps over it does not
+        Fault::Watch { index } if watches[index].kind != WatchKind::Curvature || sigma > NEAR => Some(index),
+        _ => centers_that_meet(kinematics).or_else(|| vanishing(kinematics, WatchKind::Tangents)),
+    }
+}
+
+/// What is said of a singular position that was set, where it may be known when the mechanism comes to the end of its reach (s).
+fn explain_position(kinematics: &Kinematics, state: &State, singular: &Singular, fold: Option<f64>) -> Diagnostic {
+    let system = kinematics.system();
+    let (left, right) = (&singular.left, &singular.right);
+    // beside a bifurcation that just fails to be one the driver's share is small
+    let named = match fold.zip(heaviest_driver(system, left)) {
+        Some((t, row)) => errors::lock_up(system, row, &joints_in(system, left), &columns_in(right), t),
+        None => name_singular(system, left, right, time_of_fold(kinematics.span(), state, right)),
+    };
+    match flat_contact(kinematics) {
+        Some(joint) => errors::equal_curvatures(named, system, joint),
+        None => named,
+    }
+}
+
+/// When a motion that grows as before a fold comes to it: there q* − q is as √(t* − t), so that t* − t is q̇ / 2q̈. The state is
+/// as near as steps could come; where it is not, its own time is told.
+fn time_of_fold(span: f64, state: &State, right: &[f64]) -> f64 {
+    let fastest = (0..right.len()).max_by(|&a, &b| right[a].abs().total_cmp(&right[b].abs()));
+    let left = fastest.map_or(0.0, |k| 0.5 * state.qd[k] / state.qdd[k]);
+    if left > 0.0 && left < NEAR_FOLD * span { state.t + left } else { state.t }
+}
+
+/// What is said of a contact that ends at a time (s), by the watch over it, at the position that was set or just behind it.
+pub fn explain_contact_that_ends(kinematics: &Kinematics, index: usize, t: f64) -> Diagnostic {
+    let system = kinematics.system();
+    let watches = system.watches();
+    let Watch { kind, declaration, .. } = watches[index];
+    let is_flat = system.declarations()[declaration].kind == DeclarationKind::Joint(JointKind::FlatFollower);
+    let of_contact = |k: &usize| watches[*k].kind == WatchKind::Curvature && watches[*k].declaration == declaration;
+    let curvature = (0..watches.len()).find(of_contact).map_or(0.0, |k| kinematics.watched(k).abs());
+    // with `T` the tangent and `B` its derivative the radius is T²/B across; where the argument alone rests it is no less than usual
+    let tangent = kinematics.watched(index);
+    if kind == WatchKind::Tangents && is_flat && tangent * tangent < CUSP * curvature {
+        errors::undercut(system, index, t)
+    } else {
+        errors::no_contact(system, index, t)
+    }
+}
+
+/// What is said of a singular position beyond which the motion goes on; `passed` is whether it does.
+pub fn explain_contact(kinematics: &mut Kinematics, state: &State, passed: bool) -> Diagnostic {
+    kinematics.restore(state);
+    let singular = kinematics.worst();
+    let system = kinematics.system();
+    let (joints, columns) = (joints_in(system, &singular.left), columns_in(&singular.right));
+    match driver_in(system, &singular.left) {
+        Some(row) => errors::driver_rests(system, row, &joints, state.t, passed),
+        None if passed => errors::passed(system, &joints, &columns, state.t),
+        None => errors::bifurcation(system, &joints, &columns, state.t),
+    }
+}
+
+/// What is said of a singular position that the motion has missed by a part of the lengths; at the state that is nearest to it. Nothing where no
+/// body could have gone another way: a contact may run fast along its curve.
+pub fn explain_miss(kinematics: &mut Kinematics, state: &State, within: f64, t: f64) -> Option<Diagnostic> {
+    kinematics.restore(state);
+    let singular = kinematics.worst();
+    let system = kinematics.system();
+    let (joints, columns) = (joints_in(system, &singular.left), columns_in(&singular.right));
+    let moves_bodies = columns.iter().any(|&column| system.body_of(column).is_some());
+    moves_bodies.then(|| errors::near_change_point(system, &joints, &columns, within, t))
+}
+
+/// The watch over a line of centres that vanishes, or nearly so, where the position was set.
+pub fn centers_that_meet(kinematics: &Kinematics) -> Option<usize> {
+    vanishing(kinematics, WatchKind::LineOfCenters)
+}
+
+/// The watch of a kind over what vanishes, or nearly so, where the position was set.
+fn vanishing(kinematics: &Kinematics, kind: WatchKind) -> Option<usize> {
+    let watches = kinematics.system().watches();
+    (0..watches.len()).find(|&k| watches[k].kind == kind && kinematics.watched(k).abs() < FLAT)
+}
+
+/// The joint at whose contact the relative curvature vanishes, or nearly so, where the position was set.
+fn flat_contact(kinematics: &Kinematics) -> Option<DeclarationId> {
+    vanishing(kinematics, WatchKind::Curvature).map(|k| kinematics.system().watches()[k].declaration)
+}
+
+/// The diagnosis where so many steps did not get to `target`.
+pub fn explain_haste(kinematics: &mut Kinematics, state: &State, steps: u64, target: f64) -> Diagnostic {
+    let determined = kinematics.determined();
+    let system = determined.system();
+    match without_value(kinematics, state, target) {
+        Some(fault) => errors::no_value(system, fault, target),
+        None => errors::too_fast(system, state.t, target, steps, fastest_driver(kinematics, state, target)),
+    }
+}
+
+/// The rim that a state has come to, or so near to it that no step leads on.
+fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Diagnostic> {
+    kinematics.restore(state);
+    let span = kinematics.span();
+    let rims = kinematics.rims().to_vec();
+    let mut left = |rim: &PlacedRim| {
+        let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
+        f64::min(gauge.abs() / kinematics.largest_term(rim), AT_HAND / NEAR_FOLD * (gauge / slope).abs() / span)
+    };
+    // where time alone leads to one its driver is the fastest
+    let of_motion = rims.iter().enumerate().filter(|(_, rim)| !rim.on_time);
+    let nearest = of_motion.map(|(index, rim)| (index, left(rim))).min_by(|a, b| a.1.total_cmp(&b.1));
+    let index = nearest.filter(|(_, left)| *left < AT_HAND).map(|(rim, _)| rim)?;
+    let corner = corner_ahead(kinematics, &rims[index], state);
+    let system = kinematics.system();
+    let declarations = &system.rims()[index].declarations;
+    let has_tangent = declarations.iter().any(|&declaration| errors::has_tangent(system, declaration));
+    Some(match corner.filter(|_| has_tangent) {
+        Some(left) => errors::position_jump(system, declarations, true, (0, 0.0), state.t + left),
+        None => errors::formula_not_finite(system, declarations, state.t),
+    })
+}
+
+/// How soon a gauge touches zero (s), behind which its formula goes on with a corner; none where it goes through zero.
+fn corner_ahead(kinematics: &mut Kinematics, rim: &PlacedRim, state: &State) -> Option<f64> {
+    let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
+    let left = -2.0 * gauge / slope;
+    let [before, _] = gauge_at(kinematics, rim, state, -left);
+    // twice as far from it a parabola that touches zero has four times its value; a line has three times that
+    (left > 0.0 && (before / gauge - 4.0).abs() < PARABOLA).then_some(left)
+}
+
+/// A gauge and its slope where the motion goes on evenly from a state for a time (s).
+fn gauge_at(kinematics: &mut Kinematics, rim: &PlacedRim, state: &State, after: f64) -> [f64; 2] {
+    let q: Vec<f64> = state.q.iter().zip(&state.qd).map(|(q, qd)| q + after * qd).collect();
+    kinematics.set_time(state.t + after);
+    // what is wrong with the position shows in the gauge
+    let _ = kinematics.set_position(&q);
+    kinematics.set_velocity(&state.qd);
+    kinematics.gauge(rim)
+}
+
+/// Why a formula has no value at a time, the position being as it is.
+fn without_value(kinematics: &mut Kinematics, state: &State, t: f64) -> Option<Fault> {
+    kinematics.set_time(t);
+    kinematics.set_position(&state.q).err()
+}
+
+/// A lock-up where a driver takes part in the dependency of the equations, a bifurcation where none does.
+fn name_singular(system: &ConstraintSystem, left: &[f64], right: &[f64], t: f64) -> Diagnostic {
+    let (joints, columns) = (joints_in(system, left), columns_in(right));
+    match driver_in(system, left) {
+        Some(row) => errors::lock_up(system, row, &joints, &columns, t),
+        None => errors::bifurcation(system, &joints, &columns, t),
+    }
+}
+
+/// A position so near to a singular one that its derivatives are not known.
+pub fn name_uncertain(system: &ConstraintSystem, left: &[f64], t: f64) -> Diagnostic {
+    errors::uncertain(system, &declarations_in(system, left), t)
+}
+
+/// A start that is in such a position already.
+///
+/// `elsewhere` is whether the equations are independent at a time nearby, where that is known.
+pub fn name_start(
+    system: &ConstraintSystem,
+    (left, right): (&[f64], &[f64]),
+    elsewhere: Option<bool>,
+    horizon: Horizon,
+) -> Diagnostic {
+    let t = horizon.from;
+    let declarations = declarations_in(system, left);
+    let verdict = match (elsewhere, driver_in(system, left)) {
+        (Some(false), _) => StartVerdict::Always,
+        (Some(true), Some(row)) => StartVerdict::LockUp(row),
+        (Some(true), None) => StartVerdict::Bifurcation,
+        (None, _) => StartVerdict::Unknown,
+    };
+    if verdict == StartVerdict::Always
+        && let Some(diagnostic) = explain_dependent(system, horizon)
+    {
+        return diagnostic;
+    }
+    let free = motion_in_words(system, right);
+    errors::singular_start(system, &declarations, &columns_in(right), verdict, t).note(free)
+}
+
+/// The driver's row that weighs most in a dependency, if one takes part.
+pub fn driver_in(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
+    let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
+    heaviest_driver(system, left).filter(|&row| left[row].abs() > TAKES_PART * largest)
+}
+
+/// The driver's row that weighs most in a dependency, however little that is.
+fn heaviest_driver(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
+    let drivers = (0..left.len()).filter(|&row| system.is_driver(row) && left[row].abs() > 0.0);
+    drivers.max_by(|&a, &b| left[a].abs().total_cmp(&left[b].abs()))
+}
+
+/// The joints and constraints that the dependency is made of, those that weigh most first.
+fn joints_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId> {
+    let all = declarations_in(system, left);
+    all.into_iter().filter(|&k| system.declarations()[k].kind != DeclarationKind::Driver).collect()
+}
+
+/// All declarations that the dependency is made of, those that weigh most first.
+fn declarations_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId> {
+    let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
+    let mut rows: Vec<usize> = (0..left.len()).filter(|&row| left[row].abs() > TOLD * largest).collect();
+    let weight = |row: usize| (left[row].abs() / largest * WEIGHTS).round();
+    rows.sort_by(|&a, &b| weight(b).total_cmp(&weight(a)));
+    let mut joints: Vec<DeclarationId> = Vec::new();
+    for row in rows {
+        let declaration = system.rows()[row].declaration;
+        if !joints.contains(&declaration) {
+            joints.push(declaration);
+        }
+    }
+    joints
+}
+
+/// The coordinates that the free motion moves.
+fn columns_in(right: &[f64]) -> Vec<usize> {
+    let fastest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    (0..right.len()).filter(|&column| right[column].abs() > TOLD * fastest).collect()
+}
+
+/// The row of the driver that asks for the fastest motion from the state on, be it up to a time `t` just ahead (s) by a jump.
+fn fastest_driver(kinematics: &mut Kinematics, state: &State, t: f64) -> Option<usize> {
+    let determined = kinematics.determined();
+    let system = determined.system();
+    kinematics.restore(state);
+    // the speeds that are asked for are known though those of the mechanism may not be
+    let _ = kinematics.derivatives(&mut state.clone());
+    let speeds: Vec<f64> = (0..system.rows().len()).map(|row| kinematics.asked_speed(row)).collect();
+    kinematics.set_time(t);
+    let is_set = kinematics.set_position(&state.q).is_ok();
+    let speed = |row: usize| {
+        let jump = if is_set && t > state.t { kinematics.residual(row) / (t - state.t) } else { 0.0 };
+        f64::max(speeds[row], jump)
+    };
+    let drivers = (0..system.rows().len()).filter(|&row| system.is_driver(row) && speed(row) > 0.0);
+    drivers.max_by(|&a, &b| speed(a).total_cmp(&speed(b)))
+}

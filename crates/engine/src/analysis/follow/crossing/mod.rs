@@ -1,0 +1,198 @@
+//! Over a singular position: from the last state that is well clear of it to one as far beyond, never solving at it.
+//!
+//! Beyond a lock-up there is no such state. Beyond a bifurcation the prediction from before leads to the branch that goes on
+//! smoothly, since the other ones are far from it there. Between the two states the motion is the quintic through both,
+//! which also tells when the singular position is reached.
+
+mod bridge;
+mod build;
+mod finer;
+mod on_bridge;
+mod reach;
+mod singular_times;
+
+use super::remarks::Remarks;
+use super::step::Step;
+use crate::analysis::explain::singular;
+use crate::analysis::state::{Fault, Kinematics, State};
+pub use bridge::Bridge;
+use mechc_ir::tolerances::scales::linear::CLEAR_PIVOT;
+use mechc_ir::tolerances::singular::bridge::{CERTAIN, CLEAR};
+use mechc_text::diag::Diagnostic;
+
+/// Whether the position that was factored is clear of every singular one.
+pub fn is_clear(kinematics: &mut Kinematics) -> bool {
+    kinematics.linear().smallest_pivot() > CLEAR_PIVOT * CLEAR || kinematics.nearness(CLEAR) >= CLEAR
+}
+
+/// What is known of the singular positions on the way.
+pub struct Crossing {
+    /// Whether to go on beyond bifurcations.
+    passes: bool,
+    /// The last state that was clear of singular positions.
+    clear: State,
+    /// The way over the last singular position.
+    bridge: Option<Bridge>,
+    /// The same, where it was only looked for to hold a row against it.
+    spare: Option<Bridge>,
+    /// Up to this time (s) there is none: the motion is clear again then.
+    clear_ahead: f64,
+    /// When the mechanism comes to the end of its reach, where that is nearly far enough for what is asked for (s).
+    fold: Option<f64>,
+    /// The time that the steps are measured against, and the last time (s).
+    span: f64,
+    last: f64,
+}
+
+/// A way over a singular position that is laid aside.
+pub struct Aside {
+    bridge: Option<Bridge>,
+    passes: bool,
+}
+
+impl Crossing {
+    pub fn new(state: &State, span: f64, last: f64) -> Crossing {
+        Crossing {
+            passes: false,
+            clear: state.clone(),
+            bridge: None,
+            spare: None,
+            clear_ahead: f64::NEG_INFINITY,
+            fold: None,
+            span,
+            last,
+        }
+    }
+
+    /// From now on the motion goes on beyond bifurcations.
+    pub fn pass_bifurcations(&mut self) {
+        self.passes = true;
+    }
+
+    /// Whether it does.
+    pub fn passes(&self) -> bool {
+        self.passes
+    }
+
+    /// The last state that was clear of singular positions.
+    pub fn clear(&self) -> &State {
+        &self.clear
+    }
+
+    /// Whether a state of a time (s) that was come to was clear.
+    pub fn was_clear_at(&self, t: f64) -> bool {
+        self.clear.t.total_cmp(&t).is_eq()
+    }
+
+    /// Keeps the state that was just accepted if it is clear of every singular position.
+    pub fn keep_if_clear(&mut self, kinematics: &mut Kinematics, state: &State) {
+        if is_clear(kinematics) {
+            self.clear.copy_from(state);
+        }
+    }
+
+    /// Goes back to where another state was the last clear one.
+    pub fn go_back(&mut self, clear: &State) {
+        self.clear.copy_from(clear);
+    }
+
+    /// Whether the motion was seen to be clear again before a time (s).
+    pub fn is_clear_ahead(&self, t: f64) -> bool {
+        t < self.clear_ahead
+    }
+
+    /// The motion is clear again at a time (s).
+    pub fn take_clear_ahead(&mut self, t: f64) {
+        self.clear_ahead = t;
+    }
+
+    /// Whether a way over a singular position ends at a time (s).
+    pub fn has_bridge_to(&self, t: f64) -> bool {
+        self.bridge.as_ref().is_some_and(|bridge| bridge.to.t.total_cmp(&t).is_eq())
+    }
+
+    /// The way over a singular position that ends at a time (s), with the most exact curve that there is over it.
+    pub fn bridge_to(&mut self, kinematics: &mut Kinematics, step: &mut Step, t: f64) -> Option<&Bridge> {
+        let bridge = self.bridge.as_mut().filter(|bridge| bridge.to.t.total_cmp(&t).is_eq())?;
+        bridge.look_for_exact(kinematics, step);
+        Some(bridge)
+    }
+
+    /// Whether a singular position has been passed by a time (s).
+    pub fn has_passed(&self, t: f64) -> bool {
+        self.bridge.as_ref().is_some_and(|bridge| bridge.at <= t)
+    }
+
+    /// Lays the way aside to look for another one, of which only a row is to be learnt.
+    pub fn lay_aside(&mut self) -> Aside {
+        let bridge = std::mem::replace(&mut self.bridge, self.spare.take());
+        Aside { bridge, passes: self.passes }
+    }
+
+    /// Goes back from there, and keeps what was found for the next row.
+    pub fn take_up(&mut self, aside: Aside) {
+        self.spare = std::mem::replace(&mut self.bridge, aside.bridge);
+        (self.passes, self.fold) = (aside.passes, None);
+    }
+
+    /// Lays the way aside, as if there were none and nobody wanted one.
+    pub fn forget(&mut self) -> Aside {
+        let aside = Aside { bridge: self.bridge.take(), passes: self.passes };
+        self.passes = false;
+        aside
+    }
+
+    /// Goes back from there.
+    pub fn remember(&mut self, aside: Aside) {
+        (self.bridge, self.passes) = (aside.bridge, aside.passes);
+    }
+
+    /// What there is to do where no further step can be made, the last one of length `h` on the way to `target`: goes on beyond a
+    /// bifurcation if that is wanted.
+    ///
+    /// # Errors
+    /// Why and where the motion cannot go on.
+    pub fn pass_or_explain(
+        &mut self,
+        kinematics: &mut Kinematics,
+        step: &mut Step,
+        (fault, h, target): (Fault, f64, f64),
+        remarks: &mut Remarks,
+    ) -> Result<(), Box<Diagnostic>> {
+        let is_singular = matches!(fault, Fault::Singular | Fault::Choice | Fault::TooFar | Fault::Watch { .. });
+        self.fold = None;
+        let bridge = if is_singular { self.bridge_ahead(kinematics, step) } else { None };
+        let Some(bridge) = bridge else {
+            let why = singular::explain_fold(kinematics, step.state(), fault, [h, target], self.fold);
+            return Err(Box::new(why));
+        };
+        kinematics.restore(&bridge.to);
+        if let Err(Fault::Watch { index }) = step.same_sides(kinematics) {
+            // beyond it two bodies would go through each other: no branch goes on there, however smooth the equations are
+            kinematics.restore(&bridge.state_at(bridge.at));
+            let why = singular::explain_contact_that_ends(kinematics, index, bridge.at);
+            self.bridge = Some(bridge);
+            return Err(Box::new(why));
+        }
+        if !self.passes {
+            let why = self.explain(kinematics, &bridge, bridge.at);
+            // rows before the singular position may lie on it
+            self.bridge = Some(bridge);
+            return Err(Box::new(why));
+        }
+        for at in [Some(bridge.at), bridge.again].into_iter().flatten() {
+            // what comes behind the last row is not passed
+            if at <= self.last + CERTAIN * bridge.length() {
+                remarks.push(self.explain(kinematics, &bridge, at));
+            }
+        }
+        self.clear.copy_from(&bridge.to);
+        step.go_to(kinematics, &bridge.to, bridge.length().min(self.span));
+        self.bridge = Some(bridge);
+        Ok(())
+    }
+
+    fn explain(&self, kinematics: &mut Kinematics, bridge: &Bridge, at: f64) -> Diagnostic {
+        singular::explain_contact(kinematics, &bridge.state_at(at), self.passes)
+    }
+}

@@ -1,0 +1,117 @@
+//! When a motion on a bridge comes to the singular position.
+
+use super::bridge::Bridge;
+use crate::analysis::follow::step::Step;
+use crate::analysis::state::{Determinant, Kinematics};
+use mechc_expr::math::{GoldenSection, boundary};
+use mechc_ir::tolerances::singular::bridge::{
+    BEYOND_ZERO, CERTAIN, LOOKS, NEARLY_ZERO, NEWTON_STEPS, PLACES_BETWEEN, SPREAD,
+};
+use std::convert::Infallible;
+
+/// The minimum's slope by central differences of sixth order, and its curvature, by the distance of the places in `SPREAD`.
+const SLOPE: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
+const CURVATURE: [f64; 4] = [-490.0 / 180.0, 270.0 / 180.0, -27.0 / 180.0, 2.0 / 180.0];
+
+/// When the singular position is reached: where a determinant changes its sign, or else where it comes nearest to zero.
+pub(super) fn singular_time(kinematics: &mut Kinematics, step: &mut Step, bridge: &Bridge) -> f64 {
+    let (low, high) = (bridge.from.t, bridge.to.t);
+    kinematics.restore(&bridge.to);
+    if let Some(block) = step.signs().block_that_turned(kinematics) {
+        return boundary(low, high, |t| {
+            kinematics.restore(&bridge.state_at(t));
+            step.signs().has_turned(kinematics, block)
+        });
+    }
+    let mut sigma = |t: f64| -> Result<f64, Infallible> {
+        kinematics.restore(&bridge.state_at(t));
+        Ok(kinematics.nearness(1.0))
+    };
+    let Ok(mut section) = GoldenSection::new([low, f64::NAN], [high, f64::NAN], &mut sigma);
+    for _ in 0..LOOKS {
+        let Ok(()) = section.narrow(&mut sigma);
+    }
+    least_time(kinematics, step, bridge, section.middle())
+}
+
+/// When the determinant that is least at about `t` has its minimum: its sign tells the sides of zero apart, so that it is
+/// smooth where singular values have an edge, and its slope vanishes there to more digits than it does.
+fn least_time(kinematics: &mut Kinematics, step: &mut Step, bridge: &Bridge, t: f64) -> f64 {
+    kinematics.restore(&bridge.state_at(t));
+    let Some(block) = kinematics.linear().worst_block() else { return t };
+    let unit = step.signs().determinants()[block];
+    let mut value = |t: f64| {
+        let state = bridge.state_at(t);
+        step.try_state(&state);
+        // the curve is not exact; at the singular position itself it is better than nothing
+        if step.correct(kinematics).is_err() {
+            kinematics.restore(&state);
+        }
+        kinematics.linear().determinant(block).beside(unit)
+    };
+    let spread = SPREAD * bridge.length();
+    let mut at = t;
+    for _ in 0..NEWTON_STEPS {
+        let (mut slope, mut curvature) = (0.0, CURVATURE[0] * value(at));
+        for k in 0..SLOPE.len() {
+            let way = (k + 1) as f64 * spread;
+            let (before, after) = (value(at - way), value(at + way));
+            slope += SLOPE[k] * (after - before);
+            curvature += CURVATURE[k + 1] * (after + before);
+        }
+        let change = spread * slope / curvature;
+        at -= change;
+        // it is that minimum, or none that this finds
+        if at.is_nan() || (at - t).abs() > spread {
+            return t;
+        }
+        if change.abs() <= f64::EPSILON * spread {
+            break;
+        }
+    }
+    at
+}
+
+/// Puts the time of a bridge right by a finer curve, and looks whether a determinant that has one sign at both ends has the
+/// other one between: then the singular position is come to twice.
+pub(super) fn settle_times(kinematics: &mut Kinematics, step: &mut Step, bridge: &mut Bridge) {
+    let units = [&bridge.from, &bridge.to].map(|end| {
+        kinematics.restore(end);
+        (0..kinematics.linear().blocks()).map(|k| kinematics.linear().determinant(k)).collect::<Vec<Determinant>>()
+    });
+    let (from, to) = (bridge.from.t, bridge.to.t);
+    let changes = |k: &usize| units[0][*k].is_positive() != units[1][*k].is_positive();
+    if let Some(block) = (0..units[0].len()).find(changes) {
+        bridge.look_for_exact(kinematics, step);
+        let at = boundary(from, to, |t| part(kinematics, bridge, (block, units[0][block]), t) < 0.0);
+        if (at - bridge.at).abs() > CERTAIN * (to - from) {
+            bridge.at = at;
+        }
+        return;
+    }
+    let places = (1..PLACES_BETWEEN).map(|k| from + (to - from) * k as f64 / PLACES_BETWEEN as f64);
+    let places: Vec<f64> = std::iter::once(bridge.at).chain(places).collect();
+    for block in units[0].iter().copied().enumerate() {
+        let deepest = |kinematics: &mut Kinematics, bridge: &Bridge| {
+            let parts = places.iter().map(|&t| (part(kinematics, bridge, block, t), t));
+            parts.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((1.0, bridge.at))
+        };
+        if deepest(kinematics, bridge).0 > NEARLY_ZERO {
+            continue;
+        }
+        bridge.look_for_exact(kinematics, step);
+        let (least, between) = deepest(kinematics, bridge);
+        if least < BEYOND_ZERO {
+            let at = boundary(from, between, |t| part(kinematics, bridge, block, t) < 0.0);
+            let again = boundary(between, to, |t| part(kinematics, bridge, block, t) >= 0.0);
+            (bridge.at, bridge.again) = (at, Some(again));
+            return;
+        }
+    }
+}
+
+/// What a block's determinant is at a time, against what it is at the start of the bridge.
+fn part(kinematics: &mut Kinematics, bridge: &Bridge, (block, unit): (usize, Determinant), t: f64) -> f64 {
+    kinematics.restore(&bridge.best_state_at(t));
+    kinematics.linear().determinant(block).beside(unit) / unit.beside(unit)
+}

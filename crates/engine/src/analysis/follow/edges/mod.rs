@@ -1,0 +1,213 @@
+//! Edges: the times where a formula goes over to another of its branches.
+//!
+//! Within a step every switch is frozen, so that the equations are smooth there. An edge of time is looked for before a
+//! step, one of the motion after it; both are located to neighbouring doubles, and the step ends there. Then both sides
+//! are evaluated at that same time, and compared: a position or velocity that jumps has no acceleration, an acceleration
+//! that jumps has two.
+
+mod between;
+mod gauges;
+mod in_time;
+mod limits;
+mod restless;
+mod rims;
+mod sides;
+mod signals;
+
+use super::remarks::Remarks;
+use super::step::Step;
+use crate::analysis::explain::singular;
+use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
+use mechc_ir::program::Enclosure;
+use mechc_text::diag::Diagnostic;
+use restless::Restless;
+use rims::Rims;
+use sides::Sides;
+use signals::Signals;
+
+/// Where a switch changes.
+#[derive(Clone, Copy, Debug)]
+pub struct Edge {
+    /// Where both sides are evaluated (s).
+    pub t: f64,
+    /// A time (s) at which every switch of time is on the later side; none for an edge of the motion.
+    after: Option<f64>,
+    /// Whether it is the place from which a rim is judged.
+    is_rim: bool,
+}
+
+impl Edge {
+    /// The same, taken to be at another time (s).
+    pub fn at(self, t: f64) -> Edge {
+        Edge { t, ..self }
+    }
+
+    /// The earlier one of two.
+    fn earlier(a: Option<Edge>, b: Option<Edge>) -> Option<Edge> {
+        match (a, b) {
+            (Some(a), Some(b)) => Some(if b.t < a.t { b } else { a }),
+            (one, other) => one.or(other),
+        }
+    }
+}
+
+/// What may happen between the ends of steps, and what is known of it.
+pub struct Edges {
+    /// The time that the steps are measured against, and the last time (s).
+    span: f64,
+    last: f64,
+    /// What may happen in time, and along the motion.
+    in_time: Enclosure,
+    along: Enclosure,
+    /// Each coordinate's middle and reach in a part of a step.
+    boxes: Vec<[f64; 2]>,
+    /// By switch.
+    restless: Vec<Restless>,
+    /// An edge of the motion that a longer step has met.
+    met: Option<Edge>,
+    sides: Sides,
+    rims: Rims,
+    signals: Signals,
+    /// A position beside the state.
+    place: Vec<f64>,
+}
+
+impl Edges {
+    /// Of a motion from a state to the last time (s), measured against a span (s).
+    pub fn new(kinematics: &mut Kinematics, state: &State, span: f64, last: f64) -> Edges {
+        let n = state.q.len();
+        let signals = Signals::new(kinematics, state);
+        let rims = Rims::new(kinematics, state, span, last);
+        let [in_time, along] = kinematics.enclosures();
+        Edges {
+            span,
+            last,
+            in_time,
+            along,
+            boxes: vec![[0.0; 2]; n],
+            restless: vec![Restless::NEVER; kinematics.switches().len()],
+            met: None,
+            sides: Sides::new(kinematics, state, span),
+            rims,
+            signals,
+            place: vec![0.0; n],
+        }
+    }
+
+    /// The edge of the motion that a longer step has met.
+    pub fn met(&self) -> Option<Edge> {
+        self.met
+    }
+
+    /// Goes back to where that was another one.
+    pub fn go_back(&mut self, met: Option<Edge>) {
+        self.met = met;
+    }
+
+    /// Whether a step to a time (s) comes to it.
+    pub fn is_met_by(&self, t: f64) -> bool {
+        self.met.is_some_and(|met| met.t <= t)
+    }
+
+    /// The row of the later side of the edge that was crossed last.
+    pub fn later_row(&self) -> &[f64] {
+        self.sides.later_row()
+    }
+
+    /// Sets every switch to what it is on the later side of the state; `after` is a time by which those of time have changed (s).
+    pub fn settle(&mut self, kinematics: &mut Kinematics, state: &State, after: Option<f64>) {
+        sides::settle(kinematics, state, (self.span, after), &mut self.place);
+    }
+
+    /// Takes note of how fast velocities and accelerations change over a step of length `h` that is to be accepted.
+    pub fn take_pace(&mut self, kinematics: &Kinematics, step: &Step, h: f64) {
+        if !kinematics.switches().is_empty() {
+            self.sides.take_pace(kinematics, [step.state(), step.trial()], h);
+        }
+    }
+
+    /// The first edge that a step to `next` meets, before the last time. An edge that is meant to be at the output time
+    /// `next` is there.
+    ///
+    /// # Errors
+    /// A formula of time ends on the way.
+    pub fn next(
+        &mut self,
+        kinematics: &mut Kinematics,
+        step: &mut Step,
+        next: f64,
+        is_output: bool,
+    ) -> Result<Option<Edge>, Box<Diagnostic>> {
+        let reach = if is_output { shortly_after(next) } else { next };
+        let of_time = if self.in_time.is_empty() { None } else { self.edge_of_time(kinematics, [step.t(), reach])? };
+        let edge = Edge::earlier(of_time, self.met.filter(|edge| edge.t <= reach));
+        let rim = self.rims.next(kinematics, step, reach).map(|t| Edge { t, after: None, is_rim: true });
+        let edge = Edge::earlier(edge, rim).map(|edge| edge.at(edge.t.min(next).max(step.t())));
+        // at the last time the earlier side counts
+        Ok(edge.filter(|edge| shortly_after(edge.t) < self.last))
+    }
+
+    /// Goes over to the later side of an edge, which the state has reached on the earlier one. Says whether it has a row of its own.
+    pub fn cross(
+        &mut self,
+        kinematics: &mut Kinematics,
+        step: &mut Step,
+        edge: Edge,
+        remarks: &mut Remarks,
+    ) -> Result<bool, Box<Diagnostic>> {
+        if edge.is_rim {
+            return self.cross_rim(kinematics, step, remarks).map(|()| false);
+        }
+        if self.met.is_some_and(|known| known.t <= edge.t) {
+            self.met = None;
+        }
+        self.sides.remember(kinematics, step.state());
+        self.settle(kinematics, step.state(), edge.after);
+        match self.sides.take_later(kinematics, step) {
+            Ok(None) => self.note_restless(kinematics, step.t()),
+            Ok(Some(jump)) => self.sides.say(kinematics, step, jump, remarks)?,
+            Err(fault) => {
+                return Err(Box::new(singular::explain(kinematics, self.sides.before(), fault, 0.0, step.t())));
+            }
+        }
+        Ok(true)
+    }
+
+    /// Judges the rim that the state has come to.
+    pub fn cross_rim(
+        &mut self,
+        kinematics: &mut Kinematics,
+        step: &mut Step,
+        remarks: &mut Remarks,
+    ) -> Result<(), Box<Diagnostic>> {
+        self.rims.cross(kinematics, step, remarks)
+    }
+
+    /// Why the motion ends just ahead, if a rim is what ends it: even a step as small as `h` (s) failed.
+    pub fn end_at_rim(
+        &mut self,
+        kinematics: &mut Kinematics,
+        step: &mut Step,
+        h: f64,
+        remarks: &mut Remarks,
+    ) -> Option<Box<Diagnostic>> {
+        self.rims.end(kinematics, step, h, remarks)
+    }
+
+    /// Refuses a step of length `h`, whose curve must have been drawn, between whose ends something happens: a signal leaves what it is
+    /// at the ends, an edge of the motion or a rim is gone over. `between` is how far the curve is off, scaled; none for a step to an
+    /// edge of the motion, beyond which nobody looks.
+    pub fn look_between(
+        &mut self,
+        kinematics: &mut Kinematics,
+        step: &mut Step,
+        h: f64,
+        between: Option<f64>,
+    ) -> Result<(), Fault> {
+        self.signals.look(kinematics, step, h)?;
+        if let Some(between) = between {
+            self.look_for_switches(kinematics, step, h, between)?;
+        }
+        self.rims.look(kinematics, step, h)
+    }
+}

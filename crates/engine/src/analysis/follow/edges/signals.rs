@@ -1,0 +1,77 @@
+//! Between the ends of a step a driver may ask for more than the ends show: a pulse that is shorter than the step. Its right
+//! side is enclosed over the step by intervals; where that reaches beyond the values at the ends the step is looked into.
+
+use crate::analysis::follow::step::Step;
+use crate::analysis::state::{Fault, Kinematics, State};
+use mechc_expr::math::Halving;
+use mechc_ir::program::{Enclosure, Signal};
+use mechc_ir::tolerances::steps::signals::{FINEST, MOST_PARTS, NUDGE, UNSEEN};
+
+/// What time alone decides about the equations, and what is known of it.
+pub(super) struct Signals {
+    all: Vec<Signal>,
+    enclosure: Enclosure,
+    /// By how much each may leave the values at the ends of a part unseen.
+    bounds: Vec<f64>,
+    /// Values at the ends of a part.
+    left: Vec<f64>,
+    right: Vec<f64>,
+}
+
+impl Signals {
+    /// With what the signals do to the equations of a state.
+    pub fn new(kinematics: &mut Kinematics, state: &State) -> Signals {
+        let all = kinematics.signals();
+        kinematics.restore(state);
+        // what follows without iteration has no branches: there only a formula may end
+        let unseen = if kinematics.linear().is_explicit() { f64::MAX } else { UNSEEN };
+        let bounds: Vec<f64> =
+            kinematics.effects(&all, &state.q, NUDGE).iter().map(|effect| (unseen / effect).min(f64::MAX)).collect();
+        let enclosure = kinematics.enclosure_of(&all);
+        let n = all.len();
+        Signals { all, enclosure, bounds, left: vec![0.0; n], right: vec![0.0; n] }
+    }
+
+    /// Looks for what signals do between the ends of a step of length `h`, whose curve must have been drawn.
+    pub fn look(&mut self, kinematics: &mut Kinematics, step: &mut Step, h: f64) -> Result<(), Fault> {
+        if self.all.is_empty() {
+            return Ok(());
+        }
+        let from = step.t();
+        let mut parts = Halving::<32>::new([0.0, 1.0], FINEST, MOST_PARTS);
+        kinematics.set_time(from);
+        kinematics.read_signals(&self.all, &mut self.left);
+        while let Some(part @ [a, b]) = parts.next_part() {
+            kinematics.set_time(from + b * h);
+            kinematics.read_signals(&self.all, &mut self.right);
+            if self.may_leave_ends(kinematics, [from + a * h, from + b * h]) {
+                holds_within(kinematics, step, h, 0.5 * (a + b))?;
+                if parts.halve(part) {
+                    continue;
+                }
+            }
+            std::mem::swap(&mut self.left, &mut self.right);
+        }
+        Ok(())
+    }
+
+    /// Whether a signal may leave the values that it has at the ends of a part (s).
+    fn may_leave_ends(&mut self, kinematics: &Kinematics, times: [f64; 2]) -> bool {
+        let Signals { all, enclosure, bounds, left, right } = self;
+        kinematics.enclose(enclosure, times);
+        (0..all.len()).any(|k| {
+            let [low, high] = enclosure.range(all[k].register);
+            let beyond = f64::max(high - f64::max(left[k], right[k]), f64::min(left[k], right[k]) - low);
+            beyond.is_nan() || beyond > bounds[k]
+        })
+    }
+}
+
+/// Whether the equations hold nearly at a place of the curve, given as a part of the step.
+fn holds_within(kinematics: &mut Kinematics, step: &mut Step, h: f64, x: f64) -> Result<(), Fault> {
+    step.correction_at(kinematics, h, x)?;
+    match kinematics.broken_check() {
+        Some(index) => Err(Fault::Check { index }),
+        None => Ok(()),
+    }
+}

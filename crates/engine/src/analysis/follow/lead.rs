@@ -1,0 +1,195 @@
+//! The way from one start to another: a mechanism whose inputs go along straight lines is followed from where its own inputs have it to
+//! where others do, along the branch.
+
+use crate::analysis::assemble::{Solving, Started, Unassembled};
+use crate::analysis::explain::errors;
+use crate::analysis::state::{Horizon, Times};
+use crate::solver::Solver;
+use mechc_ir::ConstraintSystem;
+use mechc_ir::layout::RowLayout;
+use mechc_ir::program::Program;
+use mechc_ir::structure::Determined;
+use mechc_ir::tolerances::assembly::lead::{BESIDE_A_KINK, KINK, MOST_KINKS};
+use mechc_text::cancel::Cancel;
+use mechc_text::diag::{Code, Diagnostic, Diagnostics};
+use std::sync::Arc;
+
+/// The way as a time.
+pub(super) const WAY: Horizon = Horizon { from: 0.0, span: 1.0 };
+
+/// How a mechanism is led.
+#[derive(Clone, Debug)]
+pub struct LeadOptions {
+    /// Bounds each row of Φ, scaled.
+    pub tolerance: f64,
+    /// Go on beyond bifurcations.
+    pub pass_bifurcations: bool,
+    /// When the way begins, for what is said of that start (s).
+    pub t: f64,
+    /// Ends it.
+    pub cancel: Cancel,
+}
+
+impl LeadOptions {
+    /// The options of one that is to be assembled.
+    pub(super) fn of(unassembled: &Unassembled, t: f64) -> LeadOptions {
+        let Unassembled { tolerance, pass_bifurcations, ref cancel, .. } = *unassembled;
+        LeadOptions { tolerance, pass_bifurcations, t, cancel: cancel.clone() }
+    }
+}
+
+/// How far a mechanism was led.
+pub struct Way {
+    /// The coordinates [m, rad] at the parts of the way that were asked for, as far as it got.
+    pub reached: Vec<Vec<f64>>,
+    /// What is to be said of where it began.
+    pub remarks: Diagnostics,
+    /// The bifurcations that were passed, from 0 to 1, and what is to be said of each.
+    pub passed: Vec<(f64, Diagnostic)>,
+    /// Where it did not go on, from 0 to 1, and what happens there.
+    pub stopped: Option<(f64, Box<Diagnostic>)>,
+}
+
+/// What begins all ways of a mechanism whose parameters say where they lead: it stands at their beginning, whatever these are.
+///
+/// # Errors
+/// It does not stand there.
+pub fn before_ways(
+    determined: &Arc<Determined>,
+    program: &Arc<Program>,
+    stands: &[f64],
+    options: &LeadOptions,
+) -> Result<Started, Box<Diagnostic>> {
+    Leader::new(determined, program, Solving::New, options).whole(WAY).assemble_at(stands, Solving::New)
+}
+
+/// As [`lead`], to the end of the way alone, from where one of the same mechanism was begun by [`before_ways`], and by the solver of that.
+///
+/// # Errors
+/// It cannot be assembled at 0.
+pub fn lead_again(
+    determined: &Arc<Determined>,
+    program: &Arc<Program>,
+    (stands, solver): (&[f64], Option<Arc<Solver>>),
+    options: &LeadOptions,
+) -> Result<Way, Box<Diagnostic>> {
+    let solving = Solving::With(solver);
+    let leader = Leader::new(determined, program, solving.clone(), options);
+    let started = leader.whole(WAY).assemble_at(stands, solving)?;
+    Ok(leader.lead(started, &[1.0]))
+}
+
+/// What is led, and how.
+pub(super) struct Leader<'l> {
+    determined: &'l Arc<Determined>,
+    program: &'l Arc<Program>,
+    solving: Solving,
+    options: &'l LeadOptions,
+}
+
+impl<'l> Leader<'l> {
+    pub fn new(
+        determined: &'l Arc<Determined>,
+        program: &'l Arc<Program>,
+        solving: Solving,
+        options: &'l LeadOptions,
+    ) -> Leader<'l> {
+        Leader { determined, program, solving, options }
+    }
+
+    /// What is led, to be assembled where a horizon begins.
+    pub fn whole(&self, horizon: Horizon) -> Unassembled {
+        let LeadOptions { tolerance, pass_bifurcations, ref cancel, .. } = *self.options;
+        let (determined, program) = (Arc::clone(self.determined), Arc::clone(self.program));
+        Unassembled { determined, program, horizon, tolerance, pass_bifurcations, cancel: cancel.clone() }
+    }
+
+    /// Follows it from a start at 0 to some parts of the way.
+    pub fn lead(&self, mut started: Started, parts: &[f64]) -> Way {
+        let options = self.options;
+        let remarks = started.far_estimates_at(options.t);
+        let mut way = Way { reached: Vec::new(), remarks, passed: Vec::new(), stopped: None };
+        let mut from = (0.0, started.q().to_vec());
+        for _ in 0..MOST_KINKS {
+            let known = way.reached.len();
+            let Way { reached, passed, .. } = &mut way;
+            way.stopped = self.follow(started, from.0, &parts[known..], reached, passed);
+            let Some((part, why)) = &way.stopped else { return way };
+            if let Some(last) = way.reached[known..].last() {
+                from = (parts[way.reached.len() - 1], last.clone());
+            }
+            if why.code != Code::E0609 || options.cancel.is_cancelled() {
+                return way;
+            }
+            let Some((behind, beyond)) = self.beyond_kink(*part, &from) else { return way };
+            way.stopped = None;
+            while parts.get(way.reached.len()).is_some_and(|&part| part <= behind) {
+                way.reached.push(beyond.q().to_vec());
+            }
+            if way.reached.len() == parts.len() {
+                return way;
+            }
+            from = (behind, beyond.q().to_vec());
+            started = beyond;
+        }
+        way.stopped = Some((from.0, Box::new(errors::cannot_follow(self.determined.system(), from.0, None))));
+        way
+    }
+
+    /// Assembled at a part of the way, where it stands.
+    fn at(&self, part: f64, q: &[f64]) -> Option<Started> {
+        self.whole(WAY.beginning(part)).assemble_at(q, self.solving.clone()).ok()
+    }
+
+    /// The start just behind a place where a velocity jumps, with its part of the way; none where the position is another one there.
+    fn beyond_kink(&self, part: f64, (known, q): &(f64, Vec<f64>)) -> Option<(f64, Started)> {
+        let (before, behind) = ((part - BESIDE_A_KINK).max(*known), (part + BESIDE_A_KINK).min(1.0));
+        let again = self.at(*known, q)?;
+        let mut there = Vec::new();
+        let stopped = self.follow(again, *known, &[before], &mut there, &mut Vec::new());
+        let near = there.pop().filter(|_| stopped.is_none())?;
+        let beyond = self.at(behind, &near)?;
+        is_the_same(self.determined.system(), &near, beyond.q()).then_some((behind, beyond))
+    }
+
+    /// Adds the positions at some parts of the way, and the bifurcations that are passed; says where the motion ends before the last, and
+    /// why.
+    fn follow(
+        &self,
+        started: Started,
+        from: f64,
+        parts: &[f64],
+        reached: &mut Vec<Vec<f64>>,
+        passed: &mut Vec<(f64, Diagnostic)>,
+    ) -> Option<(f64, Box<Diagnostic>)> {
+        let layout = RowLayout::new(started.system());
+        let mut motion = started.into_motion(&Times::listed(from, parts.to_vec()));
+        if self.options.pass_bifurcations {
+            motion.pass_bifurcations();
+        }
+        let part_of = |why: &Diagnostic| why.data.get("t").and_then(serde_json::Value::as_f64).unwrap_or(from);
+        let mut stopped = None;
+        for _ in parts {
+            match motion.next_row() {
+                Some(Ok(row)) => {
+                    reached.push(layout.position(row).to_vec());
+                    continue;
+                }
+                Some(Err(why)) => stopped = Some((part_of(&why), why)),
+                None => {
+                    let why = Diagnostic::new(Code::E0604, "the way was not followed to its end");
+                    stopped = Some((from, Box::new(why)));
+                }
+            }
+            break;
+        }
+        let remarks = motion.take_remarks().into_iter().filter(|remark| remark.code == Code::W0602);
+        passed.extend(remarks.map(|remark| (part_of(&remark), remark)));
+        stopped
+    }
+}
+
+fn is_the_same(system: &ConstraintSystem, a: &[f64], b: &[f64]) -> bool {
+    let scale = |k: usize| system.coordinates()[k].scale;
+    (0..a.len()).all(|k| (a[k] - b[k]).abs() <= KINK * scale(k))
+}

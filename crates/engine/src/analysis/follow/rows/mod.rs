@@ -1,0 +1,247 @@
+//! A row for each output time: which one comes next, what it holds, and what it is worth.
+
+mod alone;
+mod forces;
+mod leap;
+mod missing;
+
+use super::bookmark::Bookmark;
+use super::edges::Edge;
+use super::remarks::Remarks;
+use crate::analysis::state::{Kinematics, State, Times, Trust, shortly_after};
+pub use alone::Alone;
+pub use forces::ForceWatch;
+pub use leap::{Leap, state_of_row};
+use mechc_ir::tolerances::steps::march::{CRUMB, MOST_STEPS};
+use missing::Missing;
+
+/// Where a row is.
+#[derive(Clone, Copy)]
+pub enum Place {
+    /// On its own.
+    Own,
+    /// Among those that were solved for at once.
+    Lane(usize),
+}
+
+/// The output times, and the rows that are ready.
+pub struct Rows {
+    times: Times,
+    /// The number of the time that comes next.
+    next: u64,
+    /// Whether the motion could not go on.
+    has_stopped: bool,
+    /// Steps since the last row.
+    steps: u64,
+    /// Up to this time (s) steps go to each output time on their own.
+    careful_until: f64,
+    /// Whether a step may go over several output times.
+    may_leap: bool,
+    /// What solves for the rows of such a step.
+    leap: Option<Leap>,
+    /// The row that was found last on its own, and what it is worth.
+    row: Vec<f64>,
+    trust: Trust,
+    /// Whether it is near a position that may be a bifurcation to pass.
+    is_near: bool,
+    /// The last row on a bridge which was found without it.
+    plain: Option<Bookmark>,
+    missing: Missing,
+}
+
+impl Rows {
+    /// For some times; `leap` solves for several rows at once.
+    pub fn new(kinematics: &Kinematics, leap: Option<Leap>, times: Times) -> Rows {
+        Rows {
+            times,
+            next: 0,
+            has_stopped: false,
+            steps: 0,
+            careful_until: f64::NEG_INFINITY,
+            // what was left out of the equations is looked at wherever a row is printed
+            may_leap: kinematics.system().checks().is_empty(),
+            leap,
+            row: vec![0.0; kinematics.row_length()],
+            trust: Trust::Certain,
+            is_near: false,
+            plain: None,
+            missing: Missing::new(kinematics.system()),
+        }
+    }
+
+    /// The next output time (s); none behind the last one, and where the motion could not go on.
+    pub fn next_time(&self) -> Option<f64> {
+        (!self.has_stopped && self.next < self.times.len()).then(|| self.upcoming())
+    }
+
+    /// The time of the row that was handed out last (s).
+    pub fn last_time(&self) -> Option<f64> {
+        self.next.checked_sub(1).map(|number| self.times.at(number))
+    }
+
+    /// The next output time (s), be it behind the last one.
+    pub fn upcoming(&self) -> f64 {
+        self.times.at(self.next)
+    }
+
+    /// The first output time behind a time, or the next one, if that is earlier (s).
+    pub fn upcoming_after(&self, t: f64) -> f64 {
+        self.times.at(self.times.first_after(t, 0).min(self.next))
+    }
+
+    /// The motion could not go on.
+    pub fn stop(&mut self) {
+        self.has_stopped = true;
+    }
+
+    /// The next row has been handed out.
+    pub fn count_row(&mut self) {
+        self.next += 1;
+        self.forget_steps();
+    }
+
+    /// The next row, if it has been solved for and there is nothing to be said of it; it has been handed out then.
+    pub fn hand_out_ready(&mut self) -> Option<Place> {
+        let lane = self.leap.as_ref()?.ready_lane(self.next)?;
+        self.count_row();
+        Some(Place::Lane(lane))
+    }
+
+    /// Begins to count the steps anew.
+    pub fn forget_steps(&mut self) {
+        self.steps = 0;
+    }
+
+    /// Counts a step; says whether there are too many.
+    pub fn count_step(&mut self) -> bool {
+        self.steps += 1;
+        self.steps > MOST_STEPS
+    }
+
+    /// Whether a step from a time (s) may go over several output times.
+    pub fn may_leap(&self, t: f64) -> bool {
+        self.leap.is_some() && self.may_leap && t >= self.careful_until
+    }
+
+    /// Up to a time (s) steps go to each output time on their own.
+    pub fn be_careful_until(&mut self, t: f64) {
+        self.careful_until = t;
+    }
+
+    /// Where a leap of length `h` from a time goes (s): to an output time, if it comes so far.
+    pub fn target(&self, from: f64, h: f64) -> f64 {
+        let (upcoming, farthest) = (self.upcoming(), from + h);
+        let behind = self.times.first_after(farthest, self.next);
+        // what does not change the time is no step
+        let farthest = if farthest > from { farthest } else { upcoming };
+        if h >= CRUMB * (upcoming - from) { self.times.at(behind.saturating_sub(1).max(self.next)) } else { farthest }
+    }
+
+    /// An edge, ahead of a time (s), that is meant to be at an output time is there.
+    pub fn at_output(&self, edge: Edge, from: f64) -> Edge {
+        let behind = self.times.first_after(edge.t, self.next);
+        let before = if behind > self.next { self.times.at(behind - 1) } else { edge.t };
+        let is_meant = before > from && shortly_after(before) >= edge.t;
+        if is_meant { edge.at(before) } else { edge }
+    }
+
+    /// The output times with the number of the next one, and what solves for several of their rows at once.
+    pub fn leap(&mut self) -> Option<(&mut Leap, (&Times, u64))> {
+        let Rows { leap, times, next, .. } = self;
+        leap.as_mut().map(|leap| (leap, (&*times, *next)))
+    }
+
+    /// From now on rows are solved for otherwise.
+    pub fn change_solver(&mut self, leap: Option<Leap>) {
+        self.leap = leap;
+    }
+
+    /// The step that was gone over last holds no rows.
+    pub fn close_leap(&mut self) {
+        self.leap.iter_mut().for_each(Leap::close);
+    }
+
+    /// Solves once more for the row that was found on its own (`Leap::refine`).
+    pub fn refine(&mut self, kinematics: &mut Kinematics, here: &State, t: f64) {
+        if let Some(leap) = &mut self.leap {
+            leap.refine(kinematics, here, t, &mut self.row);
+        }
+    }
+
+    /// The row that was found on its own.
+    pub fn own(&self) -> &[f64] {
+        &self.row
+    }
+
+    /// The same, to be written.
+    pub fn own_mut(&mut self) -> &mut [f64] {
+        &mut self.row
+    }
+
+    /// Whether all numbers of a row are finite.
+    pub fn is_whole(&self, place: Place) -> bool {
+        match (place, &self.leap) {
+            // what solved for it has seen all of it
+            (Place::Lane(lane), Some(leap)) if leap.is_whole(lane) => true,
+            _ => self.row(place).iter().all(|value| value.is_finite()),
+        }
+    }
+
+    /// The row at a place.
+    pub fn row(&self, place: Place) -> &[f64] {
+        match (place, &self.leap) {
+            (Place::Lane(lane), Some(leap)) => leap.row(lane),
+            _ => &self.row,
+        }
+    }
+
+    fn row_mut(&mut self, place: Place) -> &mut [f64] {
+        match (place, &mut self.leap) {
+            (Place::Lane(lane), Some(leap)) => leap.row_mut(lane),
+            _ => &mut self.row,
+        }
+    }
+
+    /// Takes the row of a state that was just computed; `is_near` says whether it is near a bifurcation to pass.
+    pub fn take(&mut self, kinematics: &mut Kinematics, state: &State, is_near: impl FnOnce(&mut Kinematics) -> bool) {
+        self.trust = Trust::of(kinematics, state);
+        self.is_near = is_near(kinematics);
+        kinematics.write_row(state, &mut self.row);
+    }
+
+    /// What the row that was taken last is worth.
+    pub fn trust(&self) -> Trust {
+        self.trust
+    }
+
+    /// Whether it is near a position that may be a bifurcation to pass.
+    pub fn is_near(&self) -> bool {
+        self.is_near
+    }
+
+    /// Keeps where a row on a bridge was found without it.
+    pub fn keep_plain(&mut self, here: Option<Bookmark>) {
+        self.plain = here;
+    }
+
+    /// Where the last one was, if that is before a time (s).
+    pub fn take_plain(&mut self, t: f64) -> Option<Bookmark> {
+        self.plain.take().filter(|plain| plain.state().t < t)
+    }
+
+    /// Cells of a row at a time (s) that are not finite hold no number: they are of measures, since the coordinates are.
+    pub fn leave_out_measures(&mut self, kinematics: &Kinematics, place: Place, t: f64) {
+        for column in 0..self.row.len() {
+            let cell = &mut self.row_mut(place)[column];
+            if !cell.is_finite() {
+                *cell = f64::NAN;
+                self.missing.take_note(kinematics.unknown_in(column), t);
+            }
+        }
+    }
+
+    /// A warning for each measure that had no value, once.
+    pub fn say_what_is_missing(&mut self, kinematics: &Kinematics, remarks: &mut Remarks) {
+        self.missing.say(kinematics.system(), remarks);
+    }
+}

@@ -1,0 +1,347 @@
+//! One step: from a state that is known to one that is tried.
+//!
+//! Each step predicts `q + h q̇ + h²/2 q̈`, corrects by Newton, and is accepted only if the way between is smooth: the
+//! first correction is small, so is one between the ends, and no block's determinant changes its sign or touches zero. Else it
+//! is halved. So the branch followed does not depend on the output times.
+
+mod branch;
+mod length;
+mod newton;
+mod touch;
+
+use crate::analysis::state::{Fault, Kinematics, State};
+use branch::Branch;
+pub use branch::Signs;
+use length::Length;
+use mechc_expr::math::{GOLDEN, along, parabola, predicted, quintic};
+use mechc_ir::tolerances::steps::march::{LARGEST_BETWEEN, LARGEST_MOTION, NEAREST};
+
+/// The state, the state that is tried from there, and the way between.
+pub struct Step {
+    state: State,
+    trial: State,
+    branch: Branch,
+    length: Length,
+    /// Each coordinate between the ends, as a polynomial of the part of the step.
+    curve: Vec<[f64; 6]>,
+    /// Where a step was looked into last, from 0 to 1.
+    probe: f64,
+    /// Newton's last correction, and a position beside the state.
+    delta: Vec<f64>,
+    place: Vec<f64>,
+}
+
+/// How well a step went.
+pub struct Accepted {
+    pub first_correction: f64,
+    pub between: f64,
+    pub motion: f64,
+}
+
+/// What a step begins from.
+#[derive(Clone)]
+pub struct Mark {
+    pub state: State,
+    signs: Signs,
+    h: f64,
+}
+
+/// A state's value, first and second derivative of a coordinate.
+fn end(state: &State, k: usize) -> [f64; 3] {
+    [state.q[k], state.qd[k], state.qdd[k]]
+}
+
+/// The quintic of a coordinate with value, slope and curvature of two states, `h` (s) apart.
+pub fn quintic_between(a: &State, b: &State, k: usize, h: f64) -> [f64; 6] {
+    quintic(end(a, k), end(b, k), h)
+}
+
+/// Where the derivatives of a state lead in a time `h` (s).
+pub fn write_prediction(from: &State, h: f64, q: &mut [f64]) {
+    for (k, q) in q.iter_mut().enumerate() {
+        *q = predicted(end(from, k), h);
+    }
+}
+
+impl Step {
+    /// At the start of a motion over a span (s).
+    pub fn new(kinematics: &Kinematics, state: State, span: f64) -> Step {
+        let n = state.q.len();
+        Step {
+            trial: state.clone(),
+            state,
+            branch: Branch::new(kinematics),
+            length: Length::new(span),
+            curve: vec![[0.0; 6]; n],
+            probe: 0.0,
+            delta: vec![0.0; n],
+            place: vec![0.0; n],
+        }
+    }
+
+    /// Goes on from the same state with other equations, by steps of a length (s) at first.
+    pub fn change_equations(&mut self, kinematics: &mut Kinematics, h: f64) -> Result<(), Fault> {
+        self.branch = Branch::new(kinematics);
+        self.begin_branch(kinematics);
+        self.branch.take_sides(kinematics);
+        self.length.set(h);
+        self.derive_state(kinematics)
+    }
+
+    /// Where the motion is.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// When the motion is there (s).
+    pub fn t(&self) -> f64 {
+        self.state.t
+    }
+
+    /// The state that is tried.
+    pub fn trial(&self) -> &State {
+        &self.trial
+    }
+
+    /// Each coordinate between the ends, as a polynomial of the part of the step.
+    pub fn curve(&self) -> &[[f64; 6]] {
+        &self.curve
+    }
+
+    /// Newton's last correction of a state [m, rad].
+    pub fn delta(&self) -> &[f64] {
+        &self.delta
+    }
+
+    /// When the next step towards a time ends, as far as the error is known (s).
+    pub fn end_towards(&self, t: f64) -> f64 {
+        self.length.end_towards(self.state.t, t)
+    }
+
+    /// The length that the error allows (s).
+    pub fn h(&self) -> f64 {
+        self.length.h()
+    }
+
+    /// Goes to another state, from which steps may have a length (s).
+    pub fn go_to(&mut self, kinematics: &mut Kinematics, state: &State, h: f64) {
+        self.state.copy_from(state);
+        kinematics.restore(&self.state);
+        self.begin_branch(kinematics);
+        self.branch.take_sides(kinematics);
+        self.length.set(h);
+    }
+
+    /// What the next step begins from.
+    pub fn mark(&self) -> Mark {
+        Mark { state: self.state.clone(), signs: self.branch.signs().clone(), h: self.length.h() }
+    }
+
+    /// The same, into another mark.
+    pub fn write_mark(&self, mark: &mut Mark) {
+        mark.state.copy_from(&self.state);
+        mark.signs.copy_from(self.branch.signs());
+        mark.h = self.length.h();
+    }
+
+    /// Goes back to a mark; positions are evaluated there by [`Step::restore_branch`].
+    pub fn go_back(&mut self, to: &Mark) {
+        self.state.copy_from(&to.state);
+        self.length.set(to.h);
+    }
+
+    /// Evaluates and factors where a motion has gone back to, which is on the branch that it was on.
+    pub fn restore_branch(&mut self, kinematics: &mut Kinematics, to: &Mark) {
+        kinematics.restore(&self.state);
+        self.begin_branch(kinematics);
+        // as they were accepted, should the position be so near to a singular one that they are rounding
+        self.branch.take_signs(&to.signs);
+    }
+
+    /// Takes the determinants where the state was factored, there being none before to compare with.
+    pub fn begin_branch(&mut self, kinematics: &Kinematics) {
+        self.branch.begin(kinematics);
+    }
+
+    /// Takes the sign of what is watched where the state was set.
+    pub fn take_sides(&mut self, kinematics: &Kinematics) {
+        self.branch.take_sides(kinematics);
+    }
+
+    /// Whether the position that was factored is on the branch of the state: every determinant, and what is watched, has
+    /// kept its sign.
+    pub fn same_branch(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
+        self.branch.compare(kinematics)
+    }
+
+    /// Whether what is watched has the sign of the state where a position was set.
+    pub fn same_sides(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
+        self.branch.compare_sides(kinematics)
+    }
+
+    /// The signs of the state's branch.
+    pub fn signs(&self) -> &Signs {
+        self.branch.signs()
+    }
+
+    /// Derivatives of the state where it was factored.
+    pub fn derive_state(&mut self, kinematics: &mut Kinematics) -> Result<(), Fault> {
+        kinematics.derivatives(&mut self.state)
+    }
+
+    /// Derivatives of the state that is tried, where it was factored.
+    pub fn derive_trial(&mut self, kinematics: &mut Kinematics) -> Result<(), Fault> {
+        kinematics.derivatives(&mut self.trial)
+    }
+
+    /// Taylor's predictor, which costs nothing: both derivatives are known. Gives the largest motion, scaled.
+    pub fn predict(&mut self, kinematics: &Kinematics, h: f64, t: f64) -> Result<f64, Fault> {
+        self.trial.t = t;
+        for k in 0..self.trial.q.len() {
+            self.delta[k] = h * (self.state.qd[k] + 0.5 * h * self.state.qdd[k]);
+            self.trial.q[k] = self.state.q[k] + self.delta[k];
+        }
+        // what follows without iteration has no branches, and may go as far as the predictor is right
+        let motion = kinematics.linear().largest_judged_implicit(&self.delta);
+        if motion <= LARGEST_MOTION { Ok(motion) } else { Err(Fault::TooFar) }
+    }
+
+    /// The same from another state, however far that is.
+    pub fn predict_from(&mut self, from: &State, h: f64, t: f64) {
+        self.trial.t = t;
+        write_prediction(from, h, &mut self.trial.q);
+    }
+
+    /// The same from the state, however far that is.
+    pub fn predict_freely(&mut self, h: f64, t: f64) {
+        self.trial.t = t;
+        write_prediction(&self.state, h, &mut self.trial.q);
+    }
+
+    /// Tries a state that is known nearly.
+    pub fn try_state(&mut self, state: &State) {
+        self.trial.copy_from(state);
+    }
+
+    /// Tries a position at a time (s).
+    pub fn try_position(&mut self, t: f64, q: impl Iterator<Item = f64>) {
+        self.trial.t = t;
+        for (own, q) in self.trial.q.iter_mut().zip(q) {
+            *own = q;
+        }
+    }
+
+    /// The place of a step that is looked at next, as a part of the step. It wanders from step to step, so that no period of a
+    /// driver can hide from it.
+    pub fn next_probe(&mut self) -> f64 {
+        self.probe = (self.probe + GOLDEN).fract();
+        0.3 + 0.4 * self.probe
+    }
+
+    /// Where a step was looked into last, from 0 to 1.
+    pub fn probe(&self) -> f64 {
+        self.probe
+    }
+
+    /// Looks on from there.
+    pub fn set_probe(&mut self, probe: f64) {
+        self.probe = probe;
+    }
+
+    /// The quintic with value, slope and curvature of both ends, by its coefficients.
+    pub fn draw_curve(&mut self, h: f64) {
+        for (k, curve) in self.curve.iter_mut().enumerate() {
+            *curve = quintic_between(&self.state, &self.trial, k, h);
+        }
+    }
+
+    /// The way from another state to where the motion is, `h` (s) later, of some coordinates.
+    pub fn draw_way_since(&mut self, before: &State, h: f64, columns: impl Iterator<Item = usize>) {
+        for k in columns {
+            self.curve[k] = quintic_between(before, &self.state, k, h);
+        }
+    }
+
+    /// The way that the state leads to, of some coordinates.
+    pub fn draw_way_ahead(&mut self, h: f64, columns: impl Iterator<Item = usize>) {
+        for k in columns {
+            self.curve[k] = parabola(end(&self.state, k), h);
+        }
+    }
+
+    /// Newton's correction between the ends, on the quintic that both ends give, with the factors of the end.
+    pub fn correction_between(&mut self, kinematics: &mut Kinematics, h: f64) -> Result<f64, Fault> {
+        let x = self.next_probe();
+        self.draw_curve(h);
+        self.correction_at(kinematics, h, x)
+    }
+
+    /// Newton's correction at a place of the curve, given as a part of the step, with the factors of its end.
+    pub fn correction_at(&mut self, kinematics: &mut Kinematics, h: f64, x: f64) -> Result<f64, Fault> {
+        self.set_on_curve(kinematics, h, x)?;
+        kinematics.correction(&mut self.delta);
+        let size = kinematics.linear().largest_judged(&self.delta);
+        if size <= LARGEST_BETWEEN { Ok(size) } else { Err(Fault::TooFar) }
+    }
+
+    /// Evaluates at a place of the curve, given as a part of the step.
+    pub fn set_on_curve(&mut self, kinematics: &mut Kinematics, h: f64, x: f64) -> Result<(), Fault> {
+        for (place, curve) in self.place.iter_mut().zip(&self.curve) {
+            *place = along(curve, x);
+        }
+        kinematics.set_time(self.state.t + x * h);
+        kinematics.set_position(&self.place)
+    }
+
+    /// Tries a place of the curve of a step from a time, of a length (s).
+    pub fn try_on_curve(&mut self, [from, length]: [f64; 2], t: f64) {
+        let x = (t - from) / length;
+        self.trial.t = t;
+        for (q, curve) in self.trial.q.iter_mut().zip(&self.curve) {
+            *q = along(curve, x);
+        }
+    }
+
+    /// Takes what was solved for otherwise at the end of a step, position and derivatives, as the state that is tried; gives how far
+    /// that is from the prediction, scaled.
+    pub fn take_solved<'a>(
+        &mut self,
+        kinematics: &Kinematics,
+        derivatives: impl IntoIterator<Item = &'a [f64]>,
+    ) -> f64 {
+        let Step { trial, place, .. } = self;
+        for (place, predicted) in place.iter_mut().zip(&trial.q) {
+            *place = *predicted;
+        }
+        let State { q, qd, qdd, qddd, .. } = trial;
+        for (own, solved) in [q, qd, qdd, qddd].into_iter().zip(derivatives) {
+            own.copy_from_slice(solved);
+        }
+        for (place, q) in self.place.iter_mut().zip(&self.trial.q) {
+            *place = q - *place;
+        }
+        kinematics.linear().largest_judged(&self.place)
+    }
+
+    /// Goes to the state that was tried, from which scales are taken anew.
+    pub fn accept(&mut self, kinematics: &mut Kinematics) {
+        self.state.copy_from(&self.trial);
+        kinematics.measure_slopes(&self.state.q);
+    }
+
+    /// Takes the determinants of the state that was just accepted, after a step of length `h`, and chooses the next length.
+    pub fn go_on(&mut self, kinematics: &Kinematics, h: f64, accepted: &Accepted) {
+        self.branch.keep(kinematics, h);
+        self.length.adapt(kinematics, h, accepted);
+    }
+
+    /// Halves the length of a step that was refused; says whether there is none any more.
+    pub fn halve(&mut self, h: f64) -> bool {
+        self.length.halve(h, self.state.t)
+    }
+}
+
+/// No step ends too near to a singular position.
+pub fn keep_away(kinematics: &mut Kinematics) -> Result<(), Fault> {
+    if kinematics.nearness(NEAREST) < NEAREST { Err(Fault::Singular) } else { Ok(()) }
+}

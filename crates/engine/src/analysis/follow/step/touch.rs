@@ -1,0 +1,59 @@
+//! A determinant that touches zero within a step, without changing its sign: a singular position of even order.
+//!
+//! Two zeros of one block that coincide, or a driver that turns back in its dead point ever so gently. Both ends of the step
+//! show nothing. But before such a place a determinant falls, ever more slowly, so that the line through its last two values
+//! meets zero before it does. Only a step on which that happens is looked into.
+
+use super::{Step, keep_away};
+use crate::analysis::state::{Fault, Kinematics};
+use mechc_expr::math::GoldenSection;
+use mechc_ir::tolerances::steps::touch::{DEEP, SECTIONS, SHALLOW};
+
+impl Step {
+    /// Refuses a step of length `h` within which a determinant comes so near to zero that it may touch it. The curve between
+    /// the ends must have been drawn; the factors of its end are left as they are.
+    pub fn look_for_touch(&mut self, kinematics: &mut Kinematics, h: f64, motion: f64) -> Result<(), Fault> {
+        if !self.branch.may_touch(kinematics, h, motion) {
+            return Ok(());
+        }
+        self.factor_within(kinematics, h, 0.5)?;
+        for block in 0..kinematics.linear().blocks() {
+            let (a, b) = self.branch.at_ends(block);
+            // a parabola that touches zero has half of its value at one of the ends or less in the middle
+            if self.branch.within(kinematics, block) <= SHALLOW * f64::max(a, b) {
+                self.search(kinematics, block, h)?;
+                self.factor_within(kinematics, h, 0.5)?;
+            }
+        }
+        kinematics.restore(&self.trial);
+        Ok(())
+    }
+
+    /// Golden section for the least determinant of a block, on the curve.
+    fn search(&mut self, kinematics: &mut Kinematics, block: usize, h: f64) -> Result<(), Fault> {
+        let (at_low, at_high) = self.branch.at_ends(block);
+        let deep = DEEP * f64::min(at_low, at_high);
+        let mut sample = |x: f64| {
+            self.factor_within(kinematics, h, x)?;
+            Ok(self.branch.within(kinematics, block))
+        };
+        let mut section = GoldenSection::new([0.0, at_low], [1.0, at_high], &mut sample)?;
+        for _ in 0..SECTIONS {
+            if section.least() <= deep {
+                return Err(Fault::Singular);
+            }
+            if section.least() > SHALLOW * f64::max(section.low[1], section.high[1]) {
+                return Ok(());
+            }
+            section.narrow(&mut sample)?;
+        }
+        Ok(())
+    }
+
+    /// Factors at a place of the curve, given as a part of the step.
+    fn factor_within(&mut self, kinematics: &mut Kinematics, h: f64, x: f64) -> Result<(), Fault> {
+        self.set_on_curve(kinematics, h, x)?;
+        kinematics.factor()?;
+        keep_away(kinematics)
+    }
+}

@@ -1,0 +1,37 @@
+//! The kinematic analysis: assembly at the start, then position, velocity and acceleration along the branch that the
+//! start chose.
+//!
+//! ```text
+//! Determined ──start──▶ Started ──follow──▶ a row per output time, or why it cannot go on
+//! ```
+//!
+//! Its own rooms, each of which knows only those before it:
+//!
+//! | room | what it is for |
+//! | --- | --- |
+//! | `state` | everything that can be said of one state: residuals, factors, derivatives, nearness to a singular position |
+//! | `explain` | why a mechanism is not determined, not assembled, or does not go on: in words |
+//! | `assemble` | the position at the first time |
+//! | `follow` | from there on, in steps that the solver chooses by its own error: output times only decide what is printed |
+//! | `results` | numbers for the whole analysis |
+//!
+//! A row is handed out only if the residual of the full `Φ`, scaled, is below the tolerance there; equations that were solved for
+//! a coordinate hold by that.
+
+mod assemble;
+mod explain;
+mod follow;
+mod results;
+mod state;
+
+pub use assemble::{Moved, Request, Solving, Started, Unassembled, with_parts};
+pub use explain::errors::length as length_in_words;
+pub use explain::{FreeMotion, determine, free_motions};
+pub use follow::{Follower, LeadOptions, Way, before_ways, follow_to, lead, lead_again, start, start_from};
+pub use mechc_ir::tolerances::TOLERANCE;
+pub use results::course;
+pub use results::{
+    Answers, Asked, Computed, MOST_LOOKS, Sampled, Settled, Settling, SmoothFormula, SmoothFormulas, SpectralIntegral,
+    Turning, moved, refused_results,
+};
+pub use state::{Horizon, Times};

@@ -1,0 +1,96 @@
+//! Whether numbers found near a singular position are worth as much as rows are: where a row would be refused, no result is told.
+
+use super::Asked;
+use super::curve::Found;
+use super::probe::Trouble;
+use super::reduced::Reduced;
+use crate::analysis::follow::{Follower, Stretch};
+use crate::analysis::state::Times;
+use mechc_ir::ReductionKind;
+
+/// Where the motion is not clear of singular positions: from one time to another (s), in order.
+pub(super) struct Near {
+    stretches: Vec<[f64; 2]>,
+    was_clear: bool,
+}
+
+impl Near {
+    /// Nothing has been seen.
+    pub fn new() -> Near {
+        Near { stretches: Vec::new(), was_clear: true }
+    }
+
+    /// Takes note of a stretch that the motion has just gone over.
+    pub fn take_note(&mut self, stretch: &Stretch, motion: &Follower) {
+        let is_clear = motion.was_clear_here();
+        if !(is_clear && self.was_clear && stretch.bridge.is_none()) {
+            self.stretches.push([stretch.from.t, stretch.to.t]);
+        }
+        self.was_clear = is_clear;
+    }
+
+    /// Whether the motion is clear of singular positions all over.
+    pub fn is_clear(&self) -> bool {
+        self.stretches.is_empty()
+    }
+
+    fn holds(&self, t: f64) -> bool {
+        let behind = self.stretches.partition_point(|[_, to]| *to < t);
+        self.stretches.get(behind).is_some_and(|[from, _]| *from <= t)
+    }
+
+    /// The ends of these stretches (s), in order.
+    fn ends(&self) -> Vec<f64> {
+        let mut ends = self.stretches.as_flattened().to_vec();
+        ends.dedup_by(|a, b| a.total_cmp(b).is_eq());
+        ends
+    }
+}
+
+impl Asked {
+    /// What was found of a formula, or why that is nothing, where it can be trusted as the rows at the times that it is of.
+    pub(super) fn certain(
+        &self,
+        of: &Reduced,
+        (kind, at): (ReductionKind, f64),
+        near: &Near,
+    ) -> Result<Found, Trouble> {
+        let found = of.outcome(kind, at);
+        match found {
+            Err(
+                trouble @ (Trouble::Missing(_) | Trouble::Nowhere(_) | Trouble::Unbounded(_) | Trouble::Uncertain(_)),
+            ) => Err(trouble),
+            _ => self.is_certain(of, (kind, at), near).and(found),
+        }
+    }
+
+    /// Whether what was found of a formula can be trusted as the rows at the times that it is of.
+    ///
+    /// # Errors
+    /// Where a row would be refused.
+    fn is_certain(&self, of: &Reduced, (kind, at): (ReductionKind, f64), near: &Near) -> Result<(), Trouble> {
+        if near.is_clear() || !of.moves() {
+            return Ok(());
+        }
+        let [from, to] = of.window();
+        let time = match kind {
+            // of places an integral is as good as they are
+            ReductionKind::Mean | ReductionKind::Integral if of.holds_rates() => {
+                return self.has_rows_at(near.ends().into_iter().filter(|t| from <= *t && *t <= to).collect());
+            }
+            ReductionKind::Mean | ReductionKind::Integral => return Ok(()),
+            ReductionKind::Extreme { largest, .. } => of.time_of_extreme(largest),
+            ReductionKind::First => from,
+            ReductionKind::Last => to,
+            ReductionKind::At(_) => at,
+        };
+        if near.holds(time) { self.has_rows_at(vec![time]) } else { Ok(()) }
+    }
+
+    /// Whether the motion has rows at some times (s), which rise.
+    fn has_rows_at(&self, times: Vec<f64>) -> Result<(), Trouble> {
+        let mut motion = self.motion(Times::listed(self.interval[0], times.clone()));
+        let refused = times.into_iter().find(|_| !matches!(motion.next_row(), Some(Ok(_))));
+        refused.map_or(Ok(()), |t| Err(Trouble::Uncertain(t)))
+    }
+}

@@ -1,0 +1,212 @@
+//! Where along its course a smooth formula has its largest value, as far as that is beyond doubt: for variants that go side by side, which are
+//! looked at no more closely. Where it is in doubt a variant is looked at alone, by branch and bound (`extremum.rs`).
+//!
+//! The course is known at steps, with its slope and its second derivative. In a cell between two of them the second derivative stays near the
+//! straight line between its ends, as far as the quintic through both tells; so it is known where the slope may pass zero.
+
+use mechc_expr::math::{along, between, integral_of_quintic, quintic, value_and_slopes};
+use mechc_ir::tolerances::solving::course::{AWAY, CERTAIN, ITERATIONS, MARGIN, RESTS, SAFETY, STEEP, STEPS_TO_KINK};
+
+/// Value, slope and second derivative at a time.
+pub type Tower = [f64; 3];
+
+/// The course of a formula of one variant.
+pub struct Course<'c> {
+    /// The times of steps (s), two at least.
+    pub times: &'c [f64],
+    /// What the formula is there.
+    pub towers: &'c [Tower],
+    /// Whether it is a length, with a kink where it is zero.
+    pub is_length: bool,
+    /// The size of the numbers that values are sums of: what rounding of values goes by.
+    pub weight: f64,
+    /// How near to a singular position they come, which rounding grows with.
+    pub nearness: f64,
+}
+
+/// Where an extremum is.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Place {
+    /// At the first or the last time (s).
+    End(f64),
+    /// About a time (s) between.
+    Turn(f64),
+    /// Everywhere: it rests.
+    Rest,
+}
+
+/// What a cell may hold.
+enum Cell {
+    /// Nothing that is larger than both its ends.
+    Nothing,
+    /// One extremum, more or less at a time (s), with a value that may be off by so much, and a second derivative.
+    Turn { t: f64, value: f64, off: f64, bend: f64 },
+    /// Values up to this one.
+    Unknown(f64),
+}
+
+/// The largest of what has been looked at.
+struct Best {
+    place: Option<Place>,
+    value: f64,
+    off: f64,
+    /// What no other one is above.
+    others: f64,
+}
+
+impl Best {
+    fn take(&mut self, value: f64, off: f64, place: Option<Place>) {
+        if value > self.value {
+            self.others = self.others.max(self.value + self.off);
+            (self.value, self.off, self.place) = (value, off, place);
+        } else {
+            self.others = self.others.max(value + off);
+        }
+    }
+}
+
+impl Course<'_> {
+    /// Where the largest value is, or the least; nothing where that is in doubt.
+    #[must_use]
+    pub fn extreme(&self, largest: bool) -> Option<Place> {
+        if self.rests() {
+            return Some(Place::Rest);
+        }
+        let sign = if largest { 1.0 } else { -1.0 };
+        let values = || self.towers.iter().map(|[value, ..]| sign * value);
+        let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+        let (range, last) = (high - low, self.times.len() - 1);
+        let (span, weight) = (self.times[last] - self.times[0], self.weight / self.nearness);
+        let mut best = Best { place: None, value: f64::NEG_INFINITY, off: 0.0, others: f64::NEG_INFINITY };
+        for (end, inward) in [(0, -1.0), (last, 1.0)] {
+            let [value, slope, _] = self.towers[end].map(|value| sign * value);
+            let is_steep = inward * slope * span >= STEEP * range && weight <= CERTAIN * range;
+            best.take(value, 0.0, is_steep.then_some(Place::End(self.times[end])));
+        }
+        for (ends, times) in self.cells() {
+            let ends = ends.map(|tower| tower.map(|value| sign * value));
+            let kink = if self.is_length { kink(ends, times) } else { None };
+            match kink.unwrap_or_else(|| look_into(ends, times)) {
+                Cell::Nothing => {}
+                Cell::Unknown(most) => best.take(most, 0.0, None),
+                Cell::Turn { t, value, off, bend } => {
+                    let is_within = f64::min(t - self.times[0], self.times[last] - t) >= AWAY * span;
+                    let is_certain = weight <= CERTAIN * f64::min(range, -bend * span * span);
+                    best.take(value, off, (is_within && is_certain).then_some(Place::Turn(t)));
+                }
+            }
+        }
+        let is_alone = best.value - best.off - best.others >= MARGIN * range;
+        let is_finite = self.towers.as_flattened().iter().all(|value| value.is_finite());
+        best.place.filter(|_| range > 0.0 && is_alone && is_finite)
+    }
+
+    /// From step to step: what it is at both, and their times (s).
+    fn cells(&self) -> impl Iterator<Item = ([Tower; 2], [f64; 2])> {
+        let times = self.times.windows(2).map(|pair| [pair[0], pair[1]]);
+        self.towers.windows(2).map(|pair| [pair[0], pair[1]]).zip(times)
+    }
+
+    /// Whether it is where it was all the time, but for rounding.
+    fn rests(&self) -> bool {
+        let (begun, little) = (self.towers[0][0], RESTS * self.weight);
+        let is_there = |value: f64| (value - begun).abs() <= little;
+        self.cells().all(|(ends, times)| Limits::of(ends, times).values.into_iter().all(is_there))
+    }
+}
+
+/// What there may be between two steps of a length that comes too near to zero, where it has a kink. Its square has none: where that is near zero
+/// its second derivative tells how fast what it is the length of goes.
+fn kink([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Option<Cell> {
+    let h = to - from;
+    let fastest = (b[0] * b[1] - a[0] * a[1]) / h;
+    let way = 2.0 * h * fastest.max(a[1] * a[1]).max(b[1] * b[1]).sqrt();
+    let least = f64::min(a[0].abs(), b[0].abs());
+    let is_far = way == 0.0 || STEPS_TO_KINK * way <= 2.0 * least;
+    let most = a[0].max(b[0]) + way;
+    (!is_far).then(|| Cell::Unknown(if most.is_finite() { most } else { f64::INFINITY }))
+}
+
+/// What a formula may be between two steps.
+struct Limits {
+    bends: [f64; 2],
+    slopes: [f64; 2],
+    values: [f64; 2],
+}
+
+impl Limits {
+    fn of([[v, s, c], [w, r, d]]: [Tower; 2], [from, to]: [f64; 2]) -> Limits {
+        let h = to - from;
+        let bend = SAFETY * ((r - s) / h - 0.5 * (c + d)).abs();
+        let bends = [c.min(d) - bend, c.max(d) + bend];
+        let slopes = between(s, r, bends, h);
+        Limits { bends, slopes, values: between(v, w, slopes, h) }
+    }
+}
+
+/// What there may be between two steps, above both of them.
+fn look_into([a, b]: [Tower; 2], [from, to]: [f64; 2]) -> Cell {
+    let h = to - from;
+    let ([v, s, c], [w, r, d]) = (a, b);
+    let Limits { bends, slopes, values: [_, most] } = Limits::of([a, b], [from, to]);
+    let is_monotone = slopes[0] > 0.0 || slopes[1] < 0.0;
+    if is_monotone || bends[0] > 0.0 {
+        return Cell::Nothing;
+    }
+    if bends[1] >= 0.0 || !most.is_finite() {
+        return Cell::Unknown(most);
+    }
+    if !(s > 0.0 && r <= 0.0) {
+        return Cell::Nothing;
+    }
+    // how far both slopes lead elsewhere than the values: the quintic between is much nearer than that
+    let off = (w - v - 0.5 * h * (s + r) - h * h / 12.0 * (c - d)).abs();
+    let curve = quintic(a, b, h);
+    let mut x = s / (s - r);
+    for _ in 0..ITERATIONS {
+        let [_, slope, bend] = value_and_slopes(&curve, x);
+        x = (x - slope / bend).clamp(0.0, 1.0);
+    }
+    let [_, _, bend] = value_and_slopes(&curve, x);
+    Cell::Turn { t: from + x * h, value: along(&curve, x), off, bend: bend / (h * h) }
+}
+
+/// Finds the second derivatives of a formula at steps from its values and slopes there: at each from the cubics of both cells beside it, of which
+/// each is off by what the fourth derivative makes of it.
+pub fn find_bends(times: &[f64], towers: &mut [Tower]) {
+    let last = times.len() - 1;
+    let h = |k: usize| times[k + 1] - times[k];
+    for k in 0..=last {
+        let third = |cell: usize, towers: &[Tower]| {
+            let ([v, s, _], [w, r, _]) = (towers[cell], towers[cell + 1]);
+            (12.0 * (v - w) / h(cell) + 6.0 * (s + r)) / (h(cell) * h(cell))
+        };
+        let behind = |towers: &[Tower]| {
+            let ([v, s, _], [w, r, _]) = (towers[k], towers[k + 1]);
+            6.0 * (w - v) / (h(k) * h(k)) - (4.0 * s + 2.0 * r) / h(k)
+        };
+        let before = |towers: &[Tower]| {
+            let ([v, s, _], [w, r, _]) = (towers[k - 1], towers[k]);
+            (2.0 * s + 4.0 * r) / h(k - 1) - 6.0 * (w - v) / (h(k - 1) * h(k - 1))
+        };
+        let fourth = |cell: usize, towers: &[Tower]| {
+            2.0 * (third(cell + 1, towers) - third(cell, towers)) / (h(cell) + h(cell + 1))
+        };
+        towers[k][2] = match k {
+            _ if last < 2 => f64::NAN,
+            0 => behind(towers) + h(0) * h(0) / 12.0 * fourth(0, towers),
+            _ if k == last => before(towers) + h(k - 1) * h(k - 1) / 12.0 * fourth(k - 2, towers),
+            _ => {
+                let off = (h(k - 1) * h(k - 1) + h(k) * h(k)) / 24.0 * fourth(k - 1, towers);
+                0.5 * (before(towers) + behind(towers)) + off
+            }
+        };
+    }
+}
+
+/// The integral over the course of a formula, by its values and derivatives at steps.
+#[must_use]
+pub fn integral_by_steps(times: &[f64], towers: &[Tower]) -> f64 {
+    let cell = |(times, towers): (&[f64], &[Tower])| integral_of_quintic(towers[0], towers[1], times[1] - times[0]);
+    times.windows(2).zip(towers.windows(2)).map(cell).sum()
+}

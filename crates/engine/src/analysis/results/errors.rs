@@ -1,0 +1,81 @@
+//! Results that have no value.
+
+use super::probe::Trouble;
+use crate::analysis::explain::errors::at;
+use mechc_ir::{Outcome, Reduction};
+use mechc_text::diag::{Code, Diagnostic};
+
+/// A formula in it has no value at some time, or it could not be found out; or else its own formula is not finite.
+pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diagnostic {
+    let name = &outcome.name;
+    let (message, label) = match trouble {
+        Some(Trouble::Missing(t)) => (
+            format!("result `{name}` has no value: what it speaks of has none at {}", at(t)),
+            "infinite or undefined there",
+        ),
+        Some(Trouble::Nowhere(_)) => {
+            (format!("result `{name}` has no value: what it speaks of has none at any time"), "infinite or undefined")
+        }
+        Some(Trouble::Unbounded(t)) => (
+            format!("result `{name}` has no value: what it speaks of grows without bound at {}", at(t)),
+            "infinite there",
+        ),
+        Some(Trouble::Window(t)) => (
+            format!(
+                "result `{name}` has no value: its window does not lie in the analysis, or ends before it begins, at {}",
+                at(t)
+            ),
+            "no time of the analysis",
+        ),
+        Some(Trouble::Unknown(t)) => (
+            format!("result `{name}` has no value: none of its digits is certain around {}", at(t)),
+            "not certain enough",
+        ),
+        Some(Trouble::Uncertain(t)) => (
+            format!("result `{name}` has no value: the position at {} is too near to a singular one", at(t)),
+            "more rounding than digits there",
+        ),
+        None if outcome.unknown_is_false => (
+            format!("`{name}` is not known"),
+            "of an extremum that two times share, of a kink or jump that moves, of what has no value at some times, or of too many derivatives",
+        ),
+        None => (format!("result `{name}` has no value"), "its formula is infinite or undefined"),
+    };
+    let diagnostic = Diagnostic::new(Code::N0604, message).at(outcome.span, label);
+    match trouble {
+        Some(trouble) => diagnostic.datum("t", trouble.t()),
+        None => diagnostic,
+    }
+}
+
+/// Times at which a formula has no value, the first of which is told (s), are left out of a result.
+pub fn result_with_gaps(outcome: &Outcome, t: f64) -> Diagnostic {
+    let message = format!("result `{}` leaves out the times at which what it speaks of has no value", outcome.name);
+    Diagnostic::new(Code::N0605, message).at(outcome.span, format!("such as {}", at(t))).datum("t", t)
+}
+
+/// Fewer digits of a result are certain than users count on.
+pub fn result_with_few_digits(outcome: &Outcome, digits: u32) -> Diagnostic {
+    let which = if digits == 1 { "one digit".to_owned() } else { format!("{digits} digits") };
+    Diagnostic::new(
+        Code::N0605,
+        format!("only {which} of result `{}` {} certain", outcome.name, if digits == 1 { "is" } else { "are" }),
+    )
+    .at(outcome.span, "no more are told")
+    .datum("digits", f64::from(digits))
+}
+
+/// The motion ends behind the last row, but before the analysis does.
+pub fn results_without_motion(first: &Outcome, count: usize, why: &Diagnostic) -> Diagnostic {
+    let which = if count == 1 { format!("result `{}` has", first.name) } else { format!("the {count} results have") };
+    Diagnostic::new(Code::N0604, format!("{which} no value: the motion does not come to the end of the analysis"))
+        .at(first.span, "over the whole analysis")
+        .note(why.message.clone())
+}
+
+/// `at` a time that does not belong to the analysis.
+pub fn at_outside(reduction: &Reduction, t: f64, [from, to]: [f64; 2]) -> Diagnostic {
+    Diagnostic::new(Code::E0422, format!("{} is outside the analysis", at(t)))
+        .at(reduction.span, format!("the analysis goes from {} to {}", at(from), at(to)))
+        .datum("t", t)
+}

@@ -1,0 +1,92 @@
+//! What loads may do between two states.
+//!
+//! Of forces only values are known, and those only at states that were solved for. What inertia makes of them goes as smoothly as the motion,
+//! but a load is any formula: between two states it may strike and be gone again. What it can be there is what its formula can be.
+
+use mechc_ir::program::{Program, Range, Ranges, Register, Registers};
+use mechc_ir::tolerances::results::loads::{LITTLE, ROUNDINGS, SEEN};
+
+/// What loads may do in a cell that its ends and its middle do not tell.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Hidden {
+    Nothing,
+    /// A load may go by so much beyond what is told of it.
+    Something(f64),
+    /// A load may be as large as it likes.
+    Anything,
+}
+
+/// All loads of a mechanism. Their ranges are those of the formulas 1, 2, … of a [`Ranges`].
+pub(super) struct Loads {
+    each: Vec<Load>,
+}
+
+struct Load {
+    value: Register,
+    /// The largest magnitude that was seen.
+    largest: f64,
+    /// How far rounding may be off, the most that was seen.
+    rounding: f64,
+}
+
+impl Loads {
+    /// Loads whose values a program leaves in some registers.
+    pub fn new(values: &[Register]) -> Loads {
+        let load = |&value: &Register| Load { value, largest: 0.0, rounding: 0.0 };
+        Loads { each: values.iter().map(load).collect() }
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.each.len()
+    }
+
+    /// Their values at a state that the program has just been run at.
+    pub fn values(&mut self, registers: &Registers) -> Vec<f64> {
+        let value = |load: &mut Load| {
+            let value = registers.get(load.value);
+            load.largest = load.largest.max(value.abs());
+            value
+        };
+        self.each.iter_mut().map(value).collect()
+    }
+
+    /// Takes note of what rounding makes of them at a state that ranges were set to.
+    pub fn look_at_rounding(&mut self, (program, registers): (&Program, &Registers), ranges: &mut Ranges) {
+        for (k, load) in self.each.iter_mut().enumerate() {
+            let range = ranges.range(program, registers, 1 + k);
+            let width = range.high - range.low;
+            load.rounding = load.rounding.max(if range.is_resolved && width.is_finite() { width } else { 0.0 });
+        }
+    }
+
+    /// What they may do beyond what is told of each: between which values it seems to stay.
+    pub fn hidden(
+        &mut self,
+        (program, registers): (&Program, &Registers),
+        ranges: &mut Ranges,
+        told: impl Fn(usize) -> [f64; 2],
+    ) -> Hidden {
+        let mut hidden = Hidden::Nothing;
+        for (k, load) in self.each.iter().enumerate() {
+            let range = ranges.range(program, registers, 1 + k);
+            let beyond = beyond(range, told(k));
+            if !beyond.is_finite() {
+                return Hidden::Anything;
+            }
+            let most = if range.is_resolved { SEEN } else { LITTLE };
+            if beyond > f64::max(most * load.largest, ROUNDINGS * load.rounding) {
+                let so_far = if let Hidden::Something(most) = hidden { most } else { 0.0 };
+                hidden = Hidden::Something(beyond.max(so_far));
+            }
+        }
+        hidden
+    }
+}
+
+/// How far a range goes beyond what is told; no number or infinite where it has no end.
+fn beyond(range: Range, [low, high]: [f64; 2]) -> f64 {
+    let [below, above] = [low - range.low, range.high - high];
+    // what is infinite or no number on one side is so in the sum
+    if (below + above).is_finite() { below.max(above).max(0.0) } else { f64::INFINITY }
+}

@@ -1,0 +1,468 @@
+//! Results: numbers for the whole analysis, which do not depend on the rows that are asked for.
+//!
+//! ```text
+//! Started ──▶ its own Motion ──▶ stretches ──▶ extremes, integrals, values ──▶ reductions ──▶ results
+//! ```
+//!
+//! The motion is followed once more, in the steps that it allows, and looked at between their ends as closely as each
+//! formula needs. No bit of a row depends on it.
+
+mod certain;
+pub mod course;
+mod curve;
+mod errors;
+mod extremum;
+mod guards;
+mod loads;
+mod places;
+mod probe;
+mod quadrature;
+mod quantities;
+mod quantity;
+mod reduced;
+mod sizes;
+mod smooth;
+mod spectral;
+mod turn;
+mod varying;
+
+use crate::analysis::assemble::Started;
+use crate::analysis::follow::{Follower, Stretch};
+use crate::analysis::state::{Kinematics, State, Times};
+use crate::solver::Solver;
+use certain::Near;
+use curve::{Curve, Found};
+use mechc_expr::{ExprId, Graph, Node, Symbol};
+use mechc_ir::structure::Determined;
+use mechc_ir::tolerances::results::places::SHORTEST;
+use mechc_ir::tolerances::results::stretches::{CHUNK, FEW, NUMBERS};
+use mechc_ir::{ConstraintSystem, Outcome, Reduction, ReductionKind};
+use mechc_text::cancel::Cancel;
+use mechc_text::diag::{Diagnostic, Diagnostics};
+use places::Places;
+use probe::Trouble;
+pub use quantities::SmoothFormulas;
+pub use quantity::{Computed, SmoothFormula, moved};
+use reduced::Reduced;
+use rustc_hash::FxHashMap;
+use sizes::Largest;
+pub use spectral::{Settled, SpectralIntegral};
+use std::sync::Arc;
+pub use turn::{MOST_LOOKS, Sampled, Settling, Turning};
+
+/// What is wrong with the results that an analysis from one time to another (s) is asked for.
+#[must_use]
+pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2]) -> Diagnostics {
+    let mut diagnostics = Diagnostics::default();
+    for reduction in &system.results().reductions {
+        // one at the time of another reduction is within
+        for at in times(reduction).filter(|at| needed(system.graph(), *at).is_empty()) {
+            let t = system.value_at(at, &[]);
+            if !(from <= t && t <= to) {
+                diagnostics.push(errors::at_outside(reduction, t, interval));
+            }
+        }
+    }
+    diagnostics
+}
+
+/// What results are computed from: an assembled mechanism and the times of its analysis.
+pub struct Asked {
+    kinematics: Kinematics,
+    state: State,
+    solver: Option<Arc<Solver>>,
+    interval: [f64; 2],
+    pass: bool,
+    cancel: Cancel,
+}
+
+/// Results in their order, in SI; those that have no value are none.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Answers {
+    /// By result.
+    pub values: Vec<Option<f64>>,
+    /// By result: how many significant digits are certain, 17 at most; 0 where it has no value, or cannot be told from zero.
+    pub digits: Vec<u32>,
+    /// Why some have none.
+    pub notes: Vec<Diagnostic>,
+    /// Whether the motion was followed to its end, nowhere near a singular position, and holds no forces: so it has a row at any time.
+    pub has_all_rows: bool,
+}
+
+impl Answers {
+    /// How many digits are certain of all that have a value; 0 where none has.
+    #[must_use]
+    pub fn certain_digits(&self) -> u32 {
+        let known = self.values.iter().zip(&self.digits).filter(|(value, _)| value.is_some());
+        known.map(|(_, digits)| *digits).min().unwrap_or(0)
+    }
+}
+
+impl Started {
+    /// What is needed to compute the results of an analysis from one time to another (s), the first of which it is assembled
+    /// at; `pass` goes on beyond bifurcations. The flag ends the work.
+    #[must_use]
+    pub fn asked(&self, interval: [f64; 2], pass: bool, cancel: &Cancel) -> Asked {
+        let (kinematics, state, solver) = self.parts();
+        Asked { kinematics, state, solver, interval, pass, cancel: cancel.clone() }
+    }
+}
+
+/// The motion in some chunks of its stretches, and what follows from it.
+struct Analysis {
+    asked: Asked,
+    determined: Arc<Determined>,
+    /// By reduction: its number, or why there is none.
+    found: Vec<Option<Result<Found, Trouble>>>,
+    /// By reduction: the first time (s) that it leaves out, where its formula has no value.
+    missing: Vec<Option<f64>>,
+    /// The steps of the motion, once they are known and are not too many to be kept.
+    steps: Option<Vec<Stretch>>,
+    /// What solves for states between these.
+    places: Option<Places>,
+    near: Near,
+    /// How large the coordinates are in the motion so far.
+    largest: Largest,
+}
+
+impl Asked {
+    /// The results, by following the motion once more; nothing where that is cancelled.
+    #[must_use]
+    pub fn answer(self) -> Option<Answers> {
+        let determined = self.kinematics.determined();
+        let count = determined.system().results().reductions.len();
+        let cancel = self.cancel.clone();
+        let mut analysis = Analysis {
+            asked: self,
+            determined,
+            found: vec![None; count],
+            missing: vec![None; count],
+            steps: None,
+            places: None,
+            near: Near::new(),
+            largest: Largest::default(),
+        };
+        while let Some(level) = analysis.next_level() {
+            let followed = analysis.follow(&level);
+            if cancel.is_cancelled() {
+                return None;
+            }
+            if let Err(why) = followed {
+                return Some(analysis.without_motion(&why));
+            }
+        }
+        Some(analysis.answers())
+    }
+
+    /// A motion of its own to some times.
+    fn motion(&self, times: Times) -> Follower {
+        let mut motion = Follower::new((self.kinematics.clone(), self.state.clone(), self.solver.clone()), times);
+        if self.pass {
+            motion.pass_bifurcations();
+        }
+        motion
+    }
+}
+
+impl Analysis {
+    fn system(&self) -> &ConstraintSystem {
+        self.determined.system()
+    }
+
+    /// The reductions that can be found now: those in their formulas are known. None where all are.
+    fn next_level(&mut self) -> Option<Vec<usize>> {
+        let determined = Arc::clone(&self.determined);
+        let system = determined.system();
+        let mut level = Vec::new();
+        let open: Vec<usize> = (0..self.found.len()).filter(|&k| self.found[k].is_none()).collect();
+        for k in open {
+            let reduction = &system.results().reductions[k];
+            let mut needed = needed(system.graph(), reduction.of);
+            needed.extend(times(reduction).flat_map(|time| self::needed(system.graph(), time)));
+            if let Some(trouble) = needed.iter().find_map(|&other| self.found[other].and_then(Result::err)) {
+                self.found[k] = Some(Err(trouble));
+            } else if needed.iter().all(|&other| self.found[other].is_some()) {
+                level.push(k);
+            }
+        }
+        (!level.is_empty()).then_some(level)
+    }
+
+    /// Looks at the motion for some reductions.
+    fn follow(&mut self, level: &[usize]) -> Result<(), Box<Diagnostic>> {
+        let determined = Arc::clone(&self.determined);
+        let system = determined.system();
+        let mut asked: Vec<(usize, Reduction, [f64; 2])> = Vec::with_capacity(level.len());
+        for &k in level {
+            let reduction = system.results().reductions[k];
+            match self.window(&reduction) {
+                Ok(window) => asked.push((k, reduction, window)),
+                Err(trouble) => self.found[k] = Some(Err(trouble)),
+            }
+        }
+        let of: Vec<(ExprId, [u64; 2])> =
+            asked.iter().map(|(_, reduction, window)| (reduction.of, window.map(f64::to_bits))).collect();
+        let known = |k: usize| self.found[k].and_then(Result::ok).map_or(0.0, |found| found.value);
+        let new_places = || Places::new(self.asked.kinematics.clone(), self.asked.solver.clone());
+        let mut places = self.places.take().unwrap_or_else(new_places);
+        let (all, curve_of) = curves(system, &of, known, places.variations());
+        let mut all: Vec<Reduced> =
+            all.into_iter().map(|(curve, window)| Reduced::new(curve, window.map(f64::from_bits))).collect();
+        let at = |reduction: &Reduction| match reduction.kind {
+            ReductionKind::At(at) => self.value(at, false),
+            _ => f64::NAN,
+        };
+        let at: Vec<f64> = asked.iter().map(|(_, reduction, _)| at(reduction)).collect();
+        for (((_, reduction, _), &of), &at) in asked.iter().zip(&curve_of).zip(&at) {
+            all[of].ask(reduction.kind, at);
+        }
+        self.look(&mut all, &mut places)?;
+        self.places = Some(places);
+        for (((k, reduction, _), &of), &at) in asked.iter().zip(&curve_of).zip(&at) {
+            self.found[*k] = Some(self.asked.certain(&all[of], (reduction.kind, at), &self.near));
+            self.missing[*k] = all[of].missing(reduction.kind);
+        }
+        Ok(())
+    }
+
+    /// The times (s) that a reduction is over.
+    fn window(&self, reduction: &Reduction) -> Result<[f64; 2], Trouble> {
+        let [from, to] = self.asked.interval;
+        let bound = |bound: Option<ExprId>, end: f64| bound.map_or(end, |bound| self.value(bound, false));
+        let window = [bound(reduction.window[0], from), bound(reduction.window[1], to)];
+        match window.into_iter().find(|t| !(from <= *t && *t <= to)) {
+            Some(t) => Err(Trouble::Window(t)),
+            None if window[1] < window[0] => Err(Trouble::Window(window[1])),
+            None => Ok(window),
+        }
+    }
+
+    /// Looks at formulas along the whole motion, which is followed once if its steps can be kept.
+    fn look(&mut self, all: &mut [Reduced], places: &mut Places) -> Result<(), Box<Diagnostic>> {
+        let [from, to] = self.asked.interval;
+        let span = to - from;
+        if let Some(steps) = &self.steps {
+            for reduced in all.iter_mut() {
+                reduced.look((steps, self.largest), places, span);
+            }
+            return Ok(());
+        }
+        let mut motion = self.asked.motion(Times::listed(from, vec![to]));
+        let (mut steps, mut is_whole) = (Vec::new(), true);
+        self.near = Near::new();
+        let determined = Arc::clone(&self.determined);
+        while !self.asked.cancel.is_cancelled() {
+            let next = motion.next_stretch()?;
+            let is_end = next.is_none();
+            if let Some(step) = next {
+                self.near.take_note(&step, &motion);
+                for state in [&step.from, &step.to] {
+                    self.largest
+                        .note(state, determined.system().coordinates().iter().map(|coordinate| coordinate.kind));
+                }
+                push_step(&mut steps, step);
+            }
+            if is_end && span <= 0.0 {
+                places.enter_where(&motion.switches());
+                for reduced in all.iter_mut() {
+                    reduced.look_at_start(motion.here(), places);
+                }
+                return Ok(());
+            }
+            // steps towards a singular position are replaced once the way over it is known
+            let is_full = steps.len() >= CHUNK.min(1 + NUMBERS / (1 + motion.here().q.len()));
+            if is_end || (is_full && motion.was_clear_here()) {
+                steps = cut_where_unlike(steps, places);
+                for reduced in all.iter_mut() {
+                    reduced.look((&steps, self.largest), places, span);
+                }
+                if is_end {
+                    self.steps = is_whole.then_some(steps);
+                    return Ok(());
+                }
+                (is_whole, steps) = (false, Vec::new());
+            }
+        }
+        Ok(())
+    }
+
+    /// No results: the motion ends before the analysis does.
+    fn without_motion(&self, why: &Diagnostic) -> Answers {
+        let outcomes = &self.system().results().outcomes;
+        let notes = outcomes.first().map(|first| errors::results_without_motion(first, outcomes.len(), why));
+        Answers {
+            values: vec![None; outcomes.len()],
+            digits: vec![0; outcomes.len()],
+            notes: notes.into_iter().collect(),
+            has_all_rows: false,
+        }
+    }
+
+    /// The value of a formula of parameters and of reductions that are known; no number where one has none.
+    fn value(&self, formula: ExprId, unknown_is_false: bool) -> f64 {
+        self.value_with(formula, unknown_is_false, (usize::MAX, 0.0))
+    }
+
+    /// As [`Analysis::value`], with one reduction off by so many times what it may be.
+    fn value_with(&self, formula: ExprId, unknown_is_false: bool, (off, times): (usize, f64)) -> f64 {
+        let system = self.system();
+        let found = |k: usize| {
+            let found = self.found[k].and_then(Result::ok).unwrap_or(Found::NOTHING);
+            found.value + if k == off { times * found.off } else { 0.0 }
+        };
+        value_of(system.graph(), (formula, unknown_is_false), |k| system.params()[k as usize].value, found)
+    }
+
+    /// The value of an outcome, and how far off it may be, by how far off each reduction in it may be; not a number where one that cannot be told
+    /// from zero is divided by.
+    fn found(&self, outcome: &Outcome, needed: &[usize]) -> Found {
+        let (formula, is_false) = (outcome.value, outcome.unknown_is_false);
+        let value = self.value(formula, is_false);
+        let mut off = 0.0;
+        for &k in needed {
+            let [more, less] = [1.0, -1.0].map(|times| self.value_with(formula, is_false, (k, times)) - value);
+            off += f64::max(more.abs(), less.abs());
+            let is_of_time = matches!(self.system().results().reductions[k].kind, ReductionKind::At(_));
+            let is_bent = (more + less).abs() > 0.5 * (more - less).abs();
+            // whichever way it is off: what goes to one side alone is another branch
+            if is_of_time && f64::min(more.abs(), less.abs()) >= 0.5 * value.abs() && is_bent {
+                return Found::NOTHING;
+            }
+        }
+        Found { value, off }
+    }
+
+    fn answers(&self) -> Answers {
+        let system = self.system();
+        let was_followed = self.places.is_some();
+        let has_all_rows = was_followed && self.near.is_clear() && system.forces().is_none();
+        let mut answers = Answers { has_all_rows, ..Answers::default() };
+        for outcome in &system.results().outcomes {
+            let needed = needed(system.graph(), outcome.value);
+            let found = self.found(outcome, &needed);
+            let value = found.value;
+            if !value.is_finite() {
+                let trouble = needed.into_iter().find_map(|k| self.found[k].and_then(Result::err));
+                answers.values.push(None);
+                answers.digits.push(0);
+                answers.notes.push(errors::result_without_value(outcome, trouble));
+                continue;
+            }
+            let digits = found.certain_digits();
+            // −0 would surprise a reader
+            answers.values.push(Some(value + 0.0));
+            answers.digits.push(digits);
+            if let Some(t) = needed.iter().find_map(|&k| self.missing[k]) {
+                answers.notes.push(errors::result_with_gaps(outcome, t));
+            }
+            if 0 < digits && digits < FEW {
+                answers.notes.push(errors::result_with_few_digits(outcome, digits));
+            }
+        }
+        answers
+    }
+}
+
+/// Adds a step to others. One over a singular position stands for those too that have come near to that: it begins where the motion was clear.
+fn push_step(steps: &mut Vec<Stretch>, mut step: Stretch) {
+    if let Some(bridge) = &step.bridge {
+        let clear = &bridge.from;
+        while let Some(last) = steps.pop_if(|last| last.from.t >= clear.t) {
+            step.begins_at_edge = last.begins_at_edge && last.from.t <= clear.t;
+        }
+        if let Some(last) = steps.last_mut()
+            && last.to.t > clear.t
+        {
+            last.to.copy_from(clear);
+            last.middle = None;
+        }
+        step.from.copy_from(clear);
+    }
+    steps.push(step);
+}
+
+/// Cuts steps in which the motion is not what the states at both ends tell: a driver may come and go within one.
+fn cut_where_unlike(steps: Vec<Stretch>, places: &mut Places) -> Vec<Stretch> {
+    if !places.has_signals() {
+        return steps;
+    }
+    let mut found = Vec::with_capacity(steps.len());
+    for step in steps {
+        let shortest = SHORTEST * (step.to.t - step.from.t);
+        let mut open = vec![step];
+        while let Some(step) = open.pop() {
+            match places.unlike(&step).filter(|_| step.to.t - step.from.t > shortest) {
+                Some(within) => open.extend(step.cut_at(within).into_iter().rev()),
+                None => found.push(step),
+            }
+        }
+    }
+    found
+}
+
+/// The formulas of some reductions with what they are over, each once, and which is whose; with the reductions that they hold, as far as these are known, and over so
+/// many variations.
+fn curves<W: Copy + PartialEq>(
+    system: &ConstraintSystem,
+    asked: &[(ExprId, W)],
+    found: impl Fn(usize) -> f64,
+    variations: usize,
+) -> (Vec<(Curve, W)>, Vec<usize>) {
+    let (mut graph, mut known) = (Graph::new(), FxHashMap::default());
+    graph.import_tables(system.graph(), &mut known, Graph::symbol);
+    let mut curve_of: Vec<usize> = Vec::new();
+    let mut ids: Vec<(ExprId, W)> = Vec::new();
+    for (of, window) in asked {
+        graph.import(system.graph(), &[*of], &mut known, |graph, symbol| match symbol {
+            Symbol::Named(k) => graph.constant(found(k as usize)),
+            other => graph.symbol(other),
+        });
+        let id = (known[of], *window);
+        let at = ids.iter().position(|&other| other == id).unwrap_or_else(|| {
+            ids.push(id);
+            ids.len() - 1
+        });
+        curve_of.push(at);
+    }
+    let given: Vec<ExprId> = system.loads().iter().map(|load| load.force).collect();
+    graph.import(system.graph(), &given, &mut known, Graph::symbol);
+    let loads: Vec<ExprId> = given.iter().map(|load| known[load]).collect();
+    let curve = |(id, window)| (Curve::new(&mut graph, id, &loads, system, variations), window);
+    (ids.into_iter().map(curve).collect(), curve_of)
+}
+
+/// The value of a formula of parameters and of reductions that are found; no number where one has none.
+fn value_of(
+    graph: &Graph,
+    (formula, unknown_is_false): (ExprId, bool),
+    params: impl Fn(u32) -> f64,
+    found: impl Fn(usize) -> f64,
+) -> f64 {
+    let value = |symbol| match symbol {
+        Symbol::Param(k) => params(k),
+        Symbol::Shift(_) => 0.0,
+        Symbol::Named(k) => found(k as usize),
+        _ => f64::NAN,
+    };
+    match graph.node(formula) {
+        // most results are a reduction and nothing else
+        Node::Symbol(symbol) => value(symbol),
+        _ if unknown_is_false => graph.value(formula, value),
+        _ => graph.known_value(formula, value),
+    }
+}
+
+/// The formulas of the times (s) that a reduction speaks of: that of a value, those of a window.
+fn times(reduction: &Reduction) -> impl Iterator<Item = ExprId> {
+    let at = if let ReductionKind::At(at) = reduction.kind { Some(at) } else { None };
+    at.into_iter().chain(reduction.window.into_iter().flatten())
+}
+
+/// The reductions that a formula holds.
+fn needed(graph: &Graph, formula: ExprId) -> Vec<usize> {
+    let of = |symbol: Symbol| match symbol {
+        Symbol::Named(k) => Some(k as usize),
+        _ => None,
+    };
+    graph.symbols(formula).into_iter().filter_map(of).collect()
+}

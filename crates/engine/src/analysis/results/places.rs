@@ -1,0 +1,303 @@
+//! States within a stretch of the motion, solved for where they are asked for.
+
+use super::varying::Varying;
+use crate::analysis::follow::{Alone, Chosen, Stretch, quintic_between, state_of_row};
+use crate::analysis::state::{Kinematics, State};
+use crate::solver::{Batch, Solver};
+use mechc_expr::math::along;
+use mechc_ir::program::{Ranges, Register, Stage};
+use mechc_ir::tolerances::results::places::{ITERATIONS, LITTLE, SOLVABLE, WITHIN};
+use mechc_ir::tolerances::results::stretches::NUMBERS;
+use rustc_hash::FxHashMap;
+use std::sync::Arc;
+
+/// What solves for states between the ends of stretches.
+pub(super) struct Places {
+    kinematics: Kinematics,
+    /// The equations that are solved, if they are others than those at the start.
+    chosen: Option<Arc<Chosen>>,
+    /// Those at the start, with what solves them.
+    first: (Kinematics, Option<Arc<Solver>>),
+    solver: Option<(Arc<Solver>, Alone)>,
+    curve: Vec<[f64; 6]>,
+    delta: Vec<f64>,
+    /// By row of Φ, one over what may be left of it; of the stretch, once that has been asked for.
+    bounds: Vec<f64>,
+    has_bounds: bool,
+    /// From when to when (s) the way over a singular position goes, if the stretch is one.
+    bridge: [f64; 2],
+    /// What time alone asks of the equations.
+    signals: Ranges,
+    signal_count: usize,
+    /// Whether the equations are such that states can be settled.
+    is_plain: bool,
+    /// What finds derivatives by inputs and parameters, where results hold any.
+    varying: Option<Varying>,
+    /// When the stretch begins (s), and what has been solved for, by that and by time: several formulas ask for the same.
+    begins: f64,
+    solved: FxHashMap<[u64; 2], Solved>,
+    /// Which of these has the multipliers that were found last; none where the kinematics have them.
+    with_multipliers: Option<[u64; 2]>,
+}
+
+/// A state that was solved for, with its multipliers once somebody has asked for them.
+struct Solved {
+    state: State,
+    multipliers: Vec<f64>,
+}
+
+impl Places {
+    pub fn new(kinematics: Kinematics, solver: Option<Arc<Solver>>) -> Places {
+        let n = kinematics.system().coordinates().len();
+        let registers: Vec<Register> = kinematics.signals().iter().map(|signal| signal.register).collect();
+        let (program, values) = kinematics.program();
+        let signals = Ranges::new(program, values, &registers, Stage::Time, true);
+        let first = (kinematics.clone(), solver.clone());
+        let solver = solver.map(|solver| {
+            let alone = Alone::new(&kinematics, &solver);
+            (solver, alone)
+        });
+        Places {
+            curve: vec![[0.0; 6]; n],
+            delta: vec![0.0; n],
+            bounds: vec![0.0; kinematics.system().rows().len()],
+            has_bounds: false,
+            bridge: [f64::NAN; 2],
+            signals,
+            signal_count: registers.len(),
+            solver,
+            is_plain: kinematics.is_plain(),
+            varying: Varying::of(&kinematics),
+            chosen: None,
+            first,
+            begins: f64::NAN,
+            solved: FxHashMap::default(),
+            with_multipliers: None,
+            kinematics,
+        }
+    }
+
+    /// How many variations formulas may hold.
+    pub fn variations(&self) -> usize {
+        self.varying.as_ref().map_or(0, Varying::count)
+    }
+
+    /// Goes over to a stretch.
+    pub fn enter(&mut self, stretch: &Stretch) {
+        self.change_equations(stretch);
+        self.kinematics.freeze(true, true);
+        self.kinematics.set_switches(&stretch.switches);
+        self.has_bounds = false;
+        self.begins = stretch.from.t;
+        self.bridge = stretch.bridge.as_ref().map_or([f64::NAN; 2], |bridge| [bridge.from.t, bridge.to.t]);
+        self.enter_where(&stretch.switches);
+    }
+
+    /// Goes over to the equations that are solved in a stretch.
+    fn change_equations(&mut self, stretch: &Stretch) {
+        let is_same = match (&self.chosen, &stretch.chosen) {
+            (Some(own), Some(other)) => Arc::ptr_eq(own, other),
+            (None, None) => true,
+            _ => false,
+        };
+        if is_same {
+            return;
+        }
+        let (first, solver) = self.first.clone();
+        let other = match &stretch.chosen {
+            Some(chosen) => {
+                let mut kinematics = chosen.kinematics(&first);
+                kinematics.restore(&stretch.from);
+                kinematics.choose_orders();
+                Places::new(kinematics, chosen.solver.clone())
+            }
+            None => Places::new(first.clone(), solver.clone()),
+        };
+        *self = Places { chosen: stretch.chosen.clone(), first: (first, solver), ..other };
+    }
+
+    /// Goes over to where the switches of the equations have some results, for variations alone.
+    pub fn enter_where(&mut self, switches: &[f64]) {
+        if let Some(varying) = &mut self.varying {
+            varying.enter(switches);
+        }
+    }
+
+    /// Whether a time (s) lies on the way over a singular position, in the stretch that was entered last.
+    pub fn is_on_bridge(&self, t: f64) -> bool {
+        let [from, to] = self.bridge;
+        from <= t && t <= to
+    }
+
+    /// Finds the variations at a state of the stretch.
+    pub fn vary(&mut self, state: &State) {
+        if let Some(varying) = &mut self.varying {
+            varying.go_to(state);
+        }
+    }
+
+    /// Finds the multipliers at a state of the stretch.
+    pub fn find_multipliers(&mut self, state: &State) {
+        let key = self.key(state.t);
+        let known = self.solved.get_mut(&key).filter(|solved| solved.state == *state);
+        self.with_multipliers = known.is_some().then_some(key);
+        if known.as_ref().is_none_or(|solved| solved.multipliers.is_empty()) {
+            self.kinematics.vary_at(state);
+        }
+        if let Some(solved) = known.filter(|solved| solved.multipliers.is_empty()) {
+            let rows = 0..self.kinematics.system().rows().len();
+            solved.multipliers = rows.map(|row| self.kinematics.multiplier(row)).collect();
+        }
+    }
+
+    /// The multiplier of a row of the equations at the start, which has been found; none at a position where it cannot be trusted.
+    pub fn multiplier(&self, row: usize) -> f64 {
+        let known = self.with_multipliers.and_then(|key| self.solved.get(&key));
+        let of = |row: usize| known.map_or_else(|| self.kinematics.multiplier(row), |known| known.multipliers[row]);
+        self.row(row).map_or(0.0, of)
+    }
+
+    fn key(&self, t: f64) -> [u64; 2] {
+        [self.begins, t].map(f64::to_bits)
+    }
+
+    /// A row of the equations at the start among those that are solved; none where it is left out.
+    fn row(&self, row: usize) -> Option<usize> {
+        let first = self.first.0.determined();
+        self.chosen.as_ref().map_or(Some(row), |chosen| chosen.row_in_place_of(row, &first))
+    }
+
+    /// How the multiplier of a row changes in a variation, which has been found.
+    pub fn varied_multiplier(&self, number: u32, row: usize) -> f64 {
+        let of = |varying: &Varying| self.row(row).map_or(0.0, |row| varying.varied_multiplier(number, row));
+        self.varying.as_ref().map_or(f64::NAN, of)
+    }
+
+    /// How a coordinate, its velocity and its acceleration change in a variation, which has been found.
+    pub fn variation(&self, number: u32, coordinate: usize) -> [f64; 3] {
+        self.varying.as_ref().map_or([f64::NAN; 3], |varying| varying.variation(number, coordinate))
+    }
+
+    /// Whether what time alone asks of the equations changes so little between two times (s) that the states there tell all.
+    pub fn signals_are_resolved(&mut self, times: [f64; 2]) -> bool {
+        self.signals.set_times(times);
+        let (program, registers) = self.kinematics.program();
+        (0..self.signal_count).all(|k| self.signals.range(program, registers, k).is_resolved)
+    }
+
+    /// Whether time alone decides about the motion, and not as a straight line.
+    pub fn has_signals(&self) -> bool {
+        self.signal_count > 0
+    }
+
+    /// A state within a stretch that is not what both its ends tell; none if it is.
+    pub fn unlike(&mut self, stretch: &Stretch) -> Option<State> {
+        let Stretch { from, to, bridge: None, .. } = stretch else { return None };
+        let h = to.t - from.t;
+        self.enter(stretch);
+        let within = self.solve(stretch, [from, to], from.t + WITHIN * h)?;
+        let x = (within.t - from.t) / h;
+        let is_unlike = |k: usize| {
+            let (a, b) = (from.tower(k), to.tower(k));
+            let off = |order: usize| ((b[order - 1] - a[order - 1]) / h - 0.5 * (a[order] + b[order])).abs();
+            // what rests at zero is as good as what is usual
+            let size = self.kinematics.system().coordinates()[k].scale.max(a[0].abs()).max(b[0].abs());
+            let told = h * h * off(2) + LITTLE * size;
+            (within.q[k] - along(&quintic_between(from, to, k, h), x)).abs() > told
+        };
+        (0..within.q.len()).any(is_unlike).then_some(within)
+    }
+
+    /// The state at a time (s) between two states of a stretch; none where it cannot be solved for.
+    pub fn solve(&mut self, stretch: &Stretch, [a, b]: [&State; 2], t: f64) -> Option<State> {
+        if let Some(bridge) = stretch.bridge.as_ref().filter(|bridge| t > bridge.from.t) {
+            let on_bridge = bridge.best_state_at(t);
+            return self.solve_from(on_bridge.clone(), Some(SOLVABLE)).or(Some(on_bridge));
+        }
+        if let Some(state) = self.solve_exactly(stretch, [a, b], t) {
+            return Some(state);
+        }
+        let h = b.t - a.t;
+        let mut state = a.clone();
+        state.t = t;
+        for (q, curve) in state.q.iter_mut().zip(&self.curve) {
+            *q = along(curve, (t - a.t) / h);
+        }
+        self.solve_from(state, None)
+    }
+
+    /// As [`Places::solve`], with the bits that rows have there; none where that cannot be had.
+    pub fn solve_exactly(&mut self, stretch: &Stretch, [a, b]: [&State; 2], t: f64) -> Option<State> {
+        let key = self.key(t);
+        if let Some(known) = self.solved.get(&key) {
+            return Some(known.state.clone());
+        }
+        let h = b.t - a.t;
+        for (k, curve) in self.curve.iter_mut().enumerate() {
+            *curve = quintic_between(a, b, k, h);
+        }
+        let state = self.solve_by_lanes(stretch, a, (t, h))?;
+        if self.solved.len() * (1 + state.q.len()) > NUMBERS {
+            self.solved.clear();
+        }
+        self.solved.insert(key, Solved { state: state.clone(), multipliers: Vec::new() });
+        Some(state)
+    }
+
+    /// Whether the equations are such that states can be settled.
+    pub fn is_plain(&self) -> bool {
+        self.is_plain
+    }
+
+    /// The state at a time (s) that is a little beside that of a state of the stretch, as rows have it: its bits depend on the time alone, and
+    /// not on the way that led there. None where the equations are not smooth everywhere, or where it cannot be had.
+    pub fn settled(&mut self, stretch: &Stretch, near: &State, t: f64) -> Option<State> {
+        if !self.is_plain || stretch.bridge.is_some() {
+            return None;
+        }
+        // the curve is a parabola, so that its length says nothing
+        let h = 1.0;
+        for (k, curve) in self.curve.iter_mut().enumerate() {
+            *curve = [near.q[k], near.qd[k] * h, 0.5 * near.qdd[k] * h * h, 0.0, 0.0, 0.0];
+        }
+        self.solve_by_lanes(stretch, near, (t, h))
+    }
+
+    /// The state at a time (s) of the stretch, from the curve that leads on from one in a time `h` (s); none where it does not hold.
+    fn solve_by_lanes(&mut self, stretch: &Stretch, from: &State, (t, h): (f64, f64)) -> Option<State> {
+        if !self.has_bounds {
+            self.kinematics.restore(&stretch.from);
+            self.kinematics.write_bounds(&mut self.bounds);
+            self.has_bounds = true;
+        }
+        let (solver, alone) = self.solver.as_mut()?;
+        let batch = Batch { times: [t], from: from.t, length: h, curve: &self.curve, bends: &[], bounds: &self.bounds };
+        let holds = alone.solve(&self.kinematics, solver, &batch);
+        let layout = solver.layout();
+        let is_finite = layout.position(alone.row()).iter().all(|x| x.is_finite());
+        (holds && is_finite).then(|| state_of_row(layout, alone.row(), from, t))
+    }
+
+    /// Newton from a position; none where it does not arrive, or is nearer to a singular position than a limit.
+    fn solve_from(&mut self, mut state: State, limit: Option<f64>) -> Option<State> {
+        self.kinematics.set_time(state.t);
+        self.kinematics.set_position(&state.q).ok()?;
+        for _ in 0..ITERATIONS {
+            self.kinematics.factor().ok()?;
+            if limit.is_some_and(|limit| self.kinematics.nearness(limit) < limit) {
+                return None;
+            }
+            self.kinematics.correction(&mut self.delta);
+            for (q, delta) in state.q.iter_mut().zip(&self.delta) {
+                *q += delta;
+            }
+            self.kinematics.set_position(&state.q).ok()?;
+            if self.kinematics.violated().is_none() {
+                self.kinematics.factor().ok()?;
+                self.kinematics.derivatives(&mut state).ok()?;
+                return Some(state);
+            }
+        }
+        None
+    }
+}

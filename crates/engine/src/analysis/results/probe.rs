@@ -1,0 +1,419 @@
+//! Looking at a formula between the ends of the motion's steps.
+
+use super::curve::{Cell, Curve, Found, Point, Shift, Verdict};
+use super::places::Places;
+use crate::analysis::follow::Stretch;
+use crate::analysis::state::State;
+use mechc_expr::math::{close_in, power_of_two_below};
+use mechc_ir::program::Range;
+use mechc_ir::tolerances::results::extremum::TIMES;
+use mechc_ir::tolerances::results::probe::{
+    ALIKE, DIFFERENT, FACTOR, FARTHEST, MOST_CELLS, MOST_OF_A_STEP, NOTHING, OPAQUE, RELIABLE, ROUNDING, SHORT,
+    SHORTEST, SOLVED,
+};
+use std::rc::Rc;
+
+/// How large a formula is, as far as that decides what is a difference.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Scale {
+    /// The range of its values, or how far they usually are from the one that is looked for.
+    pub range: f64,
+    /// The magnitude of the numbers that its values are sums of: the unit of rounding.
+    pub weight: f64,
+    /// The time of the analysis (s).
+    pub span: f64,
+}
+
+impl Scale {
+    /// Values that differ by no more than this are the same: what rounding makes of a value that rests is no change.
+    pub fn alike(self) -> f64 {
+        self.gap(ALIKE)
+    }
+
+    /// A part of the range, but no less than what rounding makes of a value.
+    pub fn gap(self, part: f64) -> f64 {
+        f64::max(part * self.range, ROUNDING * self.weight).max(NOTHING)
+    }
+}
+
+/// Why there is no number.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Trouble {
+    /// The formula has no value at a time (s) that is asked for.
+    Missing(f64),
+    /// It has none at any time from this one (s) on.
+    Nowhere(f64),
+    /// The formula grows without bound towards a time (s).
+    Unbounded(f64),
+    /// It could not be found out around a time (s).
+    Unknown(f64),
+    /// It is of a time (s) at which a row would be more rounding than digits.
+    Uncertain(f64),
+    /// A bound of its window is not a time (s) of the analysis, or comes before the other one.
+    Window(f64),
+}
+
+impl Trouble {
+    pub fn t(self) -> f64 {
+        match self {
+            Trouble::Missing(t)
+            | Trouble::Nowhere(t)
+            | Trouble::Unbounded(t)
+            | Trouble::Unknown(t)
+            | Trouble::Uncertain(t)
+            | Trouble::Window(t) => t,
+        }
+    }
+}
+
+/// What came up while a formula was looked at.
+#[derive(Clone, Copy, Default, Debug)]
+pub(super) struct Notes {
+    pub trouble: Option<Trouble>,
+    /// The first time (s) at which the formula has no value.
+    pub missing: Option<f64>,
+    /// How much has been looked at, and how much may be.
+    cells: usize,
+    most: usize,
+}
+
+impl Notes {
+    /// Takes note of why there is no number; what comes first in time counts.
+    pub fn meet(&mut self, trouble: Trouble) {
+        if self.trouble.is_none_or(|known| trouble.t() < known.t()) {
+            self.trouble = Some(trouble);
+        }
+    }
+
+    /// Whether as much has been looked at as may be.
+    pub fn are_exhausted(&self) -> bool {
+        self.cells > self.most
+    }
+
+    /// Takes note of a time (s) at which the formula has no value.
+    pub fn miss(&mut self, t: f64) {
+        if self.missing.is_none_or(|known| t < known) {
+            self.missing = Some(t);
+        }
+    }
+}
+
+/// A formula in some steps of the motion.
+pub(super) struct Probe<'r> {
+    pub curve: &'r mut Curve,
+    places: &'r mut Places,
+    pub steps: &'r [Stretch],
+    /// From one time to another (s): the formula is looked at nowhere else.
+    pub window: [f64; 2],
+    entered: Option<usize>,
+    pub notes: &'r mut Notes,
+    /// No cell is cut that is no longer than this (s).
+    pub shortest: f64,
+    /// How far values usually differ.
+    pub range: f64,
+    /// In a cell that is no longer than this (s) values may be nothing but rounding.
+    pub short: f64,
+    /// Whether it matters when guards cross their thresholds.
+    pub is_timed: bool,
+    /// The guard that was found to cross its threshold last, when (s), and how far off (s) that may be.
+    doubted: Option<(usize, f64, f64)>,
+}
+
+impl<'r> Probe<'r> {
+    pub fn new(
+        (curve, notes): (&'r mut Curve, &'r mut Notes),
+        places: &'r mut Places,
+        steps: &'r [Stretch],
+        (window, span): ([f64; 2], f64),
+    ) -> Probe<'r> {
+        curve.set_short(SHORT * span);
+        notes.most = notes.most.max(MOST_CELLS) + MOST_OF_A_STEP * steps.len();
+        Probe {
+            curve,
+            places,
+            steps,
+            window,
+            entered: None,
+            notes,
+            shortest: SHORTEST * span,
+            range: 0.0,
+            short: SHORT * span,
+            is_timed: false,
+            doubted: None,
+        }
+    }
+
+    fn enter(&mut self, step: usize) {
+        if self.entered != Some(step) {
+            self.places.enter(&self.steps[step]);
+            self.entered = Some(step);
+        }
+    }
+
+    /// Takes note of a time (s) of a step at which the formula has no value. Beside a singular position forces and derivatives by parameters are not
+    /// left out: they may be of any size there.
+    pub fn miss(&mut self, step: usize, t: f64) {
+        if let Some(bridge) = &self.steps[step].bridge
+            && self.curve.may_be_singular()
+        {
+            self.notes.meet(Trouble::Uncertain(bridge.at));
+        }
+        self.notes.miss(t);
+    }
+
+    /// The formula at a state of a step.
+    pub fn at(&mut self, step: usize, state: State) -> Rc<Point> {
+        self.enter(step);
+        self.curve.at(state, self.places)
+    }
+
+    /// The formula at a time (s) within a cell; none where the motion cannot be solved for.
+    pub fn point(&mut self, cell: &Cell, t: f64) -> Option<Rc<Point>> {
+        self.between(cell.step, [&cell.a.state, &cell.b.state], t)
+    }
+
+    /// The formula at a time (s) within a cell, with the bits that rows have there; none where that cannot be had.
+    pub fn exact_point(&mut self, cell: &Cell, t: f64) -> Option<Rc<Point>> {
+        self.enter(cell.step);
+        let state = self.places.solve_exactly(&self.steps[cell.step], [&cell.a.state, &cell.b.state], t)?;
+        Some(self.curve.at(state, self.places))
+    }
+
+    /// The formula at a time (s) of a step.
+    pub fn point_of_step(&mut self, step: usize, t: f64) -> Option<Rc<Point>> {
+        let ends @ [from, to] = [&self.steps[step].from, &self.steps[step].to];
+        match [from, to].into_iter().find(|end| end.t.total_cmp(&t).is_eq()) {
+            Some(end) => Some(self.at(step, end.clone())),
+            None => self.between(step, ends, t),
+        }
+    }
+
+    /// The formula at a time (s) in a step or in those before and behind it; none beyond an edge or the window, or where the motion cannot be solved for.
+    pub fn point_beside(&mut self, mut step: usize, t: f64) -> Option<Rc<Point>> {
+        let steps = self.steps;
+        while step > 0 && t < steps[step].from.t && !steps[step].begins_at_edge {
+            step -= 1;
+        }
+        while step + 1 < steps.len() && t > steps[step].to.t && !steps[step].ends_at_edge {
+            step += 1;
+        }
+        let ([from, to], Stretch { from: a, to: b, .. }) = (self.window, &steps[step]);
+        let is_within = from.max(a.t) <= t && t <= to.min(b.t);
+        if is_within { self.point_of_step(step, t) } else { None }
+    }
+
+    /// The formula at three times beside a point, before (−1) or behind it (1), each [`FACTOR`] times as far away as the one before; the first of these
+    /// is no nearer than a width (s), and so far away that the value is more than rounding. None where there are no such times near by.
+    pub fn beside(&mut self, step: usize, point: &Point, (way, width): (f64, f64), scale: Scale) -> Option<[Found; 3]> {
+        let mut far = FACTOR * self.shortest.max(width).max(point.shift.time);
+        loop {
+            let mut found = [Found::NOTHING; 3];
+            let mut distance = far;
+            for found in &mut found {
+                let there = self.point_beside(step, point.state.t + way * distance)?;
+                *found = self.curve.found(&there);
+                distance *= FACTOR;
+            }
+            if found[0].off <= scale.gap(RELIABLE).max(RELIABLE * found[0].value.abs()) {
+                return Some(found);
+            }
+            far *= FACTOR;
+            if far > FARTHEST * scale.span {
+                return None;
+            }
+        }
+    }
+
+    fn between(&mut self, step: usize, [a, b]: [&State; 2], t: f64) -> Option<Rc<Point>> {
+        self.enter(step);
+        let state = if self.curve.moves() {
+            self.notes.cells += SOLVED;
+            let solved = self.places.solve(&self.steps[step], [a, b], t);
+            if solved.is_none() && b.t - a.t > self.shortest * OPAQUE / SHORTEST {
+                self.notes.meet(Trouble::Unknown(t));
+            }
+            solved?
+        } else {
+            self.notes.cells += 1;
+            State { t, ..a.clone() }
+        };
+        Some(self.curve.at(state, self.places))
+    }
+
+    /// The state beside one of a step, as rows have it; none where that cannot be had.
+    pub fn settled(&mut self, step: usize, near: &State, t: f64) -> Option<State> {
+        self.enter(step);
+        self.places.settled(&self.steps[step], near, t)
+    }
+
+    /// What is known of the formula in a cell; nothing where the states at its ends do not tell the motion between.
+    pub fn enclose(&mut self, cell: &mut Cell) -> (Verdict, Range) {
+        self.enter(cell.step);
+        self.notes.cells += 1;
+        // a pole at a singular position shows at neither end of a cell around it
+        let is_within = |t: f64| cell.a.state.t <= t && t <= cell.b.state.t;
+        let bridge = self.steps[cell.step].bridge.as_ref().filter(|_| self.curve.may_be_singular());
+        let may_be_singular = bridge.is_some_and(|bridge| is_within(bridge.at) || bridge.again.is_some_and(is_within));
+        let is_known = !self.curve.moves()
+            || !may_be_singular
+                && self.places.signals_are_resolved([cell.a.state.t, cell.b.state.t])
+                && !self.curve.turns_far(cell);
+        if is_known {
+            let mut ignored = Vec::new();
+            loop {
+                let (verdict, range) = self.curve.enclose(cell, &ignored);
+                if matches!(verdict, Verdict::Open(_)) && self.is_hole(cell) {
+                    return (Verdict::Missing, range);
+                }
+                let has_no_bound = range.high - range.low == f64::INFINITY;
+                let guard = match verdict {
+                    Verdict::Crosses(guard) => guard,
+                    // a quotient that goes on over a zero of both
+                    Verdict::Open(Some(guard)) if has_no_bound => guard,
+                    _ => return (verdict, range),
+                };
+                let Some(values) = self.values_of_rounding(cell, guard) else { return (verdict, range) };
+                let differ = |value: &f64| (value - values[0]).abs() > DIFFERENT * self.range;
+                let are_alike = !values.iter().any(differ);
+                match verdict {
+                    Verdict::Crosses(_) if are_alike => ignored.push(guard),
+                    Verdict::Crosses(_) => return (Verdict::Rounding, range),
+                    _ if are_alike => {
+                        let [low, high] = [f64::min, f64::max].map(|of| values.into_iter().fold(f64::NAN, of));
+                        return (Verdict::Alike, Range { low, high, ..range });
+                    }
+                    _ => return (verdict, range),
+                }
+            }
+        }
+        let [low, high] = [f64::NEG_INFINITY, f64::INFINITY];
+        (Verdict::Open(None), Range { low, high, may_switch: true, is_resolved: false, crosses_knots: true })
+    }
+
+    /// The formula at both ends and in the middle of a short cell all over which rounding alone decides on which side of its threshold a guard is;
+    /// none where it is not like that.
+    fn values_of_rounding(&mut self, cell: &Cell, guard: usize) -> Option<[f64; 3]> {
+        if cell.length() > self.short || self.is_shortest(cell) {
+            return None;
+        }
+        let is_rounding = |curve: &mut Curve, point: &Point| curve.is_rounding(guard, point);
+        if !is_rounding(self.curve, &cell.a) || !is_rounding(self.curve, &cell.b) {
+            return None;
+        }
+        let middle = self.point(cell, cell.middle())?;
+        is_rounding(self.curve, &middle).then(|| [&cell.a, &middle, &cell.b].map(|point| point.sample.value))
+    }
+
+    /// Whether a formula has no value in a short cell, as far as its ends and its middle show, where rounding alone decides about a guard: a quotient
+    /// of two that both rest, which no range tells of.
+    fn is_hole(&mut self, cell: &Cell) -> bool {
+        let is_short = cell.length() <= self.short && !self.is_shortest(cell);
+        let mut is_missing = |point: &Point| !point.exists() && self.curve.is_undecided(point);
+        let are_missing = is_short && is_missing(&cell.a) && is_missing(&cell.b);
+        are_missing && self.point(cell, cell.middle()).is_none_or(|middle| !middle.exists())
+    }
+
+    /// Whether a cell is too short to be cut.
+    pub fn is_shortest(&self, cell: &Cell) -> bool {
+        cell.length() <= self.shortest || cell.is_empty()
+    }
+
+    /// The parts of a cell on both sides of its middle; none where the motion cannot be solved for there.
+    pub fn halve(&mut self, cell: &Cell) -> Option<[Cell; 2]> {
+        let middle = match &cell.middle {
+            Some(middle) => Rc::clone(middle),
+            None => self.point(cell, cell.middle())?,
+        };
+        Some(cell.cut(self.curve, &middle))
+    }
+
+    /// The parts of a cell before and behind the time at which a guard crosses its threshold, and the shortest cell between. A part is missing
+    /// where the crossing is at that end of the cell. None where the motion cannot be solved for.
+    pub fn cut_at_crossing(&mut self, cell: &Cell, guard: usize) -> Option<[Option<Cell>; 3]> {
+        let side = cell.a.side(guard);
+        let (mut before, mut behind) = (Rc::clone(&cell.a), Rc::clone(&cell.b));
+        let offs = self.curve.distances(guard, [&before, &behind]);
+        let ends = [[before.state.t, offs[0].abs()], [behind.state.t, offs[1].abs()]];
+        // on a grid, so that formulas that share a guard share what is solved for
+        close_in(ends, power_of_two_below(self.shortest), |t| {
+            let point = self.between(cell.step, [&before.state, &behind.state], t)?;
+            let is_behind = point.side(guard).total_cmp(&side).is_ne();
+            *if is_behind { &mut behind } else { &mut before } = point;
+            let offs = self.curve.distances(guard, [&before, &behind]);
+            Some((is_behind, offs[usize::from(is_behind)].abs()))
+        })?;
+        if self.is_timed {
+            let doubt = match self.doubted {
+                // beside another crossing of the same guard, in what is rounding there
+                Some((other, t, doubt)) if other == guard && (before.state.t - t).abs() <= doubt => doubt,
+                _ => {
+                    let of = |(end, way): (&Rc<Point>, f64)| self.doubt(cell.step, guard, end, way);
+                    let doubts = [(&before, -1.0), (&behind, 1.0)].map(of);
+                    f64::min(doubts[0], doubts[1])
+                }
+            };
+            self.doubted = Some((guard, before.state.t, doubt));
+            for end in [&mut before, &mut behind] {
+                Rc::make_mut(end).doubt = doubt;
+            }
+        }
+        let jump = (before.sample.value - behind.sample.value).abs();
+        if self.curve.holds_forces() && jump > DIFFERENT * self.range {
+            // a load may jump a little beside where its argument says
+            let beside = TIMES / SHORTEST * self.shortest;
+            self.shift(cell.step, &mut before, -beside);
+            self.shift(cell.step, &mut behind, beside);
+        }
+        self.see_hole(cell.step, [&mut before, &mut behind]);
+        let part = |a: &Rc<Point>, b: &Rc<Point>| (b.state.t > a.state.t).then(|| cell.between(a, b));
+        Some([part(&cell.a, &before), part(&before, &behind), part(&behind, &cell.b)])
+    }
+
+    /// How far (s) from a point beside a crossing the guard may cross its threshold as well, before (−1) or behind it (1): rounding of its argument
+    /// beside how fast that changes.
+    fn doubt(&mut self, step: usize, guard: usize, end: &Point, way: f64) -> f64 {
+        let off = self.curve.rounding_of_argument(guard, end);
+        let mut width = FACTOR * FACTOR * self.shortest;
+        while width <= self.short {
+            let Some(there) = self.point_beside(step, end.state.t + way * width) else { break };
+            let change = (there.argument(guard) - end.argument(guard)).abs();
+            if change >= FACTOR * off {
+                return width * off / change;
+            }
+            width *= FACTOR;
+        }
+        f64::INFINITY
+    }
+
+    /// Where the formula has a value on one side alone of a crossing, and has one again farther on: rounding may have hidden it there, and what it goes
+    /// to is known no better than it changes over as long as that.
+    fn see_hole(&mut self, step: usize, [before, behind]: [&mut Rc<Point>; 2]) {
+        let (known, missing) = match [before.exists(), behind.exists()] {
+            [true, false] => (before, &*behind),
+            [false, true] => (behind, &*before),
+            _ => return,
+        };
+        let way = (missing.state.t - known.state.t).signum();
+        let mut width = self.shortest;
+        while width <= self.shortest * OPAQUE / SHORTEST {
+            let t = missing.state.t + way * width;
+            let is_end = t <= self.window[0] || t >= self.window[1];
+            let there = self.point_beside(step, t);
+            if there.is_none() && !is_end {
+                return;
+            }
+            if is_end || there.is_some_and(|there| there.exists()) {
+                self.shift(step, known, -way * width);
+                return;
+            }
+            width *= 4.0;
+        }
+    }
+
+    /// Takes note that a point may be meant for a time that is so much (s) beside its own.
+    pub fn shift(&mut self, step: usize, point: &mut Rc<Point>, beside: f64) {
+        let there = self.point_beside(step, point.state.t + beside);
+        let value = there.map_or(f64::INFINITY, |there| (there.sample.value - point.sample.value).abs());
+        Rc::make_mut(point).shift = Shift { time: beside.abs(), value };
+    }
+}

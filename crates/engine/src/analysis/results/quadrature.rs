@@ -1,0 +1,372 @@
+//! Integrals over time, by formulas that take value and derivatives of both ends of a cell (Euler and Maclaurin); of what has no
+//! derivatives by values within (Lobatto and Kronrod).
+
+use super::curve::{Cell, Found, Point, Verdict};
+use super::probe::{Probe, Scale, Trouble};
+use mechc_expr::math::{integral_of_quintic, log10, pow};
+use mechc_ir::tolerances::results::quadrature::{
+    ACCURACY, ALIKE, BESIDE_POLE, DIVERGES, FARTHER, LEAST_GROWTH, LOOKS, NOTHING, PART_OF_POLE, ROUNDING, SAFETY,
+    STEEPEST, SURER,
+};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// Lobatto's rule of four points, exact for polynomials of degree 5, and Kronrod's extension of it to seven, of degree 9: places within a cell
+/// from −1 to 1, with the weights of both. Source: W. Gander, W. Gautschi, *Adaptive Quadrature – Revisited*, BIT 40, 2000.
+const WITHIN: [[f64; 3]; 4] = [
+    [-0.816_496_580_927_726, 0.0, 72.0 / 245.0],
+    [-0.447_213_595_499_957_9, 5.0 / 6.0, 125.0 / 294.0],
+    [0.447_213_595_499_957_9, 5.0 / 6.0, 125.0 / 294.0],
+    [0.816_496_580_927_726, 0.0, 72.0 / 245.0],
+];
+const ENDS: [f64; 2] = [1.0 / 6.0, 11.0 / 210.0];
+const MIDDLE: f64 = 16.0 / 35.0;
+
+/// An integral over time.
+#[derive(Clone, Copy, Default, Debug)]
+pub(super) struct Integral {
+    sum: f64,
+    /// How far off it may be.
+    off: f64,
+    /// For how long (s) the formula has a value.
+    time: f64,
+    /// For how long (s) it has none that rounding may have hidden.
+    hidden: f64,
+    /// The time of the analysis (s).
+    span: f64,
+    /// A value that is usual, and the integral of how far the formula is from that.
+    usual: f64,
+    size: f64,
+    /// What the cell too short to be cut that holds the most may hold, of those into which the formula grows so fast that the integral has no end, and
+    /// its time (s).
+    steepest: [f64; 2],
+}
+
+/// What a rule finds of a cell, and the values in it allow: where the formula bends at an end of the cell its derivatives there may be those of the
+/// other side.
+fn within(found: f64, [least, most]: [f64; 2]) -> f64 {
+    if found.is_finite() && least <= most { found.max(least).min(most) } else { found }
+}
+
+impl Integral {
+    /// The integral, and how far off it may be.
+    pub fn found(&self) -> Found {
+        let hidden = if self.hidden > 0.0 { self.hidden / self.time } else { 0.0 };
+        Found { value: self.sum, off: self.off + (ROUNDING + hidden) * (self.size + (self.usual * self.time).abs()) }
+    }
+
+    /// For how long (s) the formula has a value.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// How far the formula is on average from a value that is usual.
+    pub fn deviation(&self) -> f64 {
+        self.size / self.time
+    }
+
+    /// A time (s) towards which the formula grows so fast that the integral does not exist.
+    pub fn unbounded(&self) -> Option<f64> {
+        self.unbounded_beside(0.0)
+    }
+
+    /// A time (s) towards which the formula grows fast enough for that, if there is one.
+    pub fn grows_at(&self) -> Option<f64> {
+        Some(self.steepest[1]).filter(|_| self.steepest[0] > 0.0)
+    }
+
+    /// As [`Integral::unbounded`], where so much more is known of its size.
+    fn unbounded_beside(&self, size: f64) -> Option<f64> {
+        let [most, t] = self.steepest;
+        (most > DIVERGES * (self.size + size)).then_some(t)
+    }
+
+    /// One that is known, over some time (s).
+    pub fn known(found: Found, time: f64) -> Integral {
+        Integral { sum: found.value, off: found.off, time, ..Integral::default() }
+    }
+
+    fn add(&mut self, sum: f64, off: f64, time: f64) {
+        self.sum += sum;
+        self.size += (sum - self.usual * time).abs();
+        self.off += off;
+        self.time += time;
+    }
+}
+
+/// A cell with what is known of the integral over it.
+struct Part {
+    halves: [Cell; 2],
+    /// The cell's first time (s), and its length (s).
+    from: f64,
+    length: f64,
+    found: f64,
+    off: f64,
+}
+
+impl PartialEq for Part {
+    fn eq(&self, other: &Part) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Part {}
+
+impl PartialOrd for Part {
+    fn partial_cmp(&self, other: &Part) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Part {
+    /// By how far off they may be; what is earlier comes first.
+    fn cmp(&self, other: &Part) -> Ordering {
+        self.off.total_cmp(&other.off).then(other.from.total_cmp(&self.from))
+    }
+}
+
+impl Probe<'_> {
+    /// Adds the integral of the formula over some cells. What may be farthest off is made better first, until all together is good enough beside the
+    /// integral of how far the formula is from a value that is usual.
+    pub(super) fn integrate(&mut self, cells: &[Cell], usual: f64, scale: Scale, integral: &mut Integral) {
+        (integral.usual, integral.span, self.range, self.is_timed) = (usual, scale.span, scale.range, true);
+        let mut parts = BinaryHeap::new();
+        for cell in cells {
+            self.take(cell.clone(), &mut parts, integral);
+        }
+        for pair in cells.windows(2) {
+            // a load may jump a little beside
+            let [before, behind] = [&pair[0].b, &pair[1].a];
+            let jump = (before.sample.value - behind.sample.value).abs();
+            if behind.shift.time > 0.0 && jump.is_finite() {
+                integral.off += jump * behind.shift.time;
+            }
+        }
+        let is_open = |parts: &BinaryHeap<Part>, integral: &Integral| {
+            let (mut off, mut size) = (0.0, 0.0);
+            for part in parts {
+                off += part.off;
+                size += if part.off.is_finite() { (part.found - usual * part.length).abs() } else { 0.0 };
+            }
+            let is_far_off = off > f64::max(ACCURACY * size, ROUNDING * scale.weight * scale.span).max(NOTHING);
+            is_far_off && integral.unbounded_beside(size).is_none()
+        };
+        // all together is looked at no more often than some have been cut
+        let mut left = 0;
+        loop {
+            if left == 0 {
+                if self.notes.trouble.is_some() || self.notes.are_exhausted() || !is_open(&parts, integral) {
+                    break;
+                }
+                left = parts.len().div_ceil(LOOKS);
+            }
+            left -= 1;
+            let Some(part) = parts.pop() else { break };
+            for cell in part.halves {
+                self.take(cell, &mut parts, integral);
+            }
+        }
+        let mut parts = parts.into_vec();
+        parts.sort_unstable_by(|a, b| a.from.total_cmp(&b.from));
+        for part in parts {
+            if self.notes.are_exhausted() && part.off == f64::INFINITY {
+                self.notes.meet(Trouble::Unknown(part.from));
+            }
+            integral.add(part.found, part.off, part.length);
+        }
+    }
+
+    /// Takes in a cell: what is known of the integral over it, or over its parts where a guard crosses its threshold in it.
+    fn take(&mut self, cell: Cell, parts: &mut BinaryHeap<Part>, integral: &mut Integral) {
+        let mut open = vec![cell];
+        while let Some(mut cell) = open.pop() {
+            let h = cell.length();
+            if self.is_shortest(&cell) {
+                self.integrate_shortest(&cell, integral);
+                continue;
+            }
+            if h <= BESIDE_POLE * integral.span
+                && let Some([sum, off]) = self.integrate_beside_pole(&cell)
+            {
+                integral.add(sum, off, h);
+                continue;
+            }
+            let (verdict, range) = self.enclose(&mut cell);
+            match verdict {
+                Verdict::Crosses(guard) => {
+                    let Some(cells) = self.cut_at_crossing(&cell, guard) else { return };
+                    open.extend(cells.into_iter().flatten().rev());
+                    continue;
+                }
+                Verdict::Rounding | Verdict::Alike => {
+                    let [a, b] = [&cell.a, &cell.b].map(|point| point.sample.value);
+                    integral.add(0.5 * h * (a + b), h * (a - b).abs(), h);
+                    continue;
+                }
+                Verdict::Missing => {
+                    self.miss(cell.step, cell.a.state.t);
+                    continue;
+                }
+                Verdict::Smooth | Verdict::Open(_) => {}
+            }
+            let is_smooth = verdict == Verdict::Smooth && range.is_resolved;
+            let is_smooth = is_smooth && (self.curve.derivatives() == 0 || !self.curve.derivative(1).may_switch);
+            let Some(halves) = self.halve(&cell) else { return };
+            let points = [&cell.a, &halves[0].b, &cell.b];
+            let is_unbounded = h <= self.short && range.high - range.low == f64::INFINITY;
+            let exists = points.iter().any(|point| point.exists());
+            if is_unbounded && exists && points.into_iter().all(|point| self.is_noise(point)) {
+                // nearer to a pole than rounding allows to look
+                self.integrate_shortest(&cell, integral);
+                continue;
+            }
+            let values = points.map(|point| point.sample.value);
+            let (mut found, mut off) = (0.0, f64::INFINITY);
+            if values.iter().all(|value| value.is_finite()) {
+                let (sum, error) = self.rule(&cell, &halves);
+                found = within(sum, [range.low * h, range.high * h]);
+                let largest = values.iter().fold(0.0, |largest, value| f64::max(largest, value.abs()));
+                let rounding = ROUNDING * largest * h;
+                let by_rule = if is_smooth { error - rounding } else { f64::INFINITY };
+                off = by_rule.min((range.high - range.low) * h).max(0.0);
+            }
+            parts.push(Part { halves, from: cell.a.state.t, length: h, found, off });
+        }
+    }
+
+    /// Whether rounding may make more of the value at a point than values differ elsewhere, if there is one.
+    fn is_noise(&mut self, point: &Point) -> bool {
+        if !point.exists() {
+            return true;
+        }
+        let found = self.curve.found(point);
+        found.certain_digits() == 0 && found.off > NOTHING
+    }
+
+    /// As [`Probe::integrate`], over a cell too short to be cut. What there is of an integral in one with a pole is counted on both sides of it.
+    fn integrate_shortest(&mut self, cell: &Cell, integral: &mut Integral) {
+        let h = cell.length();
+        let values = [&cell.a, &cell.b].map(|point| point.sample.value);
+        let known: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
+        if known.len() < 2 {
+            self.miss(cell.step, cell.a.state.t);
+        }
+        let hidden = cell.a.shift.time.max(cell.b.shift.time);
+        // both ends of a hole tell of it
+        if known.len() < 2 {
+            integral.hidden += 0.5 * (cell.a.shift.time + cell.b.shift.time);
+        }
+        let largest = known.iter().fold(0.0, |largest, value| f64::max(largest, (value - integral.usual).abs()));
+        if let [a, b] = known[..] {
+            // of a jump that may as well be beside
+            let beside = hidden.max(cell.a.doubt).max(cell.b.doubt);
+            integral.off += (a - b).abs() * beside.min(self.short);
+        }
+        let growth = self.growth_into(cell, integral.usual);
+        if growth > LEAST_GROWTH && !known.is_empty() {
+            let held = largest * h.max(hidden);
+            if growth >= pow(2.0, STEEPEST) && held > integral.steepest[0] {
+                integral.steepest = [held, cell.a.state.t];
+            }
+            // all around a pole that is touched values may be rounding
+            let part = if self.is_shortest(cell) { PART_OF_POLE } else { 1.0 };
+            // what rounding hides grows on as the power tells
+            let grown = if hidden > h { held / (1.0 - log10(growth) / log10(2.0)).max(1.0 - STEEPEST) } else { 0.0 };
+            integral.add(0.0, f64::max(part * h * largest, grown), h);
+        } else if !known.is_empty() {
+            integral.add(h * known.iter().sum::<f64>() / known.len() as f64, 2.0 * h * largest, h);
+        }
+    }
+
+    /// The factor by which the formula grows, from a value that is usual, whenever the way to a shortest cell becomes half as long; 1 where it does
+    /// not go on to grow into the cell: a pole does so, and a jump does not.
+    fn growth_into(&mut self, cell: &Cell, usual: f64) -> f64 {
+        let off = |point: &Point| (point.sample.value - usual).abs();
+        let sides = [(&cell.a, -1.0), (&cell.b, 1.0)].map(|(end, way)| {
+            let way = way * cell.length().max(end.shift.time);
+            let mut off_at = |far: f64| {
+                let there = self.point_beside(cell.step, end.state.t + far * way);
+                there.map_or(f64::NAN, |there| off(&there))
+            };
+            let near = off_at(FARTHER[0]);
+            if end.exists() && off(end) <= LEAST_GROWTH * near {
+                return 1.0;
+            }
+            let far = off_at(FARTHER[1]);
+            // the one is four times as far away as the other
+            if near > far { (near / far).sqrt() } else { 1.0 }
+        });
+        f64::max(sides[0], sides[1])
+    }
+
+    /// The integral over a short cell with a pole of the formula at one end, and how far off it may be: the formula goes with a power of the
+    /// distance from the pole, by its values at three distances. None where it is not like that.
+    fn integrate_beside_pole(&mut self, cell: &Cell) -> Option<[f64; 2]> {
+        let size = |point: &Point| if point.exists() { point.sample.value.abs() } else { f64::INFINITY };
+        let (pole, far) = if size(&cell.a) > size(&cell.b) { (&cell.a, &cell.b) } else { (&cell.b, &cell.a) };
+        if size(pole) < LEAST_GROWTH * size(far) {
+            return None;
+        }
+        let (t, way) = (pole.state.t, far.state.t - pole.state.t);
+        let mut at = |part: f64| Some(self.point(cell, t + part * way)?.sample.value);
+        let [quarter, half, whole] = [at(0.25)?, at(0.5)?, far.sample.value];
+        let [closer, farther] = [quarter / half, half / whole];
+        let differs = (closer - farther).abs();
+        // what they differ grows with the distance
+        let power = log10(closer + (closer - farther)) / log10(2.0);
+        if !(LEAST_GROWTH..pow(2.0, STEEPEST)).contains(&farther) || differs > ALIKE || power.is_nan() {
+            return None;
+        }
+        let sum = way.abs() * whole / (1.0 - power);
+        Some([sum, sum.abs() * (differs + f64::EPSILON * t.abs() / way.abs()) / (1.0 - power)])
+    }
+
+    /// The integral over a cell, by its halves, and how far off it may be.
+    fn rule(&mut self, cell: &Cell, halves: &[Cell; 2]) -> (f64, f64) {
+        if self.curve.derivatives() == 0 {
+            return self.rule_of_values(cell, &halves[0].b);
+        }
+        let whole = self.rule_of_ends(&cell.a, &cell.b);
+        let parts = self.rule_of_ends(&halves[0].a, &halves[0].b) + self.rule_of_ends(&halves[1].a, &halves[1].b);
+        // made better by what the whole says
+        let gained = if self.curve.derivatives() == 1 { 15.0 } else { 63.0 };
+        let better = (parts - whole) / gained;
+        if better.is_finite() {
+            return (parts + better, SAFETY * better.abs());
+        }
+        let middle = halves[0].b.sample.value;
+        (0.25 * cell.length() * (cell.a.sample.value + 2.0 * middle + cell.b.sample.value), f64::INFINITY)
+    }
+
+    /// The integral of the polynomial that has the values and derivatives of two points.
+    pub(super) fn rule_of_ends(&self, a: &Point, b: &Point) -> f64 {
+        let (h, [a, b]) = (b.state.t - a.state.t, [a.sample, b.sample]);
+        match self.curve.derivatives() {
+            1 => 0.5 * h * (a.value + b.value) + h * h / 12.0 * (a.first - b.first),
+            _ => integral_of_quintic([a.value, a.first, a.second], [b.value, b.first, b.second], h),
+        }
+    }
+
+    /// As [`Probe::rule`], by values alone; infinitely far off where one cannot be had.
+    fn rule_of_values(&mut self, cell: &Cell, middle: &Point) -> (f64, f64) {
+        let half = 0.5 * cell.length();
+        let ends = cell.a.sample.value + cell.b.sample.value;
+        let (mut rough, mut fine) = (ENDS[0] * ends, ENDS[1] * ends + MIDDLE * middle.sample.value);
+        for [place, of_rough, of_fine] in WITHIN {
+            let t = middle.state.t + place * half;
+            let value = self.point(cell, t).map_or(f64::NAN, |point| point.sample.value);
+            rough += of_rough * value;
+            fine += of_fine * value;
+        }
+        if fine.is_finite() {
+            let size = (ends - 2.0 * fine).abs()
+                + (2.0 * middle.sample.value - ends).abs()
+                + (middle.sample.value - 0.5 * fine).abs();
+            let off = (fine - rough).abs();
+            // the finer rule is of an order that is higher by half
+            let part = (SURER * off / size).sqrt();
+            return (half * fine, half * off * if part < 1.0 { part } else { 1.0 });
+        }
+        (0.5 * half * (ends + 2.0 * middle.sample.value), f64::INFINITY)
+    }
+}

@@ -1,0 +1,391 @@
+//! A formula along the whole motion, and the numbers that are asked of it.
+
+use super::curve::{Cell, Curve, Found, Point};
+use super::extremum::Extremum;
+use super::places::Places;
+use super::probe::{Notes, Probe, Scale, Trouble};
+use super::quadrature::Integral;
+use super::sizes::Largest;
+use crate::analysis::follow::Stretch;
+use crate::analysis::state::{State, shortly_after};
+use mechc_expr::math::median;
+use mechc_ir::ReductionKind;
+use mechc_ir::tolerances::results::curve::ROUNDING;
+use mechc_ir::tolerances::results::extremum::TIMES;
+use mechc_ir::tolerances::results::probe::{FACTOR, SHORTEST};
+use mechc_ir::tolerances::results::stretches::{LARGEST, SMALL};
+use std::rc::Rc;
+
+/// A formula that is looked at over a part of the motion, and what is found of it.
+pub(super) struct Reduced {
+    curve: Curve,
+    /// From one time to another (s).
+    window: [f64; 2],
+    extrema: [Option<Extremum>; 2],
+    integral: Option<Integral>,
+    /// What came up while these were looked for, in this order.
+    notes: [Notes; 3],
+    /// Times (s) at which its value is asked for, and the values.
+    times: Vec<Asked>,
+    /// Its values at the ends of steps.
+    samples: Vec<Found>,
+    /// As the extremum's search has left it, by which one.
+    scales: [Option<Scale>; 2],
+}
+
+/// A time (s) at which the value of a formula is asked for.
+struct Asked {
+    t: f64,
+    /// The formula there, once the motion has come there.
+    point: Option<Rc<Point>>,
+    found: Found,
+}
+
+impl Reduced {
+    pub fn new(curve: Curve, window: [f64; 2]) -> Reduced {
+        Reduced {
+            curve,
+            window,
+            extrema: [None, None],
+            integral: None,
+            times: Vec::new(),
+            samples: Vec::new(),
+            scales: [None, None],
+            notes: [Notes::default(); 3],
+        }
+    }
+
+    /// Takes note of what is asked for; a value at a time is asked for with that (s).
+    pub fn ask(&mut self, kind: ReductionKind, at: f64) {
+        let ([from, to], is_moment) = (self.window, self.is_moment());
+        let mut time = |t: f64| {
+            if self.times.iter().all(|known| known.t.total_cmp(&t).is_ne()) {
+                self.times.push(Asked { t, point: None, found: Found::NOTHING });
+            }
+        };
+        match kind {
+            // of a single time all that is asked for is the value
+            ReductionKind::Extreme { .. } | ReductionKind::Mean if is_moment => time(from),
+            ReductionKind::Extreme { largest, when } => {
+                let extremum = self.extrema[usize::from(largest)].get_or_insert_with(|| Extremum::new(largest));
+                if when {
+                    extremum.ask_for_time();
+                }
+            }
+            ReductionKind::Integral if is_moment => {}
+            ReductionKind::Mean | ReductionKind::Integral => self.integral = Some(Integral::default()),
+            ReductionKind::First => time(from),
+            ReductionKind::Last => time(to),
+            ReductionKind::At(_) => time(at),
+        }
+    }
+
+    /// Whether it is of a single time.
+    fn is_moment(&self) -> bool {
+        self.window[1] <= self.window[0]
+    }
+
+    /// The window (s).
+    pub fn window(&self) -> [f64; 2] {
+        self.window
+    }
+
+    /// What a reduction is, or why it is nothing; a value at a time is asked for with that (s).
+    pub fn outcome(&self, kind: ReductionKind, at: f64) -> Result<Found, Trouble> {
+        let [from, to] = self.window;
+        if let Some(trouble) = self.notes_of(kind).and_then(|notes| notes.trouble) {
+            return Err(trouble);
+        }
+        let of_time = |wanted: f64| {
+            let found = self.times.iter().find(|asked| asked.t.total_cmp(&wanted).is_eq()).map(|asked| asked.found);
+            let found = found.filter(|found| found.value.is_finite() && found.off < f64::INFINITY);
+            let found = found.ok_or(Trouble::Missing(wanted))?;
+            let scale = self.scale(0.0);
+            // what is nothing was found to be that
+            let is_uncertain = found.value != 0.0 && self.is_uncertain(found, scale.range, scale);
+            if is_uncertain { Err(Trouble::Unknown(wanted)) } else { Ok(found) }
+        };
+        match kind {
+            ReductionKind::Extreme { when: true, .. } if self.is_moment() => {
+                of_time(from).map(|_| Found { value: from, off: 0.0 })
+            }
+            ReductionKind::Extreme { .. } | ReductionKind::Mean if self.is_moment() => of_time(from),
+            ReductionKind::Integral if self.is_moment() => Ok(Found { value: 0.0, off: 0.0 }),
+            ReductionKind::Extreme { largest, when } => {
+                let which = usize::from(largest);
+                let (Some(extremum), Some(scale)) = (&self.extrema[which], self.scales[which]) else {
+                    return Err(Trouble::Nowhere(from));
+                };
+                if let Some(t) = extremum.unbounded() {
+                    return Err(Trouble::Unbounded(t));
+                }
+                let value = extremum.value(scale);
+                if !value.value.is_finite() {
+                    return Err(Trouble::Nowhere(from));
+                }
+                if value.value.abs() > LARGEST || self.is_uncertain(value, scale.range, scale) {
+                    // it may go on to grow where rounding hides it
+                    let why = if extremum.is_bounded() { Trouble::Unknown } else { Trouble::Unbounded };
+                    return Err(why(extremum.time(scale).value));
+                }
+                let found = if when { extremum.time(scale) } else { value };
+                // rounding alone may decide when it is
+                let is_known = !when || found.off < f64::INFINITY;
+                if is_known { Ok(found) } else { Err(Trouble::Unknown(found.value)) }
+            }
+            ReductionKind::Mean | ReductionKind::Integral => {
+                let integral = self.integral.as_ref().filter(|integral| integral.time() > 0.0);
+                let Some(integral) = integral else { return Err(Trouble::Nowhere(from)) };
+                if let Some(t) = integral.unbounded() {
+                    return Err(Trouble::Unbounded(t));
+                }
+                let over = if kind == ReductionKind::Mean { integral.time() } else { 1.0 };
+                let found = integral.found();
+                let mean = Found { value: found.value / integral.time(), off: found.off / integral.time() };
+                if self.is_uncertain(mean, integral.deviation(), self.scale(0.0)) {
+                    return Err(integral.grows_at().map_or(Trouble::Unknown(from), Trouble::Unbounded));
+                }
+                let found = Found { value: found.value / over, off: found.off / over };
+                if found.value.is_finite() { Ok(found) } else { Err(Trouble::Unknown(from)) }
+            }
+            ReductionKind::First => of_time(from),
+            ReductionKind::Last => of_time(to),
+            ReductionKind::At(_) => of_time(at),
+        }
+    }
+
+    /// The first time (s) at which the formula has no value, which was left out.
+    pub fn missing(&self, kind: ReductionKind) -> Option<f64> {
+        self.notes_of(kind).and_then(|notes| notes.missing)
+    }
+
+    /// What came up while a reduction was looked for; none where that is a value at one time.
+    fn notes_of(&self, kind: ReductionKind) -> Option<&Notes> {
+        match kind {
+            ReductionKind::Extreme { largest, .. } => Some(&self.notes[usize::from(largest)]),
+            ReductionKind::Mean | ReductionKind::Integral => Some(&self.notes[2]),
+            ReductionKind::First | ReductionKind::Last | ReductionKind::At(_) => None,
+        }
+    }
+
+    /// Takes the state of an analysis of a single time.
+    pub fn look_at_start(&mut self, state: &State, places: &mut Places) {
+        let point = self.curve.at(state.clone(), places);
+        let found = self.curve.found(&point);
+        self.times.iter_mut().for_each(|asked| asked.found = found);
+    }
+
+    /// Whether it changes with the motion, and not with time alone.
+    pub fn moves(&self) -> bool {
+        self.curve.moves()
+    }
+
+    /// Whether nothing is asked but values at some times.
+    fn is_of_times_alone(&self) -> bool {
+        self.extrema.iter().all(Option::is_none) && self.integral.is_none()
+    }
+
+    /// Whether it holds derivatives of the coordinates.
+    pub fn holds_rates(&self) -> bool {
+        self.curve.holds_rates()
+    }
+
+    /// The first time (s) of the largest or least value.
+    pub fn time_of_extreme(&self, largest: bool) -> f64 {
+        let which = usize::from(largest);
+        match (&self.extrema[which], self.scales[which]) {
+            (Some(extremum), Some(scale)) => extremum.time(scale).value,
+            _ => self.window[0],
+        }
+    }
+
+    /// How large the formula is, by what was seen at the ends of steps.
+    fn scale(&self, span: f64) -> Scale {
+        let low = self.samples.iter().map(|found| found.value).fold(f64::INFINITY, f64::min);
+        let high = self.samples.iter().map(|found| found.value).fold(f64::NEG_INFINITY, f64::max);
+        // what a pole makes of a few values says nothing of the others' rounding, and neither do those that are nothing
+        let weights = self.samples.iter().map(|found| f64::max(found.off / ROUNDING, found.value.abs()));
+        let weight = median(weights.filter(|weight| *weight > 0.0 && weight.is_finite()).collect());
+        Scale { range: f64::max(high - low, 0.0), weight, span }
+    }
+
+    /// Whether nothing is certain of a value that is not small beside others, which usually differ so much from it, nor beside the numbers that these
+    /// are sums of.
+    fn is_uncertain(&self, found: Found, differ: f64, scale: Scale) -> bool {
+        let usual = median(self.samples.iter().map(|found| found.value.abs()).collect());
+        found.certain_digits() == 0 && found.off > SMALL * usual.max(scale.weight).max(differ)
+    }
+
+    /// Takes in the values at times that lie in a step.
+    fn take_times(&mut self, stretch: &Stretch, places: &mut Places) {
+        for k in 0..self.times.len() {
+            let t = self.times[k].t;
+            let behind = shortly_after(t);
+            if behind < stretch.from.t || t > stretch.to.t {
+                continue;
+            }
+            let state = if t <= stretch.from.t {
+                Some(self.end(&stretch.from, t, stretch, places))
+            } else if t >= stretch.to.t {
+                Some(self.end(&stretch.to, t, stretch, places))
+            } else {
+                places.solve(stretch, [&stretch.from, &stretch.to], t)
+            };
+            // of an edge the later side counts, which comes later
+            self.times[k].point = state.map(|state| self.edge(state, t, stretch, places));
+        }
+    }
+
+    /// An end of a step, or a time (s) that is as good as that, with the bits that rows have there where nothing is in doubt.
+    fn end(&self, state: &State, t: f64, stretch: &Stretch, places: &mut Places) -> State {
+        let settled = self.curve.settles().then(|| places.settled(stretch, state, t));
+        settled.flatten().unwrap_or_else(|| state.clone())
+    }
+
+    /// The formula at a state of a time (s) in a step. Where rounding alone decides on which side of a jump an end of the window is, it is that of
+    /// within.
+    fn edge(&mut self, state: State, t: f64, stretch: &Stretch, places: &mut Places) -> Rc<Point> {
+        let point = self.curve.at(state, places);
+        let [from, to] = self.window;
+        let inward = [(t <= from, 1.0), (t >= to, -1.0)].into_iter().find(|(is_end, _)| *is_end);
+        let Some((_, way)) = inward.filter(|_| self.curve.is_undecided(&point)) else { return point };
+        let [near, far] = [FACTOR, FACTOR * FACTOR].map(|beside| {
+            let t = point.state.t + way * beside * SHORTEST * (to - from);
+            let is_within = stretch.from.t <= t && t <= stretch.to.t;
+            let state = if is_within { places.solve(stretch, [&stretch.from, &stretch.to], t) } else { None };
+            state.map(|state| self.curve.at(state, places))
+        });
+        let (Some(near), Some(far)) = (near, far) else { return point };
+        let [step, change] = [(&point, &near), (&near, &far)].map(|(a, b)| (a.sample.value - b.sample.value).abs());
+        if !near.exists() {
+            return near;
+        }
+        // what has no jump goes on as it comes; of a pole nothing is known
+        let off = self.curve.uncertainty(&point) + self.curve.uncertainty(&near);
+        if step > 2.0 * change + off { near } else { point }
+    }
+
+    /// Looks at some steps of a mechanism whose coordinates are so large.
+    pub fn look(&mut self, (steps, largest): (&[Stretch], Largest), places: &mut Places, span: f64) {
+        self.curve.note_all(largest);
+        let mut cells: Vec<Cell> = (0..steps.len()).filter_map(|step| self.cell(step, steps, places)).collect();
+        // rounding goes by the largest that was seen
+        for Asked { point, found, .. } in &mut self.times {
+            if let Some(point) = point {
+                *found = self.curve.found(point);
+            }
+        }
+        if cells.is_empty() {
+            return;
+        }
+        self.take_samples(&cells, steps);
+        let scale = self.scale(span);
+        let window = self.window;
+        let Reduced { curve, notes, extrema, integral, samples, scales, .. } = self;
+        let [of_least, of_largest, of_integral] = notes;
+        if curve.needs_middles() {
+            let mut probe = Probe::new((&mut *curve, &mut *of_integral), &mut *places, steps, (window, span));
+            for cell in &mut cells {
+                if let Some(middle) = probe.point(cell, cell.middle()) {
+                    cell.take_middle(probe.curve, middle);
+                }
+                if probe.curve.holds_forces() {
+                    // a load may jump where the motion says, whose last digits are rounding
+                    let step = &steps[cell.step];
+                    if step.begins_at_edge && cell.a.state.t > window[0] {
+                        probe.shift(cell.step, &mut cell.a, TIMES * span);
+                    }
+                    if step.ends_at_edge && cell.b.state.t < window[1] {
+                        probe.shift(cell.step, &mut cell.b, -TIMES * span);
+                    }
+                }
+            }
+        }
+        for ((extremum, kept), notes) in extrema.iter_mut().zip(scales).zip([of_least, of_largest]) {
+            let Some(extremum) = extremum else { continue };
+            let mut probe = Probe::new((&mut *curve, notes), &mut *places, steps, (window, span));
+            for cell in &cells {
+                let [is_begin, is_end] = edges(&steps[cell.step], [cell.a.state.t, cell.b.state.t], window);
+                for (_, point) in [(is_begin, &cell.a), (is_end, &cell.b)].into_iter().filter(|(is_edge, _)| *is_edge) {
+                    let found = probe.curve.found(point);
+                    extremum.note_edge(Found { value: point.state.t, off: point.shift.time }, found, scale);
+                }
+            }
+            *kept = Some(probe.search(&cells, samples, extremum, scale));
+        }
+        if let Some(integral) = integral {
+            let is_smooth = curve.settles() && places.is_plain() && steps.iter().all(|step| step.bridge.is_none());
+            let is_whole = cells[0].a.state.t <= window[0] && cells[cells.len() - 1].b.state.t >= window[1];
+            let has_edges = cells[1..].iter().any(|cell| steps[cell.step].begins_at_edge);
+            let mut probe = Probe::new((curve, of_integral), places, steps, (window, span));
+            let known = if is_smooth && is_whole && !has_edges { probe.integrate_whole(&cells) } else { None };
+            if let Some(known) = known {
+                *integral = Integral::known(known, window[1] - window[0]);
+            } else {
+                let usual = median(samples.iter().map(|found| found.value).collect());
+                probe.integrate(&cells, usual, scale, integral);
+            }
+        }
+    }
+
+    /// A step, with the formula at both ends; none where only values at some times are asked for.
+    fn cell(&mut self, number: usize, steps: &[Stretch], places: &mut Places) -> Option<Cell> {
+        let step = &steps[number];
+        places.enter(step);
+        self.take_times(step, places);
+        if self.is_of_times_alone() {
+            // how large it becomes
+            let point = self.curve.at(step.to.clone(), places);
+            if point.exists() {
+                self.samples.push(Found { value: point.sample.value, off: 0.0 });
+            }
+            return None;
+        }
+        let [from, to] = [step.from.t.max(self.window[0]), step.to.t.min(self.window[1])];
+        if to <= from {
+            return None;
+        }
+        let [is_begin, is_end] = edges(step, [from, to], self.window);
+        let ends = [(&step.from, from, is_begin), (&step.to, to, is_end)];
+        let mut points = ends.into_iter().map(|(state, t, is_edge)| {
+            let state = if state.t.total_cmp(&t).is_ne() {
+                places.solve(step, [&step.from, &step.to], t)?
+            } else if is_edge {
+                self.end(state, state.t, step, places)
+            } else {
+                state.clone()
+            };
+            Some(if is_edge { self.edge(state, t, step, places) } else { self.curve.at(state, places) })
+        });
+        let (Some(Some(from)), Some(Some(to))) = (points.next(), points.next()) else {
+            self.notes.iter_mut().for_each(|notes| notes.meet(Trouble::Unknown(from)));
+            return None;
+        };
+        Some(Cell::new(number, &from, &to))
+    }
+
+    /// Takes note of the values at the ends of steps.
+    fn take_samples(&mut self, cells: &[Cell], steps: &[Stretch]) {
+        for cell in cells {
+            // but for edges, a step begins where the one before has ended
+            let [is_begin, _] = edges(&steps[cell.step], [cell.a.state.t, cell.b.state.t], self.window);
+            for point in is_begin.then_some(&cell.a).into_iter().chain([&cell.b]) {
+                if point.exists() {
+                    self.curve.note_arguments(point);
+                    let found = self.curve.found(point);
+                    self.samples.push(found);
+                } else {
+                    self.notes.iter_mut().for_each(|notes| notes.miss(point.state.t));
+                }
+            }
+        }
+    }
+}
+
+/// Whether the formula differs before and behind a part of a step, from one time to another (s), or is not looked at there: beyond its window.
+fn edges(step: &Stretch, [from, to]: [f64; 2], window: [f64; 2]) -> [bool; 2] {
+    [
+        step.begins_at_edge && from <= step.from.t || from <= window[0],
+        step.ends_at_edge && to >= step.to.t || to >= window[1],
+    ]
+}

@@ -1,0 +1,91 @@
+//! How far rounding may be off in what moves.
+
+use crate::analysis::state::State;
+use mechc_ir::CoordinateKind;
+
+/// The largest magnitudes of a mechanism's coordinates, by time derivative: what rests is as far off as what moves.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Largest {
+    /// In m and s.
+    lengths: [f64; 3],
+    /// In rad and s.
+    angles: [f64; 3],
+}
+
+impl Largest {
+    /// Takes note of a state's coordinates, of which these are angles.
+    pub fn note(&mut self, state: &State, kinds: impl Iterator<Item = CoordinateKind>) {
+        for (k, kind) in kinds.enumerate() {
+            let largest = match kind {
+                CoordinateKind::Angle => &mut self.angles,
+                CoordinateKind::Length => &mut self.lengths,
+                CoordinateKind::Argument => continue,
+            };
+            for (largest, value) in largest.iter_mut().zip(state.tower(k)) {
+                *largest = largest.max(value.abs());
+            }
+        }
+    }
+
+    /// What rounding of a coordinate of a kind goes by, at the least: a full turn's part of an angle moves what is far away by as much of a length.
+    fn of(&self, kind: CoordinateKind) -> [f64; 4] {
+        let far = self.lengths[0];
+        let [first, second] = [1, 2].map(|order| match kind {
+            CoordinateKind::Angle if far > 0.0 => self.angles[order].max(self.lengths[order] / far),
+            CoordinateKind::Angle => self.angles[order],
+            CoordinateKind::Length => self.lengths[order].max(self.angles[order] * far),
+            CoordinateKind::Argument => 0.0,
+        });
+        match kind {
+            CoordinateKind::Angle => [1.0, first, second, 0.0],
+            CoordinateKind::Length => [far, first, second, 0.0],
+            CoordinateKind::Argument => [0.0; 4],
+        }
+    }
+}
+
+/// The largest magnitudes that were seen of some things that move, each with three time derivatives: rounding goes by these.
+pub(super) struct Sizes {
+    largest: Vec<[f64; 4]>,
+    /// What kind of coordinate each one is, if it is one.
+    kinds: Vec<Option<CoordinateKind>>,
+    /// Of the whole mechanism.
+    of_all: Largest,
+}
+
+impl Sizes {
+    /// For things of these kinds; none is no coordinate.
+    pub fn new(kinds: Vec<Option<CoordinateKind>>) -> Sizes {
+        Sizes { largest: vec![[0.0; 4]; kinds.len()], kinds, of_all: Largest::default() }
+    }
+
+    /// Takes note of one of them with its derivatives.
+    pub fn note(&mut self, k: usize, tower: &[f64; 4]) {
+        for (largest, value) in self.largest[k].iter_mut().zip(tower) {
+            if value.is_finite() {
+                *largest = largest.max(value.abs());
+            }
+        }
+    }
+
+    /// Takes note of how large the coordinates of the mechanism are.
+    pub fn note_all(&mut self, of_all: Largest) {
+        self.of_all = of_all;
+    }
+
+    /// Of each one at a state, given with its derivatives by their orders, the intervals that they are in, if they are off by such parts of the
+    /// largest: values and their derivatives.
+    pub fn around<'s>(
+        &'s self,
+        towers: impl IntoIterator<Item = [f64; 4]> + 's,
+        [of_places, of_rates]: [f64; 2],
+    ) -> impl Iterator<Item = [[f64; 2]; 4]> + 's {
+        towers.into_iter().zip(&self.largest).zip(&self.kinds).map(move |((tower, largest), kind)| {
+            let least = kind.map_or([0.0; 4], |kind| self.of_all.of(kind));
+            [0, 1, 2, 3].map(|order| {
+                let off = largest[order].max(least[order]) * if order == 0 { of_places } else { of_rates };
+                [tower[order] - off, tower[order] + off]
+            })
+        })
+    }
+}

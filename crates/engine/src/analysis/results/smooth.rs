@@ -1,0 +1,320 @@
+//! What of a formula is made of places and of sines of turns alone, by sums and products: it moves as smoothly as they do.
+//!
+//! What is seen from a body that moves is a sum of this kind, of terms that may be much larger than it is itself: what these can be in
+//! a cell says little of what it can be. So it is looked at as the coordinates are, by its own time derivatives at the ends of the cell.
+
+use super::sizes::{Largest, Sizes};
+use crate::analysis::state::State;
+use mechc_expr::{Binary, ExprId, Graph, Node, Symbol, Unary};
+use mechc_ir::program::{Program, Ranges, Register, Registers, Stage};
+use mechc_ir::tolerances::results::smooth::{MOST_FACTORS, WIDEST_OF_ALL, WIDEST_TURN};
+use mechc_ir::{ConstraintSystem, CoordinateKind};
+use rustc_hash::FxHashMap;
+
+/// Of what kind a formula is.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Kind {
+    /// It does not change.
+    Constant,
+    /// A sum of turns and of what does not change.
+    Turn,
+    /// A sum of products of what is smooth.
+    Smooth {
+        /// The highest time derivative of a coordinate in it.
+        order: u8,
+        /// How many things that move are multiplied in it at most.
+        factors: u32,
+    },
+    Other,
+}
+
+/// Something smooth within a formula.
+struct Found {
+    /// What of the formula it stands for.
+    of: ExprId,
+    /// It, or the square of what it stands for: a length goes to zero with a kink, its square does not.
+    value: ExprId,
+    is_square: bool,
+    /// The highest time derivative of a coordinate in it.
+    order: u8,
+}
+
+/// What is smooth of a formula, with its time derivatives.
+pub(super) struct Smooth {
+    program: Program,
+    registers: Registers,
+    /// The ranges of these, and how large the coordinates are.
+    ranges: Ranges,
+    sizes: Sizes,
+    /// Of each, where its value and its time derivatives are: at the order that its value has as a coordinate, and behind it.
+    towers: Vec<[Option<Register>; 4]>,
+    /// Of each, the order at which it stands, and whether it is a square.
+    kinds: Vec<(usize, bool)>,
+    /// The coordinates that they hold.
+    coordinates: Vec<usize>,
+    /// Those that are turns, and all turns that there are.
+    turns: Vec<usize>,
+    all_turns: Vec<usize>,
+}
+
+impl Smooth {
+    /// A formula in a graph of its own, in which what is smooth of it stands as further coordinates, behind those that there are; others
+    /// behind it in that graph; and what is smooth.
+    pub fn out_of(
+        graph: &mut Graph,
+        (value, others): (ExprId, &[ExprId]),
+        system: &ConstraintSystem,
+    ) -> (Graph, Vec<ExprId>, Smooth) {
+        let kinds = kinds(graph, value, system);
+        let found = largest(graph, value, &kinds);
+        let (mut own, mut known) = (Graph::new(), FxHashMap::default());
+        own.import_tables(graph, &mut known, Graph::symbol);
+        let mut towers = Vec::with_capacity(found.len());
+        let first = system.coordinates().len();
+        for (k, &Found { of, value, is_square, order }) in found.iter().enumerate() {
+            let stands = own.symbol(Symbol::Coordinate { index: (first + k) as u32, order });
+            known.insert(of, if is_square { own.unary(Unary::Sqrt, stands) } else { stands });
+            towers.push(tower(graph, value, order, system.jerk().is_some()));
+        }
+        let kinds: Vec<(usize, bool)> = found.iter().map(|found| (usize::from(found.order), found.is_square)).collect();
+        let wanted = [&[value], others].concat();
+        own.import(graph, &wanted, &mut known, Graph::symbol);
+        let formulas = wanted.iter().map(|id| known[id]).collect();
+        (own, formulas, Smooth::new(graph, &towers, kinds, system))
+    }
+
+    fn new(
+        graph: &Graph,
+        towers: &[[Option<ExprId>; 4]],
+        kinds: Vec<(usize, bool)>,
+        system: &ConstraintSystem,
+    ) -> Smooth {
+        let formulas: Vec<ExprId> = towers.iter().flatten().flatten().copied().collect();
+        let (program, all) =
+            Program::of_formulas(graph, [system.params().len(), system.coordinates().len(), 0, 0], &formulas);
+        let mut roots = all.iter().copied();
+        let towers = towers.iter().map(|tower| tower.map(|formula| formula.and_then(|_| roots.next()))).collect();
+        let params = system.values_of_params();
+        let registers = program.start(&params);
+        let symbols = graph.symbols_of_all(&formulas);
+        let mut coordinates: Vec<usize> = symbols.iter().filter_map(|&symbol| coordinate_of(symbol)).collect();
+        coordinates.dedup();
+        let is_turn = |&k: &usize| system.coordinates()[k].kind == CoordinateKind::Angle;
+        let turns = coordinates.iter().copied().filter(is_turn).collect();
+        let all_turns = (0..system.coordinates().len()).filter(is_turn).collect();
+        let ranges = Ranges::new(&program, &registers, &all, Stage::Measures, false);
+        let sizes = Sizes::new(coordinates.iter().map(|&k| Some(system.coordinates()[k].kind)).collect());
+        Smooth { program, registers, ranges, sizes, towers, kinds, coordinates, turns, all_turns }
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.towers.len()
+    }
+
+    /// Of one that is a square, and so is never below zero: the order at which it stands.
+    pub fn square(&self, k: usize) -> Option<usize> {
+        let (order, is_square) = self.kinds[k];
+        is_square.then_some(order)
+    }
+
+    /// The order at which one of them stands: it has no derivatives below.
+    pub fn order(&self, k: usize) -> usize {
+        self.kinds[k].0
+    }
+
+    /// Takes note of how large the coordinates of the mechanism are.
+    pub fn note_all(&mut self, of_all: Largest) {
+        self.sizes.note_all(of_all);
+    }
+
+    /// Computes all of them at a state.
+    pub fn look(&mut self, state: &State) {
+        let inputs = self.program.inputs;
+        for (number, &k) in self.coordinates.iter().enumerate() {
+            let tower = state.tower(k);
+            self.sizes.note(number, &tower);
+            for (first, value) in inputs.coordinates.into_iter().zip(tower) {
+                self.registers.set(first + k as Register, value);
+            }
+        }
+        self.program.run(Stage::Measures, &mut self.registers);
+    }
+
+    /// One of them and its time derivatives at the state that was looked at, by their orders; 0 where there is none.
+    pub fn tower(&self, k: usize) -> [f64; 4] {
+        self.towers[k].map(|register| register.map_or(0.0, |register| self.registers.get(register)))
+    }
+
+    /// Finds the ranges of all of them at a state that may be off by such parts of the largest that was looked at: in places, and in their
+    /// derivatives.
+    pub fn look_around(&mut self, state: &State, parts: [f64; 2]) {
+        let inputs = self.program.inputs;
+        let towers = self.coordinates.iter().map(|&k| state.tower(k));
+        for (&k, ranges) in self.coordinates.iter().zip(self.sizes.around(towers, parts)) {
+            for (first, range) in inputs.coordinates.into_iter().zip(ranges) {
+                self.ranges.set(first + k as Register, range);
+            }
+        }
+        self.ranges.run_all(&self.program, &self.registers);
+    }
+
+    /// The ranges of one of them and of its time derivatives that were found last, by their orders.
+    pub fn ranges(&self, k: usize) -> [[f64; 2]; 4] {
+        self.towers[k].map(|register| {
+            let [low, high] = register.map_or([0.0; 2], |register| self.ranges.interval(register));
+            [low - f64::EPSILON * low.abs(), high + f64::EPSILON * high.abs()]
+        })
+    }
+
+    /// What computes them, and where that leaves each with its time derivatives, by their orders.
+    pub fn into_towers(self) -> ((Program, Registers), Vec<[Option<Register>; 4]>) {
+        ((self.program, self.registers), self.towers)
+    }
+
+    /// Whether a body turns too far between two states for them to tell what its sine is between, or any body what a place is that goes about
+    /// with it: a driven one is where it was after a whole turn, and nothing else tells of that.
+    pub fn turns_far(&self, [a, b]: [&State; 2]) -> bool {
+        let turned = |&k: &usize| {
+            let fastest = f64::max(a.qd[k].abs(), b.qd[k].abs());
+            f64::max((b.q[k] - a.q[k]).abs(), fastest * (b.t - a.t))
+        };
+        let are_far = |turns: &[usize], widest: f64| turns.iter().any(|k| turned(k) > widest);
+        are_far(&self.turns, WIDEST_TURN) || are_far(&self.all_turns, WIDEST_OF_ALL)
+    }
+}
+
+fn coordinate_of(symbol: Symbol) -> Option<usize> {
+    match symbol {
+        Symbol::Coordinate { index, .. } => Some(index as usize),
+        _ => None,
+    }
+}
+
+/// Of all that a formula is made of.
+fn kinds(graph: &Graph, value: ExprId, system: &ConstraintSystem) -> FxHashMap<ExprId, Kind> {
+    let mut kinds = FxHashMap::default();
+    for id in graph.reachable(&[value]) {
+        let kind = if graph.dependence(id).is_constant() {
+            Kind::Constant
+        } else {
+            kind_of(graph.node(id), system, |child| kinds[&child])
+        };
+        kinds.insert(id, kind);
+    }
+    kinds
+}
+
+fn kind_of(node: Node, system: &ConstraintSystem, of: impl Fn(ExprId) -> Kind) -> Kind {
+    match node {
+        Node::Symbol(Symbol::Coordinate { index, order }) => match (system.coordinates()[index as usize].kind, order) {
+            (CoordinateKind::Angle, 0) => Kind::Turn,
+            (CoordinateKind::Angle | CoordinateKind::Length, _) => Kind::Smooth { order, factors: 1 },
+            (CoordinateKind::Argument, _) => Kind::Other,
+        },
+        Node::Add(a, b) | Node::Sub(a, b) => of(a).plus(of(b)),
+        Node::Mul(a, b) => of(a).times(of(b)),
+        Node::Div(a, b) if of(b) == Kind::Constant => of(a).times(Kind::Constant),
+        Node::Power(a, 2) => of(a).times(of(a)),
+        Node::Neg(a) => of(a),
+        Node::Unary(Unary::Sin | Unary::Cos, a) if of(a) == Kind::Turn => Kind::Smooth { order: 0, factors: 1 },
+        _ => Kind::Other,
+    }
+}
+
+impl Kind {
+    /// The highest time derivative, and the number of factors.
+    fn smooth(self) -> Option<(u8, u32)> {
+        match self {
+            Kind::Constant => Some((0, 0)),
+            Kind::Turn => Some((0, 1)),
+            Kind::Smooth { order, factors } => Some((order, factors)),
+            Kind::Other => None,
+        }
+    }
+
+    fn plus(self, other: Kind) -> Kind {
+        let is_turn = |kind| matches!(kind, Kind::Constant | Kind::Turn);
+        match (self.smooth(), other.smooth()) {
+            _ if is_turn(self) && is_turn(other) => Kind::Turn,
+            (Some(a), Some(b)) => Kind::Smooth { order: a.0.max(b.0), factors: a.1.max(b.1) },
+            _ => Kind::Other,
+        }
+    }
+
+    fn times(self, other: Kind) -> Kind {
+        match (self.smooth(), other.smooth()) {
+            (Some(a), Some(b)) if a.1 + b.1 <= MOST_FACTORS => Kind::Smooth { order: a.0.max(b.0), factors: a.1 + b.1 },
+            _ => Kind::Other,
+        }
+    }
+}
+
+/// The largest formulas within a formula that are smooth, and that are more than a coordinate.
+fn largest(graph: &mut Graph, value: ExprId, kinds: &FxHashMap<ExprId, Kind>) -> Vec<Found> {
+    let (mut found, mut open) = (Vec::new(), vec![value]);
+    let mut seen = rustc_hash::FxHashSet::default();
+    while let Some(id) = open.pop() {
+        let node = graph.node(id);
+        if !seen.insert(id) || matches!(node, Node::Symbol(_)) {
+            continue;
+        }
+        let whole = |order: u8| Found { of: id, value: id, is_square: false, order };
+        match kinds[&id] {
+            Kind::Constant => {}
+            Kind::Turn => found.push(whole(0)),
+            Kind::Smooth { order, .. } => found.push(whole(order)),
+            Kind::Other => match square(graph, node, kinds) {
+                Some((value, order)) => found.push(Found { value, is_square: true, ..whole(order) }),
+                None => open.extend_from_slice(node.children().as_slice()),
+            },
+        }
+    }
+    found.sort_unstable_by_key(|found| found.of);
+    found
+}
+
+/// The square of a length, if it is as smooth as coordinates are, and its order.
+fn square(graph: &mut Graph, length: Node, kinds: &FxHashMap<ExprId, Kind>) -> Option<(ExprId, u8)> {
+    let (value, kind) = match length {
+        Node::Unary(Unary::Sqrt, a) if is_sum_of_squares(graph, a) => (a, kinds[&a]),
+        Node::Binary(Binary::Hypot, a, b) => {
+            let squared = |leg: ExprId| kinds[&leg].times(kinds[&leg]);
+            let kind = squared(a).plus(squared(b));
+            let [a, b] = [a, b].map(|leg| graph.power(leg, 2));
+            (graph.add(a, b), kind)
+        }
+        _ => return None,
+    };
+    match kind {
+        Kind::Smooth { order, .. } => Some((value, order)),
+        _ => None,
+    }
+}
+
+/// Whether a formula is a sum of squares, as it is written.
+fn is_sum_of_squares(graph: &Graph, formula: ExprId) -> bool {
+    match graph.node(formula) {
+        Node::Add(a, b) => is_sum_of_squares(graph, a) && is_sum_of_squares(graph, b),
+        Node::Mul(a, b) => a == b,
+        Node::Power(_, n) => n % 2 == 0,
+        Node::Const(_) => graph.as_const(formula).is_some_and(|value| value >= 0.0),
+        _ => false,
+    }
+}
+
+/// A formula and its time derivatives, by their orders, as many as there are.
+fn tower(graph: &mut Graph, value: ExprId, order: u8, has_jerk: bool) -> [Option<ExprId>; 4] {
+    let mut tower = [None; 4];
+    tower[usize::from(order)] = Some(value);
+    for next in usize::from(order) + 1..4 {
+        let last = tower[next - 1].into_iter().collect::<Vec<_>>();
+        let formula = ConstraintSystem::time_derivatives(graph, &last, 3).pop();
+        let is_known = |&formula: &ExprId| has_jerk || graph.dependence(formula).highest_order() != Some(3);
+        tower[next] = formula.filter(is_known);
+        if tower[next].is_none() {
+            break;
+        }
+    }
+    tower
+}

@@ -1,0 +1,145 @@
+//! Integrals of formulas that are smooth over the whole analysis, by the rule of Clenshaw and Curtis: the times at which they are looked at depend
+//! on the analysis alone, so that a variant has the same bits in the lanes of a sweep and on its own.
+//!
+//! Source: C. W. Clenshaw, A. R. Curtis, *A method for numerical integration on an automatic computer*, Numerische Mathematik 2, 1960.
+
+use super::curve::{Cell, Found};
+use super::probe::Probe;
+use mechc_expr::math::cos;
+use mechc_ir::tolerances::results::quadrature::{ACCURACY, ROUNDING};
+use mechc_ir::tolerances::results::spectral::{ALIKE, FIRST, LAST, LESS};
+use std::f64::consts::PI;
+use std::sync::OnceLock;
+
+/// An integral on its way to as many times as it needs.
+#[derive(Clone, Debug)]
+pub struct SpectralIntegral {
+    /// The first and the last time (s).
+    interval: [f64; 2],
+    /// There are so many intervals between the times, as a power of two.
+    level: usize,
+    /// The formula at these times, as far as it has been looked at.
+    values: Vec<f64>,
+}
+
+/// What becomes of an integral once the formula is known at all its times.
+#[derive(Clone, Copy, Debug)]
+pub enum Settled {
+    /// It needs twice as many.
+    On,
+    /// The integral, and how far off it may be.
+    Known([f64; 2]),
+    /// So many are not enough, or the steps of the motion tell otherwise.
+    Lost,
+}
+
+impl SpectralIntegral {
+    /// Over an analysis from one time to another (s).
+    #[must_use]
+    pub fn new(interval: [f64; 2]) -> SpectralIntegral {
+        SpectralIntegral { interval, level: FIRST, values: vec![f64::NAN; (1 << FIRST) + 1] }
+    }
+
+    /// The numbers of the times at which the formula has to be looked at now, and these times (s), in order.
+    pub fn times(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let ([from, to], level) = (self.interval, self.level);
+        let count = 1_usize << level;
+        let is_new = move |k: &usize| level == FIRST || k % 2 == 1;
+        (0..=count).filter(is_new).map(move |k| {
+            let place = cos(PI * (k as f64 / count as f64));
+            let t = if k == 0 {
+                from
+            } else if k == count {
+                to
+            } else {
+                0.5 * (from + to) - 0.5 * (to - from) * place
+            };
+            (k, t)
+        })
+    }
+
+    /// Takes the value at a time, by its number.
+    pub fn take(&mut self, k: usize, value: f64) {
+        self.values[k] = value;
+    }
+
+    /// Goes on once the formula is known at all times; `by_steps` tells the integral by the ends of the motion's steps, which may differ by a part of
+    /// the size.
+    pub fn go_on(&mut self, part: f64, by_steps: impl FnOnce() -> f64) -> Settled {
+        let half = 0.5 * (self.interval[1] - self.interval[0]);
+        let sum = |level: usize, of: &dyn Fn(f64) -> f64| {
+            let values = self.values.iter().step_by(1 << (self.level - level));
+            half * weights(level).iter().zip(values).map(|(weight, value)| weight * of(*value)).sum::<f64>()
+        };
+        let [found, coarse, coarser] = [0, 1, 2].map(|less| sum(self.level - less, &|value| value));
+        let mean = found / (2.0 * half);
+        let size = sum(self.level, &|value| (value - mean).abs());
+        let largest = self.values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        let ([change, before], rounding) =
+            ([found - coarse, coarse - coarser].map(f64::abs), ROUNDING * 2.0 * half * largest);
+        // the number of certain digits grows with the number of times
+        let off = if change < LESS * before { change * (change / before) } else { change };
+        if off <= (ACCURACY * size).max(rounding) {
+            let is_alike = (found - by_steps()).abs() <= (part * size).max(part * part * 2.0 * half * largest);
+            return if is_alike { Settled::Known([found, off + rounding]) } else { Settled::Lost };
+        }
+        if self.level == LAST || off.is_nan() {
+            return Settled::Lost;
+        }
+        self.level += 1;
+        let known = std::mem::take(&mut self.values);
+        self.values = known.into_iter().flat_map(|value| [value, f64::NAN]).collect();
+        self.values.pop();
+        Settled::On
+    }
+}
+
+/// What values at times weigh in the integral from −1 to 1, of which there are as many intervals as a power of two.
+fn weights(level: usize) -> &'static [f64] {
+    static WEIGHTS: [OnceLock<Box<[f64]>>; LAST + 1] = [const { OnceLock::new() }; LAST + 1];
+    WEIGHTS[level].get_or_init(|| {
+        let count = 1_usize << level;
+        let cosines: Vec<f64> = (0..count).map(|k| cos(2.0 * PI * (k as f64 / count as f64))).collect();
+        let of = |k: usize| {
+            let term = |j: usize| {
+                let twice = if 2 * j == count { 1.0 } else { 2.0 };
+                twice / (4.0 * (j * j) as f64 - 1.0) * cosines[j * k % count]
+            };
+            let sum: f64 = (1..=count / 2).map(term).sum();
+            let is_end = k == 0 || k == count;
+            if is_end { (1.0 - sum) / count as f64 } else { 2.0 * (1.0 - sum) / count as f64 }
+        };
+        (0..=count).map(of).collect()
+    })
+}
+
+impl Probe<'_> {
+    /// The integral of a formula that settles over cells that follow on each other without edges; none where so many times are not enough.
+    pub(super) fn integrate_whole(&mut self, cells: &[Cell]) -> Option<Found> {
+        let (first, last) = (cells.first()?, cells.last()?);
+        let mut integral = SpectralIntegral::new([first.a.state.t, last.b.state.t]);
+        loop {
+            let mut step = 0;
+            for (k, t) in integral.times() {
+                while t > cells[step].b.state.t {
+                    step += 1;
+                }
+                let cell = &cells[step];
+                let value = if t <= first.a.state.t {
+                    first.a.sample.value
+                } else if t >= last.b.state.t {
+                    last.b.sample.value
+                } else {
+                    self.exact_point(cell, t)?.sample.value
+                };
+                integral.take(k, value);
+            }
+            let by_steps = || cells.iter().map(|cell| self.rule_of_ends(&cell.a, &cell.b)).sum();
+            match integral.go_on(ALIKE, by_steps) {
+                Settled::On => {}
+                Settled::Known([value, off]) => return Some(Found { value, off }),
+                Settled::Lost => return None,
+            }
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! What the equations leave open at a position.
+
+use super::{Kinematics, State};
+use mechc_ir::program::{Program, Register, Registers};
+use mechc_ir::tolerances::checks::LARGEST_OPENING;
+use mechc_ir::tolerances::scales::kinematics::ROUNDING;
+use mechc_ir::{Owner, WatchKind};
+
+impl Kinematics {
+    /// What is left of each row's velocity and acceleration equation with the derivatives of another state, scaled; the
+    /// derivatives where the position was set must just have been computed.
+    pub fn left_open(&self, row: usize, state: &State) -> (f64, f64) {
+        let outputs = &self.program.outputs;
+        let open = |x: &[f64], right: Register| {
+            (self.left(row, x) - self.registers.get(right)).abs() / self.linear.row_norm(row)
+        };
+        (open(&state.qd, outputs.nu()[row]), open(&state.qdd, outputs.gamma()[row]))
+    }
+
+    /// The equation that was left out and does not hold where the position was set.
+    pub fn broken_check(&self) -> Option<usize> {
+        let mut open = self.system().checks().iter().enumerate().map(|(k, check)| self.check(k).abs() / check.scale);
+        open.position(|open| open.is_nan() || open > LARGEST_OPENING)
+    }
+
+    /// `Φ` of an equation that was left out, by its number among the checks, where the position was set.
+    pub fn check(&self, index: usize) -> f64 {
+        self.registers.get(self.program.outputs.checks[index])
+    }
+
+    /// A quantity that is watched, against its scale, where the position was set.
+    pub fn watched(&self, index: usize) -> f64 {
+        self.registers.get(self.program.outputs.watches[index]) / self.system().watches()[index].scale
+    }
+
+    /// Writes the sign of everything that is watched.
+    pub fn sides(&self, sides: &mut [bool]) {
+        for (k, side) in sides.iter_mut().enumerate() {
+            *side = self.watched(k) > 0.0;
+        }
+    }
+
+    /// The coordinates `θ` of lines of centres that point away from the other centre, where the position was set.
+    pub fn turned_lines(&self) -> Vec<usize> {
+        let system = self.system();
+        let is_turned = |k: &usize| system.watches()[*k].kind == WatchKind::LineOfCenters && self.watched(*k) < 0.0;
+        let joints =
+            (0..system.watches().len()).filter(is_turned).map(|k| Owner::Joint(system.watches()[k].declaration));
+        joints.filter_map(|owner| system.coordinates().iter().position(|c| c.owner == owner)).collect()
+    }
+
+    /// By row, one over what may be left of it: its tolerance and what the coordinates' rounding makes, where the position was
+    /// set and factored.
+    pub fn write_bounds(&self, bounds: &mut [f64]) {
+        for (row, bound) in bounds.iter_mut().enumerate() {
+            let rounding = ROUNDING * self.steps(row).fold(0.0, f64::max);
+            *bound = 1.0 / (self.tolerance * self.linear.row_norm(row) + rounding);
+        }
+    }
+
+    /// Whether some rows hold, to the tolerance.
+    pub fn hold(&self, rows: &[u32]) -> bool {
+        rows.iter().all(|&row| self.is_met(row as usize))
+    }
+
+    /// Whether some rows are open by no more than `limit`, scaled.
+    pub fn hold_nearly(&self, rows: &[u32], limit: f64) -> bool {
+        rows.iter().all(|&row| self.residual(row as usize) <= limit)
+    }
+
+    /// The row that violates its tolerance most, with its scaled residual; `None` if all hold.
+    ///
+    /// A row's tolerance is `--tolerance` times its norm, plus what rounding alone makes of its terms and of the
+    /// coordinates that it depends on.
+    pub fn violated(&self) -> Option<(usize, f64)> {
+        let n = self.system().rows().len();
+        let mut worst: Option<(usize, f64)> = None;
+        for row in (0..n).filter(|&row| !self.is_met(row)) {
+            let residual = self.residual(row);
+            if worst.is_none_or(|(_, known)| residual > known) {
+                worst = Some((row, residual));
+            }
+        }
+        worst
+    }
+
+    /// Whether a row holds, to the tolerance and rounding; one that is not a number does not.
+    fn is_met(&self, row: usize) -> bool {
+        let (off, bound) = (self.phi(row).abs(), self.tolerance * self.linear.row_norm(row));
+        off <= bound || off <= bound + self.rounding(row)
+    }
+
+    /// What is left of a row of Φ, scaled.
+    pub fn residual(&self, row: usize) -> f64 {
+        self.phi(row).abs() / self.linear.row_norm(row)
+    }
+
+    /// What is left of Φ, scaled: the largest of all rows.
+    pub fn largest_residual(&self) -> f64 {
+        (0..self.system().rows().len()).map(|row| self.residual(row)).fold(0.0, f64::max)
+    }
+
+    /// 8 eps times the largest term of a row, the steps of its coordinates included.
+    fn rounding(&self, row: usize) -> f64 {
+        ROUNDING * self.largest_part(row)
+    }
+
+    pub(super) fn largest_part(&self, row: usize) -> f64 {
+        self.steps(row).fold(self.largest_term_of(row), f64::max)
+    }
+
+    /// The largest term of a row where the position was set.
+    pub(super) fn largest_term_of(&self, row: usize) -> f64 {
+        largest_term(&self.program, &self.registers, row)
+    }
+
+    /// What each coordinate contributes to a row by its slope.
+    fn steps(&self, row: usize) -> impl Iterator<Item = f64> {
+        let pattern = self.system().phi_q();
+        pattern.range(row).zip(pattern.row(row)).map(|(position, &(column, _))| {
+            let q = self.registers.get(self.program.inputs.coordinates[0] + column);
+            (self.phi_q(position) * q).abs()
+        })
+    }
+
+    /// The formula that must be positive and is not, where time or a position was set.
+    pub fn broken_condition(&self) -> Option<usize> {
+        // a formula that is not a number is no better
+        self.program.outputs.conditions.iter().position(|&register| {
+            let value = self.registers.get(register);
+            value.is_nan() || value <= 0.0
+        })
+    }
+
+    /// By row, what is left of `Φ_q x = b`.
+    pub(super) fn write_open(&self, right: &[Register], x: &[f64], open: &mut [f64]) {
+        for (row, open) in open.iter_mut().enumerate() {
+            *open = self.left(row, x) - self.registers.get(right[row]);
+        }
+    }
+
+    /// A row of `Φ_q x`.
+    pub(super) fn left(&self, row: usize, x: &[f64]) -> f64 {
+        let pattern = self.system().phi_q();
+        pattern.range(row).zip(pattern.row(row)).map(|(at, &(column, _))| self.phi_q(at) * x[column as usize]).sum()
+    }
+}
+
+/// The largest term of a row of a program that has been run.
+pub(super) fn largest_term(program: &Program, registers: &Registers, row: usize) -> f64 {
+    program.outputs.terms[row].iter().map(|&register| registers.get(register).abs()).fold(0.0, f64::max)
+}

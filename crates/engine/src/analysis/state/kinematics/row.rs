@@ -1,0 +1,312 @@
+//! Rows of the result, with the forces and the variations of a state.
+
+use super::derivatives::rates;
+use super::{Kinematics, State};
+use crate::analysis::state::linear::BlockLu;
+use crate::analysis::state::scoped::ScopedLu;
+use crate::solver::Pivoting;
+use mechc_expr::{Dependence, ExprId};
+use mechc_ir::ConstraintSystem;
+use mechc_ir::layout::{self, Holds};
+use mechc_ir::program::{Program, Register, Registers, Stage};
+use mechc_ir::structure::Determined;
+use mechc_ir::tolerances::scales::kinematics::TRUSTED;
+use std::sync::Arc;
+
+/// What is needed for derivatives by inputs and parameters.
+#[derive(Clone)]
+pub(super) struct Varied {
+    /// A variation of all coordinates.
+    solution: Vec<f64>,
+    /// By column of a row, whether it may have no value at a position.
+    columns: Vec<bool>,
+    /// Those by the equations of a part alone.
+    scoped: ScopedLu,
+}
+
+/// Whether a column holds what is not known at every position: forces, and what is differentiated by something else than time.
+fn may_be_missing(system: &ConstraintSystem, holds: &Holds) -> bool {
+    let is_of_solution = |id: ExprId| {
+        let dependence = system.graph().dependence(id);
+        dependence.highest_varied_order().is_some() || dependence.on(Dependence::FORCES)
+    };
+    match *holds {
+        Holds::Time | Holds::Coordinate { .. } | Holds::Slope { .. } | Holds::Varied | Holds::Multiplier => false,
+        Holds::Measure { index, order } => system.measures()[index].derivative(order).is_some_and(is_of_solution),
+        Holds::Reaction(_) | Holds::Appended(_) => true,
+    }
+}
+
+/// What may have no value at a position where the mechanism has one.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Unknown {
+    /// A measure, by its index.
+    Measure(usize),
+    /// All derivatives by one variable, by its index.
+    Derivative(usize),
+    /// All reactions and efforts.
+    Forces,
+}
+
+impl Varied {
+    pub fn new(system: &ConstraintSystem, holds: &[Holds]) -> Varied {
+        let scoped = ScopedLu::new(system);
+        if system.all_variations().is_none() && system.forces().is_none() {
+            return Varied { solution: Vec::new(), columns: Vec::new(), scoped };
+        }
+        let columns = holds.iter().map(|holds| may_be_missing(system, holds)).collect();
+        Varied { solution: vec![0.0; system.coordinates().len()], columns, scoped }
+    }
+}
+
+impl Kinematics {
+    /// Writes a result row of a state whose derivatives were just computed.
+    pub fn write_row(&mut self, state: &State, row: &mut [f64]) {
+        self.vary(state);
+        self.write_columns(state, row);
+    }
+
+    /// Whether a column of a row may have no value: a force, or a derivative by an input or parameter.
+    pub fn may_be_missing(&self, column: usize) -> bool {
+        self.variations.columns.get(column).copied().unwrap_or(false)
+    }
+
+    /// The same equations and scales, whose variations are those that results need; none where they need none.
+    pub fn with_variations_of_results(&self) -> Option<Kinematics> {
+        let determined = Arc::new(self.determined.for_variations_of_results()?);
+        let program = Arc::new(Program::new(determined.system()));
+        let params = determined.system().values_of_params();
+        let holds = layout::holds(determined.system());
+        let (registers, variations) = (program.start(&params), Varied::new(determined.system(), &holds));
+        Some(Kinematics { determined, program, registers, variations, holds, ..self.clone() })
+    }
+
+    /// Computes the forces and variations of a state that was solved for, where they can be trusted.
+    pub fn vary_at(&mut self, state: &State) {
+        self.set_time(state.t);
+        let is_regular = self.set_position(&state.q).is_ok() && self.factor().is_ok();
+        self.set_derivatives(state);
+        if is_regular {
+            self.vary(state);
+        } else {
+            self.leave_variations_out();
+        }
+    }
+
+    /// How a coordinate, its velocity and its acceleration change in a variation.
+    pub fn variation(&self, number: u32, coordinate: usize) -> [f64; 3] {
+        [0, 1, 2].map(|order| self.registers.get(self.program.inputs.varied(number, order) + coordinate as u32))
+    }
+
+    /// The multiplier of a row, where forces have been computed.
+    pub fn multiplier(&self, row: usize) -> f64 {
+        self.registers.get(self.program.inputs.multipliers + row as Register)
+    }
+
+    /// How the multiplier of a row changes in a variation, where forces have been computed.
+    pub fn varied_multiplier(&self, number: u32, row: usize) -> f64 {
+        self.registers.get(self.program.inputs.varied_multipliers(number) + row as Register)
+    }
+
+    /// Computes the forces and variations of a state whose derivatives were just computed, where they can be trusted.
+    fn vary(&mut self, state: &State) {
+        if !self.has_more_to_solve() {
+            return;
+        }
+        self.registers.set_all(self.program.inputs.coordinates[2], &state.qdd);
+        if self.linear.nearness(TRUSTED) < TRUSTED {
+            self.leave_variations_out();
+            return;
+        }
+        solve_for_more(&self.determined, &self.program, &mut self.registers, &mut self.variations, &mut self.linear);
+    }
+
+    /// Whether there is more to solve for than the motion.
+    fn has_more_to_solve(&self) -> bool {
+        self.system().forces().is_some() || !self.system().variations().is_empty()
+    }
+
+    /// There are no forces and variations at this position.
+    fn leave_variations_out(&mut self) {
+        let inputs = self.program.inputs;
+        let (variations, has_forces) = (self.system().variations().len() as u32, self.system().forces().is_some());
+        let last = if has_forces { inputs.varied_multipliers(variations) } else { inputs.varied(variations, 0) };
+        for register in inputs.varied..last {
+            self.registers.set(register, f64::NAN);
+        }
+        // what measures share with the right sides is computed there
+        self.program.run(Stage::Forces, &mut self.registers);
+        self.program.run(Stage::Variation, &mut self.registers);
+    }
+
+    fn write_columns(&mut self, state: &State, row: &mut [f64]) {
+        let (program, registers) = (&*self.program, &mut self.registers);
+        let [_, _, qdd, _] = program.inputs.coordinates;
+        registers.set_all(qdd, &state.qdd);
+        program.run(Stage::Measures, registers);
+        let outputs = &program.outputs;
+        let none = Vec::new();
+        let lists = [
+            (&state.q, &outputs.reactions, &outputs.measures),
+            (&state.qd, &none, &outputs.measures_d),
+            (&state.qdd, &none, &outputs.measures_dd),
+        ];
+        let mut cells = row.iter_mut();
+        let mut put = |value: f64| {
+            if let Some(cell) = cells.next() {
+                // −0 would surprise a reader
+                *cell = value + 0.0;
+            }
+        };
+        put(state.t);
+        for (coordinates, reactions, measures) in lists {
+            for &value in coordinates {
+                put(value);
+            }
+            for &register in reactions.iter().chain(measures) {
+                put(registers.get(register));
+            }
+        }
+        for &register in &outputs.appended {
+            put(registers.get(register));
+        }
+    }
+
+    /// Solves for a row with partial pivoting, from the position that it holds (m, rad); says whether it holds.
+    pub fn pivoted_row(&mut self, pivoting: &mut Pivoting, state: &mut State, row: &mut [f64]) -> bool {
+        self.set_time(state.t);
+        if !pivoting.position(self, &mut state.q) || self.violated().is_some() {
+            return false;
+        }
+        rates(&self.program, &mut self.registers, state, |registers, right, x| {
+            pivoting.solve(|row| registers.get(right[row]), x);
+        });
+        let is_finite = self.all_finite(state).is_ok();
+        if is_finite {
+            self.registers.set_all(self.program.inputs.coordinates[2], &state.qdd);
+            solve_for_more(&self.determined, &self.program, &mut self.registers, &mut self.variations, pivoting);
+            self.write_columns(state, row);
+        }
+        is_finite
+    }
+
+    /// Writes a result row of a state whose derivatives were found otherwise than by solving; its position must have been set.
+    pub fn write_given_row(&mut self, state: &State, row: &mut [f64]) {
+        self.set_derivatives(state);
+        if self.has_more_to_solve() {
+            match self.factor() {
+                Ok(()) => self.vary(state),
+                Err(_) => self.leave_variations_out(),
+            }
+        }
+        self.write_columns(state, row);
+    }
+
+    /// Whose number there is none of where a cell of a result row is empty, which must be one of a measure, derivative or force.
+    pub fn unknown_in(&self, column: usize) -> Unknown {
+        match self.holds.get(column) {
+            Some(&Holds::Measure { index, .. }) => Unknown::Measure(index),
+            Some(&Holds::Appended(k)) => Unknown::Derivative(self.system().appended()[k].variable as usize),
+            _ => Unknown::Forces,
+        }
+    }
+
+    /// Length of a result row.
+    pub fn row_length(&self) -> usize {
+        self.holds.len()
+    }
+}
+
+/// What solves with `Φ_q` and with its transpose.
+trait BothWays {
+    /// `Φ_q x = b`, b by rows.
+    fn solve(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64]);
+    /// `Φ_qᵀ λ = p`, p by coordinates.
+    fn solve_for_multipliers(&mut self, needed: impl Fn(usize) -> f64, multipliers: &mut [f64]);
+}
+
+impl BothWays for BlockLu {
+    fn solve(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64]) {
+        BlockLu::solve(self, right, x);
+    }
+
+    fn solve_for_multipliers(&mut self, needed: impl Fn(usize) -> f64, multipliers: &mut [f64]) {
+        BlockLu::solve_for_multipliers(self, needed, multipliers);
+    }
+}
+
+impl BothWays for Pivoting {
+    fn solve(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64]) {
+        Pivoting::solve(self, right, x);
+    }
+
+    fn solve_for_multipliers(&mut self, needed: impl Fn(usize) -> f64, multipliers: &mut [f64]) {
+        Pivoting::solve_for_multipliers(self, needed, multipliers);
+    }
+}
+
+/// What is wanted of a state beside its motion, whose derivatives are set: multipliers, variations, and how multipliers vary. All are left
+/// in their registers.
+fn solve_for_more(
+    determined: &Determined,
+    program: &Program,
+    registers: &mut Registers,
+    varied: &mut Varied,
+    factored: &mut impl BothWays,
+) {
+    let outputs = &program.outputs;
+    program.run(Stage::Forces, registers);
+    if !outputs.forces.is_empty() {
+        factored.solve_for_multipliers(|column| registers.get(outputs.forces[column]), &mut varied.solution);
+        registers.set_all(program.inputs.multipliers, &varied.solution);
+    }
+    vary(determined, program, registers, varied, |registers, right, x| {
+        factored.solve(|row| registers.get(right[row]), x);
+    });
+    let variations = determined.system().variations();
+    for by_two in [false, true] {
+        let asked = (0..).zip(&outputs.varied_forces).filter(|(_, right)| !right.is_empty());
+        let mut of_kind = asked.filter(|(k, _)| variations[*k as usize].by.1.is_some() == by_two).peekable();
+        if of_kind.peek().is_none() {
+            continue;
+        }
+        // those by two follow from those by one
+        program.run(Stage::Variation, registers);
+        for (variation, right) in of_kind {
+            factored.solve_for_multipliers(|column| registers.get(right[column]), &mut varied.solution);
+            registers.set_all(program.inputs.varied_multipliers(variation), &varied.solution);
+        }
+    }
+}
+
+/// The variations of a state whose derivatives are set, by what solves `Φ_q x = b` for a right side: those by one variable, then those
+/// by two, each order from those before. They are left in their registers.
+fn vary(
+    determined: &Determined,
+    program: &Program,
+    registers: &mut Registers,
+    Varied { solution, scoped, .. }: &mut Varied,
+    mut solve: impl FnMut(&Registers, &[Register], &mut [f64]),
+) {
+    let variations = determined.system().variations();
+    for by_two in [false, true] {
+        for order in 0..3 {
+            let of_kind = || (0..variations.len()).filter(|&k| variations[k].by.1.is_some() == by_two);
+            if of_kind().next().is_none() {
+                break;
+            }
+            program.run(Stage::Variation, registers);
+            if order == 0 && !by_two {
+                scoped.factor(program, registers, TRUSTED);
+            }
+            for k in of_kind() {
+                let right = &program.outputs.variations[k][order];
+                match variations[k].scope {
+                    None => solve(registers, right, solution),
+                    Some(scope) => scoped.solve(scope, registers, right, solution),
+                }
+                registers.set_all(program.inputs.varied(k as u32, order as u32), solution);
+            }
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Slopes beside a position, by which nearness to a singular position is judged.
+
+use super::Kinematics;
+use super::residuals::largest_term;
+use crate::analysis::state::aslant;
+use mechc_ir::program::Stage;
+use mechc_ir::tolerances::scales::kinematics::{BESIDE, NO_SLOPE};
+
+impl Kinematics {
+    /// Measures the slopes at a position, at the time that was set, by which nearness to a singular position is judged. Those of
+    /// some rows are looked at on both sides of it, too: a slope counts for no less than the lesser of these, so that one that
+    /// vanishes in between makes a singular position, and one that grows beside a pole does not. Rows that are bent are scaled
+    /// by that as well. The position must be set anew.
+    pub fn measure_slopes(&mut self, q: &[f64]) {
+        if self.linear.yardstick().is_measured() && !self.linear.yardstick().changes() {
+            return;
+        }
+        if !self.looked_at_beside.is_empty() {
+            self.look_beside(q);
+        }
+        self.evaluate(q);
+        let (registers, program) = (&self.registers, &*self.program);
+        let coordinate = |column: usize| registers.get(program.inputs.coordinates[0] + column as u32);
+        let yardstick = self.linear.yardstick();
+        yardstick.turn(coordinate);
+        let rounding = |row: usize| NO_SLOPE * f64::max(largest_term(program, registers, row), self.terms_beside[row]);
+        yardstick.measure(|position| registers.get(program.outputs.phi_q[position]), rounding);
+    }
+
+    /// A row that is factored and has no slope: its scaled one is less than this, or changes it by no more than rounding does.
+    pub fn row_without_slope(&self, least: f64) -> Option<usize> {
+        let term = |row: usize| f64::max(self.largest_term_of(row), self.terms_beside[row]);
+        let is_rounding = |&row: &usize| self.slope(row) <= NO_SLOPE * term(row);
+        self.linear.row_without_slope(least).or_else(|| (0..self.system().rows().len()).find(is_rounding))
+    }
+
+    fn look_beside(&mut self, q: &[f64]) {
+        let determined = self.determined();
+        let pattern = determined.system().phi_q();
+        // where a formula has no value it has no slope
+        let lesser = |known: f64, found: f64| if found.is_finite() { f64::min(known, found) } else { known };
+        let or_none = |least: f64| if least.is_finite() { least } else { 0.0 };
+        for way in [BESIDE, -BESIDE] {
+            for (column, beside) in self.beside.iter_mut().enumerate() {
+                *beside = q[column] + way * aslant(column) * self.linear.column_scale(column);
+            }
+            self.registers.set_all(self.program.inputs.coordinates[0], &self.beside);
+            self.program.run(Stage::Position, &mut self.registers);
+            let is_first = way > 0.0;
+            for index in 0..self.looked_at_beside.len() {
+                let row = self.looked_at_beside[index];
+                let known = if is_first { 0.0 } else { self.terms_beside[row] };
+                let term = self.largest_term_of(row);
+                self.terms_beside[row] = if term.is_finite() { f64::max(known, term) } else { known };
+                for position in pattern.range(row) {
+                    let found = self.phi_q(position).abs();
+                    let slope = self.linear.yardstick().beside(position);
+                    *slope = lesser(if is_first { f64::INFINITY } else { *slope }, found);
+                    *slope = if is_first { *slope } else { or_none(*slope) };
+                }
+            }
+            for index in 0..self.bent.len() {
+                let row = self.bent[index];
+                let known = if is_first { f64::INFINITY } else { self.linear.least_norm(row) };
+                let least = lesser(known, self.slope(row));
+                self.linear.set_least_norm(row, if is_first { least } else { or_none(least) });
+            }
+        }
+    }
+
+    fn evaluate(&mut self, q: &[f64]) {
+        self.registers.set_all(self.program.inputs.coordinates[0], q);
+        self.program.run(Stage::Position, &mut self.registers);
+    }
+
+    /// The norm of a row of the scaled Φ_q where the position was set.
+    fn slope(&self, row: usize) -> f64 {
+        let pattern = self.system().phi_q();
+        let scaled = pattern
+            .range(row)
+            .zip(pattern.row(row))
+            .map(|(position, &(column, _))| self.phi_q(position) * self.linear.column_scale(column as usize));
+        scaled.map(|x| x * x).sum::<f64>().sqrt()
+    }
+}

@@ -1,0 +1,175 @@
+//! What time and motion decide beside the equations: switches, rims, signals.
+
+use super::Kinematics;
+use mechc_ir::program::{Enclosure, Frozen, Op, PlacedRim, Register, Signal, Stage, Switch};
+
+impl Kinematics {
+    /// Which switches stay as they are from now on.
+    pub fn freeze(&mut self, time: bool, motion: bool) {
+        self.registers.freeze(Frozen { time, motion });
+    }
+
+    /// Sets the switches of time to what they are at a time, and keeps them so.
+    pub fn settle_time(&mut self, t: f64) {
+        self.freeze(false, true);
+        self.set_time(t);
+        self.freeze(true, true);
+    }
+
+    /// Sets the switches of the motion to what they are at a position, and keeps them so.
+    pub fn settle_motion(&mut self, q: &[f64]) {
+        self.freeze(true, false);
+        // what is wrong with the position itself shows where it is solved for
+        let _ = self.set_position(q);
+        self.freeze(true, true);
+    }
+
+    /// Where the equations may have edges.
+    pub fn switches(&self) -> &[Switch] {
+        self.program.switches()
+    }
+
+    /// The result that a switch has now.
+    pub fn switch(&self, switch: &Switch) -> f64 {
+        self.registers.get(switch.to)
+    }
+
+    /// Gives the switches the results that they had.
+    pub fn set_switches(&mut self, kept: &[f64]) {
+        for (switch, kept) in self.program.switches().iter().zip(kept) {
+            self.registers.set(switch.to, *kept);
+        }
+    }
+
+    /// Gives the switches the results that they have elsewhere, and keeps them so.
+    pub fn take_switches(&mut self, of: &Kinematics) {
+        for switch in self.program.switches() {
+            self.registers.set(switch.to, of.switch(switch));
+        }
+        self.freeze(true, true);
+    }
+
+    /// Where formulas come to the end of what their functions take.
+    pub fn rims(&self) -> &[PlacedRim] {
+        &self.program.outputs.rims
+    }
+
+    /// Room for proofs about rims of time, and of the motion.
+    pub fn enclosures_of_rims(&self) -> [Enclosure; 2] {
+        [true, false].map(|on_time| Enclosure::of_rims(&self.program, &self.registers, on_time))
+    }
+
+    /// A rim's gauge and its slope where time, position and velocity were set.
+    pub fn gauge(&mut self, rim: &PlacedRim) -> [f64; 2] {
+        self.program.run(Stage::Rims, &mut self.registers);
+        [rim.gauge, rim.slope].map(|register| self.registers.get(register))
+    }
+
+    /// The largest term of a gauge, which must just have been asked for.
+    pub fn largest_term(&self, rim: &PlacedRim) -> f64 {
+        rim.terms.iter().map(|&register| self.registers.get(register).abs()).fold(0.0, f64::max)
+    }
+
+    /// Sets the velocity alone.
+    pub fn set_velocity(&mut self, qd: &[f64]) {
+        self.registers.set_all(self.program.inputs.coordinates[1], qd);
+    }
+
+    /// Encloses from one time (s) to another, coordinates and velocities being anywhere in their intervals (middle and reach).
+    pub fn enclose_motion(&self, enclosure: &mut Enclosure, times: [f64; 2], [q, qd]: [&[[f64; 2]]; 2]) {
+        enclosure.set_all(self.program.inputs.coordinates[0], q);
+        enclosure.set_all(self.program.inputs.coordinates[1], qd);
+        enclosure.enclose(&self.program, &self.registers, times);
+    }
+
+    /// Whether a switch would have another result now if it were not frozen.
+    pub fn would_switch(&self, switch: &Switch) -> bool {
+        let (live, now) = (self.program.live(switch, &self.registers), self.registers.get(switch.to));
+        // what is not a number is told elsewhere
+        !live.is_nan() && (live + 0.0).to_bits() != (now + 0.0).to_bits()
+    }
+
+    /// What a switch is decided by where time and position were set, and how far that is from its edge.
+    pub fn edge(&self, switch: &Switch) -> (f64, f64) {
+        self.program.edge(switch, &self.registers)
+    }
+
+    /// Whether a switch stands exactly on its edge.
+    pub fn is_on_edge(&self, switch: &Switch) -> bool {
+        match switch.op {
+            Op::Compare { a, b, .. } => self.registers.get(a).total_cmp(&self.registers.get(b)).is_eq(),
+            _ => false,
+        }
+    }
+
+    /// Room for proofs about what time alone decides, and about what the motion decides.
+    pub fn enclosures(&self) -> [Enclosure; 2] {
+        let of = [Enclosure::of_time, Enclosure::of_motion];
+        of.map(|enclosure| enclosure(&self.program, &self.registers))
+    }
+
+    /// What time alone decides about the equations, unless it is a straight line.
+    pub fn signals(&self) -> Vec<Signal> {
+        self.program.signals()
+    }
+
+    pub fn read_signals(&self, signals: &[Signal], values: &mut [f64]) {
+        for (value, signal) in values.iter_mut().zip(signals) {
+            *value = self.registers.get(signal.register);
+        }
+    }
+
+    pub fn enclosure_of(&self, signals: &[Signal]) -> Enclosure {
+        let registers: Vec<Register> = signals.iter().map(|signal| signal.register).collect();
+        Enclosure::of_registers(&self.program, &self.registers, &registers)
+    }
+
+    /// Encloses signals from one time (s) to another.
+    pub fn enclose(&self, enclosure: &mut Enclosure, times: [f64; 2]) {
+        enclosure.enclose(&self.program, &self.registers, times);
+    }
+
+    /// How much of the mechanism's size each signal moves an equation by, for each unit of its own; `nudge` is the part of
+    /// itself by which it is changed to learn that.
+    pub fn effects(&mut self, signals: &[Signal], q: &[f64], nudge: f64) -> Vec<f64> {
+        // what is wrong with the position shows where it is solved for
+        let _ = self.set_position(q);
+        let before: Vec<Vec<f64>> = signals
+            .iter()
+            .map(|signal| {
+                let rows = signal.rows.iter().map(|&row| self.phi(row));
+                rows.chain(signal.checks.iter().map(|&k| self.check(k))).collect()
+            })
+            .collect();
+        let values: Vec<f64> = signals.iter().map(|signal| self.registers.get(signal.register)).collect();
+        let step = |value: f64| nudge * f64::max(value.abs(), 1.0);
+        for (signal, value) in signals.iter().zip(&values) {
+            self.registers.set(signal.register, value + step(*value));
+        }
+        let _ = self.set_position(q);
+        let effects = signals.iter().zip(&before).zip(&values).map(|((signal, before), value)| {
+            let rows = signal.rows.iter().map(|&row| (self.phi(row), self.linear.row_norm(row)));
+            let scales = self.system().checks();
+            let all = rows.chain(signal.checks.iter().map(|&k| (self.check(k), scales[k].scale)));
+            let changes = all.zip(before).map(|((after, scale), before)| (after - before).abs() / scale);
+            changes.fold(0.0, f64::max) / step(*value)
+        });
+        let effects = effects.collect();
+        for (signal, value) in signals.iter().zip(values) {
+            self.registers.set(signal.register, value);
+        }
+        let _ = self.set_position(q);
+        effects
+    }
+
+    /// Whether nothing happens from one time (s) to another; see [`Enclosure::is_steady`].
+    pub fn is_steady(
+        &self,
+        enclosure: &mut Enclosure,
+        times: [f64; 2],
+        coordinates: &[[f64; 2]],
+        may_change: impl Fn(Register) -> bool,
+    ) -> bool {
+        enclosure.is_steady(&self.program, &self.registers, times, coordinates, may_change)
+    }
+}

@@ -1,0 +1,240 @@
+//! Which times are printed.
+
+use mechc_expr::math::neighbours;
+use mechc_ir::tolerances::UNTOLD_SPAN;
+use mechc_ir::tolerances::steps::edges::{AHEAD, LONGEST_AHEAD, SLACK};
+use mechc_ir::tolerances::steps::times::{AT_THE_LAST, MOST};
+
+/// Output times, ascending.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Times {
+    from: f64,
+    kind: Kind,
+}
+
+#[derive(Clone, PartialEq, Debug)]
+enum Kind {
+    Grid {
+        every: f64,
+        to: f64,
+        last: u64,
+    },
+    /// Those times, of an analysis that ends then at the earliest.
+    Listed {
+        times: Vec<f64>,
+        to: f64,
+    },
+}
+
+impl Times {
+    /// `from + k·every` for all k up to `to`; a time within 1e-9 of a step of `to` is `to` itself. `None` where there
+    /// are more times than numbers that tell them apart.
+    #[must_use]
+    pub fn grid(from: f64, to: f64, every: f64) -> Option<Times> {
+        let steps = (to - from) / every;
+        let nearest = steps.round();
+        let last = if (steps - nearest).abs() <= AT_THE_LAST { nearest } else { mechc_expr::math::floor(steps) };
+        // also false for what is not a number
+        if !(0.0..MOST).contains(&last) || (last > 0.0 && from + every <= from) {
+            return None;
+        }
+        #[allow(clippy::cast_sign_loss)] // not below zero, as just seen
+        let last = last as u64;
+        Some(Times { from, kind: Kind::Grid { every, to, last } })
+    }
+
+    /// Only these times, sorted and each once; followed from `from`.
+    #[must_use]
+    pub fn listed(from: f64, mut times: Vec<f64>) -> Times {
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        Times { from, kind: Kind::Listed { times, to: from } }
+    }
+
+    /// The same of an analysis that goes on to a time (s), if none of them is later.
+    #[must_use]
+    pub fn within_analysis_to(mut self, end: Option<f64>) -> Times {
+        if let (Kind::Listed { to, .. }, Some(end)) = (&mut self.kind, end) {
+            *to = to.max(end);
+        }
+        self
+    }
+
+    /// When the analysis ends (s), whose times these are, be it later than the last of them: at a switch there the earlier side counts.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        match &self.kind {
+            Kind::Grid { to, .. } => *to,
+            Kind::Listed { times, to } => times.last().map_or(*to, |last| to.max(*last)),
+        }
+    }
+
+    /// The last of them, or when the analysis ends whose times they are (s): so far the motion is followed.
+    #[must_use]
+    pub fn last(&self) -> f64 {
+        match &self.kind {
+            Kind::Grid { to, .. } => *to,
+            Kind::Listed { times, .. } => times.last().copied().unwrap_or(self.from),
+        }
+    }
+
+    /// Where the motion begins (s).
+    #[must_use]
+    pub fn from(&self) -> f64 {
+        self.from
+    }
+
+    /// From when to when the analysis goes (s), if it is one: the last time may be later than the last that is printed.
+    #[must_use]
+    pub fn interval(&self) -> Option<[f64; 2]> {
+        match &self.kind {
+            Kind::Grid { to, .. } => Some([self.from, *to]),
+            Kind::Listed { .. } => None,
+        }
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn len(&self) -> u64 {
+        match &self.kind {
+            Kind::Grid { last, .. } => last + 1,
+            Kind::Listed { times, .. } => times.len() as u64,
+        }
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// From the first to the last (s).
+    #[must_use]
+    pub fn span(&self) -> f64 {
+        match &self.kind {
+            Kind::Grid { to, .. } => to - self.from,
+            Kind::Listed { times, .. } => times.last().map_or(0.0, |last| last - self.from),
+        }
+    }
+
+    /// How far they are apart at the most, the first one from where the motion begins (s).
+    #[must_use]
+    pub fn widest_gap(&self) -> f64 {
+        match &self.kind {
+            Kind::Grid { every, .. } => *every,
+            Kind::Listed { times, .. } => {
+                let before = std::iter::once(&self.from).chain(times);
+                before.zip(times).map(|(before, t)| t - before).fold(0.0, f64::max)
+            }
+        }
+    }
+
+    /// The one of a number, counted from 0 (s); there must be so many.
+    #[must_use]
+    pub fn at(&self, number: u64) -> f64 {
+        match &self.kind {
+            Kind::Grid { every, to, last } => {
+                let t = self.from + number as f64 * every;
+                if number == *last && number > 0 && (t - to).abs() <= AT_THE_LAST * every { *to } else { t }
+            }
+            Kind::Listed { times, .. } => times[number as usize],
+        }
+    }
+
+    /// The number of the first one that is later than `t` (s), those before `from` not being looked at.
+    #[must_use]
+    pub fn first_after(&self, t: f64, from: u64) -> u64 {
+        let (mut low, mut high) = (from, from);
+        let mut step = 1;
+        while high < self.len() && self.at(high) <= t {
+            low = high + 1;
+            high += step;
+            step *= 2;
+        }
+        high = high.min(self.len());
+        while low < high {
+            let middle = low + (high - low) / 2;
+            if self.at(middle) <= t { low = middle + 1 } else { high = middle }
+        }
+        low
+    }
+
+    /// In order.
+    pub fn iter(&self) -> impl Iterator<Item = f64> {
+        (0..self.len()).map(|number| self.at(number))
+    }
+}
+
+/// When a mechanism is assembled, and how far it is looked at from there on.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Horizon {
+    /// The first time (s).
+    pub from: f64,
+    /// To the last one (s): what is near in time is near beside this.
+    pub span: f64,
+}
+
+impl Horizon {
+    /// That of output times.
+    #[must_use]
+    pub fn of(times: &Times) -> Horizon {
+        let span = times.span();
+        Horizon { from: times.from(), span: if span > 0.0 { span } else { UNTOLD_SPAN } }
+    }
+
+    /// That of an analysis: first time, last time, step (s); else from 0 on.
+    #[must_use]
+    pub fn of_analysis(analysis: Option<[f64; 3]>) -> Horizon {
+        let [from, to, _] = analysis.unwrap_or([0.0, UNTOLD_SPAN, 0.0]);
+        Horizon { from, span: to - from }
+    }
+
+    /// As far from another time on (s).
+    #[must_use]
+    pub fn beginning(self, from: f64) -> Horizon {
+        Horizon { from, ..self }
+    }
+}
+
+/// A time on the later side of whatever is meant to happen at `t` (s).
+pub fn shortly_after(t: f64) -> f64 {
+    neighbours::shortly_after(t, SLACK)
+}
+
+/// A time just behind a start at `t`, for a motion over a span (s): what happens up to there happens at the start.
+pub fn behind_start(t: f64, span: f64) -> f64 {
+    shortly_after(t) + f64::min(AHEAD * span, LONGEST_AHEAD)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Times;
+
+    fn times(from: f64, to: f64, every: f64) -> Vec<f64> {
+        Times::grid(from, to, every).unwrap().iter().collect()
+    }
+
+    #[test]
+    fn the_end_is_included_where_the_grid_meets_it() {
+        assert_eq!(times(0.0, 0.3, 0.1), [0.0, 0.1, 0.2, 0.3]);
+        assert_eq!(times(0.0, 0.35, 0.1).last(), Some(&(3.0 * 0.1)));
+        assert_eq!(times(1.0, 1.0, 0.1), [1.0]);
+        assert!(Times::grid(1e20, 2e20, 1.0).is_none(), "steps that do not change the time");
+    }
+
+    #[test]
+    fn the_first_time_after_another_is_found() {
+        let grid = Times::grid(0.0, 1.0, 0.1).unwrap();
+        for (t, wanted) in [(-1.0, 0), (0.0, 1), (0.05, 1), (0.1, 2), (0.99, 10), (1.0, 11), (9.0, 11)] {
+            for from in 0..=wanted {
+                assert_eq!(grid.first_after(t, from), wanted, "t = {t}, from {from}");
+            }
+        }
+    }
+
+    #[test]
+    fn listed_times_are_sorted_and_unique() {
+        let listed = Times::listed(0.0, vec![2.0, 1.0, 2.0]);
+        assert_eq!(listed.iter().collect::<Vec<_>>(), [1.0, 2.0]);
+    }
+}

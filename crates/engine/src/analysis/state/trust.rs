@@ -1,0 +1,79 @@
+//! Whether a row holds digits, and not rounding.
+//!
+//! It is judged from the state of the row alone, whichever way led there, so that the verdict does not depend on the other output
+//! times.
+
+use super::kinematics::{Kinematics, State};
+use mechc_ir::tolerances::solving::trust::{ACCELERATION, ACCURACY, FAR, SLOW, VELOCITY};
+
+/// What the numbers of a row are worth.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Trust {
+    Certain,
+    /// The position is known; velocities or accelerations may be wrong, if rounding happens to add up.
+    Doubtful,
+    /// Derivatives are more rounding than digits.
+    Uncertain,
+}
+
+impl Trust {
+    pub fn is_certain(self) -> bool {
+        self == Trust::Certain
+    }
+
+    /// In a state that was just computed.
+    ///
+    /// `q` is known to eps/σ, and a position that is wrong by so much has derivatives that are wrong by as much again as the
+    /// equations amplify, which near a dead point is 1/σ too. Near a bifurcation nothing is amplified, but the wrong position
+    /// still has velocities that are wrong by eps/σ², and accelerations by eps/σ³.
+    pub fn of(kinematics: &mut Kinematics, state: &State) -> Trust {
+        let sigma = kinematics.nearness(f64::EPSILON.sqrt() / ACCURACY.sqrt());
+        let uncertain = f64::EPSILON / sigma * kinematics.amplification(state);
+        if uncertain > ACCURACY {
+            return Trust::Uncertain;
+        }
+        if !kinematics.take_doubt(state, FAR) {
+            return Trust::Certain;
+        }
+        let [velocity, acceleration] = kinematics.doubt();
+        if are_small(kinematics, state, [velocity, acceleration], [VELOCITY, ACCELERATION]) {
+            Trust::Certain
+        } else {
+            Trust::Doubtful
+        }
+    }
+}
+
+/// Whether what velocities and accelerations of a state may be off by is within limits.
+pub fn are_small(kinematics: &Kinematics, state: &State, off: [&[f64]; 2], limits: [f64; 2]) -> bool {
+    let off = |order: usize, k: usize| off[order - 1][k];
+    are_within(kinematics, [&state.qd, &state.qdd], off, limits)
+}
+
+/// Whether two states, each by its position, velocity and acceleration, differ by no more than a part of the motion. One coordinate that rests
+/// differs by the rounding of others that do not.
+pub fn are_alike(kinematics: &Kinematics, a: [&[f64]; 3], b: [&[f64]; 3], part: f64) -> bool {
+    let [q, qd, qdd] = a;
+    let scale = |k: usize| kinematics.linear().column_scale(k);
+    let is_place = q.iter().zip(b[0]).enumerate().all(|(k, (a, b))| (a - b).abs() <= part * (scale(k) + a.abs()));
+    is_place && are_within(kinematics, [qd, qdd], |order, k| a[order][k] - b[order][k], [part; 2])
+}
+
+/// Whether what velocities and accelerations are off by, told by its order and coordinate, is within limits.
+fn are_within(
+    kinematics: &Kinematics,
+    [qd, qdd]: [&[f64]; 2],
+    off: impl Fn(usize, usize) -> f64,
+    limits: [f64; 2],
+) -> bool {
+    let linear = kinematics.linear();
+    let (speed, bend) = (linear.largest(qd), linear.largest(qdd));
+    let is_small = |order: usize, x: &[f64], fastest: f64| {
+        let is_small = |k: usize| {
+            let scale = linear.column_scale(k);
+            off(order, k).abs() / scale <= limits[order - 1] * f64::max(1.0 + x[k].abs() / scale, SLOW * fastest)
+        };
+        (0..x.len()).all(is_small)
+    };
+    is_small(1, qd, speed) && is_small(2, qdd, bend.max(speed * speed))
+}

@@ -1,0 +1,447 @@
+//! Laying the solution of a system out, component by component and block by block.
+
+use super::elimination::{Factors, Line};
+use super::finish::finish;
+use super::groups::{Groups, Wanted};
+use super::order::{BlockEntry, Order};
+use super::tape::Value;
+use super::tear::{Tearing, tear};
+use super::terms::Terms;
+use super::{Component, FIXED, Instruction, MOST_OPERATIONS, Pivot, Purpose, Segment, Solver, Tear, Turn, Values};
+use mechc_expr::Symbol;
+use mechc_expr::math::power_of_two_below;
+use mechc_ir::ConstraintSystem;
+use mechc_ir::layout::RowLayout;
+use mechc_ir::program::{Program, Register};
+use mechc_ir::structure::{Block, Determined};
+use mechc_ir::tolerances::solving::build::CELL;
+use rustc_hash::FxHashSet;
+
+/// The width of a cell of a coordinate's grid, by what the coordinate is judged against.
+pub(super) fn cell(scale: f64) -> f64 {
+    CELL * power_of_two_below(scale)
+}
+
+/// None where it takes too many instructions.
+pub(super) fn build(
+    determined: &Determined,
+    program: &Program,
+    values: &impl Values,
+    (purpose, is_kept): (Purpose, &dyn Fn(u32) -> bool),
+) -> Option<Solver> {
+    let system = determined.system();
+    let groups = Groups::new(determined);
+    let wanted = groups.wanted(system, !program.outputs.reactions.is_empty());
+    let across = groups.blocks.len();
+    let mut builder = Builder::new(determined, program, values, &groups, purpose);
+    builder.joined = joined(system, &builder.layout, &wanted[across]);
+    let mut all = Component::default();
+    for (group, blocks) in groups.blocks.iter().enumerate() {
+        builder.terms.begin();
+        let blocks = blocks.iter().map(|&block| &determined.blocks()[block]);
+        let solved: Vec<(&Block, Factors)> = blocks.map(|block| (block, builder.block(block))).collect();
+        builder.forces(&solved);
+        builder.outputs(&wanted[group]);
+        all.append(builder.finish(is_kept), purpose);
+        if all.instructions.len() > MOST_OPERATIONS {
+            return None;
+        }
+    }
+    builder.terms.begin_across();
+    builder.outputs(&wanted[across]);
+    all.append(builder.finish(is_kept), purpose);
+    let Builder { weights, tears, pivots, turns, layout, .. } = builder;
+    let (fixed, Component { instructions, segments, registers, .. }) = (all.fixed.len(), all.joined());
+    Some(Solver { instructions, fixed, segments, registers, weights, tears, pivots, turns, layout })
+}
+
+impl Component {
+    /// Puts another behind this one. In code every value has a register of its own.
+    fn append(&mut self, other: Component, purpose: Purpose) {
+        let from = self.instructions.len();
+        let segments = other.segments.into_iter().map(|segment| segment.behind(from));
+        match purpose {
+            Purpose::Lanes => {
+                self.instructions.extend(other.instructions);
+                self.segments.extend(segments);
+                self.registers = self.registers.max(other.registers);
+            }
+            Purpose::Variants => {
+                let used = self.fixed_registers as Register;
+                let own = |register: Register| if register < FIXED { register } else { register + used };
+                self.fixed.extend(other.fixed.into_iter().map(|each| each.renumbered(own, own)));
+                self.instructions.extend(other.instructions.into_iter().map(|each| each.renumbered(own, own)));
+                self.segments.extend(segments.map(|segment| segment.renumbered(own)));
+                self.registers = self.registers.max(other.registers);
+                self.fixed_registers += other.fixed_registers;
+            }
+            Purpose::Code => {
+                let used = self.registers as Register;
+                let own = |register: Register| register + used;
+                self.instructions.extend(other.instructions.into_iter().map(|each| each.renumbered(own, own)));
+                self.segments.extend(segments.map(|segment| segment.renumbered(own)));
+                self.registers += other.registers;
+            }
+        }
+    }
+}
+
+impl Component {
+    /// The same with what is fixed in front of all else, its registers being the first ones.
+    fn joined(self) -> Component {
+        // nothing is renumbered for nothing: there may be millions
+        if self.fixed.is_empty() {
+            return self;
+        }
+        let fixed = self.fixed_registers as Register;
+        let own = |register: Register| if register < FIXED { register + fixed } else { register - FIXED };
+        let (apart, behind) = (self.fixed.len(), self.fixed_registers);
+        let all = self.fixed.into_iter().chain(self.instructions);
+        Component {
+            instructions: all.map(|each| each.renumbered(own, own)).collect(),
+            segments: self.segments.into_iter().map(|segment| segment.renumbered(own).behind(apart)).collect(),
+            registers: self.registers + behind,
+            ..Component::default()
+        }
+    }
+}
+
+/// The columns of what is wanted across groups beside accelerations: third derivatives, variations, multipliers.
+fn joined(system: &ConstraintSystem, layout: &RowLayout, wanted: &Wanted) -> FxHashSet<u32> {
+    let column = |symbol| match symbol {
+        Symbol::Coordinate { index, order: 3 } => Some(layout.coordinate(index, 3)),
+        Symbol::Varied { index, order, variation } => Some(layout.varied(variation, u32::from(order), index)),
+        Symbol::Multiplier(row) => Some(layout.multiplier(row)),
+        Symbol::VariedMultiplier { row, variation } => Some(layout.varied_multiplier(variation, row)),
+        _ => None,
+    };
+    system.graph().symbols_of_all(&wanted.formulas(system)).into_iter().filter_map(column).collect()
+}
+
+/// A solver in the making.
+pub(super) struct Builder<'s, V> {
+    system: &'s ConstraintSystem,
+    pub(super) program: &'s Program,
+    values: &'s V,
+    groups: &'s Groups,
+    purpose: Purpose,
+    pub(super) layout: RowLayout,
+    pub(super) terms: Terms<'s>,
+    /// Each column's place in its block.
+    place_of_column: Vec<u32>,
+    /// By measure: how many measures before it have a first, and how many a second derivative.
+    measures_before: Vec<[u32; 2]>,
+    segments: Vec<Segment>,
+    weights: Vec<f64>,
+    tears: Vec<u32>,
+    /// Columns of the third derivatives and variations that join groups.
+    joined: FxHashSet<u32>,
+    pivots: Vec<Pivot>,
+    turns: Vec<Turn>,
+}
+
+impl<'s, V: Values> Builder<'s, V> {
+    fn new(
+        determined: &'s Determined,
+        program: &'s Program,
+        values: &'s V,
+        groups: &'s Groups,
+        purpose: Purpose,
+    ) -> Builder<'s, V> {
+        let (system, layout) = (determined.system(), RowLayout::new(determined.system()));
+        let mut place_of_column = vec![0; system.coordinates().len()];
+        for block in determined.blocks() {
+            for (place, &column) in block.columns.iter().enumerate() {
+                place_of_column[column as usize] = place as u32;
+            }
+        }
+        let before = system.measures().iter().scan([0; 2], |counts, measure| {
+            let before = *counts;
+            counts[0] += u32::from(measure.first.is_some());
+            counts[1] += u32::from(measure.second.is_some());
+            Some(before)
+        });
+        Builder {
+            system,
+            program,
+            values,
+            groups,
+            purpose,
+            layout,
+            terms: Terms::new(system, program, layout, purpose != Purpose::Code),
+            place_of_column,
+            measures_before: before.collect(),
+            segments: Vec::new(),
+            weights: Vec::new(),
+            tears: Vec::new(),
+            joined: FxHashSet::default(),
+            pivots: Vec::new(),
+            turns: Vec::new(),
+        }
+    }
+
+    /// Ends a component, of whose columns some are kept.
+    fn finish(&mut self, is_kept: &dyn Fn(u32) -> bool) -> Component {
+        self.close_once();
+        let tape = &mut self.terms.tape;
+        let instructions = std::mem::take(&mut tape.instructions);
+        let component = Component {
+            instructions,
+            segments: std::mem::take(&mut self.segments),
+            registers: tape.registers(),
+            ..Component::default()
+        };
+        let is_needed = |instruction: &Instruction| match *instruction {
+            Instruction::Store { column, .. } => is_kept(column),
+            Instruction::Multiplier { .. } => self.purpose == Purpose::Variants,
+            _ => instruction.writes().is_empty(),
+        };
+        finish(component, is_needed, self.purpose)
+    }
+
+    /// Ends a run of instructions that are done once.
+    fn close_once(&mut self) {
+        let from = self.segments.last().map_or(0, |segment| segment.range().end);
+        self.segments.push(Segment::Once(from..self.terms.tape.instructions.len()));
+    }
+
+    /// Position and rates of a block; gives its factors.
+    fn block(&mut self, block: &Block) -> Factors {
+        let factors = if block.explicit { self.explicit(block) } else { self.implicit(block) };
+        for &column in &block.columns {
+            self.store(0, column);
+        }
+        if self.purpose != Purpose::Lanes {
+            self.note_pivots(block, &factors);
+        }
+        self.rates(block, &factors);
+        self.terms.end_block();
+        factors
+    }
+
+    /// Notes the pivots of a block that are no numbers, with what the others and their order make of the determinant's sign.
+    fn note_pivots(&mut self, block: &Block, factors: &Factors) {
+        let turn = self.turns.len() as u32;
+        let mut is_negative = factors.is_odd();
+        let before = self.pivots.len();
+        for inverse in factors.inverses() {
+            match inverse.value {
+                Value::Number(x) => is_negative ^= x < 0.0,
+                Value::Of { at, negative } => {
+                    is_negative ^= negative;
+                    let weight = inverse.places.iter().map(|&place| self.weight(block, place)).product();
+                    let pivot = self.pivots.len() as u32;
+                    self.pivots.push(Pivot { turn, weight });
+                    self.terms.tape.act(Instruction::Pivot { a: at, pivot });
+                }
+            }
+        }
+        if self.pivots.len() > before {
+            let block = self.groups.block_of_column[block.columns[0] as usize] as u32;
+            self.turns.push(Turn { block, is_negative });
+        }
+    }
+
+    /// What makes one over a pivot a pure number.
+    fn weight(&self, block: &Block, (row, column): (u32, u32)) -> f64 {
+        let scale = self.system.coordinates()[block.columns[column as usize] as usize].scale;
+        self.values.row_norm(block.rows[row as usize] as usize) / scale
+    }
+
+    /// One equation that is linear in its coordinate.
+    fn explicit(&mut self, block: &Block) -> Factors {
+        let (row, column) = (block.rows[0] as usize, block.columns[0]);
+        let slope = self.inside(block)[0][0].1;
+        let rest = self.terms.without(self.program.outputs.phi[row], self.coordinate(0, column));
+        let value = self.terms.tape.div(rest.negated(), slope);
+        self.terms.tape.trust(value);
+        self.terms.know(self.coordinate(0, column), value);
+        Factors::of_one(&mut self.terms.tape, slope)
+    }
+
+    /// Equations that are solved by iteration for some coordinates, the others following from these.
+    fn implicit(&mut self, block: &Block) -> Factors {
+        let pattern: Vec<Vec<(u32, bool)>> = block.rows.iter().map(|&row| self.assignable(block, row)).collect();
+        let tearing = tear(&pattern);
+        let order = self.order(block);
+        self.newton(block, &tearing, &order);
+        // where it has settled
+        self.assign(block, &tearing.assigned);
+        for &row in &tearing.residuals {
+            let row = block.rows[row as usize];
+            let value = self.terms.value(self.program.outputs.phi[row as usize]);
+            let a = self.terms.tape.register(value);
+            self.terms.tape.act(Instruction::Residual { a, row });
+        }
+        self.eliminate(block, &order)
+    }
+
+    /// The loop that finds the tears of a block.
+    fn newton(&mut self, block: &Block, tearing: &Tearing, order: &Order) {
+        self.terms.enter_loop();
+        let guesses: Vec<Register> =
+            tearing.tears.iter().map(|&tear| self.guess(block.columns[tear as usize])).collect();
+        self.assign(block, &tearing.assigned);
+        let rows = self.inside(block);
+        let factors = Factors::new(&mut self.terms.tape, rows, order, None::<fn(u32, u32) -> u32>);
+        let mut right = vec![Value::ZERO; block.rows.len()];
+        for &row in &tearing.residuals {
+            let phi = self.program.outputs.phi[block.rows[row as usize] as usize];
+            right[row as usize] = self.terms.value(phi).negated();
+        }
+        let corrections = factors.solve(&mut self.terms.tape, right);
+        let mut tears = Vec::with_capacity(guesses.len());
+        for (&place, &x) in tearing.tears.iter().zip(&guesses) {
+            let scale = self.system.coordinates()[block.columns[place as usize] as usize].scale;
+            let delta = self.terms.tape.register(corrections[place as usize]);
+            tears.push(Tear::new(x, delta, scale));
+        }
+        self.terms.leave_loop(&tears);
+        self.close_once();
+        let instructions = self.terms.tape.close_loop();
+        self.segments.push(Segment::Newton { instructions, tears });
+        for (&place, &at) in tearing.tears.iter().zip(&guesses) {
+            let register = self.coordinate(0, block.columns[place as usize]);
+            self.terms.know(register, Value::Of { at, negative: false });
+        }
+    }
+
+    /// The entries of a row within its block, and whether the row can be solved for the coordinate of each without losing digits:
+    /// its slope is a number, and no other number in the row is larger.
+    fn assignable(&self, block: &Block, row: u32) -> Vec<(u32, bool)> {
+        let slope = |at: usize| self.terms.number(self.program.outputs.phi_q[at]).map_or(0.0, f64::abs);
+        let entries = || self.entries_inside(block, row);
+        let largest = entries().map(|(_, at)| slope(at)).fold(0.0, f64::max);
+        entries().map(|(place, at)| (place, slope(at) > 0.0 && slope(at) >= largest)).collect()
+    }
+
+    /// A coordinate that iteration begins with.
+    fn guess(&mut self, column: u32) -> Register {
+        let tear = self.tears.len() as u32;
+        self.tears.push(column);
+        let at = self.terms.guess(tear);
+        self.terms.know(self.coordinate(0, column), Value::Of { at, negative: false });
+        at
+    }
+
+    /// Coordinates that follow from those that are known.
+    fn assign(&mut self, block: &Block, assigned: &[(u32, u32)]) {
+        for &(row, place) in assigned {
+            let (row, column) = (block.rows[row as usize], block.columns[place as usize]);
+            let register = self.coordinate(0, column);
+            if self.terms.is_known(register) {
+                continue;
+            }
+            let slope = self.entries_inside(block, row).find(|(own, _)| *own == place).map(|(_, at)| at);
+            let slope = slope.map_or(Value::Number(1.0), |at| self.terms.value(self.program.outputs.phi_q[at]));
+            let rest = self.terms.without(self.program.outputs.phi[row as usize], register);
+            let value = self.terms.tape.div(rest.negated(), slope);
+            self.terms.tape.trust(value);
+            self.terms.know(register, value);
+        }
+    }
+
+    /// What is wanted of a component beside its coordinates.
+    fn outputs(&mut self, wanted: &Wanted) {
+        let outputs = &self.program.outputs;
+        for &k in &wanted.reactions {
+            let value = self.terms.value(outputs.reactions[k]);
+            self.terms.tape.store(self.layout.reactions + k as u32, value);
+        }
+        for &k in &wanted.measures {
+            let (measure, [first, second]) = (&self.system.measures()[k], self.measures_before[k]);
+            let lists = [
+                Some((&outputs.measures, k as u32)),
+                measure.first.map(|_| (&outputs.measures_d, first)),
+                measure.second.map(|_| (&outputs.measures_dd, second)),
+            ];
+            for (column, list) in self.layout.measures.into_iter().zip(lists) {
+                let Some((list, at)) = list else {
+                    continue;
+                };
+                let value = self.terms.value(list[at as usize]);
+                self.terms.tape.store(column + at, value);
+            }
+        }
+        for &k in &wanted.appended {
+            let value = self.terms.value(outputs.appended[k]);
+            self.terms.tape.store(self.layout.appended + k as u32, value);
+        }
+    }
+
+    /// Leaves a coordinate, or a derivative of it, in its column.
+    fn store(&mut self, order: usize, column: u32) {
+        let value = self.terms.value(self.coordinate(order, column));
+        self.terms.tape.store(self.layout.coordinates[order] + column, value);
+    }
+
+    /// The order of elimination of a block.
+    fn order(&self, block: &Block) -> Order {
+        let mut entries = Vec::new();
+        for (row, &number) in block.rows.iter().enumerate() {
+            for (column, at) in self.entries_inside(block, number) {
+                let is_number = self.terms.number(self.program.outputs.phi_q[at]).is_some_and(|value| value != 0.0);
+                entries.push(BlockEntry { row: row as u32, column, value: self.values.entry(at), is_number });
+            }
+        }
+        Order::new(block.rows.len(), &entries)
+    }
+
+    /// Eliminates a block's part of `Φ_q` in an order, with an eye on its multipliers.
+    fn eliminate(&mut self, block: &Block, order: &Order) -> Factors {
+        let rows = self.inside(block);
+        let (weights, values) = (&mut self.weights, self.values);
+        let norm = |row: u32| values.row_norm(block.rows[row as usize] as usize);
+        let weight = |row: u32, other: u32| {
+            weights.push(norm(row) / norm(other));
+            (weights.len() - 1) as u32
+        };
+        Factors::new(&mut self.terms.tape, rows, order, Some(weight))
+    }
+
+    /// The entries of a block's rows within the block.
+    fn inside(&mut self, block: &Block) -> Vec<Line> {
+        let mut rows = Vec::with_capacity(block.rows.len());
+        for &row in &block.rows {
+            let places: Vec<(u32, usize)> = self.entries_inside(block, row).collect();
+            let phi_q = &self.program.outputs.phi_q;
+            rows.push(places.into_iter().map(|(place, at)| (place, self.terms.value(phi_q[at]))).collect());
+        }
+        rows
+    }
+
+    /// The entries of a row within its block: place of the column, and position in the pattern.
+    fn entries_inside(&self, block: &Block, row: u32) -> impl Iterator<Item = (u32, usize)> + use<'s, '_, V> {
+        let own = self.groups.block_of_column[block.columns[0] as usize];
+        let pattern = self.system.phi_q();
+        let entries = pattern.range(row as usize).zip(pattern.row(row as usize));
+        entries
+            .filter(move |(_, (column, _))| self.groups.block_of_column[*column as usize] == own)
+            .map(|(at, &(column, _))| (self.place_of_column[column as usize], at))
+    }
+
+    /// The entries of a row in blocks before its own: position in the pattern, and column.
+    pub(super) fn entries_outside(&self, block: &Block, row: u32) -> Vec<(usize, u32)> {
+        let own = self.groups.block_of_column[block.columns[0] as usize];
+        let pattern = self.system.phi_q();
+        let entries = pattern.range(row as usize).zip(pattern.row(row as usize));
+        entries
+            .filter(|(_, (column, _))| self.groups.block_of_column[*column as usize] != own)
+            .map(|(at, &(column, _))| (at, column))
+            .collect()
+    }
+
+    /// The program's register of a coordinate's derivative.
+    fn coordinate(&self, order: usize, column: u32) -> Register {
+        self.program.inputs.coordinates[order] + column
+    }
+
+    /// Whether a column is left for others than its own component. Code has no use for the others of third derivatives and variations.
+    pub(super) fn is_joined(&self, column: u32) -> bool {
+        self.joined.contains(&column)
+    }
+
+    pub(super) fn is_for_code(&self) -> bool {
+        self.purpose == Purpose::Code
+    }
+}

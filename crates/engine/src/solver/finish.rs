@@ -1,0 +1,259 @@
+//! What nothing needs is left out, products are joined with their sums, and registers are used again.
+
+use super::fusion::fuse;
+use super::{Component, FIXED, Instruction, Purpose, Segment};
+use mechc_ir::program::{Op, Register};
+use std::ops::Range;
+
+const NONE: u32 = u32::MAX;
+
+/// A component whose registers are each written once, in fewer instructions: those that are needed for themselves, and what leads to them. Its
+/// registers may be used several times, if that is what it is for.
+pub(super) fn finish(
+    mut component: Component,
+    is_needed: impl Fn(&Instruction) -> bool,
+    purpose: Purpose,
+) -> Component {
+    let is_needed = needed(&component, is_needed);
+    let is_joined = join(&mut component, &is_needed);
+    let keep: Vec<bool> = is_needed.iter().zip(&is_joined).map(|(needed, joined)| *needed && !joined).collect();
+    let mut component = compact(component, &keep);
+    match purpose {
+        Purpose::Code => {}
+        Purpose::Lanes => {
+            component = fused(component);
+            let unknown = vec![NONE; component.registers];
+            share_registers(&mut component, unknown);
+        }
+        Purpose::Variants => {
+            let (rest, own) = set_fixed_apart(component);
+            component = rest;
+            share_registers(&mut component, own);
+        }
+    }
+    component
+}
+
+/// The same with what can be done in one go.
+fn fused(mut component: Component) -> Component {
+    let keep = fuse(&mut component);
+    compact(component, &keep)
+}
+
+/// Sets apart what only numbers and parameters lead to: it is computed once for these, and stays. What is left is done in as few goes as can be.
+/// Gives the registers that what stays has of its own; [`NONE`] for all others.
+fn set_fixed_apart(component: Component) -> (Component, Vec<Register>) {
+    let mut own = vec![NONE; component.registers];
+    let (mut fixed, mut count) = (Vec::new(), 0);
+    let mut keep = vec![true; component.instructions.len()];
+    for at in component.segments.iter().filter(|segment| !segment.is_loop()).flat_map(Segment::range) {
+        let instruction = component.instructions[at];
+        let is_fixed = match instruction {
+            Instruction::Number { .. } | Instruction::Load { .. } => true,
+            Instruction::Compute(_) | Instruction::Store { .. } => {
+                instruction.reads().iter().all(|&register| own[register as usize] != NONE)
+            }
+            _ => false,
+        };
+        if is_fixed {
+            keep[at] = false;
+            for &register in instruction.writes().iter() {
+                own[register as usize] = FIXED | count;
+                count += 1;
+            }
+            fixed.push(instruction.renumbered(|register| own[register as usize], |register| own[register as usize]));
+        }
+    }
+    let rest = fused(compact(component, &keep));
+    (Component { fixed, fixed_registers: count as usize, ..rest }, own)
+}
+
+/// Which instructions are needed for themselves, or lead to some that are.
+fn needed(component: &Component, is_result: impl Fn(&Instruction) -> bool) -> Vec<bool> {
+    let mut is_read = vec![false; component.registers];
+    for tear in component.segments.iter().flat_map(Segment::tears) {
+        (is_read[tear.x as usize], is_read[tear.delta as usize]) = (true, true);
+    }
+    let mut is_needed = vec![false; component.instructions.len()];
+    // what a loop reads of itself it has written before, in the same iteration
+    for (at, instruction) in component.instructions.iter().enumerate().rev() {
+        let writes = instruction.writes();
+        is_needed[at] = is_result(instruction) || writes.iter().any(|&register| is_read[register as usize]);
+        if is_needed[at] {
+            for register in instruction.reads() {
+                is_read[register as usize] = true;
+            }
+        }
+    }
+    is_needed
+}
+
+/// Joins products that only one sum uses with that sum; says which products are in it now.
+fn join(component: &mut Component, is_needed: &[bool]) -> Vec<bool> {
+    let instructions = &mut component.instructions;
+    let (mut uses, mut written_by) = (vec![0_u32; component.registers], vec![NONE; component.registers]);
+    for (at, instruction) in instructions.iter().enumerate().filter(|(at, _)| is_needed[*at]) {
+        instruction.reads().iter().for_each(|&register| uses[register as usize] += 1);
+        instruction.writes().iter().for_each(|&register| written_by[register as usize] = at as u32);
+    }
+    let mut is_joined = vec![false; instructions.len()];
+    for segment in &component.segments {
+        let range = segment.range();
+        for tear in segment.tears() {
+            uses[tear.delta as usize] += 1;
+        }
+        for at in range.clone().filter(|at| is_needed[*at]) {
+            let product = |register: Register| {
+                let by = written_by[register as usize] as usize;
+                match (uses[register as usize], instructions.get(by)) {
+                    (1, Some(&Instruction::Compute(Op::Mul { a, b, .. }))) if range.contains(&by) => Some((by, [a, b])),
+                    _ => None,
+                }
+            };
+            if let Instruction::Compute(op) = instructions[at]
+                && let Some((by, op)) = with_product(op, product)
+            {
+                instructions[at] = Instruction::Compute(op);
+                is_joined[by] = true;
+            }
+        }
+    }
+    is_joined
+}
+
+/// A sum or difference with one of its operands as a product, and where that product was.
+fn with_product(op: Op, product: impl Fn(Register) -> Option<(usize, [Register; 2])>) -> Option<(usize, Op)> {
+    match op {
+        Op::Add { to, a, b } => {
+            let (by, [x, y], c) = match product(b) {
+                Some((by, factors)) => (by, factors, a),
+                None => product(a).map(|(by, factors)| (by, factors, b))?,
+            };
+            Some((by, Op::MulAdd { to, a: x, b: y, c }))
+        }
+        Op::Sub { to, a, b } => match product(b) {
+            Some((by, [x, y])) => Some((by, Op::LessMul { to, a: x, b: y, c: a })),
+            None => product(a).map(|(by, [x, y])| (by, Op::MulLess { to, a: x, b: y, c: b })),
+        },
+        _ => None,
+    }
+}
+
+fn compact(component: Component, keep: &[bool]) -> Component {
+    let Component { instructions, segments, registers, .. } = component;
+    let mut component = Component { registers, ..Component::default() };
+    for segment in segments {
+        let from = component.instructions.len();
+        component.instructions.extend(segment.range().filter(|&at| keep[at]).map(|at| instructions[at]));
+        let range = from..component.instructions.len();
+        match segment {
+            Segment::Newton { tears, .. } => component.segments.push(Segment::Newton { instructions: range, tears }),
+            Segment::Once(_) if range.is_empty() => {}
+            Segment::Once(_) => component.segments.push(Segment::Once(range)),
+        }
+    }
+    component
+}
+
+/// Gives registers out anew, each to several values one after the other. Some have their place already, which they share with none.
+fn share_registers(component: &mut Component, mut place: Vec<Register>) {
+    let registers = component.registers;
+    let Life { last_use, outlives } = Life::new(component);
+    let is_fixed: Vec<bool> = place.iter().map(|&place| place != NONE).collect();
+    let (mut free, mut next): (Vec<Register>, Register) = (Vec::new(), 0);
+    // those that live to the end of a loop, by where it ends
+    let mut ends: Vec<Vec<Register>> = Vec::new();
+    let loops: Vec<Range<usize>> = component
+        .segments
+        .iter()
+        .filter(|segment| segment.is_loop())
+        .map(Segment::range)
+        .inspect(|_| ends.push(Vec::new()))
+        .collect();
+    for register in 0..registers {
+        if !is_fixed[register]
+            && outlives[register] != NONE
+            && last_use[register] < loops[outlives[register] as usize].end as u32
+        {
+            ends[outlives[register] as usize].push(register as Register);
+        }
+    }
+    let mut open = loops.iter().zip(ends).peekable();
+    for at in 0..=component.instructions.len() {
+        while let Some((_, ended)) = open.next_if(|(range, _)| range.end == at) {
+            free.extend(ended.into_iter().map(|register| place[register as usize]).filter(|&place| place != NONE));
+        }
+        let Some(instruction) = component.instructions.get(at).copied() else {
+            break;
+        };
+        let reads = instruction.reads();
+        let dies = |register: Register| {
+            let k = register as usize;
+            let in_loop = outlives[k] != NONE && last_use[k] < loops[outlives[k] as usize].end as u32;
+            last_use[k] == at as u32 && !in_loop && !is_fixed[k]
+        };
+        for (k, &register) in reads.iter().enumerate() {
+            if dies(register) && !reads[..k].contains(&register) {
+                free.push(place[register as usize]);
+            }
+        }
+        for register in instruction.writes() {
+            place[register as usize] = free.pop().unwrap_or_else(|| {
+                next += 1;
+                next - 1
+            });
+        }
+        component.instructions[at] =
+            instruction.renumbered(|register| place[register as usize], |register| place[register as usize]);
+        for register in instruction.writes() {
+            // nobody reads it
+            if last_use[register as usize] == NONE {
+                free.push(place[register as usize]);
+            }
+        }
+    }
+    let segments = std::mem::take(&mut component.segments).into_iter();
+    component.segments = segments.map(|segment| segment.renumbered(|register| place[register as usize])).collect();
+    component.registers = next as usize;
+}
+
+/// How long registers are needed.
+struct Life {
+    /// The last operation that reads each; none if none does.
+    last_use: Vec<u32>,
+    /// The last loop to whose end each is needed, be it that no operation reads it so late.
+    outlives: Vec<u32>,
+}
+
+impl Life {
+    fn new(component: &Component) -> Life {
+        let registers = component.registers;
+        let mut written_at = vec![0_u32; registers];
+        let mut life = Life { last_use: vec![NONE; registers], outlives: vec![NONE; registers] };
+        let mut number = 0;
+        for segment in &component.segments {
+            let range = segment.range();
+            for at in range.clone() {
+                for register in component.instructions[at].reads() {
+                    life.last_use[register as usize] = at as u32;
+                    if segment.is_loop() && (written_at[register as usize] as usize) < range.start {
+                        life.outlives[register as usize] = number;
+                    }
+                }
+                for register in component.instructions[at].writes() {
+                    written_at[register as usize] = at as u32;
+                }
+            }
+            if let Segment::Newton { tears, .. } = segment {
+                for register in tears.iter().flat_map(|tear| [tear.x, tear.delta]) {
+                    life.outlives[register as usize] = number;
+                    if life.last_use[register as usize] == NONE {
+                        life.last_use[register as usize] = range.start as u32;
+                    }
+                }
+                number += 1;
+            }
+        }
+        life
+    }
+}

@@ -1,0 +1,145 @@
+//! Operations of a program, laid out for operands of which some are numbers already.
+
+use super::tape::{Tape, Value};
+use mechc_expr::{Binary, Comparison, Unary};
+use mechc_ir::program::{Column, Machine, Op, Register};
+
+/// The registers of the program that an operation writes, and what they are worth then.
+pub(super) type Results = [Option<(Register, Value)>; 2];
+
+/// A machine on which an operation becomes instructions, or numbers.
+pub(super) struct Folding<'f, R> {
+    pub tape: &'f mut Tape,
+    /// What a register of the program is worth.
+    pub read: R,
+    pub results: Results,
+}
+
+impl<R: Fn(Register) -> Value> Folding<'_, R> {
+    /// An operation that goes for any operands.
+    fn any<const N: usize>(&mut self, operands: [Value; N], op: impl FnOnce(Register, [Register; N]) -> Op) -> Value {
+        let registers = operands.map(|value| self.tape.register(value));
+        let value = self.tape.compute(|to| op(to, registers));
+        self.inherit(value, &operands)
+    }
+
+    /// What comes of doubtful operands is doubtful.
+    fn inherit(&mut self, value: Value, operands: &[Value]) -> Value {
+        if operands.iter().any(|&operand| self.tape.is_doubtful(operand)) {
+            self.tape.doubt(value);
+        }
+        value
+    }
+
+    /// What may be no finite number even of operands that are.
+    fn doubted(&mut self, value: Value) -> Value {
+        self.tape.doubt(value);
+        value
+    }
+}
+
+impl<R: Fn(Register) -> Value> Machine for Folding<'_, R> {
+    type Value = Value;
+
+    fn read(&mut self, register: Register) -> Value {
+        (self.read)(register)
+    }
+
+    fn write(&mut self, register: Register, value: Value) {
+        let written = self.results.iter().flatten().count();
+        self.results[written] = Some((register, value));
+    }
+
+    fn add(&mut self, a: Value, b: Value) -> Value {
+        let sum = self.tape.add(a, b);
+        self.inherit(sum, &[a, b])
+    }
+
+    fn sub(&mut self, a: Value, b: Value) -> Value {
+        let difference = self.tape.sub(a, b);
+        self.inherit(difference, &[a, b])
+    }
+
+    fn mul(&mut self, a: Value, b: Value) -> Value {
+        // nothing times what is infinite is no number
+        let is_open = (a.is_zero() && self.tape.is_doubtful(b)) || (b.is_zero() && self.tape.is_doubtful(a));
+        if is_open {
+            return self.any([a, b], |to, [a, b]| Op::Mul { to, a, b });
+        }
+        let product = self.tape.mul(a, b);
+        self.inherit(product, &[a, b])
+    }
+
+    fn div(&mut self, a: Value, b: Value) -> Value {
+        // nothing by nothing is no number either
+        let is_open = a.is_zero() && matches!(b, Value::Of { .. });
+        let quotient = if is_open { self.any([a, b], |to, [a, b]| Op::Div { to, a, b }) } else { self.tape.div(a, b) };
+        if matches!(b, Value::Number(_)) { self.inherit(quotient, &[a]) } else { self.doubted(quotient) }
+    }
+
+    fn neg(&mut self, a: Value) -> Value {
+        a.negated()
+    }
+
+    fn recip(&mut self, a: Value) -> Value {
+        let inverse = self.tape.recip(a);
+        self.doubted(inverse)
+    }
+
+    fn sin_cos(&mut self, a: Value) -> [Value; 2] {
+        self.tape.sin_cos(a).map(|value| self.inherit(value, &[a]))
+    }
+
+    fn unary(&mut self, function: Unary, a: Value) -> Value {
+        let value = self.any([a], |to, [a]| Op::Unary { function, to, a });
+        match function {
+            Unary::Abs | Unary::Sign | Unary::Floor | Unary::Sin | Unary::Cos | Unary::Atan | Unary::Tanh => value,
+            Unary::Tan
+            | Unary::Asin
+            | Unary::Acos
+            | Unary::Sinh
+            | Unary::Cosh
+            | Unary::Exp
+            | Unary::Ln
+            | Unary::Log10
+            | Unary::Sqrt => self.doubted(value),
+        }
+    }
+
+    fn binary(&mut self, function: Binary, a: Value, b: Value) -> Value {
+        let value = self.any([a, b], |to, [a, b]| Op::Binary { function, to, a, b });
+        if matches!(function, Binary::Pow | Binary::Mod) { self.doubted(value) } else { value }
+    }
+
+    fn compare(&mut self, comparison: Comparison, a: Value, b: Value) -> Value {
+        self.any([a, b], |to, [a, b]| Op::Compare { comparison, to, a, b })
+    }
+
+    fn and(&mut self, a: Value, b: Value) -> Value {
+        self.any([a, b], |to, [a, b]| Op::And { to, a, b })
+    }
+
+    fn or(&mut self, a: Value, b: Value) -> Value {
+        self.any([a, b], |to, [a, b]| Op::Or { to, a, b })
+    }
+
+    fn not(&mut self, a: Value) -> Value {
+        self.any([a], |to, [a]| Op::Not { to, a })
+    }
+
+    fn select(&mut self, condition: Value, a: Value, b: Value) -> Value {
+        self.any([condition, a, b], |to, [condition, a, b]| Op::Select { to, condition, a, b })
+    }
+
+    fn either(&mut self, condition: Value, a: Value, b: Value) -> Value {
+        self.any([condition, a, b], |to, [condition, a, b]| Op::Either { to, condition, a, b })
+    }
+
+    fn piece(&mut self, table: u32, a: Value) -> Value {
+        self.any([a], |to, [a]| Op::Piece { to, table, a })
+    }
+
+    fn pick(&mut self, table: u32, column: Column, piece: Value) -> Value {
+        self.any([piece], |to, [piece]| Op::Pick { to, table, column, piece })
+    }
+}

@@ -1,0 +1,52 @@
+//! The multipliers of a component's equations, by the factors of its blocks: `Φ_qᵀ λ = p`, from the last block to the first.
+
+use super::Values;
+use super::build::Builder;
+use super::elimination::Factors;
+use super::tape::Value;
+use mechc_ir::program::Register;
+use mechc_ir::structure::Block;
+use rustc_hash::FxHashMap;
+
+impl<V: Values> Builder<'_, V> {
+    /// The multipliers, and how they vary, of a component whose motion is known.
+    pub fn forces(&mut self, blocks: &[(&Block, Factors)]) {
+        let program = self.program;
+        let (outputs, inputs) = (&program.outputs, &program.inputs);
+        if outputs.forces.is_empty() {
+            return;
+        }
+        self.solve_transposed(blocks, &outputs.forces, inputs.multipliers);
+        for (variation, right) in (0..).zip(&outputs.varied_forces).filter(|(_, right)| !right.is_empty()) {
+            self.solve_transposed(blocks, right, inputs.varied_multipliers(variation));
+        }
+    }
+
+    /// Solves for unknowns, one for each equation, of which the program has the first in a register. The right side is by coordinates.
+    fn solve_transposed(&mut self, blocks: &[(&Block, Factors)], right: &[Register], unknown: Register) {
+        let program = self.program;
+        let column = self.layout.multipliers + (unknown - program.inputs.multipliers);
+        // by coordinate: what the equations of later blocks exert on it, as positions in the pattern with rows
+        let mut exerted: FxHashMap<u32, Vec<(usize, u32)>> = FxHashMap::default();
+        for (block, factors) in blocks.iter().rev() {
+            let mut sums = Vec::with_capacity(block.columns.len());
+            for &column in &block.columns {
+                let mut sum = self.terms.value(right[column as usize]);
+                for (at, row) in exerted.remove(&column).into_iter().flatten() {
+                    sum = self.terms.less_product(sum, program.outputs.phi_q[at], unknown + row);
+                }
+                sums.push(sum);
+            }
+            let solution: Vec<Value> = factors.solve_transposed(&mut self.terms.tape, sums);
+            for (&row, &value) in block.rows.iter().zip(&solution) {
+                self.terms.know(unknown + row, value);
+                if self.is_joined(column + row) {
+                    self.terms.tape.store(column + row, value);
+                }
+                for (at, other) in self.entries_outside(block, row) {
+                    exerted.entry(other).or_default().push((at, row));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! Blocks that depend on each other, and what depends on one group of them alone.
+
+use mechc_expr::{ExprId, Symbol};
+use mechc_ir::ConstraintSystem;
+use mechc_ir::structure::Determined;
+
+/// Blocks that depend on each other.
+pub(super) struct Groups {
+    /// Each group's blocks, in an order of solution.
+    pub blocks: Vec<Vec<usize>>,
+    group_of_column: Vec<usize>,
+    pub block_of_column: Vec<usize>,
+    group_of_row: Vec<usize>,
+}
+
+/// What is wanted beside the motion, by numbers.
+#[derive(Clone, Default)]
+pub(super) struct Wanted {
+    /// Columns of what joints exert and drivers supply.
+    pub reactions: Vec<usize>,
+    pub measures: Vec<usize>,
+    /// Columns of derivatives.
+    pub appended: Vec<usize>,
+}
+
+impl Wanted {
+    /// All of its formulas.
+    pub fn formulas(&self, system: &ConstraintSystem) -> Vec<ExprId> {
+        let reactions = self.reactions.iter().map(|&k| system.reactions()[k].value);
+        let measures = self.measures.iter().flat_map(|&k| {
+            let measure = &system.measures()[k];
+            [Some(measure.value), measure.first, measure.second].into_iter().flatten()
+        });
+        reactions.chain(measures).chain(self.appended.iter().map(|&k| system.appended()[k].value)).collect()
+    }
+}
+
+impl Groups {
+    pub fn new(determined: &Determined) -> Groups {
+        let (system, blocks) = (determined.system(), determined.blocks());
+        let block_of_column = determined.block_of_columns();
+        let mut parent: Vec<usize> = (0..blocks.len()).collect();
+        let mut join = |a: usize, b: usize| {
+            let (a, b) = (root(&mut parent, a), root(&mut parent, b));
+            parent[a.max(b)] = a.min(b);
+        };
+        let mut block_of_row = vec![0; system.rows().len()];
+        for (k, block) in blocks.iter().enumerate() {
+            for &row in &block.rows {
+                block_of_row[row as usize] = k;
+                for &(column, _) in system.phi_q().row(row as usize) {
+                    join(k, block_of_column[column as usize]);
+                }
+            }
+        }
+        // a load may speak of others than it works on
+        for (&block, &needed) in block_of_column.iter().zip(system.needed_forces()) {
+            for symbol in system.graph().symbols(needed) {
+                if let Symbol::Coordinate { index, .. } = symbol {
+                    join(block, block_of_column[index as usize]);
+                }
+            }
+        }
+        let mut number = vec![usize::MAX; blocks.len()];
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for k in 0..blocks.len() {
+            let root = root(&mut parent, k);
+            if number[root] == usize::MAX {
+                number[root] = groups.len();
+                groups.push(Vec::new());
+            }
+            groups[number[root]].push(k);
+        }
+        let mut group_of = |block: &usize| number[root(&mut parent, *block)];
+        let group_of_column = block_of_column.iter().map(&mut group_of).collect();
+        let group_of_row = block_of_row.iter().map(&mut group_of).collect();
+        Groups { blocks: groups, group_of_column, block_of_column, group_of_row }
+    }
+
+    /// What is wanted of each group beside its motion, with or without what joints exert; and last what joins groups.
+    pub fn wanted(&self, system: &ConstraintSystem, with_reactions: bool) -> Vec<Wanted> {
+        let mut wanted = vec![Wanted::default(); self.blocks.len() + 1];
+        let reactions = if with_reactions { system.reactions() } else { &[] };
+        for (k, reaction) in reactions.iter().enumerate() {
+            wanted[self.of(system, [reaction.value])].reactions.push(k);
+        }
+        for (k, measure) in system.measures().iter().enumerate() {
+            let formulas = [Some(measure.value), measure.first, measure.second];
+            wanted[self.of(system, formulas.into_iter().flatten())].measures.push(k);
+        }
+        for (k, column) in system.appended().iter().enumerate() {
+            wanted[self.of(system, [column.value])].appended.push(k);
+        }
+        wanted
+    }
+
+    /// The group that some formulas speak of; where there are several, the number behind the last one.
+    fn of(&self, system: &ConstraintSystem, formulas: impl IntoIterator<Item = ExprId>) -> usize {
+        let symbols = formulas.into_iter().flat_map(|id| system.graph().symbols(id));
+        let mut groups = symbols.filter_map(|symbol| match symbol {
+            Symbol::Coordinate { index, .. } | Symbol::Varied { index, .. } => {
+                Some(self.group_of_column[index as usize])
+            }
+            Symbol::Multiplier(row) | Symbol::VariedMultiplier { row, .. } => Some(self.group_of_row[row as usize]),
+            _ => None,
+        });
+        let first = groups.next();
+        first.filter(|first| groups.all(|group| group == *first)).unwrap_or(self.blocks.len())
+    }
+}
+
+fn root(parent: &mut [usize], mut k: usize) -> usize {
+    while parent[k] != k {
+        parent[k] = parent[parent[k]];
+        k = parent[k];
+    }
+    k
+}

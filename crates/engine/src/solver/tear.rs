@@ -1,0 +1,177 @@
+//! Which coordinates of a block are guessed, so that all others follow one by one.
+
+use mechc_ir::tolerances::solving::tear::CANDIDATES;
+use std::collections::BTreeSet;
+
+/// How a block falls apart once its tears are known; rows and columns are counted within the block.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub(super) struct Tearing {
+    /// Equations with the coordinate that each gives, in an order of solution.
+    pub assigned: Vec<(u32, u32)>,
+    /// The coordinates that Newton solves for.
+    pub tears: Vec<u32>,
+    /// The equations that it solves, as many.
+    pub residuals: Vec<u32>,
+}
+
+/// An entry of a block: its column, and whether it is a number, so that its row can be solved for the column.
+pub(super) type Entry = (u32, bool);
+
+/// Tears a block of as many rows as columns.
+pub(super) fn tear(rows: &[Vec<Entry>]) -> Tearing {
+    let mut search = Search::new(rows);
+    while search.known < rows.len() {
+        match search.next_row() {
+            Some((row, Some(column))) => {
+                search.tearing.assigned.push((row, column));
+                search.take(row);
+                search.learn(column);
+            }
+            // its coordinates are known, or it cannot be solved for the last of them
+            Some((row, None)) => search.take(row),
+            None => {
+                let column = search.best_tear();
+                search.tearing.tears.push(column);
+                search.learn(column);
+            }
+        }
+    }
+    search.finish()
+}
+
+struct Search<'r> {
+    rows: &'r [Vec<Entry>],
+    /// By column: the rows that hold it, and whether it can be assigned by one.
+    users: Vec<Vec<u32>>,
+    is_assignable: Vec<bool>,
+    is_known: Vec<bool>,
+    is_taken: Vec<bool>,
+    unknowns: Vec<usize>,
+    /// The rows that are left, those with the fewest unknowns first.
+    left: BTreeSet<(usize, u32)>,
+    known: usize,
+    tearing: Tearing,
+}
+
+impl<'r> Search<'r> {
+    fn new(rows: &'r [Vec<Entry>]) -> Search<'r> {
+        let n = rows.len();
+        let (mut users, mut is_assignable) = (vec![Vec::new(); n], vec![false; n]);
+        for (row, entries) in rows.iter().enumerate() {
+            for &(column, is_number) in entries {
+                users[column as usize].push(row as u32);
+                is_assignable[column as usize] |= is_number;
+            }
+        }
+        Search {
+            rows,
+            users,
+            is_assignable,
+            is_known: vec![false; n],
+            is_taken: vec![false; n],
+            unknowns: rows.iter().map(Vec::len).collect(),
+            left: rows.iter().enumerate().map(|(row, entries)| (entries.len(), row as u32)).collect(),
+            known: 0,
+            tearing: Tearing::default(),
+        }
+    }
+
+    /// A row with at most one unknown, and that unknown if the row can be solved for it.
+    fn next_row(&self) -> Option<(u32, Option<u32>)> {
+        let &(unknowns, row) = self.left.first().filter(|(unknowns, _)| *unknowns <= 1)?;
+        let unknown = self.rows[row as usize].iter().find(|(column, _)| !self.is_known[*column as usize]);
+        let column = unknown.filter(|(_, is_number)| unknowns == 1 && *is_number).map(|(column, _)| *column);
+        Some((row, column))
+    }
+
+    fn take(&mut self, row: u32) {
+        self.is_taken[row as usize] = true;
+        self.left.remove(&(self.unknowns[row as usize], row));
+    }
+
+    fn learn(&mut self, column: u32) {
+        self.is_known[column as usize] = true;
+        self.known += 1;
+        for k in 0..self.users[column as usize].len() {
+            let row = self.users[column as usize][k] as usize;
+            if !self.is_taken[row] {
+                self.left.remove(&(self.unknowns[row], row as u32));
+                self.left.insert((self.unknowns[row] - 1, row as u32));
+            }
+            self.unknowns[row] -= 1;
+        }
+    }
+
+    /// Of the rows with the fewest unknowns a coordinate that no equation gives, the one that most rows use; or else of the
+    /// first of them any.
+    fn best_tear(&self) -> u32 {
+        let users = |column: u32| self.users[column as usize].len();
+        let rows = || self.left.iter().take(CANDIDATES).map(|&(_, row)| self.rows[row as usize].as_slice());
+        let unknowns = |row: &'r [Entry]| row.iter().map(|&(column, _)| column).filter(|&c| !self.is_known[c as usize]);
+        let hopeless = |row: &'r [Entry]| {
+            unknowns(row).filter(|&column| !self.is_assignable[column as usize]).max_by_key(|&column| users(column))
+        };
+        let any = || rows().next().and_then(|row| unknowns(row).max_by_key(|&column| users(column)));
+        // rows that cannot be solved for their last unknown leave it to be torn
+        let left_over = || self.is_known.iter().position(|known| !known).unwrap_or(0) as u32;
+        rows().find_map(hopeless).or_else(any).unwrap_or_else(left_over)
+    }
+
+    fn finish(mut self) -> Tearing {
+        let mut is_used = vec![false; self.rows.len()];
+        for &(row, _) in &self.tearing.assigned {
+            is_used[row as usize] = true;
+        }
+        self.tearing.residuals = (0..self.rows.len() as u32).filter(|&row| !is_used[row as usize]).collect();
+        self.tearing
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::tear;
+
+    #[test]
+    fn a_four_bar_is_torn_at_two_angles() {
+        // coupler x, y, phi and rocker x, y, phi; a pin to the crank, one between them, one to the ground
+        let rows = [
+            vec![(0, true), (2, false)],
+            vec![(1, true), (2, false)],
+            vec![(0, true), (2, false), (3, true), (5, false)],
+            vec![(1, true), (2, false), (4, true), (5, false)],
+            vec![(3, true), (5, false)],
+            vec![(4, true), (5, false)],
+        ];
+        let tearing = tear(&rows);
+        assert_eq!(tearing.tears.len(), 2);
+        assert!(tearing.tears.contains(&2) && tearing.tears.contains(&5));
+        assert_eq!(tearing.residuals.len(), 2);
+        let mut known = tearing.tears.clone();
+        for &(row, column) in &tearing.assigned {
+            assert!(rows[row as usize].iter().all(|&(c, _)| c == column || known.contains(&c)), "out of order");
+            known.push(column);
+        }
+    }
+
+    #[test]
+    fn angles_are_torn_rather_than_places() {
+        // two crossed bars, each with an end on what is known; their middles are joined
+        let rows = [
+            vec![(0, true), (3, true)],
+            vec![(1, true), (4, true)],
+            vec![(0, true), (2, false)],
+            vec![(1, true), (2, false)],
+            vec![(3, true), (5, false)],
+            vec![(4, true), (5, false)],
+        ];
+        let mut tears = tear(&rows).tears;
+        tears.sort_unstable();
+        assert_eq!(tears, [2, 5]);
+    }
+
+    #[test]
+    fn what_no_equation_gives_is_torn() {
+        let tearing = tear(&[vec![(0, false)]]);
+        assert_eq!((tearing.tears, tearing.residuals), (vec![0], vec![0]));
+    }
+}

@@ -1,0 +1,329 @@
+//! Where in a text the cursor stands, by the words and characters before it: the text is half-typed, and need not follow the grammar.
+
+use crate::written::{Within, is_of_word, within};
+use mechc_syntax::{Token, begins_declaration, tokens};
+use mechc_text::vocabulary::{Dimension, Keyword, Unit, is_feature};
+use std::ops::Range;
+
+/// Between which braces a place is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Block {
+    File,
+    Mechanism,
+    Features,
+}
+
+/// A call that is open before the cursor.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Call<'t> {
+    /// What is called; nothing before plain parentheses.
+    pub name: &'t str,
+    /// So many commas stand between its parenthesis and the cursor.
+    pub argument: usize,
+    /// The token of its parenthesis.
+    pub open: usize,
+}
+
+/// A compound unit of which some is written: `90 deg/`.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Begun {
+    /// Of its units, from the last one on.
+    pub dimensions: Vec<Dimension>,
+}
+
+/// What stands before the cursor.
+pub(super) struct Cursor<'t> {
+    pub text: &'t str,
+    /// The word under the cursor, which may be empty; in a string all of it.
+    pub word: Range<usize>,
+    pub is_in_string: bool,
+    /// All before that.
+    tokens: Vec<Token<'t>>,
+    /// The first token of the declaration.
+    first: usize,
+    pub block: Block,
+}
+
+impl<'t> Cursor<'t> {
+    /// Nothing in a comment.
+    pub fn at(text: &'t str, offset: usize) -> Option<Cursor<'t>> {
+        let within = within(text.get(..offset)?, offset);
+        let mut word = word_at(text, offset);
+        let mut end = word.start;
+        match within {
+            Within::Code => {}
+            Within::Comment => return None,
+            Within::String(quote) => {
+                let rest = &text[offset..];
+                word = quote + 1..offset + rest.find(['"', '\n', '\r']).unwrap_or(rest.len());
+                end = quote;
+            }
+        }
+        let tokens = tokens(&text[..end]);
+        let (first, block) = declaration(&text[..end], &tokens);
+        Some(Cursor { text, word, is_in_string: matches!(within, Within::String(_)), tokens, first, block })
+    }
+
+    /// The tokens of the declaration.
+    pub fn declaration(&self) -> &[Token<'t>] {
+        &self.tokens[self.first..]
+    }
+
+    /// The byte where the declaration begins; that of the word, where it may begin a new one.
+    pub fn start(&self) -> usize {
+        let first = self.declaration().first().filter(|_| !self.may_begin());
+        first.map_or(self.word.start, |token| token.start)
+    }
+
+    /// Whether a declaration may begin with the word: the one before can end there.
+    pub fn may_begin(&self) -> bool {
+        let can_end = || self.is_first_on_line() && self.is_behind_operand() && self.call().is_none();
+        self.head().is_empty() || can_end()
+    }
+
+    /// Its keyword.
+    pub fn head(&self) -> &'t str {
+        self.declaration().first().map_or("", |token| token.text)
+    }
+
+    /// The token before the cursor, if it is one of the declaration.
+    pub fn last(&self) -> Option<&'t str> {
+        self.declaration().last().map(|token| token.text)
+    }
+
+    /// Whether a word stands in the declaration outside of all parentheses.
+    pub fn has(&self, word: &str) -> bool {
+        let mut depth = 0_usize;
+        self.declaration().iter().any(|token| {
+            match token.text {
+                "(" | "[" => depth += 1,
+                ")" | "]" => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            depth == 0 && token.text == word
+        })
+    }
+
+    /// Whether an operand ends right before the cursor, so that only what joins may follow.
+    pub fn is_behind_operand(&self) -> bool {
+        self.last().is_some_and(|last| {
+            let is_word = last.starts_with(|c: char| c.is_alphanumeric() || "_\"".contains(c));
+            let joins = Keyword::named(last).is_some_and(|keyword| keyword.is_joining() || keyword.is_reserved());
+            matches!(last, ")" | "]") || is_word && !joins
+        })
+    }
+
+    /// Whether the cursor is right behind a number, be it with a space between.
+    pub fn is_behind_number(&self) -> bool {
+        self.last().is_some_and(|last| last.starts_with(|c: char| c.is_ascii_digit()))
+    }
+
+    /// Whether nothing but the word stands on its line before the cursor.
+    pub fn is_first_on_line(&self) -> bool {
+        let before = self.text[..self.word.start].trim_end_matches([' ', '\t']);
+        before.is_empty() || before.ends_with(['\n', '{', '}'])
+    }
+
+    /// The innermost parenthesis that is open.
+    pub fn call(&self) -> Option<Call<'t>> {
+        let (mut depth, mut argument) = (0_usize, 0);
+        for at in (self.first..self.tokens.len()).rev() {
+            match self.tokens[at].text {
+                ")" | "]" => depth += 1,
+                "(" | "[" if depth > 0 => depth -= 1,
+                "[" => return Some(Call { name: "[", argument, open: at }),
+                "(" => {
+                    let before =
+                        at.checked_sub(1).filter(|before| *before >= self.first).map(|at| self.tokens[at].text);
+                    let is_name = |name: &&str| name.starts_with(|c: char| c.is_alphabetic() || c == '_');
+                    let name =
+                        before.filter(is_name).filter(|name| Keyword::named(name).is_none_or(|it| !it.is_joining()));
+                    return Some(Call { name: name.unwrap_or_default(), argument, open: at });
+                }
+                "," if depth == 0 => argument += 1,
+                _ => {}
+            }
+        }
+        None
+    }
+
+    /// The last of `from` and `to` in the window of a call before the cursor.
+    pub fn window(&self, call: Call<'_>) -> Option<&'t str> {
+        let (mut depth, mut found, mut before) = (0_usize, None, "");
+        for token in self.tokens.get(call.open + 1..).unwrap_or_default() {
+            match token.text {
+                "(" | "[" => depth += 1,
+                ")" | "]" => depth = depth.saturating_sub(1),
+                "," if depth == 0 => found = None,
+                "from" if depth == 0 && before == "," => found = Some(token.text),
+                "to" if depth == 0 && (before == "," || found.is_some()) => found = Some(token.text),
+                _ => {}
+            }
+            before = token.text;
+        }
+        found
+    }
+
+    /// The unit that goes on at the cursor, behind a number or behind the `in` of what is printed. What a quotient of formulas is divided by
+    /// has a space before it.
+    pub fn unit(&self) -> Option<Begun> {
+        let tokens = self.declaration();
+        let mut at = tokens.len().checked_sub(1)?;
+        let is_apart = self.text[..self.word.start].ends_with(char::is_whitespace)
+            || self.text[..tokens[at].start].ends_with(char::is_whitespace);
+        let mut dimensions = Vec::new();
+        while matches!(tokens[at].text, "/" | "*") {
+            at = at.checked_sub(1)?;
+            if at > 1 && tokens[at - 1].text == "^" {
+                at -= 2;
+            }
+            match tokens[at].text {
+                // `in 1/s`
+                "1" => at = at.checked_sub(1)?,
+                unit => {
+                    dimensions.push(Unit::named(unit)?.dimension);
+                    at = at.checked_sub(1)?;
+                }
+            }
+        }
+        let is_printed = tokens[at].text == "in" && matches!(self.head(), "measure" | "trace" | "result");
+        let is_of_number = tokens[at].text.starts_with(|c: char| c.is_ascii_digit()) && self.last() == Some("/");
+        let begins =
+            !dimensions.is_empty() && (is_printed || is_of_number && !is_apart) || is_printed && at + 1 < tokens.len();
+        begins.then_some(Begun { dimensions })
+    }
+
+    /// The names before the dot at the cursor, numbers in brackets left out; nothing where there is no dot.
+    pub fn path(&self) -> Option<Vec<&'t str>> {
+        let tokens = self.declaration();
+        let mut at = tokens.len().checked_sub(1).filter(|last| tokens[*last].text == ".")?;
+        let mut names = Vec::new();
+        loop {
+            at = at.checked_sub(1)?;
+            if tokens[at].text == "]" {
+                at = tokens[..at].iter().rposition(|token| token.text == "[")?.checked_sub(1)?;
+            }
+            names.push(tokens[at].text);
+            match at.checked_sub(1).filter(|before| tokens[*before].text == ".") {
+                Some(before) => at = before,
+                None => break,
+            }
+        }
+        names.reverse();
+        Some(names)
+    }
+
+    /// What stands in the arguments of the innermost call, before the cursor, one after the other.
+    pub fn arguments(&self, call: Call<'t>) -> Vec<&'t str> {
+        let (mut depth, mut from, mut found) = (0_usize, self.tokens[call.open].end(), Vec::new());
+        for token in &self.tokens[call.open + 1..] {
+            match token.text {
+                "(" | "[" => depth += 1,
+                ")" | "]" => depth = depth.saturating_sub(1),
+                "," if depth == 0 => {
+                    found.push(self.text[from..token.start].trim());
+                    from = token.end();
+                }
+                _ => {}
+            }
+        }
+        found
+    }
+
+    /// The token before the innermost argument's first one is reached, seen from the cursor: the last so many tokens.
+    pub fn back(&self, count: usize) -> Option<&'t str> {
+        let tokens = self.declaration();
+        tokens.len().checked_sub(count).map(|at| tokens[at].text)
+    }
+}
+
+/// The word that holds a place or touches it; digits before it are a number.
+pub(super) fn word_at(text: &str, offset: usize) -> Range<usize> {
+    let is_part = |c: &char| is_of_word(*c);
+    let before = text[..offset].chars().rev().take_while(is_part).map(char::len_utf8).sum::<usize>();
+    let behind = text[offset..].chars().take_while(is_part).map(char::len_utf8).sum::<usize>();
+    let digits = text[offset - before..offset].chars().take_while(char::is_ascii_digit).count();
+    let start = offset - before + digits;
+    start..if digits == before && digits > 0 { offset } else { offset + behind }
+}
+
+/// The first token of the declaration at the end of a text, and between which braces it is.
+fn declaration(text: &str, tokens: &[Token<'_>]) -> (usize, Block) {
+    let (mut blocks, mut first, mut head) = (Vec::new(), 0, "");
+    for (at, token) in tokens.iter().enumerate() {
+        match token.text {
+            "{" => {
+                blocks.push(if head == "mechanism" { Block::Mechanism } else { Block::Features });
+                (first, head) = (at + 1, "");
+            }
+            "}" => {
+                blocks.pop();
+                (first, head) = (at + 1, "");
+            }
+            word if begins(text, tokens, at) => {
+                match blocks.last() {
+                    _ if word == "mechanism" || word == "use" => blocks.clear(),
+                    // a body that was not closed
+                    Some(Block::Features) if !is_feature(word) => drop(blocks.pop()),
+                    _ => {}
+                }
+                (first, head) = (at, word);
+            }
+            _ => {}
+        }
+    }
+    (first, blocks.last().copied().unwrap_or(Block::File))
+}
+
+fn begins(text: &str, tokens: &[Token<'_>], at: usize) -> bool {
+    let token = tokens[at];
+    if begins_declaration(text, token) {
+        return true;
+    }
+    let is_opener = Keyword::named(token.text).is_some_and(|keyword| keyword.role.is_opener());
+    let before = text[..token.start].trim_end_matches([' ', '\t']);
+    let is_operand =
+        at > 0 && tokens[at - 1].text.ends_with(['(', '[', ',', '=', '+', '-', '*', '/', '^', '<', '>', ':']);
+    is_opener && !is_operand && (before.is_empty() || before.ends_with(['\n', '{', '}']))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Block, Cursor};
+
+    #[test]
+    fn the_declaration_around_a_cursor_is_found() {
+        let of = |text: &str| {
+            let at = text.find('‸').expect("a cursor");
+            let text = text.replacen('‸', "", 1);
+            let cursor = Cursor::at(&text, at)?;
+            Some((
+                cursor.head().to_owned(),
+                cursor.block,
+                text[cursor.word.clone()].to_owned(),
+                cursor.declaration().len(),
+            ))
+        };
+        let some = |head: &str, block, word: &str, count| Some((head.to_owned(), block, word.to_owned(), count));
+        assert_eq!(of("mechanism m { param l = 5 ‸"), some("param", Block::Mechanism, "", 4));
+        assert_eq!(of("mechanism m { param l = 5m‸m"), some("param", Block::Mechanism, "mm", 4));
+        assert_eq!(of("mechanism m {\n body b { point P = (1, ‸"), some("point", Block::Features, "", 6));
+        assert_eq!(of("mechanism m {\n body b {\n joint j: rev‸\n"), some("joint", Block::Mechanism, "rev", 3));
+        assert_eq!(of("mechanism m {\n ground { point O = ground‸"), some("point", Block::Features, "ground", 3));
+        assert_eq!(of("mechanism m { // param ‸"), None);
+        assert_eq!(of("use \"le‸v\""), some("use", Block::File, "lev", 1));
+        assert_eq!(of("mech‸"), some("", Block::File, "mech", 0));
+    }
+
+    #[test]
+    fn calls_and_paths_are_those_before_the_cursor() {
+        let text = "mechanism m { measure x1 = max(a, rotation(k[1, 2].b.";
+        let cursor = Cursor::at(text, text.len()).expect("no comment");
+        assert_eq!(cursor.path(), Some(vec!["k", "b"]));
+        assert_eq!(cursor.call().map(|call| (call.name, call.argument)), Some(("rotation", 0)));
+        let text = "mechanism m { joint j: revolute(a.B, b";
+        let cursor = Cursor::at(text, text.len()).expect("no comment");
+        let call = cursor.call().expect("a call");
+        assert_eq!((call.argument, cursor.arguments(call)), (1, vec!["a.B"]));
+    }
+}

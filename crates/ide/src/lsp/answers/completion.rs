@@ -1,0 +1,90 @@
+//! What could be written at a place.
+
+use crate::lsp::capabilities::Ability;
+use crate::lsp::convert::{Texts, markdown};
+use crate::{self as ide, CompletionItemKind, Template};
+use gen_lsp_types as lsp;
+
+pub(super) fn completion(texts: &Texts, params: &lsp::CompletionParams) -> Option<lsp::CompletionResponse> {
+    let place = texts.place(&params.text_document_position_params)?;
+    let ide::Completions { items, is_incomplete } = ide::completions(&texts.snapshot, &place)?;
+    // all of them replace the same
+    let range = texts.range(&place.path, &items.first().map_or(0..0, |item| item.replaces.clone()))?;
+    let items = items.into_iter().enumerate().map(|(number, item)| item_of(texts, number, item, range));
+    let items: Vec<lsp::CompletionItem> = items.collect();
+    Some(if is_incomplete {
+        // the client asks again for other letters
+        lsp::CompletionList { is_incomplete, items, ..lsp::CompletionList::default() }.into()
+    } else {
+        items.into()
+    })
+}
+
+fn item_of(texts: &Texts, number: usize, item: ide::CompletionItem, range: lsp::Range) -> lsp::CompletionItem {
+    let has_snippets = texts.client.can(Ability::Snippets);
+    let is_snippet = has_snippets && !item.insert.holes.is_empty();
+    let new_text = match has_snippets {
+        true if is_snippet => snippet(&item.insert),
+        true => item.insert.text.clone(),
+        false => item.insert.up_to_first_hole().to_owned(),
+    };
+    let or_none = |text: String| (!text.is_empty()).then_some(text);
+    let format = if is_snippet { lsp::InsertTextFormat::Snippet } else { lsp::InsertTextFormat::PlainText };
+    lsp::CompletionItem {
+        kind: Some(kind(item.kind)),
+        label_details: or_none(item.signature)
+            .map(|signature| lsp::CompletionItemLabelDetails { detail: Some(signature), description: None }),
+        detail: or_none(item.detail),
+        documentation: or_none(item.docs).map(|docs| markdown(docs).into()),
+        preselect: (item.rank == 0).then_some(true),
+        sort_text: Some(format!("{number:05}")),
+        filter_text: Some(item.label.clone()),
+        insert_text_format: Some(format),
+        text_edit: Some(lsp::TextEdit { range, new_text }.into()),
+        label: item.label,
+        ..lsp::CompletionItem::default()
+    }
+}
+
+/// A template in the protocol's own form.
+fn snippet(template: &Template) -> String {
+    let plain = |text: &str| text.replace('\\', "\\\\").replace('$', "\\$").replace('}', "\\}");
+    let (mut snippet, mut end) = (String::new(), 0);
+    for (number, hole) in template.holes.iter().enumerate() {
+        let [before, inside] =
+            [end..hole.start, hole.clone()].map(|range| plain(template.text.get(range).unwrap_or_default()));
+        snippet += &format!("{before}${{{}:{inside}}}", number + 1);
+        end = hole.end;
+    }
+    snippet + &plain(template.text.get(end..).unwrap_or_default())
+}
+
+fn kind(kind: CompletionItemKind) -> lsp::CompletionItemKind {
+    match kind {
+        CompletionItemKind::Keyword => lsp::CompletionItemKind::Keyword,
+        CompletionItemKind::Declaration => lsp::CompletionItemKind::Snippet,
+        CompletionItemKind::Function => lsp::CompletionItemKind::Function,
+        CompletionItemKind::Joint => lsp::CompletionItemKind::Constructor,
+        CompletionItemKind::Unit => lsp::CompletionItemKind::Unit,
+        CompletionItemKind::Constant => lsp::CompletionItemKind::Constant,
+        CompletionItemKind::Value => lsp::CompletionItemKind::Variable,
+        CompletionItemKind::Body => lsp::CompletionItemKind::Class,
+        CompletionItemKind::Feature => lsp::CompletionItemKind::Field,
+        CompletionItemKind::DeclaredJoint => lsp::CompletionItemKind::Interface,
+        CompletionItemKind::Mechanism => lsp::CompletionItemKind::Module,
+        CompletionItemKind::File => lsp::CompletionItemKind::File,
+        CompletionItemKind::Folder => lsp::CompletionItemKind::Folder,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::snippet;
+    use crate::Template;
+
+    #[test]
+    fn what_means_something_in_snippets_is_escaped() {
+        let template = Template::marked("body «a$b» {\n    «»\n}");
+        assert_eq!(snippet(&template), "body ${1:a\\$b} {\n    ${2:}\n\\}");
+    }
+}

@@ -1,0 +1,29 @@
+//! Signature help.
+
+use crate as ide;
+use crate::lsp::convert::{Texts, markdown};
+use gen_lsp_types as lsp;
+use mechc_text::source::Encoding;
+
+pub(super) fn signatures(texts: &Texts, params: &lsp::SignatureHelpParams) -> Option<lsp::SignatureHelp> {
+    let place = texts.place(&params.text_document_position_params)?;
+    let found = ide::signatures(&texts.snapshot, &place)?;
+    let signatures = found.forms.into_iter().map(signature).collect();
+    let argument = found.argument.map(|argument| (argument as u32).into());
+    Some(lsp::SignatureHelp { signatures, active_signature: Some(found.active as u32), active_parameter: argument })
+}
+
+/// Places in labels are in UTF-16, whatever those in texts are in.
+fn signature(form: ide::Signature) -> lsp::SignatureInformation {
+    let at = |byte: usize| Encoding::Utf16.length(&form.label[..byte]) as u32;
+    let argument = |range: &std::ops::Range<usize>| lsp::ParameterInformation {
+        label: lsp::ParameterInformationLabel::Tuple((at(range.start), at(range.end))),
+        documentation: None,
+    };
+    lsp::SignatureInformation {
+        parameters: Some(form.arguments.iter().map(argument).collect()),
+        documentation: Some(markdown(form.meaning).into()),
+        active_parameter: None,
+        label: form.label,
+    }
+}

@@ -1,0 +1,51 @@
+//! The shape of a text.
+
+use crate::lsp::capabilities::Ability;
+use crate::lsp::convert::Texts;
+use crate::{self as ide, FoldKind};
+use gen_lsp_types as lsp;
+use std::ops::Range;
+
+pub(super) fn folds(texts: &Texts, params: &lsp::FoldingRangeParams) -> Option<Vec<lsp::FoldingRange>> {
+    let path = texts.path(&params.text_document.uri);
+    let of = |fold: &ide::Fold| {
+        let lsp::Range { start, end } = texts.range(&path, &fold.range)?;
+        // who folds whole lines still sees the brace that closes
+        let is_cut = texts.client.can(Ability::LineFolding) && fold.kind == FoldKind::Inside;
+        let end_line = end.line - u32::from(is_cut);
+        let kind = match fold.kind {
+            FoldKind::Inside => None,
+            FoldKind::Comment => Some(lsp::FoldingRangeKind::Comment),
+            FoldKind::Uses => Some(lsp::FoldingRangeKind::Imports),
+        };
+        let fold = lsp::FoldingRange {
+            start_line: start.line,
+            start_character: Some(start.character),
+            end_line,
+            end_character: (!is_cut).then_some(end.character),
+            kind,
+            collapsed_text: None,
+        };
+        (start.line < end_line).then_some(fold)
+    };
+    Some(ide::folds(&texts.snapshot, &path)?.iter().filter_map(of).collect())
+}
+
+pub(super) fn selections(texts: &Texts, params: &lsp::SelectionRangeParams) -> Option<Vec<lsp::SelectionRange>> {
+    let of = |position: &lsp::Position| {
+        let text_document = params.text_document.clone();
+        let place = texts.place(&lsp::TextDocumentPositionParams { text_document, position: *position })?;
+        nested(texts, &place.path, &ide::around(&texts.snapshot, &place)?)
+    };
+    params.positions.iter().map(of).collect()
+}
+
+/// Ranges, each in the next one.
+fn nested(texts: &Texts, path: &std::path::Path, ranges: &[Range<u32>]) -> Option<lsp::SelectionRange> {
+    let mut outer = None;
+    for range in ranges.iter().rev() {
+        let parent = outer.take().map(Box::new);
+        outer = Some(lsp::SelectionRange { range: texts.range(path, range)?, parent });
+    }
+    outer
+}

@@ -1,0 +1,234 @@
+//! From a name to its declaration, and to all places where it is used.
+
+use super::names::{Occurrence, Role, Target, files_with, name_at, occurrences};
+use super::place::{Place, Stretch};
+use super::snapshot::Snapshot;
+use mechc_text::world::World;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A way from a name to its declaration.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Link {
+    /// The name that it begins at.
+    pub from: Stretch,
+    /// The name that is declared, or the beginning of a file.
+    pub to: Stretch,
+}
+
+/// A place of a name in its file.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Highlight {
+    /// Where.
+    pub range: Range<u32>,
+    /// Whether it is the declaration.
+    pub declares: bool,
+}
+
+/// A name of a file in a text.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct FileLink {
+    /// Where the text names it.
+    pub range: Range<u32>,
+    /// The file.
+    pub file: Arc<Path>,
+}
+
+/// Where the name at a place is declared. What declares and takes another name, `point A` alone, leads to that.
+#[must_use]
+pub fn definition(snapshot: &Snapshot, place: &Place) -> Option<Link> {
+    let all = occurrences(snapshot, &place.path)?;
+    let at = super::names::at(&all, place.offset)?;
+    let is_taken = |other: &&Occurrence| other.range == at.range && other.role == Role::Uses;
+    let at = all.iter().find(is_taken).unwrap_or(at);
+    let to = match &at.target {
+        Target::Name(name) => name.clone(),
+        Target::File(path) => Stretch { path: Arc::clone(path), start: 0, end: 0 },
+    };
+    // a file that is not there leads nowhere
+    snapshot.buffers().read(&to.path).ok()?;
+    Some(Link { from: at.stretch(&place.path), to })
+}
+
+/// All places of the name at a place, its declaration among them where that is asked for, in all files that are known.
+#[must_use]
+pub fn references(snapshot: &Snapshot, place: &Place, with_declaration: bool) -> Option<Vec<Stretch>> {
+    let at = name_at(snapshot, place)?;
+    let mut found = Vec::new();
+    for path in files_with(snapshot, &place.path, &[&word_of(snapshot, &at, place)?]) {
+        let wanted = |one: &Occurrence| one.target == at.target && (with_declaration || one.role == Role::Uses);
+        let here = occurrences(snapshot, &path).unwrap_or_default();
+        found.extend(here.iter().filter(|one| wanted(one)).map(|one| one.stretch(&path)));
+    }
+    Some(found)
+}
+
+/// The places of the name at a place in its own file.
+#[must_use]
+pub fn highlights(snapshot: &Snapshot, place: &Place) -> Option<Vec<Highlight>> {
+    let all = occurrences(snapshot, &place.path)?;
+    let at = super::names::at(&all, place.offset)?;
+    let same = all.iter().filter(|one| one.target == at.target);
+    Some(same.map(|one| Highlight { range: one.range.range(), declares: one.role == Role::Declares }).collect())
+}
+
+/// The files that a text names and that are there.
+#[must_use]
+pub fn file_links(snapshot: &Snapshot, path: &Path) -> Option<Vec<FileLink>> {
+    let link = |one: Occurrence| match one.target {
+        Target::File(file) if snapshot.buffers().read(&file).is_ok() => {
+            Some(FileLink { range: one.range.range(), file })
+        }
+        _ => None,
+    };
+    Some(occurrences(snapshot, path)?.into_iter().filter_map(link).collect())
+}
+
+/// What a text must hold to name what is meant: the name, or that of the file.
+fn word_of(snapshot: &Snapshot, at: &Occurrence, place: &Place) -> Option<String> {
+    match &at.target {
+        Target::Name(_) => {
+            let parsed = snapshot.parsed(&place.path)?;
+            let text = &parsed.sources().get(parsed.file()).text;
+            text.get(at.range.start as usize..at.range.end as usize).map(str::to_owned)
+        }
+        Target::File(path) => Some(path.file_name()?.to_string_lossy().into_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{definition, file_links, highlights, references};
+    use crate::testing::{FOUR_BAR, TWO_FILES, at_cursor, shown};
+
+    fn defined(from: &str, to: &str, text: &str) -> String {
+        assert!(text.contains(from), "{from}");
+        let (snapshot, place) = at_cursor(&text.replacen(from, to, 1));
+        definition(&snapshot, &place).map_or("nothing".to_owned(), |link| shown(&snapshot, &link.to))
+    }
+
+    #[test]
+    fn names_lead_to_their_declarations() {
+        insta::assert_snapshot!(defined("crank.B, c", "crank.$0B, c", FOUR_BAR), @r"
+        main.mech:10
+                point B = (crank_length, 0)
+                      ^
+        ");
+        insta::assert_snapshot!(defined("rotation(main)", "rotation(main$0)", FOUR_BAR), @r"
+        main.mech:21
+            joint main:  revolute(ground.A, crank.A)
+                  ^^^^
+        ");
+        insta::assert_snapshot!(defined("revolute(ground", "$0revolute(ground", FOUR_BAR), @"nothing");
+        insta::assert_snapshot!(defined("    point A\n", "    point $0A\n", TWO_FILES), @r"
+        main.mech:4
+            param A = (10 mm, 0)
+                  ^
+        ");
+    }
+
+    #[test]
+    fn they_lead_into_parts_and_other_files() {
+        insta::assert_snapshot!(defined("front.arm.tip", "front.arm.$0tip", TWO_FILES), @r"
+        lever.mech:7
+                point tip = (reach, 0)
+                      ^^^
+        ");
+        insta::assert_snapshot!(defined("front.arm.tip", "front.$0arm.tip", TWO_FILES), @r"
+        lever.mech:5
+            body arm {
+                 ^^^
+        ");
+        insta::assert_snapshot!(defined("side[1].arm.tip", "side[1].arm.$0tip", TWO_FILES), @r"
+        lever.mech:7
+                point tip = (reach, 0)
+                      ^^^
+        ");
+        insta::assert_snapshot!(defined("reach = 60", "re$0ach = 60", TWO_FILES), @r"
+        lever.mech:2
+            param reach = 80 mm
+                  ^^^^^
+        ");
+        insta::assert_snapshot!(defined("levers.lever(turn", "levers.$0lever(turn", TWO_FILES), @r"
+        lever.mech:1
+        mechanism lever {
+                  ^^^^^
+        ");
+        insta::assert_snapshot!(defined("levers.lever(turn", "$0levers.lever(turn", TWO_FILES), @r#"
+        main.mech:1
+        use "lever.mech" as levers
+                            ^^^^^^
+        "#);
+        insta::assert_snapshot!(defined("\"lever.mech\"", "\"lever$0.mech\"", TWO_FILES), @r"
+        lever.mech:1
+        mechanism lever {
+        ^
+        ");
+    }
+
+    fn used(from: &str, to: &str) -> String {
+        let (snapshot, place) = at_cursor(&TWO_FILES.replacen(from, to, 1));
+        let found = references(&snapshot, &place, true).unwrap_or_default();
+        found.iter().map(|place| shown(&snapshot, place)).collect::<Vec<_>>().join("\n")
+    }
+
+    #[test]
+    fn uses_are_found_in_all_files() {
+        insta::assert_snapshot!(used("point tip =", "point $0tip ="), @r"
+        lever.mech:7
+                point tip = (reach, 0)
+                      ^^^
+        main.mech:10
+            part side[k in 0..2]:   levers.lever() on front.arm at (front.arm.tip, 0)
+                                                                              ^^^
+        main.mech:11
+            measure way = x(front.arm.tip) + x(side[1].arm.tip)
+                                      ^^^
+        main.mech:11
+            measure way = x(front.arm.tip) + x(side[1].arm.tip)
+                                                           ^^^
+        ");
+        insta::assert_snapshot!(used("reach = 60", "reach$0 = 60"), @r"
+        lever.mech:2
+            param reach = 80 mm
+                  ^^^^^
+        lever.mech:7
+                point tip = (reach, 0)
+                             ^^^^^
+        main.mech:9
+            part front:             levers.lever(turn = 30 deg * t / (1 s), reach = 60 mm)
+                                                                            ^^^^^
+        ");
+        insta::assert_snapshot!(used("mechanism lever", "mechanism lev$0er"), @r"
+        lever.mech:1
+        mechanism lever {
+                  ^^^^^
+        main.mech:9
+            part front:             levers.lever(turn = 30 deg * t / (1 s), reach = 60 mm)
+                                           ^^^^^
+        main.mech:10
+            part side[k in 0..2]:   levers.lever() on front.arm at (front.arm.tip, 0)
+                                           ^^^^^
+        ");
+    }
+
+    #[test]
+    fn a_name_is_shown_in_its_file() {
+        let (snapshot, place) = at_cursor(&FOUR_BAR.replacen("rotation(main)", "rotation($0main)", 1));
+        let found = highlights(&snapshot, &place).expect("a name");
+        let text =
+            |range: &std::ops::Range<u32>| FOUR_BAR.get(range.start as usize - 4..range.end as usize).expect("it");
+        let found: Vec<_> = found.iter().map(|one| (text(&one.range), one.declares)).collect();
+        assert_eq!(found, [("int main", true), ("ion(main", false)]);
+    }
+
+    #[test]
+    fn files_that_are_there_are_linked() {
+        let (snapshot, place) =
+            at_cursor(&TWO_FILES.replacen("use \"lever.mech\"", "$0use \"none.mech\" as n\nuse \"lever.mech\"", 1));
+        let links = file_links(&snapshot, &place.path).expect("a file");
+        let files: Vec<_> = links.iter().map(|link| link.file.display().to_string()).collect();
+        assert_eq!(files, ["lever.mech"]);
+    }
+}

@@ -1,0 +1,101 @@
+//! The declarations of a file, as a tree.
+
+use super::snapshot::Snapshot;
+use mechc_lang::check::{NameId, NameKind, Symbols};
+use std::ops::Range;
+use std::path::Path;
+
+/// A declaration.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Entry {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub kind: NameKind,
+    /// All of it, in bytes of the file.
+    pub range: Range<u32>,
+    /// Its name's place.
+    pub name_range: Range<u32>,
+    /// What is declared in it.
+    pub inside: Vec<Entry>,
+}
+
+/// The declarations of a file: its mechanisms, with what they declare.
+#[must_use]
+pub fn outline(snapshot: &Snapshot, path: &Path) -> Option<Vec<Entry>> {
+    let checked = snapshot.checked(path)?;
+    Some(checked.mechanisms.iter().filter_map(|checked| of_mechanism(checked.symbols())).collect())
+}
+
+fn of_mechanism(symbols: &Symbols) -> Option<Entry> {
+    let mut inside: Vec<(NameId, Option<NameId>)> = Vec::new();
+    for (id, name) in symbols.iter() {
+        if !matches!(name.kind, NameKind::Mechanism | NameKind::Argument | NameKind::Prefix) {
+            inside.push((id, name.owner));
+        }
+    }
+    let (mechanism, _) = symbols.iter().next()?;
+    let mut entry = of_name(symbols, mechanism);
+    for &(id, _) in inside.iter().filter(|(_, owner)| owner.is_none()) {
+        entry.inside.push(of_name(symbols, id));
+    }
+    let places: Vec<NameId> = inside.iter().filter(|(_, owner)| owner.is_none()).map(|(id, _)| *id).collect();
+    for (id, owner) in inside.iter().filter_map(|&(id, owner)| Some((id, owner?))) {
+        // declarations have numbers in their order
+        if let Ok(at) = places.binary_search(&owner) {
+            entry.inside[at].inside.push(of_name(symbols, id));
+        }
+    }
+    Some(entry)
+}
+
+fn of_name(symbols: &Symbols, id: NameId) -> Entry {
+    let name = symbols.get(id);
+    let (all, own) = (name.declaration, name.span);
+    Entry {
+        name: name.name.clone(),
+        kind: name.kind,
+        range: all.start..all.end,
+        name_range: own.start..own.end,
+        inside: Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Entry, outline};
+    use crate::testing::{FOUR_BAR, at_cursor};
+
+    fn written(entries: &[Entry], depth: usize) -> String {
+        let line = |entry: &Entry| {
+            format!("{}{:?} {}\n{}", "  ".repeat(depth), entry.kind, entry.name, written(&entry.inside, depth + 1))
+        };
+        entries.iter().map(line).collect()
+    }
+
+    #[test]
+    fn points_stand_below_their_bodies() {
+        let (snapshot, place) = at_cursor(&format!("{FOUR_BAR}$0"));
+        insta::assert_snapshot!(written(&outline(&snapshot, &place.path).expect("an outline"), 0), @r"
+        Mechanism four_bar
+          Param crank_length
+          Ground ground
+            Point A
+            Point D
+          Body crank
+            Point A
+            Point B
+          Body coupler
+            Point B
+            Point C
+          Body rocker
+            Point D
+            Point C
+          Joint main
+          Joint pin
+          Joint knee
+          Joint pivot
+          Driver motor
+        ");
+    }
+}

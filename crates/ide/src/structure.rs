@@ -1,0 +1,221 @@
+//! The shape of a text: what can be folded away, and what lies around a place.
+
+use super::place::Place;
+use super::snapshot::Snapshot;
+use mechc_pipeline::Parsed;
+use mechc_syntax::ast::{Expr, Feature, Item, ItemKind, Mechanism, TableRows};
+use mechc_syntax::tokens;
+use mechc_text::source::Span;
+use std::ops::Range;
+use std::path::Path;
+
+/// What can be folded away.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Fold {
+    /// What disappears; it begins and ends on different lines.
+    pub range: Range<u32>,
+    /// What it is.
+    pub kind: FoldKind,
+}
+
+/// Why something is folded.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum FoldKind {
+    /// What stands between braces or brackets.
+    Inside,
+    /// Comments on neighbouring lines.
+    Comment,
+    /// The files that a text uses.
+    Uses,
+}
+
+/// What of a file can be folded away, in order.
+#[must_use]
+pub fn folds(snapshot: &Snapshot, path: &Path) -> Option<Vec<Fold>> {
+    let parsed = snapshot.parsed(path)?;
+    let source = parsed.sources().get(parsed.file());
+    let mut folds = between_brackets(&source.text);
+    folds.extend(comments(&parsed));
+    if let [first, .., last] = parsed.tree().uses.as_slice() {
+        folds.push(Fold { range: first.span.start..last.span.end, kind: FoldKind::Uses });
+    }
+    let lines = |fold: &Fold| [fold.range.start, fold.range.end].map(|at| source.line_index(at as usize));
+    folds.retain(|fold| lines(fold)[0] < lines(fold)[1]);
+    folds.sort_by_key(|fold| (fold.range.start, fold.range.end));
+    Some(folds)
+}
+
+/// The insides of braces, brackets and parentheses, whatever else is wrong with the text.
+fn between_brackets(text: &str) -> Vec<Fold> {
+    let (mut open, mut folds) = (Vec::new(), Vec::new());
+    for token in tokens(text) {
+        match token.text {
+            "{" | "[" | "(" => open.push((token.text, token.end())),
+            "}" | "]" | ")" => {
+                let opener = match token.text {
+                    "}" => "{",
+                    "]" => "[",
+                    _ => "(",
+                };
+                // what was not closed before a brace never is
+                while let Some((text, at)) = open.pop() {
+                    if text == opener {
+                        folds.push(Fold { range: at as u32..token.start as u32, kind: FoldKind::Inside });
+                        break;
+                    }
+                    if opener != "{" {
+                        open.push((text, at));
+                        break;
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    folds
+}
+
+fn comments(parsed: &Parsed) -> Vec<Fold> {
+    let source = parsed.sources().get(parsed.file());
+    let line = |at: u32| source.line_index(at as usize);
+    let mut folds: Vec<Fold> = Vec::new();
+    for comment in parsed.trivia().comments.iter().filter(|comment| !comment.is_trailing) {
+        match folds.last_mut() {
+            Some(fold) if line(fold.range.end) + 1 == line(comment.span.start) => fold.range.end = comment.span.end,
+            _ => folds.push(Fold { range: comment.span.start..comment.span.end, kind: FoldKind::Comment }),
+        }
+    }
+    folds
+}
+
+/// What lies around a place, from the word on: formulas, arguments, the declaration, its body, the mechanism, the file. Each holds the
+/// one before it.
+#[must_use]
+pub fn around(snapshot: &Snapshot, place: &Place) -> Option<Vec<Range<u32>>> {
+    let parsed = snapshot.parsed(&place.path)?;
+    let text = &parsed.sources().get(parsed.file()).text;
+    let whole = 0..text.len() as u32;
+    let mut found: Vec<Range<u32>> = Vec::from([whole]);
+    let mut add = |range: Range<u32>| {
+        if range.start <= place.offset && place.offset <= range.end && !range.is_empty() {
+            found.push(range);
+        }
+    };
+    for token in tokens(text).into_iter().filter(|token| token.text.starts_with(is_of_word)) {
+        add(token.start as u32..token.end() as u32);
+    }
+    for fold in between_brackets(text) {
+        add(fold.range);
+    }
+    for mechanism in &parsed.tree().mechanisms {
+        spans_of(mechanism, place.offset, &mut |span| add(span.start..span.end));
+    }
+    found.sort_by_key(|range| (range.end - range.start, range.start));
+    found.dedup();
+    let mut nested: Vec<Range<u32>> = Vec::new();
+    for range in found {
+        if nested.last().is_none_or(|inner| range.start <= inner.start && inner.end <= range.end) {
+            nested.push(range);
+        }
+    }
+    Some(nested)
+}
+
+fn is_of_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+fn spans_of(mechanism: &Mechanism, offset: u32, add: &mut impl FnMut(Span)) {
+    add(mechanism.span);
+    let holds = |span: Span| span.start <= offset && offset <= span.end;
+    for item in mechanism.items.iter().filter(|item| holds(item.span)) {
+        add(item.span);
+        spans_of_item(item, add);
+    }
+}
+
+fn spans_of_item(item: &Item, add: &mut impl FnMut(Span)) {
+    item.formulas().into_iter().flat_map(Expr::parts).for_each(|e| add(e.span));
+    match &item.kind {
+        ItemKind::Joint { call_span, .. } => add(*call_span),
+        ItemKind::Part(part) => {
+            add(part.call_span);
+            for binding in &part.bindings {
+                add(binding.span);
+            }
+        }
+        ItemKind::Body { features, pose, .. } => {
+            if let Some(pose) = pose {
+                add(pose.span());
+            }
+            for feature in features {
+                spans_of_feature(feature, add);
+            }
+        }
+        ItemKind::Ground { features } => {
+            for feature in features {
+                spans_of_feature(feature, add);
+            }
+        }
+        ItemKind::Table { rows: TableRows::File { path, .. }, .. } => add(path.span),
+        _ => {}
+    }
+}
+
+fn spans_of_feature(feature: &Feature, add: &mut impl FnMut(Span)) {
+    add(feature.span);
+    feature.formulas().into_iter().flat_map(Expr::parts).for_each(|e| add(e.span));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{around, folds};
+    use crate::testing::{FOUR_BAR, at_cursor};
+
+    #[test]
+    fn blocks_comments_and_lists_are_folded() {
+        let text = "use \"a.mech\"\nuse \"b.mech\" as b\n// one\n// two\n\nmechanism m { // no\n    ground {\n        point A = (0, 0)\n    }\n    table t1 = spline [\n        (0, 0), (1, 1)\n    ]\n    body x { point P = (0, 0) }\n    joint j: revolute(\n        x.P,\n}\n";
+        let (snapshot, place) = at_cursor(&format!("{text}$0"));
+        let line = |at: u32| text[..at as usize].matches('\n').count() + 1;
+        let told = folds(&snapshot, &place.path).expect("a file").into_iter();
+        let told: Vec<_> =
+            told.map(|fold| format!("{}–{} {:?}", line(fold.range.start), line(fold.range.end), fold.kind)).collect();
+        insta::assert_snapshot!(told.join("\n"), @r"
+        1–2 Uses
+        3–4 Comment
+        6–16 Inside
+        7–9 Inside
+        10–12 Inside
+        ");
+    }
+
+    #[test]
+    fn a_selection_grows_from_the_word_to_the_file() {
+        let text = FOUR_BAR.replacen("point B = (crank_length, 0)", "point B = (crank_length + 2 * le$0n, 0)", 1);
+        let (snapshot, place) = at_cursor(&text);
+        let text = text.replacen("$0", "", 1);
+        let line = |range: &std::ops::Range<u32>| {
+            let text = &text[range.start as usize..range.end as usize];
+            if text.len() > 50 {
+                format!("{} … {}", &text[..20].trim(), &text[text.len() - 15..].trim())
+            } else {
+                text.to_owned()
+            }
+        };
+        let told: Vec<_> =
+            around(&snapshot, &place).expect("a file").iter().map(|range| line(range).replace('\n', " ")).collect();
+        insta::assert_snapshot!(told.join("\n"), @r"
+        len
+        2 * len
+        crank_length + 2 * len
+        crank_length + 2 * len, 0
+        (crank_length + 2 * len, 0)
+        point B = (crank_length + 2 * len, 0)
+        point A = ( … * len, 0)
+        body crank at (0, 0, … * len, 0)     }
+        param crank_len … s every 0.1 s
+        mechanism four_bar { … s every 0.1 s }
+        mechanism four_bar { … every 0.1 s }
+        ");
+    }
+}

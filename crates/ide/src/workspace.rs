@@ -1,0 +1,133 @@
+//! The files of a folder: which there are, and what they declare.
+
+use super::outline::{Entry, outline};
+use super::place::Stretch;
+use super::snapshot::Snapshot;
+use super::written::holds_letters;
+use mechc_lang::check::NameKind;
+use mechc_text::cancel::Cancel;
+use mechc_text::world::{World, is_own};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+pub use mechc_text::world::is_mech;
+
+/// So many files are looked for; beyond them, names are not found in what is not open.
+const MOST_FILES: usize = 1_000;
+
+/// So many folders are looked into.
+const MOST_FOLDERS: usize = 10_000;
+
+/// Folders within each other that are looked into; a link may lead round in a circle.
+const DEEPEST: usize = 16;
+
+/// So many names are told.
+const MOST_NAMES: usize = 500;
+
+/// A declaration of a file.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Found {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub kind: NameKind,
+    /// Where its name stands.
+    pub place: Stretch,
+    /// In what it is declared.
+    pub within: Option<String>,
+}
+
+/// The `.mech` files in some folders and those in these, by their identity. What is hidden is left out, and folders of build
+/// results, as by `mechc fmt`.
+#[must_use]
+pub fn files_in(folders: &[PathBuf], world: &dyn World, cancel: &Cancel) -> Vec<Arc<Path>> {
+    let (mut found, mut seen) = (BTreeSet::new(), 0);
+    let mut next: Vec<(PathBuf, usize)> = folders.iter().map(|folder| (folder.clone(), 0)).collect();
+    while let Some((folder, depth)) = next.pop() {
+        seen += 1;
+        if seen > MOST_FOLDERS || found.len() >= MOST_FILES || cancel.is_cancelled() {
+            break;
+        }
+        let files = world.names_in(&folder).into_iter().filter(|name| is_mech(name) && is_own(name));
+        found.extend(files.map(|name| Arc::<Path>::from(world.identity(&folder.join(name)))));
+        if depth < DEEPEST {
+            let inner = world.folders_in(&folder).into_iter().filter(|name| is_own(name));
+            next.extend(inner.map(|name| (folder.join(name), depth + 1)));
+        }
+    }
+    found.into_iter().take(MOST_FILES).collect()
+}
+
+/// The declarations of all known files whose names hold the letters of a query, in their order.
+#[must_use]
+pub fn workspace_names(snapshot: &Snapshot, query: &str) -> Vec<Found> {
+    let query: String = query.chars().filter(|c| !c.is_whitespace()).collect();
+    let mut found = Vec::new();
+    let is_text = |path: &&Arc<Path>| snapshot.buffers().open(path).is_some() || is_mech(&path.to_string_lossy());
+    for path in snapshot.files().filter(is_text) {
+        if found.len() >= MOST_NAMES || snapshot.is_cancelled() {
+            break;
+        }
+        for entry in outline(snapshot, path).unwrap_or_default() {
+            take(&entry, None, path, &query, &mut found);
+        }
+    }
+    found.truncate(MOST_NAMES);
+    found
+}
+
+fn take(entry: &Entry, within: Option<&str>, path: &Arc<Path>, query: &str, found: &mut Vec<Found>) {
+    if holds_letters(&entry.name, query) && entry.kind != NameKind::Ground {
+        let place = Stretch { path: Arc::clone(path), start: entry.name_range.start, end: entry.name_range.end };
+        found.push(Found { name: entry.name.clone(), kind: entry.kind, place, within: within.map(str::to_owned) });
+    }
+    let own = within.map_or(entry.name.clone(), |within| format!("{within}.{}", entry.name));
+    entry.inside.iter().for_each(|inner| take(inner, Some(&own), path, query, found));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{files_in, workspace_names};
+    use crate::testing::{TWO_FILES, at_cursor};
+    use mechc_text::cancel::Cancel;
+    use mechc_text::world::Memory;
+    use std::path::PathBuf;
+
+    #[test]
+    fn files_of_folders_are_found() {
+        let files = [
+            "w/a.mech",
+            "w/b.csv",
+            "w/deep/er/C.MECH",
+            "w/.git/d.mech",
+            "w/target/e.mech",
+            "w/.g.mech",
+            "other/f.mech",
+        ];
+        let world = files.iter().fold(Memory::default(), |world, name| world.with(name, ""));
+        let found = files_in(&[PathBuf::from("w")], &world, &Cancel::default());
+        assert_eq!(
+            found.iter().map(|path| path.display().to_string()).collect::<Vec<_>>(),
+            ["w/a.mech", "w/deep/er/C.MECH"]
+        );
+    }
+
+    #[test]
+    fn declarations_are_found_by_some_of_their_letters() {
+        let (snapshot, _) = at_cursor(&format!("{TWO_FILES}$0"));
+        let of = |query: &str| {
+            let line = |found: &super::Found| {
+                format!(
+                    "{} {:?} {}",
+                    found.place.path.display(),
+                    found.kind,
+                    found.within.clone().map_or(found.name.clone(), |within| format!("{within}.{}", found.name))
+                )
+            };
+            workspace_names(&snapshot, query).iter().map(line).collect::<Vec<_>>().join("\n")
+        };
+        insta::assert_snapshot!(of("LEV"), @"lever.mech Mechanism lever");
+        insta::assert_snapshot!(of("tip"), @"lever.mech Point lever.arm.tip");
+    }
+}

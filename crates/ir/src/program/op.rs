@@ -1,0 +1,531 @@
+//! The operations, each declared once: what it reads and writes, what it does, and what it is called where it is written as a
+//! number.
+//!
+//! What an operation does is said in terms of a [`Machine`]. Numbers, several numbers at once, intervals, expressions that fold,
+//! and the text of code are machines: each says what a sum or a sine is to it, and none needs to know the list of operations.
+
+use super::{Column, Register, codes};
+use mechc_expr::{Binary, Comparison, Unary};
+
+/// One operation: reads registers, writes `to`.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[allow(missing_docs)] // operands and results say themselves
+pub enum Op {
+    Add {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Sub {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Mul {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Div {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    /// `a b + c`, each rounded.
+    MulAdd {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+    },
+    /// `a b − c`, each rounded.
+    MulLess {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+    },
+    /// `c − a b`, each rounded.
+    LessMul {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+    },
+    /// `a b c`, from left to right, each product rounded.
+    ProductOfThree {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+    },
+    /// `a b + c d`, each rounded.
+    SumOfProducts {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+        d: Register,
+    },
+    /// `a b − c d`, each rounded.
+    DifferenceOfProducts {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+        d: Register,
+    },
+    /// `(a b + c d) e`, each rounded.
+    SumOfProductsTimes {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+        d: Register,
+        e: Register,
+    },
+    /// `(a b − c d) e`, each rounded.
+    DifferenceOfProductsTimes {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+        d: Register,
+        e: Register,
+    },
+    /// Sine and cosine of an angle after a small turn `delta`, by those before it and half of it: three terms of Taylor's series.
+    Turn {
+        to_sin: Register,
+        to_cos: Register,
+        sin: Register,
+        cos: Register,
+        half: Register,
+        delta: Register,
+    },
+    Neg {
+        to: Register,
+        a: Register,
+    },
+    /// `1 / a`
+    Recip {
+        to: Register,
+        a: Register,
+    },
+    SinCos {
+        sin: Register,
+        cos: Register,
+        a: Register,
+    },
+    Unary {
+        function: Unary,
+        to: Register,
+        a: Register,
+    },
+    Binary {
+        function: Binary,
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Compare {
+        comparison: Comparison,
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    And {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Or {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Not {
+        to: Register,
+        a: Register,
+    },
+    Select {
+        to: Register,
+        condition: Register,
+        a: Register,
+        b: Register,
+    },
+    /// As `Select`, but not a number if either operand is not.
+    Either {
+        to: Register,
+        condition: Register,
+        a: Register,
+        b: Register,
+    },
+    Copy {
+        to: Register,
+        a: Register,
+    },
+    /// The piece of a table that `a` lies in, counted from 0.
+    Piece {
+        to: Register,
+        table: u32,
+        a: Register,
+    },
+    /// An entry of a table's column.
+    Pick {
+        to: Register,
+        table: u32,
+        column: Column,
+        piece: Register,
+    },
+}
+
+/// What operations are carried out on.
+#[allow(missing_docs)] // each is what the operation of its name does
+pub trait Machine {
+    /// What stands in a register, or a part of that.
+    type Value: Clone;
+
+    /// In how many parts registers are gone through.
+    #[inline]
+    fn parts(&self) -> usize {
+        1
+    }
+    /// Goes to one of them: that is read and written from then on.
+    #[inline]
+    fn go_to(&mut self, _part: usize) {}
+    fn read(&mut self, register: Register) -> Self::Value;
+    fn write(&mut self, register: Register, value: Self::Value);
+
+    fn add(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
+    fn sub(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
+    fn mul(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
+    fn div(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
+    /// `a b + c`, each rounded.
+    #[inline]
+    fn mul_add(&mut self, a: Self::Value, b: Self::Value, c: Self::Value) -> Self::Value {
+        let product = self.mul(a, b);
+        self.add(product, c)
+    }
+    /// `a b − c`, each rounded.
+    #[inline]
+    fn mul_less(&mut self, a: Self::Value, b: Self::Value, c: Self::Value) -> Self::Value {
+        let product = self.mul(a, b);
+        self.sub(product, c)
+    }
+    /// `c − a b`, each rounded.
+    #[inline]
+    fn less_mul(&mut self, a: Self::Value, b: Self::Value, c: Self::Value) -> Self::Value {
+        let product = self.mul(a, b);
+        self.sub(c, product)
+    }
+    /// `a b c`, each product rounded.
+    #[inline]
+    fn product_of_three(&mut self, a: Self::Value, b: Self::Value, c: Self::Value) -> Self::Value {
+        let product = self.mul(a, b);
+        self.mul(product, c)
+    }
+    /// `a b + c d`, each rounded.
+    #[inline]
+    fn sum_of_products(&mut self, [a, b]: [Self::Value; 2], [c, d]: [Self::Value; 2]) -> Self::Value {
+        let product = self.mul(c, d);
+        self.mul_add(a, b, product)
+    }
+    /// `a b − c d`, each rounded.
+    #[inline]
+    fn difference_of_products(&mut self, [a, b]: [Self::Value; 2], [c, d]: [Self::Value; 2]) -> Self::Value {
+        let product = self.mul(c, d);
+        self.mul_less(a, b, product)
+    }
+    /// Sine and cosine of an angle after a turn `delta`, by those before it and half of it.
+    #[inline]
+    fn turn(&mut self, [sin, cos]: [Self::Value; 2], half: Self::Value, delta: Self::Value) -> [Self::Value; 2] {
+        let slope = self.less_mul(half.clone(), sin.clone(), cos.clone());
+        let to_sin = self.mul_add(delta.clone(), slope, sin.clone());
+        let slope = self.mul_add(half, cos.clone(), sin);
+        [to_sin, self.less_mul(delta, slope, cos)]
+    }
+    fn neg(&mut self, a: Self::Value) -> Self::Value;
+    fn recip(&mut self, a: Self::Value) -> Self::Value;
+    /// Sine and cosine.
+    fn sin_cos(&mut self, a: Self::Value) -> [Self::Value; 2];
+    /// The same from a register to two others, in all parts.
+    #[inline(always)]
+    #[allow(clippy::inline_always)] // as what is done with a value
+    fn sin_cos_in(&mut self, [sin, cos]: [Register; 2], a: Register) {
+        for part in 0..self.parts() {
+            self.go_to(part);
+            let a = self.read(a);
+            let [sine, cosine] = self.sin_cos(a);
+            self.write(sin, sine);
+            self.write(cos, cosine);
+        }
+    }
+    fn unary(&mut self, function: Unary, a: Self::Value) -> Self::Value;
+    fn binary(&mut self, function: Binary, a: Self::Value, b: Self::Value) -> Self::Value;
+    /// 1 where it holds, else 0.
+    fn compare(&mut self, comparison: Comparison, a: Self::Value, b: Self::Value) -> Self::Value;
+    fn and(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
+    fn or(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
+    fn not(&mut self, a: Self::Value) -> Self::Value;
+    /// `a` where the condition is not 0, else `b`.
+    fn select(&mut self, condition: Self::Value, a: Self::Value, b: Self::Value) -> Self::Value;
+    /// The same, but not a number if either is not.
+    fn either(&mut self, condition: Self::Value, a: Self::Value, b: Self::Value) -> Self::Value;
+    /// The piece of a table that a value lies in.
+    fn piece(&mut self, table: u32, a: Self::Value) -> Self::Value;
+    /// The entry of a table's column for a piece.
+    fn pick(&mut self, table: u32, column: Column, piece: Self::Value) -> Self::Value;
+}
+
+impl Op {
+    /// Carries the operation out.
+    #[inline(always)]
+    #[allow(clippy::inline_always)] // what a machine does is to become one with the choice of it
+    pub fn run<M: Machine>(&self, m: &mut M) {
+        // one choice for all parts
+        macro_rules! of {
+            ($to:ident = |$($operand:ident),+| $does:expr) => {
+                for part in 0..m.parts() {
+                    m.go_to(part);
+                    $(let $operand = m.read($operand);)+
+                    let value = $does;
+                    m.write($to, value);
+                }
+            };
+            ($to:ident = $does:ident($($given:ident),*; $($operand:ident),+)) => {
+                of!($to = |$($operand),+| m.$does($($given,)* $($operand),+))
+            };
+            ($to:ident = $does:ident($($operand:ident),+)) => { of!($to = $does(; $($operand),+)) };
+        }
+        match *self {
+            Op::Add { to, a, b } => of!(to = add(a, b)),
+            Op::Sub { to, a, b } => of!(to = sub(a, b)),
+            Op::Mul { to, a, b } => of!(to = mul(a, b)),
+            Op::Div { to, a, b } => of!(to = div(a, b)),
+            Op::MulAdd { to, a, b, c } => of!(to = mul_add(a, b, c)),
+            Op::MulLess { to, a, b, c } => of!(to = mul_less(a, b, c)),
+            Op::LessMul { to, a, b, c } => of!(to = less_mul(a, b, c)),
+            Op::ProductOfThree { to, a, b, c } => of!(to = product_of_three(a, b, c)),
+            Op::SumOfProducts { to, a, b, c, d } => {
+                of!(to = |a, b, c, d| m.sum_of_products([a, b], [c, d]));
+            }
+            Op::DifferenceOfProducts { to, a, b, c, d } => {
+                of!(to = |a, b, c, d| m.difference_of_products([a, b], [c, d]));
+            }
+            Op::SumOfProductsTimes { to, a, b, c, d, e } => of!(to = |a, b, c, d, e| {
+                let sum = m.sum_of_products([a, b], [c, d]);
+                m.mul(sum, e)
+            }),
+            Op::DifferenceOfProductsTimes { to, a, b, c, d, e } => of!(to = |a, b, c, d, e| {
+                let difference = m.difference_of_products([a, b], [c, d]);
+                m.mul(difference, e)
+            }),
+            Op::Turn { to_sin, to_cos, sin, cos, half, delta } => {
+                for part in 0..m.parts() {
+                    m.go_to(part);
+                    let [sin, cos, half, delta] = [sin, cos, half, delta].map(|register| m.read(register));
+                    let [sin, cos] = m.turn([sin, cos], half, delta);
+                    m.write(to_sin, sin);
+                    m.write(to_cos, cos);
+                }
+            }
+            Op::Neg { to, a } => of!(to = neg(a)),
+            Op::Recip { to, a } => of!(to = recip(a)),
+            Op::SinCos { sin, cos, a } => m.sin_cos_in([sin, cos], a),
+            Op::Unary { function, to, a } => of!(to = unary(function; a)),
+            Op::Binary { function, to, a, b } => of!(to = binary(function; a, b)),
+            Op::Compare { comparison, to, a, b } => of!(to = compare(comparison; a, b)),
+            Op::And { to, a, b } => of!(to = and(a, b)),
+            Op::Or { to, a, b } => of!(to = or(a, b)),
+            Op::Not { to, a } => of!(to = not(a)),
+            Op::Select { to, condition, a, b } => of!(to = select(condition, a, b)),
+            Op::Either { to, condition, a, b } => of!(to = either(condition, a, b)),
+            Op::Copy { to, a } => {
+                for part in 0..m.parts() {
+                    m.go_to(part);
+                    let a = m.read(a);
+                    m.write(to, a);
+                }
+            }
+            Op::Piece { to, table, a } => of!(to = piece(table; a)),
+            Op::Pick { to, table, column, piece } => of!(to = pick(table, column; piece)),
+        }
+    }
+
+    /// The same with other registers: `read` for those it reads, then `write` for those it writes.
+    #[must_use]
+    pub fn renumbered(
+        mut self,
+        mut read: impl FnMut(Register) -> Register,
+        mut write: impl FnMut(Register) -> Register,
+    ) -> Op {
+        match &mut self {
+            Op::Neg { to, a }
+            | Op::Recip { to, a }
+            | Op::Not { to, a }
+            | Op::Copy { to, a }
+            | Op::Unary { to, a, .. }
+            | Op::Piece { to, a, .. }
+            | Op::Pick { to, piece: a, .. } => {
+                *a = read(*a);
+                *to = write(*to);
+            }
+            Op::Add { to, a, b }
+            | Op::Sub { to, a, b }
+            | Op::Mul { to, a, b }
+            | Op::Div { to, a, b }
+            | Op::Binary { to, a, b, .. }
+            | Op::Compare { to, a, b, .. }
+            | Op::And { to, a, b }
+            | Op::Or { to, a, b } => {
+                (*a, *b) = (read(*a), read(*b));
+                *to = write(*to);
+            }
+            Op::MulAdd { to, a, b, c }
+            | Op::MulLess { to, a, b, c }
+            | Op::LessMul { to, a, b, c }
+            | Op::ProductOfThree { to, a, b, c }
+            | Op::Select { to, condition: a, a: b, b: c }
+            | Op::Either { to, condition: a, a: b, b: c } => {
+                (*a, *b, *c) = (read(*a), read(*b), read(*c));
+                *to = write(*to);
+            }
+            Op::SumOfProducts { to, a, b, c, d } | Op::DifferenceOfProducts { to, a, b, c, d } => {
+                (*a, *b, *c, *d) = (read(*a), read(*b), read(*c), read(*d));
+                *to = write(*to);
+            }
+            Op::SumOfProductsTimes { to, a, b, c, d, e } | Op::DifferenceOfProductsTimes { to, a, b, c, d, e } => {
+                (*a, *b, *c, *d, *e) = (read(*a), read(*b), read(*c), read(*d), read(*e));
+                *to = write(*to);
+            }
+            Op::Turn { to_sin, to_cos, sin, cos, half, delta } => {
+                (*sin, *cos, *half, *delta) = (read(*sin), read(*cos), read(*half), read(*delta));
+                (*to_sin, *to_cos) = (write(*to_sin), write(*to_cos));
+            }
+            Op::SinCos { sin, cos, a } => {
+                *a = read(*a);
+                (*sin, *cos) = (write(*sin), write(*cos));
+            }
+        }
+        self
+    }
+
+    /// The registers that it reads, tables' columns not counted.
+    #[must_use]
+    pub fn reads(self) -> Few<5> {
+        let mut reads = Few::default();
+        let _ = self.renumbered(|register| reads.note(register), |register| register);
+        reads
+    }
+
+    /// The registers that it writes.
+    #[must_use]
+    pub fn writes(self) -> Few<2> {
+        let mut writes = Few::default();
+        let _ = self.renumbered(|register| register, |register| writes.note(register));
+        writes
+    }
+
+    /// Where it leaves its result if that goes in jumps.
+    #[must_use]
+    pub fn switched(self) -> Option<Register> {
+        match self {
+            Op::Compare { to, .. }
+            | Op::Piece { to, .. }
+            | Op::Unary { function: Unary::Sign | Unary::Floor, to, .. } => Some(to),
+            _ => None,
+        }
+    }
+
+    /// The column of a table that it looks into.
+    #[must_use]
+    pub fn column(self) -> Option<(u32, Column)> {
+        match self {
+            Op::Piece { table, .. } => Some((table, Column::Knots)),
+            Op::Pick { table, column, .. } => Some((table, column)),
+            _ => None,
+        }
+    }
+
+    /// Its number, where operations are written as numbers: it is followed by what is written, what is read, and last by what it
+    /// is about, if that is not in the number.
+    #[must_use]
+    pub fn code(self) -> (u32, Option<u32>) {
+        let about = match self {
+            Op::Unary { function, .. } => Some(function as u32),
+            Op::Binary { function, .. } => Some(function as u32),
+            _ => self.column().map(|(table, column)| table * Column::ALL.len() as u32 + column.number()),
+        };
+        let number = match self {
+            Op::Add { .. } => codes::ADD,
+            Op::Sub { .. } => codes::SUB,
+            Op::Mul { .. } => codes::MUL,
+            Op::Div { .. } => codes::DIV,
+            Op::MulAdd { .. } => codes::MUL_ADD,
+            Op::MulLess { .. } => codes::MUL_LESS,
+            Op::LessMul { .. } => codes::LESS_MUL,
+            Op::ProductOfThree { .. } => codes::PRODUCT_OF_THREE,
+            Op::SumOfProducts { .. } => codes::SUM_OF_PRODUCTS,
+            Op::DifferenceOfProducts { .. } => codes::DIFFERENCE_OF_PRODUCTS,
+            Op::SumOfProductsTimes { .. } => codes::SUM_OF_PRODUCTS_TIMES,
+            Op::DifferenceOfProductsTimes { .. } => codes::DIFFERENCE_OF_PRODUCTS_TIMES,
+            Op::Turn { .. } => codes::TURN,
+            Op::Neg { .. } => codes::NEG,
+            Op::Recip { .. } => codes::RECIP,
+            Op::SinCos { .. } => codes::SIN_COS,
+            Op::Unary { .. } => codes::UNARY,
+            Op::Binary { .. } => codes::BINARY,
+            Op::Compare { comparison: Comparison::Less, .. } => codes::LESS,
+            Op::Compare { comparison: Comparison::LessEqual, .. } => codes::LESS_EQUAL,
+            Op::Compare { comparison: Comparison::Equal, .. } => codes::EQUAL,
+            Op::And { .. } => codes::AND,
+            Op::Or { .. } => codes::OR,
+            Op::Not { .. } => codes::NOT,
+            Op::Select { .. } => codes::SELECT,
+            Op::Either { .. } => codes::EITHER,
+            Op::Copy { .. } => codes::COPY,
+            Op::Piece { .. } => codes::PIECE,
+            Op::Pick { .. } => codes::PICK,
+        };
+        (number, about)
+    }
+}
+
+/// A few registers.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Few<const N: usize> {
+    registers: [Register; N],
+    count: usize,
+}
+
+impl<const N: usize> Default for Few<N> {
+    fn default() -> Few<N> {
+        Few { registers: [0; N], count: 0 }
+    }
+}
+
+impl<const N: usize> Few<N> {
+    /// Adds one, and gives it back.
+    pub fn note(&mut self, register: Register) -> Register {
+        self.registers[self.count] = register;
+        self.count += 1;
+        register
+    }
+}
+
+impl<const N: usize> std::ops::Deref for Few<N> {
+    type Target = [Register];
+
+    fn deref(&self) -> &[Register] {
+        &self.registers[..self.count]
+    }
+}
+
+impl<const N: usize> IntoIterator for Few<N> {
+    type Item = Register;
+    type IntoIter = std::iter::Take<std::array::IntoIter<Register, N>>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.registers.into_iter().take(self.count)
+    }
+}

@@ -1,0 +1,143 @@
+//! What `Φ = 0` gives where it is differentiated: equations with the one matrix `Φ_q`, and a right side for each thing that it is
+//! differentiated with.
+
+use super::{ConstraintSystem, Input};
+use mechc_expr::{ExprId, Graph, Symbol};
+
+/// What `Φ = 0` is differentiated with.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum With {
+    /// Time, so many times: once is `ν`, twice `γ`, three times the right side of the jerk equation.
+    Time(u8),
+    /// An input, by its place among the inputs.
+    Input(usize),
+    /// A parameter, by its number.
+    Param(usize),
+}
+
+/// The right side of the equations for a derivative of `q`.
+#[derive(Clone, Debug)]
+pub struct RightSide {
+    /// What that is by.
+    pub with: With,
+    /// One entry per row [unit of the row / that of what it is by].
+    pub entries: Vec<ExprId>,
+}
+
+impl RightSide {
+    /// Only the entries of some rows are left.
+    pub(super) fn keep(&mut self, rows: &[usize]) {
+        self.entries = rows.iter().map(|&row| self.entries[row]).collect();
+    }
+}
+
+impl ConstraintSystem {
+    /// `ν`, one entry per row [unit of the row / s].
+    #[must_use]
+    pub fn nu(&self) -> &[ExprId] {
+        self.right_side(With::Time(1)).unwrap_or_default()
+    }
+
+    /// `γ`, one entry per row [unit of the row / s²].
+    #[must_use]
+    pub fn gamma(&self) -> &[ExprId] {
+        self.right_side(With::Time(2)).unwrap_or_default()
+    }
+
+    /// Right side of the jerk equation, where a measure needs it [unit of the row / s³].
+    #[must_use]
+    pub fn jerk(&self) -> Option<&[ExprId]> {
+        self.right_side(With::Time(3))
+    }
+
+    /// By input, where the equations hold these as signals: `−Φ_u` [unit of the row / that of the input].
+    #[must_use]
+    pub fn by_inputs(&self) -> impl ExactSizeIterator<Item = &[ExprId]> {
+        self.all_with(|with| matches!(with, With::Input(_)))
+    }
+
+    /// By parameter, where that is asked for: `−Φ_p` [unit of the row / that of the parameter].
+    #[must_use]
+    pub fn by_params(&self) -> impl ExactSizeIterator<Item = &[ExprId]> {
+        self.all_with(|with| matches!(with, With::Param(_)))
+    }
+
+    /// What `q` is differentiated by other than time: the inputs, and behind them the parameters.
+    #[must_use]
+    pub fn slopes(&self) -> Vec<With> {
+        let all = self.right_sides.iter().map(|side| side.with);
+        all.filter(|with| !matches!(with, With::Time(_))).collect()
+    }
+
+    /// All right sides that there are.
+    #[must_use]
+    pub fn right_sides(&self) -> &[RightSide] {
+        &self.right_sides
+    }
+
+    fn right_side(&self, with: With) -> Option<&[ExprId]> {
+        self.right_sides.iter().find(|side| side.with == with).map(|side| side.entries.as_slice())
+    }
+
+    fn all_with(&self, is_wanted: impl Fn(With) -> bool) -> impl ExactSizeIterator<Item = &[ExprId]> {
+        let found = self.right_sides.iter().filter(|side| is_wanted(side.with)).map(|side| side.entries.as_slice());
+        found.collect::<Vec<&[ExprId]>>().into_iter()
+    }
+
+    /// Puts right sides in the place of what there is of their kind; all stand in the order of [`With`].
+    fn set_right_sides(&mut self, is_replaced: impl Fn(With) -> bool, sides: impl IntoIterator<Item = RightSide>) {
+        self.right_sides.retain(|side| !is_replaced(side.with));
+        self.right_sides.extend(sides);
+        self.right_sides.sort_by_key(|side| side.with);
+    }
+
+    /// `ν`, `γ`, and the jerk's right side if wanted.
+    pub(super) fn derive_by_time(&mut self, with_jerk: bool) {
+        let phi = self.phi();
+        let graph = &mut self.graph;
+        let phi_t = Self::time_derivatives(graph, &phi, 0);
+        let mut sides = vec![negated(graph, With::Time(1), phi_t)];
+        // Φ̇ holds q̇; what remains of Φ̈ when q̈ is left out is −γ
+        let first = Self::time_derivatives(graph, &phi, 1);
+        let second = Self::time_derivatives(graph, &first, 1);
+        sides.push(negated(graph, With::Time(2), second));
+        if with_jerk {
+            let second = Self::time_derivatives(graph, &first, 2);
+            let third = Self::time_derivatives(graph, &second, 2);
+            sides.push(negated(graph, With::Time(3), third));
+        }
+        self.set_right_sides(|with| matches!(with, With::Time(_)), sides);
+    }
+
+    /// The right sides of the equations for the derivatives of `q` by each input, which they hold as a signal.
+    pub(super) fn derive_by_inputs(&mut self) {
+        let signals: Vec<Symbol> = self.inputs.iter().map(Input::symbol).collect();
+        let sides = signals.into_iter().enumerate().map(|(k, symbol)| self.by(With::Input(k), symbol));
+        let sides: Vec<RightSide> = sides.collect();
+        self.set_right_sides(|with| matches!(with, With::Input(_)), sides);
+    }
+
+    /// The right sides of the equations for the derivatives of `q` by each parameter, those by which tables change too.
+    pub fn derive_by_params(&mut self) {
+        let sides = (0..self.params.len()).map(|k| self.by(With::Param(k), Symbol::Param(k as u32)));
+        let sides: Vec<RightSide> = sides.collect();
+        self.set_right_sides(|with| matches!(with, With::Param(_)), sides);
+        self.derive_checks();
+    }
+
+    /// The partial derivatives of `Φ` by a symbol, negated.
+    fn by(&mut self, with: With, symbol: Symbol) -> RightSide {
+        let phi = self.phi();
+        let slopes = slopes_by(&mut self.graph, &phi, symbol);
+        negated(&mut self.graph, with, slopes)
+    }
+}
+
+/// The partial derivatives of formulas by a symbol, those by which tables change too.
+pub(super) fn slopes_by(graph: &mut Graph, formulas: &[ExprId], own: Symbol) -> Vec<ExprId> {
+    graph.variations(formulas, |graph, symbol| (symbol == own).then(|| graph.constant(1.0)))
+}
+
+fn negated(graph: &mut Graph, with: With, slopes: Vec<ExprId>) -> RightSide {
+    RightSide { with, entries: slopes.into_iter().map(|id| graph.neg(id)).collect() }
+}

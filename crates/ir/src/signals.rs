@@ -1,0 +1,87 @@
+//! Inputs as signals: what their place in the equations asks for beside what a system of time alone has.
+
+use super::right_sides::slopes_by;
+use super::{ConstraintSystem, Measure, With};
+use mechc_expr::{ExprId, Graph, Symbol};
+
+/// Nobody gives more of a signal than its value, rate and acceleration.
+const HIGHEST: u8 = 2;
+
+/// How equations that were left out change with the coordinates, with each signal and with each parameter. What is varied in a way in which
+/// one would cease to hold has no derivative: the mechanism cannot be assembled beside where it is.
+#[derive(Clone, Debug, Default)]
+pub struct CheckSlopes {
+    /// The check and the coordinate of each slope that does not vanish.
+    pub pattern: Vec<(u32, u32)>,
+    /// These slopes.
+    pub by_q: Vec<ExprId>,
+    /// With inputs and parameters: a slope for each check.
+    pub with: Vec<(With, Vec<ExprId>)>,
+}
+
+impl CheckSlopes {
+    /// By input, in their order.
+    pub fn by_inputs(&self) -> impl Iterator<Item = &[ExprId]> {
+        self.with.iter().filter(|(with, _)| matches!(with, With::Input(_))).map(|(_, slopes)| slopes.as_slice())
+    }
+
+    /// By parameter, in their order.
+    pub fn by_params(&self) -> impl Iterator<Item = &[ExprId]> {
+        self.with.iter().filter(|(with, _)| matches!(with, With::Param(_))).map(|(_, slopes)| slopes.as_slice())
+    }
+}
+
+impl ConstraintSystem {
+    /// The slopes of equations that were left out, where coordinates are differentiated by signals or parameters.
+    pub(super) fn derive_checks(&mut self) {
+        let with = self.slopes();
+        if self.checks.is_empty() || with.is_empty() {
+            return;
+        }
+        let phi: Vec<ExprId> = self.checks.iter().map(|check| check.phi).collect();
+        let mut slopes = CheckSlopes::default();
+        for (check, &phi) in phi.iter().enumerate() {
+            for (column, slope) in self.graph.slopes(phi, 0) {
+                slopes.pattern.push((check as u32, column));
+                slopes.by_q.push(slope);
+            }
+        }
+        for with in with {
+            let symbol = match with {
+                With::Input(k) => self.inputs[k].symbol(),
+                With::Param(k) => Symbol::Param(k as u32),
+                With::Time(_) => Symbol::Time,
+            };
+            slopes.with.push((with, slopes_by(&mut self.graph, &phi, symbol)));
+        }
+        self.check_slopes = slopes;
+    }
+
+    /// Gives measures the derivatives that those of another system of the same text have; what would need more of a signal than its
+    /// acceleration has no value.
+    pub fn align_measures(&mut self, others: &[Measure]) {
+        let none = nothing(&mut self.graph);
+        for (measure, other) in self.measures.iter_mut().zip(others) {
+            let mut needs_more = false;
+            let mut known = |id: Option<ExprId>| {
+                needs_more |= id.is_none_or(|id| self.graph.symbols(id).into_iter().any(is_beyond));
+                id.filter(|_| !needs_more).unwrap_or(none)
+            };
+            measure.value = known(Some(measure.value));
+            let [first, second] = [known(measure.first), known(measure.second)];
+            measure.first = other.first.map(|_| first);
+            measure.second = other.second.map(|_| second);
+        }
+    }
+}
+
+/// Whether a symbol is of more than the accelerations of signals.
+fn is_beyond(symbol: Symbol) -> bool {
+    matches!(symbol, Symbol::Signal { order, .. } | Symbol::Coordinate { order, .. } if order > HIGHEST)
+}
+
+/// What is never finite.
+fn nothing(graph: &mut Graph) -> ExprId {
+    let (one, zero) = (graph.constant(1.0), graph.constant(0.0));
+    graph.div(one, zero)
+}

@@ -1,0 +1,231 @@
+//! What is said of a mechanism that is not determined.
+
+use super::Subsystem;
+use super::count::table;
+use crate::{
+    AskingPart, ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, JointKind, Owner,
+    PointId,
+};
+use mechc_text::diag::{Code, Diagnostic};
+use rustc_hash::FxHashMap;
+
+/// Names that one message lists before it stops.
+const LISTED: usize = 8;
+
+/// Drivers that one message suggests at most.
+const MOST_DRIVERS: usize = 3;
+
+pub fn count(system: &ConstraintSystem, too_many: &Subsystem, too_few: &Subsystem) -> Diagnostic {
+    let ndof = system.ndof();
+    let message = match ndof {
+        1 => "1 degree of freedom is left".to_owned(),
+        -1 => "there is 1 equation too many".to_owned(),
+        n if n > 0 => format!("{n} degrees of freedom are left"),
+        n => format!("there are {} equations too many", -n),
+    };
+    let label = format!("{} coordinates, {} equations", system.coordinates().len(), system.rows().len());
+    let diagnostic = Diagnostic::new(Code::E0502, format!("{message} in mechanism `{}`", system.name()))
+        .at(system.span(), label)
+        .note(table(system));
+    let diagnostic = with_data(diagnostic, system, &competing(system, too_many), &too_few.columns);
+    if ndof > 0 {
+        let free = free_quantities(system, &too_few.columns);
+        diagnostic.help(drivers_to_add(system, &too_few.columns, &free, ndof)).drives(free)
+    } else {
+        match said_twice(system) {
+            Some([first, again]) => {
+                let (first, again) = (&system.declarations()[first], &system.declarations()[again]);
+                diagnostic.also(first.span, "joins the same points").also(again.span, "said twice").help(format!(
+                    "take the {} `{}` away",
+                    again.kind.noun(),
+                    again.name
+                ))
+            }
+            None => diagnostic.help(what_to_take_away(system)),
+        }
+    }
+}
+
+/// Two joints of one kind at the same points.
+fn said_twice(system: &ConstraintSystem) -> Option<[DeclarationId; 2]> {
+    let mut known: FxHashMap<(DeclarationKind, Vec<PointId>), DeclarationId> = FxHashMap::default();
+    let joints = system.declarations().pairs().filter(|(_, one)| matches!(one.kind, DeclarationKind::Joint(_)));
+    for (k, joint) in joints.filter(|(_, joint)| joint.points.len() == 2) {
+        let mut points = joint.points.clone();
+        points.sort_unstable();
+        if let Some(first) = known.insert((joint.kind, points), k) {
+            return Some([first, k]);
+        }
+    }
+    None
+}
+
+/// What joints leave to move and nothing fixes: `rotation(main)`.
+fn free_quantities(system: &ConstraintSystem, free: &[u32]) -> Vec<String> {
+    let mut quantities: Vec<String> = Vec::new();
+    let mut first_row = 0;
+    for declaration in system.declarations() {
+        let rows = first_row..first_row + declaration.rows;
+        first_row = rows.end;
+        let wanted = match declaration.kind {
+            DeclarationKind::Joint(JointKind::Revolute) => CoordinateKind::Angle,
+            DeclarationKind::Joint(JointKind::Translational) => CoordinateKind::Length,
+            _ => continue,
+        };
+        // a pin at a body's origin leaves its angle out of the equations, but it is what turns
+        let owners = rows
+            .flat_map(|row| system.phi_q().row(row))
+            .map(|(column, _)| system.coordinates()[*column as usize].owner);
+        let mut owners: Vec<Owner> = owners.collect();
+        owners.dedup();
+        let moves = free.iter().any(|&column| {
+            let coordinate = &system.coordinates()[column as usize];
+            coordinate.kind == wanted && owners.contains(&coordinate.owner)
+        });
+        if moves {
+            let quantity = if wanted == CoordinateKind::Angle { "rotation" } else { "displacement" };
+            quantities.push(format!("{quantity}({})", declaration.name));
+        }
+    }
+    quantities.truncate(MOST_DRIVERS);
+    quantities
+}
+
+/// How to take what is free, where some quantities would.
+fn drivers_to_add(system: &ConstraintSystem, free: &[u32], quantities: &[String], ndof: isize) -> String {
+    let count = if ndof == 1 { "a driver".to_owned() } else { format!("{ndof} drivers or joints") };
+    if quantities.is_empty() {
+        let bodies = free.iter().filter_map(|&column| system.body_of(column as usize));
+        let mut names: Vec<&str> = bodies.map(|body| system.bodies()[body].name.as_str()).collect();
+        names.dedup();
+        names.truncate(MOST_DRIVERS);
+        return match names.as_slice() {
+            [] => format!("add {count}"),
+            _ => format!(
+                "add {count} for {}",
+                names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+            ),
+        };
+    }
+    let drivers: Vec<String> = quantities.iter().map(|driven| format!("`driver NAME: {driven} = …`")).collect();
+    format!("add {count}: {}", drivers.join(" or "))
+}
+
+fn what_to_take_away(system: &ConstraintSystem) -> String {
+    let drivers: Vec<String> = system
+        .declarations()
+        .iter()
+        .filter(|declaration| declaration.kind == DeclarationKind::Driver)
+        .map(|declaration| format!("`{}`", declaration.name))
+        .collect();
+    match drivers.len() {
+        0 => "take a joint or constraint away, or use one that leaves more freedom".to_owned(),
+        1..=LISTED => {
+            format!("take a joint away, or a driver ({}), or use joints that leave more freedom", drivers.join(", "))
+        }
+        _ => "take a joint or driver away, or use joints that leave more freedom".to_owned(),
+    }
+}
+
+pub fn structure(system: &ConstraintSystem, too_many: &Subsystem, too_few: &Subsystem) -> Diagnostic {
+    let columns = &too_few.columns;
+    let competing = competing(system, too_many);
+    let mut free: Vec<_> = columns.iter().map(|&column| system.owner_span(column as usize)).collect();
+    free.dedup();
+    let mut diagnostic =
+        Diagnostic::new(Code::E0503, "one part of the mechanism has too many equations, another one too few");
+    for (k, declaration) in competing.iter().take(LISTED).enumerate() {
+        let text = "one of too many equations for the same bodies";
+        diagnostic = if k == 0 { diagnostic.at(declaration.span, text) } else { diagnostic.also(declaration.span, "") };
+    }
+    for &span in free.iter().take(LISTED) {
+        diagnostic = diagnostic.also(span, "not fixed by enough equations");
+    }
+    let shown: Vec<String> = columns
+        .iter()
+        .take(LISTED)
+        .map(|&column| format!("`{}`", system.coordinates()[column as usize].name))
+        .collect();
+    let diagnostic = diagnostic
+        .note(format!("nothing fixes {}", shown.join(", ")))
+        .help("move one of the equations to the part that lacks one");
+    with_data(diagnostic, system, &competing, columns)
+}
+
+/// The declarations among whose equations there is one too many.
+fn competing<'s>(system: &'s ConstraintSystem, too_many: &Subsystem) -> Vec<&'s Declaration> {
+    let mut declarations: Vec<DeclarationId> =
+        too_many.rows.iter().map(|&row| system.rows()[row as usize].declaration).collect();
+    declarations.dedup();
+    declarations.into_iter().map(|k| &system.declarations()[k]).collect()
+}
+
+fn with_data(
+    diagnostic: Diagnostic,
+    system: &ConstraintSystem,
+    competing: &[&Declaration],
+    free: &[u32],
+) -> Diagnostic {
+    let redundant: Vec<String> = competing.iter().map(|declaration| declaration.name.clone()).collect();
+    let free: Vec<String> = free.iter().map(|&column| system.coordinates()[column as usize].name.clone()).collect();
+    diagnostic
+        .datum("coordinates", system.coordinates().len())
+        .datum("equations", system.rows().len())
+        .datum("ndof", system.ndof())
+        .datum("redundant", redundant)
+        .datum("free", free)
+}
+
+/// A part whose text asks for derivatives by its own equations, which do not determine it.
+pub fn not_determined_alone(part: &AskingPart, rows: usize, columns: usize) -> Diagnostic {
+    let message =
+        format!("there is no derivative by the own equations of part `{}`, which is not determined alone", part.name);
+    let counts = format!("with its inputs held it has {columns} coordinates and {rows} equations of its own");
+    at_places(Diagnostic::new(Code::E0508, message), part)
+        .note(counts)
+        .help(format!("take the derivative where the part is used: `der({}.…, NAME)`", part.name))
+        .datum("coordinates", columns)
+        .datum("equations", rows)
+}
+
+/// The same of a part that moves together with what is around it, where equations were left out.
+pub fn coupled_without_equations(part: &AskingPart) -> Diagnostic {
+    let message = format!(
+        "there is no derivative by the own equations of part `{}`, which moves together with what is around it",
+        part.name
+    );
+    at_places(Diagnostic::new(Code::E0508, message), part)
+        .note("equations were left out, and it cannot be told which of them the part would need alone")
+        .help(format!("take the derivative where the part is used: `der({}.…, NAME)`", part.name))
+}
+
+/// The same where it is the derivative of a force: what is around the part shares in it, and of that its own equations know nothing.
+pub fn force_of_coupled(part: &AskingPart) -> Diagnostic {
+    let message = format!(
+        "no force has a derivative by the own equations of part `{}`, which moves together with what is around it",
+        part.name
+    );
+    let mut diagnostic = Diagnostic::new(Code::E0508, message);
+    if let Some(place) = part.of_force {
+        diagnostic = diagnostic.at(place, "of a force, by the equations of this mechanism alone");
+    }
+    let help =
+        format!("take the derivative where the part is used, by all equations: `der(effort({}.…), NAME)`", part.name);
+    used_at(diagnostic, part).note("forces follow from what is around the part too").help(help)
+}
+
+/// A message at the places where a part asks for derivatives, and where it is used.
+fn at_places(mut diagnostic: Diagnostic, part: &AskingPart) -> Diagnostic {
+    for (k, place) in part.places.iter().take(LISTED).enumerate() {
+        let text = "by the equations of this mechanism alone";
+        diagnostic = if k == 0 { diagnostic.at(*place, text) } else { diagnostic.also(*place, "and here") };
+    }
+    used_at(diagnostic, part)
+}
+
+fn used_at(mut diagnostic: Diagnostic, part: &AskingPart) -> Diagnostic {
+    for (name, span) in &part.used_at {
+        diagnostic = diagnostic.in_part(name, *span);
+    }
+    diagnostic
+}

@@ -1,0 +1,169 @@
+//! What is said of the inputs of parts where these are used: formulas of time and motion, which may name inputs of other parts. Each is
+//! read after those that it names, whatever the order of the text, and of whatever part they are.
+
+use super::entity::Entity;
+use super::formula::{Context, Dim, Value};
+use super::mentions::mentioned;
+use super::names::Ordered;
+use super::{Checker, errors, rates};
+use mechc_syntax::ast::{Binding, Expr, Name};
+use mechc_text::source::Span;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// The binding of an input.
+struct BoundInput<'a> {
+    /// The parts around, by their numbers, the outermost first.
+    around: Vec<usize>,
+    /// The part, among those of the mechanism in which it is used, and its input.
+    part: usize,
+    input: usize,
+    binding: &'a Binding,
+    /// The input's name in the whole mechanism, where it is bound.
+    name: Name,
+}
+
+impl<'a> Checker<'a> {
+    /// What is said of the inputs of parts, those of parts within them too.
+    pub(super) fn bind_inputs(&mut self) {
+        let mut bound = Vec::new();
+        self.add_bound_inputs(&mut Vec::new(), &mut bound);
+        let uses = self.uses_of_bound_inputs(&bound);
+        let Ordered { order, on_circles } = self.ordered(&uses);
+        for k in order {
+            let BoundInput { around, part, input, binding, .. } = &bound[k];
+            self.deep_within(around, |checker| checker.bind_input(*part, *input, binding));
+        }
+        // those on a circle are nothing, which has been said
+        for k in on_circles {
+            let BoundInput { around, part, input, .. } = &bound[k];
+            self.deep_within(around, |checker| checker.in_part(*part, |child| child.inputs[*input].value = None));
+        }
+        self.tell_inputs_of_parts();
+    }
+
+    fn add_bound_inputs(&self, around: &mut Vec<usize>, bound: &mut Vec<BoundInput<'a>>) {
+        for (part, child) in self.parts.iter().enumerate() {
+            for binding in &self.bindings[part].bindings {
+                let Some(Entity::Input(input)) = child.space.get(&binding.name.text) else { continue };
+                let name =
+                    Name { text: format!("{}{}", child.address.path, binding.name.text), span: binding.name.span };
+                bound.push(BoundInput { around: around.clone(), part, input, binding, name });
+            }
+            around.push(part);
+            child.add_bound_inputs(around, bound);
+            around.pop();
+        }
+    }
+
+    /// Which others each one names.
+    fn uses_of_bound_inputs<'b>(&self, bound: &'b [BoundInput<'a>]) -> Vec<(&'b Name, Vec<(usize, Span)>)> {
+        let mut positions: FxHashMap<&str, usize> = FxHashMap::default();
+        for (k, one) in bound.iter().enumerate() {
+            positions.entry(&one.name.text).or_insert(k);
+        }
+        let uses = |one: &'b BoundInput<'a>| {
+            let mut checker = self;
+            for &part in &one.around {
+                checker = &checker.parts[part];
+            }
+            let named = checker.inputs_in(&one.binding.value);
+            (&one.name, named.into_iter().filter_map(|(name, span)| Some((*positions.get(&*name)?, span))).collect())
+        };
+        bound.iter().map(uses).collect()
+    }
+
+    /// The inputs that a formula names, by their names in the whole mechanism, also by way of functions.
+    fn inputs_in(&self, formula: &Expr) -> Vec<(String, Span)> {
+        let (mut open, mut seen, mut found) = (vec![(formula, None)], FxHashSet::default(), Vec::new());
+        while let Some((formula, argument)) = open.pop() {
+            mentioned(
+                formula,
+                |name| self.hidden.contains(name),
+                |name, _| match self.entity(name) {
+                    _ if argument == Some(name.text.as_str()) => {}
+                    Some(Entity::Input(_)) => found.push((format!("{}{}", self.address.path, name.text), name.span)),
+                    Some(Entity::Function(k)) if seen.insert(k) => {
+                        let function = self.functions.get(k).filter(|function| function.time.is_some());
+                        open.extend(function.map(|function| (function.value, Some(function.argument.text.as_str()))));
+                    }
+                    _ => {}
+                },
+            );
+        }
+        found
+    }
+
+    /// Work in the part that numbers lead to, from the outside in.
+    fn deep_within(&mut self, around: &[usize], work: impl FnOnce(&mut Checker<'a>)) {
+        match around {
+            [] => work(self),
+            // of one type at every level
+            [part, rest @ ..] => {
+                let work: Box<dyn FnOnce(&mut Checker<'a>) + '_> = Box::new(work);
+                self.in_part(*part, |child| child.deep_within(rest, work));
+            }
+        }
+    }
+
+    fn bind_input(&mut self, part: usize, input: usize, binding: &'a Binding) {
+        let value = self.input_bound(part, input, binding);
+        self.in_part(part, |child| {
+            let declared = child.declared(&binding.name);
+            let value = value.map(|value| child.held(value)).map(|value| child.with_shift(&declared, value));
+            if let Some(state) = child.inputs.get_mut(input) {
+                state.value = value;
+            }
+        });
+    }
+
+    /// Writes down what the inputs of parts are in the end.
+    fn tell_inputs_of_parts(&mut self) {
+        for part in 0..self.parts.len() {
+            self.tell_inputs(part);
+            self.in_part(part, Checker::tell_inputs_of_parts);
+        }
+    }
+
+    /// Those of a part, and those of parts within it that nobody binds by their paths there.
+    fn tell_inputs(&mut self, part: usize) {
+        let Some(id) = self.parts[part].address.part else { return };
+        let child = &self.parts[part];
+        let own = child.inputs.iter().filter_map(|input| Some((input.name.text.clone(), input.value?.id)));
+        let mut inputs: Vec<_> = own.collect();
+        let deeper = self.model.inputs.iter().filter_map(|input| {
+            let name = input.declared.name.strip_prefix(child.address.path.as_str())?;
+            name.contains('.').then(|| (name.to_owned(), input.value))
+        });
+        inputs.extend(deeper);
+        self.model.parts[id.index()].inputs = inputs;
+    }
+
+    fn input_bound(&mut self, part: usize, k: usize, binding: &Binding) -> Option<Value> {
+        let wanted = self.parts[part].inputs.get(k)?.value?.dim;
+        let judged = self.is_dimensional(&binding.value);
+        let context = Context {
+            judged,
+            time: true,
+            inputs: true,
+            quantities: true,
+            ..Context::constant("a binding of an input")
+        };
+        let conditions = self.model.conditions.len();
+        let value = self.formula(&binding.value, &context)?;
+        let owner = format!("{}{}", self.address.path, self.bindings[part].name.text);
+        for condition in &mut self.model.conditions[conditions..] {
+            condition.owner.clone_from(&owner);
+        }
+        let unlike = match wanted {
+            Dim::Of(_) => wanted.other_than(value.dim).filter(|_| self.counts(value, &context)),
+            _ => wanted.other_than(value.dim).filter(|_| judged),
+        };
+        if let Some([wanted, found]) = unlike {
+            let place = format!("the input `{}` of `{}`", binding.name.text, self.bindings[part].name.text);
+            let wrong = rates::Part { span: binding.value.span, dimension: found };
+            self.report(errors::wrong_dimension(&place, wanted, wrong, self.sources.text(binding.value.span)));
+            return None;
+        }
+        Some(Value { dim: wanted, ..value })
+    }
+}

@@ -1,0 +1,334 @@
+//! Calls: functions and measures expanded where they stand, each expansion made once.
+//!
+//! An expansion recurses into the formula that is called, and a chain of functions can be longer than any stack is deep. So a call that is met
+//! too far down is put off: the formulas around it are given up, the call is expanded on its own, from the ground, and
+//! then the formulas are read once more, in which it is known by now. No platform's stack decides what is read.
+
+use super::branches::Branch;
+use super::entity::Entity;
+use super::formula::{Context, DimKey, Value};
+use super::{Checker, errors};
+use crate::model::Condition;
+use mechc_expr::ExprId;
+use mechc_syntax::ast::{Expr, Name, Window};
+use mechc_text::source::Span;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// Parts that one formula may have, written out.
+const LARGEST: usize = 1_000_000;
+
+/// A call that stands deeper than so many levels, its callers' formulas included, is put off.
+const DEEPEST_CALL: usize = 64;
+
+/// What may be read again and again for calls that are put off, as a multiple of what one formula may hold.
+const MOST_READ: usize = 16;
+
+/// One expansion of a function or measure: which, of what argument, and how it is read.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) struct Call {
+    entity: Entity,
+    argument: Option<(ExprId, DimKey)>,
+    judged: bool,
+    /// In what the argument is printed, where that is told.
+    printed: Option<Span>,
+    /// Less is said in a branch that is never taken, and what must be positive must be so only where its branch counts.
+    branch: Branch,
+}
+
+/// A call that was met too far down, with all that its expansion needs.
+struct PutOff<'a> {
+    call: Call,
+    formula: &'a Expr,
+    context: Context<'a>,
+    caller: Option<Span>,
+}
+
+/// The calls that are known, and those of the formula that is being read.
+#[derive(Default)]
+pub(super) struct Calls<'a> {
+    /// Expansions already made.
+    pub known: FxHashMap<Call, Option<Value>>,
+    /// What those ask to be positive, where they do.
+    pub conditions: FxHashMap<Call, Vec<Condition>>,
+    /// Where the outermost of the formulas being expanded was called.
+    pub caller: Option<Span>,
+    /// Parts of the formula visited.
+    pub visited: usize,
+    /// How many levels of formulas are open.
+    levels: usize,
+    /// Calls that wait for their turn, the last one first.
+    waiting: Vec<PutOff<'a>>,
+    /// Expansions that were given up in this reading, since they hold a call that waits.
+    given_up: FxHashSet<Call>,
+    /// Whether the formula that is being read holds such a call.
+    is_given_up: bool,
+    /// Parts of the expansions that are complete.
+    complete: usize,
+    /// Parts read so far, those read again included.
+    read: usize,
+    /// The formula is refused for its size.
+    is_too_large: bool,
+}
+
+impl<'a> Checker<'a> {
+    /// A call of a function of the language or of the file.
+    pub(super) fn call(
+        &mut self,
+        e: &Expr,
+        (name, window): (&Name, Option<&Window>),
+        arguments: &[Expr],
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        if let Ok(reduced) = self.call_of_reduction(e, (name, window), arguments, context) {
+            return reduced;
+        }
+        self.refuse_window(name, window)?;
+        if self.is_of_language(&name.text) {
+            if self.is_declared_though_taken(name) {
+                return None;
+            }
+            return self.builtin(e, name, arguments, context);
+        }
+        if matches!(self.space.get(&name.text), Some(Entity::Broken)) {
+            return None;
+        }
+        // elsewhere a parameter of that name was rather meant than a quantity that may not stand there
+        let is_quantity = context.rates || self.space.get(&name.text).is_none();
+        if is_quantity && self.quantity_word(name).is_some() {
+            return self.quantity(e, name, arguments, context);
+        }
+        match self.resolve(name).ok()?.filter(|_| context.names) {
+            Some(Entity::Function(k)) => {
+                let [argument] = arguments else {
+                    self.report(errors::argument_count(&name.text, None, e.span, "one argument", arguments.len()));
+                    return None;
+                };
+                let printed = self.unit_of_argument(argument, context);
+                let argument = self.number(argument, context)?;
+                if let Some(at) = self.functions[k].time.filter(|_| !context.time) {
+                    self.report(errors::time_in(context.place, e.span, Some((&name.text, at))));
+                    return None;
+                }
+                self.function_value(k, argument, e.span, &Context { printed, ..*context })
+            }
+            Some(Entity::Table(k)) => self.table_call(k, e, arguments, context),
+            Some(entity) => {
+                self.report(errors::not_callable(name, entity));
+                None
+            }
+            None => {
+                if let Some(fix) = self.rate_of_joint(e, name, arguments, context) {
+                    self.report(errors::unknown_function(name, &[], &[]).instead(fix));
+                    return None;
+                }
+                if let Some(fix) = self.effort_for(e, name, arguments) {
+                    self.report(errors::unknown_function(name, &[], &[]).instead(fix));
+                    return None;
+                }
+                let own = self.suggestions(|entity| matches!(entity, Entity::Function(_) | Entity::Table(_)));
+                let texts: Vec<&str> = arguments.iter().map(|e| self.sources.text(e.span)).collect();
+                let diagnostic = errors::unknown_function(name, &own, &texts);
+                self.report(diagnostic);
+                None
+            }
+        }
+    }
+
+    /// A function's formula where it is called, as if it stood there.
+    fn function_value(&mut self, at: usize, argument: Value, span: Span, context: &Context<'_>) -> Option<Value> {
+        let function = &self.functions[at];
+        if !function.sound {
+            return None;
+        }
+        if !context.expands {
+            return Some(argument);
+        }
+        let (formula, name) = (function.value, function.argument);
+        let call = Call {
+            entity: Entity::Function(at),
+            argument: Some((argument.id, argument.dim.key())),
+            judged: context.judged,
+            printed: context.printed,
+            branch: self.branch,
+        };
+        let inner = Context {
+            time: true,
+            quantities: false,
+            rates: false,
+            measures: false,
+            results: false,
+            names: true,
+            ..*context
+        };
+        self.expand(call, formula, Some((&name.text, argument)), span, &inner)
+    }
+
+    /// Another measure's formula, as if it stood there.
+    pub(super) fn measure_value(&mut self, at: usize, span: Span, context: &Context<'_>) -> Option<Value> {
+        if let Some(&(part, Entity::Measure(inside))) = self.imported.get(&Entity::Measure(at)) {
+            let (branch, caller) = (self.branch, self.calls.caller.or(Some(span)));
+            return self.in_part(part, |child| {
+                (child.branch, child.calls.caller) = (branch, caller);
+                let value = child.measure_value(inside, span, context);
+                (child.branch, child.calls.caller) = (Branch::default(), None);
+                value
+            });
+        }
+        if !self.measures[at].sound {
+            return None;
+        }
+        let formula = self.measures[at].value;
+        let (judged, branch) = (context.judged, self.branch);
+        let call = Call { entity: Entity::Measure(at), argument: None, judged, printed: None, branch };
+        self.expand(call, formula, None, span, context)
+    }
+
+    fn expand(
+        &mut self,
+        call: Call,
+        formula: &'a Expr,
+        argument: Option<(&'a str, Value)>,
+        span: Span,
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        if let Some(&known) = self.calls.known.get(&call) {
+            // who calls it asks for what it asks for
+            if let Some(conditions) = self.calls.conditions.get(&call) {
+                self.model.conditions.extend_from_slice(conditions);
+            }
+            return known;
+        }
+        let caller = self.calls.caller.or(Some(span));
+        if self.calls.given_up.contains(&call) {
+            self.calls.is_given_up = true;
+            return None;
+        }
+        if self.calls.levels > DEEPEST_CALL {
+            let context = context.at("", argument);
+            self.calls.waiting.push(PutOff { call, formula, context, caller });
+            self.calls.given_up.insert(call);
+            self.calls.is_given_up = true;
+            return None;
+        }
+        let outer = std::mem::replace(&mut self.calls.caller, caller);
+        let value = self.expansion(call, formula, &context.at(context.place, argument));
+        self.calls.caller = outer;
+        value
+    }
+
+    /// Expands a call, and remembers it unless it had to be given up.
+    fn expansion(&mut self, call: Call, formula: &Expr, context: &Context<'_>) -> Option<Value> {
+        let outer = std::mem::replace(&mut self.calls.is_given_up, false);
+        // what is called knows nothing of the body in which it is called
+        let scope = std::mem::take(&mut self.scope);
+        let (complete, visited) = (self.calls.complete, self.calls.visited);
+        let first = self.model.conditions.len();
+        let value = self.number(formula, context);
+        self.scope = scope;
+        if self.calls.is_given_up {
+            self.calls.given_up.insert(call);
+        } else {
+            self.calls.complete = complete + (self.calls.visited - visited);
+            self.keep_conditions(call, first);
+            self.calls.known.insert(call, value);
+        }
+        self.calls.is_given_up |= outer;
+        value
+    }
+
+    /// Remembers what an expansion asks to be positive, from a condition on, each thing once.
+    fn keep_conditions(&mut self, call: Call, first: usize) {
+        let mut conditions = self.model.conditions.split_off(first);
+        let mut seen = FxHashSet::default();
+        conditions.retain(|condition| seen.insert(condition.positive));
+        self.model.conditions.extend_from_slice(&conditions);
+        if !conditions.is_empty() {
+            self.calls.conditions.insert(call, conditions);
+        }
+    }
+
+    /// One level of a formula; what was put off in it is made up for on the ground.
+    pub(super) fn level<T>(
+        &mut self,
+        context: &Context<'_>,
+        mut read: impl FnMut(&mut Self) -> Option<T>,
+    ) -> Option<T> {
+        if self.calls.levels > 0 {
+            self.calls.levels += 1;
+            let value = read(self);
+            self.calls.levels -= 1;
+            return value;
+        }
+        let (before, conditions) = (self.calls.visited, self.model.conditions.len());
+        (self.calls.complete, self.calls.read, self.calls.is_too_large) = (0, 0, false);
+        let mut value = self.reading(before, &mut read);
+        while self.calls.is_given_up && !self.calls.is_too_large {
+            self.make_up(before, context.place);
+            value = self.reading(before, &mut read);
+        }
+        if !self.calls.is_given_up {
+            self.forget_repeated_conditions(conditions);
+        }
+        self.calls.waiting.clear();
+        value
+    }
+
+    /// Counts a part of a formula, and refuses the formula where it has too many.
+    pub(super) fn count_part(&mut self, span: Span) -> Option<()> {
+        self.calls.visited += 1;
+        if self.calls.is_too_large || self.calls.visited <= LARGEST && self.calls.read <= MOST_READ * LARGEST {
+            return (!self.calls.is_too_large).then_some(());
+        }
+        self.calls.is_too_large = true;
+        self.diagnostics.push(errors::too_large(self.calls.caller.unwrap_or(span)));
+        None
+    }
+
+    /// Whether a call that was put off keeps what is being read from being known.
+    pub(super) fn waits(&self) -> bool {
+        self.calls.is_given_up
+    }
+
+    /// Reads something from the ground.
+    fn reading<T>(&mut self, before: usize, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+        self.calls.visited = before + self.calls.complete;
+        self.calls.given_up.clear();
+        self.calls.is_given_up = false;
+        self.calls.levels = 1;
+        let value = read(self);
+        self.calls.levels = 0;
+        self.calls.read += self.calls.visited - before - self.calls.complete;
+        value
+    }
+
+    /// Expands all calls that wait, and those that these wait for.
+    fn make_up(&mut self, before: usize, place: &str) {
+        let outer = (self.branch, self.calls.caller);
+        while let Some(PutOff { call, formula, context, caller }) = self.calls.waiting.pop() {
+            if self.calls.known.contains_key(&call) {
+                continue;
+            }
+            if self.calls.is_too_large {
+                break;
+            }
+            (self.branch, self.calls.caller) = (call.branch, caller);
+            let at = self.calls.waiting.len();
+            self.reading(before, |checker| checker.expansion(call, formula, &context.at(place, context.argument)));
+            if self.calls.is_given_up {
+                self.calls.waiting.insert(at, PutOff { call, formula, context, caller });
+            }
+        }
+        (self.branch, self.calls.caller) = outer;
+    }
+
+    /// What was read again, or is called twice, has asked for the same again.
+    fn forget_repeated_conditions(&mut self, from: usize) {
+        if self.model.conditions.len() <= from + 1 {
+            return;
+        }
+        let mut known = FxHashSet::default();
+        let asked = self.model.conditions.split_off(from);
+        let new = asked.into_iter().filter(|condition| known.insert((condition.positive, condition.span)));
+        self.model.conditions.extend(new);
+    }
+}

@@ -1,0 +1,165 @@
+//! Params, functions, tables, inputs, measures and results in the order in which they need each other.
+
+use super::Checker;
+use super::elements::MeasureState;
+use super::entity::Entity;
+use super::functions::Function;
+use super::inputs::InputState;
+use super::mentions::mentioned;
+use super::names::Ordered;
+use super::params::ParamState;
+use super::results::ResultState;
+use super::tables::TableState;
+use super::told::is_told_by;
+use mechc_syntax::ast::{Expr, Item, ItemKind, Name, TableRows};
+use mechc_text::source::Span;
+use rustc_hash::FxHashMap;
+
+impl<'a> Checker<'a> {
+    /// Params, functions, tables and measures in the order in which they need each other: params and tables are evaluated
+    /// and functions looked over; the order of the measures, and that of the results, is kept.
+    pub(super) fn definitions(&mut self) {
+        let (mut definitions, mut docs, mut entities) = (Vec::new(), Vec::new(), Vec::new());
+        for item in self.items() {
+            if let Some((entity, name, formulas)) = self.definition(item, &entities) {
+                entities.push(entity);
+                definitions.push((name, formulas));
+                docs.push(&item.docs);
+            }
+        }
+        self.import_params();
+        let uses = self.uses(&definitions, &entities);
+        let Ordered { order, on_circles } = self.ordered(&uses);
+        self.define_parts_on_circles(on_circles.iter().map(|&at| entities[at]));
+        let (mut measures, mut results) = (Vec::new(), Vec::new());
+        for at in order {
+            let (name, formulas) = &definitions[at];
+            match entities[at] {
+                Entity::Param(k) => formulas.iter().for_each(|value| self.define_param(k, name, docs[at], value)),
+                Entity::Function(k) => self.function(k),
+                Entity::Table(k) => self.table(k),
+                Entity::Input(k) => self.input(k),
+                Entity::Part(k) if k < self.parts.len() => self.definitions_of_part(k),
+                Entity::Measure(k) => {
+                    self.measures[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
+                    measures.push(k);
+                }
+                Entity::Result(k) => {
+                    self.results[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
+                    results.push(k);
+                }
+                _ => {}
+            }
+        }
+        (self.measure_order, self.result_order) = (measures, results);
+    }
+
+    /// What a declaration defines, behind others, with its name and the formulas that it is made of; it gets its place, and no value yet.
+    fn definition(&mut self, item: &'a Item, before: &[Entity]) -> Option<(Entity, &'a Name, Vec<&'a Expr>)> {
+        Some(match &item.kind {
+            ItemKind::Param { name, value } => {
+                self.params.push(ParamState { written: Some((name, value)), ..ParamState::default() });
+                (Entity::Param(self.params.len() - 1), name, vec![value])
+            }
+            ItemKind::Function { name, argument, value } => {
+                self.functions.push(Function { argument, value, dimensional: false, time: None, sound: false });
+                (Entity::Function(self.functions.len() - 1), name, vec![value])
+            }
+            ItemKind::Input { name, value } => {
+                let given = self.around.given.formulas.iter();
+                let own = format!("{}{}", self.address.path, name.text);
+                let told = given.filter(|(told, _)| is_told_by(&own, told)).map(|(_, told)| told);
+                let formulas = std::iter::once(value).chain(told).collect();
+                self.inputs.push(InputState { name, formula: value, value: None });
+                (Entity::Input(self.inputs.len() - 1), name, formulas)
+            }
+            ItemKind::Measure { name, value, unit } => {
+                self.measures.push(MeasureState::of(name, value, unit.as_ref()));
+                (Entity::Measure(self.measures.len() - 1), name, vec![value])
+            }
+            ItemKind::Result { name, value, unit } => {
+                self.results.push(ResultState::of(value, unit.as_ref()));
+                (Entity::Result(self.results.len() - 1), name, vec![value])
+            }
+            ItemKind::Table { name, periodic, rows } => {
+                let periodic = *periodic;
+                self.tables.push(TableState { name, periodic, rows, dimensional: false, made: None });
+                let formulas = match rows {
+                    TableRows::Listed(rows) => rows.iter().collect(),
+                    TableRows::File { .. } => Vec::new(),
+                };
+                (Entity::Table(self.tables.len() - 1), name, formulas)
+            }
+            ItemKind::Part(part) => {
+                let k = before.iter().filter(|entity| matches!(entity, Entity::Part(_))).count();
+                let bindings = part.bindings.iter().filter(|binding| self.binds_definition(k, binding));
+                (Entity::Part(k), &part.name, bindings.map(|binding| &binding.value).collect())
+            }
+            _ => return None,
+        })
+    }
+
+    /// Parts whose definitions go in a circle are what they are alone, so that all that they have is there.
+    fn define_parts_on_circles(&mut self, on_circles: impl Iterator<Item = Entity>) {
+        for entity in on_circles {
+            if let Entity::Part(k) = entity
+                && k < self.parts.len()
+            {
+                self.definitions_of_part_alone(k);
+            }
+        }
+    }
+
+    fn uses<'d>(
+        &self,
+        definitions: &[(&'d Name, Vec<&Expr>)],
+        entities: &[Entity],
+    ) -> Vec<(&'d Name, Vec<(usize, Span)>)> {
+        let position: FxHashMap<Entity, usize> = entities.iter().enumerate().map(|(k, &e)| (e, k)).collect();
+        let arguments: FxHashMap<usize, &str> = entities
+            .iter()
+            .enumerate()
+            .filter_map(|(k, entity)| match entity {
+                Entity::Function(f) => Some((k, self.functions[*f].argument.text.as_str())),
+                _ => None,
+            })
+            .collect();
+        definitions
+            .iter()
+            .enumerate()
+            .map(|(k, (name, formulas))| {
+                let mut uses = Vec::new();
+                for formula in formulas {
+                    mentioned(
+                        formula,
+                        |name| self.hidden.contains(name),
+                        |used, is_called| {
+                            // `speed(P)` is a quantity, whatever else is called `speed`
+                            let is_of_motion =
+                                self.quantity_word(used).is_some() || self.reduction_word(used, 1).is_some();
+                            if is_called && is_of_motion {
+                                return;
+                            }
+                            let hidden = arguments.get(&k) == Some(&used.text.as_str());
+                            let is_own = !hidden && !self.is_declared_though_taken(used);
+                            let entity = self.entity(used).filter(|_| is_own);
+                            // what is in a part is known when the part is, but for what nothing here asks the number of
+                            let part = used.text.split_once('.').and_then(|(part, _)| self.space.get(part));
+                            let entity = match entity {
+                                Some(Entity::Body(_) | Entity::Joint(_) | Entity::Equation(_) | Entity::Ground) => None,
+                                entity => part.or(entity),
+                            };
+                            // no input may stand in what an option says of one, which is told there
+                            let is_told = self.sources.get(used.span.file).is_option;
+                            let entity = entity.filter(|entity| !(is_told && matches!(entity, Entity::Input(_))));
+                            if let Some(&at) = entity.and_then(|e| position.get(&e)) {
+                                uses.push((at, used.span));
+                            }
+                        },
+                    );
+                }
+                (*name, uses)
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,181 @@
+//! Which formulas are judged by their dimensions, and whether these fit.
+
+use super::entity::Entity;
+use super::formula::{Context, Dim, Value};
+use super::kinds::{self, Wanted, coordinate};
+use super::rates::Part;
+use super::{Checker, errors};
+use crate::model::Dimension;
+use mechc_expr::{Dependence, ExprId};
+use mechc_syntax::ast::{Expr, ExprKind, Name};
+use mechc_text::source::Span;
+use mechc_text::vocabulary::Unit;
+
+impl Checker<'_> {
+    /// Whether a formula holds a unit of length, time or rate, or something that does.
+    pub(super) fn is_dimensional(&self, formula: &Expr) -> bool {
+        self.is_dimensional_over(None, formula)
+    }
+
+    /// The same of the formula of a function or curve, over its argument.
+    pub(super) fn is_dimensional_over(&self, argument: Option<&str>, formula: &Expr) -> bool {
+        self.holds_dimension(argument, formula, Wanted::Number)
+    }
+
+    /// The same of a formula of numbers or of points.
+    pub(super) fn holds_dimension(&self, argument: Option<&str>, formula: &Expr, wanted: Wanted) -> bool {
+        let mut open = vec![(formula, wanted, wanted != Wanted::Number)];
+        while let Some((e, wanted, with_points)) = open.pop() {
+            let holds = match &e.kind {
+                ExprKind::Literal { unit: Some((name, _)), .. } => {
+                    Unit::named(&name.text).is_some_and(|unit| !unit.dimension.is(Dimension::PURE))
+                }
+                ExprKind::Name(name) if argument == Some(name.text.as_str()) => false,
+                ExprKind::Name(name) if self.own_point(name, wanted).is_some() => {
+                    self.is_dimensional_point(name, wanted)
+                }
+                ExprKind::Name(name) => self.is_dimensional_name(name),
+                ExprKind::Member { owner, feature } if coordinate(feature).is_some() => {
+                    self.is_dimensional_point(owner, Wanted::Point)
+                }
+                ExprKind::Call { name, arguments, .. } if self.reduction_word(name, arguments.len()).is_some() => false,
+                ExprKind::Call { name, .. }
+                    if !self.is_of_language(&name.text) && self.quantity_word(name).is_none() =>
+                {
+                    self.is_dimensional_name(name)
+                }
+                // a literal point says nothing about the formula of a number around it
+                ExprKind::Tuple(_) if !with_points => continue,
+                _ => false,
+            };
+            if holds {
+                return true;
+            }
+            // but all about the length between it and another one
+            let with_points = match &e.kind {
+                ExprKind::Call { name, .. } if self.is_of_language(&name.text) => match name.text.as_str() {
+                    "length" => true,
+                    "direction" => false,
+                    _ => with_points,
+                },
+                _ => with_points,
+            };
+            let inside = kinds::inside(e, wanted, |name| self.hidden.contains(name));
+            open.extend(inside.into_iter().map(|(e, wanted)| (e, wanted, with_points)));
+        }
+        false
+    }
+
+    fn is_dimensional_name(&self, name: &Name) -> bool {
+        if let Some(unit) = self.unit_alone(name) {
+            return !unit.dimension.is(Dimension::PURE);
+        }
+        match self.entity(name) {
+            Some(Entity::Param(k)) => {
+                self.params[k].value.is_some_and(Value::has_a_dimension)
+                    || self.params[k].drawn.is_some_and(|drawn| drawn.dimensional)
+            }
+            Some(Entity::Function(k)) => self.functions[k].dimensional,
+            Some(Entity::Table(k)) => self.tables[k].dimensional,
+            Some(Entity::Input(k)) => self.input_known(k).is_some_and(Value::has_a_dimension),
+            Some(Entity::Measure(k)) => self.measure_known(k).is_some_and(|measure| measure.dimensional),
+            Some(Entity::Result(k)) => self.result_known(k).is_some_and(|result| result.dimensional),
+            _ => false,
+        }
+    }
+
+    /// The unit of a name that stands alone, and not behind a number.
+    fn unit_alone(&self, name: &Name) -> Option<&'static Unit> {
+        Unit::named(&name.text).filter(|_| self.space.get(&name.text).is_none())
+    }
+
+    /// A literal zero, alone but for its sign, also through a param that is nothing else.
+    pub(super) fn is_zero(&self, formula: &Expr) -> bool {
+        match &formula.bare().kind {
+            ExprKind::Literal { value, unit: None } => *value == 0.0,
+            ExprKind::Negate(e) => self.is_zero(e),
+            ExprKind::Name(name) => match self.entity(name) {
+                Some(Entity::Param(k)) => {
+                    matches!(self.params[k].value, Some(Value { dim: Dim::Any, .. }))
+                }
+                _ => false,
+            },
+            _ => false,
+        }
+    }
+
+    /// The dimension of two terms, which must be alike where dimensions count.
+    pub(super) fn alike(
+        &mut self,
+        what: &str,
+        a: (Span, Value),
+        b: (Span, Value),
+        context: &Context<'_>,
+    ) -> Option<Dim> {
+        let dims = [a, b].map(|(_, value)| value.dim.where_judged(context.judged));
+        let (x, y) = match dims {
+            [Dim::Any, other] | [other, Dim::Any] => return Some(other),
+            [Dim::Of(x), Dim::Of(y)] => (x, y),
+            // a number has the dimension of what it stands beside
+            [Dim::Of(own), Dim::Plain { .. }] | [Dim::Plain { .. }, Dim::Of(own)] => return Some(Dim::Of(own)),
+            [one @ Dim::Plain { read, .. }, other @ Dim::Plain { .. }] => {
+                let fits = one.fits() && other.fits() && read.is(other.settled());
+                return Some(Dim::Plain { read, fits });
+            }
+        };
+        if x.is(y) {
+            return Some(Dim::Of(x));
+        }
+        if !self.counts(a.1, context) && !self.counts(b.1, context) {
+            return Some(Dim::Plain { read: x, fits: false });
+        }
+        let [x, y] = [(a.0, x), (b.0, y)].map(|(span, dimension)| Part { span, dimension });
+        let texts = [a.0, b.0].map(|span| self.sources.text(span));
+        let takes_factor = context.quantities && (self.is_of_quantities(b.1.id) || texts[1] == "t");
+        self.report(errors::unlike(what, [x, y], texts, context.time, takes_factor));
+        None
+    }
+
+    /// Whether a value's dimension counts: in a plain formula that of a quantity that no number scales. (A function is judged where it is
+    /// called.)
+    pub(super) fn counts(&self, value: Value, context: &Context<'_>) -> bool {
+        context.judged || context.expands && matches!(value.dim, Dim::Of(_)) && self.is_of_quantities(value.id)
+    }
+
+    /// Whether a formula's value depends on kinematic quantities, or on what comes of them.
+    pub(super) fn is_of_quantities(&self, id: ExprId) -> bool {
+        self.model.graph.dependence(id).on(Dependence::NAMED)
+    }
+
+    /// The dimension of a pure number that a function makes of others. Of a number it is one again, and of what is no pure number it shows
+    /// that numbers are missing.
+    pub(super) fn made_of(&self, arguments: &[(Span, Value)]) -> Dim {
+        let is_plain = |value: &Value| !self.is_of_quantities(value.id);
+        if arguments.iter().any(|(_, value)| !value.dim.fits()) {
+            Dim::UNFIT
+        } else if arguments.iter().any(|(_, value)| is_plain(value)) {
+            Dim::PLAIN
+        } else {
+            Dim::PURE
+        }
+    }
+
+    /// Demands a dimension where dimensions count.
+    pub(super) fn demand(
+        &mut self,
+        place: &str,
+        wanted: Dimension,
+        span: Span,
+        found: Dim,
+        context: &Context<'_>,
+    ) -> Option<()> {
+        match found.where_judged(context.judged) {
+            Dim::Of(dimension) if context.judged && !dimension.is(wanted) => {
+                let text = self.sources.text(span);
+                self.report(errors::wrong_dimension(place, wanted, Part { span, dimension }, text));
+                None
+            }
+            _ => Some(()),
+        }
+    }
+}

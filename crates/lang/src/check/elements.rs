@@ -1,0 +1,406 @@
+//! Measures, constraints, drivers and the analysis.
+
+use super::formula::{Context, Dim, Value};
+use super::printed::known_dimension;
+use super::{Checker, errors};
+use crate::model::{
+    Analysis, Condition, ConditionKind, DecidedBy, Declared, Dimension, Equation, EquationForm, Measure, Named,
+    PointId, Quantity, Trace, Units,
+};
+use mechc_expr::{Dependence, ExprId, Symbol};
+use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name, WrittenUnit};
+use mechc_text::source::Span;
+use mechc_text::vocabulary::QuantityWord;
+
+/// What is known of a measure before its turn.
+pub(super) struct MeasureState<'a> {
+    name: &'a Name,
+    pub value: &'a Expr,
+    /// In what it is printed, if that is said.
+    pub unit: Option<&'a WrittenUnit>,
+    pub dimensional: bool,
+    pub sound: bool,
+    /// How often an angle is a factor of it.
+    pub angle: i32,
+    /// Its value, from its turn until it is listed, with what that asks at every time.
+    made: Option<(Value, Vec<Condition>)>,
+}
+
+impl<'a> MeasureState<'a> {
+    pub fn of(name: &'a Name, value: &'a Expr, unit: Option<&'a WrittenUnit>) -> MeasureState<'a> {
+        MeasureState { name, value, unit, dimensional: false, sound: false, angle: 0, made: None }
+    }
+}
+
+impl Checker<'_> {
+    /// The values of measures, those of parts first, then in the order in which they need each other.
+    pub(super) fn measure_values(&mut self) {
+        self.in_parts(Checker::measure_values);
+        for k in std::mem::take(&mut self.measure_order) {
+            let conditions = self.model.conditions.len();
+            let formula = self.measures[k].value;
+            let value = self.formula(formula, &measure_context(self.measures[k].dimensional));
+            let owner = self.declared(self.measures[k].name).name;
+            let conditions = self.asked_at_times(conditions, &owner);
+            self.measures[k].made = value.map(|value| (value, conditions));
+            self.measures[k].sound = value.is_some();
+            self.measures[k].angle = self.angle_power(formula);
+        }
+    }
+
+    /// Lists the measures, and the traces among them, in the order of the text, those of parts where these are declared.
+    pub(super) fn list_measures(&mut self) {
+        let mut measures = 0..self.measures.len();
+        let mut parts = 0..self.parts.len();
+        for item in self.items() {
+            match &item.kind {
+                ItemKind::Measure { name, .. } => {
+                    let Some(k) = measures.next() else { continue };
+                    let Some((value, conditions)) = self.measures[k].made.take() else { continue };
+                    if let Some(units) = self.units_of_measure(k, value) {
+                        let declared = self.declared(name);
+                        self.model.measures.push(Measure { declared, value: value.id, conditions, units });
+                    }
+                }
+                ItemKind::Trace { name, point, unit } => self.trace(name, point, unit.as_ref()),
+                ItemKind::Part(_) => {
+                    if let Some(part) = parts.next() {
+                        self.in_part(part, Checker::list_measures);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn units_of_measure(&mut self, k: usize, value: Value) -> Option<Units> {
+        let (formula, unit) = (self.measures[k].value, self.measures[k].unit);
+        let dimension = match unit {
+            Some(_) => known_dimension(value),
+            None => Some(value.dim.settled()),
+        };
+        self.units(formula, dimension, self.measures[k].angle, unit)
+    }
+
+    /// The path of a point, as two measures.
+    fn trace(&mut self, name: &Name, point: &Expr, unit: Option<&WrittenUnit>) {
+        let conditions = self.model.conditions.len();
+        let mut fixed = None;
+        let coordinates = match &point.bare().kind {
+            ExprKind::Tuple(parts) => self.coordinates_of_trace(point, parts),
+            _ => self.point(point).map(|point| {
+                fixed = Some(point);
+                [Quantity::X(None, point), Quantity::Y(None, point)]
+                    .map(|quantity| self.name_symbol(Named::Quantity(self.address.part, quantity), 0))
+            }),
+        };
+        let coordinates = coordinates.filter(|pair: &[ExprId; 2]| {
+            let is_of_forces = pair.iter().any(|&id| self.holds_force(id));
+            if is_of_forces {
+                self.report(errors::force_in("a trace", "a force", point.span));
+            }
+            !is_of_forces
+        });
+        let asked = self.asked_at_times(conditions, &name.text);
+        let units = self.units(point, Some(Dimension::LENGTH), 0, unit);
+        if let (Some(coordinates), Some(units)) = (coordinates, units) {
+            let (declared, measure) = (self.declared(name), self.model.measures.len());
+            self.model.traces.push(Trace { declared, part: self.address.part, point: fixed, measure });
+            for (part, value) in ["x", "y"].into_iter().zip(coordinates) {
+                let declared = Declared { name: format!("{}{}.{part}", self.address.path, name.text), span: name.span };
+                let (conditions, units) = (asked.clone(), units.clone());
+                self.model.measures.push(Measure { declared, value, conditions, units });
+            }
+        }
+    }
+
+    /// `(pole_x(b), pole_y(b))`: two formulas of a measure.
+    fn coordinates_of_trace(&mut self, point: &Expr, parts: &[Expr]) -> Option<[ExprId; 2]> {
+        let [x, y] = parts else {
+            self.wrong_kind(point.span, "a point `(x, y)`", &format!("a list of {}", parts.len()));
+            return None;
+        };
+        let judged = self.is_dimensional(x) || self.is_dimensional(y);
+        let context = Context { place: "a trace", ..measure_context(judged) };
+        let coordinates = [x, y].map(|part| {
+            let value = self.formula(part, &context)?;
+            let context = Context { judged: self.counts(value, &context), ..context };
+            self.demand("a coordinate of a trace", Dimension::LENGTH, part.span, value.dim, &context)?;
+            Some(value.id)
+        });
+        Some([coordinates[0]?, coordinates[1]?])
+    }
+
+    /// What has been asked to be positive from a condition on, by a measure or trace: what parameters alone decide holds at no time or at
+    /// all times, the rest is given back.
+    pub(super) fn asked_at_times(&mut self, from: usize, owner: &str) -> Vec<Condition> {
+        let mut own = self.model.conditions.split_off(from);
+        for condition in &mut own {
+            owner.clone_into(&mut condition.owner);
+        }
+        let graph = &self.model.graph;
+        let (always, at_times) = own.into_iter().partition(|c| graph.dependence(c.positive).is_constant());
+        self.model.conditions.append(&mut { always });
+        at_times
+    }
+
+    pub(super) fn equations(&mut self) {
+        let (mut parts, mut own) = (0..self.parts.len(), 0..);
+        self.equations.resize(self.count.equations, None);
+        for item in self.items() {
+            match &item.kind {
+                ItemKind::Equation { driver, name, left, right } => {
+                    let k = own.next().unwrap_or_default();
+                    if let Some((form, dim)) = self.equation(*driver, name, [left, right]) {
+                        let (declared, written) = (self.declared(name), left.span.to(right.span));
+                        let driver = *driver && self.drives(form);
+                        let is_angle = [left, right].into_iter().any(|side| self.angle_power(side) == 1);
+                        let dimension = dim.settled();
+                        let equation = Equation { declared, driver, form, dimension, is_angle, written };
+                        let id = self.model.add_equation(equation);
+                        self.common.plain_equations.extend((!matches!(dim, Dim::Of(_))).then_some(id));
+                        self.equations[k] = Some(id);
+                    }
+                }
+                ItemKind::Part(_) => {
+                    if let Some(part) = parts.next() {
+                        self.in_part(part, Checker::equations);
+                    }
+                }
+                _ => {}
+            }
+        }
+        self.import_equations();
+    }
+
+    /// Whether what is a driver in the text is one in the whole: where a part's input follows bodies, it is a constraint.
+    fn drives(&self, form: EquationForm) -> bool {
+        let sides = match form {
+            EquationForm::Equality(left, right) => [left, right],
+            EquationForm::Distance(_, _, distance) => [distance, distance],
+        };
+        let on_time = |id: ExprId| self.model.graph.dependence(id).on(Dependence::TIME);
+        let has_bound_inputs = !self.bound.inputs.is_empty();
+        !has_bound_inputs || sides.into_iter().any(on_time) || self.quantities_in(sides).len() <= 1
+    }
+
+    /// What an equation says, and the dimension of its sides.
+    fn equation(&mut self, driver: bool, name: &Name, sides: [&Expr; 2]) -> Option<(EquationForm, Dim)> {
+        let [left, right] = sides;
+        if !sides.iter().any(|side| self.holds_quantity(side)) {
+            // a name that is wrong explains more than the want of a quantity
+            let context = self.equation_context(driver, sides);
+            let (a, b) = (self.formula(left, &context), self.formula(right, &context));
+            if a.is_some() && b.is_some() {
+                self.report(errors::no_quantity(driver, name, left.span.to(right.span)));
+            }
+            return None;
+        }
+        for (side, other) in [(left, right), (right, left)] {
+            if is_an_angle(other) || is_an_angle(side) {
+                self.warn_of_degrees_in(side);
+            }
+            if is_a_length(other) && self.refuses_angle("what equals a length", side) {
+                return None;
+            }
+        }
+        let context = self.equation_context(driver, sides);
+        let conditions = self.model.conditions.len();
+        let (a, b) = (self.formula(left, &context), self.formula(right, &context));
+        for condition in &mut self.model.conditions[conditions..] {
+            condition.owner = format!("{}{}", self.address.path, name.text);
+        }
+        let (a, b) = match (a, b) {
+            (Some(a), Some(b)) => (a, b),
+            // of something broken it is known all the same what kind of quantity it is
+            (Some(known), None) => {
+                self.unlike_a_quantity((left.span, known.dim), right, &context);
+                return None;
+            }
+            (None, Some(known)) => {
+                self.unlike_a_quantity((right.span, known.dim), left, &context);
+                return None;
+            }
+            (None, None) => return None,
+        };
+        let what = format!("the two sides of {} `{}` are", if driver { "driver" } else { "constraint" }, name.text);
+        let alike = if !context.judged && is_a_curve([a, b]) {
+            a.dim
+        } else {
+            self.alike(&what, (left.span, a), (right.span, b), &context)?
+        };
+        for (side, value, other) in [(left, a, right), (right, b, left)] {
+            if is_a_length(other) {
+                self.remember_any_length(side, value.id, context.judged);
+            }
+        }
+        if !self.a_body_moves([a.id, b.id]) {
+            self.report(errors::nobody_moves(driver, name, left.span.to(right.span)));
+            return None;
+        }
+        // `distance` alone on the left, and no quantity on the right
+        if let Some(ends) = self.as_distance(left, a.id)
+            && !self.holds_quantity(right)
+        {
+            return self.distance_equation(name, ends, right, b.id);
+        }
+        let dim = if context.judged { alike } else { self.plain_dimension([(left, a), (right, b)]) };
+        Some((EquationForm::Equality(a.id, b.id), dim))
+    }
+
+    /// Two points at a distance, which must be above zero.
+    fn distance_equation(
+        &mut self,
+        name: &Name,
+        (p, q): (PointId, PointId),
+        right: &Expr,
+        distance: ExprId,
+    ) -> Option<(EquationForm, Dim)> {
+        match self.decided(distance, DecidedBy::Sign) {
+            Some(value) if value <= 0.0 => {
+                self.report(errors::not_positive_length("a distance", right.span, value));
+                return None;
+            }
+            Some(_) => {}
+            None => self.model.conditions.push(Condition {
+                positive: distance,
+                kind: ConditionKind::Distance,
+                span: right.span,
+                owner: format!("{}{}", self.address.path, name.text),
+            }),
+        }
+        Some((EquationForm::Distance(p, q, distance), Dim::LENGTH))
+    }
+
+    /// What a plain equation is about: a side with quantities tells it, be it of lengths or angles; one of numbers and time stands for
+    /// whatever is wanted.
+    fn plain_dimension(&self, sides: [(&Expr, Value); 2]) -> Dim {
+        let telling = sides.into_iter().filter(|(side, _)| self.holds_quantity(side)).map(|(_, value)| value);
+        let telling: Vec<Value> = telling.collect();
+        let known = telling.iter().find_map(|&value| known_dimension(value));
+        // where numbers hide it in both, what is read as more than a number
+        let read = || telling.iter().map(|value| value.dim).find(|dim| !dim.settled().is(Dimension::PURE));
+        known.map(Dim::Of).or_else(read).unwrap_or(Dim::PURE)
+    }
+
+    /// Says where a side of an equation cannot be like the other one, a quantity and nothing else, whatever that is of.
+    fn unlike_a_quantity(&mut self, known: (Span, Dim), other: &Expr, context: &Context<'_>) {
+        if let ExprKind::Call { name, .. } = &other.bare().kind
+            && let Some(quantity) = QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way)
+        {
+            let dimension = if is_an_angle(other) { Dimension::PURE } else { Dimension::LENGTH };
+            let place = format!("what equals this `{}`", quantity.word.name);
+            let _ = self.demand(&place, dimension, known.0, known.1, context);
+        }
+    }
+
+    fn equation_context(&self, driver: bool, sides: [&Expr; 2]) -> Context<'static> {
+        Context {
+            judged: sides.iter().any(|side| self.is_dimensional(side)),
+            time: driver,
+            inputs: driver,
+            quantities: true,
+            ..Context::constant(if driver { "a driver" } else { "a constraint" })
+        }
+    }
+
+    fn quantities_in(&self, ids: [ExprId; 2]) -> Vec<Quantity> {
+        self.quantities_in_all(&ids)
+    }
+
+    fn quantities_in_all(&self, ids: &[ExprId]) -> Vec<Quantity> {
+        let graph = &self.model.graph;
+        ids.iter()
+            .copied()
+            .filter(|&id| graph.dependence(id).on(Dependence::NAMED))
+            .flat_map(|id| graph.symbols(id))
+            .flat_map(|symbol| match symbol {
+                Symbol::Named(k) => match self.model.named[k as usize] {
+                    Named::Quantity(_, quantity) => vec![quantity],
+                    Named::Held(_, inner) => self.quantities_in_all(&[inner]),
+                    _ => Vec::new(),
+                },
+                _ => Vec::new(),
+            })
+            .collect()
+    }
+
+    pub(super) fn a_body_moves(&self, ids: [ExprId; 2]) -> bool {
+        self.quantities_in(ids)
+            .into_iter()
+            .any(|quantity| self.frames_of(quantity).iter().any(|&frame| self.moves(frame)))
+    }
+
+    fn as_distance(&self, written: &Expr, id: ExprId) -> Option<(PointId, PointId)> {
+        match &written.bare().kind {
+            ExprKind::Call { name, .. } if name.text == "distance" => match self.quantities_in([id, id]).first() {
+                Some(&Quantity::Distance(p, q)) => Some((p, q)),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    pub(super) fn analysis(&mut self) {
+        let found = self.items().iter().find_map(|item| match &item.kind {
+            ItemKind::Analysis { from, to, every } => Some((item.span, from, to, every)),
+            _ => None,
+        });
+        let Some((span, from, to, every)) = found else {
+            return;
+        };
+        let start = self.constant(from, "the start of the analysis", Dimension::TIME);
+        let end = self.constant(to, "the end of the analysis", Dimension::TIME);
+        let step = self.constant(every, "the step of the analysis", Dimension::TIME);
+        if let Some((_, value)) = step
+            && value <= 0.0
+        {
+            self.report(errors::step_not_positive(every.span, value));
+            return;
+        }
+        let (Some((first, start)), Some((last, end)), Some((between, step))) = (start, end, step) else {
+            return;
+        };
+        if end < start {
+            let texts = [from.span, to.span].map(|span| self.sources.text(span));
+            self.report(errors::ends_before_start([from.span, to.span], texts, start, end));
+            return;
+        }
+        self.model.analysis =
+            Some(Analysis { from: start, to: end, every: step, formulas: [first, last, between], span });
+    }
+}
+
+/// How the formula of a measure is read.
+pub(super) fn measure_context(judged: bool) -> Context<'static> {
+    let context = Context::constant("a measure");
+    Context { judged, time: true, inputs: true, quantities: true, rates: true, measures: true, ..context }
+}
+
+/// Whether an equation's sides are powers of lengths: a curve in coordinates, `y(P) = x(P)^2`, which are numbers of metres.
+fn is_a_curve(sides: [Value; 2]) -> bool {
+    sides.into_iter().all(|side| match side.dim {
+        Dim::Of(Dimension { length, time, mass }) => {
+            Dimension::LENGTH.to_the(length).is(Dimension { length, time, mass }) && length.abs() > 0.0
+        }
+        _ => false,
+    })
+}
+
+/// Whether a side of an equation is a length and nothing else.
+fn is_a_length(side: &Expr) -> bool {
+    match &side.bare().kind {
+        ExprKind::Call { name, .. } => matches!(name.text.as_str(), "x" | "y" | "distance" | "displacement"),
+        _ => false,
+    }
+}
+
+/// Whether a side of an equation is an angle, or a sum of angles.
+fn is_an_angle(side: &Expr) -> bool {
+    match &side.bare().kind {
+        ExprKind::Call { name, .. } => matches!(name.text.as_str(), "angle" | "rotation"),
+        ExprKind::Negate(inner) => is_an_angle(inner),
+        ExprKind::Sum(first, rest) => is_an_angle(first) || rest.iter().any(|(_, term)| is_an_angle(term)),
+        _ => false,
+    }
+}

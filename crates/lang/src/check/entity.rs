@@ -1,0 +1,62 @@
+//! What a name stands for.
+
+use mechc_text::vocabulary::KindOfName;
+
+/// What a name of the mechanism's space stands for, with its position among its kind in the text.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) enum Entity {
+    Param(usize),
+    Function(usize),
+    Table(usize),
+    Input(usize),
+    Body(usize),
+    Joint(usize),
+    Equation(usize),
+    Load,
+    Measure(usize),
+    Trace,
+    Part(usize),
+    /// The ground of a part, inside it.
+    Ground,
+    Result(usize),
+    /// Its declaration does not follow the grammar, which has been said.
+    Broken,
+}
+
+impl Entity {
+    /// As a noun.
+    pub fn noun(self) -> &'static str {
+        match self {
+            Entity::Param(_) => "a parameter",
+            Entity::Function(_) => "a function",
+            Entity::Table(_) => "a table",
+            Entity::Input(_) => "an input",
+            Entity::Body(_) => "a body",
+            Entity::Joint(_) => "a joint",
+            Entity::Equation(_) => "a constraint or driver",
+            Entity::Load => "a load",
+            Entity::Measure(_) => "a measure",
+            Entity::Trace => "a trace",
+            Entity::Part(_) => "a part",
+            Entity::Ground => "the ground of a part",
+            Entity::Result(_) => "a result",
+            Entity::Broken => "a declaration that cannot be read",
+        }
+    }
+
+    /// For proposing another name.
+    pub fn kind_of_name(self) -> KindOfName {
+        match self {
+            Entity::Param(_)
+            | Entity::Input(_)
+            | Entity::Measure(_)
+            | Entity::Trace
+            | Entity::Result(_)
+            | Entity::Broken => KindOfName::Value,
+            Entity::Function(_) | Entity::Table(_) => KindOfName::Function,
+            Entity::Body(_) | Entity::Part(_) | Entity::Ground => KindOfName::Body,
+            Entity::Joint(_) => KindOfName::Joint,
+            Entity::Equation(_) | Entity::Load => KindOfName::Equation,
+        }
+    }
+}

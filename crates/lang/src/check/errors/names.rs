@@ -1,0 +1,227 @@
+//! What is said of names that stand for nothing, or for something else.
+
+use super::{list, meant, wrong_kind};
+use crate::check::mends::renamed;
+use mechc_syntax::ast::Name;
+use mechc_text::diag::{Applies, Code, Diagnostic, Fix};
+use mechc_text::source::Span;
+use mechc_text::vocabulary::{Constant, FUNCTIONS, JOINTS, JointWord, Place, QUANTITIES, QuantityWord, Synonym, Unit};
+
+pub fn unknown(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
+    Diagnostic::new(Code::E0201, format!("there is no {what} `{}`", name.text))
+        .at(name.span, "not declared")
+        .fix_if(meant(name, known))
+}
+
+/// A name in a formula that stands for no number; one letter is rather a name that was forgotten than a unit.
+pub fn unknown_number(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
+    let diagnostic = unknown(what, name, known);
+    // the middle dot is a letter of names
+    if let [a, b] = name.text.split('·').collect::<Vec<_>>().as_slice()
+        && !a.is_empty()
+        && !b.is_empty()
+    {
+        let written = format!("{a} * {b}");
+        let message = format!("a product is written with `*`: `{written}`");
+        return diagnostic.instead(Fix::replace(name.span, written, message, Applies::Probably));
+    }
+    if let (Some(power), true) = (power_of_a_unit(&name.text), diagnostic.help.is_empty()) {
+        return diagnostic.instead(Fix::meant(name.span, &power));
+    }
+    if let Some(synonym) = Synonym::of(Place::Number, &name.text) {
+        return match synonym.means {
+            [only] if synonym.is_same => diagnostic.instead(Fix::meant(name.span, only)),
+            _ => diagnostic.help(synonym.say(&[])),
+        };
+    }
+    match Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
+        Some(synonym) => match synonym.means {
+            // `turn` is rather an input that was forgotten than a unit
+            [unit @ "rev"] => diagnostic
+                .help(format!("the unit is `{unit}`; a number of that name is declared: `param {} = …`", name.text)),
+            _ => diagnostic.help(synonym.say(&[])),
+        },
+        None => diagnostic,
+    }
+}
+
+/// `--input turn=leg[0]`: a path in a formula from outside.
+pub fn path_from_outside(span: Span, owner: &str, noun: &str, is_whole: bool) -> Diagnostic {
+    let found = if is_whole { noun.to_owned() } else { format!("something in {noun}") };
+    wrong_kind(span, "a number", &found).help(format!(
+        "a formula from outside is of time and of params, functions and tables of the mechanism, not of `{owner}`"
+    ))
+}
+
+/// A name in the value of an option.
+pub fn names_in_option(name: &Name) -> Diagnostic {
+    Diagnostic::new(Code::E0706, format!("a value from outside the file cannot name `{}`", name.text))
+        .at(name.span, "a name of the file")
+        .fix_if(power_of_a_unit(&name.text).map(|power| Fix::meant(name.span, &power)))
+        .help("write it out in numbers and units")
+}
+
+/// A name in a formula of time that stands alone.
+pub fn names_in_formula(name: &Name) -> Diagnostic {
+    let nearest = meant(name, &Constant::in_formulas().collect::<Vec<_>>()).filter(|_| name.text.chars().count() > 1);
+    let diagnostic =
+        Diagnostic::new(Code::E0706, format!("a formula from outside the file cannot name `{}`", name.text))
+            .at(name.span, "not known here");
+    let synonym = Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1);
+    if let Some(power) = power_of_a_unit(&name.text) {
+        return diagnostic.fix(Fix::meant(name.span, &power));
+    }
+    match (nearest, synonym) {
+        (_, Some(synonym)) => diagnostic.help(synonym.say(&[])),
+        (Some(fix), None) => diagnostic.fix(fix),
+        (None, None) => diagnostic.help("it is a formula of the time `t`; `pi`, `tau` and the units may stand in it"),
+    }
+}
+
+pub fn unknown_feature(what: &str, owner: &str, name: &Name, known: &[&str]) -> Diagnostic {
+    let listed = match known {
+        [] => format!("`{owner}` has none"),
+        _ => format!("`{owner}` has {}", list(known)),
+    };
+    let diagnostic = Diagnostic::new(Code::E0201, format!("`{owner}` has no {what} `{}`", name.text))
+        .at(name.span, "not declared there");
+    match meant(name, known) {
+        Some(fix) => diagnostic.fix(fix),
+        None => diagnostic.help(listed),
+    }
+}
+
+/// With the arguments as they were written.
+pub fn unknown_function(name: &Name, own: &[&str], arguments: &[&str]) -> Diagnostic {
+    let diagnostic =
+        Diagnostic::new(Code::E0201, format!("there is no function `{}`", name.text)).at(name.span, "not known");
+    if let Some(said) = said_otherwise(&name.text, arguments) {
+        return diagnostic.help(said).fix_if(meant(name, own));
+    }
+    let mut known: Vec<&str> = own.to_vec();
+    known.extend(FUNCTIONS.iter().map(|function| function.word.name));
+    known.extend(QUANTITIES.iter().map(|quantity| quantity.word.name));
+    diagnostic.fix_if(meant(name, &known))
+}
+
+/// How to say what is called as a function, if it is something else here.
+fn said_otherwise(name: &str, arguments: &[&str]) -> Option<String> {
+    if let Some(synonym) = Synonym::of(Place::Call, name) {
+        return Some(synonym.say(arguments));
+    }
+    if let Some(joint) = JointWord::named(name) {
+        let form = joint.word.forms.first().copied().unwrap_or(name);
+        return Some(format!("`{name}` is a kind of joint: `joint NAME: {form}`"));
+    }
+    Unit::named(name).map(|_| match arguments {
+        [number] if number.parse::<f64>().is_ok() => format!("a unit follows its number: `{number} {name}`"),
+        _ => format!("a unit is a factor: `… * 1 {name}`"),
+    })
+}
+
+pub fn unknown_joint(kind: &Name, arguments: &[&str]) -> Diagnostic {
+    let known: Vec<&str> = JOINTS.iter().map(|joint| joint.word.name).collect();
+    let diagnostic = Diagnostic::new(Code::E0201, format!("there is no kind of joint `{}`", kind.text))
+        .at(kind.span, "not declared");
+    match (Synonym::of(Place::Joint, &kind.text), meant(kind, &known)) {
+        (Some(synonym), _) => diagnostic.help(synonym.say(arguments)),
+        (None, Some(fix)) => diagnostic.fix(fix),
+        (None, None) => diagnostic.help(format!("the joints are {}", list(&known))),
+    }
+}
+
+/// A word after a number that is no unit, with that and what stands behind the word.
+pub fn not_a_unit(name: &Name, [number, power]: [&str; 2], is_a_name: bool) -> Diagnostic {
+    let diagnostic = Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text))
+        .at(name.span, "only a unit may follow a number");
+    if is_a_name {
+        let words = format!("was `{number} * {}{power}` meant?", name.text);
+        let diagnostic = diagnostic.fix(Fix::insert(name.span, "* ", words, Applies::Probably));
+        // what is a unit elsewhere, and a name here
+        return match Synonym::of(Place::Unit, &name.text) {
+            Some(synonym) if name.text == "g" => diagnostic.help(synonym.say(&[])),
+            _ => diagnostic,
+        };
+    }
+    meant_unit(diagnostic, name)
+}
+
+/// `mm2`, as it is written.
+pub(super) fn power_of_a_unit(name: &str) -> Option<String> {
+    let unit = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let power = &name[unit.len()..];
+    (!power.is_empty() && Unit::named(unit).is_some()).then(|| format!("{unit}^{power}"))
+}
+
+/// Which unit was meant, or all of them.
+pub(super) fn meant_unit(diagnostic: Diagnostic, name: &Name) -> Diagnostic {
+    if let Some(power) = power_of_a_unit(&name.text) {
+        return diagnostic.fix(Fix::meant(name.span, &power));
+    }
+    let units: Vec<&str> = Unit::names().collect();
+    match (Synonym::of(Place::Unit, &name.text), Unit::of_multiple(&name.text), meant(name, &units)) {
+        (Some(synonym), ..) => diagnostic.help(synonym.say(&[])),
+        (None, Some(told), _) => diagnostic.help(format!("`1 {}` is written `{told}`", name.text)),
+        (None, None, Some(fix)) => diagnostic.fix(fix),
+        (None, None, None) => diagnostic.help(format!("the units are {}", units.join(" "))),
+    }
+}
+
+pub fn declared_twice(name: &Name, first: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0203, format!("`{}` is declared twice", name.text))
+        .at(name.span, "declared again")
+        .also(first, "first declared here")
+        .help("give one of the two another name")
+}
+
+/// With a name that is free instead, and where the name stands besides.
+pub fn reserved(name: &Name, instead: Option<&str>, uses: &[Span]) -> Diagnostic {
+    let what = match Constant::named(&name.text) {
+        Some(constant) => constant.stands_for.noun(),
+        None if Unit::named(&name.text).is_some() => "a unit",
+        None if QuantityWord::named(&name.text).is_some() => "a kinematic quantity",
+        None => "a function of the language",
+    };
+    Diagnostic::new(Code::E0204, format!("`{}` cannot be declared: it is {what}", name.text))
+        .at(name.span, "reserved")
+        .fix_if(instead.map(|free| renamed(name, uses, free, format!("choose another name, `{free}` say"))))
+}
+
+pub fn second(word: &str, span: Span, first: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0205, format!("a mechanism has one `{word}`"))
+        .at(span, "the second one")
+        .also(first, "the first one")
+        .help(if word == "ground" { "put both into one declaration" } else { "leave one of the two out" })
+}
+
+pub fn second_mechanism(name: &Name, first: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0205, format!("there are two mechanisms `{}`", name.text))
+        .at(name.span, "the second one")
+        .also(first, "the first one")
+        .help("give one of them another name")
+}
+
+pub fn circle(names: &[&Name]) -> Diagnostic {
+    let first = names[0];
+    let mut chain: Vec<String> = names.iter().map(|name| format!("`{}`", name.text)).collect();
+    chain.push(format!("`{}`", first.text));
+    let message = match names {
+        [only] => format!("`{}` is defined by itself", only.text),
+        _ => format!("definitions go in a circle: {} needs {}", chain[0], chain[1..].join(", which needs ")),
+    };
+    // `measure power = power(motor)`
+    let synonym = Synonym::of(Place::Call, &first.text).filter(|_| names.len() == 1);
+    names[1..]
+        .iter()
+        .fold(Diagnostic::new(Code::E0206, message).at(first.span, "needs its own value"), |diagnostic, name| {
+            diagnostic.also(name.span, "on the circle")
+        })
+        .help_if(synonym.map(|synonym| synonym.say(&[])))
+}
+
+pub fn hidden_name(argument: &Name, declared: Span, free: Option<&str>, uses: &[Span]) -> Diagnostic {
+    Diagnostic::new(Code::E0207, format!("the argument `{}` hides a name of the mechanism", argument.text))
+        .at(argument.span, "this argument")
+        .also(declared, "declared here")
+        .fix_if(free.map(|free| renamed(argument, uses, free, format!("rename the argument: `{free}`, say"))))
+}

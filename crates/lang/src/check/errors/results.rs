@@ -1,0 +1,70 @@
+//! What is said of results and reductions.
+
+use mechc_syntax::ast::Name;
+use mechc_text::diag::{Code, Diagnostic, readable};
+use mechc_text::source::Span;
+use mechc_text::vocabulary::ReductionWord;
+
+/// Of `max` and `min`, beside what is wrong with the number of their arguments.
+pub const REDUCES: &str = "with one argument it takes the whole analysis, in a `result`";
+
+/// A reduction where there is no whole analysis to take together.
+pub fn reduction_in(place: &str, word: &ReductionWord, span: Span) -> Diagnostic {
+    let name = word.word.name;
+    Diagnostic::new(Code::E0322, format!("the reduction `{name}` may not stand in {place}"))
+        .at(span, "known only when the motion is over")
+        .help(format!("reductions stand in results: `result NAME = {}`", word.word.forms.first().unwrap_or(&name)))
+}
+
+/// A result where it is not known yet.
+pub fn result_in(place: &str, name: &Name) -> Diagnostic {
+    Diagnostic::new(Code::E0322, format!("the result `{}` may not stand in {place}", name.text))
+        .at(name.span, "known only when the motion is over")
+        .help("results stand in other results")
+}
+
+/// What changes with time, in a result but in no reduction.
+pub fn outside_reduction(what: &str, span: Span, text: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0322, format!("{what} stands outside a reduction"))
+        .at(span, "changes with time, and a result is one number")
+        .help(format!("say which number of it is meant: `max({text})`, `mean({text})`, `last({text})`"))
+}
+
+/// A part of the analysis for a call that does not take the analysis together.
+pub fn window_of_no_reduction(called: &Name, span: Span) -> Diagnostic {
+    let name = &called.text;
+    let (why, help) = match name.as_str() {
+        "max" | "min" => {
+            ("of several values takes", format!("with one argument it reduces: `{name}({name}(a, b), from A to B)`"))
+        }
+        "at" => ("takes a time and", "the value at the beginning of a window is `first(e, from A)`".to_owned()),
+        _ => ("takes", "reductions take windows: `max(e, from A to B)`, `mean(e, from A)`".to_owned()),
+    };
+    Diagnostic::new(Code::E0322, format!("`{name}` {why} no window")).at(span, "a part of the analysis").help(help)
+}
+
+/// What `from` and `to` lack where they are read as names, before an operator.
+pub fn signed_bound(word: &str) -> String {
+    format!("a time of a window that begins with a sign stands in parentheses: `{word} (-1 s)`")
+}
+
+/// A window whose end is before its beginning (s).
+pub fn window_ends_early(word: &ReductionWord, span: Span, [from, to]: [f64; 2]) -> Diagnostic {
+    Diagnostic::new(Code::E0422, format!("the window of `{}` ends before it begins", word.word.name))
+        .at(span, format!("from {} s to {} s", readable(from), readable(to)))
+        .help("a window goes from the earlier to the later time")
+}
+
+/// `der` of something that is one number.
+pub fn derivative_of_result(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0310, "a result has no time derivative")
+        .at(span, "one number for the whole analysis")
+        .help("take the derivative inside: `max(der(e))`")
+}
+
+/// `der` by an input or parameter of what holds a number of the whole analysis.
+pub fn variation_of_result(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0310, "a result has no derivative by an input or parameter")
+        .at(span, "holds a number of the whole analysis")
+        .help("take the derivative inside the reduction, or run it with another value: `--set`")
+}

@@ -1,0 +1,470 @@
+//! Bodies, the ground, and their features; circles and curves have `profiles`.
+
+use super::entity::Entity;
+use super::formula::{Context, Value};
+use super::kinds::{self, Wanted, coordinate};
+use super::names::Space;
+use super::sites::{Drawn, Site};
+use super::{Checker, errors};
+use crate::model::{Axis, AxisId, Body, CircleId, CurveId, DecidedBy, Dimension, Frame, Point, PointId};
+use mechc_expr::ExprId;
+use mechc_syntax::ast::{self, DrawnPose, Expr, ExprKind, FeatureKind, Item, ItemKind, Name};
+use mechc_text::source::Span;
+use mechc_text::vocabulary::Keyword;
+use rustc_hash::FxHashMap;
+
+/// What a name of a body's space stands for; `None` where it is broken, which has been said.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Feature {
+    Point(Option<PointId>),
+    Axis(Option<AxisId>),
+    Circle(Option<CircleId>),
+    Curve(Option<CurveId>),
+    /// Its declaration does not follow the grammar, which has been said.
+    Broken,
+}
+
+impl Feature {
+    /// Whether it can stand where a thing of that name is wanted; a circle where a curve is.
+    pub fn is(self, what: &str) -> bool {
+        match self {
+            Feature::Point(_) => what == "point",
+            Feature::Axis(_) => what == "axis",
+            Feature::Circle(_) => ["circle", "curve"].contains(&what),
+            Feature::Curve(_) => what == "curve",
+            Feature::Broken => false,
+        }
+    }
+
+    /// As a noun, of the keyword that declares it.
+    pub fn with_article(keyword: &str) -> &'static str {
+        match keyword {
+            "point" => "a point",
+            "axis" => "an axis",
+            "circle" => "a circle",
+            _ => "a curve or a circle",
+        }
+    }
+
+    pub fn noun(self) -> &'static str {
+        match self {
+            Feature::Point(_) => "a point",
+            Feature::Axis(_) => "an axis",
+            Feature::Circle(_) => "a circle",
+            Feature::Curve(_) => "a curve",
+            Feature::Broken => "a feature that cannot be read",
+        }
+    }
+}
+
+impl<'a> Checker<'a> {
+    /// Bodies, their features, and where all of it is drawn.
+    pub(super) fn features(&mut self) {
+        self.add_frames();
+        self.collect_all_features();
+        self.mount_parts();
+        self.read_features();
+        self.poses();
+    }
+
+    /// Bodies, and the grounds of parts, in the order of the text.
+    pub(super) fn add_frames(&mut self) {
+        self.common.features.insert(self.address.ground, Space::new());
+        let mut parts = 0..;
+        for item in self.items() {
+            match &item.kind {
+                ItemKind::Ground { features } => self.frames.push((self.address.ground, features)),
+                ItemKind::Body { name, features, .. } => {
+                    let frame = self.add_body(item, name);
+                    self.frames.push((frame, features));
+                }
+                ItemKind::Part(part) => self.add_part(parts.next().unwrap_or_default(), part),
+                _ => {}
+            }
+        }
+        self.import_frames();
+    }
+
+    pub(super) fn collect_all_features(&mut self) {
+        for (frame, features) in self.frames.clone() {
+            self.collect_features(frame, features);
+        }
+        self.in_parts(Checker::collect_all_features);
+    }
+
+    /// Points first, then what needs them: each may be used before it is declared.
+    pub(super) fn read_features(&mut self) {
+        let frames = self.frames.clone();
+        for &(frame, features) in &frames {
+            self.points_of(frame, features);
+        }
+        for &(frame, features) in &frames {
+            self.axes_of(frame, features);
+            self.profiles_of(frame, features);
+            self.masses_of(frame, features);
+        }
+        self.in_parts(Checker::read_features);
+    }
+
+    fn add_body(&mut self, item: &Item, name: &Name) -> Frame {
+        let zero = self.model.graph.constant(0.0);
+        let pose_span = match &item.kind {
+            ItemKind::Body { pose, .. } => pose.as_ref().map(DrawnPose::span),
+            _ => None,
+        };
+        let (declared, part) = (self.declared(name), self.address.part);
+        let id = self.model.add_body(Body { part, declared, docs: item.docs.clone(), pose: [zero; 3], pose_span });
+        self.bodies.push(Frame::Body(id));
+        self.common.features.insert(Frame::Body(id), Space::new());
+        Frame::Body(id)
+    }
+
+    fn collect_features(&mut self, frame: Frame, features: &[ast::Feature]) {
+        for feature in features {
+            let entity = match feature.kind {
+                FeatureKind::Point { .. } => Feature::Point(None),
+                FeatureKind::AxisAlong { .. } | FeatureKind::AxisTo { .. } => Feature::Axis(None),
+                FeatureKind::Circle { .. } => Feature::Circle(None),
+                FeatureKind::Curve { .. } => Feature::Curve(None),
+                FeatureKind::Mass { .. } => continue,
+                FeatureKind::Broken if feature.name.text.is_empty() => {
+                    if let Some(space) = self.common.features.get_mut(&frame) {
+                        space.declare_nameless();
+                    }
+                    continue;
+                }
+                FeatureKind::Broken => Feature::Broken,
+            };
+            let first =
+                self.common.features.get_mut(&frame).and_then(|space| space.declare(&feature.name, entity).err());
+            if let Some(first) = first {
+                self.report(errors::declared_twice(&feature.name, first));
+            }
+        }
+    }
+
+    /// Each after those that its formula needs.
+    fn points_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
+        let mut points = Vec::new();
+        for feature in features {
+            if let FeatureKind::Point { at } = &feature.kind {
+                points.push((&feature.name, at.as_ref()));
+            }
+        }
+        let uses = self.uses_of_points(frame, &points);
+        for k in self.ordered(&uses).order {
+            let (name, at) = points[k];
+            let drawn = self.at_site(Site::Inside(frame), Some(&name.text), |checker| match at {
+                Some(at) => checker.place_of(at, "point", "a point", None),
+                None => checker.point_of_the_mechanism(name),
+            });
+            let point = drawn.map(|Drawn { at, dimensional }| {
+                let point = Point { frame, name: Some(name.text.clone()), span: name.span, at };
+                let id = self.model.add_point(point);
+                self.common.dimensional_points.extend(dimensional.then_some(id));
+                id
+            });
+            self.settle(frame, name, Feature::Point(point));
+        }
+    }
+
+    /// Which points of a body the formula of each one names.
+    fn uses_of_points<'n>(
+        &mut self,
+        frame: Frame,
+        points: &[(&'n Name, Option<&'a Expr>)],
+    ) -> Vec<(&'n Name, Vec<(usize, Span)>)> {
+        // a name that is taken twice keeps its first meaning
+        let mut positions = FxHashMap::default();
+        for (k, (name, _)) in points.iter().enumerate() {
+            positions.entry(name.text.as_str()).or_insert(k);
+        }
+        let outer = std::mem::replace(&mut self.scope.site, Site::Inside(frame));
+        let uses = points.iter().map(|&(name, formula)| {
+            let mut uses = Vec::new();
+            if let Some(formula) = formula {
+                let hidden = |name: &str| self.hidden.contains(name);
+                kinds::names_in(formula, Wanted::Point, hidden, |used, wanted| {
+                    let is_own = used.text != name.text && self.own_point(used, wanted).is_some();
+                    uses.extend(positions.get(used.text.as_str()).filter(|_| is_own).map(|&k| (k, used.span)));
+                });
+            }
+            (name, uses)
+        });
+        let uses = uses.collect();
+        self.scope.site = outer;
+        uses
+    }
+
+    fn axes_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
+        for feature in features {
+            let ends = match &feature.kind {
+                FeatureKind::AxisAlong { origin, direction } => self.at_site(Site::Inside(frame), None, |checker| {
+                    let origin = checker.place(frame, origin);
+                    let direction = checker.direction_of(direction);
+                    origin.zip(direction)
+                }),
+                FeatureKind::AxisTo { origin, target } => self.at_site(Site::Inside(frame), None, |checker| {
+                    let (from, to) = (checker.place(frame, origin), checker.place(frame, target));
+                    let (from, to) = (from?, to?);
+                    let (p, q) = (checker.model[from].at, checker.model[to].at);
+                    let direction = [0, 1].map(|k| checker.model.graph.sub(q[k], p[k]));
+                    let direction = checker.not_zero(direction, origin.span.to(target.span))?;
+                    Some((from, direction))
+                }),
+                _ => continue,
+            };
+            let axis = ends.map(|(origin, direction)| {
+                let name = feature.name.text.clone();
+                self.model.add_axis(Axis { frame, name, span: feature.name.span, origin, direction })
+            });
+            self.settle(frame, &feature.name, Feature::Axis(axis));
+        }
+    }
+
+    /// Fills in what a feature's name stands for, unless the name was taken.
+    pub(super) fn settle(&mut self, frame: Frame, name: &Name, feature: Feature) {
+        if let Some(space) = self.common.features.get_mut(&frame)
+            && space.span(&name.text) == Some(name.span)
+        {
+            space.replace(&name.text, feature);
+        }
+    }
+
+    fn direction_of(&mut self, e: &Expr) -> Option<[ExprId; 2]> {
+        let ExprKind::Tuple(parts) = &e.kind else {
+            self.report(errors::no_direction(e.span, Self::describe(e), self.angle_of_place(e)));
+            return None;
+        };
+        let [dx, dy] = parts.as_slice() else {
+            self.report(errors::argument_count(
+                "along",
+                Keyword::named("along").map(|keyword| &keyword.word),
+                e.span,
+                "two numbers",
+                parts.len(),
+            ));
+            return None;
+        };
+        let context = self.pair_context([dx, dy], "a direction", None);
+        let (x, y) = (self.formula(dx, &context), self.formula(dy, &context));
+        let (x, y) = (x?, y?);
+        self.alike("the two parts of the direction are", (dx.span, x), (dy.span, y), &context)?;
+        self.not_zero([x.id, y.id], e.span)
+    }
+
+    /// The text of the angle of a place that is given by a distance and an angle.
+    fn angle_of_place(&self, e: &Expr) -> Option<&'a str> {
+        match &e.bare().kind {
+            ExprKind::Call { name, arguments, .. } if name.text == "polar" => {
+                arguments.get(1).map(|angle| self.sources.text(angle.span))
+            }
+            _ => None,
+        }
+    }
+
+    fn not_zero(&mut self, direction: [ExprId; 2], span: Span) -> Option<[ExprId; 2]> {
+        let [x, y] = direction.map(|id| self.decided(id, DecidedBy::Sign));
+        if x? == 0.0 && y? == 0.0 {
+            self.report(errors::zero_direction(span));
+            return None;
+        }
+        Some(direction)
+    }
+
+    pub(super) fn pair_context(
+        &self,
+        parts: [&Expr; 2],
+        place: &'static str,
+        argument: Option<&str>,
+    ) -> Context<'static> {
+        let judged = parts.iter().any(|part| self.is_dimensional_over(argument, part));
+        Context { judged, ..Context::constant(place) }
+    }
+
+    pub(super) fn lengths_in(&mut self, parts: [&Expr; 2], context: &Context<'_>) -> Option<[ExprId; 2]> {
+        let values = parts.map(|part| self.formula(part, context));
+        self.two_lengths(parts, values, context)
+    }
+
+    /// The two coordinates of a point, judged together.
+    pub(super) fn two_lengths(
+        &mut self,
+        parts: [&Expr; 2],
+        [x, y]: [Option<Value>; 2],
+        context: &Context<'_>,
+    ) -> Option<[ExprId; 2]> {
+        let (x, y) = (x?, y?);
+        self.alike("the coordinates of a point are", (parts[0].span, x), (parts[1].span, y), context)?;
+        for part in parts {
+            if !context.judged && self.refuses_angle("a coordinate", part) {
+                return None;
+            }
+        }
+        for (part, value) in parts.into_iter().zip([x, y]) {
+            self.demand("a coordinate", Dimension::LENGTH, part.span, value.dim, context)?;
+            self.remember_any_length(part, value.id, context.judged);
+        }
+        Some([x.id, y.id])
+    }
+
+    /// A constant angle, with a warning where degrees were probably meant.
+    pub(super) fn angle(&mut self, e: &Expr, place: &str) -> Option<ExprId> {
+        self.warn_of_degrees_in(e);
+        let (id, _) = self.constant_by(e, place, Dimension::PURE, DecidedBy::Finite)?;
+        Some(id)
+    }
+
+    /// A point where an axis begins or ends: one of the frame by name, or a formula of points.
+    pub(super) fn place(&mut self, frame: Frame, e: &Expr) -> Option<PointId> {
+        match &e.kind {
+            ExprKind::Name(name)
+                if self.own_point(name, Wanted::Point).is_some() || self.point_param(name).is_none() =>
+            {
+                self.scope_takes_own(name);
+                self.point_named(frame, name)
+            }
+            ExprKind::Member { owner, feature } if self.is_own_feature(frame, owner, feature) => {
+                self.report(errors::own_point_with_owner(e.span, &owner.text, &feature.text));
+                None
+            }
+            _ => self.unnamed_point(frame, e),
+        }
+    }
+
+    /// `arm.tip` in the braces of `arm`
+    fn is_own_feature(&self, frame: Frame, owner: &Name, feature: &Name) -> bool {
+        let is_there = || self.common.features.get(&frame).is_some_and(|space| space.get(&feature.text).is_some());
+        self.frame_name(frame) == owner.text && is_there()
+    }
+
+    fn unnamed_point(&mut self, frame: Frame, e: &Expr) -> Option<PointId> {
+        let at = self.place_of(e, "point", "a point", None)?.at;
+        Some(self.model.add_point(Point { frame, name: None, span: e.span, at }))
+    }
+
+    /// A point of a body or of the ground, or a global one as a formula of points.
+    pub(super) fn point(&mut self, e: &Expr) -> Option<PointId> {
+        match &e.kind {
+            ExprKind::Tuple(_) => self.unnamed_point(self.address.ground, e),
+            ExprKind::Member { owner, feature }
+                if coordinate(feature).is_some() && self.point_param(owner).is_some() =>
+            {
+                self.report(errors::coordinate_as_point(e.span, owner));
+                None
+            }
+            ExprKind::Member { owner, feature } => {
+                let frame = self.body(owner)?;
+                self.point_named(frame, feature)
+            }
+            _ if self.is_point(e) => self.unnamed_point(self.address.ground, e),
+            ExprKind::Name(name) => {
+                self.bare_name(name, "point");
+                None
+            }
+            _ => {
+                self.wrong_kind(e.span, "a point", Self::describe(e));
+                None
+            }
+        }
+    }
+
+    pub(super) fn point_named(&mut self, frame: Frame, name: &Name) -> Option<PointId> {
+        match self.feature(frame, name, "point", |feature| matches!(feature, Feature::Point(_)))? {
+            Feature::Point(point) => point,
+            other => {
+                self.wrong_kind(name.span, "a point", other.noun());
+                None
+            }
+        }
+    }
+
+    /// An axis of a body or of the ground.
+    pub(super) fn axis(&mut self, e: &Expr) -> Option<AxisId> {
+        match &e.kind {
+            ExprKind::Member { owner, feature } => {
+                let frame = self.body(owner)?;
+                match self.feature(frame, feature, "axis", |feature| matches!(feature, Feature::Axis(_)))? {
+                    Feature::Axis(axis) => axis,
+                    Feature::Point(_) => {
+                        let diagnostic = errors::wrong_kind(feature.span, "an axis", "a point");
+                        self.report(diagnostic.fix_if(self.axis_for(frame, feature)));
+                        None
+                    }
+                    other => {
+                        self.wrong_kind(feature.span, "an axis", other.noun());
+                        None
+                    }
+                }
+            }
+            ExprKind::Name(name) => {
+                self.bare_name(name, "axis");
+                None
+            }
+            _ => {
+                self.wrong_kind(e.span, "an axis", Self::describe(e));
+                None
+            }
+        }
+    }
+
+    /// A name alone where `body.feature` is wanted.
+    pub(super) fn bare_name(&mut self, name: &Name, what: &str) {
+        let Ok(entity) = self.resolve(name) else { return };
+        if entity == Some(Entity::Trace) && what == "point" {
+            self.trace_in_a_formula(name.span, "a point", name);
+            return;
+        }
+        let wanted = if what == "axis" { "an axis".to_owned() } else { format!("a {what}") };
+        let beside = self.owners_beside(name.span);
+        let owners: Vec<String> = std::iter::once(self.address.ground)
+            .chain(self.bodies.iter().copied())
+            .filter(|&frame| !beside.contains(&self.frame_name(frame)))
+            .filter(|frame| self.common.features.get(frame).is_some_and(|space| space.get(&name.text).is_some()))
+            .map(|frame| format!("`{}.{}`", self.frame_name(frame), name.text))
+            .collect();
+        let help = match (owners.is_empty(), entity) {
+            (false, _) => format!("was {} meant?", owners.join(" or ")),
+            (true, Some(Entity::Body(_))) => match &self.features_of(name, |feature| feature.is(what))[..] {
+                [] => format!("name one of its features: `{}.…`", name.text),
+                names => format!("name one of its features: {}", names.join(", ")),
+            },
+            _ => format!("outside a body {wanted} is written `body.{}`", name.text),
+        };
+        let found = match self.describe_name(name) {
+            "a name" => format!("the name `{}`", name.text),
+            noun => noun.to_owned(),
+        };
+        self.report(errors::wrong_kind(name.span, &wanted, &found).help(help));
+    }
+
+    pub(super) fn feature(
+        &mut self,
+        frame: Frame,
+        name: &Name,
+        what: &str,
+        wanted: impl Fn(Feature) -> bool,
+    ) -> Option<Feature> {
+        let space = self.common.features.get(&frame)?;
+        match space.get(&name.text) {
+            Some(Feature::Broken) => return None,
+            None if space.is_incomplete() => return None,
+            None => {}
+            known => return known,
+        }
+        let known = self.suggestions_in(space, wanted);
+        let diagnostic = errors::unknown_feature(what, self.frame_name(frame), name, &known);
+        self.report(diagnostic);
+        None
+    }
+
+    /// What `owner.feature` is, for a message.
+    pub(super) fn describe_member(&self, owner: &Name, feature: &Name) -> String {
+        let space = self.frame_of(owner).and_then(|frame| self.common.features.get(&frame));
+        let found = space.and_then(|space| space.get(&feature.text));
+        if let (None, Some(Entity::Joint(_))) = (space, self.entity(owner)) {
+            return "a coordinate of a joint, which is a column of the table and stands in no formula".to_owned();
+        }
+        found.map_or("a feature of a body", Feature::noun).to_owned()
+    }
+}

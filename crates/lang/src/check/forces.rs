@@ -1,0 +1,405 @@
+//! Masses, gravity, loads; and what comes out of them: efforts and reactions.
+
+use super::Checker;
+use super::entity::Entity;
+use super::errors::{self, NoLoad};
+use super::features::Feature;
+use super::formula::{Context, Dim, Value};
+use super::rates::Part;
+use super::sites::Site;
+use crate::model::{
+    BodyId, DecidedBy, Declared, Dimension, EquationId, Force, Frame, JointId, Load, Mass, Named, Point, PointId,
+    Quantity,
+};
+use mechc_expr::{ExprId, Symbol};
+use mechc_syntax::ast::{self, Expr, ExprKind, Factor, FeatureKind, ItemKind, Name};
+use mechc_text::source::Span;
+use mechc_text::vocabulary::QuantityWord;
+
+// ---- masses and gravity
+
+impl<'a> Checker<'a> {
+    /// The masses of a body.
+    pub(super) fn masses_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
+        for feature in features {
+            let FeatureKind::Mass { mass, at, inertia } = &feature.kind else { continue };
+            let Frame::Body(body) = frame else {
+                self.report(errors::mass_of_the_ground(feature.span));
+                continue;
+            };
+            if let Some(mass) = self.mass(body, feature, [Some(mass), at.as_deref(), inertia.as_deref()]) {
+                self.model.masses.push(mass);
+            }
+        }
+    }
+
+    fn mass(&mut self, body: BodyId, feature: &ast::Feature, [mass, at, inertia]: [Option<&Expr>; 3]) -> Option<Mass> {
+        let frame = Frame::Body(body);
+        let mass = self.not_negative(frame, mass, "mass", Dimension::MASS);
+        let at = match at {
+            Some(at) => self.at_site(Site::Inside(frame), None, |checker| checker.place(frame, at)),
+            None => Some(self.origin_of(frame, feature.span)),
+        };
+        let inertia = self.not_negative(frame, inertia, "inertia", Dimension::INERTIA);
+        Some(Mass { body, amount: mass?, at: at?, inertia: inertia?, span: feature.span })
+    }
+
+    fn origin_of(&mut self, frame: Frame, span: Span) -> PointId {
+        let zero = self.model.graph.constant(0.0);
+        self.model.add_point(Point { frame, name: None, span, at: [zero; 2] })
+    }
+
+    /// A constant behind a keyword that is not below zero; zero where nothing is said.
+    fn not_negative(&mut self, frame: Frame, e: Option<&Expr>, keyword: &str, wanted: Dimension) -> Option<ExprId> {
+        let Some(e) = e else { return Some(self.model.graph.constant(0.0)) };
+        let place = format!("what stands behind `{keyword}`");
+        let (id, value) =
+            self.at_site(Site::Inside(frame), None, |checker| checker.constant_by(e, &place, wanted, DecidedBy::Sign))?;
+        if value < 0.0 {
+            self.report(errors::negative_mass(e.span, value, wanted));
+            return None;
+        }
+        Some(id)
+    }
+
+    /// The acceleration of free fall: that of the outermost mechanism counts, those of parts are looked over.
+    pub(super) fn gravity(&mut self) {
+        self.model.gravity = self.acceleration_of_gravity();
+        if self.own_gravity().is_none() {
+            self.warn_of_gravity_in_parts();
+        }
+    }
+
+    fn own_gravity(&self) -> Option<&'a Expr> {
+        self.items().iter().find_map(|item| match &item.kind {
+            ItemKind::Gravity { acceleration } => Some(acceleration),
+            _ => None,
+        })
+    }
+
+    fn acceleration_of_gravity(&mut self) -> Option<[ExprId; 2]> {
+        self.in_parts(|part| {
+            // it counts when they run alone
+            let _ = part.acceleration_of_gravity();
+        });
+        let acceleration = self.own_gravity()?;
+        let ExprKind::Tuple(parts) = &acceleration.kind else {
+            self.report(errors::gravity_of_one_number(acceleration.span, Self::describe(acceleration)));
+            return None;
+        };
+        let [x, y] = parts.as_slice() else {
+            let found = format!("a list of {}", parts.len());
+            self.report(errors::gravity_of_one_number(acceleration.span, &found));
+            return None;
+        };
+        let context = self.pair_context([x, y], "`gravity`", None);
+        let values = [x, y].map(|part| (part, self.formula(part, &context)));
+        let mut ids = Vec::new();
+        for (part, value) in values {
+            let value = value?;
+            self.demand("`gravity`", Dimension::ACCELERATION, part.span, value.dim, &context)?;
+            ids.push(value.id);
+        }
+        ids.try_into().ok()
+    }
+
+    /// Says that the gravity of a part does not count, of each mechanism once.
+    fn warn_of_gravity_in_parts(&mut self) {
+        let mut told = Vec::new();
+        for (part, written) in self.parts.iter().zip(&self.bindings) {
+            if let Some((mechanism, gravity)) = part.gravity_inside().filter(|(_, span)| !told.contains(span)) {
+                told.push(gravity);
+                let warning = errors::gravity_of_a_part(&written.name, mechanism, gravity);
+                self.diagnostics.push(warning);
+            }
+        }
+    }
+
+    /// The mechanism that says something of gravity, this one or one of its parts, and where.
+    fn gravity_inside(&self) -> Option<(&'a str, Span)> {
+        let own = self.own_gravity().map(|own| (self.tree.name.text.as_str(), own.span));
+        own.or_else(|| self.parts.iter().find_map(Checker::gravity_inside))
+    }
+}
+
+// ---- loads
+
+impl Checker<'_> {
+    /// The loads in the order of the text, those of parts where these are declared.
+    pub(super) fn loads(&mut self) {
+        let mut parts = 0..self.parts.len();
+        for item in self.items() {
+            match &item.kind {
+                ItemKind::Load { name, force, on } => {
+                    let load = self.load(name, force, on);
+                    self.model.loads.extend(load);
+                }
+                ItemKind::Part(_) => {
+                    if let Some(part) = parts.next() {
+                        self.in_part(part, Checker::loads);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn load(&mut self, name: &Name, force: &Expr, on: &Expr) -> Option<Load> {
+        if let ExprKind::Tuple(_) = &force.bare().kind {
+            self.report(errors::load_of_a_pair(name, force.span));
+            return None;
+        }
+        let judged = self.is_dimensional(force);
+        let context = Context { rates: true, ..driven("a load", judged) };
+        let conditions = self.model.conditions.len();
+        let value = self.formula(force, &context);
+        let declared = self.declared(name);
+        let conditions = self.asked_at_times(conditions, &declared.name);
+        let quantity = self.quantity_of_load(name, on);
+        let (value, quantity) = (value?, quantity?);
+        let dimension = Dimension::ENERGY.over(quantity.dimension());
+        self.is_a_force_on(name, [force, on], value, quantity, judged)?;
+        let written = force.span.to(on.span);
+        Some(Load { declared, part: self.address.part, force: value.id, conditions, on: quantity, dimension, written })
+    }
+
+    /// What a load works on: one quantity of positions.
+    fn quantity_of_load(&mut self, name: &Name, on: &Expr) -> Option<Quantity> {
+        let bare = on.bare();
+        let ExprKind::Call { name: called, arguments, window } = &bare.kind else {
+            let fault = match &bare.kind {
+                ExprKind::Sum(..) => NoLoad::Sum,
+                kind => self.quantities_of(kind).map_or(NoLoad::Other, NoLoad::Meant),
+            };
+            self.report(errors::load_on_no_quantity(name, on.span, &fault));
+            return None;
+        };
+        let Some(word) = self.quantity_word(called) else {
+            let fault = if called.text == "der" { NoLoad::Rate } else { NoLoad::Other };
+            self.report(errors::load_on_no_quantity(name, on.span, &fault));
+            return None;
+        };
+        let is_angle_of_points = called.text == "angle" && arguments.len() == 3;
+        if word.gives_way || is_angle_of_points {
+            let fault = NoLoad::OfMeasures(&called.text);
+            self.report(errors::load_on_no_quantity(name, on.span, &fault));
+            return None;
+        }
+        self.refuse_window(called, window.as_deref())?;
+        let value = self.quantity(bare, called, arguments, &driven("a load", true))?;
+        if !self.a_body_moves([value.id; 2]) {
+            self.report(errors::load_on_no_body(name, on.span));
+            return None;
+        }
+        self.model.graph.symbols(value.id).into_iter().find_map(|symbol| match symbol {
+            Symbol::Named(k) => match self.model.named[k as usize] {
+                Named::Quantity(_, quantity) => Some(quantity),
+                _ => None,
+            },
+            _ => None,
+        })
+    }
+
+    /// The quantities that are meant by what moves: a joint, a body, a point.
+    fn quantities_of(&self, moved: &ExprKind) -> Option<Vec<String>> {
+        match moved {
+            ExprKind::Name(name) => match self.entity(name)? {
+                Entity::Body(_) => Some(vec![format!("angle({})", name.text)]),
+                Entity::Joint(k) => match self.model[self.joints.get(k).copied().flatten()?].kind.plain() {
+                    kind if kind.has_quantity("rotation") => Some(vec![format!("rotation({})", name.text)]),
+                    kind if kind.has_quantity("displacement") => Some(vec![format!("displacement({})", name.text)]),
+                    _ => None,
+                },
+                _ => None,
+            },
+            ExprKind::Member { owner, feature } => {
+                let Some(Entity::Body(k)) = self.entity(owner) else { return None };
+                let space = self.common.features.get(self.bodies.get(k)?)?;
+                let is_point = matches!(space.get(&feature.text), Some(Feature::Point(_)));
+                let both = || ["x", "y"].map(|axis| format!("{axis}({}.{})", owner.text, feature.text)).to_vec();
+                is_point.then(both)
+            }
+            _ => None,
+        }
+    }
+
+    /// Demands that the product of a load and what it works on is an energy. A plain one is a torque on an angle; on a length it has to
+    /// say what it is.
+    fn is_a_force_on(
+        &mut self,
+        name: &Name,
+        [force, on]: [&Expr; 2],
+        value: Value,
+        quantity: Quantity,
+        judged: bool,
+    ) -> Option<()> {
+        let (works_on, wanted) = (quantity.dimension(), Dimension::ENERGY.over(quantity.dimension()));
+        let text = self.sources.text(force.span);
+        match value.dim {
+            Dim::Of(dimension) if self.counts(value, &driven("a load", judged)) && !dimension.is(wanted) => {
+                let parts = [Part { span: force.span, dimension }, Part { span: on.span, dimension: works_on }];
+                self.report(errors::load_of_no_energy(name, parts, wanted, text));
+                None
+            }
+            Dim::Of(_) | Dim::Plain { .. } if !judged && !works_on.is(Dimension::PURE) && !self.is_zero(force) => {
+                let on = Part { span: on.span, dimension: works_on };
+                self.report(errors::plain_load(name, force.span, text, on, wanted));
+                None
+            }
+            _ => Some(()),
+        }
+    }
+}
+
+/// How a formula is read that may hold what a driver may.
+fn driven(place: &str, judged: bool) -> Context<'_> {
+    Context { judged, time: true, inputs: true, quantities: true, ..Context::constant(place) }
+}
+
+// ---- what comes out
+
+impl Checker<'_> {
+    /// `effort(D)`, `force_x(J)`, `force_y(J)`, `torque(J)`
+    pub(super) fn force(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Value> {
+        if !context.measures {
+            self.report(errors::force_in(context.place, &format!("`{}`", name.text), e.span));
+            return None;
+        }
+        let [argument] = arguments else {
+            let word = QuantityWord::named(&name.text)?;
+            self.report(errors::argument_count(&name.text, Some(&word.word), e.span, word.takes, arguments.len()));
+            return None;
+        };
+        let force = match name.text.as_str() {
+            "effort" => Force::Effort(self.equation_named(argument)?),
+            "force_x" => Force::ReactionX(self.joint_named("force_x", argument)?.0),
+            "force_y" => Force::ReactionY(self.joint_named("force_y", argument)?.0),
+            _ => Force::ReactionTorque(self.joint_with_torque(argument)?),
+        };
+        let dimension = self.model.dimension_of_force(force);
+        // it holds accelerations
+        let id = self.name_symbol(Named::Force(self.address.part, force), 2);
+        let is_plain = matches!(force, Force::Effort(equation) if self.common.plain_equations.contains(&equation));
+        let dim = if is_plain { Dim::Plain { read: dimension, fits: true } } else { Dim::Of(dimension) };
+        Some(Value { id, dim })
+    }
+
+    /// A constraint or driver; nothing where it is broken, which has been said.
+    fn equation_named(&mut self, e: &Expr) -> Option<EquationId> {
+        let ExprKind::Name(name) = &e.bare().kind else {
+            self.wrong_kind(e.span, "a driver or constraint", Self::describe(e));
+            return None;
+        };
+        match self.resolve(name).ok()? {
+            Some(Entity::Equation(k)) => self.equations.get(k).copied().flatten(),
+            Some(entity) => {
+                let joint = matches!(entity, Entity::Joint(_)).then_some(name.text.as_str());
+                let driver = joint.and_then(|joint| self.driver_of(joint));
+                self.report(errors::effort_of_no_equation(name, entity.noun(), joint, driver.as_deref()));
+                None
+            }
+            None => {
+                let known = self.suggestions(|entity| matches!(entity, Entity::Equation(_)));
+                let diagnostic = errors::unknown("driver or constraint", name, &known);
+                self.report(diagnostic);
+                None
+            }
+        }
+    }
+
+    /// A joint of a kind that exerts moments.
+    fn joint_with_torque(&mut self, e: &Expr) -> Option<JointId> {
+        let (joint, name) = self.joint_named("torque", e)?;
+        let kind = self.model[joint].kind.plain();
+        if kind.has_torque() {
+            return Some(joint);
+        }
+        let Declared { name: own, span } = self.model[joint].declared.clone();
+        let driver = self.driver_of(&name.text);
+        self.report(errors::no_torque(&own, kind.word(), name.span, span, driver.as_deref()));
+        None
+    }
+
+    /// The driver that speaks of a joint.
+    pub(super) fn driver_of(&self, joint: &str) -> Option<String> {
+        let is_it = |e: &Expr| matches!(&e.kind, ExprKind::Name(name) if name.text == joint);
+        let speaks_of_it = |e: &Expr| e.parts().any(is_it);
+        self.items().iter().find_map(|item| match &item.kind {
+            ItemKind::Equation { driver: true, name, left, right } if [left, right].into_iter().any(speaks_of_it) => {
+                Some(name.text.clone())
+            }
+            _ => None,
+        })
+    }
+
+    /// Whether a formula holds a force, also within others.
+    pub(super) fn holds_force(&self, id: ExprId) -> bool {
+        self.holds_named(id, |named| matches!(named, Named::Force(..)))
+    }
+
+    /// Whether a formula holds a named symbol of some kind, also within derivatives and what parts hold.
+    pub(super) fn holds_named(&self, id: ExprId, is_wanted: impl Fn(&Named) -> bool) -> bool {
+        let mut open = vec![id];
+        while let Some(id) = open.pop() {
+            for symbol in self.model.graph.symbols(id) {
+                let Symbol::Named(k) = symbol else { continue };
+                match self.model.named.get(k as usize) {
+                    Some(named) if is_wanted(named) => return true,
+                    Some(Named::Derivative(inner) | Named::By(inner, ..) | Named::Held(_, inner)) => open.push(*inner),
+                    _ => {}
+                }
+            }
+        }
+        false
+    }
+
+    /// Whether a measure or result, of this text or of a part's, asks for an effort.
+    pub(super) fn asks_for_efforts(&self) -> bool {
+        let is_effort = |e: &Expr| matches!(&e.kind, ExprKind::Call { name, .. } if name.text == "effort");
+        let asks = |e: &Expr| e.parts().any(is_effort);
+        let own = self.items().iter().any(|item| match &item.kind {
+            ItemKind::Measure { value, .. } | ItemKind::Result { value, .. } | ItemKind::Trace { point: value, .. } => {
+                asks(value)
+            }
+            _ => false,
+        });
+        own || self.parts.iter().any(Checker::asks_for_efforts)
+    }
+
+    /// Whether a formula is a torque, as far as its words tell: joules are no unit of it.
+    pub(super) fn is_torque(&self, e: &Expr) -> bool {
+        match &e.kind {
+            ExprKind::Paren(inner) | ExprKind::Negate(inner) => self.is_torque(inner),
+            ExprKind::Call { name, arguments, .. } if self.quantity_word(name).is_some_and(|word| word.is_force) => {
+                name.text == "torque" || name.text == "effort" && arguments.first().is_some_and(|of| self.turns(of))
+            }
+            ExprKind::Call { name, arguments, .. } => {
+                let keeps = ["abs", "min", "max", "mean", "rms", "first", "last", "at", "hypot"];
+                keeps.contains(&name.text.as_str()) && arguments.first().is_some_and(|of| self.is_torque(of))
+            }
+            ExprKind::Sum(first, _) => self.is_torque(first),
+            ExprKind::Product(first, rest) => {
+                let factors = || std::iter::once((Factor::Times, &**first)).chain(rest.iter().map(|(f, e)| (*f, e)));
+                let torques = factors().filter(|(factor, e)| *factor == Factor::Times && self.is_torque(e)).count();
+                let others = factors().filter(|(_, e)| e.bare_number().is_some()).count();
+                torques == 1 && torques + others == rest.len() + 1
+            }
+            ExprKind::Name(name) => match self.entity(name) {
+                Some(Entity::Measure(k)) => match self.home_of(Entity::Measure(k)) {
+                    (home, Entity::Measure(k)) => home.measures.get(k).is_some_and(|of| home.is_torque(of.value)),
+                    _ => false,
+                },
+                _ => false,
+            },
+            _ => false,
+        }
+    }
+
+    /// Whether a driver or constraint works on an angle.
+    fn turns(&self, e: &Expr) -> bool {
+        let ExprKind::Name(name) = &e.bare().kind else { return false };
+        let Some(Entity::Equation(k)) = self.entity(name) else { return false };
+        let equation = self.equations.get(k).copied().flatten();
+        equation.is_some_and(|equation| self.model[equation].is_angle)
+    }
+}

@@ -1,0 +1,623 @@
+//! Formulas: from the tree to the graph, with their dimensions.
+//!
+//! A formula that holds a unit is *judged*: its dimensions are worked out and compared. Any other is *plain*, and is
+//! taken in the SI unit of what is expected (`language.md`, "Units"): its numbers have whatever dimension they need. But
+//! its quantities keep theirs, so that terms of it that no number scales have to be alike too.
+
+use super::Checker;
+use super::entity::Entity;
+use super::errors;
+use super::kinds::Wanted;
+use super::meaning::{Alone, alone};
+use super::rates::Part;
+use crate::model::{DecidedBy, Dimension, Named};
+use mechc_expr::{Dependence, ExprId, Symbol};
+use mechc_syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name, PathSegment, Sign};
+use mechc_text::source::Span;
+use mechc_text::vocabulary::{Constant, QuantityWord, StandsFor, Unit, is_called};
+
+/// Tells dimensions apart.
+pub(super) type DimKey = (bool, bool, [u64; 3]);
+
+/// The dimension of a formula.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Dim {
+    /// A literal zero fits anything.
+    Any,
+    /// This one.
+    Of(Dimension),
+    /// Any: a number without a unit is a factor of it, in a plain formula. A judged formula has none of these.
+    Plain {
+        /// With that number as a pure one.
+        read: Dimension,
+        /// Whether its parts fit together with all numbers as pure ones.
+        fits: bool,
+    },
+}
+
+impl Dim {
+    pub const PURE: Dim = Dim::Of(Dimension::PURE);
+    pub const LENGTH: Dim = Dim::Of(Dimension::LENGTH);
+    /// A number without a unit.
+    pub const PLAIN: Dim = Dim::Plain { read: Dimension::PURE, fits: true };
+    /// A formula in which numbers have to have dimensions.
+    pub const UNFIT: Dim = Dim::Plain { read: Dimension::PURE, fits: false };
+
+    /// The dimension with all numbers without a unit as pure ones.
+    pub fn settled(self) -> Dimension {
+        match self {
+            Dim::Any => Dimension::PURE,
+            Dim::Of(dimension) | Dim::Plain { read: dimension, .. } => dimension,
+        }
+    }
+
+    /// What a literal zero is once something has been done with it: only a zero as it stands fits anything.
+    pub fn of_term(self) -> Dim {
+        if self == Dim::Any { Dim::PLAIN } else { self }
+    }
+
+    /// In a formula whose dimensions are compared, where numbers are pure.
+    pub fn where_judged(self, judged: bool) -> Dim {
+        match self {
+            Dim::Plain { read, .. } if judged => Dim::Of(read),
+            _ => self,
+        }
+    }
+
+    /// Of a root, a derivative, and the like.
+    pub fn map(self, f: impl FnOnce(Dimension) -> Dimension) -> Dim {
+        match self.of_term() {
+            Dim::Plain { read, fits } => Dim::Plain { read: f(read), fits },
+            other => Dim::Of(f(other.settled())),
+        }
+    }
+
+    /// Of a product or quotient.
+    pub fn with(self, other: Dim, f: impl Fn(Dimension, Dimension) -> Dimension) -> Dim {
+        let read = f(self.settled(), other.settled());
+        match (self, other) {
+            (Dim::Of(_), Dim::Of(_)) => Dim::Of(read),
+            _ => Dim::Plain { read, fits: self.fits() && other.fits() },
+        }
+    }
+
+    /// Whether its parts fit together with all numbers as pure ones.
+    pub fn fits(self) -> bool {
+        !matches!(self, Dim::Plain { fits: false, .. })
+    }
+
+    /// Tells it from others.
+    pub fn key(self) -> DimKey {
+        let read = self.settled();
+        let powers = [read.length, read.time, read.mass].map(|power| (power + 0.0).to_bits());
+        (matches!(self, Dim::Of(_)), self.fits() && self != Dim::Any, powers)
+    }
+
+    /// A dimension that is wanted and one that is found, where these differ; a zero fits anything.
+    pub fn other_than(self, found: Dim) -> Option<[Dimension; 2]> {
+        let both = [self.settled(), found.settled()];
+        (self != Dim::Any && found != Dim::Any && !both[0].is(both[1])).then_some(both)
+    }
+
+    /// Whether it is a pure number, and nothing else.
+    pub fn is_a_pure_number(self) -> bool {
+        matches!(self, Dim::Of(dimension) if dimension.is(Dimension::PURE))
+    }
+
+    /// Whether it fits where a pure number is wanted, with all numbers as pure ones.
+    pub fn is_pure(self) -> bool {
+        self.fits() && self.settled().is(Dimension::PURE)
+    }
+}
+
+/// A formula in the graph, with its dimension.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Value {
+    pub id: ExprId,
+    pub dim: Dim,
+}
+
+impl Value {
+    pub fn has_a_dimension(self) -> bool {
+        matches!(self.dim, Dim::Of(dimension) if !dimension.is(Dimension::PURE))
+    }
+}
+
+/// What may stand in a formula, and how it is read.
+#[derive(Clone, Copy)]
+#[allow(clippy::struct_excessive_bools)] // permissions that depend on nothing but the place
+pub(super) struct Context<'c> {
+    /// For messages: `a constraint`.
+    pub place: &'c str,
+    /// Whether dimensions are compared.
+    pub judged: bool,
+    /// Whether `t` may stand.
+    pub time: bool,
+    /// Whether inputs may stand.
+    pub inputs: bool,
+    /// Whether kinematic quantities may stand.
+    pub quantities: bool,
+    /// Whether `der`, and the quantities that speak of rates, may stand.
+    pub rates: bool,
+    /// Whether other measures, and what comes out of forces, may stand.
+    pub measures: bool,
+    /// Whether reductions and other results may stand.
+    pub results: bool,
+    /// Whether names of the file may stand.
+    pub names: bool,
+    /// Whether functions are written out; where one is only looked over, those it calls have been looked over too.
+    pub expands: bool,
+    /// The argument of the function that is being expanded.
+    pub argument: Option<(&'c str, Value)>,
+    /// In what that is printed, where it is an angle that is not printed in radians.
+    pub printed: Option<Span>,
+}
+
+impl<'c> Context<'c> {
+    /// A constant over params and functions.
+    pub fn constant(place: &'c str) -> Context<'c> {
+        Context {
+            place,
+            judged: false,
+            time: false,
+            inputs: false,
+            quantities: false,
+            rates: false,
+            measures: false,
+            results: false,
+            names: true,
+            expands: true,
+            argument: None,
+            printed: None,
+        }
+    }
+
+    /// The same for another place and argument.
+    pub fn at<'p>(&self, place: &'p str, argument: Option<(&'p str, Value)>) -> Context<'p> {
+        let &Context { judged, time, inputs, quantities, rates, measures, results, names, expands, printed, .. } = self;
+        Context { place, judged, time, inputs, quantities, rates, measures, results, names, expands, argument, printed }
+    }
+}
+
+impl Checker<'_> {
+    /// A formula of its own: counts its parts anew.
+    pub(super) fn formula(&mut self, e: &Expr, context: &Context<'_>) -> Option<Value> {
+        self.calls.visited = 0;
+        self.number(e, context)
+    }
+
+    /// A formula in the graph; `None` if it is broken, which has then been said.
+    pub(super) fn number(&mut self, e: &Expr, context: &Context<'_>) -> Option<Value> {
+        self.level(context, |checker| checker.number_here(e, context))
+    }
+
+    fn number_here(&mut self, e: &Expr, context: &Context<'_>) -> Option<Value> {
+        self.count_part(e.span)?;
+        let value = match &e.kind {
+            ExprKind::Paren(inner) => return self.number(inner, context),
+            ExprKind::Literal { value, unit } => self.literal(e, *value, unit.as_ref(), context),
+            ExprKind::Name(name) => self.name(name, context),
+            ExprKind::Call { name, arguments, window } => self.call(e, (name, window.as_deref()), arguments, context),
+            ExprKind::Negate(inner) => {
+                let inner = self.number(inner, context)?;
+                Some(Value { id: self.model.graph.neg(inner.id), dim: inner.dim })
+            }
+            ExprKind::Sum(first, rest) => self.sum(first, rest, context),
+            ExprKind::Product(first, rest) => self.product(first, rest, context),
+            ExprKind::Power(base, exponent) => self.power(base, exponent, context),
+            ExprKind::If { arms, otherwise } => self.choice(arms, otherwise, context),
+            ExprKind::Member { owner, feature } => {
+                if let Ok(coordinate) = self.coordinate_of(e, context) {
+                    return coordinate;
+                }
+                self.member_as_number(e.span, owner, feature);
+                None
+            }
+            ExprKind::Tuple(_) => {
+                self.report(errors::wrong_kind(e.span, "a number", "a point"));
+                None
+            }
+            ExprKind::Path(segments) => {
+                self.path_as_number(e.span, segments);
+                None
+            }
+            ExprKind::Not(_) | ExprKind::Compare(..) | ExprKind::And(_) | ExprKind::Or(_) => {
+                self.report(errors::condition_as_number(e.span));
+                None
+            }
+        }?;
+        let value = Value { dim: value.dim.where_judged(context.judged), ..value };
+        self.finite(e.span, value)
+    }
+
+    /// Refuses a constant that is not finite, where it arises.
+    pub(super) fn finite(&mut self, span: Span, value: Value) -> Option<Value> {
+        match self.decided(value.id, DecidedBy::Finite) {
+            Some(number) if !number.is_finite() && !self.branch.is_untaken => {
+                self.report(errors::not_finite(span, number));
+                None
+            }
+            _ => Some(value),
+        }
+    }
+
+    fn literal(&mut self, e: &Expr, value: f64, unit: Option<&(Name, i32)>, context: &Context<'_>) -> Option<Value> {
+        if !value.is_finite() {
+            self.report(errors::not_finite(e.span, value));
+            return None;
+        }
+        let Some((name, power)) = unit else {
+            let dim = if value == 0.0 { Dim::Any } else { Dim::PLAIN };
+            return Some(Value { id: self.model.graph.constant(value), dim });
+        };
+        let Some(unit) = Unit::named(&name.text) else {
+            let is_argument = context.argument.is_some_and(|(argument, _)| argument == name.text);
+            // where time has no place, `1 t` is no time
+            let is_time = name.text == "t" && !context.time;
+            let is_number = matches!(
+                self.entity(name),
+                Some(Entity::Param(_) | Entity::Input(_) | Entity::Measure(_) | Entity::Result(_))
+            );
+            let is_a_name = is_argument || !is_time && Constant::named(&name.text).is_some() || is_number;
+            let until_the_name = Span { end: name.span.start, ..e.span };
+            let behind_it = Span { start: name.span.end, ..e.span };
+            let [number, power] = [until_the_name, behind_it].map(|span| self.sources.text(span).trim_end());
+            self.report(errors::not_a_unit(name, [number, power], is_a_name));
+            return None;
+        };
+        let si = unit.to_si(value, *power);
+        if !si.is_finite() {
+            self.report(errors::not_finite(e.span, si));
+            return None;
+        }
+        Some(Value { id: self.model.graph.constant(si), dim: Dim::Of(unit.dimension.to_the(f64::from(*power))) })
+    }
+
+    fn name(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
+        let argument = context.argument.map(|(argument, _)| argument);
+        match alone(&name.text, argument, self.space.get(&name.text)) {
+            Alone::Argument => return context.argument.map(|(_, value)| value),
+            Alone::Constant(constant) => match constant.stands_for {
+                StandsFor::Time => return self.time_named(name, context),
+                StandsFor::Number(number) => return Some(self.pure(number)),
+                StandsFor::Ground => {}
+            },
+            // `10 mm/s` beside `param s`
+            Alone::Declared(_) if self.is_declared_though_taken(name) => return None,
+            Alone::Unit(unit) => {
+                let id = self.model.graph.constant(unit.to_si(1.0, 1));
+                return Some(Value { id, dim: Dim::Of(unit.dimension) });
+            }
+            Alone::Declared(_) | Alone::Unknown => {}
+        }
+        self.declared_number(name, context)
+    }
+
+    /// `t`
+    fn time_named(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
+        if context.time {
+            let id = self.time();
+            // without a unit around it, it is a number of seconds
+            return Some(Value { id, dim: Dim::Plain { read: Dimension::TIME, fits: true } });
+        }
+        // a parameter was meant
+        if !self.is_declared_though_taken(name) {
+            self.report(if context.results {
+                errors::outside_reduction("time `t`", name.span, "t")
+            } else {
+                errors::time_in(context.place, name.span, None)
+            });
+        }
+        None
+    }
+
+    /// What a declaration gives the name to, where that is a number.
+    fn declared_number(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
+        match self.resolve(name).ok()?.filter(|_| context.names) {
+            Some(Entity::Param(_)) if self.point_param(name).is_some() => {
+                self.report(errors::point_as_number(name));
+                None
+            }
+            Some(Entity::Param(k)) => self.params[k].value,
+            Some(Entity::Input(k)) if context.inputs => self.input_known(k),
+            Some(Entity::Input(_)) if context.results => {
+                self.report(errors::outside_reduction(&format!("the input `{}`", name.text), name.span, &name.text));
+                None
+            }
+            Some(Entity::Input(_)) => {
+                self.input_in(name, context);
+                None
+            }
+            Some(Entity::Measure(k)) if context.measures => self.measure_value(k, name.span, context),
+            Some(Entity::Measure(_)) if context.results => {
+                self.report(errors::outside_reduction(&format!("the measure `{}`", name.text), name.span, &name.text));
+                None
+            }
+            Some(Entity::Result(k)) if context.results => self.result_known(k)?.value,
+            Some(Entity::Result(_)) => {
+                self.report(errors::result_in(context.place, name));
+                None
+            }
+            Some(Entity::Measure(_)) => {
+                self.report(
+                    errors::wrong_kind(name.span, "a number", "a measure")
+                        .help(format!("measures stand in other measures only, not in {}", context.place)),
+                );
+                None
+            }
+            Some(Entity::Trace) => {
+                self.trace_in_a_formula(name.span, "a number", name);
+                None
+            }
+            Some(entity @ (Entity::Function(_) | Entity::Table(_))) => {
+                let help = format!("call it: `{}(…)`", name.text);
+                self.report(errors::wrong_kind(name.span, "a number", entity.noun()).help(help));
+                None
+            }
+            Some(entity) => {
+                let diagnostic = errors::wrong_kind(name.span, "a number", entity.noun());
+                self.report(self.with_number_of(name, diagnostic));
+                None
+            }
+            None => {
+                self.unknown_number(name, context);
+                None
+            }
+        }
+    }
+
+    // what is said of a fault stands in functions of its own: their locals would make every level of a formula larger
+
+    /// Says that a feature, or what else a name and another behind a dot may mean, is no number.
+    fn member_as_number(&mut self, span: Span, owner: &Name, feature: &Name) {
+        if let Some(Entity::Trace) = self.entity(owner) {
+            self.trace_in_a_formula(span, "a number", owner);
+            return;
+        }
+        let what = self.describe_member(owner, feature);
+        let diagnostic = errors::wrong_kind(span, "a number", &what);
+        self.report(diagnostic.fix_if(self.number_for(span, owner, feature)));
+    }
+
+    /// Says of a longer path that it is no number.
+    fn path_as_number(&mut self, span: Span, segments: &[PathSegment]) {
+        let text: String = self.sources.text(span).chars().filter(|c| !c.is_whitespace()).collect();
+        // those of the text have been written out; this one comes from outside
+        let owner = text.split_once("].").map_or(text.clone(), |(owner, _)| format!("{owner}]"));
+        let unknown = segments.first().filter(|first| matches!(self.resolve(&first.name), Ok(None)));
+        let unknown = unknown.filter(|first| first.name.text != "ground" && segments.len() > 2);
+        self.report(match (self.space.get(&owner), unknown) {
+            (Some(entity), _) => errors::path_from_outside(span, &owner, entity.noun(), owner == text),
+            (None, Some(first)) => errors::unknown_owner(&first.name, self.tree),
+            (None, None) => {
+                let is_known = segments.first().is_some_and(|first| self.entity(&first.name).is_some());
+                errors::path_of_nothing(span, segments, is_known)
+            }
+        });
+    }
+
+    /// Says that a trace is no number and no point.
+    pub(super) fn trace_in_a_formula(&mut self, span: Span, wanted: &str, name: &Name) {
+        let point = self.items().iter().find_map(|item| match &item.kind {
+            ItemKind::Trace { name: own, point, .. } if own.text == name.text => Some(self.sources.text(point.span)),
+            _ => None,
+        });
+        let diagnostic = errors::trace_in_a_formula(span, wanted, name, point);
+        self.report(diagnostic);
+    }
+
+    fn unknown_number(&mut self, name: &Name, context: &Context<'_>) {
+        if self.own_point(name, Wanted::Point).is_some() {
+            self.report(errors::point_as_number(name));
+            return;
+        }
+        if name.text == "min" {
+            self.report(errors::not_a_unit(name, ["", ""], false));
+            return;
+        }
+        let is_quantity = QuantityWord::named(&name.text).is_some();
+        if !context.names && (is_quantity || !is_called(&name.text)) {
+            self.report(if context.time { errors::names_in_formula(name) } else { errors::names_in_option(name) });
+            return;
+        }
+        if is_called(&name.text) {
+            let help = format!("call it: `{}(…)`", name.text);
+            self.report(errors::wrong_kind(name.span, "a number", "a function").help(help));
+            return;
+        }
+        let mut known = self.suggestions(|entity| match entity {
+            Entity::Param(_) => true,
+            Entity::Input(_) => context.inputs,
+            Entity::Measure(_) => context.measures,
+            Entity::Result(_) => context.results,
+            _ => false,
+        });
+        known.extend(context.argument.map(|(argument, _)| argument));
+        for constant in Constant::in_formulas() {
+            known.push(constant);
+        }
+        let what = if context.measures { "parameter or measure" } else { "parameter" };
+        let diagnostic = errors::unknown_number(what, name, &known);
+        let is_bound = matches!(name.text.as_str(), "from" | "to") && context.results && diagnostic.help.is_empty();
+        let diagnostic = diagnostic.help_if(is_bound.then(|| errors::signed_bound(&name.text)));
+        let argument = context.argument.filter(|_| diagnostic.help.is_empty());
+        self.report(diagnostic.help_if(argument.map(|(argument, _)| format!("the argument here is `{argument}`"))));
+    }
+
+    fn pure(&mut self, value: f64) -> Value {
+        Value { id: self.model.graph.constant(value), dim: Dim::PURE }
+    }
+
+    fn sum(&mut self, first: &Expr, rest: &[(Sign, Expr)], context: &Context<'_>) -> Option<Value> {
+        self.warn_of_numbers_beside(std::iter::once(first).chain(rest.iter().map(|(_, term)| term)), context);
+        let mut sum = self.number(first, context);
+        let mut span = first.span;
+        for (sign, term) in rest {
+            let (Some(left), Some(right)) = (sum, self.number(term, context)) else {
+                sum = None;
+                continue;
+            };
+            let what = if *sign == Sign::Plus { "this adds" } else { "this subtracts" };
+            sum = self.alike(what, (span, left), (term.span, right), context).map(|dim| {
+                let id = match sign {
+                    Sign::Plus => self.model.graph.add(left.id, right.id),
+                    Sign::Minus => self.model.graph.sub(left.id, right.id),
+                };
+                Value { id, dim: dim.of_term() }
+            });
+            span = span.to(term.span);
+            sum = sum.and_then(|value| self.finite(span, value));
+        }
+        sum
+    }
+
+    fn product(&mut self, first: &Expr, rest: &[(Factor, Expr)], context: &Context<'_>) -> Option<Value> {
+        let mut product = self.number(first, context);
+        let mut span = first.span;
+        for (factor, term) in rest {
+            let (Some(left), Some(right)) = (product, self.number(term, context)) else {
+                product = None;
+                continue;
+            };
+            let graph = &mut self.model.graph;
+            let value = match factor {
+                Factor::Times => {
+                    Value { id: graph.mul(left.id, right.id), dim: left.dim.with(right.dim, Dimension::times) }
+                }
+                Factor::Over => {
+                    Value { id: graph.div(left.id, right.id), dim: left.dim.with(right.dim, Dimension::over) }
+                }
+            };
+            span = span.to(term.span);
+            product = self.finite(span, value);
+        }
+        product
+    }
+
+    fn power(&mut self, base: &Expr, exponent: &Expr, context: &Context<'_>) -> Option<Value> {
+        let (a, b) = (self.number(base, context), self.number(exponent, context));
+        let (a, b) = (a?, b?);
+        self.demand("an exponent", Dimension::PURE, exponent.span, b.dim, context)?;
+        let id = self.model.graph.pow(a.id, b.id);
+        let dimension = a.dim.settled();
+        let dim = if dimension.is(Dimension::PURE) {
+            a.dim.of_term()
+        } else {
+            match self.constant_value(b.id) {
+                Some(power) => a.dim.map(|dimension| dimension.to_the(power)),
+                None if context.judged => {
+                    self.report(errors::exponent(exponent.span, Part { span: base.span, dimension }));
+                    return None;
+                }
+                None => Dim::UNFIT,
+            }
+        };
+        let dim = if b.dim.is_pure() { dim } else { Dim::UNFIT };
+        Some(Value { id, dim })
+    }
+
+    /// How many time derivatives a formula holds.
+    pub(super) fn derivative_order(&self, id: ExprId) -> u8 {
+        if !self.model.graph.dependence(id).on(Dependence::NAMED) {
+            return 0;
+        }
+        self.model
+            .graph
+            .symbols(id)
+            .into_iter()
+            .filter_map(|symbol| match symbol {
+                Symbol::Named(k) => self.common.derivative_orders.get(k as usize).copied(),
+                _ => None,
+            })
+            .max()
+            .unwrap_or(0)
+    }
+
+    /// `der(e)`
+    pub(super) fn derivative(&mut self, e: &Expr, argument: &Expr, context: &Context<'_>) -> Option<Value> {
+        if context.results && !context.measures {
+            self.report(errors::derivative_of_result(e.span));
+            return None;
+        }
+        if !context.rates {
+            self.report(errors::derivative_in(context.place, e.span));
+            return None;
+        }
+        let inner = self.number(argument, context)?;
+        if self.holds_force(inner.id) {
+            self.report(errors::derivative_of_force(e.span));
+            return None;
+        }
+        let order = self.derivative_order(inner.id) + 1;
+        if order > 3 {
+            self.report(errors::derivative_too_high(e.span));
+            return None;
+        }
+        let dim = inner.dim.map(|dimension| dimension.over(Dimension::TIME));
+        if self.model.graph.dependence(inner.id).is_constant() {
+            return Some(Value { id: self.model.graph.constant(0.0), dim });
+        }
+        if self.is_of_whole_analysis(inner.id) {
+            self.report(errors::derivative_of_result(e.span));
+            return None;
+        }
+        let id = self.name_symbol(Named::Derivative(inner.id), order);
+        if !self.note_rate(inner.id, id) {
+            self.report(errors::derivative_of_jerk(e.span));
+            return None;
+        }
+        Some(Value { id, dim })
+    }
+
+    /// Whether a formula as written holds a kinematic quantity.
+    pub(super) fn holds_quantity(&self, formula: &Expr) -> bool {
+        let is_quantity =
+            |e: &Expr| matches!(&e.kind, ExprKind::Call { name, .. } if self.quantity_word(name).is_some());
+        formula.parts().any(is_quantity)
+    }
+
+    /// The value of a formula of constants, of whatever dimension.
+    pub(super) fn any_constant(&mut self, e: &Expr) -> Option<f64> {
+        let judged = self.is_dimensional(e);
+        let value = self.formula(e, &Context { judged, ..Context::constant("a binding of a param") })?;
+        self.constant_value(value.id)
+    }
+
+    /// A constant of a given dimension, judged on its own: its place in the graph and its value.
+    pub(super) fn constant(&mut self, e: &Expr, place: &str, wanted: Dimension) -> Option<(ExprId, f64)> {
+        self.constant_by(e, place, wanted, DecidedBy::Value)
+    }
+
+    /// The same of one of whose value not all decides.
+    pub(super) fn constant_by(
+        &mut self,
+        e: &Expr,
+        place: &str,
+        wanted: Dimension,
+        by: DecidedBy,
+    ) -> Option<(ExprId, f64)> {
+        let judged = self.is_dimensional(e);
+        self.judged_constant(e, place, wanted, (by, judged))
+    }
+
+    /// The same of one that may have to have a unit.
+    pub(super) fn judged_constant(
+        &mut self,
+        e: &Expr,
+        place: &str,
+        wanted: Dimension,
+        (by, judged): (DecidedBy, bool),
+    ) -> Option<(ExprId, f64)> {
+        let context = Context { judged, ..Context::constant(place) };
+        let value = self.formula(e, &context)?;
+        if !judged && wanted.is(Dimension::LENGTH) && self.refuses_angle(place, e) {
+            return None;
+        }
+        self.demand(place, wanted, e.span, value.dim, &context)?;
+        if wanted.is(Dimension::LENGTH) {
+            self.remember_any_length(e, value.id, judged);
+        }
+        let number = self.decided(value.id, by)?;
+        Some((value.id, number))
+    }
+}

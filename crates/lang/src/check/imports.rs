@@ -1,0 +1,164 @@
+//! Names of parts in the mechanism around them: what its formulas name by paths is brought over when it is known.
+
+use super::Checker;
+use super::elements::MeasureState;
+use super::entity::Entity;
+use super::formula::Value;
+use super::params::ParamState;
+use super::results::ResultState;
+use crate::model::{Declared, Frame};
+use mechc_syntax::ast::Name;
+
+/// A name of a part that is known in the mechanism around it, by its path.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Import {
+    /// What it is here.
+    entity: Entity,
+    /// What it is in the part.
+    inside: Entity,
+}
+
+impl<'a> Checker<'a> {
+    /// Its name as the whole mechanism has it.
+    pub(super) fn declared(&self, name: &Name) -> Declared {
+        Declared { name: format!("{}{}", self.address.path, name.text), span: name.span }
+    }
+
+    /// A frame's name as this text has it.
+    pub(super) fn frame_name(&self, frame: Frame) -> &str {
+        let name = self.model.frame_name(frame);
+        name.strip_prefix(self.address.path.as_str()).unwrap_or(name)
+    }
+
+    /// What a path stands for, `leg[0].foot`; makes its name known here.
+    pub(super) fn entity_inside(&mut self, path: &str) -> Option<Entity> {
+        if let Some(known) = self.space.get(path) {
+            return Some(known);
+        }
+        let (part, rest) = path.split_once('.')?;
+        let Some(Entity::Part(k)) = self.space.get(part) else { return None };
+        let child = self.parts.get_mut(k)?;
+        let (inside, span) = match rest {
+            "ground" => (Entity::Ground, child.tree.span),
+            _ => (child.entity_inside(rest)?, child.space.span(rest)?),
+        };
+        let entity = match inside {
+            Entity::Param(_) => Entity::Param(next(&mut self.count.params)),
+            Entity::Input(_) => Entity::Input(next(&mut self.count.inputs)),
+            Entity::Body(_) | Entity::Ground => Entity::Body(next(&mut self.count.bodies)),
+            Entity::Joint(_) => Entity::Joint(next(&mut self.count.joints)),
+            Entity::Equation(_) => Entity::Equation(next(&mut self.count.equations)),
+            Entity::Measure(_) => Entity::Measure(next(&mut self.count.measures)),
+            Entity::Result(_) => Entity::Result(next(&mut self.count.results)),
+            other => other,
+        };
+        if child.is_point_name(rest) {
+            self.point_paths.insert(path.to_owned());
+        }
+        let _ = self.space.declare(&Name { text: path.to_owned(), span }, entity);
+        self.imports[k].push(Import { entity, inside });
+        self.imported.insert(entity, (k, inside));
+        Some(entity)
+    }
+
+    /// Brings over what is known by now of the params of parts that have a name here.
+    pub(super) fn import_params(&mut self) {
+        for part in 0..self.parts.len() {
+            self.import_params_of(part);
+        }
+    }
+
+    pub(super) fn import_params_of(&mut self, part: usize) {
+        let child = &self.parts[part];
+        for import in &self.imports[part] {
+            let (Entity::Param(k), Entity::Param(m)) = (import.entity, import.inside) else { continue };
+            set(&mut self.params, k, child.params.get(m).copied(), ParamState::default());
+        }
+    }
+
+    /// The same of their bodies, once its own are there.
+    pub(super) fn import_frames(&mut self) {
+        for (imports, child) in self.imports.iter().zip(&self.parts) {
+            for import in imports {
+                let (Entity::Body(k), inside) = (import.entity, import.inside) else { continue };
+                let frame = match inside {
+                    Entity::Body(m) => child.bodies.get(m).copied(),
+                    _ => Some(child.address.ground),
+                };
+                set(&mut self.bodies, k, frame, Frame::Ground);
+            }
+        }
+    }
+
+    /// The same of their joints.
+    pub(super) fn import_joints(&mut self) {
+        for (imports, child) in self.imports.iter().zip(&self.parts) {
+            for import in imports {
+                let (Entity::Joint(k), Entity::Joint(m)) = (import.entity, import.inside) else { continue };
+                set(&mut self.joints, k, child.joints.get(m).copied(), None);
+            }
+        }
+    }
+
+    /// The same of their constraints and drivers.
+    pub(super) fn import_equations(&mut self) {
+        for (imports, child) in self.imports.iter().zip(&self.parts) {
+            for import in imports {
+                let (Entity::Equation(k), Entity::Equation(m)) = (import.entity, import.inside) else { continue };
+                set(&mut self.equations, k, child.equations.get(m).copied(), None);
+            }
+        }
+    }
+
+    /// Whether a name is that of a param that is a point.
+    pub(super) fn is_point_name(&self, name: &str) -> bool {
+        self.point_params.contains(name) || self.point_paths.contains(name)
+    }
+
+    /// The checker of the part in which something is declared, with what it is there; this one for its own.
+    pub(super) fn home_of(&self, entity: Entity) -> (&Checker<'a>, Entity) {
+        match self.imported.get(&entity) {
+            Some(&(part, inside)) => self.parts[part].home_of(inside),
+            None => (self, entity),
+        }
+    }
+
+    /// What is known of a measure, be it of a part or not.
+    pub(super) fn measure_known(&self, k: usize) -> Option<&MeasureState<'a>> {
+        match self.home_of(Entity::Measure(k)) {
+            (home, Entity::Measure(k)) => home.measures.get(k),
+            _ => None,
+        }
+    }
+
+    /// What is known of a result, be it of a part or not.
+    pub(super) fn result_known(&self, k: usize) -> Option<&ResultState<'a>> {
+        match self.home_of(Entity::Result(k)) {
+            (home, Entity::Result(k)) => home.results.get(k),
+            _ => None,
+        }
+    }
+
+    /// What an input is, be it of a part or not.
+    pub(super) fn input_known(&self, k: usize) -> Option<Value> {
+        match self.home_of(Entity::Input(k)) {
+            (home, Entity::Input(k)) => home.inputs.get(k)?.value,
+            _ => None,
+        }
+    }
+}
+
+fn next(count: &mut usize) -> usize {
+    *count += 1;
+    *count - 1
+}
+
+/// Sets an element of a list, which is made long enough.
+fn set<T: Clone>(list: &mut Vec<T>, k: usize, value: Option<T>, otherwise: T) {
+    if list.len() <= k {
+        list.resize(k + 1, otherwise);
+    }
+    if let Some(value) = value {
+        list[k] = value;
+    }
+}

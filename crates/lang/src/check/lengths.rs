@@ -1,0 +1,142 @@
+//! Lengths without a unit beside lengths with one.
+//!
+//! A plain formula is taken in metres. Where all lengths are plain that is what was meant, or all are too large alike. But plain
+//! ones that dwarf those with a unit, and would fit to them if they had it too, have lost it.
+
+use super::Checker;
+use super::entity::Entity;
+use super::errors::{self, Plain};
+use super::formula::{Context, Value};
+use mechc_expr::ExprId;
+use mechc_expr::math;
+use mechc_syntax::ast::{Expr, ExprKind, Item};
+use mechc_text::vocabulary::{Dimension, UNITS, Unit};
+use rustc_hash::FxHashMap;
+
+/// A plain length this many times as large as the largest one with a unit has probably lost its own.
+const DWARFS: f64 = 10.0;
+/// Numbers below this are not written in millimetres or inches, but in metres.
+const IN_METRES: f64 = 1.0;
+
+/// The lengths of a mechanism, as they are come upon.
+#[derive(Default)]
+pub(super) struct Lengths<'a> {
+    /// The smallest and the largest with a unit (m).
+    with_unit: Option<[f64; 2]>,
+    plain: Vec<Plain<'a>>,
+}
+
+impl<'a> Checker<'a> {
+    /// Remembers a length, of a formula that holds a unit or does not.
+    pub(super) fn remember_any_length(&mut self, e: &Expr, id: ExprId, judged: bool) {
+        if judged {
+            self.remember_length(id);
+        } else {
+            self.remember_plain_length(e, id);
+        }
+    }
+
+    /// Remembers what a length is compared with in a formula without a unit, if that is a number.
+    pub(super) fn remember_compared_lengths(&mut self, [a, b]: [(&Expr, Value); 2], context: &Context<'_>) {
+        for ((_, value), (other, number)) in [(a, b), (b, a)] {
+            let is_length = value.dim.settled().is(Dimension::LENGTH);
+            let is_one = is_length && self.number_of(value.id).is_none();
+            if !context.judged && is_one && self.number_of(number.id).is_some() {
+                self.remember_plain_length(other, number.id);
+            }
+        }
+    }
+
+    /// Remembers a constant length with a unit.
+    fn remember_length(&mut self, id: ExprId) {
+        if let Some(value) = self.number_of(id).map(f64::abs).filter(|value| *value > 0.0) {
+            let [least, most] = self.lengths.with_unit.unwrap_or([value; 2]);
+            self.lengths.with_unit = Some([least.min(value), most.max(value)]);
+        }
+    }
+
+    /// Remembers a length without one: a constant, or the constant terms of a sum.
+    fn remember_plain_length(&mut self, e: &Expr, id: ExprId) {
+        if let Some(value) = self.number_of(id).map(f64::abs) {
+            let plain = self.root_of(e).unwrap_or(Plain { value, span: e.span, name: None, is_number: false });
+            self.lengths.plain.extend(Some(plain).filter(|plain| plain.value > 0.0));
+        } else if let ExprKind::Sum(first, rest) = &e.bare().kind {
+            for term in std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term)) {
+                let plain = self.root_of(term).filter(|plain| plain.value > 0.0);
+                // beside a unit the other terms want theirs too
+                self.lengths.plain.extend(plain.map(|plain| Plain { is_number: false, ..plain }));
+            }
+        }
+    }
+
+    /// The number or parameter that a formula is, but for its sign; through parameters that are nothing else.
+    pub(super) fn root_of(&mut self, e: &Expr) -> Option<Plain<'a>> {
+        let mut found: Option<Plain<'a>> = None;
+        let mut e = e;
+        loop {
+            match &e.kind {
+                ExprKind::Paren(inner) | ExprKind::Negate(inner) => e = inner,
+                ExprKind::Literal { value, unit: None } => {
+                    let name = found.and_then(|plain| plain.name);
+                    let is_number = found.is_none_or(|plain| plain.is_number);
+                    return Some(Plain { value: value.abs(), span: e.span, name, is_number });
+                }
+                ExprKind::Name(name) => {
+                    let Some(Entity::Param(k)) = self.entity(name) else { return found };
+                    let (name, formula, is_in_the_text) = self.param_as_given(k)?;
+                    let value = self.params[k].value.and_then(|value| self.number_of(value.id))?.abs();
+                    let is_number = is_in_the_text && found.is_none_or(|plain| plain.is_number);
+                    found = Some(Plain { value, span: formula.span, name: Some(name), is_number });
+                    e = formula;
+                }
+                _ => return found.map(|plain| Plain { is_number: false, ..plain }),
+            }
+        }
+    }
+
+    /// A parameter's name and formula; whether that stands in the text, or was given from outside.
+    fn param_as_given(&self, k: usize) -> Option<(&'a str, &'a Expr, bool)> {
+        let (name, value) = self.params[k].written?;
+        let setting = self.settings_of(name).pop().map(|(_, setting)| setting);
+        Some((&name.text, setting.map_or(value, |setting| &setting.value), setting.is_none()))
+    }
+
+    /// Warns of plain lengths that dwarf all with a unit, and would fit to them if they had that unit.
+    pub(super) fn warn_of_plain_lengths(&mut self) {
+        let Some([least, most]) = self.lengths.with_unit else { return };
+        let plain = &self.lengths.plain;
+        let dwarfs = plain.iter().any(|length| length.value > DWARFS * most);
+        if !dwarfs || plain.iter().any(|length| length.value < IN_METRES) {
+            return;
+        }
+        let unit = usual_unit_of_length(self.items()).unwrap_or(&UNITS[0]);
+        let is_off = |value: f64| math::ln((value / most).max(least / value).max(1.0));
+        let is_off_with = |factor: f64| plain.iter().map(|length| is_off(factor * length.value)).sum::<f64>();
+        if is_off_with(unit.to_si(1.0, 1)) >= is_off_with(1.0) {
+            return;
+        }
+        let mut plain = std::mem::take(&mut self.lengths.plain);
+        plain.sort_by_key(|length| length.span);
+        plain.dedup_by_key(|length| length.span);
+        self.report(errors::no_unit_of_length(&plain, most, unit.word.name));
+    }
+}
+
+/// The unit in which most lengths of a mechanism are written; nothing where there is none.
+#[must_use]
+pub fn usual_unit_of_length(items: &[Item]) -> Option<&'static Unit> {
+    let mut counts: FxHashMap<&'static str, (usize, &'static Unit)> = FxHashMap::default();
+    for e in items.iter().flat_map(Item::formulas) {
+        let mut open = vec![e];
+        while let Some(e) = open.pop() {
+            if let ExprKind::Literal { unit: Some((name, 1)), .. } = &e.kind
+                && let Some(unit) = Unit::named(&name.text).filter(|unit| unit.dimension.is(Dimension::LENGTH))
+            {
+                counts.entry(unit.word.name).or_insert((0, unit)).0 += 1;
+            }
+            open.extend(e.children());
+        }
+    }
+    let most = counts.into_values().max_by_key(|&(count, unit)| (count, unit.word.name));
+    most.map(|(_, unit)| unit)
+}

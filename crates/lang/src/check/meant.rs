@@ -1,0 +1,169 @@
+//! What a name was probably meant to be, as far as the mechanism around it tells.
+
+use super::entity::Entity;
+use super::features::Feature;
+use super::formula::{Context, Dim};
+use super::{Checker, errors};
+use crate::model::{Dimension, JointKind};
+use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name};
+use mechc_text::diag::{Applies, Code, Diagnostic, Diagnostics, Edit, Fix};
+use mechc_text::source::Span;
+use mechc_text::vocabulary::{Place, Synonym, Unit, is_ground};
+use rustc_hash::FxHashMap;
+use std::collections::hash_map::Entry;
+
+impl Checker<'_> {
+    /// The quantity of a joint that a driver prescribes.
+    fn quantity_of(&self, name: &Name) -> Option<String> {
+        let Some(Entity::Joint(k)) = self.entity(name) else { return None };
+        let quantity = match self.model[self.joints.get(k).copied().flatten()?].kind {
+            JointKind::Revolute(..) => "rotation",
+            JointKind::Translational(..) => "displacement",
+            _ => return None,
+        };
+        Some(format!("{quantity}({})", name.text))
+    }
+
+    /// A joint or a body in the place of a number.
+    pub(super) fn with_number_of(&self, name: &Name, diagnostic: Diagnostic) -> Diagnostic {
+        if let Some(Entity::Body(_)) = self.entity(name) {
+            return diagnostic.help(format!("the angle of a body is `angle({})`", name.text));
+        }
+        let quantity = self.quantity_of(name);
+        diagnostic.fix_if(quantity.map(|quantity| self.in_its_equation(name.span, &quantity)))
+    }
+
+    /// `speed(j)`, j a joint: in a driver the law of its angle, in a measure the derivative of that.
+    pub(super) fn rate_of_joint(
+        &self,
+        e: &Expr,
+        name: &Name,
+        arguments: &[Expr],
+        context: &Context<'_>,
+    ) -> Option<Fix> {
+        let [argument] = arguments else { return None };
+        let ExprKind::Name(joint) = &argument.bare().kind else { return None };
+        let synonym = Synonym::of(Place::Call, &name.text);
+        let is_rate = name.text == "speed" || synonym.is_some_and(|synonym| synonym.means.contains(&"der"));
+        let quantity = self.quantity_of(joint).filter(|_| is_rate)?;
+        if !context.rates {
+            return Some(self.in_its_equation(e.span, &quantity));
+        }
+        let synonym = synonym?;
+        let said = synonym.say(&[]);
+        let order = (1..=3).rev().find(|&order| said.contains(&"der(".repeat(order))).unwrap_or(1);
+        let written = format!("{}{quantity}{}", "der(".repeat(order), ")".repeat(order));
+        Some(Fix::replace(e.span, &written, format!("of a joint it is `{written}`"), Applies::Probably))
+    }
+
+    /// A quantity in the place of what stands at a span; where that equals a rate, it is a rate times the time.
+    fn in_its_equation(&self, span: Span, quantity: &str) -> Fix {
+        let other = self.items().iter().find_map(|item| match &item.kind {
+            ItemKind::Equation { driver: true, left, right, .. } if left.span == span => Some(right),
+            ItemKind::Equation { driver: true, left, right, .. } if right.span == span => Some(left),
+            _ => None,
+        });
+        let Some(rate) = other.filter(|other| self.is_rate(other)) else {
+            let message = if other.is_some() { "a driver gives the motion over time" } else { "of a joint it is" };
+            let form = if other.is_some() { format!(": `{quantity} = …`") } else { format!(" `{quantity}`") };
+            return Fix::replace(span, quantity, format!("{message}{form}"), Applies::Probably);
+        };
+        let law = format!("{} * t", self.sources.text(rate.span));
+        let edits = vec![Edit { span, text: quantity.to_owned() }, Edit { span: rate.span, text: law.clone() }];
+        Fix {
+            message: format!("a driver gives the motion over time: `{quantity} = {law}`"),
+            edits,
+            applies: Applies::Probably,
+        }
+    }
+
+    /// A number with a unit of rate, or a parameter that is one.
+    fn is_rate(&self, e: &Expr) -> bool {
+        match &e.bare().kind {
+            ExprKind::Literal { unit: Some((unit, 1)), .. } => {
+                Unit::named(&unit.text).is_some_and(|unit| unit.dimension.is(Dimension::RATE))
+            }
+            ExprKind::Name(name) => match self.entity(name) {
+                Some(Entity::Param(k)) => {
+                    matches!(self.params[k].value, Some(value) if matches!(value.dim, Dim::Of(d) if d.is(Dimension::RATE)))
+                }
+                _ => false,
+            },
+            _ => false,
+        }
+    }
+
+    /// Says that there is no body of a name, with what others call the ground.
+    pub(super) fn unknown_body(&mut self, name: &Name) {
+        let mut known = self.suggestions(|entity| matches!(entity, Entity::Body(_)));
+        known.push("ground");
+        let diagnostic = errors::unknown("body", name, &known);
+        let is_ground = diagnostic.help.is_empty() && is_ground(&name.text);
+        let ground = is_ground.then(|| Fix::meant(name.span, "ground"));
+        self.report(diagnostic.fix_if(ground));
+    }
+
+    /// What a body has of a kind, as it is written outside.
+    pub(super) fn features_of(&self, body: &Name, wanted: impl Fn(Feature) -> bool) -> Vec<String> {
+        let Some(Entity::Body(k)) = self.entity(body) else { return Vec::new() };
+        let space = self.bodies.get(k).and_then(|id| self.common.features.get(id));
+        let names = space.into_iter().flat_map(|space| self.suggestions_in(space, &wanted));
+        names.take(MOST_PLACES).map(|name| format!("`{}.{name}`", body.text)).collect()
+    }
+
+    /// A feature of another kind in the place of a circle or curve: those that the body has.
+    pub(super) fn profile_for(&self, e: &Expr, wanted: impl Fn(Feature) -> bool) -> Option<Fix> {
+        let ExprKind::Member { owner, feature } = &e.kind else { return None };
+        let name = self.common.features.get(&self.frame_of(owner)?)?.names(wanted).next()?;
+        Some(Fix::replace(feature.span, name, format!("was `{}.{name}` meant?", owner.text), Applies::Probably))
+    }
+
+    /// The bodies whose features stand beside a name among the arguments of a joint: it can be of none of them.
+    pub(super) fn owners_beside(&self, name: Span) -> Vec<&str> {
+        let arguments = self.items().iter().find_map(|item| match &item.kind {
+            ItemKind::Joint { arguments, .. } if arguments.iter().any(|e| e.span == name) => Some(arguments),
+            _ => None,
+        });
+        let owner = |e: &Expr| match &e.kind {
+            ExprKind::Member { owner, .. } => Some(self.sources.text(owner.span)),
+            _ => None,
+        };
+        arguments.map(|arguments| arguments.iter().filter_map(owner).collect()).unwrap_or_default()
+    }
+}
+
+/// Further places of one message are marked beside its first one, at most.
+const MOST_PLACES: usize = 4;
+
+/// Each name that is not declared told once, with the places where it stands besides.
+pub(super) fn told_once(all: Diagnostics) -> Diagnostics {
+    let (mut merged, mut known) = (Vec::new(), FxHashMap::default());
+    for diagnostic in all {
+        // what is said otherwise may depend on the arguments
+        let told = (diagnostic.message.clone(), diagnostic.help.clone());
+        let first: Option<&mut Diagnostic> = match known.entry(told) {
+            Entry::Occupied(at) => merged.get_mut(*at.get()),
+            Entry::Vacant(place) => {
+                place.insert(merged.len());
+                None
+            }
+        };
+        let Some(first) = first.filter(|_| diagnostic.code == Code::E0201) else {
+            merged.push(diagnostic);
+            continue;
+        };
+        let place = diagnostic.labels.iter().find(|label| label.primary).map(|label| label.span);
+        if let Some(span) = place.filter(|_| first.labels.len() <= MOST_PLACES) {
+            *first = first.clone().also(span, "and here");
+        }
+        // one change mends all places
+        for fix in diagnostic.fixes {
+            if let Some(own) = first.fixes.iter_mut().find(|own| own.message == fix.message) {
+                own.edits.extend(fix.edits);
+            }
+        }
+    }
+    let mut diagnostics = Diagnostics::default();
+    diagnostics.extend(merged);
+    diagnostics
+}

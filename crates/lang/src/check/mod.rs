@@ -1,0 +1,318 @@
+//! From the tree to the model: names, units, values, elements.
+//!
+//! Goes on after a mistake wherever it can, so that several mistakes are several messages; what depends on something
+//! broken stays silent. A formula is expanded into the one graph where it stands, the user's functions included, and
+//! each expansion is remembered, so that functions that share sub-formulas cost linear time.
+
+mod alone;
+mod arguments;
+mod bindings;
+mod bound_inputs;
+mod branches;
+mod builtins;
+mod calls;
+mod columns_by;
+mod definitions;
+mod degrees;
+mod dimensions;
+mod elements;
+mod entity;
+mod errors;
+mod features;
+mod forces;
+mod formula;
+mod functions;
+mod imports;
+mod inputs;
+mod instance;
+mod instances;
+mod instead;
+mod joints;
+mod kinds;
+mod known;
+mod lead;
+mod lengths;
+mod library;
+mod meaning;
+mod meant;
+mod mends;
+mod mentions;
+mod mounts;
+mod named_points;
+mod names;
+mod numbers;
+mod params;
+mod parts;
+mod points;
+mod poses;
+mod printed;
+mod profiles;
+mod quantities;
+mod rates;
+mod repetition;
+mod results;
+mod samples;
+mod set_inputs;
+mod sites;
+mod surroundings;
+mod symbols;
+mod table_file;
+mod tables;
+mod told;
+mod variables;
+
+pub use alone::{FormulaOfTime, amount, constant, formula_of_time};
+pub use inputs::Given;
+pub use known::{Amount, Count, Index, Known, Value as KnownValue, known, slopes};
+pub use lead::Lead;
+pub use lengths::usual_unit_of_length;
+pub use library::{KnownFile, KnownMechanism, Library, NotKnown};
+pub use mentions::name_of;
+pub use results::UNTIL;
+pub use samples::{Column, variants};
+pub use set_inputs::SetInputs;
+pub use surroundings::{Setting, Surroundings};
+pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
+pub use tables::TableFiles;
+
+use crate::model::{Declared, EquationId, Frame, JointId, Mechanism};
+use bindings::BoundOutside;
+use branches::Branch;
+use calls::Calls;
+use elements::MeasureState;
+use entity::Entity;
+use functions::Function;
+use imports::Import;
+use inputs::InputState;
+use lengths::Lengths;
+use mechc_syntax::ast::{self, Item, ItemKind};
+use mechc_text::diag::{Diagnostic, Diagnostics};
+use mechc_text::source::Sources;
+use names::Space;
+use params::ParamState;
+use parts::{Address, Common};
+use results::ResultState;
+use rustc_hash::{FxHashMap, FxHashSet};
+use samples::Samples;
+use sites::Scope;
+use std::rc::Rc;
+use tables::TableState;
+use variables::Variables;
+
+/// How many mistakes of one file are worth a suggestion.
+const MOST_SUGGESTIONS: usize = 100;
+
+/// Checks that the mechanisms of a file have different names.
+#[must_use]
+pub fn check_file(file: &ast::File) -> Diagnostics {
+    let mut diagnostics = Diagnostics::default();
+    let mut space: Space<()> = Space::new();
+    let named = file.mechanisms.iter().filter(|mechanism| !mechanism.name.text.is_empty());
+    for mechanism in named {
+        if let Err(first) = space.declare(&mechanism.name, ()) {
+            diagnostics.push(errors::second_mechanism(&mechanism.name, first));
+        }
+    }
+    diagnostics
+}
+
+/// The model of one mechanism, if it is sound, and all that is to be said of it.
+#[must_use]
+pub fn check(
+    tree: &ast::Mechanism,
+    surroundings: &Surroundings,
+    sources: &Sources,
+) -> (Option<Mechanism>, Diagnostics) {
+    let (instance, told) = instances::instance_of(tree, surroundings, sources);
+    let mut checker = Checker::of_instance(&instance, surroundings, sources, "", &[]);
+    checker.bind_numbers(&surroundings.bound);
+    checker.common.variables = Variables::told(&surroundings.by);
+    checker.ask_for_derivatives();
+    checker.run();
+    let Checker { mut diagnostics, mut model, .. } = checker;
+    diagnostics.extend(told);
+    model.slopes = surroundings.slopes.map(|go| {
+        let of_text = |end: usize| model.analysis.map(|analysis| analysis.formulas[end]).filter(|_| go[end]);
+        [of_text(0), of_text(1)]
+    });
+    if instance.is_written_out() {
+        diagnostics.tell_once();
+    }
+    diagnostics.sort_by_place();
+    let diagnostics = meant::told_once(diagnostics);
+    let sound = !diagnostics.has_errors() && !has_broken(instance.tree());
+    (sound.then_some(model), diagnostics)
+}
+
+impl Checker<'_> {
+    /// Whether something of the mechanism, or of its parts, could not be read.
+    fn holds_broken(&self) -> bool {
+        has_broken(self.tree) || self.parts.iter().any(Checker::holds_broken)
+    }
+}
+
+/// Whether a declaration of a mechanism, or of its bodies, does not follow the grammar.
+fn has_broken(tree: &ast::Mechanism) -> bool {
+    tree.items.iter().any(|item| match &item.kind {
+        ItemKind::Broken { .. } => true,
+        ItemKind::Ground { features } | ItemKind::Body { features, .. } => {
+            features.iter().any(|feature| feature.kind == ast::FeatureKind::Broken)
+        }
+        _ => false,
+    })
+}
+
+/// Checks a text: a mechanism, or a part of one.
+struct Checker<'a> {
+    tree: &'a ast::Mechanism,
+    around: &'a Surroundings,
+    sources: &'a Sources,
+    diagnostics: Diagnostics,
+    model: Mechanism,
+    common: Common,
+    space: Space<Entity>,
+    /// How many of each kind of thing have a name.
+    count: names::Count,
+    address: Address,
+    bound: BoundOutside<'a>,
+    /// Its own parts, each with how it is written, and its names that are known here.
+    parts: Vec<Checker<'a>>,
+    bindings: Vec<&'a ast::Part>,
+    imports: Vec<Vec<Import>>,
+    imported: FxHashMap<Entity, (usize, Entity)>,
+    /// Of those the params that are points.
+    point_paths: FxHashSet<String>,
+    /// The params that decide what is repeated.
+    deciding: Rc<FxHashSet<String>>,
+    /// The names of params that are points.
+    point_params: FxHashSet<&'a str>,
+    /// The names of functions and tables that hide a function of the language.
+    hidden: FxHashSet<&'a str>,
+    params: Vec<ParamState<'a>>,
+    functions: Vec<Function<'a>>,
+    tables: Vec<TableState<'a>>,
+    inputs: Vec<InputState<'a>>,
+    measures: Vec<MeasureState<'a>>,
+    results: Vec<ResultState<'a>>,
+    /// The orders in which measures and results need each other.
+    measure_order: Vec<usize>,
+    result_order: Vec<usize>,
+    /// The samples that are given.
+    samples: Option<Rc<Samples>>,
+    /// Of bodies, and of the grounds of parts that are named.
+    bodies: Vec<Frame>,
+    /// The bodies and the ground of this text.
+    frames: Vec<(Frame, &'a [ast::Feature])>,
+    joints: Vec<Option<JointId>>,
+    /// Constraints and drivers; `None` where one is broken.
+    equations: Vec<Option<EquationId>>,
+    /// The constant lengths come upon.
+    lengths: Lengths<'a>,
+    /// Where the formula that is being read stands, what is called in it, and in which branch that is.
+    scope: Scope<'a>,
+    calls: Calls<'a>,
+    branch: Branch,
+}
+
+impl<'a> Checker<'a> {
+    fn new(tree: &'a ast::Mechanism, surroundings: &'a Surroundings, sources: &'a Sources) -> Checker<'a> {
+        Checker {
+            tree,
+            around: surroundings,
+            sources,
+            diagnostics: Diagnostics::default(),
+            model: Mechanism {
+                has_signals: surroundings.has_signals,
+                reactions: surroundings.reactions,
+                pictures_forces: surroundings.pictures_forces,
+                ..Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone())
+            },
+            common: Common::default(),
+            space: Space::new(),
+            count: names::Count::default(),
+            address: Address::default(),
+            bound: BoundOutside::default(),
+            parts: Vec::new(),
+            bindings: Vec::new(),
+            imports: Vec::new(),
+            imported: FxHashMap::default(),
+            point_paths: FxHashSet::default(),
+            deciding: Rc::default(),
+            point_params: kinds::point_params(tree),
+            hidden: kinds::own_functions(tree),
+            params: Vec::new(),
+            functions: Vec::new(),
+            tables: Vec::new(),
+            inputs: Vec::new(),
+            measures: Vec::new(),
+            results: Vec::new(),
+            measure_order: Vec::new(),
+            result_order: Vec::new(),
+            samples: None,
+            bodies: Vec::new(),
+            frames: Vec::new(),
+            joints: Vec::new(),
+            equations: Vec::new(),
+            lengths: Lengths::default(),
+            scope: Scope::default(),
+            calls: Calls::default(),
+            branch: Branch::default(),
+        }
+    }
+
+    fn run(&mut self) {
+        self.look_over_settings();
+        self.look_over_given();
+        self.samples = self.samples_given().map(Rc::new);
+        self.definitions();
+        self.look_over_by();
+        self.features();
+        self.joints();
+        self.bind_inputs();
+        // an effort is that of an equation which is there; else measures come first, as the order of symbols, and with it the bits of
+        // rows, has always been
+        let asks_for_efforts = self.asks_for_efforts();
+        if asks_for_efforts {
+            self.equations();
+        }
+        self.measure_values();
+        self.list_measures();
+        if !asks_for_efforts {
+            self.equations();
+        }
+        self.gravity();
+        self.loads();
+        self.analysis();
+        self.results();
+        self.refuse_derivatives_of_forces();
+        self.leave_what_leads();
+        self.warn_of_plain_lengths();
+        if self.model.bodies.is_empty() && !self.holds_broken() {
+            self.report(errors::empty(&self.tree.name));
+        }
+    }
+
+    /// Says something, with the place of the call through which it came up.
+    fn report(&mut self, diagnostic: Diagnostic) {
+        let diagnostic = match self.calls.caller {
+            // a formula is judged where it is called
+            Some(caller) => diagnostic.raised_by(caller, "brought in here"),
+            None => diagnostic,
+        };
+        let parts = self.address.used_at.iter();
+        self.diagnostics.push(parts.fold(diagnostic, |said, (part, span)| said.in_part(part, *span)));
+    }
+
+    /// Names to look for the nearest one among; none once so much is wrong that the search would take long.
+    fn suggestions(&self, wanted: impl Fn(Entity) -> bool) -> Vec<&str> {
+        self.suggestions_in(&self.space, wanted)
+    }
+
+    fn suggestions_in<'s, T: Copy>(&self, space: &'s Space<T>, wanted: impl Fn(T) -> bool) -> Vec<&'s str> {
+        if self.diagnostics.len() > MOST_SUGGESTIONS { Vec::new() } else { space.names(wanted).collect() }
+    }
+
+    fn items(&self) -> &'a [Item] {
+        &self.tree.items
+    }
+}

@@ -1,0 +1,168 @@
+//! Parts on what carries them: the mount of each one, and where its ground is there.
+
+use super::sites::{Place, Site};
+use super::{Checker, errors};
+use crate::model::{Frame, Placement};
+use mechc_expr::{ExprId, Graph};
+use mechc_syntax::ast::{Expr, ExprKind};
+
+impl Checker<'_> {
+    /// What carries each part, and where, as far as that names no points of bodies: these are not known yet.
+    pub(super) fn mount_parts(&mut self) {
+        for k in 0..self.parts.len() {
+            let written = self.bindings[k];
+            let Some(id) = self.parts[k].address.part else { continue };
+            match written.on.as_ref().map(|on| self.carrier_of(on)) {
+                Some(Some(mount)) => self.model.parts[id.index()].mount = mount,
+                Some(None) => {
+                    self.common.broken_poses.insert(Frame::Part(id));
+                }
+                None => {}
+            }
+        }
+        self.refuse_circles_of_mounts();
+        for k in 0..self.parts.len() {
+            if !self.is_placed_by_features(k) {
+                self.place_part(k);
+            }
+        }
+        self.in_parts(Checker::mount_parts);
+    }
+
+    fn carrier_of(&mut self, on: &Expr) -> Option<Frame> {
+        if let ExprKind::Name(name) = &on.kind {
+            return self.body(name);
+        }
+        self.wrong_kind(on.span, "a body", Self::describe(on));
+        None
+    }
+
+    /// Parts that carry each other, or themselves, stand nowhere.
+    fn refuse_circles_of_mounts(&mut self) {
+        let carriers: Vec<Option<usize>> = (0..self.parts.len())
+            .map(|k| self.bindings[k].on.as_ref().and_then(|_| self.part_holding(self.mount_of(k)?)))
+            .collect();
+        for circle in circles(&carriers) {
+            let parts: Vec<_> = circle
+                .iter()
+                .map(|&k| {
+                    let part = self.bindings[k];
+                    let on = part.on.as_ref().map_or(part.name.span, |on| on.span);
+                    (&part.name, on, matches!(self.mount_of(k), Some(Frame::Part(_))))
+                })
+                .collect();
+            self.report(errors::carries_itself(&parts));
+            for k in circle {
+                let Some(id) = self.parts[k].address.part else { continue };
+                self.model.parts[id.index()].mount = self.address.ground;
+                self.common.broken_poses.insert(Frame::Part(id));
+            }
+        }
+    }
+
+    fn mount_of(&self, part: usize) -> Option<Frame> {
+        Some(self.model[self.parts[part].address.part?].mount)
+    }
+
+    /// The part of this text in which a frame is.
+    pub(super) fn part_holding(&self, frame: Frame) -> Option<usize> {
+        let outwards = std::iter::successors(self.model.part_of(frame), |part| self.model[*part].within);
+        let own = outwards.into_iter().find(|part| self.model[*part].within == self.address.part)?;
+        self.parts.iter().position(|child| child.address.part == Some(own))
+    }
+
+    /// Whether the place of a part is said by points of bodies, which have places of their own.
+    pub(super) fn is_placed_by_features(&self, part: usize) -> bool {
+        let is_feature =
+            |e: &Expr| matches!(&e.kind, ExprKind::Member { owner, .. } if self.point_param(owner).is_none());
+        self.bindings[part].at.iter().flat_map(Expr::parts).any(is_feature)
+    }
+
+    /// Where a part's ground is in the frame that carries it; one that has no place, which has been said, is broken.
+    pub(super) fn place_part(&mut self, part: usize) {
+        let (Some(at), Some(id)) = (&self.bindings[part].at, self.parts[part].address.part) else { return };
+        let site = Site::Mount(self.model[id].mount);
+        match self.at_site(site, None, |checker| checker.pose_of_part(at)) {
+            Some(pose) => self.model.parts[id.index()].pose = pose,
+            None => {
+                self.common.broken_poses.insert(Frame::Part(id));
+            }
+        }
+    }
+
+    fn pose_of_part(&mut self, at: &Expr) -> Option<[ExprId; 3]> {
+        let (place, phi) = self.place_and_angle(at)?;
+        let ([x, y], phi) = (place?, phi?);
+        Some([x, y, phi])
+    }
+
+    // ---- places
+
+    /// Where a point of a frame is drawn, seen from another frame: by the poses as written; nothing where one of them is broken.
+    pub(super) fn drawn_from(&mut self, seer: Frame, frame: Frame, [x, y]: Place) -> Option<Place> {
+        if frame == seer {
+            // to who writes this, what is in a part that is turned over has its y turned over
+            let is_turned_over =
+                self.model.is_mirrored(self.model.part_of(frame)) != self.model.is_mirrored(self.address.part);
+            return Some([x, if is_turned_over { self.model.graph.neg(y) } else { y }]);
+        }
+        let place = self.drawn_place(frame, [x, y])?;
+        if seer == self.address.ground {
+            return Some(place);
+        }
+        if self.is_place_broken(seer) {
+            return None;
+        }
+        let seer = Placement { is_mirrored: false, ..self.drawn_frame(seer) };
+        let graph = &mut self.model.graph;
+        let way = [0, 1].map(|axis| graph.sub(place[axis], seer.at[axis]));
+        Some(seer.seen(graph, way))
+    }
+
+    /// Whether a frame has no place in the drawing, as its own pose, or one of what carries it, is broken.
+    pub(super) fn is_place_broken(&self, frame: Frame) -> bool {
+        let carrier = |frame: &Frame| match *frame {
+            frame if frame == self.address.ground => None,
+            Frame::Ground => None,
+            Frame::Body(body) => self.model[body].part.filter(|part| Some(*part) != self.address.part).map(Frame::Part),
+            Frame::Part(part) => Some(self.model[part].mount),
+        };
+        std::iter::successors(Some(frame), carrier).any(|frame| self.common.broken_poses.contains(&frame))
+    }
+
+    /// Where a frame is drawn in that of this text.
+    pub(super) fn drawn_frame(&mut self, frame: Frame) -> Placement {
+        let mut graph = std::mem::replace(&mut self.model.graph, Graph::new());
+        let placement = self.model.drawn(&mut graph, &mut |_, id| id, self.address.part, frame);
+        self.model.graph = graph;
+        placement
+    }
+
+    /// Whether a frame moves, as this text sees it.
+    pub(super) fn moves(&self, frame: Frame) -> bool {
+        let mut chain = self.model.carrier_chain(frame);
+        chain.find_map(|frame| match frame {
+            _ if frame == self.address.ground => Some(false),
+            Frame::Body(_) => Some(true),
+            Frame::Ground => Some(false),
+            Frame::Part(_) => None,
+        }) == Some(true)
+    }
+}
+
+/// The circles that are found where each thing leads to one other at most.
+fn circles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
+    let mut walks: Vec<Option<usize>> = vec![None; next.len()];
+    let mut found = Vec::new();
+    for start in 0..next.len() {
+        let (mut path, mut at) = (Vec::new(), Some(start));
+        while let Some(k) = at.filter(|&k| walks[k].is_none()) {
+            walks[k] = Some(start);
+            path.push(k);
+            at = next[k];
+        }
+        let first = at.filter(|&k| walks[k] == Some(start)).and_then(|k| path.iter().position(|&other| other == k));
+        found.extend(first.map(|first| path.split_off(first)));
+    }
+    found
+}

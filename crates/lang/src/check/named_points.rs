@@ -1,0 +1,275 @@
+//! Names of points: those of the body around a formula, and those of the mechanism.
+
+use super::entity::Entity;
+use super::features::Feature;
+use super::kinds::{self, Wanted, coordinate};
+use super::names::{Space, Unread};
+use super::sites::{Drawn, Scope, Site};
+use super::{Checker, errors};
+use crate::model::{Frame, PointId};
+use mechc_syntax::ast::{Expr, ExprKind, Name};
+use mechc_text::diag::Diagnostic;
+use mechc_text::source::Span;
+use mechc_text::vocabulary::{Constant, Unit};
+
+/// A name that a point of the body around a formula has.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Own {
+    Point(PointId),
+    /// It is broken, which has been said.
+    Broken,
+}
+
+/// What a name or `body.feature` stands for where a point is wanted.
+pub(super) enum Found {
+    Point(Drawn),
+    /// It is broken, which has been said.
+    Broken,
+    /// No point.
+    Nothing,
+}
+
+impl<'a> Checker<'a> {
+    // ---- where formulas stand
+
+    /// Reads a formula that stands somewhere; one that mixes points of two frames is refused.
+    pub(super) fn at_site<T>(
+        &mut self,
+        site: Site,
+        defined: Option<&'a str>,
+        read: impl FnOnce(&mut Self) -> Option<T>,
+    ) -> Option<T> {
+        self.in_scope(Scope { site, defined, ..Scope::default() }, read)
+    }
+
+    /// The same of the formula of a curve, over its argument.
+    pub(super) fn at_curve<T>(
+        &mut self,
+        frame: Frame,
+        argument: &'a str,
+        read: impl FnOnce(&mut Self) -> Option<T>,
+    ) -> Option<T> {
+        self.in_scope(Scope { site: Site::Inside(frame), argument: Some(argument), ..Scope::default() }, read)
+    }
+
+    fn in_scope<T>(&mut self, scope: Scope<'a>, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+        let site = scope.site;
+        let outer = std::mem::replace(&mut self.scope, scope);
+        let value = read(self);
+        let Scope { own, of_mechanism, .. } = std::mem::replace(&mut self.scope, outer);
+        match (site, own, of_mechanism) {
+            (Site::Inside(frame), Some(own), Some(other)) if self.is_placed(frame) => {
+                let body = self.frame_name(frame).to_owned();
+                self.report(errors::two_frames(&body, own, other));
+                None
+            }
+            _ => value,
+        }
+    }
+
+    fn is_placed(&self, frame: Frame) -> bool {
+        match frame {
+            Frame::Ground | Frame::Part(_) => false,
+            Frame::Body(body) => self.model[body].pose_span.is_some(),
+        }
+    }
+
+    /// Whether a name of the mechanism is a number in every formula.
+    pub(super) fn is_number_name(&self, name: &Name) -> bool {
+        let declared = self.space.get(&name.text);
+        match declared {
+            Some(Entity::Param(_)) => !self.is_point_name(&name.text),
+            Some(_) => false,
+            None => Constant::named(&name.text).is_some() || Unit::named(&name.text).is_some(),
+        }
+    }
+
+    /// The point of the body around a formula that a name stands for.
+    pub(super) fn own_point(&self, name: &Name, wanted: Wanted) -> Option<Own> {
+        let Site::Inside(frame) = self.scope.site else { return None };
+        if self.scope.defined == Some(name.text.as_str())
+            || wanted == Wanted::Number
+            || wanted == Wanted::Either && (self.scope.argument == Some(&name.text) || self.is_number_name(name))
+        {
+            return None;
+        }
+        match self.common.features.get(&frame)?.get(&name.text)? {
+            Feature::Point(Some(point)) => Some(Own::Point(point)),
+            Feature::Point(None) | Feature::Broken => Some(Own::Broken),
+            _ => None,
+        }
+    }
+
+    /// The param that is a point and has a name.
+    pub(super) fn point_param(&self, name: &Name) -> Option<usize> {
+        match self.entity(name) {
+            Some(Entity::Param(k)) if self.is_point_name(&name.text) => Some(k),
+            _ => None,
+        }
+    }
+
+    /// Whether a formula is a point, as far as its form and its names tell.
+    pub(super) fn is_point(&self, e: &Expr) -> bool {
+        kinds::is_point(
+            e,
+            |name| self.hidden.contains(name),
+            |e| match &e.kind {
+                ExprKind::Name(name) => {
+                    self.own_point(name, Wanted::Either).is_some() || self.point_param(name).is_some()
+                }
+                ExprKind::Member { owner, feature } => self.is_drawn_feature(owner, feature),
+                _ => false,
+            },
+        )
+    }
+
+    /// Whether `owner.feature` is a point of a body, and not a coordinate.
+    fn is_drawn_feature(&self, owner: &Name, feature: &Name) -> bool {
+        if self.own_point(owner, Wanted::Point).is_some() {
+            return false;
+        }
+        let frame = match self.entity(owner) {
+            _ if owner.text == "ground" => self.address.ground,
+            Some(Entity::Body(k)) => match self.bodies.get(k) {
+                Some(&frame) => frame,
+                None => return false,
+            },
+            _ => return false,
+        };
+        let found = self.common.features.get(&frame).and_then(|space| space.get(&feature.text));
+        matches!(found, Some(Feature::Point(_)))
+    }
+
+    /// Takes in that the formula at hand names a point of its body.
+    pub(super) fn scope_takes_own(&mut self, name: &Name) {
+        if self.own_point(name, Wanted::Point).is_some() {
+            self.scope.own.get_or_insert(name.span);
+        }
+    }
+
+    /// `point A` alone.
+    pub(super) fn point_of_the_mechanism(&mut self, name: &Name) -> Option<Drawn> {
+        match self.found(name, Wanted::Point) {
+            Found::Point(drawn) => Some(drawn),
+            Found::Broken => None,
+            Found::Nothing => {
+                self.no_point_to_take(name);
+                None
+            }
+        }
+    }
+
+    // ---- dimensions
+
+    /// What the name of a point says of the dimension of a formula.
+    pub(super) fn is_dimensional_point(&self, name: &Name, wanted: Wanted) -> bool {
+        match self.own_point(name, wanted) {
+            Some(Own::Point(point)) => self.common.dimensional_points.contains(&point),
+            Some(Own::Broken) => false,
+            None => self.point_param(name).and_then(|k| self.params[k].drawn).is_some_and(|drawn| drawn.dimensional),
+        }
+    }
+
+    /// What a name stands for where a point is wanted.
+    pub(super) fn found(&mut self, name: &Name, wanted: Wanted) -> Found {
+        if let Some(point) = self.own_point(name, wanted) {
+            self.scope.own.get_or_insert(name.span);
+            return match point {
+                Own::Broken => Found::Broken,
+                Own::Point(point) => {
+                    let (at, dimensional) = (self.model[point].at, self.common.dimensional_points.contains(&point));
+                    Found::Point(Drawn { at, dimensional })
+                }
+            };
+        }
+        match self.point_param(name) {
+            Some(k) => {
+                self.scope.of_mechanism.get_or_insert(name.span);
+                self.params[k].drawn.map_or(Found::Broken, Found::Point)
+            }
+            None => Found::Nothing,
+        }
+    }
+
+    /// What a name that is no point stands for in the mechanism; of what is broken, that has been said.
+    fn other_than_a_point(&self, name: &Name) -> Result<Option<Entity>, Unread> {
+        match self.resolve(name)? {
+            Some(Entity::Param(k)) if self.params[k].value.is_none() => Err(Unread),
+            known => Ok(known),
+        }
+    }
+
+    /// Those among which the nearest name is looked for.
+    fn known_point_params(&self) -> Vec<&str> {
+        let mut known = self.suggestions(|entity| matches!(entity, Entity::Param(_)));
+        known.retain(|name| self.is_point_name(name));
+        known
+    }
+
+    /// Says that the mechanism has no point for `point A` alone.
+    fn no_point_to_take(&mut self, name: &Name) {
+        let Ok(entity) = self.other_than_a_point(name) else { return };
+        let known = self.known_point_params();
+        let diagnostic = errors::no_point_to_take(name, entity.map(Entity::noun), &known);
+        self.report(diagnostic);
+    }
+
+    /// Says that a name in a formula of points is none.
+    pub(super) fn no_point_named(&mut self, name: &Name) {
+        let Ok(entity) = self.other_than_a_point(name) else { return };
+        let own = match self.scope.site {
+            Site::Inside(frame) => self.common.features.get(&frame),
+            _ => None,
+        };
+        if own.is_some_and(Space::is_incomplete) {
+            return;
+        }
+        let feature = own.and_then(|space| space.get(&name.text)).filter(|_| self.scope.defined != Some(&name.text));
+        let found = match (feature, entity) {
+            (Some(feature), _) => Some(feature.noun()),
+            (None, Some(Entity::Param(_))) => Some("a number"),
+            (None, Some(entity)) => Some(entity.noun()),
+            (None, None) if self.is_number_name(name) => Some("a number"),
+            (None, None) => None,
+        };
+        let Some(found) = found else {
+            let is_other = |known: &&str| self.scope.defined != Some(*known);
+            let mut known = own.map_or_else(Vec::new, |space| {
+                self.suggestions_in(space, |feature| matches!(feature, Feature::Point(_)))
+            });
+            known.retain(is_other);
+            known.extend(self.known_point_params());
+            let diagnostic = errors::unknown_point(name, &known);
+            self.report(diagnostic);
+            return;
+        };
+        let diagnostic = errors::wrong_kind(name.span, "a point", found);
+        self.report(match entity {
+            Some(Entity::Body(_)) if feature.is_none() && self.scope.site.takes_drawn_points() => {
+                diagnostic.help(format!("name one of its points: `{}.…`", name.text))
+            }
+            Some(Entity::Param(_)) => {
+                diagnostic.help(format!("a point is written `(x, y)`: `({}, 0)`, say", name.text))
+            }
+            _ => diagnostic,
+        });
+    }
+
+    pub(super) fn is_named_point(&self, name: &Name) -> bool {
+        self.own_point(name, Wanted::Point).is_some() || self.point_param(name).is_some()
+    }
+
+    pub(super) fn is_body(&self, name: &Name) -> bool {
+        name.text == "ground" || matches!(self.entity(name), Some(Entity::Body(_)))
+    }
+
+    /// What is said of `owner.feature` where a point of the drawing is wanted.
+    pub(super) fn no_place(&self, span: Span, owner: &Name, feature: &Name) -> Diagnostic {
+        match coordinate(feature) {
+            Some(_) if self.is_named_point(owner) => errors::coordinate_as_point(span, owner),
+            None if self.is_named_point(owner) => errors::no_coordinate(owner, feature),
+            _ if self.is_body(owner) => errors::moving_point(span, &owner.text, &feature.text),
+            _ => errors::wrong_kind(span, "a point", &self.describe_member(owner, feature)),
+        }
+    }
+}

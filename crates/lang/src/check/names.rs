@@ -1,0 +1,300 @@
+//! The names of a mechanism: who is declared, what is taken, and which definitions go in a circle.
+
+use super::entity::Entity;
+use super::mentions::{uses_in, uses_of_argument};
+use super::{Checker, MOST_SUGGESTIONS, errors};
+use mechc_syntax::ast::{Expr, ExprKind, FeatureKind, ItemKind, Mechanism, Name};
+use mechc_text::source::Span;
+use mechc_text::vocabulary::{Dimension, KindOfName, Unit, another_name, gives_way, is_called, is_taken};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// How many things of each kind have a name.
+#[derive(Clone, Copy, Default, Debug)]
+pub(super) struct Count {
+    pub params: usize,
+    pub functions: usize,
+    pub tables: usize,
+    pub inputs: usize,
+    pub bodies: usize,
+    pub joints: usize,
+    pub equations: usize,
+    pub measures: usize,
+    pub results: usize,
+    pub parts: usize,
+}
+
+/// The name may be that of a declaration that cannot be read, which has been said.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unread;
+
+/// One space of names.
+#[derive(Clone, Debug)]
+pub(super) struct Space<T> {
+    entries: FxHashMap<String, (T, Span)>,
+    order: Vec<String>,
+    /// Whether something is declared in it whose name cannot be told.
+    is_incomplete: bool,
+}
+
+/// Definitions by their positions.
+pub(super) struct Ordered {
+    /// Each after those that it uses.
+    pub order: Vec<usize>,
+    /// Those that use themselves, by way of others too.
+    pub on_circles: Vec<usize>,
+}
+
+impl<T: Copy> Space<T> {
+    pub fn new() -> Space<T> {
+        Space { entries: FxHashMap::default(), order: Vec::new(), is_incomplete: false }
+    }
+
+    /// Declares a name, or gives the place where it already is.
+    pub fn declare(&mut self, name: &Name, entity: T) -> Result<(), Span> {
+        if let Some(&(_, first)) = self.entries.get(&name.text) {
+            return Err(first);
+        }
+        self.entries.insert(name.text.clone(), (entity, name.span));
+        self.order.push(name.text.clone());
+        Ok(())
+    }
+
+    /// Takes in that something is declared whose name cannot be told.
+    pub fn declare_nameless(&mut self) {
+        self.is_incomplete = true;
+    }
+
+    /// Whether a name that is not declared may be the one that cannot be told.
+    pub fn is_incomplete(&self) -> bool {
+        self.is_incomplete
+    }
+
+    /// Gives a declared name another meaning.
+    pub fn replace(&mut self, name: &str, entity: T) {
+        if let Some(entry) = self.entries.get_mut(name) {
+            entry.0 = entity;
+        }
+    }
+
+    /// What a name stands for, if it is declared.
+    pub fn get(&self, name: &str) -> Option<T> {
+        self.entries.get(name).map(|&(entity, _)| entity)
+    }
+
+    pub fn span(&self, name: &str) -> Option<Span> {
+        self.entries.get(name).map(|&(_, span)| span)
+    }
+
+    /// Names of the entities that `wanted` accepts, in order of declaration.
+    pub fn names(&self, wanted: impl Fn(T) -> bool) -> impl Iterator<Item = &str> {
+        self.order.iter().filter(move |name| self.get(name).is_some_and(&wanted)).map(String::as_str)
+    }
+}
+
+impl Checker<'_> {
+    /// Fills the mechanism's space; a name that is taken twice keeps its first meaning.
+    pub(super) fn collect(&mut self, mechanism: &Mechanism) {
+        let mut count = Count::default();
+        let next = |count: &mut usize| {
+            *count += 1;
+            *count - 1
+        };
+        for item in &mechanism.items {
+            let (name, entity) = match &item.kind {
+                ItemKind::Param { name, .. } => (name, Entity::Param(next(&mut count.params))),
+                ItemKind::Function { name, .. } => (name, Entity::Function(next(&mut count.functions))),
+                ItemKind::Table { name, .. } => (name, Entity::Table(next(&mut count.tables))),
+                ItemKind::Input { name, .. } => (name, Entity::Input(next(&mut count.inputs))),
+                ItemKind::Body { name, .. } => (name, Entity::Body(next(&mut count.bodies))),
+                ItemKind::Joint { name, .. } => (name, Entity::Joint(next(&mut count.joints))),
+                ItemKind::Equation { name, .. } => (name, Entity::Equation(next(&mut count.equations))),
+                ItemKind::Load { name, .. } => (name, Entity::Load),
+                ItemKind::Measure { name, .. } => (name, Entity::Measure(next(&mut count.measures))),
+                ItemKind::Trace { name, .. } => (name, Entity::Trace),
+                ItemKind::Part(part) => (&part.name, Entity::Part(next(&mut count.parts))),
+                ItemKind::Result { name, .. } => (name, Entity::Result(next(&mut count.results))),
+                ItemKind::Broken { names, .. } => {
+                    self.collect_broken(names);
+                    continue;
+                }
+                ItemKind::Ground { .. } | ItemKind::Gravity { .. } | ItemKind::Analysis { .. } => continue,
+            };
+            let callable = matches!(entity, Entity::Function(_) | Entity::Table(_));
+            let is_reserved = is_taken(&name.text) || callable && is_called(&name.text) && !gives_way(&name.text);
+            if is_reserved {
+                let uses = uses_in(mechanism, name, callable);
+                let kind = match &item.kind {
+                    ItemKind::Param { value, .. } => KindOfName::of_value(value.parts().find_map(dimension_written)),
+                    _ => entity.kind_of_name(),
+                };
+                self.report_reserved(name, kind, &uses);
+            }
+            // declared all the same, so that its uses are not reported too
+            if let Err(first) = self.space.declare(name, entity)
+                && !is_reserved
+            {
+                self.report(errors::declared_twice(name, first));
+            }
+        }
+        self.count = count;
+        for item in &mechanism.items {
+            match &item.kind {
+                ItemKind::Function { argument, value, .. } => self.argument_name(argument, value),
+                ItemKind::Ground { features } | ItemKind::Body { features, .. } => {
+                    for feature in features {
+                        if let FeatureKind::Curve { argument, at, .. } = &feature.kind {
+                            self.argument_name(argument, at);
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+        self.only_once(mechanism);
+    }
+
+    /// Says that a name is one of the language's, and which one would be free.
+    fn report_reserved(&mut self, name: &Name, kind: KindOfName, uses: &[Span]) {
+        let is_worth_it = self.diagnostics.len() <= MOST_SUGGESTIONS;
+        let words = is_worth_it.then(|| words_of(self.sources.text(self.tree.span)));
+        let instead = words.and_then(|words| another_name(&name.text, kind, |name| !words.contains(name)));
+        self.report(errors::reserved(name, instead, uses));
+    }
+
+    /// Whether a name that the language has taken is declared all the same, which has been said: it may mean either.
+    pub(super) fn is_declared_though_taken(&self, name: &Name) -> bool {
+        let is_callable = |entity| matches!(entity, Entity::Function(_) | Entity::Table(_));
+        let is_function = is_called(&name.text) && !gives_way(&name.text);
+        self.space.get(&name.text).is_some_and(|entity| is_taken(&name.text) || is_function && is_callable(entity))
+    }
+
+    /// Whether a call of a name is one of the language's own functions or quantities.
+    pub(super) fn is_of_language(&self, name: &str) -> bool {
+        is_called(name) && !self.hidden.contains(name)
+    }
+
+    /// What cannot be read has its names all the same, so that nobody asks where they are.
+    fn collect_broken(&mut self, names: &[Name]) {
+        if names.is_empty() {
+            self.space.declare_nameless();
+        }
+        for name in names {
+            // a name that is taken twice keeps its first meaning
+            let _ = self.space.declare(name, Entity::Broken);
+        }
+    }
+
+    /// What a name of the mechanism's space stands for; `None` where nothing of that name is declared.
+    ///
+    /// Every name of a formula or reference that is told of goes through here.
+    pub(super) fn resolve(&self, name: &Name) -> Result<Option<Entity>, Unread> {
+        match self.space.get(&name.text) {
+            Some(Entity::Broken) => Err(Unread),
+            None if self.space.is_incomplete() => Err(Unread),
+            known => Ok(known),
+        }
+    }
+
+    /// As [`Checker::resolve`], where nothing is said of a name that is not declared.
+    pub(super) fn entity(&self, name: &Name) -> Option<Entity> {
+        self.resolve(name).ok().flatten()
+    }
+
+    /// The argument of a function or curve may not be a name of the mechanism's space.
+    fn argument_name(&mut self, argument: &Name, formula: &Expr) {
+        let uses = || uses_of_argument(argument, formula);
+        if is_taken(&argument.text) {
+            self.report_reserved(argument, KindOfName::Argument, &uses());
+        } else if let Some(declared) = self.space.span(&argument.text) {
+            let is_free = |name: &&str| !is_taken(name) && self.space.get(name).is_none();
+            let free = ["u", "v", "w", "x", "y", "z"].into_iter().find(is_free);
+            self.report(errors::hidden_name(argument, declared, free, &uses()));
+        }
+    }
+
+    fn only_once(&mut self, mechanism: &Mechanism) {
+        let (mut ground, mut gravity, mut analysis) = (None, None, None);
+        for item in &mechanism.items {
+            let (first, word) = match item.kind {
+                ItemKind::Ground { .. } => (&mut ground, "ground"),
+                ItemKind::Gravity { .. } => (&mut gravity, "gravity"),
+                ItemKind::Analysis { .. } => (&mut analysis, "analysis"),
+                _ => continue,
+            };
+            match *first {
+                None => *first = Some(item.span),
+                Some(span) => self.report(errors::second(word, item.span, span)),
+            }
+        }
+    }
+
+    /// The definitions in an order in which each comes after those it uses; those on a circle are reported.
+    ///
+    /// `uses` lists, for each definition, the positions of those it needs with the place where it names them.
+    pub(super) fn ordered(&mut self, definitions: &[(&Name, Vec<(usize, Span)>)]) -> Ordered {
+        #[derive(Clone, Copy, PartialEq)]
+        enum Mark {
+            New,
+            Open,
+            Done,
+            Broken,
+        }
+        let mut marks = vec![Mark::New; definitions.len()];
+        let mut order = Vec::new();
+        for start in 0..definitions.len() {
+            if marks[start] != Mark::New {
+                continue;
+            }
+            // a stack of its own: a chain of definitions may be long
+            let mut path = vec![(start, 0)];
+            marks[start] = Mark::Open;
+            while let Some((at, next)) = path.last_mut() {
+                let at = *at;
+                let Some(&(used, _)) = definitions[at].1.get(*next) else {
+                    if marks[at] == Mark::Open {
+                        marks[at] = Mark::Done;
+                        order.push(at);
+                    }
+                    path.pop();
+                    continue;
+                };
+                *next += 1;
+                match marks[used] {
+                    Mark::New => {
+                        marks[used] = Mark::Open;
+                        path.push((used, 0));
+                    }
+                    Mark::Open => {
+                        let from = path.iter().position(|&(k, _)| k == used).unwrap_or(0);
+                        let mut circle: Vec<usize> = path[from..].iter().map(|&(k, _)| k).collect();
+                        // told from the definition that comes first in the text
+                        let first = (0..circle.len()).min_by_key(|&k| definitions[circle[k]].0.span).unwrap_or(0);
+                        circle.rotate_left(first);
+                        let names: Vec<&Name> = circle.iter().map(|&k| definitions[k].0).collect();
+                        self.report(errors::circle(&names));
+                        for k in circle {
+                            marks[k] = Mark::Broken;
+                        }
+                    }
+                    Mark::Done | Mark::Broken => {}
+                }
+            }
+        }
+        let on_circles = (0..definitions.len()).filter(|&k| marks[k] == Mark::Broken).collect();
+        Ordered { order, on_circles }
+    }
+}
+
+/// Every word of a text.
+fn words_of(text: &str) -> FxHashSet<&str> {
+    text.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect()
+}
+/// The dimension of a number with its unit.
+fn dimension_written(e: &Expr) -> Option<Dimension> {
+    match &e.kind {
+        ExprKind::Literal { unit: Some((unit, power)), .. } => {
+            Unit::named(&unit.text).map(|unit| unit.dimension.to_the(f64::from(*power)))
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,387 @@
+//! Formulas of points: sums, multiples, `polar` and `mid`; and the numbers that two points give.
+//!
+//! A point is two lengths. Inside a body its own points come before those of the mechanism, and behind `at` points of other bodies may
+//! stand, which are taken where those are drawn.
+
+use super::formula::{Context, Dim, Value};
+use super::kinds::{Wanted, coordinate};
+use super::named_points::Found;
+use super::sites::{Drawn, Place, Site};
+use super::{Checker, errors, mends};
+use crate::model::{DecidedBy, Dimension, Frame};
+use mechc_expr::{Binary, Comparison, ExprId, Graph, Node, Unary};
+use mechc_syntax::ast::{Expr, ExprKind, Factor, Name, Sign, Window};
+use mechc_text::source::Span;
+use mechc_text::vocabulary::{Function, Keyword};
+use rustc_hash::FxHashSet;
+
+/// What is asked for a coordinate is no point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NoPoint;
+
+/// A factor, or a product up to some factor.
+enum Scaled {
+    Number(Value),
+    /// With the dimension of the numbers beside it.
+    Point(Place, Dim),
+}
+
+impl Checker<'_> {
+    /// A point's formula, judged on its own.
+    pub(super) fn point_formula(&mut self, e: &Expr, context: &Context<'_>) -> Option<Drawn> {
+        let argument = context.argument.map(|(name, _)| name);
+        let dimensional = context.judged || self.holds_dimension(argument, e, Wanted::Point);
+        self.calls.visited = 0;
+        let at = self.point_at(e, &Context { judged: dimensional, ..*context })?;
+        Some(Drawn { at, dimensional })
+    }
+
+    /// A formula of points in the graph; `None` if it is broken, which has then been said.
+    fn point_at(&mut self, e: &Expr, context: &Context<'_>) -> Option<Place> {
+        self.level(context, |checker| checker.point_here(e, context))
+    }
+
+    fn point_here(&mut self, e: &Expr, context: &Context<'_>) -> Option<Place> {
+        self.count_part(e.span)?;
+        match &e.kind {
+            ExprKind::Paren(inner) => self.point_at(inner, context),
+            ExprKind::Tuple(parts) => self.literal_point(e, parts, context),
+            ExprKind::Name(name) => self.named_point(name, context),
+            ExprKind::Member { owner, feature } => self.feature_point(e, owner, feature),
+            ExprKind::Negate(inner) => {
+                let at = self.point_at(inner, context)?;
+                Some(at.map(|id| self.model.graph.neg(id)))
+            }
+            ExprKind::Sum(first, rest) => self.sum_of_points(first, rest, context),
+            ExprKind::Product(first, rest) => self.multiple(e, first, rest, context),
+            ExprKind::Call { name, arguments, window } => {
+                self.called_point(e, (name, window.as_deref()), arguments, context)
+            }
+            _ => {
+                self.no_point(e);
+                None
+            }
+        }
+    }
+
+    /// Says that a formula is no point.
+    fn no_point(&mut self, e: &Expr) {
+        let found = match &e.kind {
+            ExprKind::If { .. } => "an `if`",
+            ExprKind::Call { .. } => "a number",
+            _ => Self::describe(e),
+        };
+        let diagnostic = errors::wrong_kind(e.span, "a point", found);
+        self.report(match &e.kind {
+            ExprKind::If { .. } => diagnostic.help("choose the coordinates: `(if … then … else …, …)`"),
+            ExprKind::Literal { .. } | ExprKind::Call { .. } => diagnostic.help("a point is written `(x, y)`"),
+            _ => diagnostic,
+        });
+    }
+
+    fn literal_point(&mut self, e: &Expr, parts: &[Expr], context: &Context<'_>) -> Option<Place> {
+        let [x, y] = parts else {
+            let word = Keyword::named("point").map(|keyword| &keyword.word);
+            let diagnostic = errors::argument_count("point", word, e.span, "two lengths", parts.len());
+            self.report(mends::fixed_first(diagnostic, self.decimal_comma(parts, 2)));
+            return None;
+        };
+        let values = [x, y].map(|part| self.number(part, context));
+        self.two_lengths([x, y], values, context)
+    }
+
+    fn named_point(&mut self, name: &Name, context: &Context<'_>) -> Option<Place> {
+        if !context.names {
+            self.report(errors::names_in_option(name));
+            return None;
+        }
+        match self.found(name, Wanted::Point) {
+            Found::Point(drawn) => Some(drawn.at),
+            Found::Broken => None,
+            Found::Nothing => {
+                self.no_point_named(name);
+                None
+            }
+        }
+    }
+
+    /// `crank.pin`: where it is drawn.
+    fn feature_point(&mut self, e: &Expr, owner: &Name, feature: &Name) -> Option<Place> {
+        if self.is_named_point(owner) || self.is_body(owner) && !self.scope.site.takes_drawn_points() {
+            let diagnostic = self.no_place(e.span, owner, feature);
+            self.report(diagnostic);
+            return None;
+        }
+        let frame = self.body(owner)?;
+        let point = self.point_named(frame, feature)?;
+        let at = self.model[point].at;
+        match self.scope.site {
+            Site::Mount(mount) => self.drawn_from(mount, frame, at),
+            _ => self.drawn_place(frame, at),
+        }
+    }
+
+    /// Where a point of a frame is drawn, in the frame of this text; nothing where that is broken.
+    pub(super) fn drawn_place(&mut self, frame: Frame, [x, y]: Place) -> Option<Place> {
+        if frame == self.address.ground {
+            return Some([x, y]);
+        }
+        if self.is_place_broken(frame) {
+            return None;
+        }
+        let Some(body) = self.own_body(frame) else {
+            let placement = self.drawn_frame(frame);
+            return Some(placement.placed(&mut self.model.graph, [x, y]));
+        };
+        let [origin_x, origin_y, phi] = self.model[body].pose;
+        let graph = &mut self.model.graph;
+        let (sin, cos) = (graph.unary(Unary::Sin, phi), graph.unary(Unary::Cos, phi));
+        let (x_cos, y_sin) = (graph.mul(x, cos), graph.mul(y, sin));
+        let (x_sin, y_cos) = (graph.mul(x, sin), graph.mul(y, cos));
+        let (dx, dy) = (graph.sub(x_cos, y_sin), graph.add(x_sin, y_cos));
+        Some([graph.add(origin_x, dx), graph.add(origin_y, dy)])
+    }
+
+    fn sum_of_points(&mut self, first: &Expr, rest: &[(Sign, Expr)], context: &Context<'_>) -> Option<Place> {
+        let mut sum = self.point_at(first, context);
+        for (sign, term) in rest {
+            let (Some(left), Some(right)) = (sum, self.point_at(term, context)) else {
+                sum = None;
+                continue;
+            };
+            let graph = &mut self.model.graph;
+            sum = Some([0, 1].map(|k| match sign {
+                Sign::Plus => graph.add(left[k], right[k]),
+                Sign::Minus => graph.sub(left[k], right[k]),
+            }));
+        }
+        sum
+    }
+
+    /// A point times and divided by numbers.
+    fn multiple(&mut self, e: &Expr, first: &Expr, rest: &[(Factor, Expr)], context: &Context<'_>) -> Option<Place> {
+        let mut product = self.factor(first, context);
+        for (factor, term) in rest {
+            let (Some(left), Some(right)) = (product, self.factor(term, context)) else {
+                product = None;
+                continue;
+            };
+            product = self.scaled(left, *factor, right, term.span);
+        }
+        match product? {
+            Scaled::Point(at, dim) => {
+                self.demand("what a point is multiplied by", Dimension::PURE, e.span, dim, context)?;
+                self.finite_point(e.span, at)
+            }
+            Scaled::Number(_) => {
+                self.report(errors::wrong_kind(e.span, "a point", "a number").help("a point is written `(x, y)`"));
+                None
+            }
+        }
+    }
+
+    fn factor(&mut self, e: &Expr, context: &Context<'_>) -> Option<Scaled> {
+        if self.is_point(e) {
+            self.point_at(e, context).map(|at| Scaled::Point(at, Dim::PURE))
+        } else {
+            self.number(e, context).map(Scaled::Number)
+        }
+    }
+
+    fn scaled(&mut self, left: Scaled, factor: Factor, right: Scaled, span: Span) -> Option<Scaled> {
+        let graph = &mut self.model.graph;
+        let of = |dimension: fn(Dimension, Dimension) -> Dimension, a: Dim, b: Dim| a.with(b, dimension);
+        Some(match (left, factor, right) {
+            (Scaled::Number(a), Factor::Times, Scaled::Number(b)) => {
+                Scaled::Number(Value { id: graph.mul(a.id, b.id), dim: of(Dimension::times, a.dim, b.dim) })
+            }
+            (Scaled::Number(a), Factor::Over, Scaled::Number(b)) => {
+                Scaled::Number(Value { id: graph.div(a.id, b.id), dim: of(Dimension::over, a.dim, b.dim) })
+            }
+            (Scaled::Number(a), Factor::Times, Scaled::Point(at, dim)) => {
+                Scaled::Point(at.map(|id| graph.mul(a.id, id)), of(Dimension::times, a.dim, dim))
+            }
+            (Scaled::Point(at, dim), Factor::Times, Scaled::Number(b)) => {
+                Scaled::Point(at.map(|id| graph.mul(id, b.id)), of(Dimension::times, dim, b.dim))
+            }
+            (Scaled::Point(at, dim), Factor::Over, Scaled::Number(b)) => {
+                Scaled::Point(at.map(|id| graph.div(id, b.id)), of(Dimension::over, dim, b.dim))
+            }
+            (Scaled::Point(..), Factor::Times, Scaled::Point(..)) | (_, Factor::Over, Scaled::Point(..)) => {
+                self.report(errors::product_of_points(span, factor == Factor::Over));
+                return None;
+            }
+        })
+    }
+
+    fn finite_point(&mut self, span: Span, at: Place) -> Option<Place> {
+        for id in at {
+            self.finite(span, Value { id, dim: Dim::LENGTH })?;
+        }
+        Some(at)
+    }
+
+    /// `polar(r, angle)`, `mid(P, Q)`
+    fn called_point(
+        &mut self,
+        e: &Expr,
+        (name, window): (&Name, Option<&Window>),
+        arguments: &[Expr],
+        context: &Context<'_>,
+    ) -> Option<Place> {
+        if self.hidden.contains(name.text.as_str()) || !matches!(name.text.as_str(), "polar" | "mid") {
+            // what is wrong with the call itself explains more
+            self.number(e, context)?;
+            self.no_point(e);
+            return None;
+        }
+        self.refuse_window(name, window)?;
+        let [first, second] = self.two_arguments(e, name, arguments)?;
+        if name.text == "polar" {
+            return self.polar(first, second, context);
+        }
+        let (p, q) = (self.point_at(first, context), self.point_at(second, context));
+        let (p, q) = (p?, q?);
+        let graph = &mut self.model.graph;
+        let half = graph.constant(0.5);
+        Some([0, 1].map(|k| {
+            let sum = graph.add(p[k], q[k]);
+            graph.mul(half, sum)
+        }))
+    }
+
+    fn polar(&mut self, radius: &Expr, angle: &Expr, context: &Context<'_>) -> Option<Place> {
+        self.warn_of_degrees_in(angle);
+        let (r, a) = (self.number(radius, context), self.number(angle, context));
+        let (r, a) = (r?, a?);
+        if !context.judged && self.refuses_angle("the first argument of `polar`", radius) {
+            return None;
+        }
+        self.demand("the first argument of `polar`", Dimension::LENGTH, radius.span, r.dim, context)?;
+        self.demand("the angle of `polar`", Dimension::PURE, angle.span, a.dim, context)?;
+        self.remember_any_length(radius, r.id, context.judged);
+        let graph = &mut self.model.graph;
+        let (sin, cos) = (graph.unary(Unary::Sin, a.id), graph.unary(Unary::Cos, a.id));
+        Some([graph.mul(r.id, cos), graph.mul(r.id, sin)])
+    }
+
+    // ---- numbers of points
+
+    /// `length(P, Q)`, `direction(P, Q)`
+    pub(super) fn number_of_points(
+        &mut self,
+        e: &Expr,
+        name: &Name,
+        arguments: &[Expr],
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        if matches!(name.text.as_str(), "polar" | "mid") {
+            self.report(errors::wrong_kind(e.span, "a number", "a point"));
+            return None;
+        }
+        let [first, second] = self.two_arguments(e, name, arguments)?;
+        if let Some(member) = self.moving_among([first, second]).filter(|_| name.text == "length") {
+            let texts = [first, second].map(|e| self.sources.text(e.span));
+            self.report(errors::length_of_moving(name, member, texts));
+            return None;
+        }
+        let argument = context.argument.map(|(name, _)| name);
+        let judged = [first, second].into_iter().any(|e| self.holds_dimension(argument, e, Wanted::Point));
+        let inner = Context {
+            judged,
+            time: false,
+            quantities: false,
+            rates: false,
+            measures: false,
+            ..context.at("a point", context.argument)
+        };
+        let (p, q) = (self.point_at(first, &inner), self.point_at(second, &inner));
+        let (p, q) = (p?, q?);
+        let way = [0, 1].map(|k| self.model.graph.sub(q[k], p[k]));
+        if name.text == "length" {
+            let id = self.model.graph.binary(Binary::Hypot, way[0], way[1]);
+            return Some(Value { id, dim: Dim::LENGTH });
+        }
+        let id = self.direction_of_way(way, "`direction`", e.span)?;
+        Some(Value { id, dim: Dim::PURE })
+    }
+
+    /// The place of a point of a body, if one of two points is that and has no place in a drawing.
+    fn moving_among(&self, points: [&Expr; 2]) -> Option<Span> {
+        let is_moving = |e: &&Expr| match &e.bare().kind {
+            ExprKind::Member { owner, .. } => self.is_body(owner) && !self.is_named_point(owner),
+            _ => false,
+        };
+        points.into_iter().find(is_moving).map(|e| e.span).filter(|_| !self.scope.site.takes_drawn_points())
+    }
+
+    /// The angle of the way between two points, in (−π, π].
+    pub(super) fn direction_of_way(&mut self, way: Place, what: &str, span: Span) -> Option<ExprId> {
+        let [dx, dy] = way.map(|id| self.decided(id, DecidedBy::Sign));
+        if dx == Some(0.0) && dy == Some(0.0) && !self.branch.is_untaken {
+            self.report(errors::points_coincide(what, span));
+            return None;
+        }
+        let graph = &mut self.model.graph;
+        let angle = graph.binary(Binary::Atan2, way[1], way[0]);
+        // the arc tangent of a negative zero is -π
+        if !may_be_negative_zero(graph, way[1]) {
+            return Some(angle);
+        }
+        let [lowest, turn] = [-std::f64::consts::PI, std::f64::consts::TAU].map(|value| graph.constant(value));
+        let is_lowest = graph.compare(Comparison::LessEqual, angle, lowest);
+        let other = graph.add(angle, turn);
+        Some(graph.select(is_lowest, other, angle))
+    }
+
+    fn two_arguments<'e>(&mut self, e: &Expr, name: &Name, arguments: &'e [Expr]) -> Option<[&'e Expr; 2]> {
+        if let [first, second] = arguments {
+            return Some([first, second]);
+        }
+        let function = Function::named(&name.text)?;
+        let found = arguments.len();
+        self.report(errors::argument_count(&name.text, Some(&function.word), e.span, &function.takes(), found));
+        None
+    }
+
+    /// `P.x`: a coordinate of a point; `None` where it is broken, which has been said.
+    pub(super) fn coordinate_of(&mut self, e: &Expr, context: &Context<'_>) -> Result<Option<Value>, NoPoint> {
+        let ExprKind::Member { owner, feature } = &e.kind else { return Err(NoPoint) };
+        if !context.names {
+            self.point_param(owner).ok_or(NoPoint)?;
+            self.report(errors::names_in_option(owner));
+            return Ok(None);
+        }
+        let drawn = match self.found(owner, Wanted::Point) {
+            Found::Nothing => return Err(NoPoint),
+            Found::Broken => return Ok(None),
+            Found::Point(drawn) => drawn,
+        };
+        let Some(k) = coordinate(feature) else {
+            self.report(errors::no_coordinate(owner, feature));
+            return Ok(None);
+        };
+        Ok(Some(Value { id: drawn.at[k], dim: Dim::LENGTH }))
+    }
+}
+
+/// Whether a formula could have the value −0: of params, which are no such zero, differences and means are none.
+fn may_be_negative_zero(graph: &Graph, id: ExprId) -> bool {
+    let mut open = vec![id];
+    let mut seen = FxHashSet::default();
+    while let Some(id) = open.pop() {
+        if !seen.insert(id) {
+            continue;
+        }
+        match graph.node(id) {
+            Node::Const(bits) if bits == (-0.0_f64).to_bits() => return true,
+            Node::Const(_) | Node::Symbol(_) => {}
+            Node::Add(a, b) => open.extend([a, b]),
+            // less than +0 by nothing
+            Node::Sub(a, _) => open.push(a),
+            Node::Mul(a, b) if graph.as_const(a).is_some_and(|factor| factor > 0.0) => open.push(b),
+            _ => return true,
+        }
+    }
+    false
+}

@@ -1,0 +1,141 @@
+//! Units with powers, and the units in which measures and traces are printed.
+
+use super::Checker;
+use super::entity::Entity;
+use super::errors;
+use super::formula::{Dim, Value};
+use super::variables;
+use crate::model::{Dimension, Units};
+use mechc_syntax::ast::{Expr, ExprKind, Factor, Name, WrittenUnit};
+use mechc_text::diag::Diagnostic;
+use mechc_text::vocabulary::{CompoundUnit, Constant, StandsFor, Unit};
+
+impl Checker<'_> {
+    /// The units of a product; one that is none is told.
+    pub(super) fn compound(
+        &mut self,
+        written: &WrittenUnit,
+        told: impl Fn(&Name) -> Diagnostic,
+    ) -> Option<CompoundUnit> {
+        let mut factors = Vec::new();
+        for of in &written.factors {
+            let power = if of.factor == Factor::Over { -of.power } else { of.power };
+            match Unit::named(&of.name.text) {
+                Some(unit) => factors.push((unit, power)),
+                None => self.report(told(&of.name)),
+            }
+        }
+        (factors.len() == written.factors.len()).then(|| CompoundUnit::new(factors))
+    }
+
+    /// The units in which a formula of a dimension is printed; none where the one behind `in` does not fit, which has been said.
+    pub(super) fn units(
+        &mut self,
+        formula: &Expr,
+        dimension: Option<Dimension>,
+        angle: i32,
+        written: Option<&WrittenUnit>,
+    ) -> Option<Units> {
+        let Some(written) = written else {
+            return Some(Units::si(dimension.unwrap_or(Dimension::PURE), angle == 1));
+        };
+        let unit = self.compound(written, errors::not_a_unit_to_print_in)?;
+        let own = unit.dimension();
+        if let Some(dimension) = dimension.filter(|dimension| !dimension.is(own)) {
+            let text = self.sources.text(written.span);
+            self.report(errors::not_printed_in(text, [written.span, formula.span], [own, dimension]));
+            return None;
+        }
+        let hertz = unit.factors().zip(&written.factors).find(|((unit, _), _)| unit.word.name == "Hz");
+        if let Some((_, written)) = hertz.filter(|_| angle == 1) {
+            self.report(errors::turning_in_hertz(written.name.span, formula.span));
+            return None;
+        }
+        let joule = unit.factors().zip(&written.factors).find(|((unit, _), _)| unit.word.name == "J");
+        if let Some((_, written)) = joule.filter(|_| own.is(Dimension::ENERGY) && self.is_torque(formula)) {
+            self.report(errors::torque_in_joules(written.name.span, formula.span));
+            return None;
+        }
+        self.warn_of_numbers_printed(formula, written);
+        Some(Units::of(&unit, angle == 1))
+    }
+
+    /// How often an angle is a factor of a formula, as far as its words tell: 1 for an angle or a turning speed.
+    pub(super) fn angle_power(&self, e: &Expr) -> i32 {
+        let most = |list: &[Expr]| list.iter().map(|part| self.angle_power(part)).max().unwrap_or(0);
+        match &e.kind {
+            ExprKind::Paren(inner) | ExprKind::Negate(inner) => self.angle_power(inner),
+            ExprKind::Literal { unit: Some((unit, power)), .. } => {
+                Unit::named(&unit.text).map_or(0, |unit| angle_power_of(unit).saturating_mul(*power))
+            }
+            ExprKind::Name(name) => self.angle_power_of_name(name),
+            ExprKind::Call { name, arguments, .. } => match name.text.as_str() {
+                "angle" | "rotation" | "pressure_angle" | "asin" | "acos" | "atan" | "atan2" => 1,
+                "der" if arguments.len() == 2 => {
+                    let by = variables::as_derivative(e).map_or(0, |(_, by)| self.angle_power_of_variable(by));
+                    self.angle_power(&arguments[0]).saturating_sub(by)
+                }
+                "der" | "abs" | "min" | "max" | "mod" | "mean" | "rms" | "first" | "last" | "at" => most(arguments),
+                _ => 0,
+            },
+            ExprKind::Sum(first, rest) => {
+                rest.iter().map(|(_, term)| self.angle_power(term)).fold(self.angle_power(first), i32::max)
+            }
+            ExprKind::Product(first, rest) => rest.iter().fold(self.angle_power(first), |power, (factor, term)| {
+                let own = self.angle_power(term);
+                if *factor == Factor::Over { power.saturating_sub(own) } else { power.saturating_add(own) }
+            }),
+            ExprKind::Power(base, exponent) => match exponent.bare_number() {
+                // what is no whole number makes no angle of anything
+                Some(exponent) => self.angle_power(base).saturating_mul(exponent as i32),
+                None => 0,
+            },
+            ExprKind::If { arms, otherwise } => {
+                arms.iter().map(|(_, value)| self.angle_power(value)).fold(self.angle_power(otherwise), i32::max)
+            }
+            _ => 0,
+        }
+    }
+
+    /// The same of what a derivative is taken by.
+    fn angle_power_of_variable(&self, by: &Expr) -> i32 {
+        match &by.bare().kind {
+            ExprKind::Name(name) => match self.entity(name) {
+                Some(entity @ Entity::Input(_)) => match self.home_of(entity) {
+                    (home, Entity::Input(k)) => home.angle_power(home.inputs[k].formula),
+                    _ => 0,
+                },
+                _ => self.angle_power_of_name(name),
+            },
+            _ => 0,
+        }
+    }
+
+    fn angle_power_of_name(&self, name: &Name) -> i32 {
+        match self.entity(name) {
+            Some(Entity::Param(k)) => self.params.get(k).map_or(0, |param| param.angle),
+            Some(Entity::Measure(k)) => self.measure_known(k).map_or(0, |measure| measure.angle),
+            Some(Entity::Result(k)) => self.result_known(k).map_or(0, |result| result.angle),
+            Some(_) => 0,
+            None => match Constant::named(&name.text) {
+                Some(Constant { stands_for: StandsFor::Number(_), .. }) => 1,
+                Some(_) => 0,
+                None => Unit::named(&name.text).map_or(0, angle_power_of),
+            },
+        }
+    }
+}
+
+/// The dimension that a formula is known to have; none where it may have any: a number without a unit is taken in the unit that is asked
+/// for.
+pub(super) fn known_dimension(value: Value) -> Option<Dimension> {
+    match value.dim {
+        Dim::Of(dimension) => Some(dimension),
+        Dim::Plain { read, fits: true } if !read.is(Dimension::PURE) => Some(read),
+        Dim::Plain { .. } | Dim::Any => None,
+    }
+}
+
+fn angle_power_of(unit: &Unit) -> i32 {
+    i32::from(unit.is_of_angle())
+}

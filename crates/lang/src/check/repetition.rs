@@ -1,0 +1,318 @@
+//! Repetition: declarations that stand for one for each whole number are written out, and paths like `link[k - 1].pin` become the
+//! names that the copies have. All else of `check` knows plain declarations alone.
+
+mod paths;
+mod written;
+
+use super::instance::{Copies, Instance};
+use super::mentions::name_of;
+use super::{Checker, errors};
+use crate::model::Dimension;
+use mechc_syntax::ast::{self, Expr, ExprKind, Factor, Item, ItemKind, Mechanism, Name, Sign};
+use mechc_text::diag::{Diagnostic, Diagnostics};
+use mechc_text::source::Span;
+use mechc_text::vocabulary::is_taken;
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::rc::Rc;
+
+/// Declarations that a mechanism may have, written out, with those of its parts.
+pub(super) const MOST: usize = 1_000_000;
+
+/// Indices that a declaration may have: all of them stand in the names of its copies.
+const MOST_INDICES: usize = 16;
+
+/// How far a number may be from a whole one: rounding.
+const WHOLE: f64 = 1e-9;
+
+/// Whether something of a mechanism is repeated, or a part.
+pub(super) fn needs_writing(tree: &Mechanism) -> bool {
+    tree.items.iter().any(|item| !item.ranges.is_empty() || matches!(item.kind, ItemKind::Part(_)))
+}
+
+/// The numbers of a copy, each with what it is called.
+pub(super) type Numbers<'t> = Vec<(&'t str, i64)>;
+
+/// Writes out one mechanism.
+pub(super) struct Writer<'t, 'c> {
+    tree: &'t Mechanism,
+    /// Knows the params.
+    checker: Checker<'c>,
+    /// The mechanism's names.
+    names: FxHashSet<&'t str>,
+    /// Of what is repeated: the numbers of its copies.
+    copies: FxHashMap<&'t str, Copies>,
+    /// Its parts; nothing where one cannot be, which has been said.
+    parts: FxHashMap<String, Option<Rc<Instance<'t>>>>,
+    /// What its formulas name in its parts.
+    paths: FxHashSet<String>,
+    /// Declarations so far.
+    count: usize,
+    /// Which has been said.
+    is_too_large: bool,
+    /// Where something was told already: what is wrong in every copy is told once.
+    told: FxHashSet<Span>,
+}
+
+/// A mechanism with every repeated declaration written out, and what is wrong with the repetition.
+type WrittenOut = (Mechanism, Diagnostics);
+
+/// A formula or declaration that cannot be written out, which has been said.
+pub(super) struct Unwritten;
+
+type Written<T> = Result<T, Unwritten>;
+
+impl<'t, 'c> Writer<'t, 'c> {
+    /// With a reader of formulas that knows the mechanism's params.
+    pub fn new(tree: &'t Mechanism, checker: Checker<'c>) -> Writer<'t, 'c> {
+        Writer {
+            tree,
+            checker,
+            names: tree.items.iter().filter_map(name_of).map(|name| name.text.as_str()).collect(),
+            copies: FxHashMap::default(),
+            parts: FxHashMap::default(),
+            paths: FxHashSet::default(),
+            count: 0,
+            is_too_large: false,
+            told: FxHashSet::default(),
+        }
+    }
+
+    /// Declarations, written out.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// What is wrong so far.
+    pub fn said(self) -> Diagnostics {
+        self.checker.diagnostics
+    }
+
+    /// Whether there are too many.
+    pub fn is_too_large(&self) -> bool {
+        self.is_too_large
+    }
+
+    /// The numbers of the copies of each declaration; nothing where they cannot be told.
+    pub fn all_copies(&mut self, tree: &'t Mechanism) -> Vec<Option<Vec<Numbers<'t>>>> {
+        let named = self.have_names_of_their_own(tree);
+        let items = tree.items.iter().zip(named);
+        let copies: Vec<_> = items.map(|(item, is_named)| if is_named { self.copies(item) } else { None }).collect();
+        for (item, copies) in tree.items.iter().zip(&copies) {
+            if let (Some(name), Some(copies)) = (name_of(item).filter(|_| !item.ranges.is_empty()), copies) {
+                let numbers = copies.iter().map(|numbers| numbers.iter().map(|(_, k)| *k).collect());
+                self.copies.insert(&name.text, Rc::new(numbers.collect()));
+            }
+        }
+        copies
+    }
+
+    /// The value of what is bound of a param that decides a range; nothing where it is broken, which is told here: what it decides is
+    /// never there to tell it.
+    pub fn number(&mut self, e: &Expr, numbers: &Numbers<'_>) -> Option<f64> {
+        let formula = self.formula(e, numbers).ok()?;
+        let said = self.checker.diagnostics.len();
+        let value = self.checker.any_constant(&formula);
+        if value.is_none() {
+            self.is_of_a_part(e, "a binding that decides a range", said);
+        }
+        value
+    }
+
+    /// The mechanism written out, with its parts by their names; the numbers of what is repeated; what its formulas name in its parts.
+    pub fn written(
+        mut self,
+        tree: &'t Mechanism,
+        copies: &[Option<Vec<Numbers<'t>>>],
+        parts: FxHashMap<String, Option<Rc<Instance<'t>>>>,
+    ) -> (WrittenOut, FxHashMap<&'t str, Copies>, Vec<String>) {
+        self.parts = parts;
+        let mut items = Vec::new();
+        for (item, copies) in tree.items.iter().zip(copies) {
+            match copies {
+                Some(copies) => items.extend(copies.iter().map(|numbers| self.copy(item, numbers))),
+                None => items.push(broken(item, &Vec::new())),
+            }
+        }
+        let written = Mechanism { items, docs: tree.docs.clone(), name: tree.name.clone(), span: tree.span };
+        let mut paths: Vec<String> = self.paths.into_iter().collect();
+        paths.sort_unstable();
+        ((written, self.checker.diagnostics), self.copies, paths)
+    }
+
+    fn tell(&mut self, diagnostic: Diagnostic) {
+        let span = diagnostic.labels.first().map(|label| label.span);
+        if span.is_none_or(|span| self.told.insert(span)) {
+            self.checker.report(diagnostic);
+        }
+    }
+
+    /// Which declarations have a name that is free; of those that are not repeated the rest of `check` says it.
+    fn have_names_of_their_own(&mut self, tree: &'t Mechanism) -> Vec<bool> {
+        let mut first: FxHashMap<&str, (Span, bool)> = FxHashMap::default();
+        let mut is_free = |item: &'t Item| {
+            let Some(name) = name_of(item) else { return true };
+            let is_repeated = !item.ranges.is_empty();
+            if is_repeated && is_taken(&name.text) {
+                self.tell(errors::reserved(name, None, &[]));
+                return false;
+            }
+            let (span, other) = *first.entry(&name.text).or_insert((name.span, is_repeated));
+            let is_twice = span != name.span && (is_repeated || other);
+            if is_twice {
+                self.tell(errors::declared_twice(name, span));
+            }
+            !is_twice
+        };
+        tree.items.iter().map(&mut is_free).collect()
+    }
+
+    /// The numbers of each copy of a declaration; of one that is not repeated there is one, without numbers. None where that cannot
+    /// be told.
+    fn copies(&mut self, item: &'t Item) -> Option<Vec<Numbers<'t>>> {
+        let mut copies: Vec<Numbers<'t>> = vec![Vec::new()];
+        if let Some(range) = item.ranges.get(MOST_INDICES) {
+            self.tell(errors::too_many_indices(range.index.span, MOST_INDICES));
+            return None;
+        }
+        for range in &item.ranges {
+            if !self.is_free(range, &item.ranges) {
+                return None;
+            }
+            let mut longer = Vec::new();
+            for numbers in copies {
+                let [from, to] = self.bounds(range, &numbers)?;
+                let more = usize::try_from(to.saturating_sub(from)).unwrap_or(0);
+                let count = self.count.saturating_add(longer.len()).saturating_add(more);
+                if count > MOST {
+                    self.tell(errors::too_many_declarations(range.index.span, MOST, "too large a range"));
+                    self.is_too_large = true;
+                    return None;
+                }
+                longer.extend((from..to).map(|k| {
+                    let mut numbers = numbers.clone();
+                    numbers.push((range.index.text.as_str(), k));
+                    numbers
+                }));
+            }
+            copies = longer;
+        }
+        self.count += copies.len();
+        Some(copies)
+    }
+
+    /// Whether an index has a name of its own.
+    fn is_free(&mut self, range: &ast::IndexRange, all: &[ast::IndexRange]) -> bool {
+        let name = &range.index;
+        let before = all.iter().take_while(|other| other.index.span != name.span);
+        let is_again = before.into_iter().any(|other| other.index.text == name.text);
+        let is_free = !is_taken(&name.text) && !self.names.contains(name.text.as_str()) && !is_again;
+        if !is_free {
+            self.tell(errors::index_is_taken(name));
+        }
+        is_free
+    }
+
+    /// The first number, and the one behind the last.
+    fn bounds(&mut self, range: &ast::IndexRange, numbers: &Numbers<'_>) -> Option<[i64; 2]> {
+        let from = self.whole_number(&range.from, numbers, "a bound of a range").ok()?;
+        let to = self.whole_number(&range.to, numbers, "a bound of a range").ok()?;
+        Some([from, if range.is_closed { to.saturating_add(1) } else { to }])
+    }
+
+    fn whole_number(&mut self, e: &Expr, numbers: &Numbers<'_>, place: &str) -> Written<i64> {
+        let value = if let Some(value) = simple(e, numbers) {
+            value
+        } else {
+            let formula = self.formula(e, numbers)?;
+            let said = self.checker.diagnostics.len();
+            match self.checker.constant(&formula, place, Dimension::PURE) {
+                Some((_, value)) => value,
+                None => return Err(self.is_of_a_part(e, place, said)),
+            }
+        };
+        let whole = value.round();
+        if !value.is_finite() || (value - whole).abs() > WHOLE || whole.abs() > 1e15 {
+            self.tell(errors::not_whole(place, e.span, value, numbers));
+            return Err(Unwritten);
+        }
+        Ok(whole as i64)
+    }
+
+    /// Says of a number that cannot be told that it is made of what a part has, if it is, rather than what was said of it.
+    pub fn is_of_a_part(&mut self, e: &Expr, place: &str, said: usize) -> Unwritten {
+        if let Some(path) = path_into_part(self.tree, e) {
+            self.checker.diagnostics.truncate(said);
+            let text = self.checker.sources.text(path);
+            let diagnostic = errors::decided_by_a_part(place, text, e.span, path);
+            self.tell(diagnostic);
+        }
+        Unwritten
+    }
+}
+
+/// A declaration, or one of its copies, that cannot be written out, which has been said.
+pub(super) fn broken(item: &Item, numbers: &Numbers<'_>) -> Item {
+    let names = name_of(item).map(|name| named(name, numbers)).into_iter().collect();
+    Item { docs: Vec::new(), span: item.span, ranges: Vec::new(), kind: ItemKind::Broken { names } }
+}
+
+/// What a copy is called.
+pub(super) fn named(name: &Name, numbers: &Numbers<'_>) -> Name {
+    if numbers.is_empty() {
+        return name.clone();
+    }
+    let numbers: Vec<i64> = numbers.iter().map(|(_, k)| *k).collect();
+    Name { text: indexed(&name.text, &numbers), span: name.span }
+}
+
+/// `grid[1,3]`
+fn indexed(name: &str, numbers: &[i64]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(i64::to_string).collect();
+    format!("{name}[{}]", numbers.join(","))
+}
+
+/// The place of what a formula names in a part, also by way of other definitions.
+fn path_into_part(tree: &Mechanism, formula: &Expr) -> Option<Span> {
+    let item = |name: &Name| tree.items.iter().find(|item| name_of(item).is_some_and(|own| own.text == name.text));
+    let is_part = |name: &Name| item(name).is_some_and(|item| matches!(item.kind, ItemKind::Part(_)));
+    let (mut open, mut seen) = (vec![formula], FxHashSet::default());
+    while let Some(e) = open.pop() {
+        let (owner, is_path) = match &e.kind {
+            ExprKind::Name(name) | ExprKind::Call { name, .. } => (Some(name), false),
+            ExprKind::Member { owner, .. } => (Some(owner), true),
+            ExprKind::Path(segments) => (segments.first().map(|first| &first.name), true),
+            _ => (None, false),
+        };
+        if let Some(name) = owner {
+            if is_path && is_part(name) {
+                return Some(e.span);
+            }
+            if seen.insert(&name.text) {
+                open.extend(item(name).map(Item::formulas).unwrap_or_default());
+            }
+        }
+        open.extend(e.children());
+    }
+    None
+}
+
+/// The value of a formula of numbers alone, as most indices are.
+fn simple(e: &Expr, numbers: &Numbers<'_>) -> Option<f64> {
+    Some(match &e.kind {
+        ExprKind::Literal { value, unit: None } => *value,
+        ExprKind::Name(name) => numbers.iter().find(|(index, _)| *index == name.text)?.1 as f64,
+        ExprKind::Paren(inner) => simple(inner, numbers)?,
+        ExprKind::Negate(inner) => -simple(inner, numbers)?,
+        ExprKind::Sum(first, rest) => rest.iter().try_fold(simple(first, numbers)?, |sum, (sign, term)| {
+            let term = simple(term, numbers)?;
+            Some(if *sign == Sign::Plus { sum + term } else { sum - term })
+        })?,
+        ExprKind::Product(first, rest) => {
+            rest.iter().try_fold(simple(first, numbers)?, |product, (kind, factor)| {
+                let factor = simple(factor, numbers)?;
+                (*kind == Factor::Times).then_some(product * factor)
+            })?
+        }
+        _ => return None,
+    })
+}

@@ -1,0 +1,414 @@
+//! Tables with a line of names: samples of inputs, with a column of times; variants, with a column for each param that varies. Each fault
+//! has its place in the file.
+
+use super::table_file::{between_commas, number};
+use mechc_syntax::normalized;
+use mechc_text::diag::{Code, Diagnostic};
+use mechc_text::source::{FileId, Source, Span};
+use mechc_text::vocabulary::{CompoundUnit, Dimension, Unit};
+
+/// What the rows of a table are, in messages.
+#[derive(Clone, Copy)]
+struct Words {
+    /// All of them.
+    many: &'static str,
+    /// One number of them.
+    one: &'static str,
+    /// How its units are written, by an example.
+    example: &'static str,
+    /// What is needed at least.
+    least: &'static str,
+}
+
+const SAMPLES: Words = Words {
+    many: "samples",
+    one: "sample",
+    example: "`turn [deg]`, `feed [mm/s]`",
+    least: "two rows are needed at least",
+};
+const VARIANTS: Words = Words {
+    many: "variants",
+    one: "value",
+    example: "`rod [mm]`, `speed [rpm]`",
+    least: "a line that names the params is needed, and a row for each variant",
+};
+
+/// What a file of samples holds.
+pub(super) struct Samples {
+    /// In seconds, rising.
+    pub times: Vec<f64>,
+    /// But for that of the times.
+    pub columns: Vec<Column>,
+}
+
+/// A column of numbers.
+pub struct Column {
+    /// The input or param that it is of.
+    pub name: String,
+    /// Of the cell of its header.
+    pub span: Span,
+    /// Of its unit, if it has one.
+    pub dimension: Option<Dimension>,
+    /// Whether its unit speaks of an angle.
+    pub is_of_angles: bool,
+    /// In SI.
+    pub values: Vec<f64>,
+}
+
+/// A part of a line with its place, without the white space and quotes around it.
+struct Cell<'a> {
+    text: &'a str,
+    span: Span,
+}
+
+/// What a header says of a column.
+pub(super) struct Head<'a> {
+    /// As it is written.
+    pub name: &'a str,
+    /// Of its cell.
+    pub span: Span,
+    unit: Option<CompoundUnit>,
+}
+
+/// Units joined by `*` and `/`, each with its power.
+fn unit_named(text: &str) -> Option<CompoundUnit> {
+    let (mut units, mut rest, mut sign) = (Vec::new(), text, 1);
+    loop {
+        let end = rest.find(['*', '/']).unwrap_or(rest.len());
+        let (name, power) = match rest[..end].split_once('^') {
+            None => (rest[..end].trim(), 1),
+            Some((name, power)) => {
+                (name.trim(), power.trim().parse().ok().filter(|power: &i32| (-9..=9).contains(power))?)
+            }
+        };
+        units.push((Unit::named(name)?, sign * power));
+        if end == rest.len() {
+            return Some(CompoundUnit::new(units));
+        }
+        sign = if rest[end..].starts_with('/') { -1 } else { 1 };
+        rest = &rest[end + 1..];
+    }
+}
+
+/// The first line of samples, with what follows it.
+pub(super) struct Headed<'a> {
+    source: &'a Source,
+    file: FileId,
+    heads: Vec<Head<'a>>,
+    /// The number of the column of times.
+    at: usize,
+}
+
+/// Reads the first line of samples.
+///
+/// # Errors
+/// What is wrong with it.
+pub(super) fn header(source: &Source, file: FileId) -> Result<Headed<'_>, Vec<Diagnostic>> {
+    let (line, heads) = heads(source, file, SAMPLES)?;
+    let at = time_column(&heads, line.span)?;
+    if heads.len() == 1 {
+        let help = "each input that is told has a column of its own, behind a comma: `t,turn [deg]`";
+        return Err(vec![fault(Code::E0416, "the samples are of no input", line.span, "times alone").help(help)]);
+    }
+    Ok(Headed { source, file, heads, at })
+}
+
+/// Reads a table of variants: a column for each param that varies.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn variants(source: &Source, file: FileId) -> Result<Vec<Column>, Vec<Diagnostic>> {
+    let (line, heads) = heads(source, file, VARIANTS)?;
+    let numbers = |head: &Head<'_>| number(head.name).is_some();
+    if heads.iter().all(numbers) {
+        let help = "the first line names the params, each with its unit: `rod [mm],speed [rpm]`";
+        return Err(vec![fault(Code::E0416, "the variants are of no param", line.span, "numbers alone").help(help)]);
+    }
+    let Rows { columns, places } = Rows::read(source, file, &heads, VARIANTS)?;
+    if places.is_empty() {
+        return Err(vec![fault(
+            Code::E0413,
+            "the variants have no row",
+            line.span,
+            "the first line, and none behind it",
+        )]);
+    }
+    Ok(heads.iter().zip(columns).map(|(head, values)| head.column(values)).collect())
+}
+
+/// The first line of a table, and what it names.
+fn heads(source: &Source, file: FileId, words: Words) -> Result<(Line<'_>, Vec<Head<'_>>), Vec<Diagnostic>> {
+    let Some(line) = lines(source, file).next() else {
+        let nothing = Span { file, start: 0, end: 0 };
+        let message = format!("the {} are empty", words.many);
+        return Err(vec![fault(Code::E0413, &message, nothing, words.least)]);
+    };
+    let one = |fault: Box<Diagnostic>| vec![*fault];
+    line.has_commas(words).map_err(one)?;
+    let cells = line.cells(words).map_err(one)?;
+    let heads = cells.iter().map(|cell| head(cell, words)).collect::<Result<Vec<_>, _>>().map_err(one)?;
+    for (k, head) in heads.iter().enumerate() {
+        if let Some(first) = heads[..k].iter().find(|other| other.name == head.name) {
+            let message = format!("column `{}` stands there twice", head.name);
+            return Err(vec![fault(Code::E0203, &message, head.span, "again").also(first.span, "first here")]);
+        }
+    }
+    Ok((line, heads))
+}
+
+/// The rows behind a first line.
+struct Rows {
+    /// By column: its numbers (SI).
+    columns: Vec<Vec<f64>>,
+    /// By row and column.
+    places: Vec<Vec<Span>>,
+}
+
+impl Rows {
+    /// Reads them; blank lines are passed over.
+    fn read(source: &Source, file: FileId, heads: &[Head<'_>], words: Words) -> Result<Rows, Vec<Diagnostic>> {
+        let mut rows = Rows { columns: vec![Vec::new(); heads.len()], places: Vec::new() };
+        for line in lines(source, file).skip(1) {
+            let cells = line.cells(words).map_err(|fault| vec![*fault])?;
+            let row = row_of(&line, &cells, heads, words)?;
+            for (column, (value, head)) in rows.columns.iter_mut().zip(row.into_iter().zip(heads)) {
+                column.push(head.unit.as_ref().map_or(value, |unit| unit.to_si(value)));
+            }
+            rows.places.push(cells.iter().map(|cell| cell.span).collect());
+        }
+        Ok(rows)
+    }
+}
+
+impl<'a> Headed<'a> {
+    /// The columns but for that of the times.
+    pub fn columns(&self) -> impl Iterator<Item = &Head<'a>> {
+        self.heads.iter().enumerate().filter(|(k, _)| *k != self.at).map(|(_, head)| head)
+    }
+
+    /// Reads the rows; blank lines are passed over.
+    ///
+    /// # Errors
+    /// What is wrong with them.
+    pub fn rows(&self) -> Result<Samples, Vec<Diagnostic>> {
+        let Rows { columns: mut values, places } = Rows::read(self.source, self.file, &self.heads, SAMPLES)?;
+        let times = values.remove(self.at);
+        let rows: Vec<Span> = places.iter().map(|cells| cells[self.at]).collect();
+        rising(&times, &rows, self.heads[self.at].span)?;
+        let columns = self.columns().zip(values).map(|(head, values)| head.column(values)).collect();
+        Ok(Samples { times, columns })
+    }
+}
+
+impl Head<'_> {
+    /// The input that it is of; the numbers of a copy may be written with spaces.
+    pub fn path(&self) -> String {
+        normalized(self.name).chars().filter(|c| !c.is_whitespace()).collect()
+    }
+
+    fn column(&self, values: Vec<f64>) -> Column {
+        let (name, span, dimension) = (self.path(), self.span, self.unit.as_ref().map(CompoundUnit::dimension));
+        let mut units = self.unit.iter().flat_map(CompoundUnit::factors);
+        let is_of_angles = units.any(|(unit, _)| unit.is_of_angle());
+        Column { name, span, dimension, is_of_angles, values }
+    }
+
+    /// What is to be written, where its brackets are not as a unit's.
+    pub fn meant(&self) -> Option<String> {
+        let (name, rest) = self.name.rsplit_once('[')?;
+        let text = rest.strip_suffix(']').unwrap_or(rest).trim();
+        unit_named(text)?;
+        let why = match (&self.unit, rest.ends_with(']')) {
+            (Some(_), _) => "a column has one unit",
+            (None, true) => "a unit stands behind a space",
+            (None, false) => "a unit stands between brackets",
+        };
+        Some(format!("{why}: `{} [{text}]`", name.trim()))
+    }
+}
+
+/// A line that holds something, without the white space around it.
+struct Line<'a> {
+    text: &'a str,
+    span: Span,
+}
+
+/// The lines that hold something.
+fn lines(source: &Source, file: FileId) -> impl Iterator<Item = Line<'_>> {
+    let mut at = 0;
+    source.text.split('\n').filter_map(move |line| {
+        let start = at + (line.len() - line.trim_start().len());
+        at += line.len() + 1;
+        let text = line.trim();
+        let span = Span { file, start: start as u32, end: (start + text.len()) as u32 };
+        (!text.is_empty()).then_some(Line { text, span })
+    })
+}
+
+impl<'a> Line<'a> {
+    /// What stands between its commas.
+    ///
+    /// # Errors
+    /// A quote is not closed.
+    fn cells(&self, words: Words) -> Result<Vec<Cell<'a>>, Box<Diagnostic>> {
+        let (mut from, mut cells) = (self.span.start as usize, Vec::new());
+        for part in between_commas(self.text) {
+            let (begin, text) = (from + (part.len() - part.trim_start().len()), part.trim());
+            let span = Span { start: begin as u32, end: (begin + text.len()) as u32, ..self.span };
+            if text.matches('"').count() % 2 == 1 {
+                let help = "a cell in quotes ends with a quote in its line";
+                let message = format!("a quote of the {} is not closed", words.many);
+                return Err(Box::new(fault(Code::E0416, &message, span, "opened here").help(help)));
+            }
+            cells.push(Cell { text: text.trim_matches('"'), span });
+            from += part.len() + 1;
+        }
+        Ok(cells)
+    }
+
+    /// Whether something else than commas parts its cells.
+    fn other_separator(&self) -> Option<&'static str> {
+        const OTHERS: [(char, &str); 2] = [(';', "semicolons"), ('\t', "tabs")];
+        let found = OTHERS.iter().find(|(separator, _)| self.text.contains(*separator));
+        let is_spaced = || {
+            !self.text.contains(',') && self.text.split(' ').skip(1).any(|word| word == "t")
+                || self.text.strip_prefix("t ").is_some_and(|rest| rest.starts_with(|c: char| c.is_alphabetic()))
+        };
+        found.map(|(_, name)| *name).or_else(|| is_spaced().then_some("spaces"))
+    }
+
+    /// Looks at the first line for columns.
+    ///
+    /// # Errors
+    /// Something else than commas is between them.
+    fn has_commas(&self, words: Words) -> Result<(), Box<Diagnostic>> {
+        match self.other_separator().filter(|_| !self.text.contains(',')) {
+            Some(found) => Err(Box::new(self.separated_by(found, words))),
+            None => Ok(()),
+        }
+    }
+
+    fn separated_by(&self, found: &str, words: Words) -> Diagnostic {
+        let message = format!("the {} are separated by {found}", words.many);
+        fault(Code::E0416, &message, self.span, &format!("{found}, and no commas")).help(SEPARATORS)
+    }
+}
+
+/// How columns and numbers are written.
+const SEPARATORS: &str = "columns are separated by commas, and decimals written with a point";
+
+/// `NAME` or `NAME [UNIT]`
+fn head<'a>(cell: &Cell<'a>, words: Words) -> Result<Head<'a>, Box<Diagnostic>> {
+    let Some((name, unit)) = cell.text.strip_suffix(']').and_then(|text| text.rsplit_once(" [")) else {
+        return Ok(Head { name: cell.text, span: cell.span, unit: None });
+    };
+    if let Some(unit) = unit_named(unit) {
+        return Ok(Head { name: name.trim(), span: cell.span, unit: Some(unit) });
+    }
+    let message = format!("`{unit}` is not a unit");
+    let help = format!("units stand in brackets behind the name, joined by `*` and `/`: {}", words.example);
+    Err(Box::new(fault(Code::E0202, &message, cell.span, "the unit of this column").help(help)))
+}
+
+/// The number of the column of times.
+fn time_column(heads: &[Head<'_>], line: Span) -> Result<usize, Vec<Diagnostic>> {
+    let Some(at) = heads.iter().position(|head| head.name == "t") else {
+        let help = "the first line names the columns: `t` or `t [ms]` for the times, and the inputs".to_owned();
+        let is_time = |head: &&Head<'_>| head.name.split('[').next().is_some_and(|name| name.trim() == "t");
+        let help = heads.iter().find(is_time).and_then(Head::meant).unwrap_or(help);
+        return Err(vec![fault(Code::E0416, "the samples have no column `t`", line, "the first line").help(help)]);
+    };
+    match heads[at].unit.as_ref().map(CompoundUnit::dimension) {
+        Some(dimension) if !dimension.is(Dimension::TIME) => {
+            let message = format!("the times of samples are a time, found {}", dimension.in_words());
+            Err(vec![fault(Code::E0402, &message, heads[at].span, "the times")])
+        }
+        _ => Ok(at),
+    }
+}
+
+/// The numbers of a line.
+fn row_of(line: &Line<'_>, cells: &[Cell<'_>], heads: &[Head<'_>], words: Words) -> Result<Vec<f64>, Vec<Diagnostic>> {
+    if cells.len() != heads.len() {
+        if let Some(found) = line.other_separator().filter(|_| cells.len() == 1) {
+            return Err(vec![line.separated_by(found, words)]);
+        }
+        let count = if cells.len() == 1 { "1 cell".to_owned() } else { format!("{} cells", cells.len()) };
+        let message = format!("a row of {} has {count}, and the first line {}", words.many, heads.len());
+        return Err(vec![fault(Code::E0416, &message, line.span, "this row").help(SEPARATORS)]);
+    }
+    let value = |(cell, head): (&Cell<'_>, &Head<'_>)| {
+        number(cell.text).ok_or_else(|| {
+            let message = format!("a {} of `{}` is not a number", words.one, head.name);
+            let label = if cell.text.is_empty() { "empty".to_owned() } else { format!("`{}`", cell.text) };
+            vec![fault(Code::E0416, &message, cell.span, &label).also(head.span, "the column")]
+        })
+    };
+    cells.iter().zip(heads).map(value).collect()
+}
+
+fn rising(times: &[f64], rows: &[Span], head: Span) -> Result<(), Vec<Diagnostic>> {
+    if times.len() < 2 {
+        let message = format!("samples need two rows at least, found {}", times.len());
+        return Err(vec![fault(Code::E0413, &message, head, "the times")]);
+    }
+    match (1..times.len()).find(|&k| times[k] <= times[k - 1]) {
+        None => Ok(()),
+        Some(k) => {
+            let text = if times[k] < times[k - 1] { "before the one above" } else { "the same as the one above" };
+            let diagnostic = fault(Code::E0414, "the times of samples do not rise", rows[k], text);
+            Err(vec![diagnostic.also(rows[k - 1], "the row before")])
+        }
+    }
+}
+
+fn fault(code: Code, message: &str, span: Span, label: &str) -> Diagnostic {
+    Diagnostic::new(code, message).at(span, label)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Samples, header};
+    use mechc_text::source::Sources;
+
+    fn of(text: &str) -> Result<Samples, String> {
+        let mut sources = Sources::default();
+        let file = sources.add("samples.csv", text);
+        header(sources.get(file), file).and_then(|headed| headed.rows()).map_err(|faults| faults[0].message.clone())
+    }
+
+    #[test]
+    fn columns_come_in_any_order_with_units() {
+        let samples = of("turn [deg],t [ms], feed [mm/s] ,\"a\"\r\n90,0,1,0\n\n180,500,2,1e-3\n")
+            .unwrap_or_else(|fault| panic!("{fault}"));
+        assert_eq!(samples.times, [0.0, 0.5]);
+        let names: Vec<&str> = samples.columns.iter().map(|column| column.name.as_str()).collect();
+        assert_eq!(names, ["turn", "feed", "a"]);
+        assert!((samples.columns[0].values[1] - std::f64::consts::PI).abs() < 1e-15);
+        assert_eq!(samples.columns[1].values, [0.001, 0.002]);
+        assert!(samples.columns[2].dimension.is_none());
+    }
+
+    #[test]
+    fn faults_are_told() {
+        let fault = |text: &str| of(text).err().expect("a fault");
+        assert_eq!(fault(""), "the samples are empty");
+        assert_eq!(fault("turn\n1\n2\n"), "the samples have no column `t`");
+        assert_eq!(fault("t,turn\n0,1\n"), "samples need two rows at least, found 1");
+        assert_eq!(fault("t,turn\n0,1\n0,2\n"), "the times of samples do not rise");
+        assert_eq!(fault("t,turn\n0,1\n1,x\n"), "a sample of `turn` is not a number");
+        assert_eq!(fault("t,turn\n0,1\n1,2,3\n"), "a row of samples has 3 cells, and the first line 2");
+        assert_eq!(fault("t [mm],turn\n0,1\n1,2\n"), "the times of samples are a time, found a length");
+        assert_eq!(fault("t,turn [degs]\n0,1\n1,2\n"), "`degs` is not a unit");
+        assert_eq!(fault("t,turn,turn\n0,1,2\n"), "column `turn` stands there twice");
+        assert_eq!(fault("t\n0\n1\n"), "the samples are of no input");
+        for quotes in ["t,\"turn\n0,1\n1,2\n", "t,turn\n0,1\n1,\"2\n"] {
+            assert_eq!(fault(quotes), "a quote of the samples is not closed");
+        }
+        assert_eq!(fault("t;turn [deg]\n0;0,5\n1;2\n"), "the samples are separated by semicolons");
+        assert_eq!(fault("t\tturn\n0\t1\n1\t2\n"), "the samples are separated by tabs");
+        assert_eq!(fault("t turn\n0 1\n1 2\n"), "the samples are separated by spaces");
+        assert_eq!(fault("turn [deg] t\n0 1\n1 2\n"), "the samples are separated by spaces");
+        assert_eq!(fault("t,turn\n0;1\n1;2\n"), "the samples are separated by semicolons");
+    }
+}

@@ -1,0 +1,688 @@
+//! Who declares a name, and who uses it: every name of a mechanism with the declaration or the word of the language that it
+//! stands for.
+//!
+//! By the tree alone: so it is there for a text with mistakes too, and costs nothing where nobody asks.
+
+use super::kinds::{self, Wanted, coordinate};
+use super::meaning::{Alone, alone};
+use mechc_syntax::ast::{
+    DrawnPose, Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, PathSegment, TableRows, UsedFile,
+    WrittenUnit,
+};
+use mechc_syntax::keywords_in;
+use mechc_text::source::{FileId, Span};
+use mechc_text::vocabulary::{
+    Constant, Function, JointWord, Keyword, QuantityWord, ReductionWord, Role, StandsFor, Unit, Word,
+};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// A declaration, by its number in the order of the text.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct NameId(u32);
+
+impl NameId {
+    /// Its number.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What a declaration declares.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum NameKind {
+    /// `mechanism`
+    Mechanism,
+    /// What stands behind `as`, and before the names of a used file's mechanisms.
+    Prefix,
+    /// `param`
+    Param,
+    /// `fn`
+    Function,
+    /// The argument of a `fn` or `curve`.
+    Argument,
+    /// `table`
+    Table,
+    /// `input`
+    Input,
+    /// `ground`
+    Ground,
+    /// `body`
+    Body,
+    /// `point`
+    Point,
+    /// `axis`
+    Axis,
+    /// `circle`
+    Circle,
+    /// `curve`
+    Curve,
+    /// `joint`
+    Joint,
+    /// `constraint`
+    Constraint,
+    /// `driver`
+    Driver,
+    /// `load`
+    Load,
+    /// `measure`
+    Measure,
+    /// `trace`
+    Trace,
+    /// `part`
+    Part,
+    /// `result`
+    Result,
+    /// What cannot be read.
+    Broken,
+}
+
+impl NameKind {
+    /// What a declaration is.
+    #[must_use]
+    pub fn of(item: &Item) -> NameKind {
+        match &item.kind {
+            ItemKind::Param { .. } => NameKind::Param,
+            ItemKind::Function { .. } => NameKind::Function,
+            ItemKind::Table { .. } => NameKind::Table,
+            ItemKind::Input { .. } => NameKind::Input,
+            ItemKind::Part(_) => NameKind::Part,
+            ItemKind::Ground { .. } => NameKind::Ground,
+            ItemKind::Body { .. } => NameKind::Body,
+            ItemKind::Joint { .. } => NameKind::Joint,
+            ItemKind::Equation { driver: true, .. } => NameKind::Driver,
+            ItemKind::Equation { .. } => NameKind::Constraint,
+            ItemKind::Load { .. } => NameKind::Load,
+            ItemKind::Measure { .. } => NameKind::Measure,
+            ItemKind::Trace { .. } => NameKind::Trace,
+            ItemKind::Result { .. } => NameKind::Result,
+            ItemKind::Broken { .. } | ItemKind::Gravity { .. } | ItemKind::Analysis { .. } => NameKind::Broken,
+        }
+    }
+}
+
+/// A declared name.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct DeclaredName {
+    /// Its name, in NFC.
+    pub name: String,
+    /// What it is.
+    pub kind: NameKind,
+    /// Where its name stands.
+    pub span: Span,
+    /// The whole declaration.
+    pub declaration: Span,
+    /// What it belongs to: the body of a point, the function of an argument.
+    pub owner: Option<NameId>,
+}
+
+/// What a name or word stands for.
+#[derive(Clone, Copy, Debug)]
+pub enum Meaning {
+    /// A declaration of the mechanism.
+    Declared(NameId),
+    /// A word of the language.
+    Word(&'static Word),
+}
+
+/// A place where a name or word stands.
+#[derive(Clone, Copy, Debug)]
+pub struct Use {
+    /// Where.
+    pub span: Span,
+    /// What it stands for.
+    pub meaning: Meaning,
+    /// Whether it is the declaration itself.
+    pub declares: bool,
+}
+
+/// The names of a mechanism, by place and by declaration.
+#[derive(Clone, Debug, Default)]
+pub struct Symbols {
+    symbols: Vec<DeclaredName>,
+    /// By place.
+    uses: Vec<Use>,
+}
+
+impl Symbols {
+    /// The names of a mechanism, and of the files that its file uses; the text is that of its file, where its keywords stand.
+    #[must_use]
+    pub fn of(tree: &Mechanism, uses: &[UsedFile], text: &str) -> Symbols {
+        let point_params = kinds::point_params(tree);
+        let mut walk = Walk { point_params, hidden: kinds::own_functions(tree), ..Walk::default() };
+        walk.mechanism(tree);
+        walk.prefixes(uses);
+        let mut symbols = walk.symbols;
+        for span in uses.iter().map(|used| used.span).chain([tree.span]) {
+            symbols.add_keywords(span, text);
+        }
+        // where a name declares and is a use of another one, it is the declaration that `at` finds
+        symbols.uses.sort_by_key(|used| (used.span, used.declares));
+        symbols
+    }
+
+    /// All declarations, in the order of the text, prefixes of used files last.
+    pub fn iter(&self) -> impl Iterator<Item = (NameId, &DeclaredName)> {
+        self.symbols.iter().enumerate().map(|(k, symbol)| (NameId(k as u32), symbol))
+    }
+
+    /// A declaration.
+    #[must_use]
+    pub fn get(&self, id: NameId) -> &DeclaredName {
+        &self.symbols[id.index()]
+    }
+
+    /// What stands at a byte of a file, or ends there.
+    #[must_use]
+    pub fn at(&self, file: FileId, offset: u32) -> Option<Use> {
+        let end = self.uses.partition_point(|used| (used.span.file, used.span.start) <= (file, offset));
+        let holds = |used: &&Use| used.span.file == file && offset <= used.span.end;
+        self.uses[..end].iter().rev().take(2).find(holds).copied()
+    }
+
+    /// Every place of a declaration's name, itself included, in the order of the text.
+    pub fn uses_of(&self, id: NameId) -> impl Iterator<Item = Span> {
+        let is_it = move |used: &&Use| matches!(used.meaning, Meaning::Declared(of) if of == id);
+        self.uses.iter().filter(is_it).map(|used| used.span)
+    }
+
+    /// Every name and word, by place.
+    pub fn uses(&self) -> impl Iterator<Item = Use> {
+        self.uses.iter().copied()
+    }
+
+    /// The words of the language that are no names, as far as the parts of declarations and formulas go.
+    fn add_keywords(&mut self, within: Span, text: &str) {
+        let known: FxHashSet<u32> = self.uses.iter().map(|used| used.span.start).collect();
+        let inside = &text[within.start as usize..within.end as usize];
+        for (at, keyword) in keywords_in(inside) {
+            let start = within.start + at as u32;
+            let span = Span { file: within.file, start, end: start + keyword.word.name.len() as u32 };
+            if !known.contains(&start) {
+                self.uses.push(Use { span, meaning: Meaning::Word(&keyword.word), declares: false });
+            }
+        }
+    }
+}
+
+/// A walk over a tree, with the names that are declared.
+#[derive(Default)]
+struct Walk<'t> {
+    /// The names of params that are points.
+    point_params: FxHashSet<&'t str>,
+    /// The names of functions and tables that hide a function of the language.
+    hidden: FxHashSet<&'t str>,
+    symbols: Symbols,
+    /// The mechanism's space.
+    names: FxHashMap<String, NameId>,
+    ground: Option<NameId>,
+    /// The spaces of the bodies and of the ground.
+    features: FxHashMap<(NameId, String), NameId>,
+}
+
+/// What a formula may name beside the mechanism's names.
+#[derive(Clone, Copy, Default)]
+struct Scope<'a> {
+    /// The argument of the function or curve around it.
+    argument: Option<(&'a str, NameId)>,
+    /// What the numbers of a repeated declaration are called.
+    indices: &'a [(&'a str, NameId)],
+    /// The body whose feature it belongs to.
+    body: Option<NameId>,
+    /// The point whose own formula it is.
+    defined: Option<&'a str>,
+}
+
+impl Walk<'_> {
+    fn mechanism(&mut self, tree: &Mechanism) {
+        self.declare(&tree.name, NameKind::Mechanism, tree.span, None);
+        let items: Vec<Option<NameId>> = tree.items.iter().map(|item| self.item(item)).collect();
+        for (item, id) in tree.items.iter().zip(items) {
+            self.uses_in(item, id);
+        }
+    }
+
+    fn prefixes(&mut self, uses: &[UsedFile]) {
+        for used in uses {
+            if let Some(prefix) = &used.prefix {
+                self.declare(prefix, NameKind::Prefix, used.span, None);
+            }
+        }
+    }
+
+    fn declare(&mut self, name: &Name, kind: NameKind, declaration: Span, owner: Option<NameId>) -> NameId {
+        let id = NameId(self.symbols.symbols.len() as u32);
+        self.symbols.symbols.push(DeclaredName { name: name.text.clone(), kind, span: name.span, declaration, owner });
+        self.symbols.uses.push(Use { span: name.span, meaning: Meaning::Declared(id), declares: true });
+        id
+    }
+
+    /// Declares what an item does; a name that is taken twice keeps its first meaning.
+    fn item(&mut self, item: &Item) -> Option<NameId> {
+        let (name, kind) = match &item.kind {
+            ItemKind::Param { name, .. } => (name, NameKind::Param),
+            ItemKind::Function { name, .. } => (name, NameKind::Function),
+            ItemKind::Table { name, .. } => (name, NameKind::Table),
+            ItemKind::Input { name, .. } => (name, NameKind::Input),
+            ItemKind::Body { name, .. } => (name, NameKind::Body),
+            ItemKind::Joint { name, .. } => (name, NameKind::Joint),
+            ItemKind::Equation { name, driver: true, .. } => (name, NameKind::Driver),
+            ItemKind::Equation { name, .. } => (name, NameKind::Constraint),
+            ItemKind::Load { name, .. } => (name, NameKind::Load),
+            ItemKind::Measure { name, .. } => (name, NameKind::Measure),
+            ItemKind::Trace { name, .. } => (name, NameKind::Trace),
+            ItemKind::Part(part) => (&part.name, NameKind::Part),
+            ItemKind::Result { name, .. } => (name, NameKind::Result),
+            ItemKind::Ground { features } => {
+                let word = Span { end: item.span.start + "ground".len() as u32, ..item.span };
+                let name = Name { text: "ground".to_owned(), span: word };
+                let id = self.declare(&name, NameKind::Ground, item.span, None);
+                self.ground.get_or_insert(id);
+                self.features_of(id, features);
+                return Some(id);
+            }
+            ItemKind::Broken { names } => {
+                for name in names {
+                    let id = self.declare(name, NameKind::Broken, item.span, None);
+                    self.names.entry(name.text.clone()).or_insert(id);
+                }
+                return None;
+            }
+            ItemKind::Gravity { .. } | ItemKind::Analysis { .. } => return None,
+        };
+        let id = self.declare(name, kind, item.span, None);
+        self.names.entry(name.text.clone()).or_insert(id);
+        if let ItemKind::Body { features, .. } = &item.kind {
+            self.features_of(id, features);
+        }
+        Some(id)
+    }
+
+    fn features_of(&mut self, owner: NameId, features: &[Feature]) {
+        for feature in features.iter().filter(|feature| !feature.name.text.is_empty()) {
+            let kind = match feature.kind {
+                FeatureKind::Point { .. } => NameKind::Point,
+                FeatureKind::AxisAlong { .. } | FeatureKind::AxisTo { .. } => NameKind::Axis,
+                FeatureKind::Circle { .. } => NameKind::Circle,
+                FeatureKind::Curve { .. } => NameKind::Curve,
+                FeatureKind::Broken | FeatureKind::Mass { .. } => NameKind::Broken,
+            };
+            let id = self.declare(&feature.name, kind, feature.span, Some(owner));
+            // two grounds are one, for those who look for a point
+            let space =
+                if self.symbols.get(owner).kind == NameKind::Ground { self.ground.unwrap_or(owner) } else { owner };
+            self.features.entry((space, feature.name.text.clone())).or_insert(id);
+        }
+    }
+
+    fn uses_in(&mut self, item: &Item, id: Option<NameId>) {
+        let mut indices: Vec<(&str, NameId)> = Vec::new();
+        for range in &item.ranges {
+            let before = indices.clone();
+            let scope = Scope { indices: &before, ..Scope::default() };
+            self.formula(&range.from, scope);
+            self.formula(&range.to, scope);
+            indices.push((&range.index.text, self.declare(&range.index, NameKind::Argument, item.span, id)));
+        }
+        let plain = Scope { indices: &indices, ..Scope::default() };
+        match &item.kind {
+            ItemKind::Param { value, .. } | ItemKind::Input { value, .. } => self.formula(value, plain),
+            ItemKind::Measure { value: formula, unit, .. }
+            | ItemKind::Trace { point: formula, unit, .. }
+            | ItemKind::Result { value: formula, unit, .. } => {
+                self.formula(formula, plain);
+                if let Some(unit) = unit {
+                    self.compound(unit);
+                }
+            }
+            ItemKind::Function { argument, value, .. } => {
+                let declared = self.declare(argument, NameKind::Argument, item.span, id);
+                self.formula(value, Scope { argument: Some((&argument.text, declared)), ..plain });
+            }
+            ItemKind::Table { rows: TableRows::Listed(rows), .. } => {
+                for row in rows {
+                    self.formula(row, plain);
+                }
+            }
+            ItemKind::Table { rows: TableRows::File { units, .. }, .. } => {
+                units.iter().flatten().for_each(|unit| self.compound(unit));
+            }
+            ItemKind::Ground { features } => self.uses_in_features(features, self.ground, plain),
+            ItemKind::Body { pose, features, .. } => {
+                for part in pose.iter().flat_map(DrawnPose::parts) {
+                    self.read(part, plain, Wanted::Either);
+                }
+                self.uses_in_features(features, id, plain);
+            }
+            ItemKind::Part(part) => {
+                let bindings = part.bindings.iter().map(|binding| &binding.value);
+                for formula in bindings.chain(&part.on).chain(&part.at) {
+                    self.read(formula, plain, Wanted::Either);
+                }
+            }
+            ItemKind::Joint { kind, arguments, .. } => {
+                if let Some(joint) = JointWord::named(&kind.text) {
+                    self.word(kind, &joint.word);
+                }
+                for argument in arguments {
+                    self.formula(argument, plain);
+                }
+            }
+            ItemKind::Equation { left, right, .. } | ItemKind::Load { force: left, on: right, .. } => {
+                self.formula(left, plain);
+                self.formula(right, plain);
+            }
+            ItemKind::Gravity { acceleration } => self.formula(acceleration, plain),
+            ItemKind::Analysis { from, to, every } => {
+                for time in [from, to, every] {
+                    self.formula(time, plain);
+                }
+            }
+            ItemKind::Broken { .. } => {}
+        }
+    }
+
+    fn uses_in_features(&mut self, features: &[Feature], body: Option<NameId>, plain: Scope<'_>) {
+        let own = Scope { body, ..plain };
+        for feature in features {
+            match &feature.kind {
+                FeatureKind::Point { at } => {
+                    let name = &feature.name;
+                    match at {
+                        Some(at) => self.read(at, Scope { defined: Some(&name.text), ..own }, Wanted::Point),
+                        None => self.point_taken(name),
+                    }
+                }
+                FeatureKind::AxisAlong { origin, direction } => {
+                    self.read(origin, own, Wanted::Point);
+                    self.formula(direction, own);
+                }
+                FeatureKind::AxisTo { origin, target } => {
+                    self.read(origin, own, Wanted::Point);
+                    self.read(target, own, Wanted::Point);
+                }
+                FeatureKind::Circle { center, radius } => {
+                    self.read(center, own, Wanted::Point);
+                    self.formula(radius, own);
+                }
+                FeatureKind::Curve { argument, at, estimate } => {
+                    let curve = body.and_then(|body| self.features.get(&(body, feature.name.text.clone())).copied());
+                    let declared = self.declare(argument, NameKind::Argument, feature.span, curve);
+                    self.read(at, Scope { argument: Some((&argument.text, declared)), ..own }, Wanted::Point);
+                    if let Some(estimate) = estimate {
+                        self.formula(estimate, own);
+                    }
+                }
+                FeatureKind::Mass { mass, at, inertia } => {
+                    self.formula(mass, own);
+                    if let Some(at) = at {
+                        self.read(at, own, Wanted::Point);
+                    }
+                    if let Some(inertia) = inertia {
+                        self.formula(inertia, own);
+                    }
+                }
+                FeatureKind::Broken => {}
+            }
+        }
+    }
+
+    fn formula(&mut self, formula: &Expr, scope: Scope<'_>) {
+        self.read(formula, scope, Wanted::Number);
+    }
+
+    /// A formula of numbers or of points.
+    fn read(&mut self, formula: &Expr, scope: Scope<'_>, wanted: Wanted) {
+        let mut open = vec![(formula, wanted)];
+        while let Some((e, wanted)) = open.pop() {
+            match &e.kind {
+                ExprKind::Literal { unit: Some((unit, _)), .. } => self.unit(unit),
+                ExprKind::Name(name) => self.name(name, scope, wanted),
+                ExprKind::Member { owner, feature } => self.member(owner, feature, scope, wanted),
+                ExprKind::Path(segments) => self.path(segments, scope, wanted),
+                ExprKind::Call { name, arguments, .. } => self.called(name, arguments.len()),
+                _ => {}
+            }
+            open.extend(kinds::inside(e, wanted, |name| self.hidden.contains(name)));
+        }
+    }
+
+    /// `point A` alone, which takes the mechanism's point.
+    fn point_taken(&mut self, name: &Name) {
+        if self.point_params.contains(name.text.as_str())
+            && let Some(&id) = self.names.get(&name.text)
+        {
+            self.declared(name, id);
+        }
+    }
+
+    /// What a name stands for among the features of the body around a formula; the same rule as that of the reader of formulas.
+    fn own(&self, name: &Name, scope: Scope<'_>, wanted: Wanted) -> Option<NameId> {
+        let body = scope.body.filter(|_| wanted != Wanted::Number && scope.defined != Some(&name.text))?;
+        let &id = self.features.get(&(body, name.text.clone()))?;
+        let is_point = matches!(self.symbols.get(id).kind, NameKind::Point | NameKind::Broken);
+        let declared = self.names.get(&name.text).map(|&id| self.symbols.get(id).kind);
+        let is_point_param = declared == Some(NameKind::Param) && self.point_params.contains(name.text.as_str());
+        let is_number = match declared {
+            Some(kind) => kind == NameKind::Param && !is_point_param,
+            None if scope.argument.is_some_and(|(argument, _)| argument == name.text) => true,
+            None => Constant::named(&name.text).is_some() || Unit::named(&name.text).is_some(),
+        };
+        let is_own = match wanted {
+            Wanted::Number => false,
+            // where a point is wanted, what is none is told with its name
+            Wanted::Point => is_point || !is_point_param,
+            Wanted::Either => is_point && !is_number,
+        };
+        is_own.then_some(id)
+    }
+
+    fn word(&mut self, name: &Name, word: &'static Word) {
+        self.symbols.uses.push(Use { span: name.span, meaning: Meaning::Word(word), declares: false });
+    }
+
+    fn declared(&mut self, name: &Name, id: NameId) {
+        self.symbols.uses.push(Use { span: name.span, meaning: Meaning::Declared(id), declares: false });
+    }
+
+    fn compound(&mut self, written: &WrittenUnit) {
+        written.factors.iter().for_each(|factor| self.unit(&factor.name));
+    }
+
+    fn unit(&mut self, name: &Name) {
+        if let Some(unit) = Unit::named(&name.text) {
+            self.word(name, &unit.word);
+        }
+    }
+
+    /// A name in a formula; where it stands for a point, one of its own body comes first.
+    fn name(&mut self, name: &Name, scope: Scope<'_>, wanted: Wanted) {
+        if let Some(id) = self.own(name, scope, wanted) {
+            self.declared(name, id);
+            return;
+        }
+        if let Some(&(_, id)) = scope.indices.iter().find(|(index, _)| *index == name.text) {
+            self.declared(name, id);
+            return;
+        }
+        let argument = scope.argument.map(|(argument, _)| argument);
+        match alone(&name.text, argument, self.names.get(&name.text).copied()) {
+            Alone::Argument => scope.argument.into_iter().for_each(|(_, id)| self.declared(name, id)),
+            Alone::Constant(Constant { stands_for: StandsFor::Ground, .. }) if self.ground.is_some() => {
+                self.ground.into_iter().for_each(|id| self.declared(name, id));
+            }
+            Alone::Constant(constant) => self.word(name, &constant.word),
+            Alone::Unit(unit) => self.word(name, &unit.word),
+            Alone::Declared(id) => self.declared(name, id),
+            Alone::Unknown => {
+                if let Some(side) = Keyword::named(&name.text).filter(|keyword| keyword.role == Role::Side) {
+                    self.word(name, &side.word);
+                }
+            }
+        }
+    }
+
+    /// `link[2].pin`; the numbers are formulas of their own.
+    fn path(&mut self, segments: &[PathSegment], scope: Scope<'_>, wanted: Wanted) {
+        match segments {
+            [owner, feature, ..] => self.member(&owner.name, &feature.name, scope, wanted),
+            [alone] => {
+                if let Some(&id) = self.names.get(&alone.name.text) {
+                    self.declared(&alone.name, id);
+                }
+            }
+            [] => {}
+        }
+    }
+
+    fn member(&mut self, owner: &Name, feature: &Name, scope: Scope<'_>, wanted: Wanted) {
+        let is_coordinate = wanted != Wanted::Point && coordinate(feature).is_some();
+        if let Some(id) = self.own(owner, scope, Wanted::Point).filter(|_| is_coordinate) {
+            self.declared(owner, id);
+            return;
+        }
+        let of = if owner.text == "ground" { self.ground } else { self.names.get(&owner.text).copied() };
+        let Some(of) = of else { return };
+        self.declared(owner, of);
+        if let Some(&id) = self.features.get(&(of, feature.text.clone())) {
+            self.declared(feature, id);
+        }
+    }
+
+    /// What is called: the language's own functions before the user's, unless they give way.
+    fn called(&mut self, name: &Name, arguments: usize) {
+        let declared = self.names.get(&name.text);
+        let is_callable = |id: &NameId| matches!(self.symbols.get(*id).kind, NameKind::Function | NameKind::Table);
+        let hides = declared.is_some_and(is_callable);
+        let quantity = QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way || !hides);
+        let function = Function::named(&name.text).map(|function| &function.word);
+        // with more arguments `max` and `min` compare
+        let reduces = |_: &&ReductionWord| !hides && (function.is_none() || arguments == 1);
+        let reduction = ReductionWord::named(&name.text).filter(reduces).map(|reduction| &reduction.word);
+        let word = reduction.or(function).or_else(|| quantity.map(|quantity| &quantity.word));
+        let word = word.filter(|_| !self.hidden.contains(name.text.as_str()));
+        match (word, declared) {
+            (Some(word), _) => self.word(name, word),
+            (None, Some(&id)) => self.declared(name, id),
+            (None, None) => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Meaning, Symbols};
+    use mechc_syntax as syntax;
+    use mechc_text::source::Sources;
+    use std::collections::BTreeSet;
+
+    const TEXT: &str = include_str!("../../../../examples/slider_crank.mech");
+
+    fn symbols(text: &str) -> (Sources, Symbols) {
+        let mut sources = Sources::default();
+        let file = sources.add("a.mech", text);
+        let parsed = syntax::parse(&sources, file);
+        let symbols = Symbols::of(&parsed.tree.mechanisms[0], &parsed.tree.uses, text);
+        (sources, symbols)
+    }
+
+    /// Every place of the name that stands at the first `‸` of a text, as the lines that hold it.
+    fn places(text: &str) -> Vec<String> {
+        let at = text.find('‸').expect("a cursor");
+        let text = text.replacen('‸', "", 1);
+        let (sources, symbols) = symbols(&text);
+        let file = sources.end_of(symbols.get(super::NameId(0)).span.file).file;
+        let Some(Meaning::Declared(id)) = symbols.at(file, at as u32).map(|used| used.meaning) else {
+            return Vec::new();
+        };
+        let line = |span: mechc_text::source::Span| text.lines().nth(sources.get(file).line_index(span.start as usize));
+        symbols.uses_of(id).filter_map(line).map(|line| line.trim().to_owned()).collect()
+    }
+
+    #[test]
+    fn every_word_of_an_example_is_known() {
+        let (sources, symbols) = symbols(TEXT);
+        let starts: BTreeSet<u32> = symbols.uses().map(|used| used.span.start).collect();
+        let file = symbols.get(super::NameId(0)).span.file;
+        let within = symbols.get(super::NameId(0)).declaration;
+        let is_word = |c: char| c.is_alphanumeric() || c == '_';
+        for line in 0.. {
+            let Some(range) = sources.get(file).line_range(line) else { break };
+            let code = TEXT[range.clone()].split("//").next().unwrap_or_default();
+            for word in code.split(|c| !is_word(c)).filter(|word| word.starts_with(char::is_alphabetic)) {
+                let start = (range.start + (word.as_ptr() as usize - code.as_ptr() as usize)) as u32;
+                assert!(start < within.start || starts.contains(&start), "`{word}` in {code}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_name_is_found_from_its_use_and_from_its_declaration() {
+        let text = "mechanism m {\n param r = 3 mm\n fn f(r2) = r2 * r\n ground { point O = (0, 0) }\n body b { point O = (r, 0)\n axis a = O along (1, 0) }\n joint j: revolute(ground.O, b.O)\n driver d: rotation(j) = f(t)\n measure m2 = x(b.O) + r\n}";
+        let of = |from: &str, to: &str| {
+            assert!(text.contains(from), "{from}");
+            places(&text.replacen(from, to, 1))
+        };
+        assert_eq!(of("param r", "param ‸r").len(), 4);
+        assert_eq!(of("* r\n", "* ‸r\n"), of("param r", "param ‸r"));
+        assert_eq!(of("fn f(r2)", "fn f(‸r2)").len(), 2);
+        assert_eq!(of("axis a = O", "axis a = ‸O"), of("x(b.O)", "x(b.‸O)"));
+        assert_eq!(of("x(b.O)", "x(b.‸O)").len(), 4);
+        assert_eq!(of("ground.O", "ground.‸O").len(), 2);
+        assert_eq!(of("ground.O", "‸ground.O"), ["ground { point O = (0, 0) }", "joint j: revolute(ground.O, b.O)"]);
+        assert_eq!(of("rotation(j)", "rotation(‸j)").len(), 2);
+        assert_eq!(of("= f(t)", "= ‸f(t)").len(), 2);
+    }
+
+    #[test]
+    fn a_declared_name_wins_over_a_unit_that_gives_way() {
+        let text = "mechanism m {\n param ‸Hz = 3\n body b { point P = (2 / Hz, 0) }\n measure k = 5 Hz * Hz\n}";
+        assert_eq!(places(text).len(), 3);
+    }
+
+    #[test]
+    fn a_point_of_the_body_comes_before_that_of_the_mechanism() {
+        let text = "mechanism m {\n param A = (1 mm, 2 mm)\n param r = 3 mm\n ground {\n point A\n point P = mid(A, A)\n point r = (r, A.x)\n point Q = r + 2 * A - 2 * (r / 1 mm) * P\n }\n body b at (A, r / 1 m) { point O = A + (A.y, 0) }\n}";
+        let of = |from: &str, to: &str| {
+            assert!(text.contains(from), "{from}");
+            places(&text.replacen(from, to, 1))
+        };
+        let body = "body b at (A, r / 1 m) { point O = A + (A.y, 0) }";
+        assert_eq!(of("param A", "param ‸A"), ["param A = (1 mm, 2 mm)", "point A", body, body, body]);
+        let (second, last) = ("point r = (r, A.x)", "point Q = r + 2 * A - 2 * (r / 1 mm) * P");
+        assert_eq!(of("mid(A", "mid(‸A"), ["point A", "point P = mid(A, A)", "point P = mid(A, A)", second, last]);
+        assert_eq!(of("point A", "point ‸A"), of("mid(A", "mid(‸A"));
+        assert_eq!(of("(r, A.x)", "(‸r, A.x)"), ["param r = 3 mm", second, last, body]);
+        assert_eq!(of("Q = r", "Q = ‸r"), [second, last]);
+        assert_eq!(of("(r, A.x)", "(r, ‸A.x)"), of("mid(A", "mid(‸A"));
+    }
+
+    #[test]
+    fn traces_units_and_quantities_have_their_meanings() {
+        let text = "mechanism m {\n param Hz = 3\n body b { point ‸P = (2, 0) }\n trace trace = b.P in mm\n measure speed = speed(b.P) in mm/Hz\n measure in_it = speed / 2 in mm/s\n}";
+        assert_eq!(places(text).len(), 3);
+        // a unit behind `in` is one, whatever else is called so
+        assert_eq!(places(&text.replace('‸', "").replace("Hz =", "‸Hz =")).len(), 1);
+        assert_eq!(places(&text.replace('‸', "").replace("measure speed", "measure ‸speed")).len(), 2);
+        assert_eq!(places(&text.replace('‸', "").replace("trace trace", "trace ‸trace")).len(), 1);
+        let called =
+            text.replace('‸', "").replace(" param", " fn slip(u) = u\n param").replace("speed(b.P)", "‸slip(1)");
+        assert_eq!(places(&called).len(), 2);
+    }
+
+    #[test]
+    fn prefixes_of_used_files_are_names() {
+        let text = "use \"a.mech\"\nuse \"b.mech\" as ‸use // one\nmechanism m {\n body as { point use = (0, 0) }\n}";
+        assert_eq!(places(text), ["use \"b.mech\" as use // one"]);
+        let (_, symbols) = symbols(&text.replace('‸', ""));
+        let words = symbols.uses().filter(|used| matches!(used.meaning, Meaning::Word(_)));
+        let starts: Vec<u32> = words.map(|used| used.span.start).filter(|start| *start < 40).collect();
+        assert_eq!(starts, [0, 13, 26], "`use`, `use` and `as`, and not the prefix");
+    }
+
+    #[test]
+    fn names_are_known_beside_a_fault() {
+        let text = "mechanism m {\n param ‸r = 3 mm\n body b { point P = (r, 0) }\n joint j revolute(b.P, ground.O)\n measure k = r\n}";
+        assert_eq!(places(text).len(), 3);
+    }
+}

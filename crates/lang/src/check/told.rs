@@ -1,0 +1,54 @@
+//! What is told from outside of params and inputs, those of parts by their paths.
+
+use super::Checker;
+use mechc_syntax::ast::{Binding, ItemKind, Name};
+use mechc_syntax::normalized;
+use mechc_text::source::Span;
+
+impl Checker<'_> {
+    /// All params or inputs, those of parts by their paths, each with the place of its binding if it has one.
+    pub(super) fn settable_names(&self, of: fn(&ItemKind) -> Option<&Name>) -> Vec<(String, Option<Span>)> {
+        let mut found = Vec::new();
+        self.add_settable("", &[], of, &mut found);
+        found
+    }
+
+    fn add_settable(
+        &self,
+        path: &str,
+        bindings: &[Binding],
+        of: fn(&ItemKind) -> Option<&Name>,
+        found: &mut Vec<(String, Option<Span>)>,
+    ) {
+        for name in self.items().iter().filter_map(|item| of(&item.kind)) {
+            let binding =
+                bindings.iter().find(|binding| binding.name.text == name.text && binding.coordinate.is_none());
+            found.push((format!("{path}{}", name.text), binding.map(|binding| binding.span)));
+        }
+        for (child, part) in self.parts.iter().zip(&self.bindings) {
+            child.add_settable(&format!("{path}{}.", part.name.text), &part.bindings, of, found);
+        }
+    }
+}
+
+/// Whether what is told of a path is told of a thing: of itself, or of all copies of something repeated; spaces count nothing.
+pub(super) fn is_told_by(full: &str, told: &str) -> bool {
+    let told: String = told.chars().filter(|c| !c.is_whitespace()).collect();
+    if told == full {
+        return true;
+    }
+    let told = normalized(&told);
+    let (mut own, mut others) = (full.split('.'), told.split('.'));
+    loop {
+        match (own.next(), others.next()) {
+            (None, None) => return true,
+            (Some(own), Some(other)) => {
+                let is_it = own == other || own.split_once('[').is_some_and(|(base, _)| base == other);
+                if !is_it {
+                    return false;
+                }
+            }
+            _ => return false,
+        }
+    }
+}

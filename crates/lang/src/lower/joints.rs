@@ -1,0 +1,71 @@
+//! The joints' rows of `Φ` (H 3.3).
+
+use super::{Entry, Lowering, entries};
+use crate::model::{Joint, JointKind, PointId};
+use mechc_expr::ExprId;
+use mechc_ir::RowUnit;
+
+impl Lowering<'_> {
+    pub(super) fn joint(&mut self, joint: &Joint) -> Vec<Entry> {
+        match joint.kind {
+            // r_i^P − r_j^Q
+            JointKind::Revolute(p, q) => {
+                let (p, q) = (self.global(p), self.global(q));
+                entries(RowUnit::LENGTH, self.minus(p, q))
+            }
+            // [v_i^⊥ᵀ d, v_i^⊥ᵀ v_j]
+            JointKind::Translational(a, b) => {
+                let (origin, other) = (self.global(self.model[a].origin), self.global(self.model[b].origin));
+                let d = self.minus(other, origin);
+                let (v, w) = (self.direction(a), self.direction(b));
+                vec![(self.left_of(v, d), RowUnit::LENGTH), (self.left_of(v, w), RowUnit::NUMBER)]
+            }
+            // [r_i^P − r_j^Q, φ_j − φ_i − φ_0]
+            JointKind::Weld(p, q, angle) => {
+                let frames = [self.model[p].frame, self.model[q].frame];
+                let [phi_i, phi_j] = frames.map(|frame| self.frame_coordinate(frame, 2));
+                let angle = self.formula(angle);
+                let turn = self.graph.sub(phi_j, phi_i);
+                let turn = self.handed(joint.part, turn);
+                let turn = self.graph.sub(turn, angle);
+                let (p, q) = (self.global(p), self.global(q));
+                let [x, y] = self.minus(p, q);
+                vec![(x, RowUnit::LENGTH), (y, RowUnit::LENGTH), (turn, RowUnit::ANGLE)]
+            }
+            // dᵀd − L²
+            JointKind::RevoluteRevolute(p, q, length) => {
+                let length = self.formula(length);
+                entries(RowUnit::AREA, [self.squared_distance_row(p, q, length)])
+            }
+            // v_j^⊥ᵀ (r_i^P − r_j^a) − c
+            JointKind::RevoluteTranslational(p, a, offset) => {
+                let (point, origin) = (self.global(p), self.global(self.model[a].origin));
+                let d = self.minus(point, origin);
+                let v = self.direction(a);
+                let offset = self.formula(offset);
+                let left = self.left_of(v, d);
+                let left = self.handed(joint.part, left);
+                entries(RowUnit::LENGTH, [self.graph.sub(left, offset)])
+            }
+            // their angles and phases are those of the text that declares them
+            JointKind::Gear { circles, internal, phase } => {
+                self.seen_from(joint.part, |l| l.gear(joint, circles, internal, phase))
+            }
+            JointKind::RackPinion { pinion, rack, phase, side } => {
+                self.seen_from(joint.part, |l| l.rack_pinion(pinion, rack, phase, side))
+            }
+            JointKind::PointFollower(point, profile) => self.point_follower(joint, point, profile),
+            JointKind::Cam(k, m) => self.cam(joint, k, m),
+            JointKind::FlatFollower(profile, face) => self.flat_follower(joint, profile, face),
+        }
+    }
+
+    /// `dᵀd − C²`: no square root, and no singularity at the solution.
+    pub(super) fn squared_distance_row(&mut self, p: PointId, q: PointId, distance: ExprId) -> ExprId {
+        let (p, q) = (self.global(p), self.global(q));
+        let d = self.minus(q, p);
+        let square = self.dot(d, d);
+        let wanted = self.graph.power(distance, 2);
+        self.graph.sub(square, wanted)
+    }
+}

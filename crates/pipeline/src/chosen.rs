@@ -1,0 +1,78 @@
+//! Columns of rows, by patterns of their names.
+
+use super::Compiled;
+use mechc_text::diag::{Code, Diagnostic, nearest};
+use wildmatch::WildMatch;
+
+impl Compiled {
+    /// The numbers of the columns that any of some patterns fits, in which `*` stands for anything and `?` for one character; the first
+    /// column, the time, is always among them. All columns where there is no pattern.
+    ///
+    /// # Errors
+    /// No column fits one of them.
+    pub fn chosen_columns(&self, patterns: &[String]) -> Result<Vec<usize>, Box<Diagnostic>> {
+        chosen(patterns, &self.columns())
+    }
+}
+
+fn chosen(patterns: &[String], columns: &[String]) -> Result<Vec<usize>, Box<Diagnostic>> {
+    if patterns.is_empty() {
+        return Ok((0..columns.len()).collect());
+    }
+    let mut is_chosen = vec![false; columns.len()];
+    is_chosen[0] = true;
+    for pattern in patterns {
+        let fits = WildMatch::new(pattern.trim());
+        let mut found = false;
+        for (chosen, _) in is_chosen.iter_mut().zip(columns).filter(|(_, column)| fits.matches(column)) {
+            *chosen = true;
+            found = true;
+        }
+        if !found {
+            let said = Diagnostic::new(Code::E0706, format!("there is no column `{}`", pattern.trim()));
+            let parts: Vec<&str> = pattern.split(',').map(str::trim).collect();
+            let is_there = |part: &&str| columns.iter().any(|column| WildMatch::new(part).matches(column));
+            if parts.len() > 1 && parts.iter().all(is_there) {
+                let repeated: Vec<String> = parts.iter().map(|part| format!("--columns '{part}'")).collect();
+                return Err(Box::new(said.help(format!("repeat the option: `{}`", repeated.join(" ")))));
+            }
+            let meant = nearest(pattern.trim(), columns.iter().map(String::as_str));
+            let help = match meant {
+                Some(name) => format!("was `{name}` meant?"),
+                None if is_of_forces(pattern) => "forces have columns with `--reactions`".to_owned(),
+                None => "`*` stands for anything, `?` for one character, as in `--columns 'rod.*'`".to_owned(),
+            };
+            return Err(Box::new(said.help(help)));
+        }
+    }
+    Ok((0..columns.len()).filter(|&k| is_chosen[k]).collect())
+}
+
+/// Whether a pattern ends as columns do that hold what joints exert and drivers supply.
+fn is_of_forces(pattern: &str) -> bool {
+    [".fx", ".fy", ".torque", ".effort"].iter().any(|ending| pattern.trim().ends_with(ending))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::chosen;
+
+    #[test]
+    fn patterns_choose_by_names() {
+        let columns = ["t", "rod.x", "rod.x.d", "leg[1].x", "leg[2].x"].map(str::to_owned);
+        let of = |patterns: &[&str]| {
+            chosen(&patterns.iter().map(|&pattern| pattern.to_owned()).collect::<Vec<_>>(), &columns).ok()
+        };
+        let why = chosen(&["rod.x,leg[1].x".to_owned()], &columns).expect_err("one pattern is one name");
+        assert_eq!(why.help, ["repeat the option: `--columns 'rod.x' --columns 'leg[1].x'`"]);
+        assert_eq!(of(&[]), Some(vec![0, 1, 2, 3, 4]));
+        assert_eq!(of(&["rod.x"]), Some(vec![0, 1]));
+        assert_eq!(of(&["rod.*", "t"]), Some(vec![0, 1, 2]));
+        assert_eq!(of(&["leg[?].x"]), Some(vec![0, 3, 4]));
+        assert_eq!(of(&["leg[2].x", "rod.x"]), Some(vec![0, 1, 4]), "in the order of the table");
+        assert_eq!(of(&["rod.y"]), None);
+        let said = chosen(&["main.fx".to_owned()], &columns).expect_err("no such column");
+        assert_eq!(said.help, ["forces have columns with `--reactions`"]);
+        assert_eq!(of(&[""]), None);
+    }
+}

@@ -1,0 +1,163 @@
+//! Bodies that a hand can turn: those whose angle a driver says.
+
+use super::Compiled;
+use super::knobs::at_time;
+use mechc_expr::{ExprId, Symbol};
+use mechc_ir::{BodyId, ConstraintSystem, Declaration, Input};
+
+/// An angle that changes less with its input [rad per SI unit of the input] cannot be led by it.
+const LEAST_RATE: f64 = 1e-9;
+
+/// A body that a driver turns by its angle alone.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Crank {
+    /// Its number among the bodies.
+    pub body: usize,
+    /// Around which of its points, where it is joined to the ground (m).
+    pub pivot: [f64; 2],
+    /// The input that its driver speaks of; nothing where time alone turns it.
+    pub input: Option<Led>,
+}
+
+/// An input that leads an angle.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Led {
+    /// Its path.
+    pub name: String,
+    /// How the body's angle changes with it at the first time [rad per SI unit of the input]: finite, and not 0.
+    pub rate: f64,
+}
+
+impl Compiled {
+    /// The bodies that can be turned by hand, by what turns them at a time (s).
+    #[must_use]
+    pub fn cranks(&self, t: f64) -> Vec<Crank> {
+        let system = self.system();
+        // the equations of the text hold inputs as what they are by time
+        let signals = self.with_signals();
+        let system = signals.as_ref().unwrap_or(system);
+        let turned = Turned { own: self.system(), system, t };
+        (0..system.rows().len()).filter(|&row| system.is_driver(row)).filter_map(|row| turned.crank(row)).collect()
+    }
+}
+
+/// A mechanism whose inputs are signals, at a time (s).
+struct Turned<'s> {
+    /// The same with inputs that are formulas of time.
+    own: &'s ConstraintSystem,
+    system: &'s ConstraintSystem,
+    t: f64,
+}
+
+impl Turned<'_> {
+    /// The body that a driver's row turns.
+    fn crank(&self, row: usize) -> Option<Crank> {
+        let system = self.system;
+        let [(column, by_angle)] = system.phi_q().row(row) else { return None };
+        let body = system.body_of(*column as usize)?;
+        let [.., phi] = system.pose_of(body);
+        let pivot = system.declarations().iter().find_map(|joint| pivot(system, joint, body))?;
+        let by_input = system.by_inputs().zip(system.inputs());
+        let mut led = by_input
+            .map(|(side, input)| (side[row], input))
+            .filter(|(slope, input)| !input.is_time() && !system.graph().is_zero(*slope))
+            .map(|(slope, input)| self.led(slope, *by_angle, input))
+            .peekable();
+        let is_led = led.peek().is_some();
+        let input = led.flatten().next();
+        // one that an input turns, but not now, is not turned by time either
+        (phi == *column as usize && is_led == input.is_some()).then_some(Crank { body: body.index(), pivot, input })
+    }
+
+    /// An input by which an angle changes, of an equation with `−Φ_u` and `Φ_φ`.
+    fn led(&self, slope: ExprId, by_angle: ExprId, input: &Input) -> Option<Led> {
+        let rate = self.value(slope) / self.value(by_angle);
+        (rate.is_finite() && rate.abs() > LEAST_RATE).then(|| Led { name: input.name.clone(), rate })
+    }
+
+    /// A formula at that time, where estimates have everything.
+    fn value(&self, formula: ExprId) -> f64 {
+        let Turned { own, system, t } = self;
+        system.graph().value(formula, |symbol| match symbol {
+            Symbol::Param(k) => system.params()[k as usize].value,
+            Symbol::Coordinate { index, order: 0 } => {
+                system.value_at(system.coordinates()[index as usize].estimate, &[])
+            }
+            Symbol::Shift(_) => 0.0,
+            Symbol::Signal { order: 0, .. } => {
+                let is_it = |input: &&Input| input.symbol() == symbol;
+                let named = |name: &str| own.inputs().iter().find(|input| input.name == name);
+                match system.inputs().iter().find(is_it) {
+                    Some(input) if !input.is_time() => {
+                        named(&input.name).map_or(f64::NAN, |input| at_time(own, input.formulas[0], *t))
+                    }
+                    _ => *t,
+                }
+            }
+            Symbol::Time => *t,
+            _ => f64::NAN,
+        })
+    }
+}
+
+/// Where a joint holds a body to the ground.
+fn pivot(system: &ConstraintSystem, joint: &Declaration, body: BodyId) -> Option<[f64; 2]> {
+    let [one, other] = joint.points.as_slice() else { return None };
+    let on_body = match [one, other].map(|point| system.points()[*point].body) {
+        [None, Some(on)] if on == body => other,
+        [Some(on), None] if on == body => one,
+        _ => return None,
+    };
+    Some(system.points()[*on_body].at.map(|id| system.value_at(id, &[])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Led;
+    use crate::{Choice, Parsed, Redundant};
+    use mechc_text::cancel::Cancel;
+    use mechc_text::world::Memory;
+
+    /// What turns a disc whose driver says something of `axle`, or of `back`, which is written the other way round.
+    fn led(driver: &str) -> Vec<Option<Led>> {
+        let text = format!(
+            "mechanism disc {{
+    input turn = 60 deg + 1 rev/s * t
+    input lift = 5 mm
+    ground {{ point O = (0, 0) }}
+    body wheel at (0, 0, 60 deg) {{ point O = (0, 0) point P = (20 mm, 0) }}
+    joint axle: revolute({})
+    driver motor: {driver}
+    analysis from 0 s to 1 s every 10 ms
+}}",
+            if driver.contains("back") { "wheel.O, ground.O" } else { "ground.O, wheel.O" }
+        )
+        .replace("joint axle", if driver.contains("back") { "joint back" } else { "joint axle" });
+        let checked = Parsed::of("disc.mech", &text).check(&Choice::default(), &Memory::default());
+        let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+        let compiled = compiled.unwrap_or_else(|| panic!("{driver}: {said:?}"));
+        compiled.cranks(0.0).into_iter().map(|crank| crank.input).collect()
+    }
+
+    #[test]
+    fn an_angle_is_led_as_the_equations_have_it() {
+        for (driver, name, rate) in [
+            ("rotation(axle) = turn", "turn", 1.0),
+            ("rotation(axle) = 2 * turn", "turn", 2.0),
+            ("rotation(axle) = -turn", "turn", -1.0),
+            ("rotation(axle) = sin(turn)", "turn", 0.5),
+            ("rotation(back) = turn", "turn", -1.0),
+            ("2 * rotation(axle) = turn + 10 deg/s * t", "turn", 0.5),
+            ("rotation(axle) = lift / 2 mm", "lift", 500.0),
+        ] {
+            let found = led(driver);
+            let [Some(led)] = found.as_slice() else { panic!("{driver}: {found:?}") };
+            assert_eq!(led.name, name, "{driver}");
+            assert!((led.rate - rate).abs() < 1e-9 * rate.abs(), "{driver}: {}", led.rate);
+        }
+        assert_eq!(led("rotation(axle) = 1 rev/s * t"), [None]);
+        // at the first time nothing is turned by it
+        assert_eq!(led("rotation(axle) = 1 rev/s * t * (turn - 60 deg)"), []);
+        assert_eq!(led("rotation(axle) = (turn - 60 deg)^2"), []);
+    }
+}

@@ -1,0 +1,88 @@
+//! Where a mechanism is drawn, before anything is assembled: by the poses as they are written.
+
+use super::Checked;
+use mechc_expr::{ExprId, Symbol};
+use mechc_lang::model::{Frame, Joint, JointKind, Mechanism, Placement, Point};
+
+/// A mechanism as it is drawn.
+pub struct Drawn {
+    /// Points that have a name.
+    pub points: Vec<DrawnPoint>,
+    /// Joints that one number tells the position of.
+    pub joints: Vec<DrawnJoint>,
+    /// Bodies by their names, with the angle (rad).
+    pub angles: Vec<(String, f64)>,
+}
+
+/// A point of a body or of the ground.
+pub struct DrawnPoint {
+    /// What it is fixed to, by its path.
+    pub body: String,
+    /// Its own name.
+    pub name: String,
+    /// Its place (m).
+    pub at: [f64; 2],
+}
+
+/// A joint whose position is one number.
+pub struct DrawnJoint {
+    /// Its path.
+    pub name: String,
+    /// What of it is that number: `rotation`, `displacement`.
+    pub quantity: &'static str,
+    /// In SI.
+    pub value: f64,
+}
+
+impl Checked {
+    /// Where its bodies are drawn; nothing where it is not sound. A number that is not known before the motion is NaN.
+    pub fn drawn(&self) -> Option<Drawn> {
+        Some(drawn(self.model()?))
+    }
+}
+
+fn drawn(model: &Mechanism) -> Drawn {
+    let mut graph = model.graph.clone();
+    let mut place = |frame: Frame| model.drawn(&mut graph, &mut |_, e| e, None, frame);
+    let of_points: Vec<_> = model.points.iter().map(|point| (point, place(point.frame))).collect();
+    let of_bodies: Vec<_> = model.body_ids().map(|body| (body, place(Frame::Body(body)))).collect();
+    let of_axes: Vec<_> = model.axes.iter().map(|axis| place(axis.frame)).collect();
+    let points: Vec<_> = of_points.iter().map(|(point, place)| place.placed(&mut graph, point.at)).collect();
+    let directions: Vec<_> =
+        model.axes.iter().zip(&of_axes).map(|(axis, place)| place.turned(&mut graph, axis.direction)).collect();
+    let mut values = Vec::new();
+    graph.extend_values(&mut values, |symbol| match symbol {
+        Symbol::Param(k) => model.params.get(k as usize).map_or(f64::NAN, |param| param.value),
+        Symbol::Time | Symbol::Shift(_) => 0.0,
+        _ => f64::NAN,
+    });
+    let value = |id: ExprId| values[id.index()];
+    let angle = |frame: Frame| match frame {
+        Frame::Ground => 0.0,
+        frame => {
+            of_points.iter().find(|(point, _)| point.frame == frame).map_or(f64::NAN, |(_, place)| value(place.phi))
+        }
+    };
+    let position = |kind: JointKind| match kind {
+        JointKind::Revolute(p, q) => Some(("rotation", angle(model[q].frame) - angle(model[p].frame))),
+        JointKind::Translational(a, b) => {
+            let [from, to] = [a, b].map(|axis| points[model[axis].origin.index()].map(value));
+            let [x, y] = directions[a.index()].map(value);
+            Some(("displacement", ((to[0] - from[0]) * x + (to[1] - from[1]) * y) / (x * x + y * y).sqrt()))
+        }
+        _ => None,
+    };
+    let point = |((point, _), at): (&(&Point, Placement), &[ExprId; 2])| {
+        let body = model.frame_name(point.frame).to_owned();
+        Some(DrawnPoint { body, name: point.name.clone()?, at: at.map(value) })
+    };
+    let joint = |joint: &Joint| {
+        let (quantity, value) = position(joint.kind)?;
+        Some(DrawnJoint { name: joint.declared.name.clone(), quantity, value })
+    };
+    Drawn {
+        points: of_points.iter().zip(&points).filter_map(point).collect(),
+        joints: model.joints.iter().filter_map(joint).collect(),
+        angles: of_bodies.iter().map(|(id, place)| (model[*id].declared.name.clone(), value(place.phi))).collect(),
+    }
+}

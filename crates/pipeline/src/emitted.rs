@@ -1,0 +1,247 @@
+//! A compiled mechanism as code for others.
+
+use super::{Compiled, RunOptions};
+use mechc_emit::{self as emit, CrateFile, EmittedMotion, Following, LARGEST_STRAIGHT, Reference, TranslationUnit};
+use mechc_engine::analysis::{self, Horizon, Solving, Times};
+use mechc_engine::solver::BlockTables;
+use mechc_expr::Dependence;
+use mechc_ir::layout::RowLayout;
+use mechc_ir::program::Program;
+use mechc_text::cancel::Cancel;
+use mechc_text::diag::{Code, Diagnostic, Diagnostics};
+
+/// Rows and numbers at most that a crate is tested against.
+const MOST_ROWS: usize = 20;
+const MOST_NUMBERS: usize = 20_000;
+
+/// What Rust code is to hold.
+#[derive(Clone, Debug)]
+pub struct RustOptions {
+    /// The name of the file, for the header.
+    pub file: String,
+    /// Whether it assembles the mechanism and follows its motion, beside evaluating the equations.
+    pub with_motion: bool,
+    /// Whether it gives the derivatives of the coordinates by the parameters too.
+    pub with_sensitivities: bool,
+    /// How many variants or times are solved at once, beside one alone.
+    pub lanes: Option<usize>,
+    /// Whether a crate has a header and functions for C too.
+    pub for_c: bool,
+    /// Beyond so many operations they are written as tables instead of lines.
+    pub largest_straight: usize,
+}
+
+impl RustOptions {
+    /// All of one mechanism, from a file.
+    #[must_use]
+    pub fn of(file: impl Into<String>) -> RustOptions {
+        let (with_motion, with_sensitivities, for_c) = (true, false, false);
+        let (lanes, largest_straight) = (None, LARGEST_STRAIGHT);
+        RustOptions { file: file.into(), with_motion, with_sensitivities, lanes, for_c, largest_straight }
+    }
+}
+
+impl Compiled {
+    /// A Rust module; with what is to be said of it. Nothing where the start cannot be assembled, or it would be too large.
+    #[must_use]
+    pub fn rust(&self, options: &RustOptions) -> (Option<String>, Diagnostics) {
+        self.emitted(options, |_, unit, _| Ok(emit::rust(unit)))
+    }
+
+    /// The files of a crate of a name around that module, which holds itself against the rows of the file's analysis, or of the
+    /// first second. Where the motion stops on its way, what is said tells why.
+    #[must_use]
+    pub fn package(&self, name: &str, options: &RustOptions) -> (Option<Vec<CrateFile>>, Diagnostics) {
+        self.emitted(options, |compiled, unit, said| {
+            let reference = compiled.reference(said)?;
+            Ok(emit::package(unit, &reference, name))
+        })
+    }
+
+    /// What is made of a unit; with what is to be said of it.
+    fn emitted<T>(
+        &self,
+        options: &RustOptions,
+        make: impl FnOnce(&Compiled, &TranslationUnit<'_>, &mut Diagnostics) -> Result<T, Box<Diagnostic>>,
+    ) -> (Option<T>, Diagnostics) {
+        if let Err(why) = self.has_no_varied_forces() {
+            return (None, (*why).into());
+        }
+        let with_reactions = self.with_reactions();
+        let compiled = with_reactions.as_ref().unwrap_or(self);
+        let by_params = if options.with_sensitivities { compiled.by_params().map(Some) } else { Ok(None) };
+        let by_params = match by_params {
+            Ok(compiled) => compiled,
+            Err(why) => return (None, why),
+        };
+        let compiled = by_params.as_ref().unwrap_or(compiled);
+        let signals = match compiled.signals_for_code(options) {
+            Ok(signals) => signals,
+            Err(why) => return (None, why),
+        };
+        let mut said = Diagnostics::default();
+        let made =
+            compiled.unit(options, signals.as_ref(), &mut said).and_then(|unit| make(compiled, &unit, &mut said));
+        match made {
+            Ok(made) => (Some(made), said),
+            Err(why) => (None, (*why).into()),
+        }
+    }
+
+    /// Whether it can be written as code.
+    ///
+    /// # Errors
+    /// A measure holds how a force changes with an input or parameter, which only `run` computes.
+    fn has_no_varied_forces(&self) -> Result<(), Box<Diagnostic>> {
+        let system = self.system();
+        let is_it = |id| system.graph().dependence(id).on(Dependence::VARIED_MULTIPLIERS);
+        let Some(measure) = system.measures().iter().find(|of| is_it(of.value)) else {
+            return Ok(());
+        };
+        let message = format!("measure `{}` holds the derivative of a force", measure.name);
+        let diagnostic = Diagnostic::new(Code::E0706, message).at(measure.span, "is for `run` alone");
+        Err(Box::new(diagnostic.help("leave the measure out here; `mechc run` computes it")))
+    }
+
+    /// The mechanism with its inputs as signals, where it has any and is to be solved.
+    fn signals_for_code(&self, options: &RustOptions) -> Result<Option<Signals>, Diagnostics> {
+        if !options.with_motion {
+            return Ok(None);
+        }
+        let compiled = self.signals(&Cancel::default())?;
+        Ok(compiled.map(|compiled| Signals { given: compiled.program().with_signals_given(), compiled }))
+    }
+
+    fn unit<'u>(
+        &'u self,
+        options: &'u RustOptions,
+        signals: Option<&'u Signals>,
+        said: &mut Diagnostics,
+    ) -> Result<TranslationUnit<'u>, Box<Diagnostic>> {
+        let program = &**self.program();
+        let motion = if options.with_motion { Some(self.motion(program, None, options, said)?) } else { None };
+        let (system, sources) = (self.system(), self.sources());
+        let RustOptions { file, lanes, largest_straight, .. } = options;
+        let (lanes, largest_straight, for_c) = (*lanes, *largest_straight, options.for_c);
+        let following = match signals {
+            None => None,
+            Some(Signals { compiled, given: program }) => {
+                // of the assembly all is said already
+                let begin = motion.as_ref().map(|motion| motion.q.as_slice());
+                let motion = Some(compiled.motion(program, begin, options, &mut Diagnostics::default())?);
+                let system = compiled.system();
+                let unit = TranslationUnit {
+                    system,
+                    program,
+                    sources,
+                    file,
+                    motion,
+                    lanes,
+                    largest_straight,
+                    for_c,
+                    following: None,
+                };
+                Some(Following { unit: Box::new(unit), by_text: compiled.program() })
+            }
+        };
+        let unit =
+            TranslationUnit { system, program, sources, file, motion, lanes, largest_straight, for_c, following };
+        if lanes.is_some() && emit::is_large(&unit) {
+            let why = format!("lanes are for mechanisms of up to {largest_straight} operations");
+            return Err(Box::new(Diagnostic::new(Code::E0706, why).help("leave `--lanes` out")));
+        }
+        Ok(unit)
+    }
+
+    /// What it takes to follow the motion from the start of the file's analysis, or from 0 s, by the operations of a program;
+    /// where it begins, if that is known.
+    fn motion(
+        &self,
+        program: &Program,
+        begin: Option<&[f64]>,
+        options: &RustOptions,
+        said: &mut Diagnostics,
+    ) -> Result<EmittedMotion, Box<Diagnostic>> {
+        let horizon = Horizon::of_analysis(self.analysis());
+        let mut started = if let Some(q) = begin {
+            self.unassembled(horizon, &RunOptions::default()).assemble_at(q, Solving::New)?
+        } else {
+            let (started, remarks) = self.start(horizon, &RunOptions::default());
+            said.extend(remarks);
+            started?
+        };
+        said.extend(started.remarks());
+        let mut solver_of =
+            |program: &Program| started.solver_for_code_of(program).ok_or_else(|| Box::new(too_large()));
+        let plain = program.without_reactions();
+        let solver = solver_of(&plain.without_params())?;
+        let sensitive = if options.with_sensitivities { Some(solver_of(&plain)?) } else { None };
+        let with_reactions = !program.outputs.reactions.is_empty();
+        let forced = if with_reactions { Some(solver_of(&program.without_params())?) } else { None };
+        Ok(EmittedMotion {
+            solver,
+            sensitive,
+            forced,
+            blocks: BlockTables::new(self.determined()),
+            q: started.q().to_vec(),
+            bounds: started.bounds(),
+            from: horizon.from,
+            to: self.times().map(|times| times.at(times.len().saturating_sub(1))),
+            tolerance: analysis::TOLERANCE,
+        })
+    }
+
+    /// The motion over the file's analysis, or over the first second where it has none.
+    fn reference(&self, said: &mut Diagnostics) -> Result<Reference, Box<Diagnostic>> {
+        let [from, to, every] = self.analysis().unwrap_or([0.0, 1.0, 0.1]);
+        let times = Times::grid(from, to, every).unwrap_or_else(|| Times::listed(from, vec![from]));
+        // without an analysis the last time is left out: only that of an analysis belongs to what was before an edge
+        let count = if self.analysis().is_some() { times.len() } else { times.len() - 1 };
+        let (run, remarks) = self.run(&times, &RunOptions::default());
+        let Some(mut run) = run else {
+            return Err(Box::new(remarks.into_iter().next_back().unwrap_or_else(too_large)));
+        };
+        let mut columns = run.columns().to_vec();
+        let reactions = RowLayout::new(self.system()).reactions();
+        columns.drain(reactions.clone());
+        let wanted = (MOST_NUMBERS / columns.len()).clamp(2, MOST_ROWS) as u64;
+        // spread evenly, the first and the last among them
+        let is_wanted = |k: u64| k == 0 || k * (wanted - 1) / (count - 1) > (k - 1) * (wanted - 1) / (count - 1);
+        let (mut rows, mut last, mut number) = (Vec::new(), Vec::new(), 0);
+        let (mut stopped, mut why) = (None, None);
+        while number < count
+            && let Some(row) = run.next_row()
+        {
+            match row {
+                Ok(row) if is_wanted(number) => rows.push(row.to_vec()),
+                Ok(row) => row.clone_into(&mut last),
+                Err(diagnostic) if number == 0 => return Err(diagnostic),
+                Err(diagnostic) => {
+                    stopped = Some(diagnostic.message.clone());
+                    why = Some(*diagnostic);
+                    break;
+                }
+            }
+            number += 1;
+        }
+        if rows.last().map(|row| row[0]) < last.first().copied() {
+            rows.push(last);
+        }
+        let forces = rows.iter_mut().map(|row: &mut Vec<f64>| row.drain(reactions.clone()).collect()).collect();
+        said.extend(run.take_remarks());
+        said.extend(why);
+        Ok(Reference { columns, rows, forces, steps: number - 1, every, stopped })
+    }
+}
+
+/// A mechanism with its inputs as signals.
+struct Signals {
+    compiled: Compiled,
+    /// Its program without the operations that say what they are by the text.
+    given: Program,
+}
+
+fn too_large() -> Diagnostic {
+    Diagnostic::new(Code::E0706, "the solver of this mechanism would take too many operations")
+        .help("leave it out with `--with equations`, in a file that `-o` names")
+}

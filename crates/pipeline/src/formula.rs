@@ -1,0 +1,188 @@
+//! A formula of time and its first two derivatives, as text and as numbers.
+//!
+//! The numbers are those that a driver with this formula has; the text is put in order for a reader, and differs from them
+//! by rounding only.
+
+use mechc_expr::{ExprId, Graph, Printer, Symbol, number};
+use mechc_lang::check::{self, FormulaOfTime};
+use mechc_lang::model::{Condition, Dimension};
+use mechc_syntax as syntax;
+use mechc_text::diag::{Code, Diagnostic, Diagnostics};
+use mechc_text::source::{Sources, Span};
+use rustc_hash::FxHashMap;
+
+/// What the formula and its derivatives are called.
+pub const NAMES: [&str; 3] = ["C", "C'", "C''"];
+
+/// Formulas of more parts than this are not put in order: nobody reads them.
+const LARGEST_TIDY: u64 = 5_000;
+
+/// With more parts than this, those that stand in several places get names.
+const LARGEST_WHOLE: u64 = 150;
+
+/// A formula with its first two time derivatives.
+#[derive(Clone)]
+pub struct Formula {
+    graph: Graph,
+    roots: [ExprId; 3],
+    dimension: Option<Dimension>,
+    conditions: Vec<Condition>,
+    remarks: Diagnostics,
+    span: Span,
+}
+
+impl Formula {
+    /// Reads a formula of `t`, the constants, units and functions of the language.
+    ///
+    /// # Errors
+    /// It does not follow the grammar, or means nothing.
+    pub fn of(text: &str, sources: &mut Sources) -> Result<Formula, Diagnostics> {
+        let file = sources.add_option("EXPR", text);
+        let tree = syntax::parse_expression(sources, file)?;
+        let FormulaOfTime { mut graph, value, dimension, conditions, remarks } =
+            check::formula_of_time(&tree, sources)?;
+        let mut derivative = |of: ExprId| {
+            let slopes =
+                graph.derivatives(&[of], |graph, symbol| (symbol == Symbol::Time).then(|| graph.constant(1.0)));
+            slopes.first().copied().unwrap_or(of)
+        };
+        let first = derivative(value);
+        let second = derivative(first);
+        for (order, id) in [value, first, second].into_iter().enumerate() {
+            // a number that is none, as the derivative of `t / 0`
+            if graph.dependence(id).is_constant() && !graph.value(id, |_| 0.0).is_finite() {
+                return Err(not_finite(tree.span, order, graph.value(id, |_| 0.0), None).into());
+            }
+        }
+        Ok(Formula { graph, roots: [value, first, second], dimension, conditions, remarks, span: tree.span })
+    }
+
+    /// What is to be said of it beside its values: degrees that were probably meant.
+    #[must_use]
+    pub fn remarks(&self) -> &Diagnostics {
+        &self.remarks
+    }
+
+    /// Its dimension; nothing for a formula that holds no unit.
+    pub(super) fn known_dimension(&self) -> Option<Dimension> {
+        self.dimension
+    }
+
+    /// The values at a time (s), unless one of them is no number or the formula has no meaning there.
+    ///
+    /// # Errors
+    /// That is said.
+    pub fn values(&self, t: f64) -> Result<[f64; 3], Box<Diagnostic>> {
+        let mut values = Vec::new();
+        self.graph.extend_values(&mut values, |_| t);
+        let value = |id: ExprId| values.get(id.index()).copied().unwrap_or(f64::NAN);
+        for condition in &self.conditions {
+            let positive = value(condition.positive);
+            if positive.is_nan() || positive <= 0.0 {
+                return Err(Box::new(empty_interval(condition.span, t)));
+            }
+        }
+        let values = self.roots.map(value);
+        match values.iter().position(|value| !value.is_finite()) {
+            Some(order) => Err(Box::new(not_finite(self.span, order, values[order], Some(t)))),
+            None => Ok(values),
+        }
+    }
+
+    /// A line for each, and for the parts that got names.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let (mut graph, mut roots) = (self.graph.clone(), self.roots);
+        if graph.written_size(&roots) <= LARGEST_TIDY {
+            roots = roots.map(|root| graph.tidied(root));
+        }
+        let mut printer = Printer::new(&graph, name_of);
+        let mut parts = Vec::new();
+        if graph.written_size(&roots) > LARGEST_WHOLE {
+            parts = named(printer.name_shared(&roots, |_| String::new()), roots[0]);
+            let names: FxHashMap<ExprId, String> = parts.iter().map(|(name, id)| (*id, name.clone())).collect();
+            printer = Printer::new(&graph, name_of).with_names(&names);
+        }
+        // the formula itself is no part of itself
+        let mut texts = vec![printer.definition(roots[0])];
+        texts.extend(roots.iter().skip(1).map(|root| printer.text(*root)));
+        let mut text = definitions(NAMES.iter().copied().zip(texts));
+        parts.retain(|(_, id)| *id != roots[0]);
+        if !parts.is_empty() {
+            let parts = parts.iter().map(|(name, id)| (name.as_str(), printer.definition(*id)));
+            text += &format!("\nwith the parts that stand in several places\n\n{}", definitions(parts));
+        }
+        text
+    }
+
+    /// What it is, and the units of its values; nothing for a formula that holds no unit.
+    #[must_use]
+    pub fn dimension(&self) -> Option<String> {
+        self.dimension.map(dimension_line)
+    }
+}
+
+/// The only symbol is time.
+fn name_of(_: Symbol) -> String {
+    "t".to_owned()
+}
+
+/// Names for the shared parts in their order; the formula itself is `C` if it is among them.
+fn named(shared: Vec<(String, ExprId)>, formula: ExprId) -> Vec<(String, ExprId)> {
+    let mut count = 0;
+    let mut name = |id: ExprId| {
+        if id == formula {
+            return NAMES[0].to_owned();
+        }
+        count += 1;
+        format!("k{count}")
+    };
+    shared.into_iter().map(|(_, id)| (name(id), id)).collect()
+}
+
+/// `C   = …`, a line each.
+fn definitions<'n>(lines: impl Iterator<Item = (&'n str, String)>) -> String {
+    let lines: Vec<(&str, String)> = lines.collect();
+    let width = lines.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+    lines.iter().fold(String::new(), |all, (name, text)| all + &format!("{name:<width$} = {text}\n"))
+}
+
+/// What the formula is, and the units of its values.
+fn dimension_line(dimension: Dimension) -> String {
+    let words = dimension.in_words();
+    // the unit follows
+    let words = words.split(" (").next().unwrap_or(&words);
+    let mut units = Vec::new();
+    let mut of = dimension;
+    for (order, name) in NAMES.iter().enumerate() {
+        let pure = of.is(Dimension::PURE);
+        match order {
+            0 if pure => {}
+            _ if pure => units.push(format!("{name} a pure number")),
+            _ => units.push(format!("{name} in {}", of.unit())),
+        }
+        of = of.over(Dimension::TIME);
+    }
+    format!("dimension: {words}; {}", units.join(", "))
+}
+
+/// At a time, or at any.
+fn not_finite(span: Span, order: usize, value: f64, t: Option<f64>) -> Diagnostic {
+    let what = ["the formula", "the first derivative of the formula", "the second derivative of the formula"];
+    let (what, name) = (what[order], NAMES[order]);
+    let found = if value.is_nan() { "not a number" } else { "infinite" };
+    let when = t.map_or("at any time".to_owned(), |t| format!("at t = {} s", number(t)));
+    let diagnostic = Diagnostic::new(Code::E0605, format!("{what} is not finite {when}"));
+    let diagnostic = diagnostic.at(span, format!("{name} is {found}"));
+    match t {
+        Some(t) => diagnostic.datum("t", t),
+        None => diagnostic,
+    }
+}
+
+fn empty_interval(span: Span, t: f64) -> Diagnostic {
+    Diagnostic::new(Code::E0606, format!("the interval of a motion is empty at t = {} s", number(t)))
+        .at(span, "not after the start of the interval")
+        .help("the arguments are `(u, u0, v0, u1, v1)`, with `u0 < u1`")
+        .datum("t", t)
+}

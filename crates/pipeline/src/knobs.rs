@@ -1,0 +1,463 @@
+//! What of a mechanism can be turned by hand: its params, and its inputs.
+
+use super::angles::Angles;
+use super::known::item_named;
+use super::varied::{is_of_angles, number_and_unit, si_unit, written};
+use super::{Checked, Compiled, Formula};
+use mechc_engine::sweep::rounded;
+use mechc_expr::{ExprId, Symbol};
+use mechc_ir::{ConstraintSystem, Input};
+use mechc_lang::check::{Amount, usual_unit_of_length};
+use mechc_lang::model::Dimension;
+use mechc_syntax::ast::{Expr, ExprKind, ItemKind};
+use mechc_text::source::{Sources, Span};
+use mechc_text::vocabulary::Unit;
+use rustc_hash::FxHashMap;
+
+/// A param, or a coordinate of one that is a point, as an option sets it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Knob {
+    /// Its path.
+    pub name: String,
+    /// The unit that it is written in; where that is no single number, the one of what the formula names, or SI. Empty for a pure number.
+    pub unit: String,
+    /// Its dimension as an SI unit, in which angles are pure numbers.
+    pub dimension: String,
+    /// What it is by the text and what is set in it, in that unit.
+    pub value: f64,
+    /// What the text says, where that is more than a number.
+    pub formula: Option<String>,
+    /// Where any text says it in words that can be replaced.
+    pub place: Option<Span>,
+    /// Whether that says the other coordinate of a point too.
+    pub is_half: bool,
+    /// Where any text says it.
+    pub stands: Option<Span>,
+    /// The one of all copies of a part, where it is of a single copy.
+    pub of: Option<String>,
+    /// Whether a mechanism can be led from one value to another: what decides how often something is there jumps.
+    pub leads: bool,
+}
+
+/// An input.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Jog {
+    /// Its path.
+    pub name: String,
+    /// Its SI unit; empty for a pure number.
+    pub unit: String,
+    /// The unit in which its formula writes what is of its kind; else its SI unit.
+    pub written: String,
+    /// Its dimension as an SI unit, in which angles are pure numbers.
+    pub dimension: String,
+    /// What it is at some times (SI).
+    pub values: Vec<f64>,
+    /// The formula, as it is written.
+    pub formula: String,
+}
+
+impl Checked {
+    /// What can be set of it, in the order of the text, then what can be set in parts; where there are copies of these, of all of them
+    /// and then of each. Nothing where it is not sound.
+    #[must_use]
+    pub fn knobs(&self) -> Vec<Knob> {
+        let (Some(tree), Some(model)) = (self.tree(), self.model()) else { return Vec::new() };
+        let usual = usual_unit_of_length(&tree.items).map(|unit| unit.word.name);
+        let mut knobs = Vec::new();
+        for value in &self.known().values {
+            let declared = tree.items.iter().find_map(|item| match &item.kind {
+                ItemKind::Param { name, value: formula } if Some(name.span) == value.name => Some((name, formula)),
+                _ => None,
+            });
+            let Some((name, formula)) = declared else { continue };
+            let of = |dimension, is_angle| Kind { dimension, is_angle, usual: usual.filter(|_| dimension == LENGTH) };
+            match &value.amount {
+                Amount::Number { si, dimension, is_angle, unit } => {
+                    let unit = unit.as_ref().map(|unit| unit.per_second(0));
+                    let unit = unit.or_else(|| unit_of_named(formula, self, &knobs, (*dimension, *is_angle)));
+                    knobs.push(self.knob(&name.text, formula, *si, (of(*dimension, *is_angle), unit)));
+                }
+                Amount::Point(at) => {
+                    let parts = coordinates(formula);
+                    for (k, axis) in ["x", "y"].into_iter().enumerate() {
+                        let formula = parts.map_or(formula, |parts| &parts[k]);
+                        let knob =
+                            self.knob(&format!("{}.{axis}", name.text), formula, at[k], (of(LENGTH, false), None));
+                        // a plain 0 is of the unit beside it
+                        let beside = parts.and_then(|parts| number_and_unit(self.sources().text(parts[1 - k].span)));
+                        let is_plain = knob.unit.is_empty();
+                        let beside = beside.filter(|_| is_plain).map_or(knob.unit, |(_, unit)| unit.to_owned());
+                        // and what is nothing else, of that of the others
+                        let is_origin = beside.is_empty() && at.iter().all(|at| *at == 0.0);
+                        let unit = usual.filter(|_| is_origin).map_or(beside, str::to_owned);
+                        knobs.push(Knob { unit, is_half: parts.is_none(), ..knob });
+                    }
+                }
+            }
+        }
+        let is_own = |name: &str| knobs.iter().any(|knob| knob.name == name);
+        let of_parts = model.params.iter().filter(|param| param.declared.name.contains('.'));
+        let of_parts = of_parts.filter(|param| !is_own(&param.declared.name));
+        let of_parts = of_parts.map(|param| self.knob_of_part(&param.declared.name, param.value, param.dimension));
+        knobs.extend(with_all_copies(of_parts.collect()));
+        knobs
+    }
+
+    fn knob(&self, name: &str, formula: &Expr, si: f64, (kind, unit): (Kind, Option<String>)) -> Knob {
+        let text = self.sources().text(formula.span);
+        let place = Some(formula.span);
+        let param = self.param_in_part(name);
+        let si = param.map_or(si, |(value, _)| value);
+        let dimension = si_unit(kind.dimension, false);
+        let name = name.to_owned();
+        if let Some((number, unit)) = number_and_unit(text) {
+            let value = if self.is_set(&name) { in_unit(si, unit) } else { number };
+            let (unit, leads) = (unit.to_owned(), param.is_some());
+            let (formula, is_half, of) = (None, false, None);
+            return Knob { name, unit, dimension, value, formula, place, is_half, stands: place, of, leads };
+        }
+        let unit =
+            unit.or_else(|| kind.usual.map(str::to_owned)).unwrap_or_else(|| si_unit(kind.dimension, kind.is_angle));
+        let value = in_unit(si, &unit);
+        let (formula, is_half, of) = (Some(text.to_owned()), false, None);
+        Knob { name, unit, dimension, value, formula, place, is_half, stands: place, of, leads: true }
+    }
+
+    /// A param of a part: in the unit in which some text says it.
+    fn knob_of_part(&self, name: &str, si: f64, dimension: Dimension) -> Knob {
+        let found = self.said_of_part(name);
+        let text = found.as_ref().map(|said| self.sources().text(said.formula.span));
+        let number = text.and_then(number_and_unit);
+        let unit = number.map(|(_, unit)| unit).filter(|unit| !unit.is_empty());
+        let usual = || found.as_ref().and_then(|said| said.usual).filter(|_| dimension == LENGTH);
+        let unit = unit.or_else(usual).map_or_else(|| si_unit(dimension, false), str::to_owned);
+        let (value, dimension) = (in_unit(si, &unit), si_unit(dimension, false));
+        let formula = text.filter(|_| number.is_none()).map(str::to_owned);
+        let stands = found.as_ref().map(|said| said.formula.span);
+        let (is_half, is_bound) = found.map_or((false, true), |said| (said.is_half, said.is_bound));
+        let (name, place, of) = (name.to_owned(), stands.filter(|_| !is_bound), None);
+        Knob { name, unit, dimension, value, formula, place, is_half, stands, of, leads: true }
+    }
+
+    /// What says what a param of a part is: where the part is declared, or in its own mechanism.
+    fn said_of_part(&self, path: &str) -> Option<SaidOfPart<'_>> {
+        let mut tree = self.tree()?;
+        let mut names = path.split('.').map(|name| name.split('[').next().unwrap_or_default());
+        let mut name = names.next()?;
+        loop {
+            match &item_named(tree, name)?.kind {
+                ItemKind::Param { value, .. } => {
+                    let axis = names.next().map(|axis| usize::from(axis == "y"));
+                    let coordinate = axis.zip(coordinates(value)).map(|(axis, parts)| &parts[axis]);
+                    let usual = usual_unit_of_length(&tree.items).map(|unit| unit.word.name);
+                    let is_half = axis.is_some() && coordinate.is_none();
+                    return Some(SaidOfPart { formula: coordinate.unwrap_or(value), is_half, is_bound: false, usual });
+                }
+                ItemKind::Part(part) => {
+                    name = names.next()?;
+                    let bound =
+                        part.bindings.iter().find(|bound| bound.name.text == name && bound.coordinate.is_none());
+                    if let Some(bound) = bound {
+                        return Some(SaidOfPart { formula: &bound.value, is_half: false, is_bound: true, usual: None });
+                    }
+                    tree = self.mechanism(&part.mechanism)?;
+                }
+                _ => return None,
+            }
+        }
+    }
+
+    /// Whether something else than the text says what a param, or a coordinate of one, is.
+    fn is_set(&self, name: &str) -> bool {
+        let is_it =
+            |path: &str| path == name || name.strip_prefix(path).is_some_and(|axis| [".x", ".y"].contains(&axis));
+        self.surroundings.settings.iter().any(|setting| is_it(&setting.path))
+    }
+}
+
+/// What says what a param of a part, or a coordinate of one, is.
+struct SaidOfPart<'t> {
+    formula: &'t Expr,
+    /// Whether it says both coordinates of a point.
+    is_half: bool,
+    /// Whether it is said where the part is declared, and so may be said there of other things.
+    is_bound: bool,
+    /// The unit in which lengths are written around it.
+    usual: Option<&'static str>,
+}
+
+/// Params of parts, and before those of copies one of all of them.
+fn with_all_copies(knobs: Vec<Knob>) -> Vec<Knob> {
+    let mut all: Vec<(String, Vec<Knob>)> = Vec::new();
+    let mut known: FxHashMap<String, usize> = FxHashMap::default();
+    for knob in knobs {
+        let name = of_all_copies(&knob.name);
+        let number = *known.entry(name.clone()).or_insert(all.len());
+        if number == all.len() {
+            all.push((name, Vec::new()));
+        }
+        all[number].1.push(knob);
+    }
+    let of_all = |(name, copies): (String, Vec<Knob>)| {
+        let are_copies = copies.len() > 1;
+        let first = copies.first().filter(|_| are_copies).map(|first| Knob { name: name.clone(), ..first.clone() });
+        first
+            .into_iter()
+            .chain(copies.into_iter().map(move |copy| Knob { of: are_copies.then(|| name.clone()), ..copy }))
+    };
+    all.into_iter().flat_map(of_all).collect()
+}
+
+/// The path of a param of a part without the numbers of copies.
+fn of_all_copies(path: &str) -> String {
+    path.split('.').map(|name| name.split('[').next().unwrap_or_default()).collect::<Vec<_>>().join(".")
+}
+
+/// What a param is by its value.
+struct Kind {
+    dimension: Dimension,
+    is_angle: bool,
+    /// The unit in which its text writes what is of this dimension.
+    usual: Option<&'static str>,
+}
+
+/// The unit of the first param that a formula names and that is of its dimension.
+fn unit_of_named(
+    formula: &Expr,
+    of: &Checked,
+    knobs: &[Knob],
+    (dimension, is_angle): (Dimension, bool),
+) -> Option<String> {
+    let dimension = si_unit(dimension, false);
+    let text = of.sources().text(formula.span);
+    let mut words = text.split(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '.')));
+    let named = words.find_map(|word| {
+        knobs.iter().find(|knob| knob.name == word && knob.dimension == dimension && !knob.unit.is_empty())
+    });
+    named.filter(|_| !dimension.is_empty() || is_angle).map(|knob| knob.unit.clone())
+}
+
+/// The unit of a formula's first number that has one of the kind of an SI unit.
+fn unit_of_literals(formula: &Expr, si: &str) -> Option<String> {
+    let is_of_kind = |unit: &Unit| match si {
+        "rad" => is_of_angles(unit.word.name),
+        si => si.strip_prefix('1').unwrap_or(si) == si_unit(unit.dimension, false) && !is_of_angles(unit.word.name),
+    };
+    if let ExprKind::Literal { unit: Some((name, 1)), .. } = &formula.kind {
+        return Unit::named(&name.text).filter(|unit| is_of_kind(unit)).map(|unit| unit.word.name.to_owned());
+    }
+    formula.children().into_iter().find_map(|part| unit_of_literals(part, si))
+}
+
+/// A value (SI) in a unit.
+fn in_unit(si: f64, unit: &str) -> f64 {
+    rounded(si / size_of_unit(unit))
+}
+
+/// What one of a unit is in SI; not a number of what is none.
+#[must_use]
+pub fn size_of_unit(unit: &str) -> f64 {
+    if unit.is_empty() {
+        return 1.0;
+    }
+    let formula = Formula::of(&written(1.0, unit), &mut Sources::default());
+    formula.ok().and_then(|formula| formula.values(0.0).ok()).map_or(f64::NAN, |[value, ..]| value)
+}
+
+const LENGTH: Dimension = Dimension::LENGTH;
+
+/// Both coordinates of a point that is written as such.
+fn coordinates(formula: &Expr) -> Option<&[Expr; 2]> {
+    match &formula.kind {
+        ExprKind::Tuple(parts) => parts.as_slice().try_into().ok(),
+        ExprKind::Paren(inner) => coordinates(inner),
+        _ => None,
+    }
+}
+
+impl Checked {
+    /// The inputs of what it was compiled to, with what they are at some times (s).
+    #[must_use]
+    pub fn jogs(&self, compiled: &Compiled, times: &[f64]) -> Vec<Jog> {
+        let system = compiled.system();
+        let angles = Angles::of(self.library(), self.sources());
+        let formula = |span: Span| {
+            let items =
+                self.library().files().iter().flat_map(|file| &file.read.tree.mechanisms).flat_map(|m| &m.items);
+            let mut inputs = items.filter_map(|item| match &item.kind {
+                ItemKind::Input { name, value } if name.span == span => Some(value),
+                _ => None,
+            });
+            inputs.next()
+        };
+        let jog = |input: &Input| {
+            let unit = match input.unit.as_str() {
+                "1" if angles.has(input.span) || compiled.turns(input) => "rad".to_owned(),
+                "1" => String::new(),
+                unit => unit.to_owned(),
+            };
+            let formula = formula(input.span);
+            let text = formula.map_or("", |formula| self.sources().text(formula.span));
+            let whole = number_and_unit(text).map(|(_, unit)| unit.to_owned()).filter(|unit| !unit.is_empty());
+            let written = whole.or_else(|| unit_of_literals(formula?, &unit));
+            // as it stands behind a number
+            let si = unit.strip_prefix('1').unwrap_or(&unit);
+            Jog {
+                name: input.name.clone(),
+                written: written.unwrap_or_else(|| si.to_owned()),
+                dimension: if si == "rad" { String::new() } else { si.to_owned() },
+                unit,
+                values: times.iter().map(|&t| at_time(system, input.formulas[0], t)).collect(),
+                formula: text.to_owned(),
+            }
+        };
+        system.inputs().iter().map(jog).collect()
+    }
+}
+
+impl Compiled {
+    /// Whether a driver turns something by an input.
+    fn turns(&self, input: &Input) -> bool {
+        let system = self.system();
+        let is_angle = |&(column, _): &(u32, ExprId)| {
+            system.body_of(column as usize).is_some_and(|body| system.pose_of(body)[2] == column as usize)
+        };
+        (0..system.rows().len())
+            .filter(|&row| system.is_driver(row) && system.phi_q().row(row).iter().all(is_angle))
+            .any(|row| self.speaks_of(row, input))
+    }
+
+    /// Whether the formula of a driver's row names an input.
+    fn speaks_of(&self, row: usize, input: &Input) -> bool {
+        let written = self.system().declaration_of(row).written.map(|span| self.sources().text(span));
+        let is_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '[' | ']');
+        written.is_some_and(|written| written.split(|c| !is_name(c)).any(|word| word == input.name))
+    }
+}
+
+/// The value of a formula of time.
+pub(super) fn at_time(system: &ConstraintSystem, formula: ExprId, t: f64) -> f64 {
+    system.graph().value(formula, |symbol| match symbol {
+        Symbol::Param(k) => system.params()[k as usize].value,
+        Symbol::Time => t,
+        Symbol::Shift(_) => 0.0,
+        _ => f64::NAN,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Choice, Parsed, Redundant};
+    use mechc_text::cancel::Cancel;
+    use mechc_text::world::Memory;
+
+    #[test]
+    fn params_of_copies_are_told_of_all_and_of_each() {
+        let text = "mechanism legs {
+            param speed = 60 rpm
+            part leg[k in 0..2]: leg() at (k * 200 mm, 0, 0)
+            part one: leg(rod = 50 mm) at (0, 200 mm, 0)
+            driver motor[k in 0..2]: rotation(leg[k].axle) = speed * t
+            driver other: rotation(one.axle) = speed * t
+        }
+        mechanism leg {
+            param rod = 40 mm
+            param half = 40 mm / 2
+            param P = (0, 3 mm)
+            ground { point O = (0, 0) }
+            body bar { point O = (0, 0) point M = (half, 0) point P = P point Q = (rod, 0) }
+            joint axle: revolute(ground.O, bar.O)
+        }";
+        let checked = Parsed::of("legs.mech", text)
+            .check(&Choice { mechanism: Some("legs".to_owned()), ..Choice::default() }, &Memory::default());
+        let knobs = checked.knobs();
+        let told: Vec<_> = knobs.iter().map(|k| (k.name.as_str(), k.value, k.unit.as_str(), k.of.as_deref())).collect();
+        let of_copies = |name: &'static str, value, copies: [&'static str; 2]| {
+            let [first, second] = copies.map(|copy| (copy, value, "mm", Some(name)));
+            [(name, value, "mm", None), first, second]
+        };
+        let copies = [
+            of_copies("leg.rod", 40.0, ["leg[0].rod", "leg[1].rod"]),
+            of_copies("leg.half", 20.0, ["leg[0].half", "leg[1].half"]),
+            of_copies("leg.P.x", 0.0, ["leg[0].P.x", "leg[1].P.x"]),
+            of_copies("leg.P.y", 3.0, ["leg[0].P.y", "leg[1].P.y"]),
+        ];
+        let one = [("one.half", 20.0, "mm", None), ("one.P.x", 0.0, "mm", None), ("one.P.y", 3.0, "mm", None)];
+        let wanted: Vec<_> = std::iter::once(("speed", 60.0, "rpm", None)).chain(copies.concat()).chain(one).collect();
+        assert_eq!(told, wanted);
+        let place = |name: &str| knobs.iter().find(|knob| knob.name == name).and_then(|knob| knob.place);
+        let text_of = |name: &str| place(name).map(|place| checked.sources().text(place));
+        assert_eq!(text_of("leg.rod"), Some("40 mm"));
+        assert_eq!(text_of("one.P.x"), Some("0"));
+        assert_eq!(place("leg[1].rod"), place("leg.rod"));
+        assert_eq!(
+            knobs.iter().find(|knob| knob.name == "leg.half").and_then(|k| k.formula.as_deref()),
+            Some("40 mm / 2")
+        );
+    }
+
+    #[test]
+    fn params_are_told_as_they_are_written() {
+        let text = "mechanism lever {
+            param length = 50 mm
+            param half = length / 2
+            param speed = -60 rpm
+            param turning = 90 deg/s
+            param count = 2
+            param A = (10 mm, 0)
+            param B = (0, 0)
+            ground { point O = A }
+            body bar[k in 0..count] at (0, 0, k * 1 deg) { point O = (half, 0) point P = (length, 0) }
+        }";
+        let checked = Parsed::of("lever.mech", text).check(&Choice::default(), &Memory::default());
+        let knobs = checked.knobs();
+        let told: Vec<_> = knobs.iter().map(|k| (k.name.as_str(), k.value, k.unit.as_str(), k.leads)).collect();
+        assert_eq!(
+            told,
+            [
+                ("length", 50.0, "mm", true),
+                ("half", 25.0, "mm", true),
+                ("speed", -60.0, "rpm", true),
+                ("turning", 90.0, "deg/s", true),
+                ("count", 2.0, "", false),
+                ("A.x", 10.0, "mm", true),
+                ("A.y", 0.0, "mm", true),
+                ("B.x", 0.0, "mm", true),
+                ("B.y", 0.0, "mm", true),
+            ]
+        );
+        assert_eq!(knobs[1].formula.as_deref(), Some("length / 2"));
+        let place = knobs[5].place.expect("a place");
+        assert_eq!(checked.sources().text(place), "10 mm");
+    }
+
+    #[test]
+    fn inputs_are_told_in_the_unit_of_their_formula() {
+        let text = "mechanism press {
+            param speed = 60 rpm
+            input a = 60 deg + 10 deg/s * t
+            input b = 5 mm
+            input c = 0.5 + speed * t
+            input d = 2
+            input e = 30 deg/s
+            input f = 20 mm * sin(90 deg/s * t)
+            ground { point O = (0, 0) axis way = (0, 0) along (1, 0) }
+            body wheel { point O = (0, 0) }
+            body slide { point P = (0, 0) axis way = (0, 0) along (1, 0) }
+            joint axle: revolute(ground.O, wheel.O)
+            joint guide: translational(ground.way, slide.way)
+            driver motor: rotation(axle) = a + c + d * 1 rad + e * t
+            driver piston: displacement(guide) = b + f
+            analysis from 0 s to 1 s every 100 ms
+        }";
+        let checked = Parsed::of("press.mech", text).check(&Choice::default(), &Memory::default());
+        let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+        let compiled = compiled.unwrap_or_else(|| panic!("{said:?}"));
+        let jogs = checked.jogs(&compiled, &[0.0]);
+        let told: Vec<_> =
+            jogs.iter().map(|jog| (jog.name.as_str(), jog.written.as_str(), jog.dimension.as_str())).collect();
+        let wanted = [("a", "deg", ""), ("b", "mm", "m"), ("c", "rad", ""), ("e", "deg/s", "/s"), ("f", "mm", "m")];
+        let without = |(name, ..): &&(&str, &str, &str)| *name != "d";
+        assert_eq!(told.iter().filter(without).copied().collect::<Vec<_>>(), wanted);
+    }
+}

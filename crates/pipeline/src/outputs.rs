@@ -1,0 +1,131 @@
+//! A mechanism without those of its outputs that are wrong: what is measured and told has no part in how it moves.
+
+use super::{Checked, Choice};
+use mechc_syntax::ast::{Item, ItemKind};
+use mechc_text::diag::Diagnostic;
+use mechc_text::source::Span;
+use mechc_text::world::World;
+use std::collections::BTreeSet;
+
+/// Outputs of outputs of outputs: nobody nests them deeper while something is wrong with them.
+const MOST_ROUNDS: usize = 4;
+
+impl Checked {
+    /// Whether all that is known to be wrong with its text is in measures, traces, results and the analysis; in any of its mechanisms.
+    #[must_use]
+    pub fn is_sound_but_for_outputs(&self) -> bool {
+        self.wrong_outputs().is_some()
+    }
+
+    /// The same without the outputs that are wrong, nor those that need them; every place is where it was. Nothing where anything else is
+    /// wrong, or nothing at all.
+    #[must_use]
+    pub fn without_wrong_outputs(&self, world: &dyn World) -> Option<Checked> {
+        let number = self.number?;
+        let (mut checked, mut wrong) = (self.clone(), self.wrong_outputs()?);
+        for _ in 0..MOST_ROUNDS {
+            let text = &checked.sources().get(checked.file()).text;
+            let parsed = checked.parsed.edited(&blanked(text, &wrong));
+            // where a brace was blanked with it, what follows is another text
+            if parsed.mechanisms().len() != checked.parsed.mechanisms().len() {
+                return None;
+            }
+            checked =
+                Checked::of_number(&parsed, &super::used::read(&parsed, world), number, &Choice::default(), world);
+            if checked.is_sound() {
+                return Some(checked);
+            }
+            wrong = checked.wrong_outputs()?;
+        }
+        None
+    }
+
+    /// The places of the outputs that are wrong; nothing where anything else is, or nothing at all.
+    fn wrong_outputs(&self) -> Option<BTreeSet<Span>> {
+        let errors = self.diagnostics().iter().filter(|said| said.is_error());
+        let places: Option<BTreeSet<Span>> = errors.map(|error| self.output_of(error)).collect();
+        places.filter(|places| !places.is_empty())
+    }
+
+    /// The output that an error speaks of.
+    fn output_of(&self, error: &Diagnostic) -> Option<Span> {
+        let place = error.labels.first().map(|label| label.span).filter(|span| span.file == self.file())?;
+        let mut items = self.parsed.tree().mechanisms.iter().flat_map(|mechanism| &mechanism.items);
+        let is_broken = |item: &&Item| matches!(item.kind, ItemKind::Broken { .. }) && item.span.start <= place.start;
+        let holds = |item: &&Item| item.span.start <= place.start && place.end <= item.span.end;
+        // what is missing at the end of a declaration is told at what comes next
+        let is_of_syntax = self.parsed.faults().iter().any(|fault| fault == error);
+        let item = if is_of_syntax { items.rfind(is_broken) } else { items.find(holds) }?;
+        self.is_output(item).then_some(item.span)
+    }
+
+    fn is_output(&self, item: &Item) -> bool {
+        match &item.kind {
+            ItemKind::Measure { .. } | ItemKind::Trace { .. } | ItemKind::Result { .. } | ItemKind::Analysis { .. } => {
+                true
+            }
+            // by its first word
+            ItemKind::Broken { .. } => {
+                let text = self.sources().text(item.span);
+                let is =
+                    |word: &&str| text.strip_prefix(*word).is_some_and(|rest| rest.starts_with(char::is_whitespace));
+                // a brace may be that of another declaration
+                ["measure", "trace", "result", "analysis"].iter().any(is) && !text.contains(['{', '}'])
+            }
+            _ => false,
+        }
+    }
+}
+
+/// A text with spaces in some stretches, byte for byte.
+fn blanked(text: &str, stretches: &BTreeSet<Span>) -> String {
+    let (mut blanked, mut end) = (String::with_capacity(text.len()), 0);
+    for stretch in stretches {
+        let range = stretch.start as usize..stretch.end as usize;
+        blanked += &text[end..range.start];
+        blanked.extend(text[range.clone()].bytes().map(|byte| if byte == b'\n' { '\n' } else { ' ' }));
+        end = range.end;
+    }
+    blanked + &text[end..]
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Choice, Parsed};
+    use mechc_text::world::Memory;
+
+    const DISC: &str = "mechanism disc {
+    ground { point O = (0, 0) }
+    body wheel { point O = (0, 0) }
+    joint axle: revolute(ground.O, wheel.O)
+    MORE
+}";
+
+    /// What is left of a text: nothing, or the text.
+    fn left(more: &str) -> Option<String> {
+        let text = DISC.replace("MORE", more);
+        let world = Memory::default();
+        let checked = Parsed::of("disc.mech", &text).check(&Choice::default(), &world);
+        let left = checked.without_wrong_outputs(&world);
+        assert!(left.is_none() || checked.is_sound_but_for_outputs());
+        left.map(|left| {
+            left.sources().get(left.file()).text.trim_start_matches(DISC.split("MORE").next().unwrap()).to_owned()
+        })
+    }
+
+    #[test]
+    fn outputs_that_are_wrong_are_left_out() {
+        assert_eq!(left("measure half = 2 *").as_deref().map(str::trim), Some("}"));
+        assert_eq!(left("measure a = 2 *\n    measure b = t").as_deref().map(str::trim), Some("measure b = t\n}"));
+        assert_eq!(left("trace p = wheel.Q").as_deref().map(str::trim), Some("}"));
+        // what is nowhere declared any more
+        assert_eq!(left("measure a = 1 mm + 1 s\n    result b = max(a)").as_deref().map(str::trim), Some("}"));
+    }
+
+    #[test]
+    fn what_moves_is_not_left_out() {
+        assert_eq!(left("joint b: revolute(ground.O, wheel.)"), None);
+        assert_eq!(left("measure a = 2 *\n    driver d: rotation(axl) = t"), None);
+        assert_eq!(left("measure a = t"), None, "nothing is wrong");
+    }
+}

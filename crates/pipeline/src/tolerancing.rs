@@ -1,0 +1,571 @@
+//! A mechanism whose params may be off: what is asked of it, read; how its measures and results go with that; and what they are at corners.
+//!
+//! All of it is that of variants of a sweep, the nominal one among them.
+
+use super::checked::TOL;
+use super::tolerance::{Affected, Tolerance, Verified};
+use super::varied::{Found, Reader, is_of_angles, number_and_unit, si_unit, spaceless, unusable};
+use super::{AskedTimes, Checked, Choice, Compiled, RunOptions, SweepOptions, Variants};
+use mechc_engine::sweep::{Levels, Method, Points, Sampling, Status, Swept, Varying};
+use mechc_expr::{Binary, Dependence, ExprId, Node, Unary};
+use mechc_ir::Measure;
+use mechc_ir::layout::ColumnUnit;
+use mechc_lang::model::Dimension;
+use mechc_text::diag::{Diagnostic, Diagnostics};
+use mechc_text::world::World;
+use std::collections::BTreeSet;
+
+/// All corners are run of so many params; of more, those that are worst by the derivatives, and a sample.
+const MOST_CORNERS: usize = 12;
+const SAMPLE: u64 = 10_000;
+
+/// A mechanism whose params may be off, with what it was chosen by.
+pub struct Tolerancing<'c> {
+    checked: &'c Checked,
+    choice: &'c Choice,
+    world: &'c dyn World,
+    tolerances: Vec<Tolerance>,
+}
+
+impl Checked {
+    /// What may be off, as options say it: `rod=0.05mm`, `rod=-0.1mm..0mm`. It is sound; `choice` is what it was checked with.
+    ///
+    /// # Errors
+    /// Something cannot be off so; with the texts that the diagnostics speak of.
+    pub fn tolerancing<'c>(
+        &'c self,
+        asked: &[String],
+        choice: &'c Choice,
+        world: &'c dyn World,
+    ) -> Found<Tolerancing<'c>> {
+        let own = |why: Diagnostic| (self.sources().clone(), Diagnostics::from(why));
+        let plain = Choice { lead: false, results: Vec::new(), ..choice.clone() };
+        let reader = Reader { parsed: &self.parsed, own: self, choice: &plain, world, option: TOL };
+        let mut tolerances: Vec<Tolerance> = Vec::new();
+        for text in asked {
+            let asked = Asked::of(text).map_err(|why| own(*why))?;
+            for tolerance in asked.tolerances(&reader)? {
+                if tolerances.iter().any(|known| known.name == tolerance.name) {
+                    let why = unusable(format!("`{}` has two tolerances", tolerance.name));
+                    return Err(own(why.help("say one of them")));
+                }
+                tolerances.push(tolerance);
+            }
+        }
+        Ok(Tolerancing { checked: self, choice, world, tolerances })
+    }
+
+    /// Params of a name with their values (SI), as symbols of the model; those of all copies where the name has no number.
+    fn opened(&self, name: &str) -> Vec<(String, f64, Dimension)> {
+        self.with_open(vec![name.to_owned()]).and_then(|opened| opened.model.clone()).map_or(Vec::new(), |model| {
+            model.led.iter().map(|led| (led.declared.name.clone(), led.line[0], led.dimension)).collect()
+        })
+    }
+}
+
+/// One `--tol` in its parts.
+struct Asked {
+    name: String,
+    /// How far it may be below and above, or both where it is one.
+    ends: Vec<String>,
+}
+
+const FORMS: &str =
+    "write `--tol rod=0.05mm` for ±0.05 mm, or `--tol rod=-0.1mm..0mm` for what it may be below and above";
+
+impl Asked {
+    fn of(text: &str) -> Result<Asked, Box<Diagnostic>> {
+        let named = text.split_once('=').map(|(name, rest)| (spaceless(name), rest.trim()));
+        let refused = |said: &str| Box::new(unusable(format!("`{TOL} {text}` {said}")).help(FORMS));
+        let Some((name, rest)) = named.filter(|(name, _)| !name.is_empty()) else {
+            return Err(refused("does not say what may be off, and how far"));
+        };
+        let ends: Vec<String> = if let Some((low, high)) = rest.split_once("..") {
+            vec![low.trim().to_owned(), high.trim().to_owned()]
+        } else {
+            let bare = ["±", "+/-", "+-"].iter().find_map(|sign| rest.strip_prefix(sign)).unwrap_or(rest);
+            vec![bare.trim().to_owned()]
+        };
+        if ends.iter().any(String::is_empty) {
+            return Err(refused("does not say how far it may be off"));
+        }
+        Ok(Asked { name, ends })
+    }
+
+    fn tolerances(&self, reader: &Reader<'_>) -> Found<Vec<Tolerance>> {
+        let own = |why: Diagnostic| (reader.own.sources().clone(), Diagnostics::from(why));
+        let mut values = Vec::with_capacity(2);
+        for end in &self.ends {
+            values.push(reader.number(&self.name, end)?.1);
+        }
+        let range = match values[..] {
+            [one] if one < 0.0 => {
+                let why = unusable(format!("the tolerance of `{}` is negative: `{}`", self.name, self.ends[0]));
+                return Err(own(why.help(FORMS)));
+            }
+            [low, high] if low > high => {
+                let [low, high] = [&self.ends[0], &self.ends[1]];
+                let why = unusable(format!("the tolerance of `{}` goes from `{low}` down to `{high}`", self.name));
+                return Err(own(why.help(FORMS)));
+            }
+            [low, high] => [low, high],
+            _ => [-values[0], values[0]],
+        };
+        let params = reader.own.opened(&self.name);
+        if params.is_empty() {
+            let said = format!("`{}` decides what is repeated, and cannot be a little off", self.name);
+            return Err(own(unusable(said).help("give tolerances to lengths, angles and other numbers")));
+        }
+        let is_angle = self.ends.iter().any(|end| is_of_angles(end));
+        let unit_of = |dimension| match si_unit(dimension, is_angle) {
+            unit if unit.is_empty() => "1".to_owned(),
+            unit => unit,
+        };
+        let of = |(name, nominal, dimension): (String, f64, Dimension)| {
+            let si = unit_of(dimension);
+            let unit = self.unit(reader).unwrap_or((si.clone(), 1.0));
+            Tolerance { name, nominal, range, si, unit }
+        };
+        Ok(params.into_iter().map(of).collect())
+    }
+
+    /// The unit of what is said, where that is numbers of one, and how much of SI it is.
+    fn unit(&self, reader: &Reader<'_>) -> Option<(String, f64)> {
+        let of =
+            |end: &String| number_and_unit(end).filter(|(value, _)| *value != 0.0).map(|(_, unit)| unit.to_owned());
+        let unit = self.ends.iter().find_map(of).filter(|unit| !unit.is_empty())?;
+        let (size, _) = reader.value(&format!("1 {unit}")).ok()?;
+        let is_of_all = |end: &String| number_and_unit(end).is_some_and(|(value, of)| value == 0.0 || of == unit);
+        self.ends.iter().all(is_of_all).then_some((unit, size))
+    }
+}
+
+impl Tolerancing<'_> {
+    /// What may be off.
+    #[must_use]
+    pub fn tolerances(&self) -> &[Tolerance] {
+        &self.tolerances
+    }
+
+    /// How measures and results go with what may be off. It is compiled as `compiled`.
+    ///
+    /// # Errors
+    /// The mechanism with its own params does not run, or there is nothing that could be off; with the texts that the diagnostics speak of.
+    pub fn affected(&self, compiled: &Compiled, options: &SweepOptions) -> Found<Vec<Affected>> {
+        let slopes = Some([options.times.from.is_none(), options.times.to.is_none()]);
+        let by = self.tolerances.iter().map(|of| of.name.clone()).collect();
+        // results that are asked for beside the text stand in it already
+        let choice = Choice { by, slopes, lead: true, results: Vec::new(), ..self.choice.clone() };
+        let mut means = if self.tolerances.is_empty() { Means::default() } else { Means::of(compiled) };
+        let mut checked = self.checked.parsed.check(&Choice { results: means.texts(), ..choice.clone() }, self.world);
+        if !checked.is_sound() {
+            means = Means::default();
+            checked = self.checked.parsed.check(&choice, self.world);
+        }
+        let refused = |said: &Diagnostics| (checked.sources().clone(), said.clone());
+        if !checked.is_sound() {
+            return Err(refused(checked.diagnostics()));
+        }
+        let (with_slopes, said) = checked.compile(options.redundant, &options.cancel);
+        let with_slopes = with_slopes.ok_or_else(|| refused(&said))?;
+        let asked = self.asked_of(&with_slopes, means);
+        if asked.measures.is_empty() && asked.results.is_empty() {
+            let why = unusable("there is no measure and no result that could be off".to_owned())
+                .help("add one to the file, or a result with `--result 'stroke = max(x(P)) - min(x(P))'`");
+            return Err(refused(&why.into()));
+        }
+        let nominal = Levels::Listed(self.tolerances.iter().map(|of| of.nominal).collect());
+        let variants = self.variants(&checked, vec![Varying { params: self.all(), values: nominal }])?;
+        let columns = (!asked.measures.is_empty()).then(|| asked.columns());
+        let options = SweepOptions { columns, jobs: Some(1), ..options.clone() };
+        let sweep = checked.sweep(&with_slopes, &variants, &options, |swept| swept);
+        let swept: Option<Swept> = sweep.map_err(|why| refused(&(*why).into()))?.next();
+        let Some(swept) = swept else { return Err(refused(&Diagnostics::default())) };
+        if !swept.statuses[0].is_complete() {
+            return Err((self.checked.sources().clone(), why_not(compiled, &options)));
+        }
+        Ok(asked.affected(&swept, &self.tolerances))
+    }
+
+    /// By measure or result: the largest nominal value of its SI unit among all of them, and among what may be off.
+    fn largest(&self, affected: &[Affected]) -> Vec<f64> {
+        let of_params = self.tolerances.iter().map(|of| (&of.si, of.nominal));
+        let all: Vec<(&String, f64)> = of_params.chain(affected.iter().map(|of| (&of.si, of.nominal))).collect();
+        let of = |si: &String| {
+            // the larger of two numbers passes over what is none
+            all.iter().filter(|(unit, _)| *unit == si).fold(0.0, |largest: f64, (_, value)| largest.max(value.abs()))
+        };
+        affected.iter().map(|affected| of(&affected.si)).collect()
+    }
+
+    /// All params that may be off, by their numbers.
+    fn all(&self) -> Vec<usize> {
+        (0..self.tolerances.len()).collect()
+    }
+
+    fn variants(&self, of: &Checked, axes: Vec<Varying>) -> Found<Variants> {
+        let names = self.tolerances.iter().map(|of| of.name.clone()).collect();
+        let units = self.tolerances.iter().map(|of| if of.si == "1" { String::new() } else { of.si.clone() }).collect();
+        let too_many = || (of.sources().clone(), unusable("there are too many corners".to_owned()).into());
+        let points = Points::new(names, axes).ok_or_else(too_many)?;
+        Variants::of(points, units, of.sources().clone(), TOL)
+    }
+
+    /// The columns and results that can be off, of what is compiled with their derivatives.
+    fn asked_of(&self, compiled: &Compiled, means: Means) -> AskedOf {
+        let (columns, units) = (compiled.columns(), compiled.units());
+        let place = |name: &str| columns.iter().position(|column| column == name);
+        let by = |name: &str| -> Vec<Option<usize>> {
+            self.tolerances.iter().map(|of| place(&format!("{name}.by.{}", of.name))).collect()
+        };
+        let measures = compiled.system().measures().iter().filter_map(|measure| {
+            let column = place(&measure.name)?;
+            let (name, si) = (measure.name.clone(), measure.units.si.clone());
+            Some(AskedMeasure { by: by(&name), name, column, unit: units[column].clone(), si })
+        });
+        let results = compiled.results().into_iter().zip(compiled.results_of_variants());
+        let results = results.map(|((name, unit), (_, si))| (name, unit, si)).collect::<Vec<_>>();
+        let own = results.len() / (self.tolerances.len() + 1) - means.of.len();
+        AskedOf { measures: measures.collect(), results: results[..own].to_vec(), means }
+    }
+
+    /// The variants that verify what derivatives say, with how many of them are corners of all.
+    fn corners(&self, affected: &[Affected]) -> (Vec<Vec<Varying>>, bool) {
+        let ends: Vec<[f64; 2]> = self.tolerances.iter().map(Tolerance::ends).collect();
+        if self.tolerances.len() <= MOST_CORNERS {
+            let axis = |(param, ends): (usize, &[f64; 2])| {
+                let values = if ends[0] < ends[1] { ends.to_vec() } else { vec![ends[0]] };
+                Varying { params: vec![param], values: Levels::Listed(values) }
+            };
+            return (vec![ends.iter().enumerate().map(axis).collect()], true);
+        }
+        let mut worst: Vec<Vec<f64>> = Vec::new();
+        for of in affected {
+            for sign in [1.0, -1.0] {
+                let end =
+                    |(slope, ends): (&Option<f64>, &[f64; 2])| ends[usize::from(sign * slope.unwrap_or(0.0) > 0.0)];
+                let corner: Vec<f64> = of.slopes.iter().zip(&ends).map(end).collect();
+                if !worst.contains(&corner) {
+                    worst.push(corner);
+                }
+            }
+        }
+        let corners = Varying { params: self.all(), values: Levels::Listed(worst.concat()) };
+        let sample = Sampling::of(ends, SAMPLE, Method::Sobol, None);
+        let sample = Varying { params: self.all(), values: Levels::Sampled(Box::new(sample)) };
+        (vec![vec![corners], vec![sample]], false)
+    }
+
+    /// How many variants are computed to verify it.
+    #[must_use]
+    pub fn count(&self, affected: &[Affected]) -> u64 {
+        let variants: u64 =
+            self.corners(affected).0.iter().map(|axes| axes.iter().map(Varying::count).product::<u64>()).sum();
+        variants * Sought::of(affected).sweeps(&SweepOptions::default(), &[]).len() as u64
+    }
+
+    /// Runs it with params that are off, and tells of so many variants that are done. It is compiled as `compiled`.
+    ///
+    /// # Errors
+    /// The times are not said; with the texts that the diagnostics speak of.
+    pub fn verified(
+        &self,
+        compiled: &Compiled,
+        affected: &[Affected],
+        options: &SweepOptions,
+        mut tick: impl FnMut(u64),
+    ) -> Found<Verified> {
+        let (all, are_all_corners) = self.corners(affected);
+        let mut sought = Sought::of(affected);
+        for (group, axes) in all.into_iter().enumerate() {
+            let variants = self.variants(self.checked, axes)?;
+            sought.variants += variants.points().count();
+            for asked in sought.sweeps(options, &compiled.columns()) {
+                let sweep = self.checked.sweep(compiled, &variants, &asked, |swept| swept);
+                let sweep = sweep.map_err(|why| (self.checked.sources().clone(), Diagnostics::from(*why)))?;
+                for swept in sweep {
+                    sought.take(&swept, asked.columns.is_some(), (group, &variants));
+                    tick(swept.len() as u64);
+                }
+            }
+        }
+        Ok(sought.verified(are_all_corners, self.largest(affected)))
+    }
+}
+
+/// Why it does not run with its own params.
+fn why_not(compiled: &Compiled, options: &SweepOptions) -> Diagnostics {
+    let times = options.times.over(compiled.analysis()).and_then(|times| times.times());
+    let times = match times {
+        Ok(times) => times,
+        Err(why) => return (*why).into(),
+    };
+    let SweepOptions { tolerance, pass_bifurcations, ref cancel, .. } = *options;
+    let options = RunOptions { tolerance, pass_bifurcations, cancel: cancel.clone(), ..RunOptions::default() };
+    let (run, mut said) = compiled.run(&times, &options);
+    if let Some(Err(why)) = run.and_then(|mut run| run.find(Result::is_err)) {
+        said.push(*why);
+    }
+    if !said.has_errors() {
+        said.push(unusable("no way leads to what is set along the branch".to_owned()).help("leave `--set` out"));
+    }
+    said
+}
+
+/// The columns and results that can be off.
+struct AskedOf {
+    measures: Vec<AskedMeasure>,
+    results: Vec<(String, ColumnUnit, String)>,
+    means: Means,
+}
+
+/// Means of measures that may jump, as further results behind all others: where a jump goes with a param, a measure has derivatives at all
+/// times but that one, of which they say nothing, while its mean has none.
+#[derive(Default)]
+struct Means {
+    /// Their measures.
+    of: Vec<String>,
+}
+
+impl Means {
+    fn of(compiled: &Compiled) -> Means {
+        let system = compiled.system();
+        let of_equations: Vec<ExprId> = system.rows().iter().map(|row| row.phi).collect();
+        let may_break = |roots: &[ExprId]| {
+            let graph = system.graph();
+            graph.reachable(roots).into_iter().any(|id| breaks(graph.node(id)))
+        };
+        let equations_bend = may_break(&of_equations);
+        // velocities and places do not jump where equations bend
+        let jumps = |measure: &&Measure| {
+            let dependence = system.graph().dependence(measure.value);
+            let is_driven = dependence.highest_order() >= Some(2) || dependence.on(Dependence::FORCES);
+            may_break(&[measure.value]) || (is_driven && (equations_bend || dependence.on(Dependence::FORCES)))
+        };
+        Means { of: system.measures().iter().filter(jumps).map(|measure| measure.name.clone()).collect() }
+    }
+
+    fn texts(&self) -> Vec<String> {
+        self.of.iter().enumerate().map(|(k, name)| format!("mean_that_may_jump_{k} = mean({name})")).collect()
+    }
+}
+
+/// Whether the value of a node may jump.
+fn breaks(node: Node) -> bool {
+    matches!(
+        node,
+        Node::Compare(..) | Node::Binary(Binary::Atan2 | Binary::Mod, ..) | Node::Unary(Unary::Floor | Unary::Sign, _)
+    )
+}
+
+struct AskedMeasure {
+    name: String,
+    column: usize,
+    /// By tolerance: the column of its derivative, if it has one.
+    by: Vec<Option<usize>>,
+    unit: ColumnUnit,
+    si: String,
+}
+
+/// What a measure is at the times of the nominal variant.
+struct Rows<'s> {
+    times: &'s [f64],
+    values: &'s [f64],
+    /// By tolerance: its derivative, if it has one.
+    slopes: Vec<Option<&'s [f64]>>,
+}
+
+impl AskedOf {
+    /// The columns of time, and of each measure with its derivatives.
+    fn columns(&self) -> Vec<usize> {
+        let of =
+            |measure: &AskedMeasure| [measure.column].into_iter().chain(measure.by.iter().copied().flatten()).collect();
+        [0].into_iter().chain(self.measures.iter().flat_map(|measure| -> Vec<usize> { of(measure) })).collect()
+    }
+
+    /// What there is of the nominal variant.
+    fn affected(self, swept: &Swept, tolerances: &[Tolerance]) -> Vec<Affected> {
+        let (mut columns, mut all) = (swept.columns.iter(), Vec::new());
+        let (own, count) = (self.results.len(), tolerances.len());
+        let number = |k: usize| Some(swept.results[k][0]).filter(|value| value.is_finite());
+        let all_results = own + self.means.of.len();
+        let jumps = |measure: &AskedMeasure| -> Vec<bool> {
+            let mean = self.means.of.iter().position(|of| *of == measure.name).filter(|k| number(own + k).is_some());
+            let slope = |k: usize, j: usize| number(all_results + (own + k) * count + j);
+            (0..count).map(|j| mean.is_some_and(|k| slope(k, j).is_none())).collect()
+        };
+        if let Some(times) = columns.next() {
+            for measure in self.measures {
+                let Some(values) = columns.next() else { break };
+                let slopes =
+                    measure.by.iter().map(|by| by.and_then(|_| columns.next().map(|column| &**column))).collect();
+                let rows = Rows { times, values, slopes };
+                let jumps = jumps(&measure);
+                all.push(if jumps.contains(&true) {
+                    where_it_jumps(measure, &rows, &jumps)
+                } else {
+                    where_it_is_worst(measure, &rows, tolerances)
+                });
+            }
+        }
+        all.extend(self.results.into_iter().enumerate().map(|(k, (name, unit, si))| Affected {
+            name,
+            at: None,
+            nominal: swept.results[k][0],
+            unit,
+            si,
+            slopes: (0..count).map(|j| number(all_results + k * count + j)).collect(),
+            unknown: [0, 1],
+        }));
+        all
+    }
+}
+
+/// A measure behind its widest jump, with no derivatives by those that the jump goes with.
+fn where_it_jumps(measure: AskedMeasure, rows: &Rows<'_>, jumps: &[bool]) -> Affected {
+    let Rows { times, values, slopes } = rows;
+    let change = |row: &usize| (values[*row] - values[*row - 1]).abs();
+    let widest = (1..times.len()).filter(|row| change(row).is_finite()).max_by(|a, b| change(a).total_cmp(&change(b)));
+    let row = widest.or_else(|| values.iter().position(|value| value.is_finite()));
+    let number = |column: &[f64]| row.map(|row| column[row]).filter(|value| value.is_finite());
+    let slopes = slopes.iter().zip(jumps).map(|(slope, jumps)| slope.filter(|_| !jumps).and_then(number));
+    Affected {
+        at: row.map(|row| times[row]).or(times.first().copied()),
+        nominal: number(values).unwrap_or(f64::NAN),
+        slopes: slopes.collect(),
+        unknown: [0, times.len() as u64],
+        name: measure.name,
+        unit: measure.unit,
+        si: measure.si,
+    }
+}
+
+/// A measure at the time at which the worst case of all tolerances is the largest; at the first time where no derivative is known.
+fn where_it_is_worst(measure: AskedMeasure, rows: &Rows<'_>, tolerances: &[Tolerance]) -> Affected {
+    let Rows { times, values, slopes } = rows;
+    let rows: Vec<usize> = (0..times.len()).filter(|&row| values[row].is_finite()).collect();
+    let (mut worst, mut unknown) = (None, 0);
+    for &row in &rows {
+        let at_row = slopes.iter().map(|slope| slope.map_or(f64::NAN, |slope| slope[row]));
+        let size = size(at_row.zip(tolerances));
+        unknown += u64::from(!size.is_finite());
+        if size.is_finite() && worst.is_none_or(|(largest, _)| size > largest) {
+            worst = Some((size, row));
+        }
+    }
+    let row = worst.map(|(_, row)| row).or(rows.first().copied());
+    let number = |column: &[f64]| row.map(|row| column[row]).filter(|value| value.is_finite());
+    Affected {
+        at: row.map(|row| times[row]).or(times.first().copied()),
+        nominal: number(values).unwrap_or(f64::NAN),
+        slopes: slopes.iter().map(|slope| slope.and_then(number)).collect(),
+        unknown: [unknown, rows.len() as u64],
+        name: measure.name,
+        unit: measure.unit,
+        si: measure.si,
+    }
+}
+
+/// How far off slopes may bring a value; no number where one of them is none.
+fn size<'t>(slopes: impl Iterator<Item = (f64, &'t Tolerance)>) -> f64 {
+    let [low, high] = slopes.fold([0.0, 0.0], |[low, high], (slope, of)| {
+        let [less, more] = of.times(slope);
+        [low + less, high + more]
+    });
+    // a largest of two numbers would pass over what is none
+    if (low + high).is_finite() { f64::max(-low, high) } else { f64::NAN }
+}
+
+/// What is found of measures and results while variants are run.
+struct Sought<'a> {
+    affected: &'a [Affected],
+    /// The times (s) at which measures are looked at, rising, each once.
+    times: Vec<f64>,
+    found: Vec<Option<[f64; 2]>>,
+    /// Of those that came to their end: how many have no value of it, and what sets the first of them.
+    missing: Vec<Option<(u64, Vec<String>)>>,
+    variants: u64,
+    /// Variants that did not come to their end on the branch, by their group; and what sets the first of them, with its status.
+    lost: BTreeSet<(usize, u64)>,
+    first_lost: Option<(Vec<String>, &'static str)>,
+}
+
+impl Sought<'_> {
+    fn of(affected: &[Affected]) -> Sought<'_> {
+        let mut times: Vec<f64> = affected.iter().filter_map(|of| of.at).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        let (found, missing) = (vec![None; affected.len()], vec![None; affected.len()]);
+        Sought { affected, times, found, missing, variants: 0, lost: BTreeSet::new(), first_lost: None }
+    }
+
+    /// The sweeps that it takes: one for measures, at their times, and one for results.
+    fn sweeps(&self, options: &SweepOptions, columns: &[String]) -> Vec<SweepOptions> {
+        let mut sweeps = Vec::with_capacity(2);
+        if !self.times.is_empty() {
+            let place = |of: &Affected| columns.iter().position(|column| *column == of.name);
+            let columns = self.affected.iter().filter(|of| of.at.is_some()).filter_map(place).collect();
+            let times = AskedTimes { at: self.times.clone(), ..options.times.clone() };
+            sweeps.push(SweepOptions { columns: Some(columns), times, ..options.clone() });
+        }
+        if self.affected.iter().any(|of| of.at.is_none()) {
+            sweeps.push(SweepOptions { columns: None, ..options.clone() });
+        }
+        sweeps
+    }
+
+    /// Takes in a block of variants with measures or with results.
+    fn take(&mut self, swept: &Swept, has_measures: bool, (group, variants): (usize, &Variants)) {
+        let mut first_row = 0;
+        for (k, &length) in swept.lengths.iter().enumerate() {
+            let (number, status, row) = (swept.first + k as u64, swept.statuses[k], first_row);
+            first_row += length;
+            if status != Status::Ok {
+                self.lost.insert((group, number));
+                self.first_lost.get_or_insert_with(|| (variants.settings(number), status.as_str()));
+            } else if has_measures {
+                self.take_measures(swept, row, || variants.settings(number));
+            } else {
+                self.take_results(swept, k, || variants.settings(number));
+            }
+        }
+    }
+
+    fn take_measures(&mut self, swept: &Swept, first_row: usize, set: impl Fn() -> Vec<String>) {
+        let measures = (0..self.affected.len()).filter_map(|k| Some((k, self.affected[k].at?)));
+        for (column, (k, at)) in measures.enumerate().collect::<Vec<_>>() {
+            let row = self.times.iter().position(|time| time.total_cmp(&at).is_eq());
+            let value = row.and_then(|row| swept.columns.get(column)?.get(first_row + row).copied());
+            self.note(k, value.unwrap_or(f64::NAN), &set);
+        }
+    }
+
+    fn take_results(&mut self, swept: &Swept, variant: usize, set: impl Fn() -> Vec<String>) {
+        let results: Vec<usize> = (0..self.affected.len()).filter(|&k| self.affected[k].at.is_none()).collect();
+        for (result, k) in results.into_iter().enumerate() {
+            self.note(k, swept.results[result][variant], &set);
+        }
+    }
+
+    fn note(&mut self, k: usize, value: f64, set: impl Fn() -> Vec<String>) {
+        let off = value - self.affected[k].nominal;
+        if off.is_finite() {
+            let [low, high] = self.found[k].unwrap_or([off; 2]);
+            self.found[k] = Some([low.min(off), high.max(off)]);
+        } else if self.affected[k].nominal.is_finite() {
+            self.missing[k].get_or_insert_with(|| (0, set())).0 += 1;
+        }
+    }
+
+    fn verified(self, are_all_corners: bool, largest: Vec<f64>) -> Verified {
+        let count = self.lost.len() as u64;
+        Verified {
+            variants: self.variants,
+            are_all_corners,
+            largest,
+            found: self.found,
+            missing: self.missing,
+            lost: self.first_lost.map(|(set, status)| (count, set, status)),
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! Mathematics that emitted code carries along, as it stands here: each file is self-contained but for what it names of its neighbours.
+
+#![no_std]
+
+pub mod blocks;
+pub mod grid;
+pub mod hermite;
+pub mod neighbours;
+pub mod sine_and_cosine;
+pub mod without_branches;
+
+/// The texts of these files, for code that carries them along.
+pub mod sources {
+    /// Sparse linear equations in blocks.
+    pub const BLOCKS: &str = include_str!("blocks.rs");
+    /// The grid of Newton's iterates.
+    pub const GRID: &str = include_str!("grid.rs");
+    /// The quintic between two states.
+    pub const HERMITE: &str = include_str!("hermite.rs");
+    /// Searches that end at neighbouring doubles.
+    pub const NEIGHBOURS: &str = include_str!("neighbours.rs");
+    /// Sine and cosine.
+    pub const SINE_AND_COSINE: &str = include_str!("sine_and_cosine.rs");
+    /// Sine and cosine without branches, for loops over many angles.
+    pub const WITHOUT_BRANCHES: &str = include_str!("without_branches.rs");
+}

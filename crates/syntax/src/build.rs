@@ -1,0 +1,629 @@
+//! From the parser's pairs to the tree of declarations, one declaration at a time.
+
+use super::ast::{
+    Binding, ColumnName, ColumnWord, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind, File, IndexRange, Item,
+    ItemKind, Mechanism, MechanismName, Name, Part, TableRows, UnitFactor, UsedFile, WrittenUnit,
+};
+use super::grammar::{Grammar, Rule};
+use super::{depth, errors, formula};
+use mechc_text::diag::Diagnostic;
+use mechc_text::source::{FileId, Source, Span};
+use pest::Parser;
+use pest::iterators::Pair;
+use std::ops::Range;
+use unicode_normalization::UnicodeNormalization;
+
+/// The longest name, in characters.
+const LONGEST_NAME: usize = 200;
+
+/// A fault is rare and large; the way without one should be quick.
+pub(super) type Built<T> = Result<T, Box<Diagnostic>>;
+
+/// Builds the nodes of a piece of a text.
+pub(super) struct Reader<'a> {
+    source: &'a Source,
+    file: FileId,
+    /// The byte of the text at which the piece begins.
+    base: usize,
+}
+
+/// What stands before the brace of a mechanism or body.
+#[derive(Clone)]
+pub(super) struct Head {
+    pub name: Name,
+    pub ranges: Vec<IndexRange>,
+    /// What stands behind `at`.
+    pub pose: Option<DrawnPose>,
+}
+
+/// A stretch of a text.
+#[derive(Clone)]
+pub(super) struct Piece<'a> {
+    pub source: &'a Source,
+    pub file: FileId,
+    /// In bytes.
+    pub range: Range<usize>,
+}
+
+/// Why a piece cannot be read.
+pub(super) enum Refused {
+    /// It does not follow the grammar.
+    ByGrammar(Box<pest::error::Error<Rule>>),
+    /// It means nothing all the same.
+    Else(Box<Diagnostic>),
+}
+
+impl Piece<'_> {
+    /// Reads a piece by a rule that matches it from its beginning on, and makes something of it.
+    pub fn read<T>(
+        &self,
+        rule: Rule,
+        make: impl FnOnce(&Reader<'_>, Pair<'_, Rule>) -> Built<T>,
+    ) -> Result<T, Refused> {
+        let text = &self.source.text[self.range.clone()];
+        let reader = Reader { source: self.source, file: self.file, base: self.range.start };
+        depth::measure(text, self.file, self.range.start).map_err(Refused::Else)?;
+        let pairs = Grammar::parse(rule, text).map_err(|error| Refused::ByGrammar(Box::new(error)))?;
+        let pair = pairs.into_iter().next().ok_or_else(|| Refused::Else(reader.truncated()))?;
+        make(&reader, pair).map_err(Refused::Else)
+    }
+
+    /// What is to be said of a piece that was refused; with a look at what was meant, if that is wanted.
+    pub fn fault(&self, refused: Refused, with_mend: bool) -> Box<Diagnostic> {
+        match refused {
+            Refused::Else(fault) => fault,
+            Refused::ByGrammar(error) => {
+                Box::new(errors::from_pest(&error, self.source, self.file, self.range.start, with_mend))
+            }
+        }
+    }
+}
+
+/// A name as it is compared: in NFC.
+#[must_use]
+pub fn normalized(name: &str) -> String {
+    if name.is_ascii() { name.to_owned() } else { name.nfc().collect() }
+}
+
+/// Whether a text can stand where a name is wanted: an identifier, and no keyword.
+#[must_use]
+pub fn is_name(text: &str) -> bool {
+    let pair = Grammar::parse(Rule::name, text).ok().and_then(|mut pairs| pairs.next());
+    pair.is_some_and(|pair| pair.as_str().len() == text.len()) && text.chars().count() <= LONGEST_NAME
+}
+
+impl Reader<'_> {
+    /// A pair's place, without the white space and comments that the parser may have taken in behind it.
+    pub(super) fn span(&self, pair: &Pair<'_, Rule>) -> Span {
+        let whole = pair.as_span();
+        let ends_with_white_space = whole.as_str().ends_with(char::is_whitespace);
+        // a comment that was taken in reaches to the end of its line, and with it what ends the line, or to the end of the text
+        let is_last = whole.end() == whole.get_input().len();
+        let end = if ends_with_white_space || is_last { end_of_last_token(pair) } else { whole.end() };
+        let place = |at: usize| (self.base + at) as u32;
+        Span { file: self.file, start: place(whole.start()), end: place(end) }
+    }
+
+    /// The words that a span covers.
+    pub(super) fn text(&self, span: Span) -> &str {
+        &self.source.text[span.start as usize..span.end as usize]
+    }
+
+    pub(super) fn name(&self, pair: &Pair<'_, Rule>) -> Built<Name> {
+        let name = Name { text: normalized(pair.as_str()), span: self.span(pair) };
+        if name.text.len() > LONGEST_NAME && name.text.chars().count() > LONGEST_NAME {
+            return Err(Box::new(errors::long_name(name.span, LONGEST_NAME)));
+        }
+        Ok(name)
+    }
+
+    /// What cannot happen while the grammar is what this file believes it to be.
+    pub(super) fn truncated(&self) -> Box<Diagnostic> {
+        let end = self.source.text.len() as u32;
+        let span = Span { file: self.file, start: end, end };
+        Box::new(errors::misplaced(span, "a declaration is not complete", "more was expected before this"))
+    }
+
+    /// What a pair holds and nothing else, beside what may follow it.
+    pub(super) fn only<'i>(&self, pair: Pair<'i, Rule>) -> Built<Pair<'i, Rule>> {
+        pair.into_inner().next().ok_or_else(|| self.truncated())
+    }
+
+    /// A whole file.
+    pub(super) fn file(&self, pair: Pair<'_, Rule>) -> Built<File> {
+        let (mut uses, mut mechanisms) = (Vec::new(), Vec::new());
+        for pair in pair.into_inner() {
+            match pair.as_rule() {
+                Rule::use_file => uses.push(self.use_file(pair)?),
+                Rule::mechanism => mechanisms.push(self.mechanism(pair)?),
+                _ => {}
+            }
+        }
+        Ok(File { uses, mechanisms })
+    }
+
+    /// `use "FILE.mech" as PREFIX`
+    pub(super) fn use_file(&self, pair: Pair<'_, Rule>) -> Built<UsedFile> {
+        let span = self.span(&pair);
+        let (mut path, mut prefix) = (None, None);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::string => path = Some(self.unquoted_name(&part)),
+                Rule::use_prefix => prefix = Some(self.name(&self.only(part)?)?),
+                _ => {}
+            }
+        }
+        Ok(UsedFile { docs: self.docs_above(span.start), span, path, prefix, is_broken: false })
+    }
+
+    /// What stands between the quotes of a string, with the place of the string.
+    fn unquoted_name(&self, string: &Pair<'_, Rule>) -> Name {
+        Name { text: unquoted(string.as_str()).to_owned(), span: self.span(string) }
+    }
+
+    fn mechanism(&self, pair: Pair<'_, Rule>) -> Built<Mechanism> {
+        let span = self.span(&pair);
+        let mut inner = pair.into_inner();
+        let Head { name, .. } = self.head(inner.next().ok_or_else(|| self.truncated())?)?;
+        let mut items = Vec::new();
+        self.items(inner, &mut items)?;
+        Ok(Mechanism { docs: self.docs_above(span.start), name, span, items })
+    }
+
+    /// Adds declarations of a mechanism, up to what ends them.
+    pub(super) fn items<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>, items: &mut Vec<Item>) -> Built<()> {
+        for pair in pairs {
+            match pair.as_rule() {
+                Rule::close | Rule::EOI => {}
+                Rule::ground | Rule::body => items.push(self.block(pair)?),
+                _ => items.push(self.plain_item(pair)?),
+            }
+        }
+        Ok(())
+    }
+
+    /// The ground or a body.
+    fn block(&self, pair: Pair<'_, Rule>) -> Built<Item> {
+        let span = self.span(&pair);
+        let mut inner = pair.into_inner();
+        let mut block = self.empty_block(inner.next().ok_or_else(|| self.truncated())?, span)?;
+        if let Some(features) = block.kind.features_mut() {
+            *features = self.features(inner)?;
+        }
+        Ok(block)
+    }
+
+    /// The ground or a body without its features, from its head.
+    pub(super) fn empty_block(&self, head: Pair<'_, Rule>, span: Span) -> Built<Item> {
+        let features = Vec::new();
+        let (kind, ranges) = if head.as_rule() == Rule::ground_head {
+            (ItemKind::Ground { features }, Vec::new())
+        } else {
+            let Head { name, ranges, pose } = self.head(head)?;
+            (ItemKind::Body { name, pose, features }, ranges)
+        };
+        Ok(Item { docs: self.docs_above(span.start), span, ranges, kind })
+    }
+
+    /// Features, up to what ends them.
+    pub(super) fn features<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>) -> Built<Vec<Feature>> {
+        let features = pairs.filter(|pair| !matches!(pair.as_rule(), Rule::close | Rule::EOI));
+        exactly(features.map(|pair| self.feature(pair)))
+    }
+
+    /// A declaration of the mechanism that has no block.
+    pub(super) fn plain_item(&self, pair: Pair<'_, Rule>) -> Built<Item> {
+        let span = self.span(&pair);
+        let docs = self.docs_above(span.start);
+        let rule = pair.as_rule();
+        let ranges = self.ranges(&pair)?;
+        let mut inner = significant(pair);
+        let kind = match rule {
+            Rule::param => ItemKind::Param { name: self.next_name(&mut inner)?, value: self.next_expr(&mut inner)? },
+            Rule::function => ItemKind::Function {
+                name: self.next_name(&mut inner)?,
+                argument: self.next_name(&mut inner)?,
+                value: self.next_expr(&mut inner)?,
+            },
+            Rule::input => ItemKind::Input { name: self.next_name(&mut inner)?, value: self.next_expr(&mut inner)? },
+            Rule::table => self.table(&mut inner)?,
+            Rule::part => ItemKind::Part(Box::new(self.part(&mut inner)?)),
+            Rule::joint => self.joint(&mut inner)?,
+            Rule::driver | Rule::constraint => ItemKind::Equation {
+                driver: rule == Rule::driver,
+                name: self.next_name(&mut inner)?,
+                left: self.next_expr(&mut inner)?,
+                right: self.next_expr(&mut inner)?,
+            },
+            Rule::gravity => ItemKind::Gravity { acceleration: self.next_expr(&mut inner)? },
+            Rule::load => ItemKind::Load {
+                name: self.next_name(&mut inner)?,
+                force: self.next_expr(&mut inner)?,
+                on: self.next_expr(&mut inner)?,
+            },
+            Rule::measure => ItemKind::Measure {
+                name: self.next_name(&mut inner)?,
+                value: self.next_expr(&mut inner)?,
+                unit: self.printed(inner.next())?,
+            },
+            Rule::trace => ItemKind::Trace {
+                name: self.next_name(&mut inner)?,
+                point: self.next_expr(&mut inner)?,
+                unit: self.printed(inner.next())?,
+            },
+            Rule::result => ItemKind::Result {
+                name: self.next_name(&mut inner)?,
+                value: self.next_expr(&mut inner)?,
+                unit: self.printed(inner.next())?,
+            },
+            Rule::analysis => ItemKind::Analysis {
+                from: self.next_expr(&mut inner)?,
+                to: self.next_expr(&mut inner)?,
+                every: self.next_expr(&mut inner)?,
+            },
+            _ => return Err(self.truncated()),
+        };
+        Ok(Item { docs, span, ranges, kind })
+    }
+
+    fn part<'i>(&self, inner: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Part> {
+        let name = self.next_name(inner)?;
+        let mechanism = inner.next().ok_or_else(|| self.truncated())?;
+        let start = self.span(&mechanism);
+        let mut part = Part {
+            name,
+            mechanism: self.mechanism_name(mechanism)?,
+            bindings: Vec::new(),
+            on: None,
+            at: None,
+            mirrored: None,
+            call_span: start,
+        };
+        for pair in inner {
+            match pair.as_rule() {
+                Rule::binding => part.bindings.push(self.binding(pair)?),
+                Rule::call_end => part.call_span = start.to(self.span(&pair)),
+                Rule::carrier => part.on = Some(self.carrier(pair)?),
+                Rule::paren => part.at = Some(formula::build_operand(self, pair, 0)?),
+                Rule::mirrored => part.mirrored = Some(self.span(&pair)),
+                _ => {}
+            }
+        }
+        Ok(part)
+    }
+
+    fn mechanism_name(&self, pair: Pair<'_, Rule>) -> Built<MechanismName> {
+        let mut words = significant(pair);
+        let first = self.next_name(&mut words)?;
+        Ok(match words.next() {
+            Some(second) => MechanismName { prefix: Some(first), name: self.name(&second)? },
+            None => MechanismName { prefix: None, name: first },
+        })
+    }
+
+    fn binding(&self, pair: Pair<'_, Rule>) -> Built<Binding> {
+        let span = self.span(&pair);
+        let mut inner = significant(pair).peekable();
+        let name = self.next_name(&mut inner)?;
+        let coordinate = inner.next_if(|pair| pair.as_rule() == Rule::word);
+        let coordinate = coordinate.map(|word| self.name(&word)).transpose()?;
+        Ok(Binding { name, coordinate, value: self.next_expr(&mut inner)?, span })
+    }
+
+    fn carrier(&self, pair: Pair<'_, Rule>) -> Built<Expr> {
+        let inner = pair.into_inner().next().ok_or_else(|| self.truncated())?;
+        if inner.as_rule() == Rule::ground_word {
+            let name = self.name(&inner)?;
+            return Ok(Expr { span: name.span, kind: ExprKind::Name(name) });
+        }
+        formula::build_operand(self, inner, 0)
+    }
+
+    /// The head of a mechanism or body.
+    pub(super) fn head(&self, pair: Pair<'_, Rule>) -> Built<Head> {
+        let ranges = self.ranges(&pair)?;
+        let mut inner = significant(pair);
+        let name = self.next_name(&mut inner)?;
+        let at = self.last_expr(&mut inner)?;
+        let toward = self.last_expr(&mut inner)?;
+        Ok(Head { name, ranges, pose: at.map(|at| DrawnPose { at, toward }) })
+    }
+
+    /// `[k in 0..n]` behind the name of a declaration, if it is there.
+    fn ranges(&self, pair: &Pair<'_, Rule>) -> Built<Vec<IndexRange>> {
+        let ranges = pair.clone().into_inner().nth(2).filter(|pair| pair.as_rule() == Rule::ranges);
+        let Some(ranges) = ranges else { return Ok(Vec::new()) };
+        ranges.into_inner().filter(|pair| pair.as_rule() == Rule::range).map(|pair| self.range(pair)).collect()
+    }
+
+    fn range(&self, pair: Pair<'_, Rule>) -> Built<IndexRange> {
+        let is_closed = pair.clone().into_inner().any(|part| part.as_rule() == Rule::through);
+        let mut inner = significant(pair);
+        let index = self.next_name(&mut inner)?;
+        let (from, to) = (self.next_expr(&mut inner)?, self.next_expr(&mut inner)?);
+        Ok(IndexRange { index, from, to, is_closed })
+    }
+
+    /// A formula that is alone in its text.
+    pub(super) fn whole_formula(&self, pair: Pair<'_, Rule>) -> Built<Expr> {
+        self.next_expr(&mut pair.into_inner())
+    }
+
+    fn table<'i>(&self, inner: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<ItemKind> {
+        let name = self.next_name(inner)?;
+        let mut periodic = false;
+        for pair in inner {
+            match pair.as_rule() {
+                Rule::periodic => periodic = true,
+                Rule::table_rows => {
+                    let rows = pair.into_inner().map(|row| formula::build(self, row, 0)).collect::<Built<Vec<_>>>()?;
+                    return Ok(ItemKind::Table { name, periodic, rows: TableRows::Listed(rows) });
+                }
+                Rule::table_file => {
+                    let rows = self.table_file(pair)?;
+                    return Ok(ItemKind::Table { name, periodic, rows });
+                }
+                _ => {}
+            }
+        }
+        Err(self.truncated())
+    }
+
+    fn table_file(&self, pair: Pair<'_, Rule>) -> Built<TableRows> {
+        let mut inner = pair.into_inner();
+        let string = inner.next().ok_or_else(|| self.truncated())?;
+        let path = self.unquoted_name(&string);
+        let (mut columns, mut units) = (None, Vec::new());
+        for pair in inner {
+            match pair.as_rule() {
+                Rule::columns => columns = Some(self.columns(pair)?),
+                Rule::unit_product => units.push(self.unit_product(pair)?),
+                _ => {}
+            }
+        }
+        Ok(TableRows::File { path, columns, units: units.try_into().ok() })
+    }
+
+    fn columns(&self, pair: Pair<'_, Rule>) -> Built<[ColumnName; 2]> {
+        let columns = pair.into_inner().filter(|pair| pair.as_rule() == Rule::column);
+        let columns = columns.map(|pair| self.column(pair)).collect::<Built<Vec<_>>>()?;
+        columns.try_into().map_err(|_| self.truncated())
+    }
+
+    fn column(&self, pair: Pair<'_, Rule>) -> Built<ColumnName> {
+        let inner = self.only(pair)?;
+        let span = self.span(&inner);
+        let kind = if inner.as_rule() == Rule::string {
+            ColumnWord::Named(unquoted(inner.as_str()).to_owned())
+        } else {
+            let number = inner.as_str().parse().ok().filter(|number| *number > 0);
+            ColumnWord::Number(number.ok_or_else(|| Box::new(errors::column_number(span)))?)
+        };
+        Ok(ColumnName { kind, span })
+    }
+
+    /// The unit behind `in`, if there is one.
+    fn printed(&self, pair: Option<Pair<'_, Rule>>) -> Built<Option<WrittenUnit>> {
+        let product = pair.and_then(|pair| pair.into_inner().find(|pair| pair.as_rule() == Rule::unit_product));
+        product.map(|pair| self.unit_product(pair)).transpose()
+    }
+
+    fn unit_product(&self, pair: Pair<'_, Rule>) -> Built<WrittenUnit> {
+        let (mut factors, mut factor): (Vec<UnitFactor>, Factor) = (Vec::new(), Factor::Times);
+        for pair in pair.into_inner() {
+            if pair.as_rule() != Rule::unit_factor {
+                factor = if pair.as_str().ends_with('*') { Factor::Times } else { Factor::Over };
+                continue;
+            }
+            let mut parts = pair.into_inner();
+            let name = self.next_name(&mut parts)?;
+            let (power, end) = match parts.next() {
+                Some(power) => (formula::unit_power(self, &power)?, self.span(&power)),
+                None => (1, name.span),
+            };
+            let span = name.span.to(end);
+            factors.push(UnitFactor { name, power, factor, span });
+        }
+        match (factors.first(), factors.last()) {
+            (Some(first), Some(last)) => Ok(WrittenUnit { span: first.span.to(last.span), factors }),
+            _ => Err(self.truncated()),
+        }
+    }
+
+    fn joint<'i>(&self, inner: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<ItemKind> {
+        let name = self.next_name(inner)?;
+        let call = inner.next().ok_or_else(|| self.truncated())?;
+        let call_span = self.span(&call);
+        let mut parts = call.into_inner();
+        let kind = self.next_name(&mut parts)?;
+        if let Some(window) = parts.clone().find(|part| part.as_rule() == Rule::window) {
+            let (message, label) = ("a joint takes no window", "a part of the analysis");
+            return Err(Box::new(errors::misplaced(self.span(&window), message, label)));
+        }
+        let arguments = self.list(parts, 1)?;
+        Ok(ItemKind::Joint { name, kind, arguments, call_span })
+    }
+
+    /// A feature of a body or of the ground.
+    pub(super) fn feature(&self, pair: Pair<'_, Rule>) -> Built<Feature> {
+        let span = self.span(&pair);
+        let docs = self.docs_above(span.start);
+        let rule = pair.as_rule();
+        if rule == Rule::mass {
+            return self.mass(pair, docs);
+        }
+        let along = pair.clone().into_inner().any(|p| p.as_rule() == Rule::along);
+        let mut inner = significant(pair);
+        let name = self.next_name(&mut inner)?;
+        let kind = match rule {
+            Rule::point => FeatureKind::Point { at: self.last_expr(&mut inner)? },
+            Rule::axis if along => FeatureKind::AxisAlong {
+                origin: Box::new(self.next_expr(&mut inner)?),
+                direction: Box::new(self.next_operand(&mut inner)?),
+            },
+            Rule::axis => FeatureKind::AxisTo {
+                origin: Box::new(self.next_expr(&mut inner)?),
+                target: Box::new(self.next_expr(&mut inner)?),
+            },
+            Rule::circle => FeatureKind::Circle {
+                center: Box::new(self.next_expr(&mut inner)?),
+                radius: Box::new(self.next_expr(&mut inner)?),
+            },
+            Rule::curve => FeatureKind::Curve {
+                argument: self.next_name(&mut inner)?,
+                at: Box::new(self.next_expr(&mut inner)?),
+                estimate: self.last_expr(&mut inner)?.map(Box::new),
+            },
+            _ => return Err(self.truncated()),
+        };
+        Ok(Feature { docs, span, name, kind })
+    }
+
+    /// `mass M at (x, y) inertia I`
+    fn mass(&self, pair: Pair<'_, Rule>, docs: Vec<String>) -> Built<Feature> {
+        let span = self.span(&pair);
+        let has_place = pair.clone().into_inner().any(|part| part.as_rule() == Rule::at);
+        let mut inner = significant(pair);
+        let mass = Box::new(self.next_expr(&mut inner)?);
+        let at = if has_place { self.last_expr(&mut inner)?.map(Box::new) } else { None };
+        let kind = FeatureKind::Mass { mass, at, inertia: self.last_expr(&mut inner)?.map(Box::new) };
+        let nameless = Name { text: String::new(), span: Span { end: span.start + "mass".len() as u32, ..span } };
+        Ok(Feature { docs, span, name: nameless, kind })
+    }
+
+    /// The formulas of a list, without its commas and brackets.
+    pub(super) fn list<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>, depth: usize) -> Built<Vec<Expr>> {
+        exactly(pairs.filter(|pair| pair.as_rule() == Rule::expr).map(|pair| formula::build(self, pair, depth)))
+    }
+
+    fn next_name<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Name> {
+        pairs.next().ok_or_else(|| self.truncated()).and_then(|pair| self.name(&pair))
+    }
+
+    fn next_expr<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Expr> {
+        let pair = pairs.next().ok_or_else(|| self.truncated())?;
+        formula::build(self, pair, 0)
+    }
+
+    /// The formula that may come last.
+    fn last_expr<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Option<Expr>> {
+        pairs.next().map(|pair| formula::build(self, pair, 0)).transpose()
+    }
+
+    fn next_operand<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Expr> {
+        let pair = pairs.next().ok_or_else(|| self.truncated())?;
+        formula::build_operand(self, pair, 0)
+    }
+
+    fn docs_above(&self, start: u32) -> Vec<String> {
+        docs_above(&self.source.text, start as usize)
+    }
+}
+
+/// Some of what was built, without room for more: most lists are of one or two, and of those a large text has many. It is moved, since an
+/// allocator that is asked to make a block smaller may keep it as large.
+fn exactly<T>(built: impl Iterator<Item = Built<T>>) -> Built<Vec<T>> {
+    let mut all = built.collect::<Built<Vec<T>>>()?;
+    let mut exact = Vec::with_capacity(all.len());
+    exact.append(&mut all);
+    Ok(exact)
+}
+
+/// The `///` lines directly above a declaration that begins its line.
+pub(super) fn docs_above(text: &str, start: usize) -> Vec<String> {
+    let before = text[..start].trim_end_matches(|c: char| c != '\n' && c.is_whitespace());
+    if !(before.is_empty() || before.ends_with('\n')) {
+        return Vec::new();
+    }
+    let mut docs: Vec<String> = before
+        .lines()
+        .rev()
+        .map_while(|line| line.trim_start().strip_prefix("///"))
+        .map(|line| line.strip_prefix(' ').unwrap_or(line).trim_end().to_owned())
+        .collect();
+    docs.reverse();
+    docs
+}
+
+/// What stands between the quotes of a string.
+fn unquoted(string: &str) -> &str {
+    string.trim_matches('"')
+}
+
+/// The byte behind the last word or bracket of a pair.
+fn end_of_last_token(pair: &Pair<'_, Rule>) -> usize {
+    let mut last = pair.clone();
+    while !ends_with_a_token(last.as_rule()) {
+        match last.clone().into_inner().next_back() {
+            Some(inner) => last = inner,
+            None => break,
+        }
+    }
+    last.as_span().end()
+}
+
+/// Whether a rule's last part is a word or a bracket, which it ends with and not behind.
+fn ends_with_a_token(rule: Rule) -> bool {
+    !matches!(
+        rule,
+        Rule::expr
+            | Rule::conditional
+            | Rule::literal
+            | Rule::window
+            | Rule::unit_power
+            | Rule::range
+            | Rule::member
+            | Rule::param
+            | Rule::function
+            | Rule::input
+            | Rule::table
+            | Rule::table_file
+            | Rule::point
+            | Rule::axis
+            | Rule::circle
+            | Rule::curve
+            | Rule::mass
+            | Rule::mechanism_name
+            | Rule::binding
+            | Rule::carrier
+            | Rule::part
+            | Rule::joint
+            | Rule::driver
+            | Rule::constraint
+            | Rule::gravity
+            | Rule::load
+            | Rule::measure
+            | Rule::trace
+            | Rule::result
+            | Rule::printed
+            | Rule::unit_product
+            | Rule::unit_factor
+            | Rule::columns
+            | Rule::column
+            | Rule::analysis
+            | Rule::use_file
+    )
+}
+
+/// The pairs that carry something: no keywords, no punctuation.
+fn significant(pair: Pair<'_, Rule>) -> impl Iterator<Item = Pair<'_, Rule>> {
+    pair.into_inner().filter(|pair| {
+        matches!(
+            pair.as_rule(),
+            Rule::name
+                | Rule::word
+                | Rule::expr
+                | Rule::paren
+                | Rule::call
+                | Rule::periodic
+                | Rule::table_rows
+                | Rule::table_file
+                | Rule::printed
+                | Rule::mechanism_name
+                | Rule::binding
+                | Rule::call_end
+                | Rule::carrier
+                | Rule::mirrored
+        )
+    })
+}

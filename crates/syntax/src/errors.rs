@@ -1,0 +1,449 @@
+//! What is said of a text that does not follow the grammar.
+
+use super::grammar::Rule;
+use super::intended::{Intended, Intent};
+use super::mends::{Fault, Mend};
+use super::tokens::tokens;
+use mechc_text::diag::{Applies, Code, Diagnostic, Edit, Fix};
+use mechc_text::source::{FileId, Source, Span};
+use pest::error::{Error, ErrorVariant};
+use std::ops::Range;
+
+/// Nesting beyond the cap.
+pub fn too_deep(span: Span, deepest: usize) -> Diagnostic {
+    Diagnostic::new(Code::E0103, format!("formulas are nested deeper than {deepest}"))
+        .at(span, "one level too many")
+        .help("give a part of the formula a name, with `param` or `fn`")
+}
+
+/// A file without a single mechanism.
+pub fn no_mechanism(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0104, "the file holds no mechanism")
+        .at(span, "the file ends here")
+        .help("a file begins with `mechanism NAME {`")
+}
+
+/// A `use` behind a mechanism.
+pub fn late_use(span: Span) -> Diagnostic {
+    misplaced(span, "a `use` stands before the mechanisms", "not expected here")
+        .help("move it to the top of the file, above the first `mechanism`")
+}
+
+/// A fault that the grammar let pass and the tree builder did not.
+pub fn misplaced(span: Span, message: &str, label: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0101, message).at(span, label)
+}
+
+/// A column 0, or one beyond all numbers.
+pub fn column_number(span: Span) -> Diagnostic {
+    misplaced(span, "columns are counted from 1", "there is no such column")
+}
+
+/// A quantity as an exponent: `2 ^ 3 s`.
+pub fn quantity_as_exponent(span: Span) -> Diagnostic {
+    misplaced(span, "a number with a unit cannot be an exponent", "this has a unit")
+}
+
+/// A unit's power that is not a whole number: `50 mm^x`.
+pub fn unit_power(span: Span, literal: Span, text: &str) -> Diagnostic {
+    let [before, behind] = [(literal.start, "("), (literal.end, ")")]
+        .map(|(at, text)| Edit { span: Span { start: at, end: at, ..literal }, text: text.to_owned() });
+    misplaced(span, "the power of a unit is a whole number", "after a unit this is the unit's power").fix(Fix {
+        message: format!("to raise the whole quantity, write `({text})^…`"),
+        edits: vec![before, behind],
+        applies: Applies::Probably,
+    })
+}
+
+/// A chain of comparisons: `a < b < c`.
+pub fn chained_comparison(span: Span, middle: Span, text: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0309, "comparisons do not form chains").at(span, "a second comparison").fix(Fix::append(
+        middle,
+        format!(" and {text}"),
+        "join two comparisons with `and`: `a < b and b < c`",
+        Applies::Probably,
+    ))
+}
+
+/// A declaration that ends too early.
+fn incomplete(what: &str, end: Span, wanted: &str) -> Diagnostic {
+    misplaced(end, &format!("{what} is not complete: expected {wanted}"), &format!("{wanted} goes behind this"))
+}
+
+/// With what was meant.
+fn with_intended(diagnostic: Diagnostic, intended: Intended) -> Diagnostic {
+    match intended {
+        Intended::Words(words) => diagnostic.help(words),
+        Intended::Change(fix) => diagnostic.fix(fix),
+        Intended::Incomplete { what, end, wanted, mend } => with_intended(incomplete(&what, end, wanted), *mend),
+    }
+}
+
+/// A declaration of the mechanism within the braces of a body.
+pub fn misplaced_in_body(mut fault: Diagnostic, word: &str) -> Diagnostic {
+    fault.fixes.clear();
+    fault.help = vec![format!("a `{word}` stands in the mechanism: put it behind the `}}` of this body or ground")];
+    fault
+}
+
+/// A declaration of a body outside of all bodies, unless more is known of what was meant.
+pub fn feature_in_mechanism(mut fault: Box<Diagnostic>, word: &str) -> Box<Diagnostic> {
+    if fault.help.is_empty() && fault.fixes.is_empty() {
+        let article = if word == "axis" { "an" } else { "a" };
+        let of_ground = if word == "mass" { "" } else { " or of the ground" };
+        fault.help =
+            vec![format!("{article} `{word}` stands between the braces of a body{of_ground}: `body b {{ {word} … }}`")];
+    }
+    fault
+}
+
+/// A word of the language in the place of a name, with a name that is free.
+pub fn keyword_as_name(mut fault: Diagnostic, word: &str, instead: Option<&str>) -> Diagnostic {
+    fault.fixes.clear();
+    let instead = instead.map_or(String::new(), |name| format!("; choose another one, `{name}` say"));
+    fault.help = vec![format!("`{word}` is a keyword and cannot be a name{instead}")];
+    fault
+}
+
+/// `body ground { … }`; the span is that of what stands before the word.
+pub fn ground_as_body(fault: Diagnostic, before: Span) -> Diagnostic {
+    fault.instead(Fix::replace(before, "", "the ground is no body: it is declared `ground { … }`", Applies::Always))
+}
+
+/// A name that no message could hold.
+pub fn long_name(span: Span, longest: usize) -> Diagnostic {
+    Diagnostic::new(Code::E0101, format!("a name has at most {longest} characters"))
+        .at(span, "this one is longer")
+        .help("choose a shorter name, and say the rest in a `///` comment")
+}
+
+/// A syntax error as the parser found it in the piece of a text that begins at a byte, in human words.
+///
+/// To see what was meant takes a look at all of the text before it.
+pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize, with_mend: bool) -> Diagnostic {
+    let text = source.text.as_str();
+    let offset = match error.location {
+        pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => base + at,
+    };
+    if with_mend && let Some(other) = comparison_for_equation(error, text, offset, file) {
+        return other;
+    }
+    let found = found_at(text, offset);
+    if let Some(bracket) = other_bracket(error, text, &found, file) {
+        return bracket;
+    }
+    let rules = expected_rules(error);
+    let end = if source.is_option { "the end of the formula" } else { "the end of the file" };
+    let expected = expectation(rules, &text[found.clone()], end);
+    let diagnostic = match comment_at(text, found.start) {
+        Some(at) => {
+            let span = Span { file, start: at as u32, end: at as u32 + 2 };
+            misplaced(span, "`/*` begins no comment", "not expected here")
+        }
+        None => unexpected(text, file, found.clone(), &expected, end),
+    };
+    if !with_mend {
+        return diagnostic;
+    }
+    mended(diagnostic, &Fault { text, file, at: found.start, found: &text[found], expected: rules }, source, &expected)
+}
+
+/// What the parser would have liked.
+fn expected_rules(error: &Error<Rule>) -> &[Rule] {
+    match &error.variant {
+        // no prefix is called `use`, if a file follows: that is the next one
+        ErrorVariant::ParsingError { positives, negatives }
+            if positives.is_empty() && negatives.contains(&Rule::kw_use) =>
+        {
+            &[Rule::use_prefix]
+        }
+        ErrorVariant::ParsingError { positives, .. } => positives.as_slice(),
+        ErrorVariant::CustomError { .. } => &[],
+    }
+}
+
+/// A word or character in the place of something else.
+fn unexpected(text: &str, file: FileId, found: Range<usize>, expected: &str, end: &str) -> Diagnostic {
+    let (word, line) = (&text[found.clone()], text[found.end..].lines().next().unwrap_or_default());
+    // a string is marked along its length
+    let closing = line.find('"').filter(|_| word.starts_with('"'));
+    let length = closing.map_or(word.len(), |inside| word.len() + inside + 1);
+    let span = Span { file, start: found.start as u32, end: (found.start + length) as u32 };
+    let shown = match word.chars().next() {
+        None => end.to_owned(),
+        Some('"') if closing.is_some() => "a string".to_owned(),
+        Some('"') => "an unclosed string".to_owned(),
+        Some(_) if word == "ground" && text[found.end..].trim_start().starts_with([',', ')']) => {
+            "`ground` alone".to_owned()
+        }
+        Some(_) => format!("`{word}`"),
+    };
+    // of one thing it can be said where it goes
+    let label = if expected.split('`').count() == 3 && expected.starts_with('`') && expected.ends_with('`') {
+        format!("{expected} goes here")
+    } else {
+        "not expected here".to_owned()
+    };
+    Diagnostic::new(Code::E0101, format!("expected {expected}, found {shown}")).at(span, label)
+}
+
+/// With what was meant, as far as the words around the fault tell.
+fn mended(diagnostic: Diagnostic, fault: &Fault<'_>, source: &Source, expected: &str) -> Diagnostic {
+    let diagnostic = match fault.reason() {
+        Some((at, text)) => diagnostic.also(Span { file: fault.file, start: at as u32, end: at as u32 + 1 }, text),
+        None => diagnostic,
+    };
+    let intent = Intent::new(fault.text, fault.file, fault.at, fault.found, fault.expected);
+    if let Some(intended) = intent.mend() {
+        return with_intended(diagnostic, intended);
+    }
+    // of an option's value the declaration is not there
+    if source.is_option && fault.found == "," && source.name.starts_with("--") {
+        let option = source.name.split(' ').next().unwrap_or_default();
+        return diagnostic.help(format!("give `{option}` once for each"));
+    }
+    match fault.mend(expected) {
+        Some(Mend::Words(words)) => diagnostic.help(words),
+        Some(Mend::Fix(fix)) => diagnostic.fix(fix),
+        None => match intent.written() {
+            Some(form) => with_intended(diagnostic, form),
+            None => diagnostic,
+        },
+    }
+}
+
+/// Where `/*` begins, if one of its characters is what the parser could not go on with.
+fn comment_at(text: &str, at: usize) -> Option<usize> {
+    let is_one = |at: &usize| text.get(*at..).is_some_and(|rest| rest.starts_with("/*"));
+    [at, at.wrapping_sub(1)].into_iter().find(is_one)
+}
+
+/// Arguments or a pair in braces or square brackets: `revolute{A, B}`, `point A = [0, 0]`.
+fn other_bracket(error: &Error<Rule>, text: &str, found: &Range<usize>, file: FileId) -> Option<Diagnostic> {
+    let is_bracket = |bracket: &&str| ["{", "["].contains(bracket);
+    let (rest, is_pair) = match text.get(found.clone()).filter(is_bracket) {
+        Some(_) => (&text[found.start..], true),
+        None => (text[found.end..].trim_start(), false),
+    };
+    let bracket = rest.get(..1).filter(is_bracket)?;
+    let is_place = || expects(error, Rule::expr) && takes_coordinates(&text[..found.start]);
+    let is_expected = if is_pair {
+        expects(error, Rule::paren) || is_place()
+    } else {
+        expects(error, Rule::call) || expects(error, Rule::expr)
+    };
+    if !is_expected {
+        return None;
+    }
+    let at = text.len() - rest.len();
+    let span = |at: usize| Span { file, start: at as u32, end: at as u32 + 1 };
+    let words = if is_pair { "coordinates stand in round brackets" } else { "arguments stand in round brackets" };
+    let fault = misplaced(span(at), &format!("expected `(`, found `{bracket}`"), "`(` goes here");
+    Some(match partner(text, at) {
+        Some(end) => {
+            let edits = [(at, "("), (end, ")")].map(|(at, text)| Edit { span: span(at), text: text.to_owned() });
+            fault.fix(Fix { message: words.to_owned(), edits: edits.into(), applies: Applies::Always })
+        }
+        None => fault.help(words),
+    })
+}
+
+/// Whether a text ends where the coordinates of a point or pose go.
+fn takes_coordinates(before: &str) -> bool {
+    let tokens = tokens(before);
+    let words: Vec<&str> = tokens.iter().map(|token| token.text).collect();
+    matches!(words.as_slice(), [.., "point", _, "="] | [.., "at"])
+}
+
+/// The bracket that closes one, if all between them are closed, on its line.
+fn partner(text: &str, at: usize) -> Option<usize> {
+    let (mut open, line) = (Vec::new(), text[at..].lines().next()?);
+    for token in tokens(line) {
+        match token.text {
+            "(" | "[" | "{" => open.push(token.text),
+            ")" | "]" | "}" => {
+                let is_pair = matches!((open.pop()?, token.text), ("(", ")") | ("[", "]") | ("{", "}"));
+                if !is_pair {
+                    return None;
+                }
+            }
+            _ => {}
+        }
+        if open.is_empty() {
+            return Some(at + token.start);
+        }
+    }
+    None
+}
+
+/// An equation written with `==`, or what only limits: the grammar took both for a comparison.
+fn comparison_for_equation(error: &Error<Rule>, text: &str, offset: usize, file: FileId) -> Option<Diagnostic> {
+    if !expects(error, Rule::equals) {
+        return None;
+    }
+    let before = tokens(&text[..offset]);
+    let start = before.iter().rposition(|token| ["driver", "constraint"].contains(&token.text))?;
+    // behind an `if` it may be its comparison
+    let at = before[start..]
+        .iter()
+        .take_while(|token| token.text != "if")
+        .find(|token| ["==", "<", ">", "<=", ">="].contains(&token.text))?;
+    let span = Span { file, start: at.start as u32, end: at.end() as u32 };
+    let fault = misplaced(span, &format!("expected `=`, found `{}`", at.text), "this compares");
+    Some(match at.text {
+        "==" => fault.fix(Fix::replace(span, "=", "an equation is written with one `=`", Applies::Always)),
+        _ => fault.help(format!(
+            "a {} is an equation, which holds all the time; how near a limit is can be seen in a `measure`",
+            before[start].text
+        )),
+    })
+}
+
+fn expects(error: &Error<Rule>, rule: Rule) -> bool {
+    matches!(&error.variant, ErrorVariant::ParsingError { positives, .. } if positives.contains(&rule))
+}
+
+/// The word or character at an offset: what the parser could not go on with.
+fn found_at(text: &str, offset: usize) -> Range<usize> {
+    // the parser may stand before white space or a comment
+    let mut start = offset.min(text.len());
+    loop {
+        let rest = &text[start..];
+        let trimmed = rest.trim_start();
+        start += rest.len() - trimmed.len();
+        if !trimmed.starts_with("//") {
+            break;
+        }
+        start += trimmed.find('\n').unwrap_or(trimmed.len());
+    }
+    let rest = &text[start..];
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let length = match rest.chars().next() {
+        None => 0,
+        Some(c) if is_word(c) => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
+        Some(_) if ["==", "<=", ">=", "!="].iter().any(|op| rest.starts_with(op)) => 2,
+        Some(c) => c.len_utf8(),
+    };
+    start..start + length
+}
+
+/// The rules the parser would have liked, as a person would say it.
+fn expectation(rules: &[Rule], found: &str, end: &str) -> String {
+    let mut words: Vec<&str> = Vec::new();
+    let goes_on = rules.iter().any(|rule| matches!(rule, Rule::infix | Rule::unit_power));
+    // a point may end behind its name, but who goes on there has forgotten the `=`
+    let only_equals = rules.contains(&Rule::equals) && !goes_on;
+    for rule in rules.iter().filter(|rule| !only_equals || **rule == Rule::equals) {
+        let word = human(*rule, goes_on, end);
+        let is_found = word.trim_matches('`') == found;
+        if !word.is_empty() && !is_found && !words.contains(&word) {
+            words.push(word);
+        }
+    }
+    if words.is_empty() {
+        return "the next declaration".to_owned();
+    }
+    // no other formula stands behind a joint's `:`
+    let is_joint = rules.contains(&Rule::call) && !rules.contains(&Rule::literal) && !rules.contains(&Rule::expr);
+    if is_joint && words == ["a formula"] {
+        return "a kind of joint with its arguments".to_owned();
+    }
+    // a formula may begin with both
+    if words.contains(&"a formula") {
+        words.retain(|word| !["`(`", "a name"].contains(word));
+    }
+    let last = words.pop().unwrap_or_default();
+    if words.is_empty() { last.to_owned() } else { format!("{} or {last}", words.join(", ")) }
+}
+
+/// A rule in the user's words; empty for what is said by another one.
+fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
+    match rule {
+        Rule::file | Rule::mechanism | Rule::mechanism_head | Rule::kw_mechanism => "`mechanism`",
+        Rule::EOI if after_operand => "",
+        Rule::EOI => end,
+        Rule::param
+        | Rule::function
+        | Rule::table
+        | Rule::ground
+        | Rule::ground_head
+        | Rule::body
+        | Rule::body_head
+        | Rule::joint
+        | Rule::driver
+        | Rule::constraint
+        | Rule::gravity
+        | Rule::load
+        | Rule::measure
+        | Rule::trace
+        | Rule::part
+        | Rule::result
+        | Rule::analysis
+        | Rule::kw_param
+        | Rule::kw_fn
+        | Rule::kw_table
+        | Rule::kw_ground
+        | Rule::kw_body
+        | Rule::kw_joint
+        | Rule::kw_driver
+        | Rule::kw_constraint
+        | Rule::kw_gravity
+        | Rule::kw_load
+        | Rule::kw_measure
+        | Rule::kw_trace
+        | Rule::kw_part
+        | Rule::kw_result
+        | Rule::kw_analysis => "a declaration",
+        Rule::point
+        | Rule::axis
+        | Rule::circle
+        | Rule::curve
+        | Rule::mass
+        | Rule::kw_point
+        | Rule::kw_axis
+        | Rule::kw_circle
+        | Rule::kw_curve
+        | Rule::kw_mass => "a point, axis, circle, curve or mass",
+        Rule::name | Rule::use_prefix | Rule::word | Rule::ground_word => "a name",
+        Rule::expression_only
+        | Rule::expr
+        | Rule::conditional
+        | Rule::literal
+        | Rule::number
+        | Rule::call
+        | Rule::member
+        | Rule::prefix
+        | Rule::kw_if
+        | Rule::kw_not => "a formula",
+        Rule::infix => "an operator",
+        Rule::paren | Rule::left => "`(`",
+        Rule::equals => "`=`",
+        Rule::colon => "`:`",
+        Rule::comma => "`,`",
+        Rule::right | Rule::call_end => "`)`",
+        Rule::open => "`{`",
+        Rule::close => "`}`",
+        Rule::at => "`at`",
+        Rule::toward => "`toward`",
+        Rule::along => "`along`",
+        Rule::to => "`to`",
+        Rule::radius => "`radius`",
+        Rule::inertia => "`inertia`",
+        Rule::from => "`from`",
+        Rule::every => "`every`",
+        Rule::kw_on => "`on`",
+        Rule::mirrored => "`mirrored`",
+        Rule::mechanism_name => "the name of a mechanism",
+        Rule::binding => "a binding `NAME = …`",
+        Rule::carrier => "a body",
+        Rule::kw_then => "`then`",
+        Rule::kw_else => "`else`",
+        Rule::periodic | Rule::spline => "`spline`",
+        Rule::table_rows => "`[`",
+        Rule::table_file | Rule::string => "a file name in quotes",
+        Rule::exponent => "a whole number",
+        Rule::unit_name | Rule::unit_factor | Rule::unit_product | Rule::one_over => "a unit",
+        Rule::column | Rule::column_number => "a number or name of a column",
+        _ => "",
+    }
+}

@@ -1,0 +1,118 @@
+//! How a text is laid out: one style, which `examples/` show.
+//!
+//! Only what stands between lexemes is changed, and the comma behind the last item of a list. So the formatter is a list of small
+//! edits; a text is formatted by making them all, a part of it by making those of the part. Where a text does not follow the
+//! grammar, what is whole is formatted and the rest stays as it is.
+//!
+//! ```text
+//! text ──lexemes──▶ rows ──words, columns──▶ groups ──layout──▶ gaps ──▶ edits
+//! tree ────────────▶
+//! ```
+//!
+//! A tree that was never written down is printed without care for lines, and then laid out as any text ([`format()`]).
+//!
+//! This room knows how things are written, not what they mean: a text that `check` would refuse is formatted as well.
+
+mod columns;
+mod expression;
+mod gaps;
+mod groups;
+mod layout;
+mod lexemes;
+mod rows;
+mod words;
+mod written;
+
+use super::ast::File;
+use super::parse::{ParsedText, parse};
+pub use expression::expression;
+use gaps::Formatted;
+use mechc_text::diag::Edit;
+use mechc_text::source::{FileId, Sources, Span};
+use unicode_width::UnicodeWidthStr;
+
+/// The columns that a text takes on a screen.
+fn width(text: &str) -> usize {
+    text.width()
+}
+
+/// A tree as text. It ends with a line end, and is empty if the tree is.
+#[must_use]
+pub fn format(file: &File) -> String {
+    let text = written::written(file);
+    let mut sources = Sources::default();
+    let written = sources.add("written", text);
+    let parsed = parse(&sources, written);
+    let text = &sources.get(written).text;
+    Formatted::of(&parsed, text).text(text)
+}
+
+/// A text as it would be written; what does not follow the grammar stays as it is.
+#[must_use]
+pub fn formatted(parsed: &ParsedText, text: &str) -> String {
+    Formatted::of(parsed, text).text(text)
+}
+
+/// What to change in a text that was read from a file, so that it is formatted: spaces, line ends, and commas behind the last item of
+/// a list. The edits are in order and do not overlap.
+#[must_use]
+pub fn edits(parsed: &ParsedText, text: &str, file: FileId) -> Vec<Edit> {
+    Formatted::of(parsed, text).edits(text, file, |_| true)
+}
+
+/// The same, of the lines that have a part in a span, which one that it ends right before has not. Columns are those that the whole
+/// text would have.
+#[must_use]
+pub fn edits_in(parsed: &ParsedText, text: &str, span: Span) -> Vec<Edit> {
+    let (start, end) = (span.start as usize, span.end as usize);
+    // an empty span is a cursor, which may stand where a line begins
+    Formatted::of(parsed, text)
+        .edits(text, span.file, |row| start <= row.end && (row.start < end || start == end && row.start == end))
+}
+
+/// The same, of the block that a brace closes which ends at a byte; nothing if there is none.
+#[must_use]
+pub fn edits_at_brace(parsed: &ParsedText, text: &str, file: FileId, end: u32) -> Vec<Edit> {
+    let mechanisms = parsed.tree.mechanisms.iter();
+    let mut blocks = mechanisms
+        .flat_map(|mechanism| std::iter::once(mechanism.span).chain(mechanism.items.iter().map(|item| item.span)));
+    let is_brace = text.get(..end as usize).is_some_and(|before| before.ends_with('}'));
+    match blocks.find(|span| is_brace && span.end == end) {
+        Some(block) => edits_in(parsed, text, Span { file, ..block }),
+        None => Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::gaps::Formatted;
+    use crate::parse;
+    use mechc_text::source::Sources;
+
+    fn steps(text: &str) -> usize {
+        let mut sources = Sources::default();
+        let file = sources.add("text", text);
+        let parsed = parse(&sources, file);
+        assert!(parsed.faults.is_empty(), "{:?}", parsed.faults.iter().next());
+        Formatted::of(&parsed, text).steps
+    }
+
+    /// A mechanism of many declarations, with formulas as deep as they may be.
+    fn large(declarations: usize) -> String {
+        let deep = format!("{}a + b{}", "max(c, (".repeat(90), ") * d)".repeat(90));
+        let one = |k: usize| match k % 500 {
+            0 => format!("param p{k} = {deep}\n"),
+            1..20 => format!("// {k}\nbody b{k} {{ point A = (0, {k} mm) point B = A }}\n"),
+            _ => format!("param q{k}=2*q // {k}\n"),
+        };
+        format!("mechanism m {{\n{}}}\n", (0..declarations).map(one).collect::<String>())
+    }
+
+    #[test]
+    fn steps_are_linear_in_the_text() {
+        let (small, big) = (large(1_000), large(100_000));
+        let a_byte = |text: &str| steps(text) as f64 / text.len() as f64;
+        let (few, many) = (a_byte(&small), a_byte(&big));
+        assert!(many <= few * 1.02 && many < 10.0, "{few} and {many} steps a byte");
+    }
+}

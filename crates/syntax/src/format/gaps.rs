@@ -1,0 +1,245 @@
+//! What stands between the lexemes of a formatted text, and how it differs from what stands there now.
+
+use super::columns::{self, Cells};
+use super::groups::{Grouped, grouped};
+use super::layout::lay_out;
+use super::lexemes::{Lexeme, lexemes};
+use super::rows::{Kind, Row, rows};
+use super::words::{Word, declared, words};
+use crate::parse::ParsedText;
+use mechc_text::diag::Edit;
+use mechc_text::source::{FileId, Span};
+use rustc_hash::FxHashSet;
+use std::ops::Range;
+
+/// What stands before a lexeme.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Gap {
+    /// What stands there now.
+    Kept,
+    Spaces(usize),
+    /// The end of a line, and blank lines, before a line with an indentation.
+    Lines {
+        ends: usize,
+        indent: usize,
+    },
+}
+
+/// What becomes of a comma behind the last item of a list, or of the place for one.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Comma {
+    Unchanged,
+    Dropped,
+    /// Behind the lexeme.
+    Added,
+}
+
+/// A text with what is to stand between its lexemes.
+pub(super) struct Formatted<'a> {
+    lexemes: Vec<Lexeme<'a>>,
+    rows: Vec<Row>,
+    /// By lexeme.
+    gaps: Vec<Gap>,
+    /// By lexeme.
+    commas: Vec<Comma>,
+    /// How often something was looked at.
+    pub steps: usize,
+}
+
+/// A declaration on its way to lines.
+struct Line {
+    words: Vec<Word>,
+    cells: Option<Cells>,
+}
+
+impl<'a> Formatted<'a> {
+    pub fn of(parsed: &ParsedText, text: &'a str) -> Formatted<'a> {
+        let lexemes = lexemes(text);
+        let names = declared(&lexemes);
+        let mut faults: Vec<usize> =
+            parsed.faults.iter().flat_map(|fault| &fault.labels).map(|label| label.span.start as usize).collect();
+        faults.sort_unstable();
+        let rows = rows(&parsed.tree, &lexemes, &names, &faults);
+        let count = lexemes.len();
+        let (gaps, commas) = (vec![Gap::Kept; count], vec![Comma::Unchanged; count]);
+        let mut formatted = Formatted { lexemes, rows, gaps, commas, steps: count };
+        formatted.lay_out(&names);
+        formatted
+    }
+
+    fn lay_out(&mut self, names: &FxHashSet<&str>) {
+        let rows = std::mem::take(&mut self.rows);
+        let lines: Vec<Line> = rows.iter().map(|row| self.line(row, names)).collect();
+        let mut spaces: Vec<usize> = vec![0; self.lexemes.len()];
+        for (row, line) in rows.iter().zip(&lines) {
+            for (k, word) in line.words.iter().enumerate() {
+                spaces[row.lexemes.start + k] = word.spaces;
+            }
+        }
+        let mut cells: Vec<Option<Cells>> = Vec::new();
+        let mut all_words: Vec<Vec<Word>> = Vec::new();
+        for line in lines {
+            cells.push(line.cells);
+            all_words.push(line.words);
+        }
+        let are_of_one_kind = |a: Kind, b: Kind| a == b && matches!(a, Kind::Declaration(_));
+        for run in columns::runs(&rows, are_of_one_kind) {
+            self.steps += run.len();
+            columns::align(&rows[run.clone()], &cells[run], &mut spaces);
+        }
+        let ends: Vec<Option<usize>> =
+            rows.iter().zip(&all_words).map(|(row, words)| self.row(row, words, &spaces)).collect();
+        let are_declarations = |a: Kind, b: Kind| [a, b].iter().all(|kind| matches!(kind, Kind::Declaration(_)));
+        for run in columns::runs(&rows, are_declarations) {
+            self.steps += run.len();
+            let before = columns::before_comments(&rows[run.clone()], &ends[run.clone()]);
+            for (row, spaces) in rows[run].iter().zip(before) {
+                if let Some(comment) = row.behind {
+                    self.gaps[comment] = Gap::Spaces(spaces);
+                }
+            }
+        }
+        self.rows = rows;
+    }
+
+    fn line(&self, row: &Row, names: &FxHashSet<&str>) -> Line {
+        match row.kind {
+            Kind::Comment | Kind::Kept => Line { words: Vec::new(), cells: None },
+            Kind::Head | Kind::End => {
+                Line { words: words(&self.lexemes, names, row.lexemes.clone(), None), cells: None }
+            }
+            Kind::Declaration(_) => {
+                let words = words(&self.lexemes, names, row.lexemes.clone(), row.printed);
+                let cells = Cells::of(&words, &self.lexemes[row.lexemes.clone()]);
+                Line { words, cells: Some(cells) }
+            }
+        }
+    }
+
+    /// Lays a row out, and gives the column at which it ends if it has but one line.
+    fn row(&mut self, row: &Row, words: &[Word], spaces: &[usize]) -> Option<usize> {
+        if row.kind == Kind::Kept {
+            return None;
+        }
+        let start = row.lexemes.start;
+        let ends = if start == 0 { 0 } else { 1 + usize::from(row.is_apart) };
+        self.gaps[start] = Gap::Lines { ends, indent: row.indent };
+        let lexemes = &self.lexemes[row.lexemes.clone()];
+        if words.is_empty() {
+            return None;
+        }
+        let grouped = grouped(words, lexemes, &spaces[row.lexemes.clone()]);
+        let laid = lay_out(&grouped.nodes, row.indent);
+        self.steps += laid.steps + grouped.nodes.len();
+        for (k, node) in grouped.nodes.iter().enumerate() {
+            let gap = match (node, laid.lines[k]) {
+                (_, Some(indent)) => Gap::Lines { ends: 1, indent },
+                (super::layout::Node::Space(spaces) | super::layout::Node::Gap(spaces), None) => Gap::Spaces(*spaces),
+                _ => continue,
+            };
+            self.gaps[start + grouped.lexemes[k]] = gap;
+        }
+        self.take_commas(start, words, &grouped, &laid.is_broken);
+        (!laid.has_lines).then_some(laid.column)
+    }
+
+    /// A list has a comma behind its last item where each item has a line of its own, and nowhere else.
+    fn take_commas(&mut self, start: usize, words: &[Word], grouped: &Grouped, is_broken: &[bool]) {
+        for (k, _) in words.iter().enumerate().filter(|(_, word)| word.is_last_comma) {
+            self.commas[start + k] = Comma::Dropped;
+        }
+        for list in grouped.lists.iter().filter(|list| is_broken[list.node]) {
+            match list.comma {
+                Some(comma) => self.commas[start + comma] = Comma::Unchanged,
+                None => self.commas[start + list.last] = Comma::Added,
+            }
+        }
+    }
+
+    /// The whole text, formatted.
+    pub fn text(&self, text: &str) -> String {
+        let (mut out, mut at) = (String::with_capacity(text.len() + text.len() / 8), 0);
+        self.each_change(
+            text,
+            |_| true,
+            |range, new| {
+                out += &text[at..range.start];
+                out += new;
+                at = range.end;
+            },
+        );
+        out + &text[at..]
+    }
+
+    /// What to change in the rows that are `wanted`, by the bytes that they reach from and to.
+    pub fn edits(&self, text: &str, file: FileId, wanted: impl Fn(Range<usize>) -> bool) -> Vec<Edit> {
+        let mut edits = Vec::new();
+        self.each_change(text, wanted, |range, new| {
+            let span = Span { file, start: range.start as u32, end: range.end as u32 };
+            edits.push(Edit { span, text: new.to_owned() });
+        });
+        edits
+    }
+
+    /// Calls with each stretch of the text that is to change, as short as it can be, in order, and with what it becomes.
+    fn each_change(
+        &self,
+        text: &str,
+        wanted: impl Fn(Range<usize>) -> bool,
+        mut change: impl FnMut(Range<usize>, &str),
+    ) {
+        let line_end = if text.find('\n').is_some_and(|at| text[..at].ends_with('\r')) { "\r\n" } else { "\n" };
+        let mut new = String::new();
+        // the end of what stands before, and what is put behind it
+        let (mut end, mut comma) = (0, "");
+        for row in &self.rows {
+            let last = row.behind.unwrap_or(row.lexemes.end - 1);
+            let is_wanted = wanted(self.lexemes[row.lexemes.start].start..self.lexemes[last].end());
+            for k in row.lexemes.clone().chain(row.behind) {
+                let lexeme = self.lexemes[k];
+                if self.commas[k] == Comma::Dropped && is_wanted {
+                    continue;
+                }
+                new.clear();
+                new += comma;
+                comma = if self.commas[k] == Comma::Added && is_wanted { "," } else { "" };
+                let is_kept = self.write_gap(k, line_end, &mut new);
+                if is_wanted && !is_kept {
+                    minimal(text, end..lexeme.start, &new, &mut change);
+                }
+                end = lexeme.end();
+            }
+        }
+        let is_kept = self.rows.last().is_none_or(|row| row.kind == Kind::Kept);
+        if !is_kept && wanted(end..text.len()) {
+            minimal(text, end..text.len(), line_end, &mut change);
+        }
+    }
+
+    /// Writes what stands before a lexeme; says whether that is what stands there now.
+    fn write_gap(&self, k: usize, line_end: &str, out: &mut String) -> bool {
+        match self.gaps[k] {
+            Gap::Kept => return true,
+            Gap::Spaces(count) => out.extend(std::iter::repeat_n(' ', count)),
+            Gap::Lines { ends, indent } => {
+                (0..ends).for_each(|_| *out += line_end);
+                out.extend(std::iter::repeat_n(' ', indent));
+            }
+        }
+        false
+    }
+}
+
+/// Calls with what differs between a stretch of a text and what it becomes, if anything does.
+fn minimal(text: &str, range: Range<usize>, new: &str, change: &mut impl FnMut(Range<usize>, &str)) {
+    let old = &text[range.clone()];
+    if old == new {
+        return;
+    }
+    let same = |a: (char, char)| a.0 == a.1;
+    let before: usize = old.chars().zip(new.chars()).take_while(|&pair| same(pair)).map(|(c, _)| c.len_utf8()).sum();
+    let (old_rest, new_rest) = (&old[before..], &new[before..]);
+    let pairs = old_rest.chars().rev().zip(new_rest.chars().rev());
+    let behind: usize = pairs.take_while(|&pair| same(pair)).map(|(c, _)| c.len_utf8()).sum();
+    change(range.start + before..range.end - behind, &new_rest[..new_rest.len() - behind]);
+}

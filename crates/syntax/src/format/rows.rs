@@ -1,0 +1,303 @@
+//! From the tree to rows: what begins a line of its own, in order, with all comments.
+//!
+//! Each lexeme of the text is in one row, or behind one. What the tree does not have, or has as broken, stays as it was written.
+
+use super::layout::{INDENT, WIDTH};
+use super::lexemes::Lexeme;
+use super::words;
+use crate::ast::{Feature, FeatureKind, File, Item, ItemKind, Mechanism, UsedFile};
+use mechc_text::source::Span;
+use rustc_hash::FxHashSet;
+use std::ops::Range;
+
+/// What begins a line of its own.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Row {
+    pub lexemes: Range<usize>,
+    /// The comment behind it, on its line.
+    pub behind: Option<usize>,
+    /// In columns.
+    pub indent: usize,
+    pub kind: Kind,
+    /// Whether a blank line stands before it.
+    pub is_apart: bool,
+    /// The byte at which the unit behind `in` begins.
+    pub printed: Option<usize>,
+}
+
+/// What a row is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Kind {
+    Comment,
+    /// A declaration, whose columns are those of its neighbours of the same kind.
+    Declaration(Group),
+    /// Up to the brace that opens a block.
+    Head,
+    /// The brace that closes it.
+    End,
+    /// Stays as it is.
+    Kept,
+}
+
+/// Declarations that are of one kind.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Group {
+    Uses,
+    Params,
+    Functions,
+    Tables,
+    Inputs,
+    Parts,
+    Blocks,
+    Joints,
+    Constraints,
+    Drivers,
+    Gravity,
+    Loads,
+    Measures,
+    Results,
+    Analysis,
+    Features,
+    Masses,
+}
+
+impl Group {
+    /// Of the declarations of a mechanism; none of what is broken.
+    pub fn of(kind: &ItemKind) -> Option<Group> {
+        Some(match kind {
+            ItemKind::Param { .. } => Group::Params,
+            ItemKind::Function { .. } => Group::Functions,
+            ItemKind::Table { .. } => Group::Tables,
+            ItemKind::Input { .. } => Group::Inputs,
+            ItemKind::Part(_) => Group::Parts,
+            ItemKind::Ground { .. } | ItemKind::Body { .. } => Group::Blocks,
+            ItemKind::Joint { .. } => Group::Joints,
+            ItemKind::Equation { driver: false, .. } => Group::Constraints,
+            ItemKind::Equation { driver: true, .. } => Group::Drivers,
+            ItemKind::Gravity { .. } => Group::Gravity,
+            ItemKind::Load { .. } => Group::Loads,
+            ItemKind::Measure { .. } | ItemKind::Trace { .. } => Group::Measures,
+            ItemKind::Result { .. } => Group::Results,
+            ItemKind::Analysis { .. } => Group::Analysis,
+            ItemKind::Broken { .. } => return None,
+        })
+    }
+}
+
+/// The rows of a text. `faults` are the bytes at which something is wrong with it, in order.
+pub(super) fn rows(file: &File, lexemes: &[Lexeme<'_>], names: &FxHashSet<&str>, faults: &[usize]) -> Vec<Row> {
+    let mut rows = Rows { lexemes, names, faults, at: 0, made: Vec::new() };
+    let mut mechanisms = file.mechanisms.iter().peekable();
+    for used in &file.uses {
+        while let Some(before) = mechanisms.next_if(|before| before.span.start < used.span.start) {
+            rows.mechanism(before);
+        }
+        rows.used(used);
+    }
+    mechanisms.for_each(|mechanism| rows.mechanism(mechanism));
+    rows.up_to(usize::MAX, 0);
+    rows.made
+}
+
+struct Rows<'a> {
+    lexemes: &'a [Lexeme<'a>],
+    names: &'a FxHashSet<&'a str>,
+    faults: &'a [usize],
+    /// The lexeme that comes next.
+    at: usize,
+    made: Vec<Row>,
+}
+
+impl Rows<'_> {
+    fn starts_before(&self, byte: usize) -> bool {
+        self.lexemes.get(self.at).is_some_and(|lexeme| lexeme.start < byte)
+    }
+
+    /// The first lexeme at or behind a byte, from the next one on.
+    fn index_at(&self, byte: usize) -> usize {
+        self.at + self.lexemes[self.at..].partition_point(|lexeme| lexeme.start < byte)
+    }
+
+    fn has_fault(&self, range: Range<usize>) -> bool {
+        let first = self.faults.partition_point(|&at| at < range.start);
+        self.faults.get(first).is_some_and(|&at| at < range.end)
+    }
+
+    /// What stands before a byte: comments, and what is kept.
+    fn up_to(&mut self, byte: usize, indent: usize) {
+        while self.starts_before(byte) {
+            if self.lexemes[self.at].is_comment() { self.comment(indent) } else { self.keep(self.at + 1) }
+        }
+    }
+
+    fn comment(&mut self, indent: usize) {
+        let k = self.at;
+        match self.made.last_mut() {
+            Some(row) if self.lexemes[k].lines_before == 0 => {
+                if row.kind == Kind::Kept {
+                    row.lexemes.end = k + 1;
+                } else {
+                    row.behind = Some(k);
+                }
+                self.at += 1;
+            }
+            _ => self.push(k + 1, indent, Kind::Comment),
+        }
+    }
+
+    /// Leaves all before a lexeme as it is.
+    fn keep(&mut self, end: usize) {
+        match self.made.last_mut() {
+            Some(row) if row.kind == Kind::Kept => {
+                row.lexemes.end = end;
+                self.at = end;
+            }
+            _ => self.push_row(end, 0, Kind::Kept),
+        }
+    }
+
+    /// Adds the lexemes before one as a row. One that goes on in the line of what is kept is kept, too.
+    fn push(&mut self, end: usize, indent: usize, kind: Kind) {
+        let goes_on = self.lexemes[self.at].lines_before == 0;
+        if goes_on && self.made.last().is_some_and(|row| row.kind == Kind::Kept) {
+            self.keep(end);
+        } else {
+            self.push_row(end, indent, kind);
+        }
+    }
+
+    fn push_row(&mut self, end: usize, indent: usize, kind: Kind) {
+        let is_first = self.made.last().is_none_or(|row| row.kind == Kind::Head) || kind == Kind::End;
+        let is_apart = self.lexemes[self.at].lines_before > 1 && !is_first;
+        self.made.push(Row { lexemes: self.at..end, behind: None, indent, kind, is_apart, printed: None });
+        self.at = end;
+    }
+
+    /// A declaration without a block.
+    fn plain(&mut self, span: Span, group: Option<Group>, indent: usize) {
+        let range = span.start as usize..span.end as usize;
+        if self.starts_behind(range.start) {
+            return;
+        }
+        self.up_to(range.start, indent);
+        let end = self.index_at(range.end);
+        if end == self.at {
+            return;
+        }
+        match group {
+            Some(group) => self.push(end, indent, Kind::Declaration(group)),
+            None => self.keep(end),
+        }
+    }
+
+    /// Whether what comes next stands behind a byte: what begins there is in a row already.
+    fn starts_behind(&self, byte: usize) -> bool {
+        self.lexemes.get(self.at).is_none_or(|lexeme| lexeme.start > byte)
+    }
+
+    fn used(&mut self, used: &UsedFile) {
+        self.plain(used.span, (!used.is_broken).then_some(Group::Uses), 0);
+    }
+
+    fn mechanism(&mut self, mechanism: &Mechanism) {
+        let span = mechanism.span;
+        self.up_to(span.start as usize, 0);
+        let inside = mechanism.items.first().map(|item| item.span.start);
+        let end = self.begin_block(span, inside, 0);
+        for item in &mechanism.items {
+            self.item(item);
+        }
+        self.end_block(span, end, 0);
+    }
+
+    fn item(&mut self, item: &Item) {
+        let (ItemKind::Ground { features } | ItemKind::Body { features, .. }) = &item.kind else {
+            let before = self.made.len();
+            self.plain(item.span, Group::of(&item.kind), INDENT);
+            if let Some(row) = self.made[before..].last_mut() {
+                row.printed = printed(&item.kind);
+            }
+            return;
+        };
+        let start = item.span.start as usize;
+        if self.starts_behind(start) {
+            return;
+        }
+        self.up_to(start, INDENT);
+        if !self.on_one_line(item) {
+            self.block(item, features);
+        }
+    }
+
+    fn block(&mut self, item: &Item, features: &[Feature]) {
+        let inside = features.first().map(|feature| feature.span.start);
+        let end = self.begin_block(item.span, inside, INDENT);
+        for feature in features {
+            let group = match feature.kind {
+                FeatureKind::Broken => None,
+                FeatureKind::Mass { .. } => Some(Group::Masses),
+                _ => Some(Group::Features),
+            };
+            self.plain(feature.span, group, 2 * INDENT);
+        }
+        self.end_block(item.span, end, INDENT);
+    }
+
+    /// Takes a body or the ground as a line of its own, if it was one, and fits; or if there is nothing in it.
+    fn on_one_line(&mut self, item: &Item) -> bool {
+        let (start, end) = (item.span.start as usize, item.span.end as usize);
+        let behind = self.index_at(end);
+        let lexemes = &self.lexemes[self.at..behind];
+        let (Some(last), false) = (lexemes.last(), lexemes.iter().any(Lexeme::is_comment)) else { return false };
+        if last.text != "}" || self.has_fault(start..end) {
+            return false;
+        }
+        let is_empty = lexemes.len() > 1 && lexemes[lexemes.len() - 2].text == "{";
+        let fits = || {
+            let words = words::words(self.lexemes, self.names, self.at..behind, None);
+            INDENT + words::width(&words, lexemes) <= WIDTH
+        };
+        let is_one = is_empty || lexemes[1..].iter().all(|lexeme| lexeme.lines_before == 0) && fits();
+        if is_one {
+            self.push(behind, INDENT, Kind::Declaration(Group::Blocks));
+        }
+        is_one
+    }
+
+    /// Adds the head of a block, if it has one without faults, and gives the lexeme of the brace that closes it.
+    fn begin_block(&mut self, span: Span, inside: Option<u32>, indent: usize) -> Option<usize> {
+        let start = span.start as usize;
+        let behind = self.index_at(span.end as usize);
+        let before = self.index_at(inside.unwrap_or(span.end) as usize);
+        let brace = (self.at..before).find(|&k| self.lexemes[k].text == "{");
+        let close = behind.checked_sub(1).filter(|&k| k >= self.at && self.lexemes[k].text == "}");
+        if let Some(brace) = brace {
+            let is_empty = close == Some(brace + 1);
+            let end = if is_empty { brace + 2 } else { brace + 1 };
+            if self.has_fault(start..self.lexemes[brace].end()) {
+                self.keep(end);
+            } else {
+                self.push(end, indent, if is_empty { Kind::Declaration(Group::Blocks) } else { Kind::Head });
+            }
+        }
+        close
+    }
+
+    fn end_block(&mut self, span: Span, close: Option<usize>, indent: usize) {
+        let end = close.map_or(span.end as usize, |k| self.lexemes[k].start);
+        self.up_to(end, indent + INDENT);
+        if close == Some(self.at) {
+            self.push(self.at + 1, indent, Kind::End);
+        }
+    }
+}
+
+/// The byte at which the unit behind `in` begins.
+fn printed(kind: &ItemKind) -> Option<usize> {
+    match kind {
+        ItemKind::Measure { unit, .. } | ItemKind::Trace { unit, .. } | ItemKind::Result { unit, .. } => {
+            unit.as_ref().map(|unit| unit.span.start as usize)
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,415 @@
+//! What each lexeme of a declaration is to those around it, which decides the spaces between them.
+
+use super::lexemes::{Lexeme, Shape};
+use crate::tokens::may_begin_a_bound;
+use mechc_text::vocabulary::{Constant, Keyword, Place, Role, Synonym, Unit, is_before_a_name};
+use rustc_hash::FxHashSet;
+use std::ops::Range;
+
+/// How tightly an operator binds, loosest first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) enum Level {
+    Or,
+    And,
+    Compare,
+    Sum,
+    Product,
+}
+
+/// What a lexeme is in its declaration.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Class {
+    /// Begins a declaration, or joins its parts.
+    Keyword,
+    /// `if`, `then`, `else`.
+    If,
+    Then,
+    Else,
+    /// A name, where one is declared or used.
+    Name,
+    Number,
+    /// Behind a number.
+    Unit,
+    Quoted,
+    Open(Bracket),
+    Close,
+    Comma,
+    Colon,
+    Equals,
+    Operator(Level),
+    /// Binds its neighbours so tightly that no space is between: `^`, `.`, `..`, `/` in a unit.
+    Tight,
+    /// `-` before an operand.
+    Sign,
+    /// `not`
+    Not,
+    OpenBrace,
+    CloseBrace,
+    Comment,
+}
+
+/// What a bracket holds.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Bracket {
+    /// Arguments of what stands before it, or indices.
+    Arguments,
+    /// A formula, or a point.
+    Formula,
+    /// What is bound of a part.
+    Bindings,
+    /// The rows of a table.
+    Rows,
+    /// The units of a table's file.
+    Units,
+}
+
+impl Bracket {
+    fn is_behind_a_name(self) -> bool {
+        matches!(self, Bracket::Arguments | Bracket::Bindings)
+    }
+}
+
+/// A lexeme in its declaration.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Word {
+    pub class: Class,
+    /// The spaces before it, if it does not begin a line.
+    pub spaces: usize,
+    /// Whether a column begins with it.
+    pub begins_cell: bool,
+    /// A comma behind the last item of a list: it stands only where each item has a line of its own.
+    pub is_last_comma: bool,
+}
+
+/// Spaces between declarations that share a line.
+const BETWEEN_FEATURES: usize = 2;
+
+/// The words that a text declares as names, wherever: none of them means a unit in a formula.
+pub(super) fn declared<'a>(lexemes: &[Lexeme<'a>]) -> FxHashSet<&'a str> {
+    let is_keyword = |lexeme: &Lexeme<'_>| {
+        is_before_a_name(lexeme.text) && Keyword::named(lexeme.text).is_some_and(|k| begins(k.role))
+    };
+    let behind_keywords = lexemes.windows(2).filter(|pair| is_keyword(&pair[0])).map(|pair| pair[1].text);
+    let is_argument = |run: &&[Lexeme<'_>]| ["fn", "curve"].contains(&run[0].text) && run[2].text == "(";
+    let arguments = lexemes.windows(4).filter(is_argument).map(|run| run[3].text);
+    behind_keywords.chain(arguments).collect()
+}
+
+fn begins(role: Role) -> bool {
+    matches!(role, Role::Declaration | Role::Feature) || role.is_opener()
+}
+
+/// The words of a declaration, or of a block on one line. `printed` is the byte at which the unit behind `in` begins.
+pub(super) fn words(
+    lexemes: &[Lexeme<'_>],
+    names: &FxHashSet<&str>,
+    range: Range<usize>,
+    printed: Option<usize>,
+) -> Vec<Word> {
+    let mut reading = Reading {
+        lexemes,
+        names,
+        range: range.clone(),
+        printed,
+        keyword: "",
+        brackets: Vec::new(),
+        before: None,
+        cells: Cells::None,
+        quantity: Quantity::No,
+        is_in_unit: false,
+        takes_name: false,
+    };
+    range.map(|k| reading.word(k)).collect()
+}
+
+/// The columns of a declaration on one line.
+pub(super) fn width(words: &[Word], lexemes: &[Lexeme<'_>]) -> usize {
+    let shown = words.iter().zip(lexemes).enumerate().filter(|(_, (word, _))| !word.is_last_comma);
+    shown.map(|(k, (word, lexeme))| usize::from(k > 0) * word.spaces + super::width(lexeme.text)).sum()
+}
+
+/// Where the next column begins.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Cells {
+    None,
+    /// With the next lexeme.
+    Next,
+    /// With `=`.
+    Equals,
+    /// Behind `:`.
+    Colon,
+    /// Behind `:`, and then with `=`.
+    ColonAndEquals,
+    /// With the next keyword.
+    As,
+    /// With the next keyword, and then as the next.
+    At,
+    /// With every keyword.
+    Keywords,
+    /// With the brace that opens a block.
+    Brace,
+}
+
+/// Whether a number with its unit stands before, to which another unit may be joined: `30 deg/s * t`, but not `a / 30 deg/s`,
+/// which would look like a / (30 deg/s).
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Quantity {
+    No,
+    /// Behind `/`.
+    Under,
+    Yes,
+}
+
+struct Reading<'a> {
+    lexemes: &'a [Lexeme<'a>],
+    names: &'a FxHashSet<&'a str>,
+    range: Range<usize>,
+    printed: Option<usize>,
+    /// That of the declaration.
+    keyword: &'a str,
+    brackets: Vec<Bracket>,
+    /// What stands before, comments aside.
+    before: Option<Class>,
+    cells: Cells,
+    quantity: Quantity,
+    /// In the unit behind `in`, or in those of a table's file.
+    is_in_unit: bool,
+    takes_name: bool,
+}
+
+impl<'a> Reading<'a> {
+    fn word(&mut self, k: usize) -> Word {
+        let class = self.class(k);
+        let spaces = self.spaces(k, class);
+        let begins_cell = self.begins_cell(class);
+        let is_last_comma = class == Class::Comma && matches!(self.text_behind(k), ")" | "]");
+        match class {
+            Class::Open(bracket) => self.brackets.push(bracket),
+            Class::Close => drop(self.brackets.pop()),
+            _ => {}
+        }
+        self.quantity = self.quantity_behind(k, class);
+        if class != Class::Comment {
+            self.before = Some(class);
+        }
+        Word { class, spaces, begins_cell, is_last_comma }
+    }
+
+    /// The lexeme behind one, comments aside.
+    fn behind(&self, k: usize) -> Option<&Lexeme<'a>> {
+        self.lexemes[k + 1..self.range.end].iter().find(|lexeme| !lexeme.is_comment())
+    }
+
+    fn text_behind(&self, k: usize) -> &'a str {
+        self.behind(k).map_or("", |lexeme| lexeme.text)
+    }
+
+    fn ends_operand(&self) -> bool {
+        matches!(self.before, Some(Class::Name | Class::Number | Class::Unit | Class::Close | Class::Quoted))
+    }
+
+    fn is_in_units(&self) -> bool {
+        self.is_in_unit || self.brackets.last() == Some(&Bracket::Units)
+    }
+
+    fn class(&mut self, k: usize) -> Class {
+        match self.lexemes[k].shape {
+            Shape::Comment => Class::Comment,
+            Shape::Number => Class::Number,
+            Shape::Quoted => Class::Quoted,
+            Shape::Word => self.class_of_word(k),
+            Shape::Sign => self.class_of_sign(k),
+        }
+    }
+
+    fn class_of_word(&mut self, k: usize) -> Class {
+        let text = self.lexemes[k].text;
+        let keyword = Keyword::named(text);
+        if self.before.is_none() || self.is_feature(k) {
+            self.begin(text);
+            return Class::Keyword;
+        }
+        if std::mem::take(&mut self.takes_name) {
+            return Class::Name;
+        }
+        match text {
+            "if" => Class::If,
+            "then" => Class::Then,
+            "else" => Class::Else,
+            "and" => Class::Operator(Level::And),
+            "or" => Class::Operator(Level::Or),
+            "not" => Class::Not,
+            _ if self.is_unit(k, keyword) => Class::Unit,
+            _ if self.ends_operand() => {
+                self.is_in_unit = text == "in" && self.brackets.is_empty();
+                self.takes_name = text == "as";
+                Class::Keyword
+            }
+            "from" if self.keyword == "analysis" && self.before == Some(Class::Keyword) => Class::Keyword,
+            "from" | "to" if self.begins_window(k) => Class::Keyword,
+            "periodic" | "spline" if self.keyword == "table" && self.brackets.is_empty() => Class::Keyword,
+            _ => Class::Name,
+        }
+    }
+
+    /// Whether `from` or `to` begins the window of a reduction.
+    fn begins_window(&self, k: usize) -> bool {
+        let is_argument = self.before == Some(Class::Comma) && self.brackets.last() == Some(&Bracket::Arguments);
+        let is_apart = |behind: &Lexeme<'_>| behind.start > self.lexemes[k].end();
+        is_argument && self.behind(k).is_some_and(|behind| may_begin_a_bound(behind.text, is_apart(behind)))
+    }
+
+    /// Begins with the keyword of a declaration.
+    fn begin(&mut self, keyword: &'a str) {
+        let is_first = self.before.is_none();
+        self.keyword = keyword;
+        self.takes_name = is_before_a_name(keyword) && keyword != "use";
+        // what stands in a block on one line has no columns
+        if is_first {
+            let has_cells = !matches!(keyword, "ground" | "analysis" | "gravity" | "mechanism");
+            self.cells = if has_cells { Cells::Next } else { Cells::None };
+        }
+    }
+
+    fn is_unit(&self, k: usize, keyword: Option<&Keyword>) -> bool {
+        let is_printed = || self.behind(k).is_some_and(|lexeme| Some(lexeme.start) == self.printed);
+        let may_be =
+            |keyword: &Keyword| !keyword.is_reserved() && keyword.role != Role::Separator && !keyword.role.is_opener();
+        // an exponent has no unit
+        let is_number = self.before == Some(Class::Number) && self.quantity != Quantity::Yes;
+        is_number && keyword.is_none_or(may_be) && !(self.lexemes[k].text == "in" && is_printed())
+    }
+
+    fn class_of_sign(&mut self, k: usize) -> Class {
+        match self.lexemes[k].text {
+            "(" | "[" => Class::Open(self.bracket(self.lexemes[k].text)),
+            ")" | "]" => Class::Close,
+            "{" => Class::OpenBrace,
+            "}" => Class::CloseBrace,
+            "," => Class::Comma,
+            ":" => Class::Colon,
+            "=" => Class::Equals,
+            "+" | "-" if self.ends_operand() => Class::Operator(Level::Sum),
+            "+" | "-" => Class::Sign,
+            "/" if self.is_in_units() || self.quantity == Quantity::Yes && self.is_a_unit_behind(k) => Class::Tight,
+            "*" if self.is_in_units() => Class::Tight,
+            "*" | "/" => Class::Operator(Level::Product),
+            "<" | "<=" | ">" | ">=" | "==" | "!=" => Class::Operator(Level::Compare),
+            _ => Class::Tight,
+        }
+    }
+
+    fn bracket(&self, text: &str) -> Bracket {
+        match (text, self.before) {
+            ("(", Some(Class::Name)) if self.keyword == "part" && self.brackets.is_empty() => Bracket::Bindings,
+            ("(", Some(Class::Name)) | ("[", Some(Class::Name | Class::Close)) => Bracket::Arguments,
+            ("(", Some(Class::Quoted | Class::Number)) => Bracket::Units,
+            ("[", _) => Bracket::Rows,
+            _ => Bracket::Formula,
+        }
+    }
+
+    /// Whether a unit stands behind a lexeme, with its power or alone.
+    fn is_a_unit_behind(&self, k: usize) -> bool {
+        let mut behind = self.lexemes[k + 1..self.range.end].iter().filter(|lexeme| !lexeme.is_comment());
+        // `min` is none, but meant as one; `t` is the time
+        let is_meant = |text: &str| Synonym::of(Place::Unit, text).is_some() && Constant::named(text).is_none();
+        let names_one = |text: &str| Unit::named(text).is_some() || is_meant(text);
+        let is_unit = |lexeme: &Lexeme<'_>| names_one(lexeme.text) && !self.names.contains(lexeme.text);
+        behind.next().is_some_and(is_unit)
+            && match behind.next().map(|lexeme| lexeme.text) {
+                Some("(" | "." | "[") => false,
+                Some("^") => is_exponent(behind),
+                _ => true,
+            }
+    }
+
+    fn quantity_behind(&self, k: usize, class: Class) -> Quantity {
+        match class {
+            Class::Unit if self.quantity == Quantity::Under => Quantity::No,
+            Class::Unit => Quantity::Yes,
+            Class::Operator(Level::Product) if self.lexemes[k].text == "/" => Quantity::Under,
+            Class::Tight if self.lexemes[k].text == "^" => {
+                let is_power = is_exponent(self.lexemes[k + 1..self.range.end].iter());
+                if is_power { self.quantity } else { Quantity::No }
+            }
+            // a factor, a power, what stands under a unit
+            Class::Number | Class::Sign | Class::Tight | Class::Comment => self.quantity,
+            Class::Name if self.quantity == Quantity::Yes => self.quantity,
+            _ => Quantity::No,
+        }
+    }
+
+    fn spaces(&self, k: usize, class: Class) -> usize {
+        let Some(before) = self.before else { return 0 };
+        let is_tight_before = match class {
+            Class::Comma | Class::Colon | Class::Close | Class::Tight => true,
+            Class::Open(bracket) => bracket.is_behind_a_name(),
+            Class::CloseBrace => before == Class::OpenBrace,
+            _ => false,
+        };
+        if is_tight_before {
+            return 0;
+        }
+        match before {
+            Class::Tight | Class::Sign | Class::Open(_) => 0,
+            Class::OpenBrace => 1,
+            _ if class == Class::Keyword && self.cells == Cells::None && self.is_feature(k) => BETWEEN_FEATURES,
+            _ => 1,
+        }
+    }
+
+    fn is_feature(&self, k: usize) -> bool {
+        match Keyword::named(self.lexemes[k].text).map(|keyword| keyword.role) {
+            Some(Role::Feature) => true,
+            // elsewhere it is a name
+            Some(Role::FeatureOpener) => self.before == Some(Class::OpenBrace) || self.ends_operand(),
+            _ => false,
+        }
+    }
+
+    fn begins_cell(&mut self, class: Class) -> bool {
+        if class == Class::Comment {
+            return false;
+        }
+        let is_outside = self.brackets.is_empty();
+        let (begins, next) = match (self.cells, class) {
+            (Cells::Next, Class::Keyword) if self.before.is_none() => (false, Cells::Next),
+            (Cells::Next, _) if self.before == Some(Class::Keyword) => (true, cells_of(self.keyword)),
+            // behind the colon of an equation its left side begins
+            (Cells::Next, _) => (true, Cells::Equals),
+            (Cells::Equals, Class::Equals) if is_outside => (true, Cells::None),
+            (Cells::Colon, _) if self.before == Some(Class::Colon) => (true, Cells::None),
+            (Cells::ColonAndEquals, _) if self.before == Some(Class::Colon) => (true, Cells::Equals),
+            (Cells::As | Cells::At, Class::Keyword) if is_outside => {
+                (true, if self.cells == Cells::At { Cells::Brace } else { Cells::None })
+            }
+            (Cells::At | Cells::Brace, Class::OpenBrace) => (true, Cells::None),
+            (Cells::Keywords, Class::Keyword) if is_outside => (true, Cells::Keywords),
+            (cells, _) => (false, cells),
+        };
+        self.cells = next;
+        begins
+    }
+}
+
+/// Where columns begin behind the name of a declaration.
+fn cells_of(keyword: &str) -> Cells {
+    match keyword {
+        "joint" | "part" | "load" => Cells::Colon,
+        "driver" | "constraint" => Cells::ColonAndEquals,
+        "use" => Cells::As,
+        "body" => Cells::At,
+        "mass" => Cells::Keywords,
+        _ => Cells::Equals,
+    }
+}
+
+/// Whether the lexemes behind a `^` are a whole number, which may be negative.
+fn is_exponent<'a>(mut behind: impl Iterator<Item = &'a Lexeme<'a>>) -> bool {
+    let mut next = behind.next();
+    if next.is_some_and(|lexeme| lexeme.text == "-") {
+        next = behind.next();
+    }
+    next.is_some_and(|lexeme| lexeme.shape == Shape::Number && lexeme.text.bytes().all(|byte| byte.is_ascii_digit()))
+}

@@ -1,0 +1,152 @@
+//! Keys of JSON objects as what they must be: a number, a vector, a string. What is wrong is said once, with its
+//! place, and the reading goes on.
+
+use super::errors;
+use super::value::{Kind, Quoted, Value};
+use mechc_text::diag::{Diagnostic, Diagnostics, readable};
+use mechc_text::source::Span;
+
+/// An object whose keys are asked for.
+pub(super) struct Fields<'a> {
+    object: &'a Value,
+    /// What it is, for messages: "constraint `rev`".
+    what: String,
+    /// Where to say that something is missing: a word of it rather than all its lines.
+    place: Span,
+}
+
+/// A number with its place.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Number {
+    pub value: f64,
+    pub span: Span,
+}
+
+/// Several numbers with the place of them all.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Vector<const N: usize> {
+    pub values: [f64; N],
+    pub span: Span,
+}
+
+impl<'a> Fields<'a> {
+    pub fn new(object: &'a Value, what: impl Into<String>, place: Span) -> Fields<'a> {
+        Fields { object, what: what.into(), place }
+    }
+
+    /// A value that has to be there.
+    pub fn required(&self, key: &str, help: &str, said: &mut Diagnostics) -> Option<&'a Value> {
+        let value = self.object.get(key);
+        if value.is_none() {
+            said.push(errors::missing(&self.what, key, self.place, help));
+        }
+        value
+    }
+
+    pub fn number(&self, key: &str, said: &mut Diagnostics) -> Option<Number> {
+        let value = self.required(key, &format!("`\"{key}\": …`, a number"), said)?;
+        let Kind::Number(number) = value.kind else {
+            said.push(errors::wrong_type(key, "a number", value));
+            return None;
+        };
+        Some(Number { value: number, span: value.span })
+    }
+
+    /// A number that must hold a condition.
+    pub fn number_with(
+        &self,
+        key: &str,
+        (holds, wanted): (impl Fn(f64) -> bool, &str),
+        said: &mut Diagnostics,
+    ) -> Option<Number> {
+        let number = self.number(key, said)?;
+        if !holds(number.value) {
+            let message = format!("`{key}` must be {wanted}, it is {}", readable(number.value));
+            said.push(errors::fault(number.span, message, format!("expected {wanted}")));
+            return None;
+        }
+        Some(number)
+    }
+
+    pub fn vector<const N: usize>(&self, key: &str, example: &str, said: &mut Diagnostics) -> Option<Vector<N>> {
+        let value = self.required(key, &format!("`\"{key}\": {example}`"), said)?;
+        let wanted = format!("a list of {N} numbers");
+        let Kind::List(list) = &value.kind else {
+            said.push(errors::wrong_type(key, &wanted, value));
+            return None;
+        };
+        let mut sound = true;
+        let mut numbers = Vec::new();
+        for item in list {
+            if let Kind::Number(number) = item.kind {
+                // −0 and 0 are one place
+                numbers.push(number + 0.0);
+            } else {
+                said.push(errors::wrong_type(key, &wanted, item));
+                sound = false;
+            }
+        }
+        if !sound {
+            return None;
+        }
+        let values = <[f64; N]>::try_from(numbers).ok();
+        if values.is_none() {
+            let message = format!("`{key}` must be {wanted}, found {}", list.len());
+            said.push(errors::fault(value.span, message, format!("expected {wanted}")));
+        }
+        Some(Vector { values: values?, span: value.span })
+    }
+
+    pub fn text(&self, key: &str, help: &str, said: &mut Diagnostics) -> Option<&'a Quoted> {
+        let value = self.required(key, help, said)?;
+        if let Kind::Text(text) = &value.kind {
+            return Some(text);
+        }
+        let quoted = match value.kind {
+            Kind::Number(number) => Some(format!("write it in quotes: `\"{key}\": \"{number}\"`")),
+            _ => None,
+        };
+        said.push(errors::wrong_type(key, "a string", value).help_if(quoted));
+        None
+    }
+
+    /// A list that has to be there.
+    pub fn list(&self, key: &str, said: &mut Diagnostics) -> Option<&'a [Value]> {
+        let value = self.required(key, &format!("`\"{key}\": […]`"), said)?;
+        if let Kind::List(list) = &value.kind {
+            return Some(list);
+        }
+        said.push(errors::wrong_type(key, "a list", value));
+        None
+    }
+}
+
+/// A `name` that may be missing but not of another type.
+pub(super) fn name_of<'a>(object: &'a Value, said: &mut Diagnostics) -> Option<&'a Quoted> {
+    let value = object.get("name")?;
+    if let Kind::Text(text) = &value.kind {
+        return Some(text);
+    }
+    said.push(errors::wrong_type("name", "a string", value));
+    None
+}
+
+/// A word of an object to point at: its name, else its first key, else its opening brace.
+pub(super) fn place_of(object: &Value) -> Span {
+    match &object.kind {
+        Kind::Object(members) => {
+            let name = members.iter().find(|(key, value)| key.text == "name" && matches!(value.kind, Kind::Text(_)));
+            let first = name.map(|(_, value)| value.span).or_else(|| members.first().map(|(key, _)| key.span));
+            first.unwrap_or(object.span)
+        }
+        _ => object.span,
+    }
+}
+
+/// Says of a list's items that are no objects that they should be, and gives the others.
+pub(super) fn objects<'a>(key: &str, list: &'a [Value], said: &mut Diagnostics) -> Vec<&'a Value> {
+    let (objects, others): (Vec<_>, Vec<_>) = list.iter().partition(|item| matches!(item.kind, Kind::Object(_)));
+    let faults = others.into_iter().map(|other| errors::wrong_type(key, "a list of objects", other));
+    said.extend(faults.collect::<Vec<Diagnostic>>());
+    objects
+}

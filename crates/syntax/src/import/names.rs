@@ -1,0 +1,133 @@
+//! Names that the language takes, unique, and as near to the model's own as can be.
+
+use super::errors;
+use super::value::Quoted;
+use crate as syntax;
+use mechc_text::diag::Diagnostics;
+use mechc_text::source::Span;
+use mechc_text::vocabulary::{Constant, Unit};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// One space of names.
+#[derive(Default)]
+pub(super) struct Names {
+    used: FxHashSet<String>,
+    /// For each stem, the number to try next: many things of one name must not cost the square of their count.
+    next: FxHashMap<String, u32>,
+}
+
+/// Something of the model that needs a name.
+pub(super) struct Wanted<'a> {
+    /// What it is: "body".
+    pub what: &'static str,
+    /// What it is called in the model.
+    pub name: Option<&'a Quoted>,
+    /// Where to say that it has no name.
+    pub place: Span,
+}
+
+/// Names for all of these, in one space: who has a name of his own keeps it, also from one whose name has to be
+/// changed. Every change is told.
+pub(super) fn assign(wanted: &[Wanted<'_>], said: &mut Diagnostics) -> (Vec<String>, Names) {
+    let mut names = Names::default();
+    let kept: Vec<Option<String>> = wanted
+        .iter()
+        .map(|one| {
+            let name = syntax::normalized(&one.name?.text);
+            (why_not(&name).is_none() && names.used.insert(name.clone())).then_some(name)
+        })
+        .collect();
+    let list = wanted.iter().zip(kept).map(|(one, kept)| {
+        kept.unwrap_or_else(|| {
+            let Some(old) = one.name else {
+                let new = names.free(&format!("{}_1", one.what));
+                said.push(errors::named(one.what, &new, one.place));
+                return new;
+            };
+            let new = names.free(&valid(&old.text, &format!("{}_1", one.what)));
+            let why = why_not(&syntax::normalized(&old.text)).unwrap_or("this name is taken");
+            said.push(errors::renamed(one.what, &old.text, &new, old.span, why));
+            new
+        })
+    });
+    (list.collect(), names)
+}
+
+impl Names {
+    /// A name that nobody has: this one, or this one with a number.
+    pub fn free(&mut self, name: &str) -> String {
+        if why_not(name).is_none() && self.used.insert(name.to_owned()) {
+            return name.to_owned();
+        }
+        // `body_1` goes on with `body_2`, not with `body_1_1`
+        let (stem, from) = match name.rsplit_once('_').map(|(stem, digits)| (stem, digits.parse::<u32>())) {
+            Some((stem, Ok(number))) if !stem.is_empty() && number < 1000 => (stem, number + 1),
+            _ => (name, 1),
+        };
+        let next = self.next.entry(stem.to_owned()).or_insert(from);
+        loop {
+            let candidate = format!("{stem}_{next}");
+            *next += 1;
+            if self.used.insert(candidate.clone()) {
+                return candidate;
+            }
+        }
+    }
+}
+
+/// The name of the mechanism, which shares its space with nothing.
+pub(super) fn of_the_mechanism(name: Option<&Quoted>, place: Span, file: &str, said: &mut Diagnostics) -> String {
+    let Some(old) = name else {
+        let new = valid(file, "imported");
+        said.push(errors::named("model", &new, place));
+        return new;
+    };
+    let name = syntax::normalized(&old.text);
+    if syntax::is_name(&name) {
+        return name;
+    }
+    let new = valid(&old.text, "imported");
+    let new = if syntax::is_name(&new) { new } else { format!("{new}_1") };
+    let why = why_not(&name).unwrap_or("this is no name");
+    said.push(errors::renamed("model", &old.text, &new, old.span, why));
+    new
+}
+
+/// Why a text cannot be a name in the mechanism's space, if it cannot.
+fn why_not(name: &str) -> Option<&'static str> {
+    if name.is_empty() {
+        Some("the name is empty")
+    } else if Constant::named(name).is_some() {
+        Some("this name has a meaning in the language")
+    } else if Unit::named(name).is_some_and(|unit| !unit.gives_way) {
+        Some("this is a unit")
+    } else if syntax::is_name(name) {
+        None
+    } else if syntax::is_name(&format!("{name}_1")) {
+        Some("this is a keyword")
+    } else {
+        Some("a name has letters, digits and `_`, and does not begin with a digit")
+    }
+}
+
+/// The text with `_` for what cannot stand in a name; it may still be a keyword.
+fn valid(text: &str, fallback: &str) -> String {
+    let mut name = String::new();
+    for c in syntax::normalized(text).chars() {
+        if pest::unicode::XID_CONTINUE(c) {
+            name.push(c);
+        } else if !name.ends_with('_') {
+            name.push('_');
+        }
+    }
+    let name = if pest::unicode::XID_CONTINUE(text.chars().next().unwrap_or(' ')) {
+        name.trim_end_matches('_')
+    } else {
+        name.trim_matches('_')
+    };
+    match name.chars().next() {
+        None => fallback.to_owned(),
+        Some(c) if c == '_' || pest::unicode::XID_START(c) => syntax::normalized(name),
+        Some(_) => syntax::normalized(&format!("_{name}")),
+    }
+}

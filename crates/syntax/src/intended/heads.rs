@@ -1,0 +1,181 @@
+//! Heads of declarations: names that are missing, are two words or stand behind what they name, arguments that are missing.
+
+use super::{Intended, Intent, hyphenated_at, is_name};
+use crate::grammar::Rule;
+use crate::tokens::{Token, tokens};
+use mechc_text::diag::{Applies, Fix};
+use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym, is_called, is_declaration};
+
+impl Intent<'_> {
+    /// What was meant by the head of a declaration.
+    pub(super) fn of_a_head(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+        self.of_a_hyphen(last)
+            .or_else(|| self.of_a_name_behind(keyword, last))
+            .or_else(|| self.of_no_name(keyword, last))
+            .or_else(|| self.of_quotes())
+            .or_else(|| self.of_several_words(keyword))
+            .or_else(|| self.of_no_argument(keyword, last))
+    }
+
+    /// `small-end`, where a name is declared, with whatever dash.
+    fn of_a_hyphen(&self, last: &Token<'_>) -> Option<Intended> {
+        let keyword = self.before.get(self.before.len().checked_sub(2)?)?.text;
+        if !self.found.starts_with(is_dash) || !is_declaration(keyword) {
+            return None;
+        }
+        let name = hyphenated_at(self.text, last.start)?;
+        let written = name.replace(is_dash, "_");
+        let uses = tokens(self.text).into_iter().filter(|token| hyphenated_at(self.text, token.start) == Some(name));
+        let edits = uses.map(|token| self.edit(token.start..token.start + name.len(), &written)).collect();
+        Some(Intent::change(format!("a name has no `{}`: write `{written}`", self.found), edits))
+    }
+
+    /// Whether the name has been read, and what separates it from the rest is missing.
+    fn is_behind_the_name(&self) -> bool {
+        let is_separator = [Rule::equals, Rule::colon, Rule::open, Rule::left].iter().any(|rule| self.expects(*rule));
+        self.before.len() == 2 && is_separator
+    }
+
+    /// `joint revolute j2(…)`
+    fn of_a_name_behind(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+        let is_kind = |word: &str| JointWord::named(word).is_some() || Synonym::of(Place::Joint, word).is_some();
+        let is_called = self.rest.get(1).is_some_and(|token| token.text == "(");
+        if keyword != "joint" || !self.is_behind_the_name() || JointWord::named(last.text).is_none() {
+            return None;
+        }
+        if !is_name(self.found) || is_kind(self.found) || !is_called {
+            return None;
+        }
+        let written = format!("{}: {}", self.found, last.text);
+        let edit = self.edit(last.start..self.at + self.found.len(), &written);
+        let message = format!("the name of a joint stands before its kind: `{written}(…)`");
+        Some(Intended::Change(Fix { message, edits: vec![edit], applies: Applies::Always }))
+    }
+
+    /// `measure der(x(arm.tip))`, `joint: revolute(…)`, `measure (x(arm.tip))`
+    fn of_no_name(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+        let form = Keyword::named(keyword).filter(|keyword| keyword.role == Role::Declaration)?;
+        let form = form.word.forms.first()?;
+        if !form.contains("NAME") || keyword == "mechanism" {
+            return None;
+        }
+        let is_named_by_a_call = || match keyword {
+            "joint" => JointWord::named(last.text).is_some(),
+            "body" | "fn" | "table" => false,
+            _ => is_called(last.text) || Synonym::of(Place::Call, last.text).is_some() || last.text == "der",
+        };
+        let start = if self.before.len() == 1 && self.expects(Rule::name) && [":", "=", "(", "{"].contains(&self.found)
+        {
+            self.rest.iter().find(|token| ![":", "="].contains(&token.text)).map(|token| token.start)
+        } else if self.is_behind_the_name() && self.found == "(" && is_named_by_a_call() {
+            Some(last.start)
+        } else {
+            return None;
+        };
+        let words = start.map(|start| self.text[start..self.end()].trim_end());
+        let is_short = |words: &&str| !words.is_empty() && words.chars().count() <= LONGEST_SHOWN;
+        let separator = form.split_whitespace().nth(1).is_some_and(|name| name.ends_with(':'));
+        let head = if separator { format!("{keyword} NAME:") } else { format!("{keyword} NAME =") };
+        let written = match words.filter(is_short) {
+            Some(words) if keyword != "body" && keyword != "fn" => format!("{head} {words}"),
+            _ => (*form).to_owned(),
+        };
+        Some(Intended::Words(format!("a {keyword} needs a name: `{written}`")))
+    }
+
+    /// `mechanism "crank rocker" {`
+    fn of_quotes(&self) -> Option<Intended> {
+        let string = self.rest.first().filter(|token| token.text.len() > 2 && token.text.ends_with('"'))?;
+        let words: Vec<&str> =
+            string.text.trim_matches('"').split([' ', '-', '_']).filter(|word| !word.is_empty()).collect();
+        let name = words.join("_");
+        let is_one = is_name(&name) && name.chars().all(|c| c.is_alphanumeric() || c == '_');
+        if self.before.len() != 1 || !self.expects(Rule::name) || !is_one {
+            return None;
+        }
+        let edit = self.edit(string.start..string.end(), &name);
+        Some(Intent::change(format!("a name stands without quotes: `{name}`"), vec![edit]))
+    }
+
+    /// `mechanism crank rocker {`, `joint j 1: …`, `ground g {`
+    fn of_several_words(&self, keyword: &str) -> Option<Intended> {
+        if keyword == "ground" && self.before.len() == 1 && self.expects(Rule::open) && is_name(self.found) {
+            let edit = self.edit(self.before[0].end()..self.at + self.found.len(), "");
+            return Some(Intent::change("the ground has no name: `ground {`".to_owned(), vec![edit]));
+        }
+        let name = self.before.get(1).filter(|_| self.is_behind_the_name() && !self.expects(Rule::left))?;
+        let separators: &[&str] = match keyword {
+            "mechanism" | "body" => &["{", "at"],
+            "joint" | "driver" | "constraint" => &[":"],
+            _ => &["="],
+        };
+        let end = self.rest.iter().position(|token| separators.contains(&token.text))?;
+        let is_part =
+            |token: &Token<'_>| token.text == "." || token.text.chars().all(|c| c.is_alphanumeric() || c == '_');
+        let parts = &self.rest[..end];
+        let is_name_alone = !parts.is_empty() && parts.iter().all(is_part);
+        let is_word = |token: &Token<'_>| {
+            JointWord::named(token.text).is_some() || Keyword::named(token.text).is_some_and(Keyword::is_joining)
+        };
+        if !is_name_alone || parts.iter().any(is_word) {
+            return None;
+        }
+        let last = parts.last()?.end();
+        // by its first word it is called elsewhere
+        if self.is_used_by(name) {
+            let message = format!("a name is one word: `{}`", name.text);
+            return Some(Intent::change(message, vec![self.edit(name.end()..last, "")]));
+        }
+        let words = std::iter::once(name.text).chain(parts.iter().map(|token| token.text)).filter(|word| *word != ".");
+        let written = words.collect::<Vec<_>>().join("_");
+        if !crate::is_name(&written) {
+            return None;
+        }
+        let edit = self.edit(name.start..last, &written);
+        Some(Intent::change(format!("a name is one word: write `{written}`"), vec![edit]))
+    }
+
+    /// Whether a name that is declared here stands elsewhere in the text, and is not declared there.
+    fn is_used_by(&self, name: &Token<'_>) -> bool {
+        let all = tokens(self.text);
+        let is_other = |k: &usize| all[*k].text == name.text && all[*k].start != name.start;
+        let others: Vec<usize> = (0..all.len()).filter(is_other).collect();
+        let is_declared = |k: &usize| *k > 0 && is_declaration(all[k - 1].text);
+        !others.is_empty() && !others.iter().any(is_declared)
+    }
+
+    /// `fn f = 3 * u`, `curve profile u = (…)`, `param f(u) = …`
+    fn of_no_argument(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+        if !self.is_behind_the_name() {
+            return None;
+        }
+        if keyword == "param" && self.found == "(" && !is_called(last.text) {
+            let edit = self.edit(self.before[0].start..self.before[0].end(), "fn");
+            return Some(Intent::change("what has an argument is declared by `fn`".to_owned(), vec![edit]));
+        }
+        if !self.expects(Rule::left) {
+            return None;
+        }
+        let is_given = is_name(self.found) && self.rest.get(1).is_some_and(|token| token.text == "=");
+        let used = || ARGUMENTS.iter().find(|name| self.rest.iter().any(|token| token.text == **name));
+        let argument = if is_given { self.found } else { used().copied().unwrap_or("u") };
+        let end = if is_given { self.at + self.found.len() } else { last.end() };
+        if !is_given && self.found != "=" {
+            return None;
+        }
+        let edit = self.edit(last.end()..end, &format!("({argument})"));
+        let message = format!("its argument stands behind the name: `{keyword} {}({argument}) = …`", last.text);
+        Some(Intent::change(message, vec![edit]))
+    }
+}
+
+/// What is longer is not repeated in a message (in characters).
+pub(super) const LONGEST_SHOWN: usize = 60;
+
+/// What the argument of a function or curve is mostly called.
+const ARGUMENTS: [&str; 10] = ["u", "v", "w", "x", "phi", "theta", "φ", "θ", "s", "a"];
+
+/// The hyphen, and what editors and keyboards write for it.
+pub(super) fn is_dash(c: char) -> bool {
+    ['-', '‐', '‑', '–', '—', '−'].contains(&c)
+}

@@ -1,0 +1,33 @@
+//! Text to tree: what was written, with its places, and no meaning. And back: [`format()`].
+//!
+//! The grammar is `grammar/mech.pest`; the words in it are those of `vocabulary`. This room knows words and precedences; it
+//! does not know which names exist, or what a joint is.
+
+// what pest generates without its `std` asks for it
+extern crate alloc;
+
+pub mod ast;
+mod build;
+mod depth;
+mod errors;
+pub mod format;
+mod formula;
+mod grammar;
+pub mod import;
+mod intended;
+mod known;
+mod mends;
+mod moved;
+mod outline;
+mod parse;
+mod pieces;
+mod reading;
+mod tokens;
+mod trivia;
+
+pub use build::{is_name, normalized};
+pub use depth::DEEPEST;
+pub use format::{format, formatted};
+pub use parse::{ParsedText, parse, parse_declaration, parse_expression, reread};
+pub use tokens::{Token, begins_declaration, keywords_in, tokens};
+pub use trivia::{Comment, Trivia};

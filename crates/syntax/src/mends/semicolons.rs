@@ -1,0 +1,132 @@
+//! A `;`: behind a declaration, between rows, and where a comma is the decimal point.
+
+use super::{Fault, Mend};
+use crate::grammar::Rule;
+use crate::tokens::{Token, begins_declaration, tokens};
+use mechc_text::diag::{Applies, Edit, Fix};
+
+const ROWS: &str = "rows are separated by commas: `(1, 2), (3, 4)`";
+const TERMINATOR: &str = "declarations need no terminator; leave the `;` out";
+const PARTS: &str = "what stands in parentheses is separated by commas";
+
+impl Fault<'_> {
+    pub(super) fn of_a_semicolon(&self, around: &str) -> Mend {
+        match around {
+            "" | "{" => self.of_a_terminator(),
+            _ if self.is_decimal_comma_beside() => self.of_decimal_commas(),
+            "[" => self.replaced(self.here(), ",", ROWS, Applies::Always),
+            // closed on its line, it goes on behind the semicolon
+            _ if self.expects(Rule::comma) && self.is_closed_on_the_line() => {
+                let is_decimal = |token: &Token<'_>| token.text == "," && self.is_between_digits(token.start);
+                let is_open = self.list().iter().any(is_decimal);
+                self.replaced(self.here(), ",", PARTS, if is_open { Applies::Probably } else { Applies::Always })
+            }
+            _ => self.of_an_open_parenthesis(),
+        }
+    }
+
+    /// `param a = 3; param b = 4;`
+    fn of_a_terminator(&self) -> Mend {
+        let behind = self.behind().trim_start_matches([' ', '\t']);
+        let gap = self.here().end..self.text.len() - behind.len();
+        let word = tokens(behind.lines().next().unwrap_or_default()).first().copied();
+        let goes_on = word.is_some_and(|word| begins_declaration(self.text, Token { start: gap.end, ..word }));
+        if !goes_on {
+            return self.left_out(TERMINATOR);
+        }
+        // each on its own line, but for what is in braces on one
+        let start = self.text[..self.at].rfind('\n').map_or(0, |at| at + 1);
+        let line = &self.text[start..self.at];
+        let text =
+            if line.contains('{') { " ".to_owned() } else { self.line_end().to_owned() + self.indentation(self.at) };
+        self.replaced(self.at..gap.end, &text, TERMINATOR, Applies::Always)
+    }
+
+    /// `weld(a.P; b.Q` at the end of a line
+    fn of_an_open_parenthesis(&self) -> Mend {
+        let line = self.behind().lines().next().unwrap_or_default();
+        let rest = tokens(line);
+        let is_complete = self.opened().iter().filter(|(_, token)| *token != "{").count() == 1
+            && self.expects(Rule::comma)
+            && rest.iter().all(|token| !["(", "[", "{", "}", ";"].contains(&token.text));
+        match rest.last() {
+            None if is_complete => {
+                self.replaced(self.here(), ")", "close it with `)`, and leave the `;` out", Applies::Probably)
+            }
+            Some(last) if is_complete => {
+                let end = self.here().end + last.end();
+                let edits = [(self.here(), ","), (end..end, ")")]
+                    .map(|(range, text)| Edit { span: self.span(range), text: text.to_owned() });
+                let message = format!("{PARTS}; close it with `)`");
+                Mend::Fix(Fix { message, edits: edits.into(), applies: Applies::Probably })
+            }
+            _ => Mend::words("what stands in parentheses is separated by commas, and they are closed with `)`"),
+        }
+    }
+
+    /// Whether the line closes more parentheses behind the fault than it opens.
+    fn is_closed_on_the_line(&self) -> bool {
+        let line = self.behind().lines().next().unwrap_or_default();
+        let mut depth = 0;
+        tokens(line).iter().any(|token| {
+            depth += i32::from(token.text == "(") - i32::from(token.text == ")");
+            depth < 0
+        })
+    }
+
+    /// From where the outermost bracket is opened to the end of the line.
+    fn list(&self) -> Vec<Token<'_>> {
+        let opened = self.opened();
+        let start = opened.iter().find(|(_, token)| *token != "{").map_or(self.at, |(start, _)| *start);
+        let end = self.here().end + self.behind().lines().next().unwrap_or_default().len();
+        let tokens = tokens(&self.text[start..end]);
+        tokens.into_iter().map(|token| Token { start: start + token.start, ..token }).collect()
+    }
+
+    /// The commas that stand right between digits in a list, in those brackets that hold a `;` too; `None` for one that separates.
+    fn commas_beside_semicolons(&self) -> Vec<Option<usize>> {
+        let list = self.list();
+        let mut open: Vec<(bool, Vec<Option<usize>>)> = vec![(false, Vec::new())];
+        let mut found = Vec::new();
+        for token in &list {
+            let around = open.last_mut();
+            match (token.text, around) {
+                ("(" | "[", _) => open.push((false, Vec::new())),
+                (")" | "]", Some(_)) => found.extend(open.pop()),
+                (";", Some((has_semicolon, _))) => *has_semicolon = true,
+                (",", Some((_, commas))) => commas.push(self.is_between_digits(token.start).then_some(token.start)),
+                _ => {}
+            }
+        }
+        found.extend(open);
+        found.into_iter().filter(|(has_semicolon, _)| *has_semicolon).flat_map(|(_, commas)| commas).collect()
+    }
+
+    /// Whether a comma stands in a number as its decimal point, as far as its neighbours tell.
+    fn is_between_digits(&self, at: usize) -> bool {
+        let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+        let behind = self.text[at + 1..].trim_start_matches(|c: char| c.is_ascii_digit());
+        digit(self.text[..at].chars().next_back())
+            && digit(self.text[at + 1..].chars().next())
+            && !behind.starts_with(',')
+    }
+
+    fn is_decimal_comma_beside(&self) -> bool {
+        self.commas_beside_semicolons().iter().any(Option::is_some)
+    }
+
+    /// `max(1,5; 2)`: both readings are told, and neither is chosen.
+    fn of_decimal_commas(&self) -> Mend {
+        let commas: Option<Vec<usize>> = self.commas_beside_semicolons().into_iter().collect();
+        let Some(commas) = commas else {
+            return Mend::words("a list is separated by commas, and decimals are written with a point: `(0.5, 1.5)`");
+        };
+        let list = self.list();
+        let semicolons = list.iter().filter(|token| token.text == ";").map(|token| (token.start, ","));
+        let mut edits: Vec<(usize, &str)> = commas.into_iter().map(|at| (at, ".")).chain(semicolons).collect();
+        edits.sort_unstable();
+        let edits = edits.into_iter().map(|(at, text)| Edit { span: self.span(at..at + 1), text: text.to_owned() });
+        let message = "decimals are written with a point, and lists with commas: `(0.5, 1.5)`".to_owned();
+        Mend::Fix(Fix { message, edits: edits.collect(), applies: Applies::Probably })
+    }
+}
