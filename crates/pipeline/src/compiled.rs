@@ -279,14 +279,20 @@ impl Compiled {
         self.determined.coupled_parts()
     }
 
+    /// The constraint system.
+    #[must_use]
     pub fn system(&self) -> &ConstraintSystem {
         self.determined.system()
     }
 
+    /// The system with the proof that it is determined.
+    #[must_use]
     pub fn determined(&self) -> &Arc<Determined> {
         &self.determined
     }
 
+    /// The compiled operations of the system.
+    #[must_use] 
     pub fn program(&self) -> &Arc<Program> {
         self.program.get_or_init(|| Arc::new(Program::new(self.system())))
     }

@@ -2,11 +2,17 @@
 
 #![no_std]
 
+/// Sparse linear equations that fall apart into blocks.
 pub mod blocks;
+/// The grid on which Newton's iteration ends.
 pub mod grid;
+/// The quintic between two states.
 pub mod hermite;
+/// Searches that end at neighbouring doubles.
 pub mod neighbours;
+/// Sine and cosine with the same bits on every platform.
 pub mod sine_and_cosine;
+/// Sine and cosine for loops over many angles.
 pub mod without_branches;
 
 /// The texts of these files, for code that carries them along.

@@ -28,9 +28,11 @@ pub mod places {
     /// Corrections of a position at most, where the solver does not serve.
     pub const ITERATIONS: usize = 10;
     /// Whether the motion in a step is what its ends tell is seen at this part of it, at which nothing is that comes back in the middle; where what
-    /// moves is farther off than this part of itself, and than a parabola could be, it is not. What is shorter than that part of a step is not cut.
+    /// moves is farther off than `LITTLE` of itself, and than a parabola could be, it is not.
     pub const WITHIN: f64 = 0.381_966;
+    /// A state differs from what its step's ends tell beyond this part of its size.
     pub const LITTLE: f64 = 1e-9;
+    /// Parts of a step shorter than this part of it are not cut again.
     pub const SHORTEST: f64 = 1e-2;
     /// A position nearer than this to a singular one is taken from the way over it.
     pub const SOLVABLE: f64 = 4e-3;
@@ -43,6 +45,7 @@ pub mod probe {
     pub const MOST_CELLS: usize = 400_000;
     /// And so many more for each step of the motion.
     pub const MOST_OF_A_STEP: usize = 4_000;
+    /// A cell whose middle has to be solved for counts as so many cells.
     pub const SOLVED: usize = 20;
     /// No cell is shorter than this part of the span.
     pub const SHORTEST: f64 = 4.0 * f64::EPSILON;
@@ -55,6 +58,7 @@ pub mod probe {
     /// Whether a formula grows towards a time is seen at places that are so many times as far away as the one before, from where its values are off by
     /// no more than that part of themselves or of the range.
     pub const FACTOR: f64 = 16.0;
+    /// A value is reliable if rounding changes it by at most this part of itself or of the range.
     pub const RELIABLE: f64 = 1e-3;
     /// The first of these is no farther away than this part of the span.
     pub const FARTHEST: f64 = 1e-5;
@@ -87,11 +91,13 @@ pub mod extremum {
     pub const FARTHEST: f64 = 2.0;
     /// Its three points come closer by this factor, until they are this part of the span apart.
     pub const CLOSER: f64 = 0.1;
+    /// The three points of a parabola come no closer together than this part of the span.
     pub const FINEST: f64 = 1e-4;
     /// Corrections of a time at most.
     pub const ITERATIONS: usize = 100;
     /// How far off the time of an extremum may be, as a part of the span: of a formula whose slope is known, and of any other one.
     pub const TIMES: f64 = 1e-11;
+    /// The same bound for a formula whose slope is unknown.
     pub const TIMES_OF_VALUES: f64 = 1e-6;
     /// A value at a threshold is that of one side where it differs from that of this side by no more than this part of the range.
     pub const APART: f64 = 1e-6;
@@ -138,6 +144,7 @@ pub mod stretches {
     pub const FEW: u32 = 6;
     /// A value of which nothing is certain is 0, where it may be off by no more than this part of the largest that was seen.
     pub const SMALL: f64 = 1e-6;
+    /// A double has no more significant digits than this.
     pub const MOST_DIGITS: u32 = 17;
     /// What is larger goes on to where there are no numbers.
     pub const LARGEST: f64 = 1e300;
@@ -162,7 +169,9 @@ pub mod quadrature {
     /// So near to a pole, as a part of the span, a formula goes with one power of the distance: halving that changes the factor by no more than
     /// `ALIKE`, which is no less than `LEAST_GROWTH`. Nearer by, rounding of times shows.
     pub const BESIDE_POLE: f64 = 1e-8;
+    /// Two factors of growth differ by at most this if one power of the distance makes both.
     pub const ALIKE: f64 = 1e-5;
+    /// The factor by which a formula grows at a pole when the distance is halved, at least.
     pub const LEAST_GROWTH: f64 = 1.03;
     /// What is unknown of an integral beside a pole, as a part of what the shortest cell may hold.
     pub const PART_OF_POLE: f64 = 0.02;
@@ -176,6 +185,7 @@ pub mod quadrature {
 pub mod spectral {
     /// With how many intervals between the times, as a power of two, the rule begins and ends.
     pub const FIRST: usize = 6;
+    /// The largest power of two of intervals between the times.
     pub const LAST: usize = 12;
     /// The rule converges where twice as many times change it by no more than this part of the change before.
     pub const LESS: f64 = 0.1;
@@ -208,6 +218,7 @@ pub mod curve {
     pub const EVERY: usize = 16;
     /// A value between two points beside each other is known where what it may be is no wider than this part of it, or than nothing.
     pub const KNOWN: f64 = 1e-12;
+    /// A number smaller than this counts as zero.
     pub const NOTHING: f64 = 1e-290;
     /// What rounding may make of what moves, as a part of the largest that was seen of it.
     pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -220,6 +231,7 @@ pub mod slopes {
     /// A formula has the value of an extremum at its time, if it is away from it by no more than this part of its range; or by this part
     /// of its size, where it rests.
     pub const SAME: f64 = 1e-6;
+    /// The same bound, as a part of the size of a formula that rests.
     pub const DIGITS: f64 = 1e-9;
     /// An extremum is flat, if its rate would change it over the analysis by no more than this part of its range.
     pub const FLAT: f64 = 1e-3;
@@ -228,6 +240,7 @@ pub mod slopes {
     /// An extremum is alone, if it goes with what moves the formula by the first part of its range as much to one side as to the other, but for
     /// the second part of that; or for the last digits of its value.
     pub const MOVED: f64 = 1e-6;
+    /// An extremum is alone if both sides of it change alike, up to this part of the change.
     pub const ALONE: f64 = 0.01;
     /// A formula has a range of no more than so many standard deviations.
     pub const DEVIATIONS: f64 = 4.0;
@@ -236,6 +249,7 @@ pub mod slopes {
     pub const LEFT_OF_HALF: f64 = 0.35;
     /// It is moved by what this part of a parameter's size makes of the formula at least, which may have no range.
     pub const LEAST_STEP: f64 = 1e-9;
+    /// Changes below this part of a value are its last digits, which decide nothing.
     pub const LAST_DIGITS: f64 = 1e-13;
     /// A parameter that as much again would change a formula by no more than this part of its range does not change it.
     pub const NOTHING: f64 = 1e-12;
