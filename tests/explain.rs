@@ -172,7 +172,7 @@ fn faults_of_a_page_are_found() {
 }
 
 fn no_page_is_without_a_code() {
-    let pages: Vec<String> = files("src/diag/explain", "md").iter().map(|path| stem(path)).collect();
+    let pages: Vec<String> = files("crates/text/src/diag/explain", "md").iter().map(|path| stem(path)).collect();
     let mut codes: Vec<&str> = Code::ALL.iter().map(|code| code.as_str()).collect();
     codes.sort_unstable();
     assert_eq!(pages, codes);
@@ -188,7 +188,7 @@ fn has_the_severity_of_its_letter(code: Code) {
 }
 
 fn every_code_is_raised_somewhere() {
-    let sources: String = files("src", "rs")
+    let sources: String = support::sources("rs")
         .iter()
         .filter(|path| !path.ends_with("diag/codes.rs"))
         .map(|path| fs::read_to_string(path).expect("a text"))
@@ -251,7 +251,8 @@ fn index() -> String {
                 Severity::Warning => "warning",
                 Severity::Note => "note",
             };
-            text += &format!("| [{code}](../src/diag/explain/{code}.md) | {severity} | {} |\n", code.title());
+            text +=
+                &format!("| [{code}](../crates/text/src/diag/explain/{code}.md) | {severity} | {} |\n", code.title());
         }
     }
     text

@@ -112,7 +112,7 @@ fn failing_example(page: &str) -> Option<String> {
 fn cases() -> Vec<Case> {
     let pages = Code::ALL.iter().filter_map(|code| {
         Some(Case {
-            path: Path::new("src/diag/explain").join(format!("{code}.mech")),
+            path: Path::new("crates/text/src/diag/explain").join(format!("{code}.mech")),
             text: failing_example(code.page())?,
         })
     });

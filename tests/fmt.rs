@@ -98,7 +98,7 @@ fn documentation() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut pages = vec![root.join("README.md")];
     pages.extend(files("docs", "md"));
-    pages.extend(files("src", "md"));
+    pages.extend(support::sources("md"));
     // packages of others have pages too
     let is_own = |page: &PathBuf| page.components().all(|part| part.as_os_str() != "node_modules");
     pages.extend(files("editors", "md").into_iter().filter(is_own));

@@ -1,4 +1,4 @@
-//! Who may know whom: each room knows only the rooms before it (`ARCHITECTURE.md`).
+//! What the compiler's files may name of each other and of the platform. Which crate may name which, Cargo holds.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
@@ -10,164 +10,92 @@ mod links;
 use links::{Crate, Names};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
-use support::files;
+use std::path::{Path, PathBuf};
+use support::{files, sources};
 
-/// Each room with the rooms that it may name, as the table of the page has them.
-fn rooms() -> Vec<(String, Vec<String>)> {
-    rooms_of("room")
+/// Links that close a circle between files of one crate: none more, and each that is gone goes from here too.
+const CIRCLES: &[(&str, &str)] = &[("build", "formula")];
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The same of a table whose first column is headed so.
-fn rooms_of(what: &str) -> Vec<(String, Vec<String>)> {
-    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("ARCHITECTURE.md")).expect("the page");
-    let head = format!("| {what} | what it is for | may use |\n");
-    let (_, behind) = page.split_once(&head).expect("the table of rooms");
-    let rows = behind.lines().skip(1).take_while(|line| line.starts_with('|'));
-    let room = |line: &str| {
-        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
-        let used = cells[2].split(", ").filter(|name| *name != "–").map(str::to_owned);
-        (cells[0].trim_matches('`').to_owned(), used.collect())
-    };
-    rows.map(room).collect()
+/// All crates with their names; the command line is one of them.
+fn crates() -> Vec<(String, Crate)> {
+    let folders = fs::read_dir(root().join("crates")).expect("a folder").map(|entry| entry.expect("an entry").path());
+    let mut folders: Vec<PathBuf> = folders.collect();
+    folders.sort();
+    let inner = folders.into_iter().map(|folder| {
+        let name = folder.file_name().expect("a name").to_string_lossy().into_owned();
+        let inside = format!("crates/{name}/src");
+        let read = Crate::read(&root().join(&inside), &files(&inside, "rs"));
+        (name, read)
+    });
+    let outer = ("mechc".to_owned(), Crate::read(&root().join("src"), &files("src", "rs")));
+    inner.chain([outer]).collect()
 }
 
-/// What the command line names of rooms behind the façade: all of a room, or single things of it.
-const COMMAND_LINE: &[&str] = &[
-    "analysis::Answers",
-    "analysis::Times",
-    "cancel",
-    "diag",
-    "emit::MARK",
-    "emit::NOT_IN_ALL",
-    "expr::number",
-    "layout",
-    "live",
-    "lsp",
-    "output",
-    "scene",
-    "source",
-    "stages",
-    "sweep",
-    "view",
-    "vocabulary",
-    "world",
-];
-
-/// Links that close a circle between files of one room: none more, and each that is gone goes from here too.
-const CIRCLES: &[(&str, &str)] = &[("syntax/build", "syntax/formula")];
-
-fn read() -> Crate {
-    Crate::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &files("src", "rs"))
+/// What the modules of a crate name of each other.
+fn links(of: &Crate) -> BTreeMap<Names, Vec<Names>> {
+    let linked = |module: &Names| of.links(module).into_iter().collect::<Vec<_>>();
+    of.files.keys().map(|module| (module.clone(), linked(module))).collect()
 }
 
 #[test]
-fn rooms_know_only_those_that_they_may_use() {
-    let (all, rooms) = (read(), rooms());
-    let mut unused: Vec<(&str, &str)> =
-        rooms.iter().flat_map(|(room, used)| used.iter().map(move |used| (room.as_str(), used.as_str()))).collect();
-    let mut seen = 0;
-    for (module, file) in all.files.iter().filter(|(module, _)| !module.is_empty() && module[0] != "main") {
-        let room = module[0].as_str();
-        let known = rooms.iter().find(|(name, _)| name == room);
-        let (_, allowed) = known.unwrap_or_else(|| panic!("the room `{room}` is not in the table"));
-        seen += 1;
-        for line in file.code.lines() {
-            let hidden = ["crate::{", "super::super", "mechc::"].iter().find(|form| line.contains(**form));
-            assert!(hidden.is_none(), "{}: a room is named as `crate::room::…`, not by {hidden:?}", file.place);
+fn files_of_a_crate_name_each_other_in_one_direction() {
+    let (mut unused, mut seen) = (CIRCLES.to_vec(), 0);
+    for (name, of) in crates() {
+        // a file and those in its folder are one, and what the root names is no folder of it
+        let is_inside = |inner: &Names, outer: &Names| !outer.is_empty() && inner.starts_with(outer);
+        let mut links = links(&of);
+        for (module, others) in &mut links {
+            seen += 1;
+            others.retain(|other| {
+                let link = (module.join("/"), other.join("/"));
+                let is_known = unused.iter().position(|(from, to)| *from == link.0 && *to == link.1);
+                is_known.map(|at| unused.remove(at));
+                is_known.is_none() && !is_inside(other, module) && !is_inside(module, other) && !other.is_empty()
+            });
         }
-        let used = all.named(module).into_iter().filter_map(|path| path.into_iter().next());
-        for used in used.filter(|used| used != room) {
-            let is_room = rooms.iter().any(|(name, _)| *name == used);
-            // only the command line stands before the façade
-            assert!(is_room || room == "cli", "{}: `{used}` is no room", file.place);
-            if !is_room {
+        let circle = circle(&links);
+        let way: Vec<String> = circle.iter().map(|module| module.join("/")).collect();
+        assert!(circle.is_empty(), "crates/{name}: a circle: {}", way.join(" → "));
+    }
+    assert!(seen > 500, "only {seen} files were looked at");
+    assert!(unused.is_empty(), "{unused:?}: no such links are left, and they go from the list");
+}
+
+/// The same of whole folders: those of a crate that has several at its root, and those within the analysis.
+#[test]
+fn modules_of_a_crate_name_each_other_in_one_direction() {
+    const SEVERAL: [&str; 6] = ["text", "expr", "ir", "lang", "engine", "draw"];
+    let mut seen = 0;
+    for (name, of) in crates() {
+        for (depth, outer) in [(1, None), (2, Some("analysis"))] {
+            if !SEVERAL.contains(&name.as_str())
+                || outer.is_some_and(|outer| !of.files.contains_key(&vec![outer.to_owned()]))
+            {
                 continue;
             }
-            assert!(allowed.contains(&used), "{}: `{room}` must not know `{used}`", file.place);
-            unused.retain(|known| *known != (room, used.as_str()));
+            let is_in = |module: &&Names| module.len() >= depth && outer.is_none_or(|outer| module[0] == outer);
+            let mut folders: BTreeMap<Names, Vec<Names>> = BTreeMap::new();
+            for (module, others) in links(&of).iter().filter(|(module, _)| is_in(module)) {
+                let folder = module[..depth].to_vec();
+                let others = others.iter().filter(is_in).map(|other| other[..depth].to_vec());
+                let others: Vec<Names> = others.filter(|other| *other != folder).collect();
+                // the file of a crate's root and those beside it are one
+                let is_folder =
+                    |folder: &Names| of.files.keys().any(|module| module.len() > depth && module.starts_with(folder));
+                if is_folder(&folder) {
+                    seen += 1;
+                    folders.entry(folder).or_default().extend(others.into_iter().filter(is_folder));
+                }
+            }
+            let circle = circle(&folders);
+            assert!(circle.is_empty(), "crates/{name}: a circle of folders: {circle:?}");
         }
     }
     assert!(seen > 100, "only {seen} files were looked at");
-    assert!(unused.is_empty(), "the table allows what nobody needs: {unused:?}");
-}
-
-/// The same of the rooms within a room.
-#[test]
-fn rooms_of_analysis_know_only_those_that_they_may_use() {
-    let (all, rooms) = (read(), rooms_of("room of `analysis`"));
-    let mut unused: Vec<(&str, &str)> =
-        rooms.iter().flat_map(|(room, used)| used.iter().map(move |used| (room.as_str(), used.as_str()))).collect();
-    let mut seen = 0;
-    for (module, file) in all.files.iter().filter(|(module, _)| module.len() > 1 && module[0] == "analysis") {
-        let room = module[1].as_str();
-        let known = rooms.iter().find(|(name, _)| name == room);
-        let (_, allowed) = known.unwrap_or_else(|| panic!("the room `analysis/{room}` is not in the table"));
-        seen += 1;
-        let links = all.links(module).into_iter().filter(|other| other.first().is_some_and(|room| room == "analysis"));
-        for used in links.map(|other| other.get(1).cloned().unwrap_or_default()).filter(|used| used != room) {
-            assert!(allowed.contains(&used), "{}: `{room}` must not know `{used}`", file.place);
-            unused.retain(|known| *known != (room, used.as_str()));
-        }
-    }
-    assert!(seen > 30, "only {seen} files were looked at");
-    assert!(unused.is_empty(), "the table allows what nobody needs: {unused:?}");
-}
-
-#[test]
-fn rooms_are_listed_behind_those_that_they_know() {
-    assert!(rooms().len() > 15, "only {} rooms", rooms().len());
-    for rooms in [rooms(), rooms_of("room of `analysis`")] {
-        for (k, (room, allowed)) in rooms.iter().enumerate() {
-            let later = allowed.iter().find(|name| !rooms[..k].iter().any(|(before, _)| before == *name));
-            assert!(later.is_none(), "`{room}` knows {later:?}, which does not stand before it");
-        }
-    }
-}
-
-#[test]
-fn the_command_line_goes_through_the_facade() {
-    let all = read();
-    let mut unused = COMMAND_LINE.to_vec();
-    for (module, file) in all.files.iter().filter(|(module, _)| module.first().is_some_and(|room| room == "cli")) {
-        for path in all.named(module).into_iter().filter(|path| path[0] != "cli") {
-            // what is on the façade itself
-            if path.len() == 1 && !all.files.contains_key(&path[..1]) {
-                continue;
-            }
-            let path = path.join("::");
-            let door = COMMAND_LINE.iter().find(|door| path == **door || path.starts_with(&format!("{door}::")));
-            assert!(door.is_some(), "{}: `{path}` is behind the façade", file.place);
-            unused.retain(|known| Some(known) != door);
-        }
-    }
-    assert!(unused.is_empty(), "{unused:?} is no longer named, and goes from the list");
-}
-
-#[test]
-fn files_of_a_room_know_each_other_in_one_direction() {
-    let all = read();
-    // what `lib.rs` names is no folder of it
-    let is_inside = |inner: &Names, outer: &Names| !outer.is_empty() && inner.starts_with(outer);
-    let mut links: BTreeMap<Names, Vec<Names>> = BTreeMap::new();
-    let mut unused = CIRCLES.to_vec();
-    for module in all.files.keys() {
-        let others = links.entry(module.clone()).or_default();
-        // a file and those in its folder are one
-        for other in
-            all.links(module).into_iter().filter(|other| !is_inside(other, module) && !is_inside(module, other))
-        {
-            let link = (module.join("/"), other.join("/"));
-            let is_known = unused.iter().position(|(from, to)| *from == link.0 && *to == link.1);
-            match is_known {
-                Some(at) => drop(unused.remove(at)),
-                None => others.push(other),
-            }
-        }
-    }
-    let circle = circle(&links);
-    assert!(circle.is_empty(), "a circle: {}", circle.iter().map(|m| m.join("/")).collect::<Vec<_>>().join(" → "));
-    assert!(unused.is_empty(), "{unused:?}: no such links are left, and they go from the list");
 }
 
 /// Modules that each name the next one, and the last one the first; nothing where there are none.
@@ -210,52 +138,57 @@ fn what_only_tests_need_is_left_out() {
     assert_eq!(links::without_tests(text.lines()), "mod a;\nuse c::C;\nmod f {\n    use h::H;\n}");
 }
 
-/// One thing at the stations of its way has one name: in the tree, in the model, in the equations.
-const STATIONS: [&str; 3] = ["syntax", "model", "ir"];
+/// One thing at the stages of its way has one name: in the tree, in the model, in the equations.
+const STAGES: [&str; 3] = ["ir", "lang", "syntax"];
 
-/// Names that several rooms show for different types: none more, and each that is gone goes from here too.
+/// Names that several crates export for different types: none more, and each that is gone goes from here too.
 const SHARED: &[&str] =
     &["Column", "Declaration", "JointKind", "Node", "Place", "Point", "Profile", "Segment", "Trace"];
 
 #[test]
-fn no_two_rooms_show_types_of_one_name() {
-    let all = read();
-    let mut known: BTreeMap<String, BTreeSet<Names>> = BTreeMap::new();
-    for (name, declaring) in all.files.keys().filter(|module| module.len() == 1).flat_map(|room| all.shown(room)) {
-        known.entry(name).or_default().insert(declaring);
+fn no_two_crates_export_types_of_one_name() {
+    let mut known: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for (name, of) in crates() {
+        let is_public = |module: &[String]| {
+            let line = module.first().map(|name| format!("pub mod {name};"));
+            line.is_none_or(|line| of.files[&Vec::new()].code.contains(&line))
+        };
+        let doors = of.files.keys().filter(|module| module.len() <= 1 && is_public(module));
+        for (shown, declaring) in doors.flat_map(|door| of.shown(door)) {
+            // what is handed on is declared elsewhere
+            if of.files.contains_key(&declaring) {
+                known.entry(shown).or_default().insert(name.clone());
+            }
+        }
     }
     assert!(known.len() > 200, "only {} types were looked at", known.len());
-    let is_shared = |modules: &BTreeSet<Names>| {
-        let rooms: BTreeSet<&str> = modules.iter().map(|module| module[0].as_str()).collect();
-        rooms.len() > 1 && !rooms.iter().all(|room| STATIONS.contains(room))
-    };
-    let shared: Vec<&str> =
-        known.iter().filter(|(_, modules)| is_shared(modules)).map(|(name, _)| name.as_str()).collect();
+    let is_shared = |of: &BTreeSet<String>| of.len() > 1 && !of.iter().all(|name| STAGES.contains(&name.as_str()));
+    let shared: Vec<&str> = known.iter().filter(|(_, of)| is_shared(of)).map(|(name, _)| name.as_str()).collect();
     assert_eq!(shared, SHARED);
 }
 
 /// What a file may use of the platform: threads, which are gone without their feature; and the server of live pages, which is too, its
 /// connections and their limits.
 const PLATFORM: &[(&str, &str)] = &[
-    ("analysis/follow/rows/leap.rs", "std::thread"),
-    ("crew/mod.rs", "std::thread"),
-    ("crew/relay.rs", "std::thread"),
-    ("crew/shares.rs", "std::thread"),
-    ("live/http.rs", "std::time"),
-    ("live/server.rs", "std::net"),
-    ("live/server.rs", "std::thread"),
-    ("live/server.rs", "std::time"),
-    ("live/workshop.rs", "std::thread"),
-    ("live/workshop.rs", "std::time"),
+    ("engine/src/analysis/follow/rows/leap.rs", "std::thread"),
+    ("parallel/src/lib.rs", "std::thread"),
+    ("parallel/src/relay.rs", "std::thread"),
+    ("parallel/src/shares.rs", "std::thread"),
+    ("live/src/http.rs", "std::time"),
+    ("live/src/server.rs", "std::net"),
+    ("live/src/server.rs", "std::thread"),
+    ("live/src/server.rs", "std::time"),
+    ("live/src/workshop.rs", "std::thread"),
+    ("live/src/workshop.rs", "std::time"),
 ];
 
 #[test]
-fn rooms_know_no_files_threads_clock_or_environment() {
+fn libraries_know_no_files_threads_clock_or_environment() {
     let mut allowed = 0;
-    for path in files("src", "rs") {
-        let inside = path.strip_prefix(concat!(env!("CARGO_MANIFEST_DIR"), "/src")).expect("below src").to_owned();
+    for path in sources("rs") {
+        let inside = path.strip_prefix(root()).expect("below the root").to_owned();
         // the command line, the language server, and what becomes part of an emitted crate
-        if ["cli", "lsp", "emit/package", "main.rs"].iter().any(|place| inside.starts_with(place)) {
+        if ["src", "crates/ide/src/lsp", "crates/emit/src/package"].iter().any(|place| inside.starts_with(place)) {
             continue;
         }
         let text = fs::read_to_string(&path).expect("a text");
@@ -275,21 +208,17 @@ fn rooms_know_no_files_threads_clock_or_environment() {
 /// What chooses code by the processor is behind one door.
 #[test]
 fn one_file_knows_the_library_of_vector_instructions() {
-    let known: Vec<String> = files("src", "rs")
-        .into_iter()
-        .filter(|path| fs::read_to_string(path).expect("a text").contains("pulp::"))
-        .map(|path| {
-            path.strip_prefix(concat!(env!("CARGO_MANIFEST_DIR"), "/src")).expect("below src").display().to_string()
-        })
-        .collect();
-    assert_eq!(known, ["math/vectors.rs"]);
+    let known = sources("rs").into_iter().filter(|path| fs::read_to_string(path).expect("a text").contains("pulp::"));
+    let known: Vec<PathBuf> = known.map(|path| path.strip_prefix(root()).expect("below the root").to_owned()).collect();
+    assert_eq!(known, [Path::new("crates/expr/src/math/vectors.rs")]);
 }
 
 /// Each stage of the façade shows how it is used.
 #[test]
 fn every_stage_has_an_example_that_is_run() {
     for stage in ["Parsed", "Checked", "Compiled", "Run"] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("src/stages/{}.rs", stage.to_lowercase()));
+        let path =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("crates/pipeline/src/{}.rs", stage.to_lowercase()));
         let text = fs::read_to_string(path).expect("a text");
         let (before, _) = text.split_once(&format!("\npub struct {stage} {{")).expect("the stage");
         let docs: Vec<&str> = before.lines().rev().take_while(|line| line.starts_with(['/', '#'])).collect();

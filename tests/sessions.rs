@@ -63,7 +63,9 @@ fn main() {
     let with_sessions = |list: Vec<PathBuf>| named(list.into_iter().filter(|path| has_sessions(path)).collect());
     tests.each("sessions", with_sessions(files("tests/cli", "trycmd")), 8, |path| prints_what_it_says(&path));
     tests.each("sessions", with_sessions(pages.clone()), 3, |path| prints_what_it_says(&path));
-    tests.each("sessions", with_sessions(files("src/diag/explain", "md")), 5, |path| prints_what_it_says(&path));
+    tests.each("sessions", with_sessions(files("crates/text/src/diag/explain", "md")), 5, |path| {
+        prints_what_it_says(&path)
+    });
     tests.each("blocks", named(pages), 5, |path| has_blocks_that_hold(&path));
     tests.run()
 }

@@ -19,8 +19,8 @@ OF_THE_COMMAND = {"with"}
 
 def spans():
     """All that the library's messages say of options, but for the command's own files, and the pages of the language."""
-    folders = [folder for folder in (ROOT / "src").iterdir() if folder.is_dir() and folder.name not in ("cli", "vocabulary", "lsp", "ide")]
-    for path in (path for folder in folders for path in folder.rglob("*.rs")):
+    folders = [folder for folder in (ROOT / "crates").iterdir() if folder.name != "ide"]
+    for path in (path for folder in folders for path in folder.rglob("src/**/*.rs") if "vocabulary" not in path.parts):
         code = "\n".join(line for line in path.read_text().splitlines() if not line.lstrip().startswith("//"))
         yield from (found[1] for found in re.finditer(r"`(--[a-z][^`\n]*)`", code))
 

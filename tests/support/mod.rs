@@ -226,6 +226,12 @@ pub fn passing(text: &str, every: Option<f64>) -> (Outcome, Vec<f64>) {
 
 /// All files below a folder with an ending, in order.
 pub fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
+    let found = any_files(folder, ending);
+    assert!(!found.is_empty(), "no .{ending} below {folder}");
+    found
+}
+
+fn any_files(folder: &str, ending: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut open = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)];
     while let Some(folder) = open.pop() {
@@ -239,7 +245,13 @@ pub fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
         }
     }
     found.sort();
-    assert!(!found.is_empty(), "no .{ending} below {folder}");
+    found
+}
+
+/// All files of the compiler with an ending: of the command line and of each crate.
+pub fn sources(ending: &str) -> Vec<PathBuf> {
+    let mut found: Vec<PathBuf> = ["src", "crates"].into_iter().flat_map(|folder| any_files(folder, ending)).collect();
+    found.retain(|path| path.components().any(|part| part.as_os_str() == "src"));
     found
 }
 

@@ -298,7 +298,7 @@ impl Checked {
     }
 
     /// What was written of it.
-    #[must_use] 
+    #[must_use]
     pub fn tree(&self) -> Option<&ast::Mechanism> {
         self.parsed.tree().mechanisms.get(self.number?)
     }
@@ -335,7 +335,7 @@ impl Checked {
     }
 
     /// Which mechanisms its text may name; its own file is the first.
-    #[must_use] 
+    #[must_use]
     pub fn library(&self) -> &Library {
         &self.library
     }

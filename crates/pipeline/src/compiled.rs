@@ -292,7 +292,7 @@ impl Compiled {
     }
 
     /// The compiled operations of the system.
-    #[must_use] 
+    #[must_use]
     pub fn program(&self) -> &Arc<Program> {
         self.program.get_or_init(|| Arc::new(Program::new(self.system())))
     }

@@ -36,7 +36,7 @@ pub struct DrawnJoint {
 
 impl Checked {
     /// Where its bodies are drawn; nothing where it is not sound. A number that is not known before the motion is NaN.
-    #[must_use] 
+    #[must_use]
     pub fn drawn(&self) -> Option<Drawn> {
         Some(drawn(self.model()?))
     }

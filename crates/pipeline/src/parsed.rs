@@ -132,7 +132,7 @@ impl Parsed {
     }
 
     /// What was written.
-    #[must_use] 
+    #[must_use]
     pub fn tree(&self) -> &ast::File {
         &self.read.tree
     }

@@ -181,7 +181,7 @@ pub fn normalised(path: &Path) -> PathBuf {
 }
 
 /// The error for a file that cannot be read, by its name; an empty name is standard input.
-#[must_use] 
+#[must_use]
 pub fn cannot_read(name: &str, error: &io::Error) -> Diagnostic {
     if name.is_empty() {
         return Diagnostic::new(Code::E0701, "cannot read a file without a name");
@@ -195,7 +195,7 @@ pub fn cannot_read(name: &str, error: &io::Error) -> Diagnostic {
 }
 
 /// The system's words, without its number.
-#[must_use] 
+#[must_use]
 pub fn reason(error: &io::Error) -> String {
     let text = error.to_string();
     let text = text.split(" (os error").next().unwrap_or(&text);

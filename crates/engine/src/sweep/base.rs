@@ -99,7 +99,7 @@ impl Base {
     }
 
     /// A variant, by the values of all its parameters (SI).
-    #[must_use] 
+    #[must_use]
     pub fn variant(&self, values: &[f64]) -> Arc<Determined> {
         Arc::new(self.whole.0.with_values(values))
     }

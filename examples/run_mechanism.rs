@@ -1,0 +1,61 @@
+//! Runs a mechanism and prints a row per output time, then a result for the whole motion.
+//!
+//! Arguments set parameters: `cargo run --example run_mechanism -- rod_length=200mm`. With `rod_length=48mm` the rod is shorter than
+//! the crank, and the motion ends in a dead point.
+
+use mechc::{Cancel, Choice, Color, Diagnostic, Format, Memory, Parsed, Redundant, RunOptions, Sources, Times, render};
+use std::error::Error;
+
+const COLUMNS: [&str; 4] = ["t", "crank.phi", "travel", "travel.dd"];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let choice = Choice {
+        set: std::env::args().skip(1).collect(),
+        results: vec!["peak = max(abs(der(der(travel))))".to_owned()],
+        ..Choice::default()
+    };
+    // A text may name other files, which it reads through a `World`; this text names none.
+    let world = Memory::default();
+    let checked = Parsed::of("slider_crank.mech", include_str!("slider_crank.mech")).check(&choice, &world);
+    report(checked.diagnostics().iter(), checked.sources());
+    let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
+    report(diagnostics.iter(), checked.sources());
+    let compiled = compiled.ok_or("the mechanism does not compile")?;
+
+    // `compiled.times()` has the times of the text's own analysis.
+    let times = Times::grid(0.0, 0.04, 0.005).ok_or("the step is too small")?;
+    let (run, diagnostics) = compiled.run(&times, &RunOptions::default());
+    report(diagnostics.iter(), compiled.sources());
+    let mut run = run.ok_or("the mechanism does not assemble")?;
+
+    let position = |name: &str| run.columns().iter().position(|column| column == name);
+    let columns: Vec<usize> = COLUMNS.into_iter().filter_map(position).collect();
+    println!("{}", COLUMNS.map(|name| format!("{name:>10}")).join(" "));
+    while let Some(row) = run.next_row() {
+        match row {
+            // numbers are in SI: s, rad, m, m/s^2
+            Ok(row) => {
+                println!("{}", columns.iter().map(|&at| format!("{:10.4}", row[at])).collect::<Vec<_>>().join(" "));
+            }
+            Err(why) => {
+                report([&*why], compiled.sources());
+                return Err("the motion ended early".into());
+            }
+        }
+    }
+    report(run.take_remarks().iter(), compiled.sources());
+
+    let answers = run.results().ok_or("the motion has no results")?;
+    report(&answers.notes, compiled.sources());
+    for ((name, _), value) in compiled.results().iter().zip(answers.values) {
+        println!("{name} = {}", value.map_or("without a value".to_owned(), |value| format!("{value:.4}")));
+    }
+    Ok(())
+}
+
+/// Writes diagnostics to standard error, with the lines of the text that they point to.
+fn report<'d>(diagnostics: impl IntoIterator<Item = &'d Diagnostic>, sources: &Sources) {
+    for diagnostic in diagnostics {
+        eprint!("{}", render(diagnostic, sources, Format::Human, Color::Never));
+    }
+}
