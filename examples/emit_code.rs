@@ -23,7 +23,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     report(diagnostics.iter(), compiled.sources());
     let module = module.ok_or("the mechanism cannot be emitted")?;
     println!("functions of the module:");
-    for signature in module.lines().filter_map(|line| line.strip_prefix("pub fn ")) {
+    // what follows the mechanism's own functions is the solver
+    let own = module.lines().take_while(|line| *line != "mod runtime {");
+    for signature in own.filter_map(|line| line.strip_prefix("pub fn ")) {
         println!("  {}", signature.trim_end_matches(" {"));
     }
 
