@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::files;
 use mechc_draw::view::page;
 
-/// Of the crates (`tests/licenses.rs` writes it).
+/// Of the crates (`tests/program/licenses.rs` writes it).
 const OF_CRATES: &str = include_str!("licenses.txt");
 
 pub(super) fn print() -> Result<(), Failure> {

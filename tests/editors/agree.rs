@@ -1,6 +1,6 @@
 //! Files of one editor that are made of those of another one, and what else agrees.
 
-use crate::holds;
+use super::holds;
 use mechc::{Cancel, Choice, Memory, Parsed, Redundant};
 use serde_json::Value;
 use std::collections::BTreeSet;

@@ -1,6 +1,6 @@
 //! The words of the vocabulary, as each editor wants them written.
 
-use crate::holds;
+use super::holds;
 use mechc_text::vocabulary::{
     CONSTANTS, FUNCTIONS, JOINTS, KEYWORDS, Keyword, QUANTITIES, REDUCTIONS, Role, StandsFor, UNITS, is_before_a_name,
 };

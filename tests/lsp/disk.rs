@@ -1,6 +1,6 @@
 //! What happens to files under the editor, and what the server writes down: seen from outside, over real files.
 
-use crate::pipe::Pipe;
+use super::pipe::Pipe;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;

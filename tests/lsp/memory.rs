@@ -1,6 +1,6 @@
 //! What a long session keeps, and how it ends, seen from outside.
 
-use crate::pipe::Pipe;
+use super::pipe::Pipe;
 use serde_json::json;
 use std::path::Path;
 

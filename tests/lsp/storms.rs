@@ -5,7 +5,7 @@
 #[allow(dead_code)] // made for several tests
 mod random;
 
-use crate::client::Client;
+use super::client::Client;
 use mechc::{Cancel, Contents, World};
 use mechc_ide::lsp::methods;
 use mechc_ide::{self as ide, DiagnosticStage, Snapshot};

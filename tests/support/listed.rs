@@ -1,4 +1,4 @@
-//! Tests by name that are made of a list: of files, pages, systems. `cargo test --test cases four_bar` runs those of one.
+//! Tests by name that are made of a list: of files, pages, systems. `cargo test --test listed four_bar` runs those of one.
 
 use libtest_mimic::{Arguments, Trial};
 

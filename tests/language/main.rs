@@ -1,0 +1,20 @@
+//! The language: texts, formatting, words, messages.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod dimensions;
+mod fixes;
+mod fmt;
+mod format;
+mod formula;
+mod import;
+mod mistakes;
+mod parts;
+mod printed;
+mod printing;
+mod spelled;
+mod stack;
+mod vocabulary;

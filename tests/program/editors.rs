@@ -1,0 +1,20 @@
+//! The words of the language in the grammars of `editors/`, and what else of these files agrees with each other.
+//! `UPDATE_GOLDENS=1 cargo test --test program editors` writes the words.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
+
+#[path = "../editors/agree.rs"]
+mod agree;
+#[path = "../support/golden.rs"]
+mod golden;
+#[path = "../editors/words.rs"]
+mod words;
+
+use std::fs;
+
+/// A file of `editors/` is what it is made of.
+fn holds(path: &str, made: impl FnOnce(&str) -> String) {
+    let path = format!("editors/{path}");
+    let written = fs::read_to_string(&path).unwrap_or_default();
+    golden::holds(&path, &made(&written));
+}
