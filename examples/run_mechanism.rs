@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut run = run.ok_or("the mechanism does not assemble")?;
 
     let position = |name: &str| run.columns().iter().position(|column| column == name);
-    let columns: Vec<usize> = COLUMNS.into_iter().filter_map(position).collect();
+    let columns: Vec<usize> = COLUMNS.into_iter().map(position).collect::<Option<_>>().ok_or("a column is missing")?;
     println!("{}", COLUMNS.map(|name| format!("{name:>10}")).join(" "));
     while let Some(row) = run.next_row() {
         match row {
