@@ -404,11 +404,11 @@ pub static SYNONYMS: &[Synonym] = &[
     call(&["modulo", "modulus"], &["mod"], "it is written `mod({0 a}, {1 b})`"),
     call(&["sgn", "signum", "copysign"], &["sign"], "the sign of a number is `sign({0 a})`"),
     call(&["fabs", "absolute", "magnitude", "mag"], &["abs"], "the absolute value is `abs({0 a})`"),
-    call(&["minimum", "least", "fmin"], &["min"], "the least of two is `min({0 a}, {1 b})`; over the motion, in a `result`, `min({0 a})`"),
+    call(&["minimum", "least", "fmin"], &["min"], "over the motion, in a `result`, the least is `min({0 a})`; of two it is `min({0 a}, {1 b})`"),
     call(
         &["maximum", "largest", "fmax"],
         &["max"],
-        "the largest of two is `max({0 a}, {1 b})`; over the motion, in a `result`, `max({0 a})`",
+        "over the motion, in a `result`, the largest is `max({0 a})`; of two it is `max({0 a}, {1 b})`",
     ),
     call(&["average", "avg"], &["mean"], "the average over the motion is `mean({0 a})`, in a `result`"),
     call(

@@ -262,7 +262,13 @@ impl Reduced {
         }
         // what has no jump goes on as it comes; of a pole nothing is known
         let off = self.curve.uncertainty(&point) + self.curve.uncertainty(&near);
-        if step > 2.0 * change + off { near } else { point }
+        if step <= 2.0 * change + off {
+            return point;
+        }
+        // it is a little within, and so as far off as that changes it
+        let mut within = (*near).clone();
+        within.shift.value += change;
+        Rc::new(within)
     }
 
     /// Looks at some steps of a mechanism whose coordinates are so large.
