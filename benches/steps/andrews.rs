@@ -3563,6 +3563,7 @@ pub const A_MILLION: f64 = 1e6;
 
 /// Sine and cosine of an angle in radians; not a number for an angle that is not finite.
 #[must_use]
+#[inline]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     if !angle.is_finite() {
         return (f64::NAN, f64::NAN);

@@ -3881,6 +3881,7 @@ pub const A_MILLION: f64 = 1e6;
 
 /// Sine and cosine of an angle in radians; not a number for an angle that is not finite.
 #[must_use]
+#[inline]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     if !angle.is_finite() {
         return (f64::NAN, f64::NAN);
@@ -4028,9 +4029,9 @@ fn times_half_pi(a: f64, b: f64) -> (f64, f64) {
 }
 
 pub mod without_branches {
-use super::sine_and_cosine::{cos_near_zero, reduce_small, sin_near_zero};
-
 // Sine and cosine without a branch, so that a loop over many angles does several at once.
+
+use super::sine_and_cosine::{cos_near_zero, reduce_small, sin_near_zero};
 
 /// Sine and cosine of an angle (rad) whose size is below a million: the bits of [`sin_cos`](super::sin_cos).
 #[must_use]

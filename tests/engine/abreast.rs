@@ -3,10 +3,9 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
-
+use crate::support::swept::{Subject, bits_of, compare_all, count, have_the_same_bits, subject, vary};
 use mechc::{Choice, Method, Status, SweepOptions, Swept, Variants, VaryOptions, Vectors};
 use std::collections::VecDeque;
-use crate::support::swept::{Subject, bits_of, compare_all, count, have_the_same_bits, subject, vary};
 
 /// A four-bar that is turned once, or to and fro, by what is said of it.
 fn four_bar(turn: &str, every: &str) -> String {

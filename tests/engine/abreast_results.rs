@@ -3,9 +3,8 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
-
-use mechc::{Choice, Method, Status, SweepOptions, VaryOptions, Vectors};
 use crate::support::swept::{Subject, bits, bits_of, subject, vary};
+use mechc::{Choice, Method, Status, SweepOptions, VaryOptions, Vectors};
 
 const FOUR_BAR: &str = "mechanism four_bar {
     param base = 4

@@ -4,12 +4,12 @@
 
 use crate::support;
 
+use crate::support::random::Random;
+use crate::support::{Outcome, Span, run};
 use mechc::{RunOptions, Times};
 use mechc_expr::math;
 use std::f64::consts::TAU;
 use std::fs;
-use crate::support::random::Random;
-use crate::support::{Outcome, Span, run};
 
 fn crank_rocker(every: f64, to: f64) -> support::Outcome {
     let text = fs::read_to_string("tests/cases/four_bar.mech").expect("a text");

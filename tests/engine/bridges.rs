@@ -3,16 +3,15 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::change_points::{equal_rods, parallelogram};
+use crate::support::random::Random;
+use crate::support::{compile_number, files, follow};
 use mechc::{Diagnostic, Diagnostics, RunOptions, Times};
 use mechc_expr::math;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
-use crate::support::change_points::{equal_rods, parallelogram};
-use crate::support::random::Random;
-use crate::support::{compile_number, files, follow};
 
 /// A run with what stopped it, and when bifurcations were passed (s).
 struct Run {

@@ -3,14 +3,13 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::{Outcome, Span, is_error, run};
 use mechc::Sources;
 use mechc_syntax as syntax;
 use mechc_syntax::ast::ItemKind;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestRunner};
 use std::f64::consts::TAU;
-use crate::support::{Outcome, Span, is_error, run};
 
 /// So many mechanisms for each way to break one.
 const CASES: u32 = 10;

@@ -2,13 +2,12 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::change_points::parallelogram_of_names;
+use crate::support::{Disk, Outcome, all_rows, follow};
 use mechc::{Cancel, Choice, Compiled, Memory, Parsed, Redundant, RunOptions, Times};
 use mechc_expr::math;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fs;
-use crate::support::change_points::parallelogram_of_names;
-use crate::support::{Disk, Outcome, all_rows, follow};
 
 /// A row that is right may be off by this part of a number.
 const EXACT: f64 = 1e-9;

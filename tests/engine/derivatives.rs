@@ -2,13 +2,12 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::random::Random;
+use crate::support::{Span, compile, files, run, stem};
 use mechc_expr::math;
 use mechc_expr::{Binary, ExprId, Graph, MotionLaw, Symbol, Unary};
 use mechc_ir::ConstraintSystem;
 use std::fs;
-use crate::support::random::Random;
-use crate::support::{Span, compile, files, run, stem};
 
 const X: Symbol = Symbol::Coordinate { index: 0, order: 0 };
 const Y: Symbol = Symbol::Coordinate { index: 1, order: 0 };

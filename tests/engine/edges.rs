@@ -4,10 +4,10 @@
 
 use crate::support;
 
-use mechc::{Diagnostic, RunOptions, Times};
-use mechc_expr::math;
 use crate::support::random::Random;
 use crate::support::{Outcome, Span, compile_without_redundant, follow, run};
+use mechc::{Diagnostic, RunOptions, Times};
+use mechc_expr::math;
 
 /// A block on a slide that is driven, in metres, over two seconds in steps of a tenth.
 fn slide(declarations: &str, formula: &str) -> Outcome {

@@ -2,10 +2,9 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::{Outcome, Span, run};
 use mechc_expr::math::{cos, sin, sqrt};
 use std::f64::consts::{PI, TAU};
-use crate::support::{Outcome, Span, run};
 
 /// A value with its first and second derivative.
 type Jet = [f64; 3];

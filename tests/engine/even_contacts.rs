@@ -2,10 +2,9 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::{Span, compiled, passing, run};
 use mechc_expr::math;
 use std::f64::consts::{PI, TAU};
-use crate::support::{Span, compiled, passing, run};
 
 /// Output steps, coarse and fine (s).
 const STEPS: [f64; 4] = [2.5, 0.5, 0.1, 0.01];

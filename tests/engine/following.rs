@@ -8,12 +8,12 @@ use crate::support;
 #[path = "../emitted/compiling.rs"]
 mod compiling;
 
+use crate::support::all_rows;
 use compiling::{Emitted, printed};
 use mechc::{Choice, Memory, Parsed, RustOptions};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
-use crate::support::all_rows;
 
 fn text_of(name: &str) -> String {
     fs::read_to_string(format!("tests/following/{name}.mech")).expect("a text")

@@ -14,12 +14,12 @@ mod mechanisms;
 #[path = "../force_laws/texts.rs"]
 mod texts;
 
+use crate::support::Outcome;
+use crate::support::random::Random;
 use free_bodies::{Moment, Row, Wrench};
 use mechanisms::{ALL, Skeleton};
 use mechc::{Cancel, Choice, Memory, Parsed, Redundant, RunOptions, Times};
 use std::collections::HashMap;
-use crate::support::Outcome;
-use crate::support::random::Random;
 use texts::{Forces, Seat, Text};
 
 /// Sums that vanish are as small as this part of their largest term.

@@ -2,11 +2,10 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
-use mechc_expr::math::{atan2, hypot, sin_cos, sqrt};
-use std::f64::consts::{PI, TAU};
 use crate::support::random::Random;
 use crate::support::{Outcome, Span, run};
+use mechc_expr::math::{atan2, hypot, sin_cos, sqrt};
+use std::f64::consts::{PI, TAU};
 
 /// How far a number may be from the closed form, as a part of the largest of its column.
 const EXACT: f64 = 1e-11;

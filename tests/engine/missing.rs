@@ -2,9 +2,8 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
-use proptest::prelude::*;
 use crate::support::{Outcome, Span, run};
+use proptest::prelude::*;
 
 /// A crank that turns steadily, with what is measured.
 fn crank(declarations: &str) -> Outcome {

@@ -2,13 +2,12 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
-use mechc::{Diagnostics, RunOptions, Times};
-use mechc_expr::math;
-use std::f64::consts::{FRAC_PI_2, PI};
 use crate::support::change_points::{equal_rods, parallelogram};
 use crate::support::random::Random;
 use crate::support::{Outcome, compile, follow};
+use mechc::{Diagnostics, RunOptions, Times};
+use mechc_expr::math;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// What is promised of a row in place, velocity and acceleration, beside its size or 1.
 const RIGHT: [f64; 3] = [1e-9, 1e-8, 1e-6];

@@ -4,11 +4,10 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 #![allow(clippy::disallowed_methods)] // what is written into a text needs no bits of its own
 
-
+use crate::support::{Outcome, Span, run};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use std::fmt::Write;
-use crate::support::{Outcome, Span, run};
 
 /// The same mechanism, written otherwise.
 #[derive(Clone, Copy, Debug)]

@@ -2,16 +2,15 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
 #[path = "../emitted/compiling.rs"]
 mod compiling;
 
+use crate::support::all_rows;
 use compiling::{bits_of, compile};
 use mechc::{Cancel, Choice, Compiled, Memory, Parsed, Redundant, RustOptions};
 use std::fmt::Write;
 use std::fs;
 use std::process::Command;
-use crate::support::all_rows;
 
 /// What is set, as the command line and as Rust have it (SI).
 const SET: [(&str, &str, f64); 12] = [

@@ -2,11 +2,10 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
-use mechc::{Cancel, Choice, Compiled, Diagnostics, Memory, Parsed, Redundant, RunOptions, Times};
-use mechc_expr::math::{cos, sin};
 use crate::support::all_rows;
 use crate::support::table::Table;
+use mechc::{Cancel, Choice, Compiled, Diagnostics, Memory, Parsed, Redundant, RunOptions, Times};
+use mechc_expr::math::{cos, sin};
 
 const CLOSE: f64 = 1e-9;
 

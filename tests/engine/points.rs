@@ -2,13 +2,12 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::{Outcome, Span, compile, run};
 use mechc::{Choice, Memory, Parsed, RustOptions, Sources};
 use mechc_expr::math;
 use mechc_syntax as syntax;
 use std::f64::consts::PI;
 use std::fs;
-use crate::support::{Outcome, Span, compile, run};
 
 /// The values of measures at the start, beside declarations, with the ground's points in `ground` and a body `arm` that rests there.
 fn values(declarations: &str, ground: &str, measures: &[&str]) -> Vec<f64> {

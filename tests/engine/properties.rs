@@ -2,7 +2,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::{Outcome, Span, analyse, compile_number, files, run, stem};
 use mechc::{Compiled, Sources};
 use mechc_expr::math;
 use mechc_expr::{Binary, Comparison, Dependence, ExprId, Graph, MotionLaw, Node, Symbol, Unary};
@@ -12,7 +12,6 @@ use proptest::test_runner::{Config, RngSeed, TestRunner};
 use rustc_hash::FxHashMap;
 use std::f64::consts::{PI, TAU};
 use std::fs;
-use crate::support::{Outcome, Span, analyse, compile_number, files, run, stem};
 
 /// As many cases, the same ones on every run, and no files.
 fn config(cases: u32) -> Config {

@@ -2,9 +2,8 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
-use mechc_expr::math;
 use crate::support::{Span, run};
+use mechc_expr::math;
 
 /// Output steps, coarse and fine (s).
 const STEPS: [f64; 4] = [10.0, 1.0, 0.1, 0.013];

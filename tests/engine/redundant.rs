@@ -7,13 +7,13 @@
 
 use crate::support;
 
+use crate::support::{Outcome, Span, analyse, compile_without_redundant, follow};
 use mechc::{RunOptions, Times};
 use nalgebra::{DMatrix, DVector};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write as _;
-use crate::support::{Outcome, Span, analyse, compile_without_redundant, follow};
 
 /// Mechanisms that are drawn.
 const MECHANISMS: u64 = 16;

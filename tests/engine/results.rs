@@ -4,10 +4,10 @@
 
 use crate::support;
 
+use crate::support::compiled;
 use mechc::{Answers, RunOptions, Times};
 use mechc_expr::math::{hypot, sin_cos};
 use std::f64::consts::{PI, TAU};
-use crate::support::compiled;
 
 /// An arm of 1 m that turns by a formula of time, with declarations beside it.
 fn arm(turn: &str, declarations: &str) -> String {

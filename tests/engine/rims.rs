@@ -2,10 +2,9 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::{Outcome, Span, run};
 use mechc::Diagnostic;
 use proptest::prelude::*;
-use crate::support::{Outcome, Span, run};
 
 /// A block on a slide that is driven, in metres, over two seconds.
 fn slide(formula: &str, every: &str) -> Outcome {

@@ -2,11 +2,10 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
-use mechc::{Choice, Memory, Parsed};
-use std::fmt::Write;
 use crate::support::random::Random;
 use crate::support::{Outcome, Span, compiled, run};
+use mechc::{Choice, Memory, Parsed};
+use std::fmt::Write;
 
 /// A pendulum whose driver is a formula, with more declarations before it.
 fn pendulum(declarations: &str, formula: &str) -> String {

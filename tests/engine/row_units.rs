@@ -2,13 +2,12 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::{compile_number, compiled, files, mechanisms};
 use mechc_expr::{Binary, ExprId, Node, Symbol, Unary};
 use mechc_ir::{ConstraintSystem, CoordinateKind};
 use mechc_text::vocabulary::Dimension;
 use std::collections::HashMap;
 use std::fs;
-use crate::support::{compile_number, compiled, files, mechanisms};
 
 /// None where it may be any: a number may stand for a length, and so may a parameter that was given without a unit.
 type Known = Option<Dimension>;

@@ -8,12 +8,12 @@ use crate::support;
 #[path = "../emitted/compiling.rs"]
 mod compiling;
 
+use crate::support::{Disk, all_rows};
 use compiling::{bits_of, printed};
 use mechc::{Cancel, Choice, Compiled, Parsed, Redundant, RustOptions, Times};
 use mechc_expr::Symbol;
 use std::fs;
 use std::path::Path;
-use crate::support::{Disk, all_rows};
 
 /// Rows that are looked at.
 const ROWS: u32 = 12;

@@ -7,6 +7,8 @@
 mod generate;
 use crate::support;
 
+use crate::support::random::Random;
+use crate::support::{all_rows, compile, compiled, files, stem};
 use mechc::{Cancel, Compiled, TOLERANCE, Times, Vectors};
 use mechc_engine::analysis::{self, Horizon};
 use mechc_engine::solver::{Batch, Bend, Lanes, Segment, Solver};
@@ -14,8 +16,6 @@ use mechc_ir::program::Stage;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
-use crate::support::random::Random;
-use crate::support::{all_rows, compile, compiled, files, stem};
 
 fn rows(compiled: &Compiled, times: &Times) -> Vec<Vec<f64>> {
     let (rows, stop) = all_rows(compiled, times);

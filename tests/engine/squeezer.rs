@@ -4,9 +4,8 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
-use std::fs;
 use crate::support::{Outcome, Span, run};
+use std::fs;
 
 const TEXT: &str = "tests/forces/andrews_squeezer.mech";
 

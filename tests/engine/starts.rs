@@ -3,10 +3,9 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 #![allow(clippy::disallowed_methods)] // closed forms of its own are what makes it independent
 
-
+use crate::support::random::Random;
 use mechc::{Cancel, Choice, Compiled, Diagnostics, Memory, Parsed, Redundant, RunOptions, Times};
 use std::f64::consts::{PI, TAU};
-use crate::support::random::Random;
 
 fn compiled(text: &str) -> Compiled {
     let checked = Parsed::of("drawn.mech", text).check(&Choice::default(), &Memory::default());

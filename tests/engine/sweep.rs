@@ -4,8 +4,8 @@
 
 use crate::support;
 
-use mechc::{Cancel, Choice, Memory, Method, Parsed, Redundant, RunOptions, Status, SweepOptions, VaryOptions};
 use crate::support::swept::{bits, bits_of, compare, count, join, subject, vary};
+use mechc::{Cancel, Choice, Memory, Method, Parsed, Redundant, RunOptions, Status, SweepOptions, VaryOptions};
 
 /// A four-bar, whose crank turns fully where it is shortest and shortest and longest together are no longer than the other two.
 const FOUR_BAR: &str = "mechanism four_bar {

@@ -2,12 +2,11 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::all_rows;
+use crate::support::change_points::parallelogram_of_names;
 use mechc::{Answers, Cancel, Choice, Compiled, Memory, Parsed, Redundant, RunOptions, RustOptions, Times};
 use mechc_expr::math::{cos, sin};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use crate::support::all_rows;
-use crate::support::change_points::parallelogram_of_names;
 
 fn compile(text: &str, redundant: Redundant) -> Compiled {
     let checked = Parsed::of("m.mech", text).check(&Choice::default(), &Memory::default());

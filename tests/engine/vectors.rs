@@ -3,7 +3,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::{compile_number, compiled, files, mechanisms, stem};
 use mechc::{Compiled, RunOptions, Times, Vectors};
 use mechc_expr::math;
 use mechc_expr::{Binary, Comparison, Unary, binary_value, compare, unary_value};
@@ -12,7 +12,6 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, TestRunner};
 use std::fs;
-use crate::support::{compile_number, compiled, files, mechanisms, stem};
 
 const LANES: usize = 16;
 /// And lanes that are gone through together.

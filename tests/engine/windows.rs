@@ -2,13 +2,12 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::compiled;
+use crate::support::swept::{bits, subject, vary};
 use mechc::{Answers, Choice, Memory, RunOptions, Status, SweepOptions, Times};
 use mechc_expr::math::{cos, sin};
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2, PI};
 use std::fmt::Write;
-use crate::support::compiled;
-use crate::support::swept::{bits, subject, vary};
 
 /// An arm of 1 m that turns once a second, with results and params beside it.
 fn arm(declarations: &str) -> String {

@@ -3,12 +3,11 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::{Span, files, is_error, run_in, stem};
 use mechc::{Applies, Code, Diagnostic, Diagnostics, Fix, Parsed, Sources, fixed};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use crate::support::{Span, files, is_error, run_in, stem};
 
 /// A text with the file it is in, or stands for.
 struct Case {

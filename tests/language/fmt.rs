@@ -5,15 +5,15 @@
 
 use crate::support;
 
+use crate::support::blocks::blocks;
+use crate::support::files;
+use crate::support::random::Random;
+use crate::support::shape::file_shape;
 use mechc::{Edit, Parsed, Sources, Span};
 use mechc_syntax::parse;
 use proptest::prelude::*;
 use std::fs;
 use std::path::{Path, PathBuf};
-use crate::support::blocks::blocks;
-use crate::support::files;
-use crate::support::random::Random;
-use crate::support::shape::file_shape;
 
 /// A text without its white space and the commas behind last items; and its comments.
 fn essence(text: &str) -> (String, Vec<String>) {

@@ -2,7 +2,8 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::files;
+use crate::support::shape::{file_shape, shape};
 use mechc::{Color, Diagnostics, Format, render};
 use mechc::{Sources, Span};
 use mechc_syntax::ast::File;
@@ -11,8 +12,6 @@ use mechc_syntax::format::expression;
 use mechc_syntax::{ParsedText, format, parse, parse_expression};
 use proptest::prelude::*;
 use std::fs;
-use crate::support::files;
-use crate::support::shape::{file_shape, shape};
 
 // ---- files
 

@@ -5,6 +5,8 @@
 #[path = "../matlab/mod.rs"]
 mod matlab;
 
+use crate::support::random::Random;
+use crate::support::{Span, run};
 use mechc::Sources;
 use mechc::{Code, Color, Diagnostics, Format, Severity, render};
 use mechc_lang::check;
@@ -12,8 +14,6 @@ use mechc_syntax::import;
 use mechc_syntax::{self as syntax, ast};
 use proptest::prelude::*;
 use std::fmt::Write;
-use crate::support::random::Random;
-use crate::support::{Span, run};
 
 /// What became of a model.
 struct Imported {

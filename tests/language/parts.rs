@@ -3,13 +3,12 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 #![allow(clippy::case_sensitive_file_extension_comparisons)] // `.d` ends a column
 
-
-use mechc::{Cancel, Choice, Parsed, Redundant, RunOptions, Sources, Times};
-use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
 use crate::support::random::Random;
 use crate::support::table::Table;
 use crate::support::{Disk, files};
+use mechc::{Cancel, Choice, Parsed, Redundant, RunOptions, Sources, Times};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
 
 /// How far a number of a part may be from what it is alone: of the larger of its range and the distance of the mount.
 const SAME: f64 = 1e-10;

@@ -4,11 +4,11 @@
 
 use crate::support;
 
+use crate::support::{Span, compiled, run};
 use mechc_expr::math::sin_cos;
 use std::f64::consts::{PI, TAU};
 use std::fs;
 use std::process::Command;
-use crate::support::{Span, compiled, run};
 
 /// An arm of 50 mm that turns once a second, with what is measured beside it.
 fn arm(declarations: &str) -> String {

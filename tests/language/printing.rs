@@ -2,12 +2,11 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::reading::{self, BINARIES, Names, UNARIES, parse};
 use mechc_expr::{Comparison, ExprId, Graph, Printer, Symbol, TableId};
 use mechc_syntax::ast;
 use proptest::prelude::*;
 use std::collections::HashMap;
-use crate::support::reading::{self, BINARIES, Names, UNARIES, parse};
 
 const COMPARISONS: [Comparison; 3] = [Comparison::Less, Comparison::LessEqual, Comparison::Equal];
 

@@ -2,10 +2,9 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::random::Random;
 use mechc::{Cancel, Choice, Memory, Parsed, Redundant, RustOptions};
 use std::collections::{BTreeMap, BTreeSet};
-use crate::support::random::Random;
 
 /// Texts with additions, some of which cannot be.
 const TRIALS: u64 = 90;

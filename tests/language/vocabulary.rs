@@ -2,13 +2,12 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::{Span, compile, compiled, run};
 use mechc_ir::DeclarationKind;
 use mechc_text::vocabulary::{self, Category, KEYWORDS, Keyword, OVERVIEWS, Place, Role, SYNONYMS, Synonym, Unit};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::fs;
-use crate::support::{Span, compile, compiled, run};
 
 /// The words in quotes of one rule of the grammar.
 fn words_of_rule(rule: &str) -> BTreeSet<String> {

@@ -5,12 +5,11 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::listed::Tests;
+use crate::support::{Outcome, Span, files, mechanisms, run, run_number, stem};
 use assert_cmd::Command;
 use std::fs;
 use std::path::{Path, PathBuf};
-use crate::support::listed::Tests;
-use crate::support::{Outcome, Span, files, mechanisms, run, run_number, stem};
 
 /// What the size of its coordinates leaves of a case's digits: 1e6 m is known to 1e-10 m.
 const COARSER: &[(&str, f64)] = &[("far_away", 2e-8)];

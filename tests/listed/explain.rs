@@ -5,10 +5,10 @@
 
 use crate::support;
 
-use mechc::{Code, Severity};
-use std::fs;
 use crate::support::listed::Tests;
 use crate::support::{Span, files, run, stem};
+use mechc::{Code, Severity};
+use std::fs;
 
 /// The parts of a page below its introduction; the last one may be missing.
 const PARTS: [&str; 4] = ["An example that fails", "Why", "Mended", "See also"];

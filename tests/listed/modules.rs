@@ -4,20 +4,19 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
 #[path = "../emitted/compiling.rs"]
 mod compiling;
 #[path = "../emitted/texts.rs"]
 mod texts;
 
+use crate::support::listed::{Tests, is_asked_for};
+use crate::support::{files, mechanisms, stem};
 use compiling::{Emitted, POINTS, bits_of, compile, interpreted, point};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Arc, OnceLock};
-use crate::support::listed::{Tests, is_asked_for};
-use crate::support::{files, mechanisms, stem};
 
 /// Modules that one run of rustc compiles: few, so that several runs share the machine, and enough that they are not many.
 const BATCH: usize = 12;

@@ -5,15 +5,14 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::listed::Tests;
+use crate::support::{Disk, all_rows, files, mechanisms, stem};
 use mechc::{Cancel, Choice, Compiled, Parsed, Redundant, Times};
 use mechc_engine::analysis::{self, Horizon};
 use mechc_ir::{BodyId, ConstraintSystem, Param};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
-use crate::support::listed::Tests;
-use crate::support::{Disk, all_rows, files, mechanisms, stem};
 
 /// Numbers of a text that are made parameters, at most.
 const MOST: usize = 6;

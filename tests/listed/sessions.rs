@@ -3,12 +3,11 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
-use std::fs;
-use std::path::{Path, PathBuf};
 use crate::support::blocks::blocks;
 use crate::support::listed::Tests;
 use crate::support::{Span, files, run, stem};
+use std::fs;
+use std::path::{Path, PathBuf};
 
 /// Pages beside `docs`.
 const PAGES: [&str; 1] = ["README.md"];

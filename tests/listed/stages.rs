@@ -3,13 +3,12 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::listed::Tests;
+use crate::support::{Span, files, run, stem};
 use mechc::{Choice, Memory, Parsed};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
-use crate::support::listed::Tests;
-use crate::support::{Span, files, run, stem};
 
 fn every_stage_is_as_in_its_snapshot(path: &Path) {
     let folder = path.parent().expect("a folder");

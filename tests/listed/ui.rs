@@ -4,12 +4,11 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::listed::Tests;
+use crate::support::{Outcome, Span as Times, files, run_in, stem};
 use mechc::Span;
 use std::fs;
 use std::path::Path;
-use crate::support::listed::Tests;
-use crate::support::{Outcome, Span as Times, files, run_in, stem};
 
 /// `(line, code)` of every marker.
 fn markers(text: &str) -> Vec<(usize, String)> {

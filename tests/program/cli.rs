@@ -2,12 +2,11 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::random::Random;
 use assert_cmd::Command;
 use std::fs;
 use std::io::Write;
 use std::path::Path;
-use crate::support::random::Random;
 
 fn mechc() -> Command {
     Command::new(env!("CARGO_BIN_EXE_mechc"))

@@ -2,13 +2,12 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::{Span, compile_number, files, run_number};
 use assert_cmd::Command;
 use mechc::{CrateFile, MARK, RustOptions};
 use std::collections::{BTreeMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use crate::support::{Span, compile_number, files, run_number};
 
 const SLIDER_CRANK: &str = "examples/slider_crank.mech";
 

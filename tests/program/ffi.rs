@@ -3,13 +3,12 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::{all_rows, compile_number};
 use mechc::{CrateFile, RustOptions};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use crate::support::{all_rows, compile_number};
 
 const C: [&str; 6] = ["-std=c99", "-Wall", "-Wextra", "-Wconversion", "-Werror", "-pedantic"];
 const CPP: [&str; 6] = ["-std=c++11", "-Wall", "-Wextra", "-Wconversion", "-Werror", "-pedantic"];

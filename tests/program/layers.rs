@@ -2,15 +2,14 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
 #[path = "../layers/links.rs"]
 mod links;
 
+use crate::support::{files, sources};
 use links::{Crate, Names};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use crate::support::{files, sources};
 
 /// Links that close a circle between files of one crate: none more, and each that is gone goes from here too.
 const CIRCLES: &[(&str, &str)] = &[("build", "formula")];

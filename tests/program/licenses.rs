@@ -47,13 +47,14 @@ fn carried() -> Vec<Carried> {
         let folder = Path::new(&text("manifest_path")).parent().expect("a folder").to_owned();
         folders.insert(format!("{} {}", text("name"), text("version")), (text("license"), folder));
     }
-    let mut tree = vec!["tree", "-e", "normal,no-proc-macro", "--prefix", "none", "--format", "{p}"];
+    let mut tree =
+        vec!["tree", "--package", "mechc", "-e", "normal,no-proc-macro", "--prefix", "none", "--format", "{p}"];
     tree.extend(PLATFORMS.iter().flat_map(|platform| ["--target", platform]));
     let tree = cargo(&tree);
     let mut names: Vec<String> = tree.lines().filter_map(name_of).collect();
     names.sort();
     names.dedup();
-    let carried = names.into_iter().filter(|name| !name.starts_with("mechc ")).map(|name| {
+    let carried = names.into_iter().filter(|name| !name.starts_with("mechc")).map(|name| {
         let (licence, folder) = folders.remove(&name).expect("a package");
         Carried { name, licence, folder }
     });

@@ -8,6 +8,8 @@
 mod exports;
 use crate::support;
 
+use crate::support::random::Random;
+use crate::support::{Disk, files, stem};
 use mechc::{
     Cancel, Checked, Choice, Code, Compiled, CurveTolerance, Diagnostic, Diagnostics, Parsed, Redundant, RunOptions,
     Seen, Sources, Times,
@@ -24,8 +26,6 @@ use mechc_pipeline as lower;
 use mechc_syntax as syntax;
 use std::fs;
 use std::path::Path;
-use crate::support::random::Random;
-use crate::support::{Disk, files, stem};
 
 fn compiled(path: &Path, text: &str) -> (Checked, Compiled) {
     let mut sources = Sources::default();

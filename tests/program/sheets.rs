@@ -4,13 +4,12 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 #![cfg(unix)] // signals
 
-
+use crate::support::random::Random;
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
-use crate::support::random::Random;
 
 fn mechc(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mechc"));

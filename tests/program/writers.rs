@@ -2,7 +2,10 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-
+use crate::support::random::Random;
+use crate::support::reading::{Names, parse, read};
+use crate::support::tex::Meaning;
+use crate::support::{compile_number, compile_with_forces, compiled, files, mechanisms, stem};
 use assert_cmd::Command;
 use mechc::Compiled;
 use mechc_emit as emit;
@@ -12,10 +15,6 @@ use serde_json::Value;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::fs;
-use crate::support::random::Random;
-use crate::support::reading::{Names, parse, read};
-use crate::support::tex::Meaning;
-use crate::support::{compile_number, compile_with_forces, compiled, files, mechanisms, stem};
 
 struct Emitted {
     name: String,
