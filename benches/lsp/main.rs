@@ -2,7 +2,7 @@
 
 #![allow(clippy::expect_used, clippy::panic)] // a benchmark that cannot run says so by panicking
 
-#[path = "../../tests/lsp/pipe.rs"]
+#[path = "../../tests/program/lsp/pipe.rs"]
 mod pipe;
 
 use pipe::Pipe;

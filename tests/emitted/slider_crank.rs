@@ -4138,7 +4138,7 @@ pub mod without_branches {
 
 use super::sine_and_cosine::{cos_near_zero, reduce_small, sin_near_zero};
 
-/// Sine and cosine of an angle (rad) whose size is below a million: the bits of [`sin_cos`](super::sin_cos).
+/// Sine and cosine of an angle (rad) whose size is below a million: the bits of `sin_cos`.
 #[must_use]
 #[inline]
 pub fn sin_cos_below_a_million(angle: f64) -> (f64, f64) {

@@ -2,22 +2,11 @@
 //! is alone. The fuzzer makes the same texts (`fuzz/src`), and more of them.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
-#![allow(dead_code)] // what is shared with the fuzzer is not all used here
-#![allow(clippy::pedantic, clippy::disallowed_methods)] // it is written for the fuzzer, which knows nothing of these
 
-#[path = "../../fuzz/src/composed.rs"]
-mod composed;
-#[path = "../../fuzz/src/generate.rs"]
-mod generate;
-#[path = "../../fuzz/src/oracles.rs"]
-mod oracles;
-#[path = "../support/random.rs"]
-mod random;
-
-use composed::composed;
+use crate::fuzz::composed::composed;
+use crate::fuzz::oracles::{a_part_is_what_it_is_alone, repetition_is_what_is_written_out};
+use crate::support::random::Random;
 use mechc::{Choice, Memory, Parsed};
-use oracles::{a_part_is_what_it_is_alone, repetition_is_what_is_written_out};
-use random::Random;
 use std::time::{Duration, Instant};
 
 /// Texts that are tried.

@@ -5,11 +5,8 @@
 
 use crate::support;
 
-#[path = "../emitted/compiling.rs"]
-mod compiling;
-
+use crate::compiling::{Emitted, printed};
 use crate::support::all_rows;
-use compiling::{Emitted, printed};
 use mechc::{Choice, Memory, Parsed, RustOptions};
 use std::fmt::Write;
 use std::fs;

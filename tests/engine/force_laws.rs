@@ -7,11 +7,8 @@
 
 use crate::support;
 
-#[path = "../force_laws/free_bodies.rs"]
 mod free_bodies;
-#[path = "../force_laws/mechanisms.rs"]
 mod mechanisms;
-#[path = "../force_laws/texts.rs"]
 mod texts;
 
 use crate::support::Outcome;

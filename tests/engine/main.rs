@@ -2,6 +2,8 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
+#[path = "../emitted/compiling.rs"]
+mod compiling;
 #[path = "../support/mod.rs"]
 mod support;
 
@@ -19,6 +21,7 @@ mod elements;
 mod even_contacts;
 mod following;
 mod force_laws;
+mod fuzz;
 mod inputs;
 mod led;
 mod measured;

@@ -2,11 +2,8 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-#[path = "../emitted/compiling.rs"]
-mod compiling;
-
+use crate::compiling::{bits_of, compile};
 use crate::support::all_rows;
-use compiling::{bits_of, compile};
 use mechc::{Cancel, Choice, Compiled, Memory, Parsed, Redundant, RustOptions};
 use std::fmt::Write;
 use std::fs;

@@ -5,11 +5,8 @@
 
 use crate::support;
 
-#[path = "../emitted/compiling.rs"]
-mod compiling;
-
+use crate::compiling::{bits_of, printed};
 use crate::support::{Disk, all_rows};
-use compiling::{bits_of, printed};
 use mechc::{Cancel, Choice, Compiled, Parsed, Redundant, RustOptions, Times};
 use mechc_expr::Symbol;
 use std::fs;

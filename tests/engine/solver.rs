@@ -2,10 +2,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-#[path = "../../fuzz/src/generate.rs"]
-#[allow(dead_code, clippy::pedantic, clippy::disallowed_methods)] // it is the fuzzer's
-mod generate;
-use crate::support;
+use crate::{fuzz, support};
 
 use crate::support::random::Random;
 use crate::support::{all_rows, compile, compiled, files, stem};
@@ -74,7 +71,7 @@ fn a_row_has_the_same_bits_whichever_others_are_asked_for() {
 fn made(seed: u64) -> String {
     let mut random = Random::new(seed);
     let bytes: Vec<u8> = (0..600).map(|_| random.below(255) as u8).collect();
-    let text = generate::text(&bytes);
+    let text = fuzz::generate::text(&bytes);
     let mut heavy = String::new();
     for line in text.lines() {
         heavy += line;

@@ -62,7 +62,7 @@ pub fn list(tests: &mut Tests) {
     tests.each("sessions", with_sessions(files("tests/cli", "trycmd")), 8, |path| prints_what_it_says(&path));
     tests.each("sessions", with_sessions(pages.clone()), 3, |path| prints_what_it_says(&path));
     tests.each("sessions", with_sessions(files("crates/text/src/diag/explain", "md")), 5, |path| {
-        prints_what_it_says(&path)
+        prints_what_it_says(&path);
     });
     tests.each("blocks", named(pages), 5, |path| has_blocks_that_hold(&path));
 }

@@ -3,13 +3,10 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
-#[path = "../editors/agree.rs"]
 mod agree;
-#[path = "../support/golden.rs"]
-mod golden;
-#[path = "../editors/words.rs"]
 mod words;
 
+use crate::support::golden;
 use std::fs;
 
 /// A file of `editors/` is what it is made of.

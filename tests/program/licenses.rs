@@ -3,9 +3,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
-#[path = "../support/golden.rs"]
-mod golden;
-
+use crate::support::golden;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;

@@ -3,19 +3,12 @@
 #![cfg(feature = "lsp")]
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
-#[path = "../lsp/client.rs"]
 mod client;
-#[path = "../lsp/disk.rs"]
 mod disk;
-#[path = "../lsp/live.rs"]
 mod live;
-#[path = "../lsp/memory.rs"]
 mod memory;
-#[path = "../lsp/pipe.rs"]
 mod pipe;
-#[path = "../lsp/storms.rs"]
 mod storms;
-#[path = "../lsp/writing.rs"]
 mod writing;
 
 use client::Client;

@@ -4,7 +4,6 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-#[path = "../pictures/exports.rs"]
 mod exports;
 use crate::support;
 

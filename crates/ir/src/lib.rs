@@ -9,7 +9,7 @@
 //! - acceleration: `Φ_q q̈ = γ`, `γ = −(Φ_q q̇)_q q̇ − 2 Φ_qt q̇ − Φ_tt`;
 //! - jerk:         `Φ_q q⃛ = ` [`ConstraintSystem::jerk`], where a measure needs it.
 //!
-//! Where inputs are signals `u(t)`, `Φ(q, u; p) = 0` and time is one of them; then `Φ_q q_u = −Φ_u` too ([`signals`]).
+//! Where inputs are signals `u(t)`, `Φ(q, u; p) = 0` and time is one of them; then `Φ_q q_u = −Φ_u` too (`signals`).
 //!
 //! `Φ` is what `lower` wrote; all else is derived from it by the rules of `expr`. Symbols of the graph are parameters,
 //! time, and coordinates with their derivatives; no named symbol is left.

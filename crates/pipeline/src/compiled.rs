@@ -231,7 +231,7 @@ impl Compiled {
 
     /// Lays out the operations, which the first run would do.
     pub fn prepare(&self) {
-        self.program();
+        let _ = self.program();
     }
 
     /// The equations typeset for a report; the file is named in it.

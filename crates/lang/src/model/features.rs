@@ -84,7 +84,7 @@ pub struct Curve {
     pub span: Span,
     /// The name of its argument, a pure number.
     pub argument: String,
-    /// Its points in the frame (m), with [`Named::Argument`] for the argument.
+    /// Its points in the frame (m), with `Named::Argument` for the argument.
     pub at: [ExprId; 2],
     /// First estimate of the argument at a contact.
     pub estimate: Option<ExprId>,

@@ -63,7 +63,7 @@ pub fn before_ways(
     Leader::new(determined, program, Solving::New, options).whole(WAY).assemble_at(stands, Solving::New)
 }
 
-/// As [`lead`], to the end of the way alone, from where one of the same mechanism was begun by [`before_ways`], and by the solver of that.
+/// Leads a mechanism to the end of its path, from the start and with the solver that [`before_ways`] made for the same mechanism.
 ///
 /// # Errors
 /// It cannot be assembled at 0.

@@ -1,15 +1,11 @@
 //! Whatever is typed and asked in whatever order: each request is answered once, nothing breaks, and afterwards the server knows what
 //! one does that was just started.
 
-#[path = "../support/random.rs"]
-#[allow(dead_code)] // made for several tests
-mod random;
-
 use super::client::Client;
+use crate::support::random::Random;
 use mechc::{Cancel, Contents, World};
 use mechc_ide::lsp::methods;
 use mechc_ide::{self as ide, DiagnosticStage, Snapshot};
-use random::Random;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io;

@@ -5,7 +5,7 @@ use serde_json::json;
 use std::path::Path;
 
 const URI: &str = "file:///work/jansen_leg.mech";
-const TEXT: &str = include_str!("../../examples/jansen_leg.mech");
+const TEXT: &str = include_str!("../../../examples/jansen_leg.mech");
 
 /// Edits before anything is measured: caches are filled, and the allocator has what it takes.
 const BEFORE: usize = 1_000;

@@ -9,8 +9,6 @@ pub type Names = Vec<String>;
 
 /// One file of the crate.
 pub struct File {
-    /// `analysis/state/trust.rs`.
-    pub place: String,
     /// Its code without comments and its own tests.
     pub code: String,
     /// What its `use` lines name, and whether they hand it on.
@@ -32,7 +30,7 @@ impl Crate {
             let text = fs::read_to_string(path).expect("a text");
             let code = without_tests(text.lines().filter(|line| !line.trim_start().starts_with("//")));
             let code = as_of_the_file(&code);
-            files.insert(module_of(&place), File { place, code, uses: Vec::new(), body: String::new() });
+            files.insert(module_of(&place), File { code, uses: Vec::new(), body: String::new() });
         }
         let modules: BTreeSet<Names> = files.keys().cloned().collect();
         for (module, file) in &mut files {
