@@ -1,7 +1,7 @@
 //! What a step costs: position, velocity and acceleration of all bodies at one output time.
 //!
 //! ```sh
-//! cargo bench --bench steps
+//! cargo bench -p mechc-benches
 //! ```
 //!
 //! `docs/speed.md` tells how to read what it prints. Before anything is timed, the ways that are compared must agree.
@@ -9,25 +9,24 @@
 #![allow(clippy::expect_used, clippy::panic)] // a bench fails by panicking
 #![allow(clippy::default_constructed_unit_structs)] // this four-bar has no parameters, others have
 
-#[allow(clippy::pedantic, dead_code, unused_imports)] // code of another hand
-#[rustfmt::skip]
-mod andrews;
 mod closed_form;
 mod copies;
-#[allow(clippy::pedantic, dead_code, unused_imports)] // code of another hand
-#[rustfmt::skip]
-mod four_bar;
-#[allow(clippy::pedantic, dead_code, unused_imports)]
-#[rustfmt::skip]
-mod followed;
 mod forces;
-#[allow(clippy::pedantic, dead_code, unused_imports)]
-#[rustfmt::skip]
-mod jansen;
 mod mechanisms;
 mod newton;
 mod sweeps;
 mod timing;
+
+/// Emitted modules, each in one of its own, that `emit.rs` has made.
+macro_rules! emitted_modules {
+    ($($name:ident),*) => {$(
+        #[allow(clippy::all, clippy::pedantic, clippy::disallowed_methods, dead_code, missing_docs, unused_imports)] // generated
+        mod $name {
+            include!(concat!(env!("OUT_DIR"), "/", stringify!($name), ".rs"));
+        }
+    )*};
+}
+emitted_modules!(andrews, followed, four_bar, jansen);
 
 use closed_form::closed_form;
 use mechanisms::compile;

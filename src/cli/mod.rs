@@ -1,6 +1,6 @@
 //! The command line: arguments to pipeline, diagnostics to the terminal, results to files.
 //!
-//! The only room that touches files, the environment and the terminal. A file per command.
+//! The only module that touches files, the environment and the terminal. A file per command.
 
 mod arguments;
 mod check;

@@ -105,23 +105,12 @@ fn what_is_generated_for_each_construct_is_as_a_reviewer_has_read_it() {
     }
 }
 
-/// Whole modules: what tests here and the benchmark run.
-const GOLDENS: [&str; 5] = ["slider_crank", "four_bar", "followed", "andrews", "jansen"];
-
+/// A whole module, which tests here run.
 #[test]
-fn goldens_are_what_is_emitted() {
-    for name in GOLDENS {
-        let (path, input, lanes) = match name {
-            "four_bar" => ("benches/steps/four_bar.rs", "benches/steps/four_bar.mech", Some(16)),
-            "followed" => ("benches/steps/followed.rs", "tests/following/four_bar.mech", None),
-            "andrews" => ("benches/steps/andrews.rs", "benches/steps/andrews.mech", None),
-            "jansen" => ("benches/steps/jansen.rs", "benches/steps/jansen.mech", None),
-            _ => ("tests/emitted/slider_crank.rs", "tests/stages/slider_crank/input.mech", Some(4)),
-        };
-        let of = if name == "followed" { "four_bar" } else { name };
-        let emitted = Emitted::new(of.to_owned(), Path::new(input), 0).expect("determined");
-        support::golden::holds(path, &emitted.text(lanes));
-    }
+fn the_golden_is_what_is_emitted() {
+    let path = Path::new("tests/stages/slider_crank/input.mech");
+    let emitted = Emitted::new("slider_crank".to_owned(), path, 0).expect("determined");
+    support::golden::holds("tests/emitted/slider_crank.rs", &emitted.text(Some(4)));
 }
 
 /// Compares a golden, as cargo has compiled it, with the interpreter at a random point.

@@ -255,7 +255,7 @@ mod tests {
     fn files_name_what_goes_along_with_them() {
         for (number, file) in FILES.iter().enumerate() {
             if file.text.starts_with("// ") {
-                continue; // of another room
+                continue; // of another crate
             }
             let mut needs = named(file.text, "super::");
             needs.remove("limits");

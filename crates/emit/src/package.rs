@@ -1,7 +1,7 @@
 //! A mechanism as a whole crate: the Rust module with its manifest, its page, a test that holds it against the interpreter,
 //! and a benchmark.
 //!
-//! What the interpreter computes is handed in; this room knows of no analysis.
+//! What the interpreter computes is handed in; this module knows no analysis.
 
 use super::errors::ERRORS;
 use super::names::{Case, Namer, is_keyword};

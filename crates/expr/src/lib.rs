@@ -3,7 +3,7 @@
 //! Nodes are hash-consed, so that equal formulas are one node and sharing costs nothing; children have smaller ids
 //! than their parents, so that a walk by id needs no recursion. Constructors simplify (`build`), derivatives come
 //! from one set of rules (`derive`), values from one evaluator (`evaluate`); what is to be read is put in order first
-//! (`tidy`). What a symbol stands for is the business of the room that owns the graph.
+//! (`tidy`). What a symbol stands for is decided by the crate that owns the graph.
 
 mod build;
 mod derive;

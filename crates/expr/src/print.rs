@@ -1,6 +1,6 @@
 //! Formulas as text: by precedence, with as few parentheses as needed, in the syntax of the language.
 //!
-//! What is printed reads back to the same expression: the constructors of this room make the same nodes of it. A formula
+//! What is printed reads back to the same expression: the constructors of this crate make the same nodes of it. A formula
 //! shares its parts and a text does not, so large parts that stand in several places can be given names.
 
 use super::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary};

@@ -6,7 +6,7 @@
 //!
 //! # How a feature is added
 //!
-//! - A file in `ide/` with one public function, `pub fn hover(snapshot: &Snapshot, place: &Place) -> Option<Hover>`, plain data as its
+//! - A file in `crates/ide/src` with one public function, `pub fn hover(snapshot: &Snapshot, place: &Place) -> Option<Hover>`, plain data as its
 //!   answer, and its tests: a text with a cursor (`$0`, see `testing.rs`) and the answer as the user sees it, in one snapshot of `insta`.
 //! - Its module and its public names here.
 //! - In `lsp/answers.rs` a function that reads the request's params, calls the feature and turns the answer into the protocol's words,

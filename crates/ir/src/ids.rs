@@ -1,7 +1,7 @@
 //! Which body, which point, which declaration: numbers that cannot be mistaken for each other, and lists that only take their own.
 //!
 //! Rows and coordinates have no such types. Their numbers are places in `Φ` and `q`, and so in every vector and matrix of numbers behind
-//! this room, where each would only be unwrapped again.
+//! this crate, where each would only be unwrapped again.
 
 use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut, Index, IndexMut};

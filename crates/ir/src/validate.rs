@@ -1,4 +1,4 @@
-//! What must hold of a constraint system, put to the test. What passes here, the rooms behind take without asking.
+//! What must hold of a constraint system, put to the test. What passes here, later stages accept without checks.
 //!
 //! Looked at: that all ids and symbols are of something; poses, rows and their units, `Φ_q`, right sides; variations, those of results
 //! too, with their right sides; multipliers, reductions; which symbols may stand in `Φ`, in what is fixed, in what is watched. Not looked

@@ -1,4 +1,4 @@
-//! The page of what was seen: what each room knows, put together.
+//! The page of what was seen: what each crate knows, put together.
 
 use mechc_draw::view::page::{Column, Page, Variant, Vary};
 use mechc_draw::view::svg;

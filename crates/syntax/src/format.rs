@@ -11,7 +11,7 @@
 //!
 //! A tree that was never written down is printed without care for lines, and then laid out as any text ([`format()`]).
 //!
-//! This room knows how things are written, not what they mean: a text that `check` would refuse is formatted as well.
+//! This module knows how things are written, not what they mean: a text that `check` would refuse is formatted as well.
 
 mod columns;
 mod expression;

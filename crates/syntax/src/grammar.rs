@@ -1,4 +1,4 @@
-//! The parser that `grammar/mech.pest` generates. Everything else in this room is built on it and on [`super::tokens`].
+//! The parser that `grammar/mech.pest` generates. Everything else in this crate is built on it and on [`super::tokens`].
 
 pub(super) use generated::{Grammar, Rule};
 

@@ -1,6 +1,6 @@
 //! Text to tree: what was written, with its places, and no meaning. And back: [`format()`].
 //!
-//! The grammar is `grammar/mech.pest`; the words in it are those of `vocabulary`. This room knows words and precedences; it
+//! The grammar is `grammar/mech.pest`; the words in it are those of `vocabulary`. This crate knows words and precedences; it
 //! does not know which names exist, or what a joint is.
 
 // what pest generates without its `std` asks for it

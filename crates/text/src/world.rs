@@ -1,6 +1,6 @@
 //! Where the files are that a text names: on a disk, in an editor's open buffers, in a browser, in a test.
 //!
-//! The only way in which a pure room reaches a file.
+//! The only way in which a library crate reaches a file.
 
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Sources, Span};

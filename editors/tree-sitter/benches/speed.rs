@@ -4,7 +4,7 @@
 mod support;
 
 use mechc::Sources;
-use mechc::rooms::syntax::parse;
+use mechc_syntax::parse;
 use std::fs;
 use std::time::{Duration, Instant};
 use support::{parser, read, texts};

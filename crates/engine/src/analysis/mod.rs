@@ -5,9 +5,9 @@
 //! Determined ──start──▶ Started ──follow──▶ a row per output time, or why it cannot go on
 //! ```
 //!
-//! Its own rooms, each of which knows only those before it:
+//! Its modules, each of which names only those before it:
 //!
-//! | room | what it is for |
+//! | module | what it is for |
 //! | --- | --- |
 //! | `state` | everything that can be said of one state: residuals, factors, derivatives, nearness to a singular position |
 //! | `explain` | why a mechanism is not determined, not assembled, or does not go on: in words |

@@ -2,7 +2,7 @@
 //!
 //! Every number on its way to a table passes through these and through `+ - * /`, which IEEE 754 fixes to the bit;
 //! the standard library's `sin` and its like do not give the same bits on every platform, so they are forbidden
-//! elsewhere (`clippy.toml`). Angles are in radians. Beside them stand what several rooms do with numbers alone: curves between the
+//! elsewhere (`clippy.toml`). Angles are in radians. Beside them stand what several crates do with numbers alone: curves between the
 //! ends of a step, searches in an interval, linear equations in blocks.
 
 mod ahead;

@@ -1,6 +1,6 @@
 //! Assembly, and the way to a start.
 
-/// Estimates of contacts (`estimates.rs`).
+/// Estimates of contacts (`crates/lang/src/estimates.rs`).
 pub mod estimates {
     /// Places on one turn that are looked at for one argument.
     pub const PLACES: usize = 720;
@@ -16,7 +16,7 @@ pub mod estimates {
     pub const SAME: f64 = 1e-12;
 }
 
-/// Newton from the estimates, and singular starts (`analysis/assemble/assembly.rs`).
+/// Newton from the estimates, and singular starts (`crates/engine/src/analysis/assemble/assembly.rs`).
 pub mod newton {
     /// Estimates from which drivers are off by no more than this, scaled, agree with them.
     pub const AGREES: f64 = 1e-6;
@@ -50,7 +50,7 @@ pub mod newton {
     pub const WITHOUT_SLOPE: f64 = 1e-5;
 }
 
-/// Damped least squares (`analysis/state/least_squares.rs`).
+/// Damped least squares (`crates/engine/src/analysis/state/least_squares.rs`).
 pub mod least_squares {
     /// Steps at most.
     pub const STEPS: usize = 300;
@@ -68,7 +68,7 @@ pub mod least_squares {
     pub const LEAST_GAIN: f64 = 1e-10;
 }
 
-/// Equations looked at one by one (`analysis/explain/evaluator.rs`).
+/// Equations looked at one by one (`crates/engine/src/analysis/explain/evaluator.rs`).
 pub mod evaluator {
     /// An equation that is off by more than this, scaled, by its slope is one whose slope vanishes.
     pub const HOPELESS: f64 = 30.0;
@@ -76,7 +76,7 @@ pub mod evaluator {
     pub const NUDGE: f64 = 0.02;
 }
 
-/// Estimates that are far off (`analysis/assemble/branches.rs`).
+/// Estimates that are far off (`crates/engine/src/analysis/assemble/branches.rs`).
 pub mod branches {
     /// A body of a loop that turned by more than this (rad) was drawn the other way round.
     pub const TURNED_OVER: f64 = std::f64::consts::FRAC_PI_2;
@@ -94,13 +94,13 @@ pub mod branches {
     pub const RANDOM_STARTS: usize = 8;
 }
 
-/// Starts of parts (`analysis/assemble/parts.rs`).
+/// Starts of parts (`crates/engine/src/analysis/assemble/parts.rs`).
 pub mod parts {
     /// Blocks up to this size are solved for the sake of parts.
     pub const LARGEST: usize = 300;
 }
 
-/// Drivers that are led from where the drawing has them to where they begin (`analysis/follow/start.rs`).
+/// Drivers that are led from where the drawing has them to where they begin (`crates/engine/src/analysis/follow/start.rs`).
 pub mod drive {
     /// Closing that moves nothing farther than this, scaled, closes what is drawn.
     pub const AS_DRAWN: f64 = 0.01;
@@ -110,7 +110,7 @@ pub mod drive {
     pub const MOST_TURNS: f64 = 100.0;
 }
 
-/// The way of inputs from their own values to those that are told (`analysis/follow/lead.rs`).
+/// The way of inputs from their own values to those that are told (`crates/engine/src/analysis/follow/lead.rs`).
 pub mod lead {
     /// How far before and behind a kink, as a part of the way, the mechanism is looked at.
     pub const BESIDE_A_KINK: f64 = 1e-9;

@@ -1,6 +1,6 @@
 //! Why a mechanism is not determined, or cannot be assembled.
 
-/// The part that is refused (`analysis/explain/determine.rs`).
+/// The part that is refused (`crates/engine/src/analysis/explain/determine.rs`).
 pub mod determine {
     /// Larger parts are not looked at with values: their equations would be a dense matrix.
     pub const LARGEST: usize = 600;
@@ -8,7 +8,7 @@ pub mod determine {
     pub const LARGEST_ALLOWED: usize = 1500;
 }
 
-/// Equations that depend on others (`analysis/explain/redundancy.rs`).
+/// Equations that depend on others (`crates/engine/src/analysis/explain/redundancy.rs`).
 pub mod redundancy {
     /// Equations that are this nearly dependent are so: an assembled position is known to the root of rounding.
     pub const DEPENDENT: f64 = 1e-6;
@@ -29,7 +29,7 @@ pub mod redundancy {
     pub const NEARBY: [f64; 3] = [1.3e-3, 3.1e-3, 7.7e-3];
 }
 
-/// Forces that redundant equations share (`analysis/explain/sharing.rs`).
+/// Forces that redundant equations share (`crates/engine/src/analysis/explain/sharing.rs`).
 pub mod sharing {
     /// The first step along the motion, as a part of the span.
     pub const FIRST_STEP: f64 = 1e-3;
@@ -47,7 +47,7 @@ pub mod sharing {
     pub const MOST_WORK: usize = 1_000_000_000;
 }
 
-/// Free motions, and what is proposed to take them (`analysis/explain/freedom.rs`, `analysis/explain/proposals.rs`).
+/// Free motions, and what is proposed to take them (`crates/engine/src/analysis/explain/freedom.rs`, `crates/engine/src/analysis/explain/proposals.rs`).
 pub mod freedom {
     /// A residual above this is not assembled: motions would be told of no position.
     pub const ASSEMBLED: f64 = 1e-8;
@@ -71,7 +71,7 @@ pub mod freedom {
     pub const MOST_POINTS: usize = 1000;
 }
 
-/// Loops that cannot be closed (`analysis/explain/open_loop.rs`).
+/// Loops that cannot be closed (`crates/engine/src/analysis/explain/open_loop.rs`).
 pub mod open_loop {
     /// So many equations are looked at together at most.
     pub const LARGEST: usize = 600;
@@ -93,13 +93,13 @@ pub mod open_loop {
     pub const CLOSED: f64 = 1e-6;
 }
 
-/// Numbers in words (`analysis/explain/errors/mod.rs`).
+/// Numbers in words (`crates/engine/src/analysis/explain/errors/mod.rs`).
 pub mod words {
     /// A length (m) or angle (rad) below this is told as 0: it is less than an atom.
     pub const NOTHING: f64 = 1e-12;
 }
 
-/// What does not move (`lower/velocities.rs`).
+/// What does not move (`crates/lang/src/lower/velocities.rs`).
 pub mod velocities {
     /// What is shorter than this part of the mechanism's size, or slower than this part of it in the time of the analysis, is nothing; and
     /// an instant centre that is farther away than so many sizes, the other way round, is nowhere.
@@ -108,7 +108,7 @@ pub mod velocities {
     pub const ROUNDING: f64 = 64.0;
 }
 
-/// Gears that do not reach each other, and poses that are proposed (`analysis/assemble/errors.rs`).
+/// Gears that do not reach each other, and poses that are proposed (`crates/engine/src/analysis/assemble/errors.rs`).
 pub mod fits {
     /// A pose is proposed for a body that assembly has moved by more than this, scaled.
     pub const MOVED: f64 = 1e-6;

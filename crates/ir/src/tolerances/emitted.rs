@@ -1,6 +1,6 @@
 //! Emitted code, where it goes its own way: what chooses its steps is smaller than `analysis`.
 
-/// Other parameters than those of the file (`emit/runtime/assemble.rs`).
+/// Other parameters than those of the file (`crates/emit/src/runtime/assemble.rs`).
 pub mod assemble {
     /// Trials on the way to them before the file's poses are tried.
     pub const FIRST_PARTS: usize = 4;
@@ -10,7 +10,7 @@ pub mod assemble {
     pub const SMALLEST_PART: f64 = 1e-6;
 }
 
-/// Closing from far away (`emit/runtime/pivoting.rs`).
+/// Closing from far away (`crates/emit/src/runtime/pivoting.rs`).
 pub mod close {
     /// Corrections at most.
     pub const MOST_TRIALS: usize = 30;
@@ -20,7 +20,7 @@ pub mod close {
     pub const NEAR: f64 = 0.02;
 }
 
-/// Steps (`emit/runtime/step.rs`).
+/// Steps (`crates/emit/src/runtime/step.rs`).
 pub mod step {
     /// Steps that `step` takes at most: some analyses of the file.
     pub const MOST_STEPS: usize = 10_000;
@@ -30,7 +30,7 @@ pub mod step {
     pub const LARGEST_GAP: f64 = 1e-3;
 }
 
-/// Branches of the motion and of formulas (`emit/runtime/reach.rs`).
+/// Branches of the motion and of formulas (`crates/emit/src/runtime/reach.rs`).
 pub mod reach {
     /// One over a pivot, scaled: beyond this the position is looked at more closely.
     pub const STEEP: f64 = 1e3;
@@ -40,13 +40,13 @@ pub mod reach {
     pub const MOST_BRANCHES: usize = 8;
 }
 
-/// Why a motion cannot go on (`emit/runtime/explain.rs`).
+/// Why a motion cannot go on (`crates/emit/src/runtime/explain.rs`).
 pub mod explain {
     /// Where steps become too small, this is steep enough for a singular position to be the reason.
     pub const SINGULAR: f64 = 1e2;
 }
 
-/// Ends of formulas of time (`emit/runtime/rims.rs`).
+/// Ends of formulas of time (`crates/emit/src/runtime/rims.rs`).
 pub mod rims {
     /// How often both sides are looked at, each time at a quarter of the distance.
     pub const MOST_LOOKS: usize = 6;
@@ -60,7 +60,7 @@ pub mod rims {
     pub const PASSED: f64 = 1e-9;
 }
 
-/// The way of inputs (`emit/runtime/follow.rs`).
+/// The way of inputs (`crates/emit/src/runtime/follow.rs`).
 pub mod follow {
     /// Steps that `follow` takes at most: as many as a change by half a turn asks for, and few enough for a control loop.
     pub const MOST_STEPS_TO_FOLLOW: usize = 64;

@@ -1,10 +1,9 @@
 //! Every limit of the mathematics: what it means, in what unit, how large it is. Emitted code has the same ones.
 //!
-//! Why there is such a limit stands in `ARCHITECTURE.md`, "Numbers", in the row that names it, with the test that exercises what it
-//! describes. "Scaled" means: lengths in sizes of their body, angles in radians, rows of `Φ` divided by their norm. A "span" is the
+//! `docs/limits.md` is generated from these files. "Scaled" means: lengths in sizes of their body, angles in radians, rows of `Φ` divided by their norm. A "span" is the
 //! time from the first to the last output time.
 //!
-//! A file for each chapter there; in it a module for each file that has limits of its own.
+//! A file for each part of the mathematics; in it a module for each file that has limits of its own.
 
 pub mod assembly;
 pub mod determinacy;

@@ -1,6 +1,6 @@
 //! Results of the whole motion.
 
-/// Ranges of formulas (`program/ranges.rs`).
+/// Ranges of formulas (`crates/ir/src/program/ranges.rs`).
 pub mod ranges {
     /// The argument of a function that is resolved changes by no more than this: its series goes on with the first few terms (rad, or
     /// none).
@@ -17,13 +17,13 @@ pub mod ranges {
     pub const HIGH_POWER: u32 = 8;
 }
 
-/// Formulas in intervals (`program/enclose.rs`).
+/// Formulas in intervals (`crates/ir/src/program/enclose.rs`).
 pub mod enclose {
     /// Over more pieces of a table than this nothing is said of its columns.
     pub const MOST_PIECES: f64 = 64.0;
 }
 
-/// States within a stretch (`analysis/results/places.rs`).
+/// States within a stretch (`crates/engine/src/analysis/results/places.rs`).
 pub mod places {
     /// Corrections of a position at most, where the solver does not serve.
     pub const ITERATIONS: usize = 10;
@@ -38,7 +38,7 @@ pub mod places {
     pub const SOLVABLE: f64 = 4e-3;
 }
 
-/// Cells (`analysis/results/probe.rs`).
+/// Cells (`crates/engine/src/analysis/results/probe.rs`).
 pub mod probe {
     /// Looking at one formula, so many cells are cut at most: what needs more is not meant. One whose middle has to be solved for counts as
     /// so many.
@@ -70,7 +70,7 @@ pub mod probe {
     pub const NOTHING: f64 = 1e-150;
 }
 
-/// Guards (`analysis/results/guards.rs`).
+/// Guards (`crates/engine/src/analysis/results/guards.rs`).
 pub mod guards {
     /// So many times as far from its threshold as rounding of what moves tells, an argument may be on either side.
     pub const NOISE: f64 = 8.0;
@@ -78,7 +78,7 @@ pub mod guards {
     pub const NEAR: f64 = 1e-6;
 }
 
-/// Extrema (`analysis/results/extremum.rs`).
+/// Extrema (`crates/engine/src/analysis/results/extremum.rs`).
 pub mod extremum {
     /// A cell that can gain no more than this part of the range is not cut.
     pub const GAP: f64 = 1e-11;
@@ -108,7 +108,7 @@ pub mod extremum {
     pub const BESIDE: f64 = 1e-7;
 }
 
-/// Turns that are settled (`analysis/results/turn.rs`).
+/// Turns that are settled (`crates/engine/src/analysis/results/turn.rs`).
 pub mod turns {
     /// The width of a cell of times, as a part of the span or of the power of two below it.
     pub const CELL: f64 = 1.0 / 16_777_216.0;
@@ -124,7 +124,7 @@ pub mod turns {
     pub const APART: f64 = 64.0;
 }
 
-/// What is looked at as a coordinate is (`analysis/results/smooth.rs`).
+/// What is looked at as a coordinate is (`crates/engine/src/analysis/results/smooth.rs`).
 pub mod smooth {
     /// Of no more factors than this.
     pub const MOST_FACTORS: u32 = 6;
@@ -134,7 +134,7 @@ pub mod smooth {
     pub const WIDEST_OF_ALL: f64 = 0.5;
 }
 
-/// Stretches (`analysis/results`).
+/// Stretches (`crates/engine/src/analysis/results`).
 pub mod stretches {
     /// So many stretches are looked at together.
     pub const CHUNK: usize = 4096;
@@ -150,7 +150,7 @@ pub mod stretches {
     pub const LARGEST: f64 = 1e300;
 }
 
-/// Integrals (`analysis/results/quadrature.rs`).
+/// Integrals (`crates/engine/src/analysis/results/quadrature.rs`).
 pub mod quadrature {
     /// An integral may be off by this part of range times time.
     pub const ACCURACY: f64 = 1e-11;
@@ -181,7 +181,7 @@ pub mod quadrature {
     pub const ROUNDING: f64 = 4.0 * f64::EPSILON;
 }
 
-/// Integrals of what is smooth all over the analysis (`analysis/results/spectral.rs`).
+/// Integrals of what is smooth all over the analysis (`crates/engine/src/analysis/results/spectral.rs`).
 pub mod spectral {
     /// With how many intervals between the times, as a power of two, the rule begins and ends.
     pub const FIRST: usize = 6;
@@ -193,7 +193,7 @@ pub mod spectral {
     pub const ALIKE: f64 = 1e-2;
 }
 
-/// Loads between two states (`analysis/results/loads.rs`).
+/// Loads between two states (`crates/engine/src/analysis/results/loads.rs`).
 pub mod loads {
     /// A load that is smooth between two states may go beyond what is told of it by this part of the largest that was seen of it.
     pub const SEEN: f64 = 0.25;
@@ -205,7 +205,7 @@ pub mod loads {
     pub const UNTOLD: f64 = 1e200;
 }
 
-/// Bends, and how large a value's rounding is (`analysis/results/curve.rs`).
+/// Bends, and how large a value's rounding is (`crates/engine/src/analysis/results/curve.rs`).
 pub mod curve {
     /// How many times farther from a straight line a second or third derivative may go between two states than the first or second one at both
     /// of them tells that it does on average: a parabola goes 1.5 times as far.
@@ -226,7 +226,7 @@ pub mod curve {
     pub const ON_BRIDGE: f64 = 1e-8;
 }
 
-/// Derivatives of results (`lower/slopes.rs`).
+/// Derivatives of results (`crates/lang/src/lower/slopes.rs`).
 pub mod slopes {
     /// A formula has the value of an extremum at its time, if it is away from it by no more than this part of its range; or by this part
     /// of its size, where it rests.

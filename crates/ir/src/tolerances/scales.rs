@@ -1,6 +1,6 @@
 //! Scales, and the distance to a singular position.
 
-/// Sizes of bodies (`lower/size.rs`).
+/// Sizes of bodies (`crates/lang/src/lower/size.rs`).
 pub mod size {
     /// Frames with more points than this are measured by their bounding box, to stay linear.
     pub const MANY_POINTS: usize = 500;
@@ -14,7 +14,7 @@ pub mod size {
     pub const PLACES_ON_CURVE: u32 = 16;
 }
 
-/// Nearness to a singular position, and orders of elimination (`analysis/state/linear`).
+/// Nearness to a singular position, and orders of elimination (`crates/engine/src/analysis/state/linear`).
 pub mod linear {
     /// A block whose smallest pivot is so many times a limit has no singular value below it: pivots of rows of unit norm
     /// overestimate it by little.
@@ -33,7 +33,7 @@ pub mod linear {
     pub const PLANS: u32 = 4;
 }
 
-/// The second set of scales (`analysis/state/yardstick.rs`).
+/// The second set of scales (`crates/engine/src/analysis/state/yardstick.rs`).
 pub mod yardstick {
     /// Sweeps over rows and columns: what is left after them is a factor that does not matter.
     pub const SWEEPS: usize = 12;
@@ -48,7 +48,7 @@ pub mod yardstick {
     pub const ROUNDING: f64 = 1e-10;
 }
 
-/// Residuals, and rows that are bent (`analysis/state/kinematics`).
+/// Residuals, and rows that are bent (`crates/engine/src/analysis/state/kinematics`).
 pub mod kinematics {
     /// What rounding makes of a term.
     pub const ROUNDING: f64 = 8.0 * f64::EPSILON;

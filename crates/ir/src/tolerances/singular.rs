@@ -1,6 +1,6 @@
 //! Singular positions on the way.
 
-/// Why steps vanish (`analysis/explain/singular.rs`).
+/// Why steps vanish (`crates/engine/src/analysis/explain/singular.rs`).
 pub mod reasons {
     /// Below this the position is called singular, or as near to one as the steps could come.
     pub const NEAR: f64 = 1e-2;
@@ -26,7 +26,7 @@ pub mod reasons {
     pub const TAKES_PART: f64 = 1e-3;
 }
 
-/// The way over a singular position (`analysis/follow/crossing`).
+/// The way over a singular position (`crates/engine/src/analysis/follow/crossing`).
 pub mod bridge {
     /// A state nearer than this to a singular position is not clear of it.
     ///
@@ -70,7 +70,7 @@ pub mod bridge {
     pub const SPREAD: f64 = 0.08;
 }
 
-/// The finer curve of a bridge (`analysis/follow/crossing/finer.rs`).
+/// The finer curve of a bridge (`crates/engine/src/analysis/follow/crossing/finer.rs`).
 pub mod finer {
     /// The outer states are so far from the ends of the bridge, as a part of its length.
     pub const OUTWARD: f64 = 0.7;
@@ -80,7 +80,7 @@ pub mod finer {
     pub const EXACT: f64 = 2e-9;
 }
 
-/// Whether there are positions all the way (`analysis/follow/crossing/reach.rs`).
+/// Whether there are positions all the way (`crates/engine/src/analysis/follow/crossing/reach.rs`).
 pub mod reach {
     /// Corrections of a position beside the curve at most.
     pub const CORRECTIONS: usize = 60;
@@ -104,7 +104,7 @@ pub mod reach {
     pub const MARGIN: f64 = 4.0;
 }
 
-/// Change points that are just missed (`analysis/follow/misses.rs`).
+/// Change points that are just missed (`crates/engine/src/analysis/follow/misses.rs`).
 pub mod misses {
     /// A motion that comes as near to a change point as this part of the lengths is told of: drawings are rounded so.
     pub const WITHIN: f64 = 5e-4;

@@ -1,6 +1,6 @@
 //! Solving for a row.
 
-/// Orders of elimination (`solver/order.rs`).
+/// Orders of elimination (`crates/engine/src/solver/order.rs`).
 pub mod order {
     /// A pivot is at least this part of the largest entry in its column, where it is chosen.
     pub const THRESHOLD: f64 = 0.25;
@@ -10,13 +10,13 @@ pub mod order {
     pub const CANDIDATES: usize = 4;
 }
 
-/// Coordinates that Newton solves for (`solver/tear.rs`).
+/// Coordinates that Newton solves for (`crates/engine/src/solver/tear.rs`).
 pub mod tear {
     /// Rows in which a tear is looked for.
     pub const CANDIDATES: usize = 64;
 }
 
-/// The grid of tears (`solver/build.rs`).
+/// The grid of tears (`crates/engine/src/solver/build.rs`).
 pub mod build {
     /// The cell of a grid is this part of what a coordinate is judged against. The half of its square is below rounding.
     pub const CELL: f64 = 1.0 / 134_217_728.0;
@@ -32,7 +32,7 @@ pub mod solver {
     pub const MOST_OPERATIONS: usize = 30_000_000;
 }
 
-/// Newton in lanes (`solver/lanes.rs`).
+/// Newton in lanes (`crates/engine/src/solver/lanes.rs`).
 pub mod lanes {
     /// Iterations of a block at most, two of which may be at a border of two cells.
     pub const ITERATIONS: usize = 8;
@@ -45,7 +45,7 @@ pub mod lanes {
     pub const MOST_TURNED: usize = 2_048;
 }
 
-/// Variants side by side (`solver/variants.rs`, `sweep`).
+/// Variants side by side (`crates/engine/src/solver/variants.rs`, `sweep`).
 pub mod variants {
     /// A multiplier up to this part of the largest is small enough, wherever Newton begins.
     pub const CERTAIN_MULTIPLIER: f64 = 0.99;
@@ -84,7 +84,7 @@ pub mod variants {
     pub const PARTS_OF_WAY: [u32; 6] = [1, 2, 4, 8, 16, 32];
 }
 
-/// The course of a formula of a variant (`analysis/results/course.rs`, `sweep/steps.rs`, `sweep/survey.rs`).
+/// The course of a formula of a variant (`crates/engine/src/analysis/results/course.rs`, `crates/engine/src/sweep/steps.rs`, `crates/engine/src/sweep/survey.rs`).
 pub mod course {
     /// How much farther than the quintic in the middle of a cell a second derivative may be from the straight line between its ends: so much as
     /// results of a variant alone allow of a half of a cell.
@@ -118,13 +118,13 @@ pub mod course {
     pub const MOST_STEPS: usize = 4_096;
 }
 
-/// Blocks that are pivoted (`solver/pivoting.rs`).
+/// Blocks that are pivoted (`crates/engine/src/solver/pivoting.rs`).
 pub mod pivoting {
     /// Larger blocks are not solved this way.
     pub const LARGEST_BLOCK: usize = 100;
 }
 
-/// Output times, solved for together (`analysis/follow/rows/leap.rs`).
+/// Output times, solved for together (`crates/engine/src/analysis/follow/rows/leap.rs`).
 pub mod rows {
     /// Times that are solved at once.
     pub const LANES: usize = 16;
@@ -146,7 +146,7 @@ pub mod rows {
     pub const STEPS_AHEAD: usize = 1_000;
 }
 
-/// Rows that are in doubt (`analysis/state/trust.rs`).
+/// Rows that are in doubt (`crates/engine/src/analysis/state/trust.rs`).
 pub mod trust {
     /// Where a row is printed, what rounding makes of it must stay below the accuracy promised.
     pub const ACCURACY: f64 = 1e-9;
@@ -160,7 +160,7 @@ pub mod trust {
     pub const FAR: f64 = 1.5e-3;
 }
 
-/// Rows solved for again, for they are in doubt (`analysis/follow/march/doubt.rs`).
+/// Rows solved for again, for they are in doubt (`crates/engine/src/analysis/follow/march/doubt.rs`).
 pub mod doubt {
     /// A row is right if it differs from one that is exact by no more, beside its size or 1: in place, velocity and acceleration.
     pub const RIGHT: [f64; 3] = [1e-9, 1e-8, 1e-6];

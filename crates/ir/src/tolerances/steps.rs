@@ -1,6 +1,6 @@
 //! Steps, and what happens between their ends.
 
-/// Which equations are solved (`analysis/follow/choice.rs`).
+/// Which equations are solved (`crates/engine/src/analysis/follow/choice.rs`).
 pub mod choice {
     /// No step ends where a row has a larger weight than this in one that is left out, both scaled: digits are lost by no more than that.
     pub const LARGEST_WEIGHT: f64 = 10.0;
@@ -10,7 +10,7 @@ pub mod choice {
     pub const MOST_EXCHANGES: usize = 100;
 }
 
-/// Steps (`analysis/follow/step`).
+/// Steps (`crates/engine/src/analysis/follow/step`).
 pub mod march {
     /// Largest first correction of a step, scaled. As all sizes that a step is judged by it is not that of a place which follows
     /// from other coordinates: the upper end of a tall lift goes far.
@@ -46,7 +46,7 @@ pub mod march {
     pub const MOST_STEPS: u64 = 1_000_000;
 }
 
-/// Output times (`analysis/state/times.rs`).
+/// Output times (`crates/engine/src/analysis/state/times.rs`).
 pub mod times {
     /// An output time that is no farther from the last time than this part of a step is that.
     pub const AT_THE_LAST: f64 = 1e-9;
@@ -54,13 +54,13 @@ pub mod times {
     pub const MOST: f64 = 9e15;
 }
 
-/// What functions are between in an interval (`program/enclose.rs`).
+/// What functions are between in an interval (`crates/ir/src/program/enclose.rs`).
 pub mod enclosures {
     /// So near to a pole (rad) a tangent may be on either side of it.
     pub const BESIDE_A_POLE: f64 = 1e-9;
 }
 
-/// Values that time alone decides (`analysis/follow/edges/signals.rs`).
+/// Values that time alone decides (`crates/engine/src/analysis/follow/edges/signals.rs`).
 pub mod signals {
     /// A signal may leave the values at the ends of a part of a step by as much as moves the mechanism by this, scaled.
     pub const UNSEEN: f64 = 0.03;
@@ -72,13 +72,13 @@ pub mod signals {
     pub const NUDGE: f64 = 1e-6;
 }
 
-/// Values that time alone decides, in a row (`program/signals.rs`).
+/// Values that time alone decides, in a row (`crates/ir/src/program/signals.rs`).
 pub mod signals_in_a_row {
     /// An equation that takes more signals is told of these only.
     pub const MOST_IN_A_ROW: usize = 8;
 }
 
-/// Determinants that come to zero and go back (`analysis/follow/step/touch.rs`).
+/// Determinants that come to zero and go back (`crates/engine/src/analysis/follow/step/touch.rs`).
 pub mod touch {
     /// A determinant that falls within a step to this part of its lesser value at the ends may touch zero there. Shorter steps
     /// tell: beside a zero they meet it, over a mere minimum the ends come down to it.
@@ -90,7 +90,7 @@ pub mod touch {
     pub const SECTIONS: usize = 60;
 }
 
-/// Edges of formulas (`analysis/follow/edges`).
+/// Edges of formulas (`crates/engine/src/analysis/follow/edges`).
 pub mod edges {
     /// So many units in the last place of an output time it may be off from the edge that it is meant to be.
     pub const SLACK: f64 = 4.0;
@@ -126,7 +126,7 @@ pub mod edges {
     pub const ITERATIONS: usize = 4;
 }
 
-/// Ends of what a function takes (`analysis/follow/edges/rims.rs`).
+/// Ends of what a function takes (`crates/engine/src/analysis/follow/edges/rims.rs`).
 pub mod rims {
     /// The span is looked through in parts no smaller than this one of it.
     pub const FINEST: f64 = 1e-8;
@@ -156,7 +156,7 @@ pub mod rims {
     pub const MOST_HALVINGS: usize = 100;
 }
 
-/// Both sides of a rim (`analysis/follow/edges/limits.rs`).
+/// Both sides of a rim (`crates/engine/src/analysis/follow/edges/limits.rs`).
 pub mod limits {
     /// Distances that are looked at.
     pub const MOST: usize = 16;

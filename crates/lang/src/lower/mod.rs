@@ -1,5 +1,5 @@
 //! From the model to the constraint system: the only place where mathematics is written by hand, and it writes `Φ`
-//! alone (`elements.md`; H stands for E. J. Haug, *Computer-Aided Kinematics and Dynamics of Mechanical Systems*,
+//! alone (H stands for E. J. Haug, *Computer-Aided Kinematics and Dynamics of Mechanical Systems*,
 //! 1989).
 
 mod contacts;

@@ -1,7 +1,7 @@
 //! The model files of a course's planar engine (ADM, ACF) to the tree of a `.mech` file.
 //!
 //! Both are JSON: `json` gives values with their places, `adm` and `acf` ask for the keys they know, `matlab`
-//! translates formulas, and `translate` writes the declarations. This room knows how a model is written, in either
+//! translates formulas, and `translate` writes the declarations. This module knows how a model is written, in either
 //! form; it touches no files, and it does not know what a mechanism means: whether the result is determined is for
 //! `check` and its followers.
 //!

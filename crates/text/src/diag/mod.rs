@@ -1,7 +1,7 @@
 //! What the compiler says to its user.
 //!
 //! A diagnostic is data: a code of the catalogue, one sentence, places with a word each, and the mend. The words are
-//! written beside the phase that finds the fault; this room only holds them and renders them. It knows nothing of
+//! written beside the phase that finds the fault; this module only holds them and renders them. It knows nothing of
 //! mechanisms.
 
 mod blame;

@@ -1,7 +1,7 @@
 //! The words of the language, one table for each kind: how a word is written, what it means, and an example.
 //!
 //! What the parser, the names of a mechanism, the messages, the formatter and the pages of `mechc explain` know of words
-//! they have from here. This room knows no tree and no text; what a word does stands in the rooms that do it.
+//! they have from here. This module knows no tree and no text; what a word does stands in the crates that do it.
 
 mod constants;
 mod dimension;

@@ -2,8 +2,8 @@
 
 #![allow(dead_code)] // each test file uses its part
 
-use mechc::rooms::syntax::ast::{Feature, FeatureKind, File, Item, ItemKind};
-use mechc::rooms::syntax::parse;
+use mechc_syntax::ast::{Feature, FeatureKind, File, Item, ItemKind};
+use mechc_syntax::parse;
 use mechc::{Sources, Span};
 use std::collections::BTreeSet;
 use std::fs;
