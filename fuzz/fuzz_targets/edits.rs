@@ -3,9 +3,9 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use mechc_ide::{self as ide, Place, Snapshot, DiagnosticStage};
-use mechc_syntax as syntax;
 use mechc::{Cancel, Memory, Sources};
+use mechc_ide::{self as ide, DiagnosticStage, Place, Snapshot};
+use mechc_syntax as syntax;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -21,8 +21,38 @@ const TEXTS: [&str; 5] = [
 ];
 
 const TYPED: [&str; 32] = [
-    "", "", "", " ", "\n", "\r\n", "\r", "{", "}", "(", ")", "[", "]", "\"", "//", "///", ".", ",", "=", ":", "0", "1 mm", "a", "𝛼",
-    "in ", "body b {", "param p = 1", "point P = (1, 2)", "ground {", "joint ", "mechanism m {", "use \"b.mech\"",
+    "",
+    "",
+    "",
+    " ",
+    "\n",
+    "\r\n",
+    "\r",
+    "{",
+    "}",
+    "(",
+    ")",
+    "[",
+    "]",
+    "\"",
+    "//",
+    "///",
+    ".",
+    ",",
+    "=",
+    ":",
+    "0",
+    "1 mm",
+    "a",
+    "𝛼",
+    "in ",
+    "body b {",
+    "param p = 1",
+    "point P = (1, 2)",
+    "ground {",
+    "joint ",
+    "mechanism m {",
+    "use \"b.mech\"",
 ];
 
 fuzz_target!(|bytes: &[u8]| {

@@ -6,13 +6,13 @@ pub mod oracles;
 #[path = "../../tests/support/shape.rs"]
 mod shape;
 
-use mechc_ir::program::{Frozen, Program, Stage};
-use mechc_ir::structure::Determined;
-use mechc_syntax::{self as syntax, ast};
 use mechc::{
     Cancel, Choice, Color, Compiled, Diagnostic, Format, Memory, Parsed, Redundant, Run, RunOptions, RustOptions,
     Sources, Times, render,
 };
+use mechc_ir::program::{Frozen, Program, Stage};
+use mechc_ir::structure::Determined;
+use mechc_syntax::{self as syntax, ast};
 use shape::file_shape;
 use std::time::{Duration, Instant};
 

@@ -2,9 +2,9 @@
 
 #![allow(dead_code)] // each test file uses its part
 
+use mechc::{Sources, Span};
 use mechc_syntax::ast::{Feature, FeatureKind, File, Item, ItemKind};
 use mechc_syntax::parse;
-use mechc::{Sources, Span};
 use std::collections::BTreeSet;
 use std::fs;
 use std::ops::Range;
