@@ -6,6 +6,7 @@
 mod support;
 
 mod dimensions;
+mod features;
 mod fixes;
 mod fmt;
 mod format;

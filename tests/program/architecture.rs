@@ -21,7 +21,7 @@ fn quoted(text: &str) -> impl Iterator<Item = &str> {
 
 /// Where a path of the page leads, if anywhere.
 fn place(path: &str) -> Option<PathBuf> {
-    [root()].into_iter().map(|base| base.join(path)).find(|path| path.exists())
+    Some(root().join(path)).filter(|path| path.exists())
 }
 
 fn is_word(text: &str) -> bool {
@@ -121,24 +121,18 @@ const NO_LIMITS: [&str; 10] =
 #[test]
 fn limits_of_the_mathematics_stand_in_their_place() {
     let mut looked_at = 0;
-    {
-        for file in mathematics() {
-            looked_at += 1;
-            let text = fs::read_to_string(&file).expect("text");
-            for line in text.lines() {
-                let Some((name, kind)) = line.split_once("const ").and_then(|(_, rest)| rest.split_once(": ")) else {
-                    continue;
-                };
-                if !["f64", "[f64;", "[[f64;"].iter().any(|number| kind.starts_with(number)) {
-                    continue;
-                }
-                let is_constant = is_limit(name);
-                assert!(
-                    !is_constant || NO_LIMITS.contains(&name),
-                    "{}: `{name}` belongs to `tolerances`",
-                    file.display()
-                );
+    for file in mathematics() {
+        looked_at += 1;
+        let text = fs::read_to_string(&file).expect("text");
+        for line in text.lines() {
+            let Some((name, kind)) = line.split_once("const ").and_then(|(_, rest)| rest.split_once(": ")) else {
+                continue;
+            };
+            if !["f64", "[f64;", "[[f64;"].iter().any(|number| kind.starts_with(number)) {
+                continue;
             }
+            let is_constant = is_limit(name);
+            assert!(!is_constant || NO_LIMITS.contains(&name), "{}: `{name}` belongs to `tolerances`", file.display());
         }
     }
     assert!(looked_at > 80, "only {looked_at} files were looked at");
@@ -156,26 +150,24 @@ const NO_LIMITS_INLINE: [(&str, &str); 4] = [
 #[test]
 fn no_limit_of_the_mathematics_stands_inline() {
     let mut unused = NO_LIMITS_INLINE.to_vec();
-    {
-        for file in mathematics() {
-            let text = fs::read_to_string(&file).expect("text");
-            let inside = file.strip_prefix(root()).expect("below the root").display().to_string();
-            let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
-            for line in code.lines().map(|line| line.split("//").next().unwrap_or_default()) {
-                let words = line.split(|c: char| !c.is_ascii_alphanumeric() && !"_.-".contains(c));
-                let is_number = |word: &&str| {
-                    let (head, power) = word.split_once('e').unwrap_or_default();
-                    let is_of = |text: &str, others: &str| {
-                        !text.is_empty() && text.chars().all(|c| c.is_ascii_digit() || others.contains(c))
-                    };
-                    is_of(head, "._") && is_of(power, "-")
+    for file in mathematics() {
+        let text = fs::read_to_string(&file).expect("text");
+        let inside = file.strip_prefix(root()).expect("below the root").display().to_string();
+        let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
+        for line in code.lines().map(|line| line.split("//").next().unwrap_or_default()) {
+            let words = line.split(|c: char| !c.is_ascii_alphanumeric() && !"_.-".contains(c));
+            let is_number = |word: &&str| {
+                let (head, power) = word.split_once('e').unwrap_or_default();
+                let is_of = |text: &str, others: &str| {
+                    !text.is_empty() && text.chars().all(|c| c.is_ascii_digit() || others.contains(c))
                 };
-                for number in words.filter(is_number) {
-                    let known = unused.iter().position(|(place, known)| *place == inside && *known == number);
-                    let is_known = NO_LIMITS_INLINE.contains(&(inside.as_str(), number));
-                    assert!(is_known, "{inside}: `{number}` in `{}` belongs to `tolerances`", line.trim());
-                    known.map(|at| unused.remove(at));
-                }
+                is_of(head, "._") && is_of(power, "-")
+            };
+            for number in words.filter(is_number) {
+                let known = unused.iter().position(|(place, known)| *place == inside && *known == number);
+                let is_known = NO_LIMITS_INLINE.contains(&(inside.as_str(), number));
+                assert!(is_known, "{inside}: `{number}` in `{}` belongs to `tolerances`", line.trim());
+                known.map(|at| unused.remove(at));
             }
         }
     }

@@ -7,6 +7,7 @@ mod support;
 
 mod architecture;
 mod cli;
+mod columns;
 mod crates;
 mod editors;
 mod emitted;

@@ -31,7 +31,7 @@ pub use led::{Clock, lower_on_its_way};
 use mechc_expr::{Comparison, Dependence, ExprId, Graph, Symbol, TIME_SIGNAL};
 use mechc_ir::tolerances::scales::size::FAR_FRAME;
 use mechc_ir::{
-    self as ir, self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId,
+    self as ir, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId,
     DeclarationKind, Fit, Forces, IdVec, Measure, OpenContact, Owner, Param, Row, RowUnit, Units, Variations, Watch,
     Written,
 };

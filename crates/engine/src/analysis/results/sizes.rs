@@ -27,18 +27,15 @@ impl Largest {
         }
     }
 
-    /// What rounding of a coordinate of a kind goes by, at the least: a full turn's part of an angle moves what is far away by as much of a length.
+    /// Returns the least size, by time derivative, that rounding of a coordinate of this kind is a part of. A turn moves what is far away by
+    /// a length, and the other way round.
     fn of(&self, kind: CoordinateKind) -> [f64; 4] {
-        let far = self.lengths[0];
-        let [first, second] = [1, 2].map(|order| match kind {
-            CoordinateKind::Angle if far > 0.0 => self.angles[order].max(self.lengths[order] / far),
-            CoordinateKind::Angle => self.angles[order],
-            CoordinateKind::Length => self.lengths[order].max(self.angles[order] * far),
-            CoordinateKind::Argument => 0.0,
-        });
+        let (lengths, angles) = (self.lengths, self.angles);
+        let far = lengths[0];
+        let turned = |length: f64| if far > 0.0 { length / far } else { 0.0 };
         match kind {
-            CoordinateKind::Angle => [1.0, first, second, 0.0],
-            CoordinateKind::Length => [far, first, second, 0.0],
+            CoordinateKind::Length => [far, lengths[1].max(angles[1] * far), lengths[2].max(angles[2] * far), 0.0],
+            CoordinateKind::Angle => [1.0, angles[1].max(turned(lengths[1])), angles[2].max(turned(lengths[2])), 0.0],
             CoordinateKind::Argument => [0.0; 4],
         }
     }
@@ -49,7 +46,7 @@ pub(super) struct Sizes {
     largest: Vec<[f64; 4]>,
     /// What kind of coordinate each one is, if it is one.
     kinds: Vec<Option<CoordinateKind>>,
-    /// Of the whole mechanism.
+    /// Those of the whole mechanism.
     of_all: Largest,
 }
 

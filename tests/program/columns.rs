@@ -2,20 +2,16 @@
 
 #![allow(clippy::expect_used, clippy::panic)] // a test fails by panicking
 
+use crate::support::compiled;
 use mechc_ir::ConstraintSystem;
 use mechc_ir::layout::{RowLayout, columns};
-use mechc_pipeline::{Choice, Parsed, Redundant};
-use mechc_text::cancel::Cancel;
-use mechc_text::world::Memory;
 
 /// An arm with a measure that has no second derivative, as that would need a fourth one of the coordinates.
 fn system() -> ConstraintSystem {
     let text = "mechanism m {\n ground { point O = (0, 0) }\n body arm { point O = (0, 0) point tip = (1 m, 0) }\n \
                 joint main: revolute(ground.O, arm.O)\n driver motor: rotation(main) = 1 rad/s * t\n \
                 measure height = y(arm.tip)\n measure pull = der(der(x(arm.tip)))\n}\n";
-    let checked = Parsed::of("m.mech", text).check(&Choice::default(), &Memory::default());
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    compiled.unwrap_or_else(|| panic!("{said:?}")).system().clone()
+    compiled("m", text).system().clone()
 }
 
 #[test]
