@@ -1,13 +1,13 @@
 //! `Φ`, `Φ_q`, `Φ_t`, `ν`, `γ` and what else the program evaluates, as functions of the coordinates.
 
-use super::code::{Code, Function, Input, Out, Scene};
-use super::goods::Uses;
+use super::bytecode::{self, ConstantPool, Loaded, Notes};
+use super::code::{Code, CodeContext, Function, Input, Out};
 use super::names::{MULTIPLIERS, Names, VARIED};
 use super::operand::{Arguments, Operand};
 use super::operations::slice;
 use super::print::{Head, Page};
+use super::runtime_files::RuntimeDeps;
 use super::tables::{self, Tables};
-use super::tape::{self, Book, Loaded, Notes};
 use mechc_engine::solver::{Instruction, Segment};
 use mechc_ir::program::{Column, Program, Register};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -21,17 +21,17 @@ pub(super) struct Equations<'e> {
     pub constants: FxHashMap<Register, f64>,
     /// The results of switches, by their places among the sides.
     pub sides: FxHashMap<Register, usize>,
-    /// Whether they are those of a mechanism that is led by its inputs: these are given, as a `Way`.
-    pub is_led: bool,
+    /// Whether they are those of a mechanism that is led by its inputs: these are given, as a `Path`.
+    pub is_input_driven: bool,
     /// What operations written as numbers share; none where they are written as lines.
-    pub book: Option<RefCell<Book>>,
+    pub pool: Option<RefCell<ConstantPool>>,
     /// What the functions use.
-    pub uses: RefCell<Uses>,
+    pub deps: RefCell<RuntimeDeps>,
 }
 
 /// A function to write.
 #[allow(clippy::struct_excessive_bools)] // what it is given and what it gives are said one by one
-pub(super) struct Wanted<'f> {
+pub(super) struct FunctionSpec<'f> {
     pub name: &'f str,
     pub docs: &'f str,
     pub is_public: bool,
@@ -50,12 +50,12 @@ pub(super) struct Wanted<'f> {
     pub given: Given,
 }
 
-impl<'f> Wanted<'f> {
+impl<'f> FunctionSpec<'f> {
     /// A function of its own of time, on branches that are given.
-    pub fn of(name: &'f str, docs: &'f str, outputs: &'f [Register], length: &'f str) -> Wanted<'f> {
+    pub fn new(name: &'f str, docs: &'f str, outputs: &'f [Register], length: &'f str) -> FunctionSpec<'f> {
         let (is_public, has_time, negated) = (false, true, false);
         let (orders, varied, multipliers, given) = (0, false, false, Given::All);
-        Wanted { name, docs, is_public, orders, has_time, varied, multipliers, outputs, length, negated, given }
+        FunctionSpec { name, docs, is_public, orders, has_time, varied, multipliers, outputs, length, negated, given }
     }
 }
 
@@ -75,7 +75,7 @@ pub(super) const ARRAYS: [&str; 4] = ["q", "qd", "qdd", "qddd"];
 const OF_ARRAYS: [Arguments; 4] = [&["q"], &["qd"], &["qdd"], &["qddd"]];
 
 /// How a function reaches what it is given.
-pub(super) struct Reached {
+pub(super) struct Access {
     /// The parameters, or the way: `p`, `m.params`.
     pub given: String,
     /// The argument that this names.
@@ -88,8 +88,8 @@ pub(super) struct Reached {
 
 impl Equations<'_> {
     /// A function with its documentation.
-    pub fn function(&self, wanted: &Wanted<'_>, page: &mut Page) {
-        let given: FxHashSet<Register> = match wanted.given {
+    pub fn function(&self, spec: &FunctionSpec<'_>, page: &mut Page) {
+        let given: FxHashSet<Register> = match spec.given {
             Given::None => FxHashSet::default(),
             Given::All => self.sides.keys().copied().collect(),
             Given::OfTime => {
@@ -97,58 +97,58 @@ impl Equations<'_> {
                 of_time.map(|switch| switch.to).collect()
             }
         };
-        let instructions = slice(self.program, wanted.outputs, &given);
+        let instructions = slice(self.program, spec.outputs, &given);
         let mut arguments: Vec<(&'static str, String)> =
-            ARRAYS[..wanted.orders].iter().map(|name| (*name, "&[f64; N]".to_owned())).collect();
-        if wanted.varied && self.has_varied() {
+            ARRAYS[..spec.orders].iter().map(|name| (*name, "&[f64; N]".to_owned())).collect();
+        if spec.varied && self.has_varied() {
             arguments.push((VARIED, "&[f64; VARIED]".to_owned()));
         }
-        if wanted.multipliers && self.has_forces() {
+        if spec.multipliers && self.has_forces() {
             arguments.push((MULTIPLIERS, "&[f64; N]".to_owned()));
         }
-        if wanted.has_time {
+        if spec.has_time {
             arguments.push(("t", "f64".to_owned()));
         }
-        arguments.push(("p", if self.is_led { "&Way" } else { "&Params" }.to_owned()));
-        if wanted.given != Given::None && !self.sides.is_empty() {
+        arguments.push(("p", if self.is_input_driven { "&Path" } else { "&Params" }.to_owned()));
+        if spec.given != Given::None && !self.sides.is_empty() {
             arguments.push(("sides", "&Sides".to_owned()));
         }
-        if let Some(book) = &self.book {
-            return self.as_numbers(wanted, &instructions, &arguments, &mut book.borrow_mut(), page);
+        if let Some(pool) = &self.pool {
+            return self.as_numbers(spec, &instructions, &arguments, &mut pool.borrow_mut(), page);
         }
-        self.uses.borrow_mut().instructions(&instructions, false);
+        self.deps.borrow_mut().instructions(&instructions, false);
         let segments = [Segment::Once(0..instructions.len())];
         let code = Code { instructions: &instructions, segments: &segments, registers: self.program.registers() };
-        let (result, first) = (format!("[f64; {}]", wanted.length), format!("[0.0; {}]", wanted.length));
+        let (result, first) = (format!("[f64; {}]", spec.length), format!("[0.0; {}]", spec.length));
         let function = Function {
-            name: wanted.name,
-            docs: format!("{}\n\n{} operations.", wanted.docs, code.count()),
-            is_public: wanted.is_public,
+            name: spec.name,
+            docs: format!("{}\n\n{} operations.", spec.docs, code.count()),
+            is_public: spec.is_public,
             arguments,
             out: Out::List { of: &result, first: &first },
             margin: 0,
         };
-        page.text(&code.print(&EquationScene { equations: self, negated: wanted.negated, given }, &function));
+        page.text(&code.print(&EquationContext { equations: self, negated: spec.negated, given }, &function));
     }
 
     /// A function that reads its operations from a list of numbers.
     fn as_numbers(
         &self,
-        wanted: &Wanted<'_>,
+        spec: &FunctionSpec<'_>,
         instructions: &[Instruction],
         arguments: &[(&'static str, String)],
-        book: &mut Book,
+        pool: &mut ConstantPool,
         page: &mut Page,
     ) {
         let count = instructions.iter().filter(|each| !matches!(each, Instruction::Store { .. })).count();
-        let instructions = tape::with_loads(instructions, self.program.registers());
+        let instructions = bytecode::with_loads(instructions, self.program.registers());
         let segments = [Segment::Once(0..instructions.len())];
-        let shared = tape::share(&instructions, &segments, self.program.registers());
+        let shared = bytecode::share(&instructions, &segments, self.program.registers());
         let loaded = |register| self.loaded(register, &FxHashMap::default());
         let notes = Notes { loaded: &loaded, pivot: &|_| (0, 0.0), weight: &|_| 0.0, bound: &|_| 0.0 };
-        let words = book.encode(&shared.instructions, &notes).words;
-        let name = wanted.name.to_uppercase();
-        let params = match (self.names.params.is_empty(), self.is_led) {
+        let words = pool.encode(&shared.instructions, &notes).words;
+        let name = spec.name.to_uppercase();
+        let params = match (self.names.params.is_empty(), self.is_input_driven) {
             (true, _) => "&[]",
             (false, false) => "&p.list()",
             (false, true) => "&p.params.list()",
@@ -157,38 +157,38 @@ impl Equations<'_> {
         lists.push("&[]".to_owned());
         let given = |argument: &str| arguments.iter().any(|(name, _)| *name == argument);
         lists.push(if given("sides") { "sides" } else { "&[]" }.to_owned());
-        let time = if self.is_led { "&p.list::<{ 3 * SIGNALS }>(t)" } else { "&[t]" };
+        let time = if self.is_input_driven { "&p.list::<{ 3 * SIGNALS }>(t)" } else { "&[t]" };
         lists.push(if given("t") { time } else { "&[]" }.to_owned());
         lists.extend(ARRAYS.map(|array| if given(array) { array } else { "&[]" }.to_owned()));
         lists.extend([VARIED, MULTIPLIERS].map(|array| if given(array) { array } else { "&[]" }.to_owned()));
-        let mut uses = self.uses.borrow_mut();
-        uses.name("tables", "Arrays");
-        uses.name("tables", "run");
-        if self.is_led {
-            uses.file("way_list");
+        let mut deps = self.deps.borrow_mut();
+        deps.name("bytecode_interpreter", "Arrays");
+        deps.name("bytecode_interpreter", "run");
+        if self.is_input_driven {
+            deps.file("input_list");
         }
         // it hands all on, and parameters where there are any
-        let reads_params = !self.names.params.is_empty() || (self.is_led && wanted.has_time);
+        let reads_params = !self.names.params.is_empty() || (self.is_input_driven && spec.has_time);
         let marked = |name: &'static str| if name == "p" && !reads_params { "_p" } else { name };
         let types: Vec<(&str, &str)> = arguments.iter().map(|(name, of)| (marked(name), of.as_str())).collect();
-        let kind = if wanted.is_public { "pub fn" } else { "fn" };
-        let result = format!("[f64; {}]", wanted.length);
-        page.docs(&format!("{}\n\n{count} operations, in [`{name}_CODE`].", wanted.docs));
+        let kind = if spec.is_public { "pub fn" } else { "fn" };
+        let result = format!("[f64; {}]", spec.length);
+        page.docs(&format!("{}\n\n{count} operations, in [`{name}_CODE`].", spec.docs));
         let lists = lists.join(", ");
         if lists.len() > WIDEST_ARRAY {
             page.line("#[rustfmt::skip]");
         }
-        page.function(&Head { kind, name: wanted.name, arguments: &types, result: &result }, |page| {
+        page.function(&Head { kind, name: spec.name, arguments: &types, result: &result }, |page| {
             page.line(&format!("let inputs: Arrays<'_> = [{lists}];"));
-            page.line(&format!("let mut out = [0.0; {}];", wanted.length));
+            page.line(&format!("let mut out = [0.0; {}];", spec.length));
             page.line(&format!("let mut v = [0.0; {}];", shared.registers));
             page.line(&format!("run::<Numbers>(&{name}_CODE, &[], &inputs, &mut v, &mut out);"));
-            if wanted.negated {
+            if spec.negated {
                 page.line("out = out.map(|value| -value);");
             }
             page.line("out");
         });
-        tape::list(&format!("The operations of [`{}`].", wanted.name), &format!("{name}_CODE"), &words, page);
+        bytecode::list(&format!("The operations of [`{}`].", spec.name), &format!("{name}_CODE"), &words, page);
     }
 
     /// Where a register of the program gets its value.
@@ -227,47 +227,47 @@ impl Equations<'_> {
     }
 
     /// A register of the program that no operation of a function writes.
-    pub fn input(&self, register: Register, reached: &Reached) -> Input {
+    pub fn input(&self, register: Register, access: &Access) -> Input {
         let inputs = &self.program.inputs;
         if let Some(&value) = self.constants.get(&register) {
             return Input::Is(Operand::Number(value));
         }
         if let Some(side) = self.sides.get(&register) {
-            return Input::Is(Operand::of(format!("sides{}[{side}]", reached.lane), &["sides"]));
+            return Input::Is(Operand::new(format!("sides{}[{side}]", access.lane), &["sides"]));
         }
         if register == inputs.time {
-            return Input::Is(Operand::of("t".to_owned(), &["t"]));
+            return Input::Is(Operand::new("t".to_owned(), &["t"]));
         }
-        let given = &reached.given;
+        let given = &access.given;
         if let Some(k) = register.checked_sub(inputs.params).filter(|&k| register < inputs.time && k < inputs.time) {
             let name = &self.names.params[k as usize];
-            let of = if self.is_led { ".params" } else { "" };
+            let of = if self.is_input_driven { ".params" } else { "" };
             return Input::Bound {
                 name: self.names.param_variables[k as usize].clone(),
-                value: Operand::of(format!("{given}{of}.{name}"), reached.names),
+                value: Operand::new(format!("{given}{of}.{name}"), access.names),
             };
         }
         if inputs.all_signals().contains(&register) {
             let place = register - inputs.signals;
             let (signal, order) = ((place / 3) as usize, (place % 3) as usize);
             let value = match order {
-                0 => Operand::of(format!("{given}.value({signal}, t)"), reached.names_with_time),
-                1 => Operand::of(format!("{given}.rates[{signal}]"), reached.names),
-                _ => Operand::of(format!("{given}.accelerations[{signal}]"), reached.names),
+                0 => Operand::new(format!("{given}.value({signal}, t)"), access.names_with_time),
+                1 => Operand::new(format!("{given}.rates[{signal}]"), access.names),
+                _ => Operand::new(format!("{given}.accelerations[{signal}]"), access.names),
             };
             return Input::Bound { name: self.names.signal(signal, order).to_owned(), value };
         }
         if let Some(place) = self.varied(register) {
-            return Input::Is(Operand::of(format!("{VARIED}[{place}]"), &[VARIED]));
+            return Input::Is(Operand::new(format!("{VARIED}[{place}]"), &[VARIED]));
         }
         if let Some(place) = self.multiplier(register) {
-            return Input::Is(Operand::of(format!("{MULTIPLIERS}[{place}]"), &[MULTIPLIERS]));
+            return Input::Is(Operand::new(format!("{MULTIPLIERS}[{place}]"), &[MULTIPLIERS]));
         }
         for (order, (array, of)) in ARRAYS.iter().zip(OF_ARRAYS).enumerate() {
             let first = inputs.coordinates[order];
             if (first..first + inputs.n).contains(&register) {
                 let k = (register - first) as usize;
-                let value = Operand::of(format!("{array}[{k}]"), of);
+                let value = Operand::new(format!("{array}[{k}]"), of);
                 return Input::Bound { name: self.names.coordinate(order, k), value };
             }
         }
@@ -304,10 +304,10 @@ impl Equations<'_> {
     }
 
     /// What lists of operations share, if there are any.
-    pub fn print_book(&self, page: &mut Page) {
-        if let Some(book) = &self.book {
+    pub fn print_pool(&self, page: &mut Page) {
+        if let Some(pool) = &self.pool {
             let called = |table, column| self.table(table, column);
-            book.borrow().print(self.program.tables().len(), called, &mut self.uses.borrow_mut(), page);
+            pool.borrow().print(self.program.tables().len(), called, &mut self.deps.borrow_mut(), page);
         }
     }
 
@@ -317,17 +317,17 @@ impl Equations<'_> {
     }
 }
 
-struct EquationScene<'s, 'e> {
+struct EquationContext<'s, 'e> {
     equations: &'s Equations<'e>,
     negated: bool,
     given: FxHashSet<Register>,
 }
 
-impl Scene for EquationScene<'_, '_> {
+impl CodeContext for EquationContext<'_, '_> {
     fn input(&self, register: Register) -> Input {
         debug_assert!(!self.equations.sides.contains_key(&register) || self.given.contains(&register));
-        let reached = Reached { given: "p".to_owned(), names: &["p"], names_with_time: &["p", "t"], lane: "" };
-        self.equations.input(register, &reached)
+        let access = Access { given: "p".to_owned(), names: &["p"], names_with_time: &["p", "t"], lane: "" };
+        self.equations.input(register, &access)
     }
 
     fn load(&self, register: Register) -> Operand {
@@ -336,7 +336,7 @@ impl Scene for EquationScene<'_, '_> {
     }
 
     fn place(&self, column: u32) -> Operand {
-        Operand::of(format!("out[{column}]"), &["out"])
+        Operand::new(format!("out[{column}]"), &["out"])
     }
 
     fn name(&self, _: u32) -> Option<String> {
@@ -344,7 +344,7 @@ impl Scene for EquationScene<'_, '_> {
     }
 
     fn table(&self, table: u32, column: Column) -> Operand {
-        Operand::own(self.equations.table(table, column))
+        Operand::local(self.equations.table(table, column))
     }
 
     fn cells(&self, table: u32, column: Column) -> Vec<Register> {

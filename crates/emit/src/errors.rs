@@ -1,32 +1,32 @@
 //! The errors of emitted code, for those who write of them: pages, and the codes that C has.
 
 /// An error.
-pub(super) struct Told {
+pub(super) struct ErrorText {
     /// Of the enum `Error`.
     pub name: &'static str,
     /// What it says of itself.
-    pub says: &'static str,
+    pub message: &'static str,
     /// And what a page adds.
     pub more: &'static str,
 }
 
-const fn told(name: &'static str, says: &'static str, more: &'static str) -> Told {
-    Told { name, says, more }
+const fn error(name: &'static str, message: &'static str, more: &'static str) -> ErrorText {
+    ErrorText { name, message, more }
 }
 
 /// All errors; C has them by their places, counted from 1. A new one comes last.
-pub(super) const ERRORS: [Told; 7] = [
-    told("NotANumber", "the time, an input, a parameter or a formula is not a number", ""),
-    told("LockUp", "the mechanism locks up: its driver cannot go on", ""),
-    told("Bifurcation", "two branches of the motion meet", ", and which one goes on is not determined"),
-    told("NotSmooth", "a position or velocity jumps", ", where a formula of time goes over to another branch"),
-    told("TooFar", "it is too far away: for the steps that are allowed, or for one change of an input", ""),
-    told(
+pub(super) const ERRORS: [ErrorText; 7] = [
+    error("NotANumber", "the time, an input, a parameter or a formula is not a number", ""),
+    error("LockUp", "the mechanism locks up: its driver cannot go on", ""),
+    error("Bifurcation", "two branches of the motion meet", ", and which one goes on is not determined"),
+    error("NotSmooth", "a position or velocity jumps", ", where a formula of time goes over to another branch"),
+    error("TooFar", "it is too far away: for the steps that are allowed, or for one change of an input", ""),
+    error(
         "Inconsistent",
         "an equation that was left out as redundant does not hold, or is needed where the others are singular",
         "",
     ),
-    told(
+    error(
         "Divergence",
         "the mechanism cannot be brought there",
         ": from `assemble`, with these parameters it cannot be put together",
@@ -49,8 +49,8 @@ mod tests {
             Error::Inconsistent,
             Error::Divergence,
         ] {
-            let told = ERRORS.iter().find(|told| told.name == format!("{error:?}")).expect("it is told");
-            assert_eq!(told.says, error.to_string());
+            let error = ERRORS.iter().find(|error| error.name == format!("{error:?}")).expect("it is error");
+            assert_eq!(error.message, error.to_string());
         }
     }
 }

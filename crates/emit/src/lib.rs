@@ -3,12 +3,11 @@
 //! What is emitted as Rust are the operations that the interpreter runs, those of the program and those of the solver, one by one, so
 //! that both give the same bits (the sign of a zero in `phi_t`, which is `-nu`, aside).
 
+mod bytecode;
 mod c;
 mod code;
 mod equations;
 mod errors;
-mod files;
-mod goods;
 mod json;
 mod latex;
 mod limits;
@@ -22,18 +21,17 @@ mod print;
 // it is written for crates whose lints are the usual ones; only generic types copy themselves by hand
 #[allow(clippy::expl_impl_clone_on_copy, clippy::needless_for_each)]
 mod runtime;
+mod runtime_files;
 mod rust;
 mod solution;
 mod tables;
-mod tape;
 mod text;
 
-pub use files::{CrateFile, MARK, NOT_IN_ALL};
+pub use bytecode::LARGEST_STRAIGHT;
 pub use json::json;
 pub use latex::latex;
-pub use package::{Reference, package};
+pub use package::{CrateFile, MARK, NOT_IN_ALL, Reference, package};
 pub use rust::{is_large, rust};
-pub use tape::LARGEST_STRAIGHT;
 
 use mechc_engine::solver::{BlockTables, Solver};
 use mechc_ir::ConstraintSystem;

@@ -16,7 +16,7 @@ const LONGEST: usize = 40;
 
 /// Names in a body that are its own.
 const RESERVED: &[&str] = &[
-    "q", "qd", "qdd", "qddd", "t", "p", "m", "w", "x", "at", "out", "guess", "known", "sides", "newton", "sin_cos",
+    "q", "qd", "qdd", "qddd", "t", "p", "m", "w", "x", "at", "out", "guess", "derived", "sides", "newton", "sin_cos",
     "select", "either", "sign", "lesser", "greater", "piece", "pick", "on_grid", "libm", "blocks",
 ];
 

@@ -23,13 +23,13 @@ pub(super) enum Operand {
 
 impl Operand {
     /// What holds a number within the arguments of a function.
-    pub fn of(text: String, of: Arguments) -> Operand {
+    pub fn new(text: String, of: Arguments) -> Operand {
         Operand::Held { text, of }
     }
 
     /// A variable of the function itself.
-    pub fn own(text: String) -> Operand {
-        Operand::of(text, &[])
+    pub fn local(text: String) -> Operand {
+        Operand::new(text, &[])
     }
 
     /// The arguments that it names.
@@ -53,7 +53,7 @@ impl Operand {
         match self {
             Operand::Number(value) if *value == 0.0 => Operand::Number(0.0),
             Operand::Number(value) => Operand::Number(-value),
-            Operand::Held { text, of } => Operand::of(format!("-{text}"), of),
+            Operand::Held { text, of } => Operand::new(format!("-{text}"), of),
         }
     }
 
@@ -81,11 +81,11 @@ mod tests {
 
     #[test]
     fn signs_are_those_of_numbers() {
-        let (number, held) = (Operand::Number(-2.5), Operand::of("q[1]".to_owned(), &["q"]));
+        let (number, held) = (Operand::Number(-2.5), Operand::new("q[1]".to_owned(), &["q"]));
         assert_eq!([number.negated(), held.negated()].map(|of| of.to_string()), ["2.5", "-q[1]"]);
         assert_eq!([number.absolute(), held.absolute()], ["(-2.5).abs()", "q[1].abs()"]);
         assert_eq!(Operand::Number(-0.0).negated().to_string(), "0.0");
         assert_eq!(held.negated().arguments(), ["q"]);
-        assert!(held.is_short() && !Operand::own("m.follows.of_a_long_name".to_owned()).is_short());
+        assert!(held.is_short() && !Operand::local("m.follows.of_a_long_name".to_owned()).is_short());
     }
 }

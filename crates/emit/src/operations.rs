@@ -130,7 +130,7 @@ pub(super) enum Callee {
     Sine,
     Cosine,
     /// A function that goes along.
-    Own(&'static str),
+    Runtime(&'static str),
     /// A method of numbers.
     Core(&'static str),
     /// A function of the crate `libm`.
@@ -143,7 +143,7 @@ pub(super) fn callee(function: Unary) -> Callee {
         Unary::Sin => Callee::Sine,
         Unary::Cos => Callee::Cosine,
         Unary::Abs => Callee::Core("abs"),
-        Unary::Sign => Callee::Own("sign"),
+        Unary::Sign => Callee::Runtime("sign"),
         Unary::Ln => Callee::Libm("log"),
         _ => Callee::Libm(function.word()),
     }
@@ -152,8 +152,8 @@ pub(super) fn callee(function: Unary) -> Callee {
 /// What a function of two arguments is called.
 pub(super) fn callee_of_two(function: Binary) -> Callee {
     match function {
-        Binary::Min => Callee::Own("lesser"),
-        Binary::Max => Callee::Own("greater"),
+        Binary::Min => Callee::Runtime("lesser"),
+        Binary::Max => Callee::Runtime("greater"),
         _ => Callee::Libm(function.word()),
     }
 }
@@ -163,7 +163,7 @@ fn call(callee: Callee, arguments: &str) -> String {
     match callee {
         Callee::Sine => format!("sin_cos({arguments}).0"),
         Callee::Cosine => format!("sin_cos({arguments}).1"),
-        Callee::Own(name) => format!("{name}({arguments})"),
+        Callee::Runtime(name) => format!("{name}({arguments})"),
         Callee::Core(name) => format!("f64::{name}({arguments})"),
         Callee::Libm(name) => format!("libm::{name}({arguments})"),
     }

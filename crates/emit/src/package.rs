@@ -8,9 +8,24 @@ use super::names::{Case, Namer, is_keyword};
 use super::params::Params;
 use super::rust;
 use super::text::{lines, literal, one_line, unit};
-use super::{CrateFile, LARGEST_STRAIGHT, MARK, TranslationUnit, c};
+use super::{LARGEST_STRAIGHT, TranslationUnit, c};
 use mechc_ir::Measure;
 use std::fmt::Display;
+
+/// A file of an emitted crate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CrateFile {
+    /// Path in the crate, with `/`.
+    pub path: String,
+    /// Contents; one of the first lines contains [`MARK`].
+    pub text: String,
+}
+
+/// Text near the beginning of every emitted file, which distinguishes it from a file written by hand.
+pub const MARK: &str = "ritten by mechc ";
+
+/// Files that only some crates have, as folder and ending of the name: an earlier emission may have left one there.
+pub const NOT_IN_ALL: [(&str, &str); 2] = [("include", ".h"), ("src", "unsafe_c.rs")];
 
 /// The version of `libm` that the interpreter runs with; `Cargo.toml` pins the same.
 const LIBM: &str = "0.2.16";
@@ -294,7 +309,8 @@ impl Writer<'_> {
             few => few.to_vec(),
         };
         let some: Vec<String> = some.into_iter().map(literal).collect();
-        let errors = ERRORS.iter().map(|told| format!("| `Error::{}` | {}{} |\n", told.name, told.says, told.more));
+        let errors =
+            ERRORS.iter().map(|error| format!("| `Error::{}` | {}{} |\n", error.name, error.message, error.more));
         let unsafety = if self.unit.for_c { "holds `unsafe` in `src/unsafe_c.rs` alone" } else { "holds no `unsafe`" };
         format!(
             include_str!("package/README.md.txt"),

@@ -1,11 +1,11 @@
 //! The solver's operations as a function that solves for position, velocity and acceleration at a time.
 
-use super::code::{Code, Function, Input, MODULE, Out, Scene};
-use super::equations::{ARRAYS, Equations, Reached};
+use super::bytecode::{self, Bytecode, ConstantPool, Notes, Shared};
+use super::code::{Code, CodeContext, Function, Input, MODULE, Out};
+use super::equations::{ARRAYS, Access, Equations};
 use super::names::{FORCES, Names};
 use super::operand::{Arguments, Operand};
 use super::print::Page;
-use super::tape::{self, Book, Notes, Shared, Tape};
 use super::text::literal;
 use super::{EmittedMotion, TranslationUnit};
 use mechc_engine::solver::{Instruction, Segment, Solver};
@@ -20,8 +20,8 @@ pub(super) struct Solution<'s> {
     pub unit: &'s TranslationUnit<'s>,
     pub motion: &'s EmittedMotion,
     pub equations: &'s Equations<'s>,
-    /// Registers of the program that follow from parameters alone, by their places in `known`.
-    pub known: FxHashMap<Register, usize>,
+    /// Registers of the program that follow from parameters alone, by their places in `derived`.
+    pub derived: FxHashMap<Register, usize>,
     /// Columns of what measures join that is no result, in order.
     pub joined: Vec<u32>,
     /// What the columns hold that operations leave values in.
@@ -32,7 +32,7 @@ impl<'s> Solution<'s> {
     pub fn new(unit: &'s TranslationUnit<'s>, motion: &'s EmittedMotion, equations: &'s Equations<'s>) -> Solution<'s> {
         let joined = joined([Some(&motion.solver), motion.forced.as_ref()].into_iter().flatten());
         let mut solution =
-            Solution { unit, motion, equations, known: FxHashMap::default(), joined, holds: row_holds(unit.system) };
+            Solution { unit, motion, equations, derived: FxHashMap::default(), joined, holds: row_holds(unit.system) };
         let instructions = || {
             let more = motion.sensitive.iter().chain(&motion.forced).flat_map(Solver::instructions);
             motion.solver.instructions().iter().chain(more)
@@ -42,7 +42,7 @@ impl<'s> Solution<'s> {
                 && !equations.is_constant(table, column)
             {
                 // one behind the other
-                unit.program.tables()[table as usize].column(column).for_each(|cell| solution.know(cell));
+                unit.program.tables()[table as usize].column(column).for_each(|cell| solution.add_derived(cell));
             }
         }
         for instruction in instructions() {
@@ -51,26 +51,26 @@ impl<'s> Solution<'s> {
                 && !unit.program.inputs.all_signals().contains(&from)
                 && !equations.sides.contains_key(&from)
             {
-                solution.know(from);
+                solution.add_derived(from);
             }
         }
         solution
     }
 
-    /// Gives a register a place in `known`.
-    fn know(&mut self, register: Register) {
-        let next = self.known.len();
-        self.known.entry(register).or_insert(next);
+    /// Gives a register a place in `derived`.
+    fn add_derived(&mut self, register: Register) {
+        let next = self.derived.len();
+        self.derived.entry(register).or_insert(next);
     }
 
     /// What a column of a table is called, in a lane or alone.
     fn column(&self, table: u32, column: Column, lane: &str) -> Operand {
         if self.equations.is_constant(table, column) {
-            return Operand::own(self.equations.table(table, column));
+            return Operand::local(self.equations.table(table, column));
         }
         let cells = self.unit.program.tables()[table as usize].column(column);
-        let first = self.known.get(&cells.start).copied().unwrap_or(0);
-        Operand::of(format!("m{lane}.known[{first}..{}]", first + cells.len()), &["m"])
+        let first = self.derived.get(&cells.start).copied().unwrap_or(0);
+        Operand::new(format!("m{lane}.derived[{first}..{}]", first + cells.len()), &["m"])
     }
 
     /// Whether anything is left to iterate for.
@@ -79,9 +79,9 @@ impl<'s> Solution<'s> {
     }
 
     /// The registers that follow from parameters alone, in the order of their places.
-    pub fn known_registers(&self) -> Vec<Register> {
+    pub fn derived_registers(&self) -> Vec<Register> {
         let mut registers: Vec<(usize, Register)> =
-            self.known.iter().map(|(&register, &place)| (place, register)).collect();
+            self.derived.iter().map(|(&register, &place)| (place, register)).collect();
         registers.sort_unstable();
         registers.into_iter().map(|(_, register)| register).collect()
     }
@@ -126,18 +126,18 @@ impl<'s> Solution<'s> {
             margin: if has_lanes { MODULE.len() } else { 0 },
         };
         self.note(solver, has_lanes);
-        code.print(&SolverScene { solution: self, solver, has_lanes }, &function)
+        code.print(&SolverContext { solution: self, solver, has_lanes }, &function)
     }
 
     /// Notes what a solver's operations use as lines.
     fn note(&self, solver: &Solver, has_lanes: bool) {
-        let mut uses = self.equations.uses.borrow_mut();
-        uses.instructions(solver.instructions(), has_lanes);
+        let mut deps = self.equations.deps.borrow_mut();
+        deps.instructions(solver.instructions(), has_lanes);
         if !solver.tears().is_empty() {
-            uses.name("limits", "ITERATIONS");
-            uses.name("grid", "on_grid");
-            let (file, name) = if has_lanes { ("lane_newton", "Settling") } else { ("newton", "Newton") };
-            uses.name(file, name);
+            deps.name("limits", "ITERATIONS");
+            deps.name("grid", "on_grid");
+            let (file, name) = if has_lanes { ("lane_newton", "LaneNewton") } else { ("newton", "Newton") };
+            deps.name(file, name);
         }
     }
 
@@ -176,15 +176,15 @@ impl<'s> Solution<'s> {
             margin: 0,
         };
         self.note(solver, false);
-        code.print(&SolverScene { solution: self, solver, has_lanes: false }, &function)
+        code.print(&SolverContext { solution: self, solver, has_lanes: false }, &function)
     }
 
     /// A solver's operations as numbers: the listing, the registers that it takes, by names with an ending.
-    pub fn listing(&self, solver: &Solver, ending: &str, book: &mut Book, page: &mut Page) {
+    pub fn listing(&self, solver: &Solver, ending: &str, pool: &mut ConstantPool, page: &mut Page) {
         let Shared { instructions, segments, registers } =
-            tape::share(solver.instructions(), solver.segments(), solver.registers());
+            bytecode::share(solver.instructions(), solver.segments(), solver.registers());
         let notes = Notes {
-            loaded: &|register| self.equations.loaded(register, &self.known),
+            loaded: &|register| self.equations.loaded(register, &self.derived),
             pivot: &|number| {
                 let pivot = solver.pivots()[number as usize];
                 (pivot.turn, pivot.weight)
@@ -193,25 +193,25 @@ impl<'s> Solution<'s> {
             bound: &|row| self.motion.bounds[row as usize],
         };
         let instructions: Vec<Instruction> = instructions.into_iter().map(|each| self.listed(each)).collect();
-        let Tape { words, starts } = book.encode(&instructions, &notes);
-        let (mut list, mut settling) = (Vec::new(), Vec::new());
+        let Bytecode { words, starts } = pool.encode(&instructions, &notes);
+        let (mut list, mut newton) = (Vec::new(), Vec::new());
         for segment in &segments {
             let (range, tears) = match segment {
                 Segment::Once(range) => (range, &[][..]),
                 Segment::Newton { instructions, tears } => (instructions, tears.as_slice()),
             };
-            let (first, code) = (settling.len(), [starts[range.start], starts[range.end]]);
-            settling.extend(tears.iter().map(|tear| {
+            let (first, code) = (newton.len(), [starts[range.start], starts[range.end]]);
+            newton.extend(tears.iter().map(|tear| {
                 let (registers, sizes) = ([tear.x, tear.delta], [tear.cell, tear.scale]);
-                format!("Settling {{ registers: {registers:?}, sizes: {sizes:?} }}")
+                format!("NewtonCoordinate {{ registers: {registers:?}, sizes: {sizes:?} }}")
             }));
-            list.push(format!("Segment {{ code: {code:?}, tears: [{first}, {}] }}", settling.len()));
+            list.push(format!("Segment {{ code: {code:?}, tears: [{first}, {}] }}", newton.len()));
         }
-        let mut uses = self.equations.uses.borrow_mut();
-        uses.name("listed", "Listing");
-        uses.name("listed", "Segment");
-        if !settling.is_empty() {
-            uses.name("listed", "Settling");
+        let mut deps = self.equations.deps.borrow_mut();
+        deps.name("bytecode_solver", "Listing");
+        deps.name("bytecode_solver", "Segment");
+        if !newton.is_empty() {
+            deps.name("bytecode_solver", "NewtonCoordinate");
         }
         let solve = format!("solve{}", ending.to_lowercase());
         page.constant(
@@ -222,7 +222,7 @@ impl<'s> Solution<'s> {
         page.docs(&format!("What [`{solve}`] runs."));
         page.line("#[rustfmt::skip]");
         page.block(&format!("static LISTING{ending}: Listing = Listing"), |page| {
-            for (name, values) in [("segments", list), ("settling", settling)] {
+            for (name, values) in [("segments", list), ("newton", newton)] {
                 page.line(&format!("{name}: &["));
                 for value in values {
                     page.line(&format!("    {value},"));
@@ -232,7 +232,7 @@ impl<'s> Solution<'s> {
             page.line(&format!("code: &SOLVE{ending},"));
         });
         page.end_statement();
-        tape::list(&format!("The operations of [`{solve}`]."), &format!("SOLVE{ending}"), &words, page);
+        bytecode::list(&format!("The operations of [`{solve}`]."), &format!("SOLVE{ending}"), &words, page);
     }
 
     /// What a column holds.
@@ -336,20 +336,20 @@ pub(super) fn wrapped(text: &str) -> String {
     lines.join("\n")
 }
 
-struct SolverScene<'s> {
+struct SolverContext<'s> {
     solution: &'s Solution<'s>,
     solver: &'s Solver,
     has_lanes: bool,
 }
 
-impl SolverScene<'_> {
+impl SolverContext<'_> {
     /// What picks a lane.
     fn lane(&self) -> &'static str {
         if self.has_lanes { "[k]" } else { "" }
     }
 }
 
-impl Scene for SolverScene<'_> {
+impl CodeContext for SolverContext<'_> {
     fn input(&self, register: Register) -> Input {
         debug_assert!(false, "register {register} has no operation");
         Input::Is(Operand::Number(f64::NAN))
@@ -357,19 +357,19 @@ impl Scene for SolverScene<'_> {
 
     fn load(&self, register: Register) -> Operand {
         let lane = self.lane();
-        if let Some(place) = self.solution.known.get(&register) {
-            return Operand::of(format!("m{lane}.known[{place}]"), &["m"]);
+        if let Some(place) = self.solution.derived.get(&register) {
+            return Operand::new(format!("m{lane}.derived[{place}]"), &["m"]);
         }
-        let of = if self.solution.equations.is_led { "way" } else { "params" };
+        let of = if self.solution.equations.is_input_driven { "path" } else { "params" };
         let given = format!("m{lane}.{of}");
-        let reached = Reached { given, names: &["m"], names_with_time: &["m", "t"], lane };
-        match self.solution.equations.input(register, &reached) {
+        let access = Access { given, names: &["m"], names_with_time: &["m", "t"], lane };
+        match self.solution.equations.input(register, &access) {
             Input::Bound { value, .. } | Input::Is(value) => value,
         }
     }
 
     fn place(&self, column: u32) -> Operand {
-        let at = |text: String| Operand::of(text, &["at"]);
+        let at = |text: String| Operand::new(text, &["at"]);
         if let Some(place) = self.solution.joined(column) {
             return at(format!("at.joined[{place}]{}", self.lane()));
         }
@@ -382,8 +382,8 @@ impl Scene for SolverScene<'_> {
                 at(format!("at.{of}{}[{place}]{}", ["values", "rates", "accelerations"][order], self.lane()))
             }
             Holds::Slope { of, by: With::Input(input) } => at(format!("at.along.by_signal[{input}][{of}]")),
-            Holds::Slope { of, by: With::Param(param) } => Operand::of(format!("by[{param}][{of}]"), &["by"]),
-            Holds::Reaction(k) => Operand::of(format!("{FORCES}[{k}]"), &[FORCES]),
+            Holds::Slope { of, by: With::Param(param) } => Operand::new(format!("by[{param}][{of}]"), &["by"]),
+            Holds::Reaction(k) => Operand::new(format!("{FORCES}[{k}]"), &[FORCES]),
             Holds::Time
             | Holds::Slope { by: With::Time(_), .. }
             | Holds::Appended(_)

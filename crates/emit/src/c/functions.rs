@@ -294,7 +294,7 @@ impl Interface<'_> {
 fn of_codes(page: &mut Page) {
     let codes = codes();
     for (number, code) in codes.iter().filter(|(number, code)| *number != 0 && code.error.is_none()) {
-        page.docs(&format!("{}.", capital(code.says)));
+        page.docs(&format!("{}.", capital(code.message)));
         // not every mechanism has lists of all kinds
         page.line(&format!("const {}: Status = Status({number});", code.name));
     }
@@ -315,7 +315,7 @@ fn of_codes(page: &mut Page) {
     page.function(&head, |page| {
         page.block("match code", |page| {
             for (number, code) in &codes {
-                page.line(&format!("{number} => c\"{}\",", code.says));
+                page.line(&format!("{number} => c\"{}\",", code.message));
             }
             page.line("_ => c\"there is no such code\",");
         });

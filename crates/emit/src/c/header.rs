@@ -59,7 +59,7 @@ impl Interface<'_> {
         page.line("/* What functions answer. */");
         page.block("enum", |page| {
             for (number, code) in codes() {
-                page.line(&comment(code.says));
+                page.line(&comment(code.message));
                 page.line(&format!("{constants}_{} = {number},", code.name));
             }
         });
@@ -70,19 +70,19 @@ impl Interface<'_> {
     fn numbers(&self, page: &mut Page) {
         let (system, constants) = (self.unit.system, self.constants());
         let coordinates = Case::Constant.names(system.coordinates().iter().map(|of| of.name.as_str()));
-        let said = system.coordinates().iter().map(|of| format!("{} ({})", of.name, unit(of.kind.unit())));
-        let coordinates = coordinates.into_iter().zip(said).collect::<Vec<_>>();
+        let descriptions = system.coordinates().iter().map(|of| format!("{} ({})", of.name, unit(of.kind.unit())));
+        let coordinates = coordinates.into_iter().zip(descriptions).collect::<Vec<_>>();
         self.places(page, "COLUMN", "COLUMNS", "Where each result stands in a row.", &self.columns());
         self.places(page, "COORDINATE", "COORDINATES", "Where each coordinate stands in a list of them.", &coordinates);
         if self.has_params() {
             let names = Case::Constant.names(system.params().iter().map(|of| of.name.as_str()));
-            let said = system.params().iter().map(|of| format!("{} ({})", of.name, unit(&of.unit())));
+            let descriptions = system.params().iter().map(|of| format!("{} ({})", of.name, unit(&of.unit())));
             self.places(
                 page,
                 "PARAM",
                 "PARAMS",
                 "The numbers of the parameters.",
-                &names.into_iter().zip(said).collect::<Vec<_>>(),
+                &names.into_iter().zip(descriptions).collect::<Vec<_>>(),
             );
         }
         if let Some(following) = &self.unit.following {
@@ -95,8 +95,8 @@ impl Interface<'_> {
         if self.unit.has_forces() {
             let reactions = system.reactions();
             let names = Case::Constant.names(reactions.iter().map(|of| of.name.as_str()));
-            let said = reactions.iter().map(|of| format!("{} ({})", of.name, unit(&of.unit)));
-            let named = names.into_iter().zip(said).collect::<Vec<_>>();
+            let descriptions = reactions.iter().map(|of| format!("{} ({})", of.name, unit(&of.unit)));
+            let named = names.into_iter().zip(descriptions).collect::<Vec<_>>();
             self.places(
                 page,
                 "FORCE",

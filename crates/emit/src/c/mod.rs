@@ -41,7 +41,7 @@ pub(super) fn files(unit: &TranslationUnit<'_>, module: &Module, library: &str, 
 struct Code {
     /// `LOCK_UP`
     name: String,
-    says: &'static str,
+    message: &'static str,
     /// The error in Rust; none of what only C can do wrong.
     error: Option<&'static str>,
 }
@@ -59,11 +59,12 @@ const OF_C: [(&str, &str); 4] = [
 
 /// All codes with their numbers, that of no error and 0 among them.
 fn codes() -> Vec<(i32, Code)> {
-    let fine = Code { name: "OK".to_owned(), says: "all went well", error: None };
-    let errors = ERRORS.iter().map(|told| Code { name: apart(told.name), says: told.says, error: Some(told.name) });
-    let of_c = OF_C.iter().map(|(name, says)| Code { name: (*name).to_owned(), says, error: None });
+    let fine = Code { name: "OK".to_owned(), message: "all went well", error: None };
+    let errors =
+        ERRORS.iter().map(|error| Code { name: apart(error.name), message: error.message, error: Some(error.name) });
+    let of_c = OF_C.iter().map(|(name, message)| Code { name: (*name).to_owned(), message, error: None });
     let numbers = (0..).take(ERRORS.len() + 1).chain(FIRST_OF_C..);
-    let on_the_way = Code { name: "ON_THE_WAY".to_owned(), says: ON_THE_WAY, error: None };
+    let on_the_way = Code { name: "ON_THE_WAY".to_owned(), message: ON_THE_WAY, error: None };
     let all = numbers.zip(std::iter::once(fine).chain(errors).chain(of_c));
     std::iter::once((-1, on_the_way)).chain(all).collect()
 }
@@ -105,7 +106,7 @@ impl Interface<'_> {
         let columns = columns(system).into_iter().zip(holds(system));
         let columns: Vec<_> = columns.filter(|(_, holds)| !matches!(holds, Holds::Reaction(_))).collect();
         let names = Case::Constant.names(columns.iter().map(|(column, _)| column.name.as_str()));
-        let said = columns.iter().map(|(column, holds)| {
+        let descriptions = columns.iter().map(|(column, holds)| {
             let (name, ColumnUnit { text, .. }) = (one_line(&column.name), &column.unit);
             match *holds {
                 Holds::Measure { index, .. }
@@ -116,7 +117,7 @@ impl Interface<'_> {
                 _ => format!("{name} ({})", unit(text)),
             }
         });
-        names.into_iter().zip(said).collect()
+        names.into_iter().zip(descriptions).collect()
     }
 }
 

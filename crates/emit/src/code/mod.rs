@@ -3,19 +3,19 @@
 //! Every register is written by one operation. What one function computes and a later one needs is handed on in an array of
 //! terms, `w`.
 
-mod homes;
-mod lines;
-mod loops;
+mod instructions;
+mod newton_loops;
 mod parts;
+mod value_locations;
 
 use super::operand::{Arguments, Operand};
 use super::text::{documented, signature};
-use homes::{Home, Homes};
-use lines::Target;
+use instructions::Target;
 use mechc_engine::solver::{Instruction, Segment};
 use mechc_ir::program::{Column, Op, Register};
 use parts::{Part, Piece};
 use rustc_hash::{FxHashMap, FxHashSet};
+use value_locations::{Location, ValueLocations};
 
 /// What functions of a module within the file are indented by.
 pub(super) const MODULE: &str = "    ";
@@ -24,7 +24,7 @@ pub(super) const MODULE: &str = "    ";
 const APART: &str = "#[inline(never)]\n";
 
 /// What operations are printed among.
-pub(super) trait Scene {
+pub(super) trait CodeContext {
     /// The name and the value of a register that no operation writes.
     fn input(&self, register: Register) -> Input;
     /// What stands in a register of the program.
@@ -92,9 +92,9 @@ pub(super) struct Code<'c> {
 
 impl Code<'_> {
     /// The functions as text.
-    pub fn print(&self, scene: &impl Scene, function: &Function<'_>) -> String {
-        let parts = self.parts(scene.has_lanes());
-        let mut printer = Printer::new(self, scene, &parts);
+    pub fn print(&self, context: &impl CodeContext, function: &Function<'_>) -> String {
+        let parts = self.parts(context.has_lanes());
+        let mut printer = Printer::new(self, context, &parts);
         match parts.as_slice() {
             [Part::Straight(pieces)] => printer.alone(function, pieces),
             _ => printer.several(function, &parts),
@@ -123,9 +123,9 @@ const GUESS: &str = "guess";
 const T: &str = "t";
 
 struct Printer<'p, S> {
-    scene: &'p S,
+    context: &'p S,
     instructions: &'p [Instruction],
-    homes: Homes<'p, S>,
+    locations: ValueLocations<'p, S>,
     names: Vec<Option<Operand>>,
     taken: FxHashSet<String>,
     /// Inputs that the function being written has bound.
@@ -142,12 +142,12 @@ struct Printer<'p, S> {
     guessed: FxHashMap<Register, u32>,
 }
 
-impl<'p, S: Scene> Printer<'p, S> {
-    fn new(code: &Code<'p>, scene: &'p S, parts: &[Part<'p>]) -> Printer<'p, S> {
+impl<'p, S: CodeContext> Printer<'p, S> {
+    fn new(code: &Code<'p>, context: &'p S, parts: &[Part<'p>]) -> Printer<'p, S> {
         Printer {
-            scene,
+            context,
             instructions: code.instructions,
-            homes: Homes::of(code, scene, parts),
+            locations: ValueLocations::of(code, context, parts),
             names: vec![None; code.registers],
             taken: FxHashSet::default(),
             bound: FxHashSet::default(),
@@ -162,39 +162,39 @@ impl<'p, S: Scene> Printer<'p, S> {
 
     /// A register's value, for a line that holds it.
     fn value(&mut self, register: Register) -> Operand {
-        let operand = self.known(register);
+        let operand = self.operand(register);
         self.used.extend(operand.arguments());
         operand
     }
 
     /// The same, for nobody yet.
-    fn known(&mut self, register: Register) -> Operand {
+    fn operand(&mut self, register: Register) -> Operand {
         if let Some(operand) = &self.names[register as usize] {
             return operand.clone();
         }
-        match self.scene.input(register) {
+        match self.context.input(register) {
             Input::Is(operand) => operand,
             Input::Bound { name, value } => {
                 if self.bound.insert(register) {
                     self.used.extend(value.arguments());
                     self.bindings += &format!("    let {name} = {value};\n");
                 }
-                Operand::own(name)
+                Operand::local(name)
             }
         }
     }
 
     /// What an operation writes to, the register being named so from now on.
     fn target(&mut self, register: Register, prefix: char) -> Target {
-        let (operand, target) = match self.homes.home(register) {
-            Home::Term(place) => {
+        let (operand, target) = match self.locations.location(register) {
+            Location::Term(place) => {
                 let term = self.term(place);
                 self.used.insert(TERMS);
                 (term.clone(), Target::Set(term))
             }
-            home => {
-                let name = Operand::own(self.fresh(register, prefix));
-                let is_declared = matches!(home, Home::BeyondLoop { .. });
+            location => {
+                let name = Operand::local(self.fresh(register, prefix));
+                let is_declared = matches!(location, Location::BeyondLoop { .. });
                 (name.clone(), if is_declared { Target::Set(name) } else { Target::Let(name) })
             }
         };
@@ -204,8 +204,8 @@ impl<'p, S: Scene> Printer<'p, S> {
 
     /// A place among the terms.
     fn term(&self, place: u32) -> Operand {
-        let lane = if self.scene.has_lanes() { "[k]" } else { "" };
-        Operand::of(format!("{TERMS}[{place}]{lane}"), &[TERMS])
+        let lane = if self.context.has_lanes() { "[k]" } else { "" };
+        Operand::new(format!("{TERMS}[{place}]{lane}"), &[TERMS])
     }
 
     /// A line, with what it names.
@@ -215,7 +215,7 @@ impl<'p, S: Scene> Printer<'p, S> {
     }
 
     fn fresh(&mut self, register: Register, prefix: char) -> String {
-        match self.homes.wanted[register as usize].take() {
+        match self.locations.result_names[register as usize].take() {
             Some(name) if self.taken.insert(name.clone()) => name,
             _ => format!("{prefix}{}", self.count),
         }
@@ -249,9 +249,9 @@ impl<'p, S: Scene> Printer<'p, S> {
             arguments.push((OUT, format!("&mut {of}")));
             given += "&mut out, ";
         }
-        let (of, zero) = if self.scene.has_lanes() { ("Each", "[0.0; LANES]") } else { ("f64", "0.0") };
-        arguments.push((TERMS, format!("&mut [{of}; {}]", self.homes.terms)));
-        let attribute = if self.scene.has_lanes() { APART } else { "" };
+        let (of, zero) = if self.context.has_lanes() { ("Each", "[0.0; LANES]") } else { ("f64", "0.0") };
+        arguments.push((TERMS, format!("&mut [{of}; {}]", self.locations.terms)));
+        let attribute = if self.context.has_lanes() { APART } else { "" };
         let (name, margin) = (function.name, function.margin);
         let mut written = Parts { name, arguments: &arguments, margin, attribute, text: String::new(), count: 0 };
         let mut calls = String::new();
@@ -274,7 +274,7 @@ impl<'p, S: Scene> Printer<'p, S> {
                 calls += &format!("    {}({given}&mut {TERMS});\n", written.add(&body, &used));
             }
         }
-        let terms = format!("    let mut {TERMS} = [{zero}; {}];\n", self.homes.terms);
+        let terms = format!("    let mut {TERMS} = [{zero}; {}];\n", self.locations.terms);
         let (body, result) = match function.out {
             Out::Given { begin, .. } => (format!("    {begin}\n{terms}{calls}"), ""),
             Out::List { of, first } => (format!("    let mut out = {first};\n{terms}{calls}    out\n"), of),
@@ -293,9 +293,9 @@ impl<'p, S: Scene> Printer<'p, S> {
         let mut text = String::new();
         for piece in pieces {
             match piece.tears {
-                Some(tears) if self.scene.has_lanes() => self.newton_of_lanes(piece.range.clone(), tears, &mut text),
+                Some(tears) if self.context.has_lanes() => self.newton_of_lanes(piece.range.clone(), tears, &mut text),
                 Some(tears) => self.newton(piece.range.clone(), tears, &mut text),
-                None if self.scene.has_lanes() => {
+                None if self.context.has_lanes() => {
                     let mut body = String::new();
                     for at in piece.range.clone() {
                         self.instruction(self.instructions[at], "        ", &mut body);

@@ -6,7 +6,7 @@ use super::limits::{FIRST_PARTS, LARGEST_CORRECTION, MOST_PARTS, MOST_SHORTER, M
 use super::numbers::Numbers;
 use super::reach::reach;
 use super::solution::Solution;
-use super::state::{Assembly, Lead, Parameters, State, Timed};
+use super::state::{Assembly, Continuation, Parameters, State, Timed};
 use super::track::Track;
 use super::work::{Work, of_reaching, of_sides};
 
@@ -24,24 +24,24 @@ pub fn assemble<M: Timed>(params: &M::Params, work: &mut Work) -> Result<State<M
     if !params.is_finite() {
         return Err(Error::NotANumber);
     }
-    let mut way = Way::<M>::new(work)?;
+    let mut path = ParameterPath::<M>::new(work)?;
     let model = M::new(params);
-    match way.lead(params, FIRST_PARTS, work) {
-        Ok(at) => return Ok(way.state(model, at, Assembly::Led)),
+    match path.lead(params, FIRST_PARTS, work) {
+        Ok(at) => return Ok(path.state(model, at, Assembly::Led)),
         Err(Error::NotANumber) => return Err(Error::NotANumber),
         Err(_) => {}
     }
-    let mut at = way.at;
+    let mut at = path.at;
     let drawn = model.closed(&model.drawn(), M::START_TIME, work);
     if drawn.is_some_and(|q| start(&q, &model, &mut at, work).is_ok()) {
-        return Ok(way.state(model, at, Assembly::Drawn));
+        return Ok(path.state(model, at, Assembly::Drawn));
     }
-    let at = way.lead(params, MOST_PARTS, work)?;
-    Ok(way.state(model, at, Assembly::Led))
+    let at = path.lead(params, MOST_PARTS, work)?;
+    Ok(path.state(model, at, Assembly::Led))
 }
 
 /// The way from the file's parameters to others.
-struct Way<M: Timed> {
+struct ParameterPath<M: Timed> {
     /// How steep the equations are with the file's.
     usual: f64,
     /// The solution where it has come to.
@@ -51,7 +51,7 @@ struct Way<M: Timed> {
     part: f64,
 }
 
-impl<M: Timed> Way<M> {
+impl<M: Timed> ParameterPath<M> {
     /// Its beginning.
     fn new(work: &mut Work) -> Result<Self, Error> {
         let mut at = Solution::ZERO;
@@ -92,7 +92,7 @@ impl<M: Timed> Way<M> {
         passed.as_mut().fill(f64::NEG_INFINITY);
         State {
             steepness: if ratio > 0.0 { ratio } else { 1.0 },
-            lead: M::Lead::new(model.params()),
+            continuation: M::Continuation::new(model.params()),
             model,
             track: Track { solutions: [at, self.at], is_second: false, is_smooth: false, stride: M::LONGEST_STEP },
             assembly,

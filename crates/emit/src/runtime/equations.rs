@@ -61,10 +61,10 @@ pub trait Branches: Equations {
 /// What must hold beside the equations; of most mechanisms nothing.
 pub trait Checks: Equations {
     /// Which quantities that keep their signs along a branch are positive.
-    type Watched: Flags;
+    type Monitors: Flags;
 
     /// Whether equations were left out as redundant.
-    const LEAVES_OUT: bool = false;
+    const HAS_REDUNDANT_ROWS: bool = false;
 
     /// Whether distances are positive, and places within their intervals and tables.
     fn conditions_hold(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
@@ -72,12 +72,12 @@ pub trait Checks: Equations {
     }
 
     /// Whether the equations that were left out hold.
-    fn left_out_holds(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
+    fn redundant_rows_hold(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
         true
     }
 
     /// What keeps its sign along a branch of the motion.
-    fn watched(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> Self::Watched {
-        Self::Watched::NONE
+    fn monitors(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> Self::Monitors {
+        Self::Monitors::NONE
     }
 }

@@ -54,7 +54,7 @@ pub fn until_turn<M: Solved>(at: &Solution<M>) -> f64 {
 pub fn meeting<M: Checks>(left: f64, span: f64) -> Error {
     if left > 0.0 && left < NEAR_FOLD * span {
         Error::LockUp
-    } else if M::LEAVES_OUT {
+    } else if M::HAS_REDUNDANT_ROWS {
         Error::Inconsistent
     } else {
         Error::Bifurcation

@@ -4,6 +4,7 @@ use super::branches::{first_edge, sides_near};
 use super::equations::Branches;
 use super::error::{Error, Fault};
 use super::explain::{meeting, of_regular, regular, until_turn};
+use super::input_path::{InputDriven, InputPath, Signals, sum};
 use super::limits::{
     CRUMB, FARTHEST_BEND, JUMP, LARGEST_CORRECTION, LARGEST_TURN, NEAR_TURN, NEAREST_TURN, POSITION_JUMP,
     SHORTEST_STEP, SINGULAR,
@@ -11,15 +12,14 @@ use super::limits::{
 use super::numbers::{Numbers, add_zeros, difference, larger, largest};
 use super::reach::{find, reach, stays_on_branch};
 use super::solution::{Solution, Solved};
-use super::state::{Lead, State, Timed};
+use super::state::{Continuation, State, Timed};
 use super::step::tried;
 use super::track::{Checkpoint, Track};
-use super::way::{Led, Signals, Way, sum};
 use super::work::{Progress, Work, of_reaching, of_sides, of_step};
 
 /// What leads a mechanism by its inputs.
 #[derive(Clone, Copy, Debug)]
-pub struct Leading<E: Led<K>, const K: usize> {
+pub struct InputContinuation<E: InputDriven<K>, const K: usize> {
     pub(super) model: E,
     /// Where it is; times are places of the way, and steps are changes of a signal.
     pub(super) track: Track<E>,
@@ -28,18 +28,18 @@ pub struct Leading<E: Led<K>, const K: usize> {
     /// Where a way leads that was left before its end, and the change that goes well on it.
     unfinished: ([f64; K], f64),
     /// Whether inputs have led to where the mechanism is, rather than the time.
-    is_leading: bool,
+    is_active: bool,
 }
 
 /// A mechanism with what leads it: they have the same coordinates, measures and parameters.
-pub trait Follows<E: Led<K>, const K: usize>:
-    Timed<Q = E::Q, Measures = E::Measures, Params = E::Params, Lead = Leading<E, K>>
+pub trait Follows<E: InputDriven<K>, const K: usize>:
+    Timed<Q = E::Q, Measures = E::Measures, Params = E::Params, Continuation = InputContinuation<E, K>>
 {
     /// Whether time is the last of the signals.
     const HAS_TIME: bool;
 }
 
-impl<E: Led<K>, M: Follows<E, K>, const K: usize> Lead<M> for Leading<E, K> {
+impl<E: InputDriven<K>, M: Follows<E, K>, const K: usize> Continuation<M> for InputContinuation<E, K> {
     // beside the way, the solution of the time
     const WORK: [usize; 2] = [most_work::<E, K>(0) + of_beginning::<M>(), of_step::<E>() + 1];
 
@@ -47,16 +47,16 @@ impl<E: Led<K>, M: Follows<E, K>, const K: usize> Lead<M> for Leading<E, K> {
         Self::with(params)
     }
 
-    fn is_leading(&self) -> bool {
-        self.is_leading
+    fn is_active(&self) -> bool {
+        self.is_active
     }
 
-    fn take_up_time(state: &mut State<M>, most: usize, work: &mut Work) -> Result<Option<usize>, Error> {
+    fn resume_time(state: &mut State<M>, most: usize, work: &mut Work) -> Result<Option<usize>, Error> {
         let t = state.at().t;
         work.add(1);
-        let wanted = E::by_text(state.params(), t);
+        let wanted = E::by_formulas(state.params(), t);
         let mut left = most;
-        let come = state.lead.go(&wanted, &mut left, false, state.steepness, work);
+        let come = state.continuation.go(&wanted, &mut left, false, state.steepness, work);
         state.take_over();
         if !come?.is_reached() {
             return Ok(None);
@@ -65,13 +65,13 @@ impl<E: Led<K>, M: Follows<E, K>, const K: usize> Lead<M> for Leading<E, K> {
         let mut near = Solution::near(&q, t);
         near.sides = sides_near(&q, t, &state.model, work);
         reach(&M::tears(&q), &near, t, &state.model, state.track.at_mut(), work).map_err(Fault::at_start)?;
-        (state.lead.is_leading, state.track.is_smooth) = (false, false);
+        (state.continuation.is_active, state.track.is_smooth) = (false, false);
         Ok(Some(left))
     }
 }
 
 /// Evaluations that a call of so many steps takes at most.
-pub const fn most_work<E: Led<K>, const K: usize>(most: usize) -> usize {
+pub const fn most_work<E: InputDriven<K>, const K: usize>(most: usize) -> usize {
     // that of the turn where a step is refused
     most.saturating_mul(of_step::<E>() + 1)
         .saturating_add(of_beginning::<E>() + of_regular::<E>() + of_reaching::<E>() + 2)
@@ -84,7 +84,7 @@ const fn of_beginning<E: Branches>() -> usize {
 
 /// Leads a state from its inputs to others in so many steps at most, along the straight line between them. After an error the state is
 /// as it was; what so many steps do not reach is one.
-pub fn follow<E: Led<K>, M: Follows<E, K>, const K: usize>(
+pub fn follow<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(
     signals: &Signals<K>,
     state: &mut State<M>,
     most: usize,
@@ -94,7 +94,7 @@ pub fn follow<E: Led<K>, M: Follows<E, K>, const K: usize>(
 }
 
 /// The same, but what so many steps do not reach is on its way.
-pub fn follow_within<E: Led<K>, M: Follows<E, K>, const K: usize>(
+pub fn follow_within<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(
     signals: &Signals<K>,
     state: &mut State<M>,
     most: usize,
@@ -103,7 +103,7 @@ pub fn follow_within<E: Led<K>, M: Follows<E, K>, const K: usize>(
     lead(signals, state, most, false, work)
 }
 
-fn lead<E: Led<K>, M: Follows<E, K>, const K: usize>(
+fn lead<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(
     signals: &Signals<K>,
     state: &mut State<M>,
     most: usize,
@@ -115,9 +115,9 @@ fn lead<E: Led<K>, M: Follows<E, K>, const K: usize>(
     if sums != [0.0; 4] {
         return Err(Error::NotANumber);
     }
-    if state.is_led() {
-        state.lead.takes(&state.lead.at().along.signals, signals)?;
-        let come = state.lead.go(signals, &mut { most }, is_whole, state.steepness, work)?;
+    if state.is_input_driven() {
+        state.continuation.takes(&state.continuation.at().along.signals, signals)?;
+        let come = state.continuation.go(signals, &mut { most }, is_whole, state.steepness, work)?;
         state.take_over();
         return Ok(come);
     }
@@ -127,37 +127,37 @@ fn lead<E: Led<K>, M: Follows<E, K>, const K: usize>(
 /// Leads a state that inputs have not led yet.
 #[cold]
 #[inline(never)]
-fn begin<E: Led<K>, M: Follows<E, K>, const K: usize>(
+fn begin<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(
     signals: &Signals<K>,
     state: &mut State<M>,
     most: usize,
     is_whole: bool,
     work: &mut Work,
 ) -> Result<Progress, Error> {
-    let (before, q, t) = (state.lead, state.at().q, state.at().t);
-    let [now, ..] = E::by_text(state.params(), t);
+    let (before, q, t) = (state.continuation, state.at().q, state.at().t);
+    let [now, ..] = E::by_formulas(state.params(), t);
     work.add(1);
-    state.lead.takes(&now, signals)?;
-    let lead = &mut state.lead;
+    state.continuation.takes(&now, signals)?;
+    let lead = &mut state.continuation;
     let come = lead.begin(&q, t, work).and_then(|()| lead.go(signals, &mut { most }, is_whole, state.steepness, work));
     match come {
         Ok(come) if come.fraction > 0.0 => {
-            state.lead.is_leading = true;
+            state.continuation.is_active = true;
             state.take_over();
         }
-        Ok(_) => state.lead = Leading { unfinished: state.lead.unfinished, ..before },
-        Err(_) => state.lead = before,
+        Ok(_) => state.continuation = InputContinuation { unfinished: state.continuation.unfinished, ..before },
+        Err(_) => state.continuation = before,
     }
     come
 }
 
 impl<M: Timed> State<M> {
     /// Takes over where its inputs have led.
-    fn take_over<E: Led<K>, const K: usize>(&mut self)
+    fn take_over<E: InputDriven<K>, const K: usize>(&mut self)
     where
         M: Follows<E, K>,
     {
-        let (at, to) = (self.lead.at(), self.track.at_mut());
+        let (at, to) = (self.continuation.at(), self.track.at_mut());
         (to.q, to.qd, to.qdd, to.measures) = (at.q, at.qd, at.qdd, at.measures);
         if let (true, [.., t]) = (M::HAS_TIME, at.along.signals.as_slice()) {
             to.t = *t;
@@ -166,50 +166,50 @@ impl<M: Timed> State<M> {
 }
 
 /// By signal: the largest change that a call takes.
-pub fn largest_change<E: Led<K>, M: Follows<E, K>, const K: usize>(state: &State<M>) -> &[f64; K] {
-    &state.lead.largest_change
+pub fn largest_change<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(state: &State<M>) -> &[f64; K] {
+    &state.continuation.largest_change
 }
 
 /// The same, to be written.
-pub fn largest_change_mut<E: Led<K>, M: Follows<E, K>, const K: usize>(state: &mut State<M>) -> &mut [f64; K] {
-    &mut state.lead.largest_change
+pub fn largest_change_mut<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(state: &mut State<M>) -> &mut [f64; K] {
+    &mut state.continuation.largest_change
 }
 
 /// The signals at a state: what they were followed to, or what their formulas say at its time.
-pub fn signals<E: Led<K>, M: Follows<E, K>, const K: usize>(state: &State<M>) -> Signals<K> {
-    if state.is_led() {
-        let way = state.lead.model.way();
-        [state.lead.at().along.signals, way.rates, way.accelerations]
+pub fn signals<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(state: &State<M>) -> Signals<K> {
+    if state.is_input_driven() {
+        let way = state.continuation.model.path();
+        [state.continuation.at().along.signals, way.rates, way.accelerations]
     } else {
-        E::by_text(state.params(), state.t())
+        E::by_formulas(state.params(), state.t())
     }
 }
 
 /// The derivatives of the coordinates by each signal: for a constant shift of it, along the branch that the state is on.
-pub fn influence<E: Led<K>, M: Follows<E, K>, const K: usize>(state: &State<M>) -> Result<[M::Q; K], Error> {
-    let at = |lead: &Leading<E, K>| {
+pub fn influence<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(state: &State<M>) -> Result<[M::Q; K], Error> {
+    let at = |continuation: &InputContinuation<E, K>| {
         let at = lead.at();
         let mut by_signal = at.along.by_signal;
-        lead.model.hold_apart(&mut by_signal, at);
+        lead.model.reject_drift(&mut by_signal, at);
         by_signal
     };
-    if state.is_led() {
-        return Ok(at(&state.lead));
+    if state.is_input_driven() {
+        return Ok(at(&state.continuation));
     }
-    let mut lead = Leading::with(state.params());
+    let mut lead = InputContinuation::with(state.params());
     lead.begin(state.q(), state.t(), &mut Work::default())?;
     Ok(at(&lead))
 }
 
-impl<E: Led<K>, const K: usize> Leading<E, K> {
+impl<E: InputDriven<K>, const K: usize> InputContinuation<E, K> {
     fn with(params: &E::Params) -> Self {
         let solutions = [Solution::ZERO, Solution::ZERO];
         Self {
-            model: E::new(&Way::new(params)),
+            model: E::new(&InputPath::new(params)),
             track: Track { solutions, is_second: false, is_smooth: false, stride: f64::INFINITY },
             largest_change: E::LARGEST_CHANGE,
             unfinished: ([f64::NAN; K], f64::INFINITY),
-            is_leading: false,
+            is_active: false,
         }
     }
 
@@ -226,8 +226,8 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
 
     /// Begins at a position that the text's formulas give at a time (s).
     fn begin(&mut self, q: &E::Q, t: f64, work: &mut Work) -> Result<(), Error> {
-        let way = self.model.way_mut();
-        let signals = E::by_text(&way.params, t);
+        let way = self.model.path_mut();
+        let signals = E::by_formulas(&way.params, t);
         way.turn(&signals[0], &signals);
         let mut near = Solution::near(q, 1.0);
         near.sides = sides_near(q, 1.0, &self.model, work);
@@ -248,8 +248,8 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         work: &mut Work,
     ) -> Result<Progress, Error> {
         let from = self.at().along.signals;
-        let (mut before, way) = (Checkpoint::of(&self.track), *self.model.way());
-        self.model.way_mut().turn(&from, signals);
+        let (mut before, way) = (Checkpoint::of(&self.track), *self.model.path());
+        self.model.path_mut().turn(&from, signals);
         self.track.at_mut().t = 0.0;
         let ((goal, stride), usual) = (self.unfinished, self.track.stride);
         let goes_on = goal == signals[0];
@@ -273,7 +273,7 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
             why = None;
         }
         before.restore(&mut self.track);
-        *self.model.way_mut() = way;
+        *self.model.path_mut() = way;
         why.map_or(Ok(Progress { fraction: 0.0 }), Err)
     }
 
@@ -287,7 +287,7 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         steepness: f64,
         work: &mut Work,
     ) -> Option<Error> {
-        let length = self.model.way().length();
+        let length = self.model.path().length();
         // the branch asks for steps of the same change on any way
         let smallest = SHORTEST_STEP / larger(length, 1.0);
         let mut refused = None;
@@ -349,7 +349,7 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         let (from, at) = self.track.both();
         let m = &self.model;
         let h = t - from.t;
-        let change = m.way().direction().map(|rate| h * rate);
+        let change = m.path().direction().map(|rate| h * rate);
         let v = tears_along(from, &change);
         let mut way = if is_smooth { bend(from, at, &v, &change) } else { E::Tears::ZERO };
         for (way, v) in way.as_mut().iter_mut().zip(v.as_ref()) {
@@ -381,7 +381,7 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
             let jumps = fault == Fault::TooFar && self.jumps(t, work);
             return if jumps { Error::NotSmooth } else { Error::Divergence };
         }
-        meeting::<E>(self.until_turn(work), 1.0 + m.way().length())
+        meeting::<E>(self.until_turn(work), 1.0 + m.path().length())
     }
 
     /// Whether the position jumps on the way to a place, without a branch of a formula: it is found there, but much farther away than the
@@ -392,7 +392,7 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
         if reach(&E::tears(&at.q), at, t, m, &mut beyond, work).is_err() {
             return false;
         }
-        let change = m.way().direction().map(|rate| (t - at.t) * rate);
+        let change = m.path().direction().map(|rate| (t - at.t) * rate);
         let led = largest(&at.along.along(&change), E::scales());
         largest(&difference(&beyond.q, &at.q), E::scales()) > larger(POSITION_JUMP, JUMP * led)
     }
@@ -408,10 +408,10 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
     /// The change of the signal that changes most, all others with it, to a dead point.
     fn until_turn(&self, work: &mut Work) -> f64 {
         let (at, m) = (self.at(), &self.model);
-        let longest = m.way().length();
+        let longest = m.path().length();
         let mut along = *m;
-        along.way_mut().rates = m.way().direction().map(|change| change / longest);
-        along.way_mut().accelerations = [0.0; K];
+        along.path_mut().rates = m.path().direction().map(|change| change / longest);
+        along.path_mut().accelerations = [0.0; K];
         let mut moving = *at;
         work.add(1);
         along.solve(&E::tears(&at.q), at.t, &at.sides, &mut moving);
@@ -420,12 +420,17 @@ impl<E: Led<K>, const K: usize> Leading<E, K> {
 }
 
 /// How those coordinates change that Newton solves for, along a direction of the signals.
-fn tears_along<E: Led<K>, const K: usize>(at: &Solution<E>, direction: &[f64; K]) -> E::Tears {
+fn tears_along<E: InputDriven<K>, const K: usize>(at: &Solution<E>, direction: &[f64; K]) -> E::Tears {
     sum(at.along.by_signal.each_ref().map(E::tears), direction)
 }
 
 /// How far positions are from what the slopes at both ends make of the way between, scaled.
-fn gap<E: Led<K>, const K: usize>(from: &Solution<E>, at: &Solution<E>, v: &E::Tears, change: &[f64; K]) -> f64 {
+fn gap<E: InputDriven<K>, const K: usize>(
+    from: &Solution<E>,
+    at: &Solution<E>,
+    v: &E::Tears,
+    change: &[f64; K],
+) -> f64 {
     let (x, y, w) = (E::tears(&from.q), E::tears(&at.q), tears_along(at, change));
     let mut gaps = E::Tears::ZERO;
     let ways = y.as_ref().iter().zip(x.as_ref());
@@ -438,7 +443,7 @@ fn gap<E: Led<K>, const K: usize>(from: &Solution<E>, at: &Solution<E>, v: &E::T
 
 /// What the motion since the solution before adds to the way `v` that the slopes of now make of a change of the signals: values and
 /// slopes at two places make a cubic (Hermite). Where the signals turn elsewhere, the change of the slopes counts alone.
-fn bend<E: Led<K>, const K: usize>(
+fn bend<E: InputDriven<K>, const K: usize>(
     now: &Solution<E>,
     before: &Solution<E>,
     v: &E::Tears,

@@ -6,10 +6,10 @@
 use super::grid::{bound_at_first, going_on, next_point};
 use super::lane_solutions::{Laned, Solutions};
 use super::limits::{BORDER, LARGEST_CORRECTION};
-use super::so_far::larger_so_far;
+use super::running_max::running_max;
 
 /// An iteration of Newton in every lane, until all have settled or are lost. A lane that has settled stays where it is.
-pub struct Settling<const L: usize> {
+pub struct LaneNewton<const L: usize> {
     is_first: bool,
     first: [f64; L],
     /// The largest correction, scaled.
@@ -21,7 +21,7 @@ pub struct Settling<const L: usize> {
     cells: [f64; L],
 }
 
-impl<const L: usize> Settling<L> {
+impl<const L: usize> LaneNewton<L> {
     /// It has not begun.
     pub fn new() -> Self {
         let zero = [0.0; L];
@@ -31,11 +31,11 @@ impl<const L: usize> Settling<L> {
 
     /// The correction of a coordinate; its grid has cells so wide, and it is judged against `scale`.
     #[inline]
-    pub fn see(&mut self, lane: usize, delta: f64, cell: f64, scale: f64) {
+    pub fn record(&mut self, lane: usize, delta: f64, cell: f64, scale: f64) {
         let size = delta.abs();
         if let (Some(far), Some(largest)) = (self.far.get_mut(lane), self.largest.get_mut(lane)) {
-            *far = larger_so_far(*far, size / scale);
-            *largest = larger_so_far(*largest, size / cell);
+            *far = running_max(*far, size / scale);
+            *largest = running_max(*largest, size / cell);
         }
     }
 
@@ -70,10 +70,10 @@ impl<const L: usize> Settling<L> {
     /// Leaves word of how it went. What is not a number is in the coordinates, too.
     pub fn note<M: Laned<L>>(&self, at: &mut Solutions<M, L>) {
         for k in 0..L {
-            at.first[k] = larger_so_far(at.first[k], self.first[k]);
+            at.first[k] = running_max(at.first[k], self.first[k]);
             let lost = self.far[k] * (1.0 / LARGEST_CORRECTION);
             let strain = if self.cells[k] > 0.0 { f64::INFINITY } else { lost };
-            at.strain[k] = larger_so_far(at.strain[k], strain);
+            at.strain[k] = running_max(at.strain[k], strain);
         }
     }
 }

@@ -13,8 +13,8 @@ use super::limits::{
     CALM_BETWEEN, CALM_CORRECTION, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP,
 };
 use super::numbers::Numbers;
-use super::so_far::larger_so_far;
-use super::state::{Assembly, Lead, State};
+use super::running_max::running_max;
+use super::state::{Assembly, Continuation, State};
 use super::step::step;
 use super::track::Track;
 use super::work::Work;
@@ -32,9 +32,9 @@ pub struct States<M: Laned<L>, const L: usize> {
     pub(super) step: [f64; L],
     pub(super) assembly: [Assembly; L],
     pub(super) sides: [M::Sides; L],
-    pub(super) watched: [M::Watched; L],
+    pub(super) monitors: [M::Monitors; L],
     /// What leads each lane by inputs.
-    pub(super) lead: [M::Lead; L],
+    pub(super) continuation: [M::Continuation; L],
 }
 
 impl<M: Laned<L>, const L: usize> States<M, L> {
@@ -83,11 +83,11 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
     /// A lane on its own; none where there is no such lane.
     #[must_use]
     pub fn get(&self, lane: usize) -> Option<State<M>> {
-        let (model, lead) = (*self.models.get(lane)?, *self.lead.get(lane)?);
+        let (model, lead) = (*self.models.get(lane)?, *self.continuation.get(lane)?);
         let mut solutions = [self.now().lane(lane), self.other().lane(lane)];
         for at in &mut solutions {
             at.sides = *self.sides.get(lane)?;
-            at.watched = *self.watched.get(lane)?;
+            at.monitors = *self.monitors.get(lane)?;
         }
         let mut passed = M::Passed::ZERO;
         passed.as_mut().fill(f64::NEG_INFINITY);
@@ -101,7 +101,7 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
             },
             steepness: *self.steepness.get(lane)?,
             assembly: *self.assembly.get(lane)?,
-            lead,
+            continuation: lead,
             passed,
         })
     }
@@ -110,8 +110,8 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
     fn set(&mut self, lane: usize, state: &State<M>) {
         put(&mut self.step, lane, &state.track.stride);
         put(&mut self.sides, lane, &state.at().sides);
-        put(&mut self.watched, lane, &state.at().watched);
-        put(&mut self.lead, lane, &state.lead);
+        put(&mut self.monitors, lane, &state.at().monitors);
+        put(&mut self.continuation, lane, &state.continuation);
         put(&mut self.is_smooth, lane, &false);
     }
 
@@ -174,14 +174,14 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
 
     /// Whether a lane's next solution lies on the branches of formulas that it comes from; time takes up alone where inputs have led.
     fn keeps_branch(&self, lane: usize) -> bool {
-        if self.lead.get(lane).is_none_or(Lead::is_leading) {
+        if self.continuation.get(lane).is_none_or(Continuation::is_active) {
             return false;
         }
         if !M::HAS_CHECKS {
             return true;
         }
-        let (Some(model), Some(sides), Some(watched)) =
-            (self.models.get(lane), self.sides.get(lane), self.watched.get(lane))
+        let (Some(model), Some(sides), Some(monitors)) =
+            (self.models.get(lane), self.sides.get(lane), self.monitors.get(lane))
         else {
             return false;
         };
@@ -190,7 +190,7 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
         let (t, of_time) = (at.t, sides_at(at.t, model, work));
         let mut passed = M::Passed::ZERO;
         passed.as_mut().fill(f64::NEG_INFINITY);
-        if model.first_rim(from, t, &passed, work).is_some() {
+        if model.first_boundary(from, t, &passed, work).is_some() {
             return false;
         }
         at.sides = of_time;
@@ -200,8 +200,8 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
         }
         at.sides == *sides
             && model.conditions_hold(&at.q, t, sides)
-            && model.left_out_holds(&at.q, t, sides)
-            && model.watched(&at.q, t, sides) == *watched
+            && model.redundant_rows_hold(&at.q, t, sides)
+            && model.monitors(&at.q, t, sides) == *monitors
     }
 }
 
@@ -222,8 +222,8 @@ pub fn assemble_each<M: Laned<L>, const L: usize>(
         step: [M::LONGEST_STEP; L],
         assembly: [one.assembly; L],
         sides: [one.at().sides; L],
-        watched: [one.at().watched; L],
-        lead: [one.lead; L],
+        monitors: [one.at().monitors; L],
+        continuation: [one.continuation; L],
     };
     let mut results = [Ok(()); L];
     for (k, (params, result)) in params.iter().zip(&mut results).enumerate() {
@@ -279,7 +279,7 @@ fn guess<M: Laned<L>, const L: usize>(
             let bend = bend_ahead([x, v, a], [y[k], w[k], b[k]], back[k], u[k]);
             let way = h * (v + 0.5 * h * a) + bend;
             guess[k] = x + way;
-            motion[k] = larger_so_far(motion[k], way.abs() / scale);
+            motion[k] = running_max(motion[k], way.abs() / scale);
         }
     }
     (guess, motion)
@@ -297,7 +297,7 @@ fn gap<M: Laned<L>, const L: usize>(from: &Solutions<M, L>, at: &Solutions<M, L>
             let rates = 0.5 * h[k] * (v[k] + w[k]);
             let bends = h[k] * h[k] * (1.0 / 12.0) * (a[k] - b[k]);
             let gap_here = y[k] - x[k] - rates - bends;
-            gap[k] = larger_so_far(gap[k], gap_here.abs() / scale);
+            gap[k] = running_max(gap[k], gap_here.abs() / scale);
         }
     }
     gap

@@ -8,60 +8,43 @@
 
 pub mod assemble;
 pub mod branches;
+pub mod bytecode_interpreter;
+pub mod bytecode_solver;
+mod checks;
+mod derivatives;
+pub mod domain_boundaries;
 pub mod equations;
 pub mod error;
 pub mod explain;
+pub mod extra_results;
 pub mod follow;
-pub mod forces;
-pub mod forces_led;
-pub mod hold_apart;
-pub mod lane_follow;
+mod functions;
+mod inputs;
+pub mod lane_following;
 pub mod lane_newton;
-pub mod lane_pivots;
 pub mod lane_solutions;
-pub mod lane_strain;
 pub mod lanes;
-pub mod left_out;
-pub mod listed;
-pub mod listed_more;
 pub mod measured;
 pub mod newton;
 pub mod numbers;
-pub mod pivoted_forces;
-pub mod pivoted_slopes;
 pub mod pivoting;
-pub mod pivots;
 pub mod reach;
-pub mod rims;
-pub mod sensitivity;
-pub mod sensitivity_led;
-pub mod so_far;
+mod reactions;
 pub mod solution;
+mod solver_records;
 pub mod state;
 pub mod step;
-pub mod tables;
 pub mod track;
-pub mod watched;
-pub mod way;
-pub mod way_list;
 pub mod work;
 
-#[path = "functions/either.rs"]
-pub mod either;
-#[path = "functions/greater.rs"]
-pub mod greater;
-#[path = "functions/lesser.rs"]
-pub mod lesser;
-#[path = "functions/pick.rs"]
-pub mod pick;
-#[path = "functions/piece.rs"]
-pub mod piece;
-#[path = "functions/select.rs"]
-pub mod select;
-#[path = "functions/sign.rs"]
-pub mod sign;
-
 mod tests;
+
+pub use checks::{constraint_drift, monitors, redundant_rows};
+pub use derivatives::{input_driven_sensitivity, pivoted_derivatives, sensitivity};
+pub use functions::{either, greater, lesser, pick, piece, select, sign};
+pub use inputs::{input_list, input_path};
+pub use reactions::{forces, input_driven_forces, pivoted_forces};
+pub use solver_records::{lane_pivots, lane_residuals, pivots, running_max};
 
 use crate::limits::values as limits;
 use mechc_expr::math::{blocks, grid, hermite, neighbours};

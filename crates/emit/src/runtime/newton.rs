@@ -3,7 +3,7 @@
 use super::grid::{bound_at_first, going_on, next_point};
 use super::limits::{BORDER, LARGEST_CORRECTION};
 use super::numbers::larger;
-use super::so_far::larger_so_far;
+use super::running_max::running_max;
 use super::solution::{Solution, Solved};
 
 /// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace in where it ends.
@@ -27,12 +27,12 @@ impl Newton {
     }
 
     /// The correction of a coordinate; its grid has cells so wide, and it is judged against `scale`.
-    pub fn see(&mut self, delta: f64, cell: f64, scale: f64) {
+    pub fn record(&mut self, delta: f64, cell: f64, scale: f64) {
         let size = delta.abs();
         if self.is_first {
-            self.first = larger_so_far(self.first, size / scale);
+            self.first = running_max(self.first, size / scale);
         }
-        self.largest = larger_so_far(self.largest, size / cell);
+        self.largest = running_max(self.largest, size / cell);
         self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
     }
 

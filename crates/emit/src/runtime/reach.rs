@@ -53,10 +53,10 @@ pub fn find<M: Solved>(
     if !m.conditions_hold(&at.q, t, sides) {
         return Err(Fault::NotANumber);
     }
-    if !m.left_out_holds(&at.q, t, sides) {
+    if !m.redundant_rows_hold(&at.q, t, sides) {
         return Err(Fault::LeftOut);
     }
-    at.watched = m.watched(&at.q, t, sides);
+    at.monitors = m.monitors(&at.q, t, sides);
     at.sides = *sides;
     at.along.note(m, t);
     at.measures.leave_out();
@@ -116,7 +116,7 @@ pub fn stays_on_branch<M: Solved>(
     work: &mut Work,
 ) -> bool {
     let steepest = at.steepest / steepness;
-    if at.watched != from.watched || at.is_negative != from.is_negative || steepest > STEEPEST {
+    if at.monitors != from.monitors || at.is_negative != from.is_negative || steepest > STEEPEST {
         return false;
     }
     if steepest > STEEP {

@@ -91,7 +91,7 @@ pub struct Solution<M: Solved> {
     /// The branches of formulas.
     pub sides: M::Sides,
     /// Which quantities that must keep their signs are positive.
-    pub watched: M::Watched,
+    pub monitors: M::Monitors,
     /// By block of equations: whether its determinant is negative.
     pub is_negative: M::Turns,
     /// Whether Newton has arrived.
@@ -123,7 +123,7 @@ impl<M: Solved> Solution<M> {
         joined: M::Joined::ZERO,
         along: M::Along::ZERO,
         sides: M::Sides::ZERO,
-        watched: M::Watched::NONE,
+        monitors: M::Monitors::NONE,
         is_negative: M::Turns::NONE,
         is_settled: true,
         holds: true,

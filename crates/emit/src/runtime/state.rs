@@ -24,8 +24,8 @@ pub trait Timed: Solved<Along = Time> {
     /// Its parameters.
     type Params: Parameters;
     /// What leads it by its inputs; `()` where it has none.
-    type Lead: Lead<Self>;
-    /// By rim, where formulas of time may end: the time at which it was looked at last (s).
+    type Continuation: Continuation<Self>;
+    /// By boundary, where formulas of time may end: the time at which it was looked at last (s).
     type Passed: Numbers;
     /// A number for each result.
     type Row: Numbers;
@@ -38,8 +38,8 @@ pub trait Timed: Solved<Along = Time> {
     const LONGEST_STEP: f64;
     /// The shortest step (s).
     const SMALLEST_STEP: f64;
-    /// Evaluations that the rims of a step take at most.
-    const WORK_OF_RIMS: usize = 0;
+    /// Evaluations that the boundaries of a step take at most.
+    const WORK_OF_BOUNDARIES: usize = 0;
 
     /// The mechanism with some parameters.
     fn new(params: &Self::Params) -> Self;
@@ -58,19 +58,19 @@ pub trait Timed: Solved<Along = Time> {
         None
     }
 
-    /// The first rim of a step that was not looked at yet, with its time.
-    fn first_rim(&self, _from: f64, _to: f64, _passed: &Self::Passed, _work: &mut Work) -> Option<(usize, f64)> {
+    /// The first boundary of a step that was not looked at yet, with its time.
+    fn first_boundary(&self, _from: f64, _to: f64, _passed: &Self::Passed, _work: &mut Work) -> Option<(usize, f64)> {
         None
     }
 
-    /// Looks at both sides of a rim next to the state.
-    fn look_at_rim(_state: &mut State<Self>, _rim: usize, _t: f64, _work: &mut Work) -> Result<(), Error> {
+    /// Looks at both sides of a boundary next to the state.
+    fn check_boundary(_state: &mut State<Self>, _rim: usize, _t: f64, _work: &mut Work) -> Result<(), Error> {
         Ok(())
     }
 }
 
 /// What leads a mechanism by its inputs.
-pub trait Lead<M: Timed>: Copy + Debug {
+pub trait Continuation<M: Timed>: Copy + Debug {
     /// Evaluations that taking up the time takes at most beside its steps, and each of these.
     const WORK: [usize; 2];
 
@@ -78,23 +78,23 @@ pub trait Lead<M: Timed>: Copy + Debug {
     fn new(params: &M::Params) -> Self;
 
     /// Whether inputs have led to where the mechanism is, rather than the time.
-    fn is_leading(&self) -> bool;
+    fn is_active(&self) -> bool;
 
     /// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its time, in so many steps at most;
     /// gives how many of them are left, or nothing where it is still on its way.
-    fn take_up_time(state: &mut State<M>, most: usize, work: &mut Work) -> Result<Option<usize>, Error>;
+    fn resume_time(state: &mut State<M>, most: usize, work: &mut Work) -> Result<Option<usize>, Error>;
 }
 
-impl<M: Timed> Lead<M> for () {
+impl<M: Timed> Continuation<M> for () {
     const WORK: [usize; 2] = [0, 0];
 
     fn new(_: &M::Params) -> Self {}
 
-    fn is_leading(&self) -> bool {
+    fn is_active(&self) -> bool {
         false
     }
 
-    fn take_up_time(_: &mut State<M>, most: usize, _: &mut Work) -> Result<Option<usize>, Error> {
+    fn resume_time(_: &mut State<M>, most: usize, _: &mut Work) -> Result<Option<usize>, Error> {
         Ok(Some(most))
     }
 }
@@ -139,8 +139,8 @@ pub struct State<M: Timed> {
     /// How it was assembled.
     pub(super) assembly: Assembly,
     /// What leads by inputs.
-    pub(super) lead: M::Lead,
-    /// By rim: the time at which it was looked at last (s).
+    pub(super) continuation: M::Continuation,
+    /// By boundary: the time at which it was looked at last (s).
     pub(super) passed: M::Passed,
 }
 
@@ -194,8 +194,8 @@ impl<M: Timed> State<M> {
     }
 
     /// Whether inputs have led here, rather than the time.
-    pub(super) fn is_led(&self) -> bool {
-        self.lead.is_leading()
+    pub(super) fn is_input_driven(&self) -> bool {
+        self.continuation.is_active()
     }
 
     /// All results, in the order of the columns of `mechc run`: the time, coordinates and measures, then their first and their second

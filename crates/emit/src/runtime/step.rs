@@ -11,14 +11,14 @@ use super::limits::{
 use super::numbers::{Numbers, difference, largest};
 use super::reach::{find, reach, stays_on_branch};
 use super::solution::{Solution, Solved};
-use super::state::{Lead, State, Timed};
+use super::state::{Continuation, State, Timed};
 use super::track::Checkpoint;
 use super::work::{Progress, Work, of_step};
 
 /// Evaluations that a call of so many steps takes at most.
 pub const fn most_work<M: Timed>(most: usize) -> usize {
-    let [of_lead, of_its_step] = M::Lead::WORK;
-    let of_step = of_step::<M>() + M::WORK_OF_RIMS;
+    let [of_lead, of_its_step] = M::Continuation::WORK;
+    let of_step = of_step::<M>() + M::WORK_OF_BOUNDARIES;
     let of_step = if of_its_step > of_step { of_its_step } else { of_step };
     most.saturating_mul(of_step).saturating_add(of_lead + of_regular::<M>())
 }
@@ -43,7 +43,11 @@ fn go<M: Timed>(t: f64, state: &mut State<M>, most: usize, is_whole: bool, work:
     if !(t - state.at().t).is_finite() {
         return Err(Error::NotANumber);
     }
-    if state.is_led() { take_up(t, state, most, is_whole, work) } else { march(t, state, most, is_whole, work) }
+    if state.is_input_driven() {
+        take_up(t, state, most, is_whole, work)
+    } else {
+        march(t, state, most, is_whole, work)
+    }
 }
 
 /// Goes on by the time from where inputs have led.
@@ -56,15 +60,15 @@ fn take_up<M: Timed>(
     is_whole: bool,
     work: &mut Work,
 ) -> Result<Progress, Error> {
-    let (lead, track) = (state.lead, state.track);
-    let result = match M::Lead::take_up_time(state, most, work) {
+    let (lead, track) = (state.continuation, state.track);
+    let result = match M::Continuation::resume_time(state, most, work) {
         Ok(Some(left)) => march(t, state, left, is_whole, work),
         Ok(None) if is_whole => Err(Error::TooFar),
         Ok(None) => Ok(Progress { fraction: 0.0 }),
         Err(error) => Err(error),
     };
     if result.is_err() {
-        (state.lead, state.track) = (lead, track);
+        (state.continuation, state.track) = (lead, track);
     }
     result
 }
@@ -89,12 +93,12 @@ fn march<M: Timed>(
         let wanted = if stride >= CRUMB * left.abs() { t } else { now + stride.copysign(left) };
         // what is fast may be over before the step's end
         let edge = first_edge(now, wanted, &state.model, work);
-        let next = match state.model.first_rim(now, edge, &state.passed, work) {
+        let next = match state.model.first_boundary(now, edge, &state.passed, work) {
             None => edge,
-            Some((rim, at)) => {
+            Some((boundary, at)) => {
                 let before = at - (LEAD * M::SPAN).copysign(left);
                 if (before - now) * left <= 0.0 {
-                    if let Err(error) = M::look_at_rim(state, rim, at, work) {
+                    if let Err(error) = M::check_boundary(state, boundary, at, work) {
                         why = error;
                         break;
                     }

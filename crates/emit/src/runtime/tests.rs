@@ -1,13 +1,13 @@
 //! What goes along with emitted code follows a mechanism that is written by hand: a point on a circle, whose height grows with time.
 
 use super::assemble::assemble;
+use super::domain_boundaries::{BoundedDomain, first_boundary};
 use super::equations::{Branches, Checks, Equations};
 use super::error::Error;
 use super::grid::on_grid;
 use super::limits::ITERATIONS;
 use super::newton::Newton;
 use super::numbers::{larger, largest};
-use super::rims::{Rimmed, first_rim};
 use super::solution::{Solution, Solved};
 use super::state::{Parameters, State, Time, Timed};
 use super::step::{step, step_within};
@@ -75,7 +75,7 @@ impl Equations for Circle {
 impl Branches for Circle {}
 
 impl Checks for Circle {
-    type Watched = [bool; 0];
+    type Monitors = [bool; 0];
 }
 
 impl Solved for Circle {
@@ -106,7 +106,7 @@ impl Solved for Circle {
         let mut newton = Newton::new();
         for _ in 0..ITERATIONS {
             delta = (1.0 - x * x - y * y) / (2.0 * x);
-            newton.see(delta, cell, 1.0);
+            newton.record(delta, cell, 1.0);
             if newton.is_done() {
                 break;
             }
@@ -122,7 +122,7 @@ impl Solved for Circle {
 
 impl Timed for Circle {
     type Params = Speed;
-    type Lead = ();
+    type Continuation = ();
     type Passed = [f64; 1];
     type Row = [f64; 7];
 
@@ -148,7 +148,7 @@ impl Timed for Circle {
     }
 }
 
-impl Rimmed for Circle {
+impl BoundedDomain for Circle {
     type Gauges = [f64; 2];
 
     fn gauges(&self, t: f64) -> Self::Gauges {
@@ -226,10 +226,10 @@ fn what_is_no_number_is_refused_and_too_few_steps_are_told() {
 fn a_rim_is_met_once() {
     let (model, work) = (Circle::new(&Speed(1.0)), &mut Work::default());
     let never = [f64::NEG_INFINITY];
-    let (rim, t) = first_rim(&model, 0.0, 0.5, &never, work).unwrap();
-    assert!(rim == 0 && is_near(t, 0.25), "{t}");
-    assert_eq!(first_rim(&model, 0.0, 0.5, &[t], work), None, "it was looked at");
-    assert_eq!(first_rim(&model, 0.3, 0.5, &never, work), None);
+    let (boundary, t) = first_boundary(&model, 0.0, 0.5, &never, work).unwrap();
+    assert!(boundary == 0 && is_near(t, 0.25), "{t}");
+    assert_eq!(first_boundary(&model, 0.0, 0.5, &[t], work), None, "it was looked at");
+    assert_eq!(first_boundary(&model, 0.3, 0.5, &never, work), None);
 }
 
 #[test]

@@ -4,14 +4,14 @@
 //! places go from 0 to 1; it stands in a module of its own, so that nothing else changes.
 
 use super::indices::numbered;
-use super::words::Work;
+use super::state_size::Work;
 use super::{Writer, equations};
 use crate::Following;
-use crate::equations::{Equations, Given, Wanted};
-use crate::goods::Uses;
+use crate::equations::{Equations, FunctionSpec, Given};
 use crate::names::{Case, Names};
 use crate::params::Params;
 use crate::print::{Head, Page};
+use crate::runtime_files::RuntimeDeps;
 use crate::solution::Solution;
 use crate::tables::Tables;
 use crate::text::{literal, one_line, unit};
@@ -49,10 +49,10 @@ more is refused at once, as a value that an encoder never had. At first half a t
 and of a length twice the largest body; infinite where an input is neither.";
 
 /// The inputs, and the module that follows them; what that uses, the words that it takes of a state, and the work of a step.
-pub(super) fn module(following: &Following<'_>, page: &mut Page) -> (Uses, usize, Option<Work>) {
+pub(super) fn module(following: &Following<'_>, page: &mut Page) -> (RuntimeDeps, usize, Option<Work>) {
     let unit = &*following.unit;
     let Some(motion) = &unit.motion else {
-        return (Uses::default(), 0, None);
+        return (RuntimeDeps::default(), 0, None);
     };
     let tables = Tables::new(unit.program);
     let names = Names::new(unit.system, Params::new(unit.system).paths, &tables.variables());
@@ -60,28 +60,28 @@ pub(super) fn module(following: &Following<'_>, page: &mut Page) -> (Uses, usize
     let writer = Writer { unit, names: &names, equations: &equations };
     let mut body = Page::default();
     writer.tables(&mut body);
-    let mut uses = by_text(following, &names, &tables, &mut body);
+    let mut deps = by_formulas(following, &names, &tables, &mut body);
     let solution = Solution::new(unit, motion, &equations);
-    writer.led(&solution, &mut body);
+    writer.input_driven(&solution, &mut body);
     let words = writer.words_of_lead(&solution);
-    uses.add(&equations.uses.take());
+    deps.add(&equations.deps.take());
     let inputs = Inputs { all: unit.system.inputs(), names: &names, for_c: unit.for_c };
     inputs.print(page);
-    inputs.doors(!unit.system.checks().is_empty(), page);
+    inputs.entry_points(!unit.system.checks().is_empty(), page);
     page.docs("What follows inputs: along a way from 0 to 1, on which `t` is a place.");
     page.line("#[rustfmt::skip]");
     page.item("mod following", |page| {
         page.line("use super::*;\n");
-        uses.print("super::runtime", page);
+        deps.print("super::runtime", page);
         page.text(&body.done());
     });
-    uses.file("follow");
-    uses.limit("MOST_STEPS_TO_FOLLOW");
-    (uses, words, Some(writer.work()))
+    deps.file("follow");
+    deps.limit("MOST_STEPS_TO_FOLLOW");
+    (deps, words, Some(writer.work()))
 }
 
 /// What the text says of inputs: their values, rates and accelerations by its formulas. Gives what that uses.
-fn by_text(following: &Following<'_>, names: &Names, tables: &Tables, page: &mut Page) -> Uses {
+fn by_formulas(following: &Following<'_>, names: &Names, tables: &Tables, page: &mut Page) -> RuntimeDeps {
     let program = following.by_text;
     let outputs: Vec<Register> = program.inputs.all_signals().collect();
     let equations = Equations {
@@ -90,15 +90,15 @@ fn by_text(following: &Following<'_>, names: &Names, tables: &Tables, page: &mut
         tables,
         constants: program.constants().iter().copied().collect(),
         sides: FxHashMap::default(),
-        is_led: false,
-        book: None,
-        uses: RefCell::default(),
+        is_input_driven: false,
+        pool: None,
+        deps: RefCell::default(),
     };
     equations.function(
-        &Wanted {
+        &FunctionSpec {
             given: Given::None,
-            ..Wanted::of(
-                "by_text",
+            ..FunctionSpec::new(
+                "by_formulas",
                 "Value, rate and acceleration of each signal by the text's formulas.",
                 &outputs,
                 "3 * SIGNALS",
@@ -106,14 +106,18 @@ fn by_text(following: &Following<'_>, names: &Names, tables: &Tables, page: &mut
         },
         page,
     );
-    equations.uses.into_inner()
+    equations.deps.into_inner()
 }
 
 impl Writer<'_> {
     /// The mechanism along signals.
-    fn led(&self, solution: &Solution<'_>, page: &mut Page) {
+    fn input_driven(&self, solution: &Solution<'_>, page: &mut Page) {
         let system = self.unit.system;
-        page.constant("A way of the signals.", "type Way", "super::runtime::way::Way<Params, SIGNALS>");
+        page.constant(
+            "The path of the signals.",
+            "type Path",
+            "super::runtime::input_path::InputPath<Params, SIGNALS>",
+        );
         page.line(&format!("const ENTRIES: usize = {};\n", system.phi_q().entries().len()));
         self.pattern("", "Row and column of each value that `phi_q` gives.", page);
         if self.equations.has_varied() {
@@ -123,13 +127,13 @@ impl Writer<'_> {
         if !system.checks().is_empty() {
             page.line(&format!("const LEFT_OUT: usize = {};\n", system.checks().len()));
         }
-        self.model("way", "Way", "way", solution, page);
+        self.model("path", "Path", "path", solution, page);
         self.solved(solution, page);
         self.left_out_slopes("signal", &self.unit.program.outputs.check_slopes.inputs, page);
         self.along_signals(solution, page);
         self.sensitivity(solution, page);
         self.forces(solution, page);
-        self.equations.print_book(page);
+        self.equations.print_pool(page);
     }
 
     /// By signal: the largest change that a call takes at first.
@@ -148,30 +152,30 @@ impl Writer<'_> {
 
     /// The motion along signals.
     fn along_signals(&self, solution: &Solution<'_>, page: &mut Page) {
-        self.uses("way", "Led");
-        self.uses("way", "Signals");
-        page.item("impl Led<SIGNALS> for Model", |page| {
+        self.requires("input_path", "InputDriven");
+        self.requires("input_path", "Signals");
+        page.item("impl InputDriven<SIGNALS> for Model", |page| {
             page.line("type Params = Params;\n");
             let changes = self.largest_changes().into_iter().map(literal).collect::<Vec<_>>().join(", ");
             page.line(&format!("const LARGEST_CHANGE: [f64; SIGNALS] = [{changes}];\n"));
-            let head = Head { kind: "fn", name: "new", arguments: &[("way", "&Way")], result: "Self" };
-            page.function(&head, |page| Self::making(solution, "way", "*way", page));
-            let head = Head { kind: "fn", name: "way", arguments: &[("&self", "")], result: "&Way" };
-            page.function(&head, |page| page.line("&self.way"));
-            let head = Head { kind: "fn", name: "way_mut", arguments: &[("&mut self", "")], result: "&mut Way" };
-            page.function(&head, |page| page.line("&mut self.way"));
+            let head = Head { kind: "fn", name: "new", arguments: &[("path", "&Path")], result: "Self" };
+            page.function(&head, |page| Self::making(solution, "path", "*path", page));
+            let head = Head { kind: "fn", name: "path", arguments: &[("&self", "")], result: "&Path" };
+            page.function(&head, |page| page.line("&self.path"));
+            let head = Head { kind: "fn", name: "path_mut", arguments: &[("&mut self", "")], result: "&mut Path" };
+            page.function(&head, |page| page.line("&mut self.path"));
             let arguments = [("params", "&Params"), ("t", "f64")];
-            let head = Head { kind: "fn", name: "by_text", arguments: &arguments, result: "Signals<SIGNALS>" };
+            let head = Head { kind: "fn", name: "by_formulas", arguments: &arguments, result: "Signals<SIGNALS>" };
             page.function(&head, |page| {
-                page.line("let all = by_text(t, params);");
+                page.line("let all = by_formulas(t, params);");
                 page.line("let get = |k: usize| all.get(k).copied().unwrap_or(f64::NAN);");
                 page.line("core::array::from_fn(|order| core::array::from_fn(|k| get(3 * k + order)))");
             });
             if !self.unit.system.checks().is_empty() {
                 let arguments = [("&self", ""), ("by", "&mut [Q; SIGNALS]"), ("at", "&Solution")];
-                let head = Head { kind: "fn", name: "hold_apart", arguments: &arguments, result: "" };
-                let with = if self.has_sides() { "&self.way, &at.sides" } else { "&self.way" };
-                page.function(&head, |page| self.hold_apart("signal", with, page));
+                let head = Head { kind: "fn", name: "reject_drift", arguments: &arguments, result: "" };
+                let with = if self.has_sides() { "&self.path, &at.sides" } else { "&self.path" };
+                page.function(&head, |page| self.reject_drift("signal", with, page));
             }
         });
     }
@@ -221,12 +225,13 @@ impl Inputs<'_> {
         let docs = "Number of signals: time is one where formulas hold it beside inputs.";
         page.constant(docs, "const SIGNALS: usize", &self.all.len().to_string());
         let constants = Case::Constant.names_of_inputs(self.all);
-        let said = |(input, _): (&Input, &String)| format!("`{}` ({})", one_line(&input.name), unit(&input.unit));
+        let descriptions =
+            |(input, _): (&Input, &String)| format!("`{}` ({})", one_line(&input.name), unit(&input.unit));
         numbered(
             page,
             "Where each input stands in what [`influence`] gives.",
             "input",
-            self.own().map(said).zip(&constants),
+            self.own().map(descriptions).zip(&constants),
         );
         page.docs("What comes from outside.");
         page.line("#[derive(Clone, Copy, Debug, Default, PartialEq)]");
@@ -250,8 +255,8 @@ impl Inputs<'_> {
         let arguments = [("t", "f64"), ("params", "&Params")];
         let head = Head { kind: "pub fn", name: "at", arguments: &arguments, result: "Self" };
         page.function(&head, |page| {
-            page.line("use runtime::way::Led;\n");
-            page.line("Self::of(&following::Model::by_text(params, t))");
+            page.line("use runtime::input_path::InputDriven;\n");
+            page.line("Self::of(&following::Model::by_formulas(params, t))");
         });
         page.line("#[rustfmt::skip]");
         let arguments = [("[values, rates, accelerations]", "&[[f64; SIGNALS]; 3]")];
@@ -281,7 +286,7 @@ impl Inputs<'_> {
     }
 
     /// The functions that everybody may call.
-    fn doors(&self, is_left_out: bool, page: &mut Page) {
+    fn entry_points(&self, is_left_out: bool, page: &mut Page) {
         page.item("impl runtime::follow::Follows<following::Model, SIGNALS> for Model", |page| {
             page.line(&format!("const HAS_TIME: bool = {};", self.has_time()));
         });

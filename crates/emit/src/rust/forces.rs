@@ -2,7 +2,7 @@
 
 use super::Writer;
 use super::indices::numbered;
-use crate::equations::{Given, Wanted};
+use crate::equations::{FunctionSpec, Given};
 use crate::names::Case;
 use crate::print::{Head, Page};
 use crate::solution::Solution;
@@ -29,13 +29,13 @@ impl Writer<'_> {
             return;
         }
         let names = Case::Constant.names(reactions.iter().map(|of| of.name.as_str()));
-        let said =
+        let descriptions =
             reactions.iter().map(|of| format!("`{}` ({}){}", one_line(&of.name), unit(&of.unit), self.line(of.span)));
         numbered(
             page,
             "Where each force and moment that a joint exerts, and what each driver supplies, stands in [`Forces`].",
             "force",
-            said.zip(&names),
+            descriptions.zip(&names),
         );
         page.constant("How many they are.", "pub const FORCES: usize", &reactions.len().to_string());
         page.constant(
@@ -57,9 +57,9 @@ impl Writer<'_> {
     pub fn needed(&self, given: Given, page: &mut Page) {
         let is_public = given == Given::None;
         let name = if is_public { "needed".to_owned() } else { self.on_sides("needed") };
-        let wanted = Wanted::of(&name, NEEDED, &self.unit.program.outputs.forces, "N");
+        let spec = FunctionSpec::new(&name, NEEDED, &self.unit.program.outputs.forces, "N");
         let orders = if self.forces_hold_jerk() { 4 } else { 3 };
-        self.equations.function(&Wanted { is_public, orders, given, ..wanted }, page);
+        self.equations.function(&FunctionSpec { is_public, orders, given, ..spec }, page);
     }
 
     /// Whether loads hold third derivatives of the coordinates.
@@ -72,9 +72,9 @@ impl Writer<'_> {
     fn exerted(&self, is_public: bool, page: &mut Page) {
         let outputs = &self.unit.program.outputs.reactions;
         if !outputs.is_empty() {
-            let wanted = Wanted::of("exerted", EXERTED, outputs, "FORCES");
-            let wanted = Wanted { is_public, orders: 1, multipliers: true, given: Given::None, ..wanted };
-            self.equations.function(&wanted, page);
+            let spec = FunctionSpec::new("exerted", EXERTED, outputs, "FORCES");
+            let spec = FunctionSpec { is_public, orders: 1, multipliers: true, given: Given::None, ..spec };
+            self.equations.function(&spec, page);
         }
     }
 
@@ -89,27 +89,27 @@ impl Writer<'_> {
         if solution.motion.forced.is_none() {
             return;
         }
-        let is_led = self.equations.is_led;
-        if !is_led {
+        let is_input_driven = self.equations.is_input_driven;
+        if !is_input_driven {
             page.docs(FORCES);
             page.line("#[must_use]");
             let head = Head { kind: "pub fn", name: "forces", arguments: &[("state", "&State")], result: "Forces" };
             let (file, name) = match self.unit.following {
-                Some(_) => ("forces_led", "forces_led"),
+                Some(_) => ("input_driven_forces", "input_driven_forces"),
                 None => ("forces", "forces"),
             };
-            self.equations.uses.borrow_mut().file(file);
+            self.equations.deps.borrow_mut().file(file);
             page.function(&head, |page| page.line(&format!("runtime::{file}::{name}(state)")));
         }
-        match &self.equations.book {
-            Some(book) => self.forced_solver_as_numbers(solution, &mut book.borrow_mut(), page),
+        match &self.equations.pool {
+            Some(pool) => self.forced_solver_as_numbers(solution, &mut pool.borrow_mut(), page),
             None => page.text(&solution.forced_function().unwrap_or_default()),
         }
         let has_pivoting = solution.motion.blocks.is_some();
-        if has_pivoting && is_led {
+        if has_pivoting && is_input_driven {
             self.exerted(false, page);
         }
-        self.uses("forces", "Forced");
+        self.requires("forces", "Forced");
         page.item("impl Forced for Model", |page| {
             page.line("type Forces = Forces;\n");
             page.line("#[rustfmt::skip]");
@@ -126,8 +126,8 @@ impl Writer<'_> {
     }
 
     fn pivoted_forces(&self, page: &mut Page) {
-        self.uses("error", "Fault");
-        self.uses("pivoted_forces", "forces_with_pivoting");
+        self.requires("error", "Fault");
+        self.requires("pivoted_forces", "forces_with_pivoting");
         let arguments = [("&self", ""), ("from", "&Solution"), ("at", "&mut Solution"), ("forces", "&mut Forces")];
         let head = Head { kind: "fn", name: "pivoted_forces", arguments: &arguments, result: "Result<(), Fault>" };
         page.function(&head, |page| {
@@ -144,7 +144,7 @@ impl Writer<'_> {
         if !self.equations.has_forces() {
             return;
         }
-        self.uses("pivoting", "Transposed");
+        self.requires("pivoting", "Transposed");
         let (transposed, places) = tables.transposed();
         let places: Vec<String> = places.iter().map(usize::to_string).collect();
         let docs = "The place of each entry of the transposed Jacobian in the Jacobian.";

@@ -1,7 +1,7 @@
 //! The functions that everybody may call: the equations, what follows from them, the measures.
 
 use super::Writer;
-use crate::equations::{Given, Wanted};
+use crate::equations::{FunctionSpec, Given};
 use crate::names::{MULTIPLIERS, VARIED};
 use crate::print::{Head, Page};
 use crate::text::one_line;
@@ -59,12 +59,12 @@ impl Writer<'_> {
         self.left_out(page);
         for Kind { name, docs, orders, outputs, length } in self.kinds() {
             self.equations.function(
-                &Wanted {
+                &FunctionSpec {
                     is_public: true,
                     orders,
                     negated: name == "phi_t",
                     given: Given::None,
-                    ..Wanted::of(name, docs, outputs, length)
+                    ..FunctionSpec::new(name, docs, outputs, length)
                 },
                 page,
             );
@@ -80,24 +80,26 @@ impl Writer<'_> {
 
     /// The functions of the equations on branches that are given, as far as a solution needs them.
     pub fn functions_on_sides(&self, has_pivoting: bool, page: &mut Page) {
-        let is_led = self.equations.is_led;
+        let is_input_driven = self.equations.is_input_driven;
         for Kind { name, orders, outputs, length, .. } in self.kinds() {
             let is_wanted = match name {
                 "phi_t" => false,
-                "jerk" => has_pivoting && !is_led,
+                "jerk" => has_pivoting && !is_input_driven,
                 _ => true,
             };
             if !is_wanted {
                 continue;
             }
-            let (of, with) = if is_led { ("super::", "the signals of a way") } else { ("", "") };
-            let docs = if is_led {
+            let (of, with) = if is_input_driven { ("super::", "the signals of a way") } else { ("", "") };
+            let docs = if is_input_driven {
                 format!("As [`{of}{name}`], with {with}.")
             } else {
                 format!("As [`{name}`], on branches of formulas that are given.")
             };
-            self.equations
-                .function(&Wanted { orders, ..Wanted::of(&self.on_sides(name), &docs, outputs, length) }, page);
+            self.equations.function(
+                &FunctionSpec { orders, ..FunctionSpec::new(&self.on_sides(name), &docs, outputs, length) },
+                page,
+            );
         }
         if has_pivoting {
             if self.equations.has_forces() {
@@ -151,12 +153,12 @@ impl Writer<'_> {
         let outputs: Vec<Register> = variations.iter().flatten().flatten().copied().collect();
         let is_public = given == Given::None;
         self.equations.function(
-            &Wanted {
+            &FunctionSpec {
                 is_public,
                 orders: 3,
                 varied: true,
                 given,
-                ..Wanted::of(
+                ..FunctionSpec::new(
                     &if is_public { "varied_right".to_owned() } else { self.on_sides("varied_right") },
                     VARIED_RIGHT,
                     &outputs,
@@ -175,7 +177,7 @@ impl Writer<'_> {
         }
         let (has_jerk, has_varied) = (system.jerk().is_some(), self.equations.has_varied());
         let has_forces = self.measures_hold_forces();
-        let p = if self.equations.is_led { "&Way" } else { "&Params" };
+        let p = if self.equations.is_input_driven { "&Path" } else { "&Params" };
         let given = [("q", "&Q", true), ("qd", "&Qd", true), ("qdd", "&Qdd", true), ("qddd", "&[f64; N]", has_jerk)];
         let more = [(VARIED, "&[f64; VARIED]", has_varied), (MULTIPLIERS, "&[f64; N]", has_forces)];
         let given = given.into_iter().chain(more).chain([("t", "f64", true), ("p", p, true)]);
@@ -200,12 +202,12 @@ impl Writer<'_> {
         let all: Vec<Register> =
             [&outputs.measures, &outputs.measures_d, &outputs.measures_dd].into_iter().flatten().copied().collect();
         self.equations.function(
-            &Wanted {
+            &FunctionSpec {
                 orders: if has_jerk { 4 } else { 3 },
                 varied: true,
                 multipliers: has_forces,
                 given: Given::None,
-                ..Wanted::of(
+                ..FunctionSpec::new(
                     "all_measures",
                     "The measures, their rates and their accelerations, one behind the other.",
                     &all,

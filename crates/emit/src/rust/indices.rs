@@ -116,8 +116,9 @@ impl Writer<'_> {
         ];
         for (module, docs, count, list) in kinds {
             let names = Case::Constant.names(list.iter().map(|measure| measure.name.as_str()));
-            let said = |measure: &&Measure| format!("`{}`{}{}", measure.name, in_si(measure), self.line(measure.span));
-            numbered(page, docs, module, list.iter().map(said).zip(&names));
+            let descriptions =
+                |measure: &&Measure| format!("`{}`{}{}", measure.name, in_si(measure), self.line(measure.span));
+            numbered(page, docs, module, list.iter().map(descriptions).zip(&names));
             page.constant("How many they are.", &format!("pub const {count}: usize"), &list.len().to_string());
         }
         page.docs("The measures with their time derivatives; `NAN` where one has no value.");

@@ -8,15 +8,15 @@ use crate::text::{constant, literal};
 impl Writer<'_> {
     /// The module for several lanes, where these are wanted.
     pub fn lanes(&self, solution: &Solution<'_>, page: &mut Page) {
-        let Some(lanes) = self.unit.lanes.filter(|_| self.equations.book.is_none()) else {
+        let Some(lanes) = self.unit.lanes.filter(|_| self.equations.pool.is_none()) else {
             return;
         };
         // what lanes use they name themselves
-        let of_one = self.equations.uses.take();
+        let of_one = self.equations.deps.take();
         let mut body = Page::of_module();
         self.inside(solution, lanes, &mut body);
-        let uses = self.equations.uses.replace(of_one);
-        self.equations.uses.borrow_mut().include(&uses);
+        let deps = self.equations.deps.replace(of_one);
+        self.equations.deps.borrow_mut().include(&deps);
         page.docs(
             "The same for several variants of the mechanism, or several times, at once: in loops over the\n\
              lanes that a compiler turns into vector instructions. Each lane has the bits that it would have\n\
@@ -26,18 +26,18 @@ impl Writer<'_> {
             page.line("// what is done in every lane reads best, and vectorises best, with the lane's number");
             page.line("#![allow(clippy::needless_range_loop)]\n");
             page.line("use super::*;\n");
-            uses.print("super::runtime", page);
+            deps.print("super::runtime", page);
             page.text(&body.done());
         });
     }
 
     /// What stands in it.
     fn inside(&self, solution: &Solution<'_>, lanes: usize, page: &mut Page) {
-        self.uses("lane_solutions", "Laned");
+        self.requires("lane_solutions", "Laned");
         page.constant("Lanes that are worked on together.", "pub const LANES: usize", &lanes.to_string());
         page.constant("A number in each lane.", "pub type Each", "[f64; LANES]");
         let docs = "As many mechanisms, each with its own parameters, at a time of its own.";
-        self.equations.uses.borrow_mut().file("lanes");
+        self.equations.deps.borrow_mut().file("lanes");
         page.constant(docs, "pub type States", "super::runtime::lanes::States<Model, LANES>");
         let docs = "What solves the equations in every lane.";
         page.constant(docs, "type Solutions", "super::runtime::lane_solutions::Solutions<Model, LANES>");
@@ -73,7 +73,7 @@ impl Writer<'_> {
         let head = Head { kind: "pub fn", name: "step_each", arguments: &arguments, result: each };
         page.function(&head, |page| page.line("super::runtime::lanes::step_each(t, states)"));
         if self.unit.following.is_some() {
-            self.equations.uses.borrow_mut().file("lane_follow");
+            self.equations.deps.borrow_mut().file("lane_following");
             page.docs(
                 "Leads every lane to inputs of its own, each with the bits that it would have alone, one after\n\
                  the other: lanes that follow share no vector instructions.\n\n\
@@ -83,7 +83,7 @@ impl Writer<'_> {
             let head = Head { kind: "pub fn", name: "follow_each", arguments: &arguments, result: each };
             page.function(&head, |page| {
                 page.line("let signals = inputs.each_ref().map(Inputs::signals);");
-                page.line("super::runtime::lane_follow::follow_each(&signals, states)");
+                page.line("super::runtime::lane_following::follow_each(&signals, states)");
             });
         }
     }

@@ -1,33 +1,33 @@
 //! A mechanism as one Rust file: its equations, and what solves them.
 
-mod doors;
+mod branch_conditions;
+mod bytecode;
+mod constants;
+mod entry_points;
 mod following;
 mod forces;
 mod functions;
 mod indices;
 mod lanes;
-mod large;
 mod motion;
 mod parameters;
 mod pivoting;
 mod sensitivity;
-mod sides;
-mod statics;
-mod words;
+mod state_size;
 
 use super::TranslationUnit;
 use super::equations::Equations;
-use super::goods::Uses;
 use super::names::Names;
 use super::params::Params;
 use super::print::Page;
+use super::runtime_files::RuntimeDeps;
 use super::solution::Solution;
 use super::tables::{Tables, numbers};
 use super::text::one_line;
 use mechc_ir::program::{Column, STAGES};
 use mechc_text::source::Span;
+use state_size::Bounds;
 use std::cell::RefCell;
-use words::Bounds;
 
 /// A Rust module.
 pub(super) struct Module {
@@ -60,30 +60,35 @@ pub(super) fn module(unit: &TranslationUnit<'_>) -> Module {
     let (mut words, mut lead) = (0, None);
     if let Some(motion) = &unit.motion {
         let solution = Solution::new(unit, motion, &equations);
-        writer.doors(&mut body);
+        writer.entry_points(&mut body);
         writer.motion(&solution, &mut body);
         writer.lanes(&solution, &mut body);
         words = writer.words(&solution);
     }
-    equations.print_book(&mut body);
+    equations.print_pool(&mut body);
     if let Some(following) = &unit.following {
-        let (uses, words_of_lead, work) = following::module(following, &mut body);
+        let (deps, words_of_lead, work) = following::module(following, &mut body);
         words += words_of_lead;
         lead = work;
-        equations.uses.borrow_mut().include(&uses);
+        equations.deps.borrow_mut().include(&deps);
     }
     let bounds = if unit.motion.is_some() { writer.bounds(lead) } else { Bounds::new() };
-    let uses = equations.uses.take();
+    let deps = equations.deps.take();
     let mut page = Page::default();
-    writer.header(uses.needs_libm(), &mut page);
-    uses.print("runtime", &mut page);
+    writer.header(deps.needs_libm(), &mut page);
+    deps.print("runtime", &mut page);
     page.text(&body.done());
-    uses.goods(&mut page);
-    Module { text: page.done().trim_end().to_owned() + "\n", needs_libm: uses.needs_libm(), words, bounds }
+    deps.print_runtime(&mut page);
+    Module { text: page.done().trim_end().to_owned() + "\n", needs_libm: deps.needs_libm(), words, bounds }
 }
 
 /// What the functions of a unit's equations are written from; led ones are given their inputs.
-fn equations<'u>(unit: &TranslationUnit<'u>, names: &'u Names, tables: &'u Tables, is_led: bool) -> Equations<'u> {
+fn equations<'u>(
+    unit: &TranslationUnit<'u>,
+    names: &'u Names,
+    tables: &'u Tables,
+    is_input_driven: bool,
+) -> Equations<'u> {
     let switches = unit.program.switches().iter().enumerate();
     Equations {
         program: unit.program,
@@ -91,9 +96,9 @@ fn equations<'u>(unit: &TranslationUnit<'u>, names: &'u Names, tables: &'u Table
         tables,
         constants: unit.program.constants().iter().copied().collect(),
         sides: switches.map(|(k, switch)| (switch.to, k)).collect(),
-        is_led,
-        book: is_large(unit).then(RefCell::default),
-        uses: RefCell::new(Uses::default()),
+        is_input_driven,
+        pool: is_large(unit).then(RefCell::default),
+        deps: RefCell::new(RuntimeDeps::default()),
     }
 }
 
@@ -127,35 +132,35 @@ impl Writer<'_> {
             env!("CARGO_PKG_VERSION")
         ));
         page.line("//!");
-        let mut said = vec![
+        let mut facts = vec![
             format!("coordinates `q`: {n} (m, rad), equations `phi = 0`: {}", system.rows().len()),
             format!("`phi_q`: {entries} entries that do not vanish, see [`PHI_Q_PATTERN`]"),
             format!("parameters: {}; those that follow from others are worked out", system.params().len()),
         ];
         if !system.checks().is_empty() {
-            said.push(format!(
+            facts.push(format!(
                 "equations that were left out as redundant: {}, see [`left_out`]",
                 system.checks().len()
             ));
         }
         if self.unit.motion.is_some() {
-            said.push("the motion: [`assemble`], then [`step`] from time to time".to_owned());
+            facts.push("the motion: [`assemble`], then [`step`] from time to time".to_owned());
         }
         if self.unit.has_forces() {
-            said.push("the forces: [`forces`] of a state".to_owned());
+            facts.push("the forces: [`forces`] of a state".to_owned());
         }
         if self.unit.following.is_some() {
-            said.push("the motion by its inputs: [`follow`] from [`Inputs`] to others".to_owned());
+            facts.push("the motion by its inputs: [`follow`] from [`Inputs`] to others".to_owned());
         }
         let needs = if needs_libm {
             "needs the crate `libm`, for elementary functions with the same bits on every platform"
         } else {
             "needs no other crate"
         };
-        said.push(needs.to_owned());
-        said.push("needs no heap and no standard library; nothing in it panics".to_owned());
-        for said in said {
-            page.line(&format!("//! - {said}"));
+        facts.push(needs.to_owned());
+        facts.push("needs no heap and no standard library; nothing in it panics".to_owned());
+        for fact in facts {
+            page.line(&format!("//! - {fact}"));
         }
         page.line("//!");
         page.line("//! This code carries no licence of mechc's: use, change and pass it on as you like.");
@@ -175,8 +180,8 @@ impl Writer<'_> {
     }
 
     /// Notes that a thing of a file that goes along is named.
-    fn uses(&self, file: &'static str, name: &'static str) {
-        self.equations.uses.borrow_mut().name(file, name);
+    fn requires(&self, file: &'static str, name: &'static str) {
+        self.equations.deps.borrow_mut().name(file, name);
     }
 
     fn has_sides(&self) -> bool {
@@ -191,7 +196,7 @@ impl Writer<'_> {
 
     /// The parameters, or the way, that functions of the equations are given by a method of the mechanism.
     fn given(&self) -> &'static str {
-        if self.equations.is_led { "&self.way" } else { "&self.params" }
+        if self.equations.is_input_driven { "&self.path" } else { "&self.params" }
     }
 
     /// What a function of the equations is called whose branches are given.

@@ -1,7 +1,7 @@
 //! What follows the motion: the mechanism as those files know it that go along.
 
 use super::Writer;
-use crate::equations::{Given, Wanted};
+use crate::equations::{FunctionSpec, Given};
 use crate::print::{Head, Page};
 use crate::solution::Solution;
 use mechc_expr::{Dependence, ExprId};
@@ -16,7 +16,7 @@ impl Writer<'_> {
         self.measured(page);
         self.model("params", "Params", "parameters", solution, page);
         self.solved(solution, page);
-        self.rimmed(page);
+        self.boundary_search(page);
         self.timed(solution, page);
         self.sensitivity(solution, page);
         self.forces(solution, page);
@@ -24,15 +24,15 @@ impl Writer<'_> {
 
     /// What is solved, along time or signals.
     pub fn solved(&self, solution: &Solution<'_>, page: &mut Page) {
-        self.uses("solution", "Solved");
-        self.uses("equations", "Equations");
+        self.requires("solution", "Solved");
+        self.requires("equations", "Equations");
         self.solved_for(solution, page);
         self.sides(page);
         page.docs("What solves the equations at a time.");
-        let runtime = if self.equations.is_led { "super::runtime" } else { "runtime" };
+        let runtime = if self.equations.is_input_driven { "super::runtime" } else { "runtime" };
         page.line(&format!("type Solution = {runtime}::solution::Solution<Model>;\n"));
         self.solver(solution, page);
-        if self.has_sides() || self.equations.is_led {
+        if self.has_sides() || self.equations.is_input_driven {
             self.functions_on_sides(solution.motion.blocks.is_some(), page);
         }
         self.equations(page);
@@ -45,8 +45,8 @@ impl Writer<'_> {
 
     /// The function that solves, as lines or as numbers.
     fn solver(&self, solution: &Solution<'_>, page: &mut Page) {
-        match &self.equations.book {
-            Some(book) => self.solver_as_numbers(solution, &mut book.borrow_mut(), page),
+        match &self.equations.pool {
+            Some(pool) => self.solver_as_numbers(solution, &mut pool.borrow_mut(), page),
             None => page.text(&solution.function(false)),
         }
     }
@@ -107,9 +107,12 @@ impl Writer<'_> {
 
     /// The operations that solve them.
     fn solves(&self, solution: &Solution<'_>, page: &mut Page) {
-        let (file, name, along) =
-            if self.equations.is_led { ("way", "Slopes", "Slopes<Q, SIGNALS>") } else { ("state", "Time", "Time") };
-        self.uses(file, name);
+        let (file, name, along) = if self.equations.is_input_driven {
+            ("input_path", "Slopes", "Slopes<Q, SIGNALS>")
+        } else {
+            ("state", "Time", "Time")
+        };
+        self.requires(file, name);
         let measures = if self.unit.system.measures().is_empty() { "()" } else { "Measures" };
         page.item("impl Solved for Model", |page| {
             page.line("type Tears = [f64; TEARS];");
@@ -142,7 +145,7 @@ impl Writer<'_> {
         if self.unit.system.measures().is_empty() {
             return;
         }
-        self.uses("measured", "Measured");
+        self.requires("measured", "Measured");
         let names = ["values", "rates", "accelerations"];
         page.item("impl Measured for Measures", |page| {
             page.block("const ZERO: Self = Self", |page| {
@@ -179,15 +182,15 @@ impl Writer<'_> {
 
     /// The mechanism with what it is given, and what follows from its parameters alone.
     pub fn model(&self, field: &str, of: &str, what: &str, solution: &Solution<'_>, page: &mut Page) {
-        let registers = solution.known_registers();
+        let registers = solution.derived_registers();
         if !registers.is_empty() {
             let docs = "Number of values that follow from the parameters alone.";
-            page.constant(docs, "const KNOWN: usize", &registers.len().to_string());
+            page.constant(docs, "const DERIVED: usize", &registers.len().to_string());
             self.equations.function(
-                &Wanted {
+                &FunctionSpec {
                     has_time: false,
                     given: Given::None,
-                    ..Wanted::of("known", "What follows from the parameters alone.", &registers, "KNOWN")
+                    ..FunctionSpec::new("derived", "What follows from the parameters alone.", &registers, "DERIVED")
                 },
                 page,
             );
@@ -198,19 +201,19 @@ impl Writer<'_> {
         page.item("pub struct Model", |page| {
             page.line(&format!("{field}: {of},"));
             if !registers.is_empty() {
-                page.line("known: [f64; KNOWN],");
+                page.line("derived: [f64; DERIVED],");
             }
         });
     }
 
     /// What makes a mechanism of what it is given.
     pub fn making(solution: &Solution<'_>, field: &str, value: &str, page: &mut Page) {
-        if solution.known.is_empty() {
+        if solution.derived.is_empty() {
             page.line(&format!("Self {{ {field}: {value} }}"));
         } else {
             page.block("Self", |page| {
                 page.line(&format!("{field}: {value},"));
-                page.line(&format!("known: known({field}),"));
+                page.line(&format!("derived: derived({field}),"));
             });
         }
     }
@@ -219,26 +222,28 @@ impl Writer<'_> {
     fn timed(&self, solution: &Solution<'_>, page: &mut Page) {
         let estimates = &self.unit.program.outputs.estimates;
         let docs = "Where the file's poses put the coordinates, roughly: what is not closed yet.";
-        let wanted = Wanted::of("drawn", docs, estimates, "N");
-        self.equations.function(&Wanted { has_time: false, given: Given::None, ..wanted }, page);
-        self.uses("state", "Timed");
+        let spec = FunctionSpec::new("drawn", docs, estimates, "N");
+        self.equations.function(&FunctionSpec { has_time: false, given: Given::None, ..spec }, page);
+        self.requires("state", "Timed");
         let lead = match &self.unit.following {
             Some(_) => {
-                self.uses("follow", "Leading");
-                "Leading<following::Model, SIGNALS>"
+                self.requires("follow", "InputContinuation");
+                "InputContinuation<following::Model, SIGNALS>"
             }
             None => "()",
         };
         page.item("impl Timed for Model", |page| {
             page.line("type Params = Params;");
-            page.line(&format!("type Lead = {lead};"));
-            page.line(&format!("type Passed = [f64; {}];", if self.has_rims() { "RIMS" } else { "0" }));
+            page.line(&format!("type Continuation = {lead};"));
+            page.line(&format!("type Passed = [f64; {}];", if self.has_boundaries() { "BOUNDARIES" } else { "0" }));
             page.line("type Row = [f64; COLUMNS];\n");
             for name in ["START_TIME", "SPAN", "LONGEST_STEP", "SMALLEST_STEP"] {
                 page.line(&format!("const {name}: f64 = {name};"));
             }
-            if self.has_rims() {
-                page.line("const WORK_OF_RIMS: usize = runtime::rims::of_rims::<Self>(RIMS);");
+            if self.has_boundaries() {
+                page.line(
+                    "const WORK_OF_BOUNDARIES: usize = runtime::domain_boundaries::most_work::<Self>(BOUNDARIES);",
+                );
             }
             page.blank();
             let head = Head { kind: "fn", name: "new", arguments: &[("params", "&Params")], result: "Self" };
@@ -250,26 +255,26 @@ impl Writer<'_> {
             let head = Head { kind: "fn", name: "drawn", arguments: &[("&self", "")], result: "Q" };
             page.function(&head, |page| page.line("drawn(&self.params)"));
             if solution.motion.blocks.is_some() {
-                self.uses("pivoting", "close");
+                self.requires("pivoting", "close");
                 let arguments = [("&self", ""), ("q", "&Q"), ("t", "f64"), ("work", "&mut Work")];
                 let head = Head { kind: "fn", name: "closed", arguments: &arguments, result: "Option<Q>" };
                 page.function(&head, |page| page.line("close(self, q, t, work)"));
             }
-            if self.has_rims() {
-                self.rims_along(page);
+            if self.has_boundaries() {
+                self.boundaries_along(page);
             }
         });
     }
 
-    fn rims_along(&self, page: &mut Page) {
-        self.uses("rims", "first_rim");
-        self.uses("rims", "look_at_rim");
+    fn boundaries_along(&self, page: &mut Page) {
+        self.requires("domain_boundaries", "first_boundary");
+        self.requires("domain_boundaries", "check_boundary");
         let arguments =
             [("&self", ""), ("from", "f64"), ("to", "f64"), ("passed", "&Self::Passed"), ("work", "&mut Work")];
-        let head = Head { kind: "fn", name: "first_rim", arguments: &arguments, result: "Option<(usize, f64)>" };
-        page.function(&head, |page| page.line("first_rim(self, from, to, passed, work)"));
-        let arguments = [("state", "&mut State"), ("rim", "usize"), ("t", "f64"), ("work", "&mut Work")];
-        let head = Head { kind: "fn", name: "look_at_rim", arguments: &arguments, result: "Result<(), Error>" };
-        page.function(&head, |page| page.line("look_at_rim(state, rim, t, work)"));
+        let head = Head { kind: "fn", name: "first_boundary", arguments: &arguments, result: "Option<(usize, f64)>" };
+        page.function(&head, |page| page.line("first_boundary(self, from, to, passed, work)"));
+        let arguments = [("state", "&mut State"), ("boundary", "usize"), ("t", "f64"), ("work", "&mut Work")];
+        let head = Head { kind: "fn", name: "check_boundary", arguments: &arguments, result: "Result<(), Error>" };
+        page.function(&head, |page| page.line("check_boundary(state, boundary, t, work)"));
     }
 }

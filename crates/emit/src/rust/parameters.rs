@@ -28,7 +28,7 @@ impl Writer<'_> {
             });
         });
         let fields: Vec<String> = self.names.params.iter().map(|name| format!("self.{name}")).collect();
-        if self.equations.book.is_some() {
+        if self.equations.pool.is_some() {
             page.item("impl Params", |page| {
                 page.line("#[rustfmt::skip]");
                 page.block(&format!("fn list(&self) -> [f64; {}]", fields.len()), |page| {
@@ -37,7 +37,7 @@ impl Writer<'_> {
             });
         }
         if self.unit.motion.is_some() {
-            self.uses("state", "Parameters");
+            self.requires("state", "Parameters");
             page.item("impl Parameters for Params", |page| {
                 page.line("#[rustfmt::skip]");
                 page.function(&TOWARDS, |page| {
@@ -67,7 +67,7 @@ impl Writer<'_> {
         page.line("#[derive(Clone, Copy, Debug, Default, PartialEq)]");
         page.line("pub struct Params;\n");
         if self.unit.motion.is_some() {
-            self.uses("state", "Parameters");
+            self.requires("state", "Parameters");
             page.item("impl Parameters for Params", |page| {
                 let head = Head { arguments: &[("&self", ""), ("_", "&Self"), ("_", "f64")], ..TOWARDS };
                 page.function(&head, |page| page.line("Self"));

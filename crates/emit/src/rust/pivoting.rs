@@ -1,7 +1,7 @@
 //! Solving with partial pivoting, where the order of elimination loses digits.
 
 use super::Writer;
-use crate::equations::{Given, Wanted};
+use crate::equations::{FunctionSpec, Given};
 use crate::print::{Head, Page};
 use crate::solution::Solution;
 use crate::text::{constant, literal};
@@ -14,10 +14,10 @@ impl Writer<'_> {
         let Some(tables) = &solution.motion.blocks else {
             return;
         };
-        self.uses("pivoting", "Pivoting");
+        self.requires("pivoting", "Pivoting");
         self.blocks(solution, tables, page);
-        let is_led = self.equations.is_led;
-        if is_led {
+        let is_input_driven = self.equations.is_input_driven;
+        if is_input_driven {
             self.measures("fn", page);
             self.rights("signal", self.unit.program.outputs.by_inputs(), "SIGNALS", page);
         }
@@ -27,7 +27,7 @@ impl Writer<'_> {
             page.line("type Work = [f64; WORK];");
             page.line("type Blocks = [bool; BLOCKS];");
             page.line(&format!("type Varied = [f64; {}];", if has_varied { "VARIED" } else { "0" }));
-            page.line(&format!("type Rights = [Q; {}];\n", if is_led { "SIGNALS" } else { "0" }));
+            page.line(&format!("type Rights = [Q; {}];\n", if is_input_driven { "SIGNALS" } else { "0" }));
             page.line(&format!("const TOLERANCE: f64 = {};", literal(solution.motion.tolerance)));
             if self.has_jerk() {
                 page.line("const HAS_JERK: bool = true;");
@@ -69,7 +69,7 @@ impl Writer<'_> {
             let own = [orders, ("varied", "&[f64; VARIED]")];
             self.right_side(page, "varied_right", &own, &["q", "qd", "qdd", "varied"], "[f64; VARIED]");
         }
-        if self.equations.is_led {
+        if self.equations.is_input_driven {
             self.method(page, "rights", "rights_by_signal", &[("q", "&Q")], "[Q; SIGNALS]", Given::All);
         } else {
             let arguments = [("&self", ""), ("_q", "&Q"), ("_t", "f64"), ("_sides", "&Sides")];
@@ -117,8 +117,8 @@ impl Writer<'_> {
 
     /// What is done where solving fails.
     pub fn pivoted(&self, page: &mut Page) {
-        self.uses("pivoting", "solve_with_pivoting");
-        self.uses("error", "Fault");
+        self.requires("pivoting", "solve_with_pivoting");
+        self.requires("error", "Fault");
         let arguments = [("&self", ""), ("q", "&Q"), ("t", "f64"), ("sides", "&Sides"), ("_at", "&Solution")];
         let head = Head { kind: "fn", name: "pivoted", arguments: &arguments, result: "Result<Solution, Fault>" };
         page.function(&head, |page| page.line("solve_with_pivoting(self, q, t, sides)"));
@@ -126,8 +126,8 @@ impl Writer<'_> {
 
     /// How the equations fall apart into blocks.
     fn blocks(&self, solution: &Solution<'_>, tables: &BlockTables, page: &mut Page) {
-        self.uses("blocks", "Blocks");
-        self.uses("blocks", "work_of");
+        self.requires("blocks", "Blocks");
+        self.requires("blocks", "work_of");
         let cells: Vec<String> = tables.cells.iter().copied().map(literal).collect();
         page.text(&constant("The width of a cell of each coordinate's grid.", "CELLS", "f64", "N", &cells));
         let docs = "Number of blocks of equations that can be solved one after the other.";
@@ -166,7 +166,7 @@ impl Writer<'_> {
         let all: Vec<Register> = lists.flatten().copied().collect();
         let name = format!("all_rights_by_{by}");
         page.docs(&format!("The right sides of the equations for the derivatives of the coordinates by each {by}."));
-        let of = if self.equations.is_led { "&Way" } else { "&Params" };
+        let of = if self.equations.is_input_driven { "&Path" } else { "&Params" };
         let mut arguments = vec![("q", "&Q"), ("t", "f64"), ("p", of)];
         arguments.extend(self.has_sides().then_some(("sides", "&Sides")));
         let result = format!("[Q; {count}]");
@@ -178,9 +178,9 @@ impl Writer<'_> {
             page.line("core::array::from_fn(|_| core::array::from_fn(|_| next()))");
         });
         self.equations.function(
-            &Wanted {
+            &FunctionSpec {
                 orders: 1,
-                ..Wanted::of(
+                ..FunctionSpec::new(
                     &name,
                     &format!("The partial derivatives of the equations by each {by}, negated, one behind the other."),
                     &all,

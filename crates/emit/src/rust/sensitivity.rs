@@ -2,7 +2,7 @@
 
 use super::Writer;
 use super::indices::numbered;
-use crate::equations::Wanted;
+use crate::equations::FunctionSpec;
 use crate::names::Case;
 use crate::print::{Head, Page};
 use crate::solution::Solution;
@@ -12,22 +12,27 @@ use mechc_ir::program::Register;
 impl Writer<'_> {
     /// What gives them, where they are wanted.
     pub fn sensitivity(&self, solution: &Solution<'_>, page: &mut Page) {
-        let (params, is_led) = (self.unit.system.params(), self.equations.is_led);
-        if solution.motion.sensitive.is_none() || (params.is_empty() && is_led) {
+        let (params, is_input_driven) = (self.unit.system.params(), self.equations.is_input_driven);
+        if solution.motion.sensitive.is_none() || (params.is_empty() && is_input_driven) {
             return;
         }
-        if !is_led {
+        if !is_input_driven {
             page.constant("Number of parameters.", "pub const PARAMS: usize", &params.len().to_string());
             let names = Case::Constant.names(params.iter().map(|param| param.name.as_str()));
-            let said = params.iter().map(|param| format!("`{}` ({})", one_line(&param.name), param.unit()));
-            numbered(page, "Where each parameter stands in what [`sensitivity`] gives.", "param", said.zip(&names));
+            let descriptions = params.iter().map(|param| format!("`{}` ({})", one_line(&param.name), param.unit()));
+            numbered(
+                page,
+                "Where each parameter stands in what [`sensitivity`] gives.",
+                "param",
+                descriptions.zip(&names),
+            );
             self.public_sensitivity(page);
         }
         if params.is_empty() {
             return;
         }
-        match &self.equations.book {
-            Some(book) => self.sensitive_solver_as_numbers(solution, &mut book.borrow_mut(), page),
+        match &self.equations.pool {
+            Some(pool) => self.sensitive_solver_as_numbers(solution, &mut pool.borrow_mut(), page),
             None => page.text(&solution.sensitive_function().unwrap_or_default()),
         }
         let has_pivoting = solution.motion.blocks.is_some();
@@ -35,7 +40,7 @@ impl Writer<'_> {
             self.rights("param", self.unit.program.outputs.by_params(), "PARAMS", page);
         }
         self.left_out_slopes("param", &self.unit.program.outputs.check_slopes.params, page);
-        self.uses("sensitivity", "Sensitive");
+        self.requires("sensitivity", "Sensitive");
         page.item("impl Sensitive<PARAMS> for Model", |page| {
             page.line("#[rustfmt::skip]");
             let (name, call) = if self.has_sides() { ("sides", "sides, ") } else { ("_sides", "") };
@@ -50,30 +55,30 @@ impl Writer<'_> {
             if !self.unit.system.checks().is_empty() {
                 let (sides, given) = (if self.has_sides() { "sides" } else { "_sides" }, self.given());
                 let arguments = [("&self", ""), ("by", "&mut [Q; PARAMS]"), ("at", "&Solution"), (sides, "&Sides")];
-                let head = Head { kind: "fn", name: "hold_apart_by_params", arguments: &arguments, result: "" };
+                let head = Head { kind: "fn", name: "reject_drift_by_params", arguments: &arguments, result: "" };
                 let sides = if self.has_sides() { ", sides" } else { "" };
-                page.function(&head, |page| self.hold_apart("param", &format!("{given}{sides}"), page));
+                page.function(&head, |page| self.reject_drift("param", &format!("{given}{sides}"), page));
             }
         });
     }
 
     fn pivoted_by_params(&self, page: &mut Page) {
-        self.uses("error", "Fault");
-        self.uses("pivoted_slopes", "slopes_with_pivoting");
+        self.requires("error", "Fault");
+        self.requires("pivoted_derivatives", "derivatives_with_pivoting");
         let arguments = [("&self", ""), ("from", "&Solution"), ("at", "&mut Solution"), ("by", "&mut [Q; PARAMS]")];
         let head = Head { kind: "fn", name: "pivoted_by_params", arguments: &arguments, result: "Result<(), Fault>" };
         let sides = if self.has_sides() { ", &from.sides" } else { "" };
         page.function(&head, |page| {
             page.line(&format!("let rights = |q: &Q| rights_by_param(q, from.t, {}{sides});", self.given()));
-            page.line("slopes_with_pivoting(self, from, at, by, rights)");
+            page.line("derivatives_with_pivoting(self, from, at, by, rights)");
         });
     }
 
     /// Leaves out derivatives in whose direction an equation that was left out would cease to hold; what that is evaluated with.
-    pub fn hold_apart(&self, by: &str, with: &str, page: &mut Page) {
-        self.uses("hold_apart", "hold_apart");
+    pub fn reject_drift(&self, by: &str, with: &str, page: &mut Page) {
+        self.requires("constraint_drift", "reject_drift");
         page.line(&format!("let slopes = left_out_slopes_by_{by}(&at.q, at.t, {with});"));
-        page.line("hold_apart::<Self, _, _>(by, &LEFT_OUT_PATTERN, &slopes, &LEFT_OUT_SCALES);");
+        page.line("reject_drift::<Self, _, _>(by, &LEFT_OUT_PATTERN, &slopes, &LEFT_OUT_SCALES);");
     }
 
     /// Where equations that were left out have entries in their Jacobian.
@@ -90,14 +95,14 @@ impl Writer<'_> {
         if self.unit.system.checks().is_empty() {
             return;
         }
-        if by == "signal" || !self.equations.is_led {
+        if by == "signal" || !self.equations.is_input_driven {
             self.left_out_pattern(page);
         }
         let all: Vec<Register> = slopes.coordinates.iter().chain(lists.iter().flatten()).copied().collect();
         self.equations.function(
-            &Wanted {
+            &FunctionSpec {
                 orders: 1,
-                ..Wanted::of(
+                ..FunctionSpec::new(
                     &format!("left_out_slopes_by_{by}"),
                     &format!(
                         "How the equations that were left out change with the coordinates, and then with each {by}."
@@ -137,10 +142,10 @@ impl Writer<'_> {
         page.docs("# Errors\nWhy there are none: with these parameters there is no such position.");
         page.function(&head(&[("params", "&Params"), ("state", "&State")]), |page| {
             let (file, name) = match self.unit.following {
-                Some(_) => ("sensitivity_led", "sensitivity_led"),
+                Some(_) => ("input_driven_sensitivity", "input_driven_sensitivity"),
                 None => ("sensitivity", "sensitivity"),
             };
-            self.equations.uses.borrow_mut().file(file);
+            self.equations.deps.borrow_mut().file(file);
             page.line(&format!("runtime::{file}::{name}(params, state)"));
         });
     }

@@ -1,7 +1,7 @@
 //! Instructions, line by line.
 
-use super::homes::Home;
-use super::{AT, GUESS, MODULE, Printer, Scene, T, TERMS};
+use super::value_locations::Location;
+use super::{AT, CodeContext, GUESS, MODULE, Printer, T, TERMS};
 use crate::operand::Operand;
 use crate::operations::Expression;
 use crate::text::{LONGEST_LINE, lines, literal};
@@ -17,7 +17,7 @@ pub(super) enum Target {
     /// What is there already.
     Set(Operand),
     /// Nobody asks for it.
-    Nobody,
+    Discard,
 }
 
 impl Target {
@@ -25,7 +25,7 @@ impl Target {
     fn name(&self) -> String {
         match self {
             Target::Let(name) | Target::Set(name) => name.to_string(),
-            Target::Nobody => "_".to_owned(),
+            Target::Discard => "_".to_owned(),
         }
     }
 }
@@ -35,15 +35,15 @@ impl Display for Target {
         match self {
             Target::Let(name) => write!(f, "let {name}"),
             Target::Set(name) => write!(f, "{name}"),
-            Target::Nobody => f.write_str("let _"),
+            Target::Discard => f.write_str("let _"),
         }
     }
 }
 
-impl<S: Scene> Printer<'_, S> {
+impl<S: CodeContext> Printer<'_, S> {
     /// What a column of a table is called, after it has been built where that is needed.
     fn column(&mut self, table: u32, column: Column, indent: &str, text: &mut String) -> String {
-        let (name, cells) = (self.scene.table(table, column), self.scene.cells(table, column));
+        let (name, cells) = (self.context.table(table, column), self.context.cells(table, column));
         self.used.extend(name.arguments());
         if cells.is_empty() {
             return format!("&{name}");
@@ -62,30 +62,30 @@ impl<S: Scene> Printer<'_, S> {
             Instruction::Multiplier { to, a, b, weight } => {
                 self.operation(Op::Mul { to, a, b }, indent, text);
                 let value = self.value(to);
-                self.line(indent, self.scene.watch(weight, &value), text);
+                self.line(indent, self.context.watch(weight, &value), text);
             }
             Instruction::Number { to, bits } => self.names[to as usize] = Some(Operand::Number(from_bits(bits))),
             Instruction::Load { to, from } => self.load(to, from, indent, text),
             Instruction::Time { to } => {
-                let lane = if self.scene.has_lanes() { "[k]" } else { "" };
-                self.names[to as usize] = Some(Operand::of(format!("{T}{lane}"), &[T]));
+                let lane = if self.context.has_lanes() { "[k]" } else { "" };
+                self.names[to as usize] = Some(Operand::new(format!("{T}{lane}"), &[T]));
             }
-            Instruction::Column { to, column } => self.names[to as usize] = Some(self.scene.place(column)),
+            Instruction::Column { to, column } => self.names[to as usize] = Some(self.context.place(column)),
             Instruction::Curve { to, tear } => self.guess(to, tear, indent, text),
             Instruction::Residual { a, .. } | Instruction::Pivot { a, .. } => {
                 let value = self.value(a);
-                self.line(indent, self.scene.act(instruction, &value), text);
+                self.line(indent, self.context.act(instruction, &value), text);
             }
             Instruction::Store { column, a } => self.store(column, a, indent, text),
         }
     }
 
     fn store(&mut self, column: u32, a: Register, indent: &str, text: &mut String) {
-        if !self.scene.stores(column) {
+        if !self.context.stores(column) {
             return;
         }
-        let value = self.known(a);
-        if let Some(line) = self.scene.store(column, &value) {
+        let value = self.operand(a);
+        if let Some(line) = self.context.store(column, &value) {
             self.used.extend(value.arguments());
             // what is worked out, and what comes of it
             if std::mem::take(&mut self.is_set_off) && !text.is_empty() {
@@ -115,7 +115,7 @@ impl<S: Scene> Printer<'_, S> {
 
     /// A value of the program, by a name of its own if it is long.
     fn load(&mut self, to: Register, from: Register, indent: &str, text: &mut String) {
-        let value = self.scene.load(from);
+        let value = self.context.load(from);
         if value.is_short() {
             self.names[to as usize] = Some(value);
         } else {
@@ -129,7 +129,7 @@ impl<S: Scene> Printer<'_, S> {
     /// An assignment, on two lines if it is too long for one.
     fn assigned(&self, indent: &str, target: &str, expression: &str) -> String {
         let line = format!("{indent}{target} = {expression};\n");
-        let margin = if self.scene.has_lanes() { MODULE.len() } else { 0 };
+        let margin = if self.context.has_lanes() { MODULE.len() } else { 0 };
         if line.len() + margin <= LONGEST_LINE + 1 {
             return line;
         }
@@ -138,12 +138,12 @@ impl<S: Scene> Printer<'_, S> {
 
     /// Another name for the same value; where a later function needs it, a place among the terms.
     fn copy(&mut self, to: Register, a: Register, indent: &str, text: &mut String) {
-        if let Home::Term(_) = self.homes.home(to) {
+        if let Location::Term(_) = self.locations.location(to) {
             let value = self.value(a);
             let target = self.target(to, 'v');
             *text += &format!("{indent}{target} = {value};\n");
         } else {
-            self.names[to as usize] = Some(self.known(a));
+            self.names[to as usize] = Some(self.operand(a));
         }
     }
 
@@ -151,8 +151,8 @@ impl<S: Scene> Printer<'_, S> {
     fn guess(&mut self, to: Register, tear: u32, indent: &str, text: &mut String) {
         self.guessed.insert(to, tear);
         self.used.insert(GUESS);
-        let lane = if self.scene.has_lanes() { "[k]" } else { "" };
-        if let Home::Term(place) = self.homes.home(to) {
+        let lane = if self.context.has_lanes() { "[k]" } else { "" };
+        if let Location::Term(place) = self.locations.location(to) {
             let term = self.term(place);
             self.used.insert(TERMS);
             *text += &format!("{indent}{term} = {GUESS}[{tear}]{lane};\n");
@@ -160,22 +160,22 @@ impl<S: Scene> Printer<'_, S> {
         } else {
             let name = format!("x{}", self.guessed.len());
             *text += &format!("{indent}let mut {name} = {GUESS}[{tear}];\n");
-            self.names[to as usize] = Some(Operand::own(name));
+            self.names[to as usize] = Some(Operand::local(name));
         }
     }
 
     fn pair(&mut self, sin: Register, cos: Register, a: Register, indent: &str, text: &mut String) {
         let a = self.value(a);
         self.count += 1;
-        if self.scene.has_lanes() {
+        if self.context.has_lanes() {
             self.used.insert(AT);
             // times this, rounded, it is above 1 from a million itself on
             let per_million = (1.0 / A_MILLION).next_up();
             *text += &format!("{indent}at.watch(k, {a}, {});\n", literal(per_million));
         }
-        let sin_cos = if self.scene.has_lanes() { "sin_cos_below_a_million" } else { "sin_cos" };
+        let sin_cos = if self.context.has_lanes() { "sin_cos_below_a_million" } else { "sin_cos" };
         let target = |printer: &mut Self, register: Register, prefix: char| {
-            if printer.homes.is_read(register) { printer.target(register, prefix) } else { Target::Nobody }
+            if printer.locations.is_read(register) { printer.target(register, prefix) } else { Target::Discard }
         };
         let targets = [target(self, sin, 's'), target(self, cos, 'c')];
         *text += &match &targets {

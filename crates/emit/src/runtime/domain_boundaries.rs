@@ -11,30 +11,36 @@ use super::solution::Solution;
 use super::state::{State, Timed};
 use super::work::{Work, of_reaching};
 
-/// Evaluations that the search for so many rims takes at most, and then the look at one.
-pub const fn of_rims<M: Timed>(rims: usize) -> usize {
-    2 + rims * (MOST_HALVINGS + 3) + 2 * MOST_LOOKS * of_reaching::<M>()
+/// Evaluations that the search for so many boundaries takes at most, and then the look at one.
+pub const fn most_work<M: Timed>(boundaries: usize) -> usize {
+    2 + boundaries * (MOST_HALVINGS + 3) + 2 * MOST_LOOKS * of_reaching::<M>()
 }
 
 /// A mechanism whose formulas of time may end.
-pub trait Rimmed: Timed {
-    /// By rim a number for its gauge, and then one for the slope of each.
+pub trait BoundedDomain: Timed {
+    /// By boundary a number for its gauge, and then one for the slope of each.
     type Gauges: Numbers;
 
     /// Quantities that are zero where a formula of time may end, and then their slopes.
     fn gauges(&self, t: f64) -> Self::Gauges;
 }
 
-/// The first time of a step at which the gauge of a rim comes to zero and was not looked at yet, with the rim: it changes its sign, or
+/// The first time of a step at which the gauge of a boundary comes to zero and was not looked at yet, with the boundary: it changes its sign, or
 /// goes down to zero and up again.
-pub fn first_rim<M: Rimmed>(m: &M, from: f64, to: f64, passed: &M::Passed, work: &mut Work) -> Option<(usize, f64)> {
+pub fn first_boundary<M: BoundedDomain>(
+    m: &M,
+    from: f64,
+    to: f64,
+    passed: &M::Passed,
+    work: &mut Work,
+) -> Option<(usize, f64)> {
     work.add(2);
     let (first, last) = (m.gauges(from), m.gauges(to));
-    let rims = passed.as_ref().len();
+    let boundaries = passed.as_ref().len();
     let ends = first.as_ref().iter().zip(last.as_ref());
-    let (gauges, slopes) = (ends.clone().take(rims), ends.skip(rims));
+    let (gauges, slopes) = (ends.clone().take(boundaries), ends.skip(boundaries));
     let mut found = None;
-    for ((rim, passed), ((a, b), slopes)) in passed.as_ref().iter().enumerate().zip(gauges.zip(slopes)) {
+    for ((boundary, passed), ((a, b), slopes)) in passed.as_ref().iter().enumerate().zip(gauges.zip(slopes)) {
         let sign = 1.0_f64.copysign(*a);
         let way = (sign * (to - from)).signum();
         let is_crossed = sign * b < 0.0;
@@ -43,42 +49,42 @@ pub fn first_rim<M: Rimmed>(m: &M, from: f64, to: f64, passed: &M::Passed, work:
             continue;
         }
         let is_before = |t: f64| {
-            let (value, slope) = gauge(rim, t, m, work);
+            let (value, slope) = gauge(boundary, t, m, work);
             if is_crossed { sign * value > 0.0 } else { way * slope < 0.0 }
         };
         let [_, at] = bisect([from, to], MOST_HALVINGS, is_before);
         let is_new = (at - passed).abs() > PASSED * M::SPAN;
         let is_first = found.is_none_or(|(_, known): (usize, f64)| (at - known) * (to - from) < 0.0);
-        if is_new && is_first && is_zero(rim, at, m, work) {
-            found = Some((rim, at));
+        if is_new && is_first && is_zero(boundary, at, m, work) {
+            found = Some((boundary, at));
         }
     }
     found
 }
 
-/// The gauge of a rim and its slope.
-fn gauge<M: Rimmed>(rim: usize, t: f64, m: &M, work: &mut Work) -> (f64, f64) {
+/// The gauge of a boundary and its slope.
+fn gauge<M: BoundedDomain>(boundary: usize, t: f64, m: &M, work: &mut Work) -> (f64, f64) {
     work.add(1);
     let all = m.gauges(t);
     let all = all.as_ref();
     let of = |k: usize| all.get(k).copied().unwrap_or(f64::NAN);
-    (of(rim), of(rim + all.len() / 2))
+    (of(boundary), of(boundary + all.len() / 2))
 }
 
 /// Whether a gauge is zero at a time, as far as numbers can tell.
-fn is_zero<M: Rimmed>(rim: usize, t: f64, m: &M, work: &mut Work) -> bool {
+fn is_zero<M: BoundedDomain>(boundary: usize, t: f64, m: &M, work: &mut Work) -> bool {
     let moment = MOMENT * f64::EPSILON * t.abs() + f64::MIN_POSITIVE;
-    let (here, _) = gauge(rim, t, m, work);
+    let (here, _) = gauge(boundary, t, m, work);
     let mut changes = |t: f64| {
-        let ratio = gauge(rim, t, m, work).0 / here;
+        let ratio = gauge(boundary, t, m, work).0 / here;
         let is_alike = ratio > 0.5 && ratio < 2.0;
         !is_alike
     };
     here.abs() <= ROUNDING * f64::EPSILON || changes(t - moment) || changes(t + moment)
 }
 
-/// What is seen of both sides of a rim, the nearer the later.
-struct Looks {
+/// What is seen of both sides of a boundary, the nearer the later.
+struct Probes {
     count: usize,
     /// How many of them show a jump.
     jumps: usize,
@@ -91,7 +97,7 @@ struct Looks {
     rest: f64,
 }
 
-impl Looks {
+impl Probes {
     /// One more look, a distance on both sides.
     fn add<M: Timed>(&mut self, before: &Solution<M>, after: &Solution<M>, distance: f64) {
         let scales = M::scales();
@@ -135,14 +141,14 @@ impl Looks {
     }
 }
 
-/// Looks at both sides of a rim, next to the state: whether the motion goes on smoothly.
-pub fn look_at_rim<M: Timed>(state: &mut State<M>, rim: usize, t: f64, work: &mut Work) -> Result<(), Error> {
-    if let Some(passed) = state.passed.as_mut().get_mut(rim) {
+/// Probes at both sides of a boundary, next to the state: whether the motion goes on smoothly.
+pub fn check_boundary<M: Timed>(state: &mut State<M>, boundary: usize, t: f64, work: &mut Work) -> Result<(), Error> {
+    if let Some(passed) = state.passed.as_mut().get_mut(boundary) {
         *passed = t;
     }
     let (mut before, mut after) = (*state.at(), *state.at());
     let (mut at, mut distance) = (Solution::ZERO, LEAD * M::SPAN);
-    let mut looks = Looks {
+    let mut probes = Probes {
         count: 0,
         jumps: 0,
         growths: [0, 0],
@@ -152,24 +158,24 @@ pub fn look_at_rim<M: Timed>(state: &mut State<M>, rim: usize, t: f64, work: &mu
         rest: 0.0,
     };
     for _ in 0..MOST_LOOKS {
-        let found = look(t - distance, &before, &state.model, &mut at, work);
+        let found = probe(t - distance, &before, &state.model, &mut at, work);
         if found {
             before.clone_from(&at);
-            if looks.count == 0 {
+            if probes.count == 0 {
                 after.clone_from(&at);
             }
         }
-        if found && look(t + distance, &after, &state.model, &mut at, work) {
+        if found && probe(t + distance, &after, &state.model, &mut at, work) {
             after.clone_from(&at);
-            looks.add(&before, &after, distance);
+            probes.add(&before, &after, distance);
         }
         distance *= 0.25;
     }
-    looks.verdict::<M>()
+    probes.verdict::<M>()
 }
 
 /// Solves at a time close to a solution; whether it could.
-fn look<M: Timed>(t: f64, near: &Solution<M>, m: &M, at: &mut Solution<M>, work: &mut Work) -> bool {
+fn probe<M: Timed>(t: f64, near: &Solution<M>, m: &M, at: &mut Solution<M>, work: &mut Work) -> bool {
     let tears = [&near.q, &near.qd, &near.qdd].map(M::tears);
     let guess = predicted(&tears[0], &tears[1], &tears[2], t - near.t);
     reach(&guess, near, t, m, at, work).is_ok()

@@ -1,6 +1,6 @@
 //! What goes along with emitted code: files of `runtime` and of `math`, to the letter, and the limits that they name.
 //!
-//! Who writes code that calls something says so here ([`Uses`]); what else that needs follows.
+//! Who writes code that calls something says so here ([`RuntimeDeps`]); what else that needs follows.
 
 use super::limits;
 use super::operations::{Callee, callee, callee_of_two};
@@ -12,20 +12,32 @@ use std::collections::BTreeSet;
 
 /// A file that can go along.
 pub(super) struct File {
-    /// The module that it becomes.
+    /// Name of the module that it becomes.
     pub name: &'static str,
-    pub text: &'static str,
+    /// Text of the source file that holds the module.
+    source: &'static str,
     /// The files that it names.
     pub needs: &'static [&'static str],
     /// The limits that it names.
     pub limits: &'static [&'static str],
 }
 
+impl File {
+    /// Returns the text of the module: the block `pub mod NAME { … }` of a source that holds several, else the whole source.
+    fn text(&self) -> String {
+        let block = self.source.split_once(&format!("\npub mod {} {{\n", self.name));
+        let Some((block, _)) = block.and_then(|(_, rest)| rest.split_once("\n}\n")) else {
+            return self.source.to_owned();
+        };
+        block.lines().map(|line| line.strip_prefix("    ").unwrap_or(line).to_owned() + "\n").collect()
+    }
+}
+
 macro_rules! files {
     ($($name:literal is $text:expr; [$($needs:literal),*], [$($limits:ident),*];)*) => {
         /// All files, each behind those that it needs.
         pub(super) const FILES: &[File] = &[
-            $(File { name: $name, text: $text, needs: &[$($needs),*], limits: &[$(stringify!($limits)),*] },)*
+            $(File { name: $name, source: $text, needs: &[$($needs),*], limits: &[$(stringify!($limits)),*] },)*
         ];
     };
 }
@@ -38,16 +50,16 @@ files! {
     "work" is include_str!("runtime/work.rs"); ["equations"], [MOST_BRANCHES, MOST_HALVINGS];
     "solution" is include_str!("runtime/solution.rs"); ["numbers", "error", "equations", "measured"], [];
     "track" is include_str!("runtime/track.rs"); ["solution"], [];
-    "so_far" is include_str!("runtime/so_far.rs"); [], [];
-    "pivots" is include_str!("runtime/pivots.rs"); ["so_far", "solution"], [];
+    "running_max" is include_str!("runtime/solver_records.rs"); [], [];
+    "pivots" is include_str!("runtime/solver_records.rs"); ["running_max", "solution"], [];
     "grid" is sources::GRID; [], [];
     "hermite" is sources::HERMITE; [], [];
     "neighbours" is sources::NEIGHBOURS; [], [];
-    "newton" is include_str!("runtime/newton.rs"); ["numbers", "so_far", "solution", "grid"], [BORDER, LARGEST_CORRECTION];
+    "newton" is include_str!("runtime/newton.rs"); ["numbers", "running_max", "solution", "grid"], [BORDER, LARGEST_CORRECTION];
     "branches" is include_str!("runtime/branches.rs"); ["equations", "solution", "neighbours", "work"], [MOST_HALVINGS, SLACK];
-    "watched" is include_str!("runtime/watched.rs"); ["numbers"], [];
-    "left_out" is include_str!("runtime/left_out.rs"); [], [LARGEST_OPENING];
-    "hold_apart" is include_str!("runtime/hold_apart.rs"); ["numbers", "equations"], [MISSES];
+    "monitors" is include_str!("runtime/checks.rs"); ["numbers"], [];
+    "redundant_rows" is include_str!("runtime/checks.rs"); [], [LARGEST_OPENING];
+    "constraint_drift" is include_str!("runtime/checks.rs"); ["numbers", "equations"], [MISSES];
     "reach" is include_str!("runtime/reach.rs"); ["numbers", "error", "measured", "solution", "branches", "work"],
         [ACCURACY, MOST_BRANCHES, STEEP, STEEPEST];
     "state" is include_str!("runtime/state.rs"); ["numbers", "error", "measured", "solution", "track", "work"], [AHEAD, FARTHEST_AHEAD, LONGEST_AHEAD];
@@ -57,47 +69,47 @@ files! {
     "step" is include_str!("runtime/step.rs"); ["numbers", "error", "solution", "hermite", "branches", "reach", "state", "explain", "track", "work"],
         [CALM_BETWEEN, CALM_CORRECTION, CRUMB, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD,
             POSITION_JUMP, REST, VELOCITY_JUMP];
-    "rims" is include_str!("runtime/rims.rs"); ["numbers", "error", "solution", "neighbours", "reach", "state", "work"],
+    "domain_boundaries" is include_str!("runtime/domain_boundaries.rs"); ["numbers", "error", "solution", "neighbours", "reach", "state", "work"],
         [FEWEST_LOOKS, GROWTH, LEAD, MOMENT, MOST_HALVINGS, MOST_LOOKS, PASSED, ROUNDING, SLOW, SPEED_JUMP];
     "blocks" is sources::BLOCKS; [], [];
     "pivoting" is include_str!("runtime/pivoting.rs"); ["numbers", "error", "solution", "branches", "grid", "blocks", "work"],
         [BORDER, ITERATIONS, MOST_SHORTER, MOST_TRIALS, NEAR];
-    "pivoted_slopes" is include_str!("runtime/pivoted_slopes.rs"); ["error", "solution", "pivoting"], [];
-    "way" is include_str!("runtime/way.rs"); ["numbers", "equations", "solution", "state"], [FARTHEST_AHEAD];
-    "way_list" is include_str!("runtime/way_list.rs"); ["state", "way"], [];
-    "follow" is include_str!("runtime/follow.rs"); ["numbers", "equations", "error", "solution", "branches", "reach", "state", "explain", "step", "way", "track", "work"],
+    "pivoted_derivatives" is include_str!("runtime/derivatives.rs"); ["error", "solution", "pivoting"], [];
+    "input_path" is include_str!("runtime/inputs.rs"); ["numbers", "equations", "solution", "state"], [FARTHEST_AHEAD];
+    "input_list" is include_str!("runtime/inputs.rs"); ["state", "input_path"], [];
+    "follow" is include_str!("runtime/follow.rs"); ["numbers", "equations", "error", "solution", "branches", "reach", "state", "explain", "step", "input_path", "track", "work"],
         [CRUMB, FARTHEST_BEND, JUMP, LARGEST_CORRECTION, LARGEST_TURN, NEAR_TURN, NEAREST_TURN, POSITION_JUMP, SHORTEST_STEP,
             SINGULAR];
-    "sensitivity" is include_str!("runtime/sensitivity.rs"); ["numbers", "error", "solution", "state"], [];
-    "sensitivity_led" is include_str!("runtime/sensitivity_led.rs"); ["error", "state", "way", "follow", "sensitivity"], [];
-    "forces" is include_str!("runtime/forces.rs"); ["numbers", "error", "solution", "state"], [STEEP];
-    "forces_led" is include_str!("runtime/forces_led.rs"); ["state", "way", "follow", "forces"], [];
-    "pivoted_forces" is include_str!("runtime/pivoted_forces.rs"); ["error", "solution", "pivoting", "forces"], [];
+    "sensitivity" is include_str!("runtime/derivatives.rs"); ["numbers", "error", "solution", "state"], [];
+    "input_driven_sensitivity" is include_str!("runtime/derivatives.rs"); ["error", "state", "input_path", "follow", "sensitivity"], [];
+    "forces" is include_str!("runtime/reactions.rs"); ["numbers", "error", "solution", "state"], [STEEP];
+    "input_driven_forces" is include_str!("runtime/reactions.rs"); ["state", "input_path", "follow", "forces"], [];
+    "pivoted_forces" is include_str!("runtime/reactions.rs"); ["error", "solution", "pivoting", "forces"], [];
     "lane_solutions" is include_str!("runtime/lane_solutions.rs"); ["measured", "solution", "state"], [];
-    "lane_strain" is include_str!("runtime/lane_strain.rs"); ["so_far", "lane_solutions"], [];
-    "lane_pivots" is include_str!("runtime/lane_pivots.rs"); ["so_far", "lane_solutions"], [];
-    "lane_newton" is include_str!("runtime/lane_newton.rs"); ["so_far", "lane_solutions", "grid"], [BORDER, LARGEST_CORRECTION];
-    "lanes" is include_str!("runtime/lanes.rs"); ["numbers", "so_far", "error", "hermite", "branches", "state", "assemble", "step", "lane_solutions", "track", "work"],
+    "lane_residuals" is include_str!("runtime/solver_records.rs"); ["running_max", "lane_solutions"], [];
+    "lane_pivots" is include_str!("runtime/solver_records.rs"); ["running_max", "lane_solutions"], [];
+    "lane_newton" is include_str!("runtime/lane_newton.rs"); ["running_max", "lane_solutions", "grid"], [BORDER, LARGEST_CORRECTION];
+    "lanes" is include_str!("runtime/lanes.rs"); ["numbers", "running_max", "error", "hermite", "branches", "state", "assemble", "step", "lane_solutions", "track", "work"],
         [CALM_BETWEEN, CALM_CORRECTION, FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP];
-    "lane_follow" is include_str!("runtime/lane_follow.rs"); ["error", "way", "follow", "lane_solutions", "lanes", "work"], [MOST_STEPS_TO_FOLLOW];
+    "lane_following" is include_str!("runtime/lane_following.rs"); ["error", "input_path", "follow", "lane_solutions", "lanes", "work"], [MOST_STEPS_TO_FOLLOW];
     "sine_and_cosine" is sources::SINE_AND_COSINE; [], [];
     "without_branches" is sources::WITHOUT_BRANCHES; ["sine_and_cosine"], [];
-    "select" is include_str!("runtime/functions/select.rs"); [], [];
-    "either" is include_str!("runtime/functions/either.rs"); [], [];
-    "piece" is include_str!("runtime/functions/piece.rs"); [], [];
-    "pick" is include_str!("runtime/functions/pick.rs"); [], [];
-    "sign" is include_str!("runtime/functions/sign.rs"); [], [];
-    "lesser" is include_str!("runtime/functions/lesser.rs"); [], [];
-    "greater" is include_str!("runtime/functions/greater.rs"); [], [];
+    "select" is include_str!("runtime/functions.rs"); [], [];
+    "either" is include_str!("runtime/functions.rs"); [], [];
+    "piece" is include_str!("runtime/functions.rs"); [], [];
+    "pick" is include_str!("runtime/functions.rs"); [], [];
+    "sign" is include_str!("runtime/functions.rs"); [], [];
+    "lesser" is include_str!("runtime/functions.rs"); [], [];
+    "greater" is include_str!("runtime/functions.rs"); [], [];
     "codes" is mechc_ir::program::CODES; [], [];
-    "tables" is include_str!("runtime/tables.rs"); ["codes", "sine_and_cosine", "select", "either", "piece", "pick"], [];
-    "listed" is include_str!("runtime/listed.rs"); ["measured", "solution", "pivots", "grid", "newton", "tables"], [ITERATIONS];
-    "listed_more" is include_str!("runtime/listed_more.rs"); ["solution", "newton", "tables", "listed"], [];
+    "bytecode_interpreter" is include_str!("runtime/bytecode_interpreter.rs"); ["codes", "sine_and_cosine", "select", "either", "piece", "pick"], [];
+    "bytecode_solver" is include_str!("runtime/bytecode_solver.rs"); ["measured", "solution", "pivots", "grid", "newton", "bytecode_interpreter"], [ITERATIONS];
+    "extra_results" is include_str!("runtime/extra_results.rs"); ["solution", "newton", "bytecode_interpreter", "bytecode_solver"], [];
 }
 
 /// What the code of a module uses.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Uses {
+pub(super) struct RuntimeDeps {
     files: BTreeSet<&'static str>,
     limits: BTreeSet<&'static str>,
     /// What it names, with the file.
@@ -105,7 +117,7 @@ pub(super) struct Uses {
     libm: bool,
 }
 
-impl Uses {
+impl RuntimeDeps {
     /// A thing of a file, or a limit of `limits`, is named.
     pub fn name(&mut self, file: &'static str, name: &'static str) {
         self.names.insert((file, name));
@@ -137,12 +149,14 @@ impl Uses {
             match instruction {
                 Instruction::Compute(Op::SinCos { .. }) if has_lanes => {
                     self.name("without_branches", "sin_cos_below_a_million");
-                    self.file("lane_strain");
+                    self.file("lane_residuals");
                 }
                 Instruction::Compute(op) => self.operation(*op),
                 Instruction::Pivot { .. } => self.file(if has_lanes { "lane_pivots" } else { "pivots" }),
                 Instruction::Multiplier { .. } if !has_lanes => self.name("limits", "LARGEST_MULTIPLIER"),
-                Instruction::Multiplier { .. } | Instruction::Residual { .. } if has_lanes => self.file("lane_strain"),
+                Instruction::Multiplier { .. } | Instruction::Residual { .. } if has_lanes => {
+                    self.file("lane_residuals")
+                }
                 _ => {}
             }
         }
@@ -165,7 +179,7 @@ impl Uses {
     pub fn callee(&mut self, callee: Callee) {
         match callee {
             Callee::Sine | Callee::Cosine => self.name("sine_and_cosine", "sin_cos"),
-            Callee::Own(name) => self.name(name, name),
+            Callee::Runtime(name) => self.name(name, name),
             Callee::Libm(_) => self.libm(),
             Callee::Core(_) => {}
         }
@@ -187,20 +201,20 @@ impl Uses {
     }
 
     /// More that the same module uses.
-    pub fn add(&mut self, other: &Uses) {
+    pub fn add(&mut self, other: &RuntimeDeps) {
         self.include(other);
         self.names.extend(&other.names);
     }
 
     /// What another module of the same file uses goes along too.
-    pub fn include(&mut self, other: &Uses) {
+    pub fn include(&mut self, other: &RuntimeDeps) {
         self.files.extend(&other.files);
         self.limits.extend(&other.limits);
         self.libm |= other.libm;
     }
 
     /// What goes along, as a module; nothing where that is nothing.
-    pub fn goods(&self, page: &mut Page) {
+    pub fn print_runtime(&self, page: &mut Page) {
         let (mut wanted, mut limits) = (self.files.clone(), self.limits.clone());
         // those that are needed stand before those that need them
         for file in FILES.iter().rev() {
@@ -217,7 +231,7 @@ impl Uses {
         page.line("mod runtime {");
         for file in FILES.iter().filter(|file| wanted.contains(file.name)) {
             page.line(&format!("pub mod {} {{", file.name));
-            page.text(file.text);
+            page.text(&file.text());
             page.line("}\n");
         }
         if !limits.is_empty() {
@@ -254,10 +268,10 @@ mod tests {
     #[test]
     fn files_name_what_goes_along_with_them() {
         for (number, file) in FILES.iter().enumerate() {
-            if file.text.starts_with("// ") {
+            if file.source.starts_with("// ") {
                 continue; // of another crate
             }
-            let mut needs = named(file.text, "super::");
+            let mut needs = named(&file.text(), "super::");
             needs.remove("limits");
             let said: BTreeSet<String> = file.needs.iter().map(|name| (*name).to_owned()).collect();
             let is_before = |name: &&str| FILES[..number].iter().any(|before| before.name == *name);
@@ -269,7 +283,7 @@ mod tests {
                 file.name
             );
             let limits: BTreeSet<String> = file.limits.iter().map(|name| (*name).to_owned()).collect();
-            assert_eq!(named(file.text, "limits::"), limits, "{}", file.name);
+            assert_eq!(named(&file.text(), "limits::"), limits, "{}", file.name);
         }
     }
 }

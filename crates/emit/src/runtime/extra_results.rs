@@ -1,12 +1,12 @@
 //! More than the motion by operations that are written as numbers.
 
-use super::listed::Settled;
+use super::bytecode_interpreter::Results;
+use super::bytecode_solver::Settled;
 use super::newton::Newton;
 use super::solution::{Solution, Solved};
-use super::tables::Results;
 
 /// Results with others behind them.
-pub struct WithMore<'a, M: Solved> {
+pub struct ExtendedResults<'a, M: Solved> {
     /// The results.
     pub at: &'a mut Solution<M>,
     /// The others.
@@ -15,7 +15,7 @@ pub struct WithMore<'a, M: Solved> {
     pub first: usize,
 }
 
-impl<M: Solved> Results for WithMore<'_, M> {
+impl<M: Solved> Results for ExtendedResults<'_, M> {
     fn store(&mut self, column: usize, value: f64) {
         match column.checked_sub(self.first).and_then(|place| self.more.get_mut(place)) {
             Some(place) => *place = value + 0.0,
@@ -36,7 +36,7 @@ impl<M: Solved> Results for WithMore<'_, M> {
     }
 }
 
-impl<M: Solved> Settled for WithMore<'_, M> {
+impl<M: Solved> Settled for ExtendedResults<'_, M> {
     fn settled(&mut self, newton: &Newton) {
         self.at.settled(newton);
     }

@@ -1,14 +1,14 @@
 //! Where values live: in a loop, in a function, or among the terms that functions hand on.
 
 use super::parts::Part;
-use super::{Code, Scene};
+use super::{Code, CodeContext};
 use mechc_engine::solver::Instruction;
 use mechc_ir::program::Register;
 use std::ops::Range;
 
 /// Where a value lives.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Home {
+pub(super) enum Location {
     /// Written by no operation.
     Given,
     /// In its function, and there in its loop if it is in one.
@@ -25,34 +25,34 @@ const STRAIGHT: u32 = 0;
 const OTHERS: u32 = u32::MAX;
 
 /// Where all values live, by their registers.
-pub(super) struct Homes<'p, S> {
-    scene: &'p S,
+pub(super) struct ValueLocations<'p, S> {
+    context: &'p S,
     instructions: &'p [Instruction],
-    of: Vec<Home>,
+    of: Vec<Location>,
     is_read: Vec<bool>,
     /// How many terms functions hand on.
     pub terms: u32,
     /// Names that values shall have.
-    pub wanted: Vec<Option<String>>,
+    pub result_names: Vec<Option<String>>,
 }
 
-impl<'p, S: Scene> Homes<'p, S> {
+impl<'p, S: CodeContext> ValueLocations<'p, S> {
     /// Of what is printed in some parts.
-    pub fn of(code: &Code<'p>, scene: &'p S, parts: &[Part<'p>]) -> Homes<'p, S> {
-        let mut homes = Homes {
-            scene,
+    pub fn of(code: &Code<'p>, context: &'p S, parts: &[Part<'p>]) -> ValueLocations<'p, S> {
+        let mut locations = ValueLocations {
+            context,
             instructions: code.instructions,
-            of: vec![Home::Given; code.registers],
+            of: vec![Location::Given; code.registers],
             is_read: vec![false; code.registers],
             terms: 0,
-            wanted: vec![None; code.registers],
+            result_names: vec![None; code.registers],
         };
-        homes.find(parts);
-        homes
+        locations.find(parts);
+        locations
     }
 
     /// Where a value lives.
-    pub fn home(&self, register: Register) -> Home {
+    pub fn location(&self, register: Register) -> Location {
         self.of[register as usize]
     }
 
@@ -73,7 +73,7 @@ impl<'p, S: Scene> Homes<'p, S> {
                         self.settle_in(piece.range.clone(), function, of_loop);
                         for tear in piece.tears.unwrap_or(&[]) {
                             // in lanes loops beside its own have the corrections too
-                            let reader = if self.scene.has_lanes() { OTHERS } else { function };
+                            let reader = if self.context.has_lanes() { OTHERS } else { function };
                             self.read(tear.x, function, STRAIGHT);
                             self.read(tear.delta, reader, STRAIGHT);
                         }
@@ -100,29 +100,29 @@ impl<'p, S: Scene> Homes<'p, S> {
                 self.read(register, function, of_loop);
             }
             if let Some((table, column)) = instruction.column() {
-                self.scene.cells(table, column).into_iter().for_each(|cell| self.read(cell, function, of_loop));
+                self.context.cells(table, column).into_iter().for_each(|cell| self.read(cell, function, of_loop));
             }
             for register in instruction.writes() {
-                self.of[register as usize] = Home::Local { function, of_loop };
+                self.of[register as usize] = Location::Local { function, of_loop };
             }
             if let Instruction::Store { column, a } = instruction
-                && self.wanted[a as usize].is_none()
+                && self.result_names[a as usize].is_none()
             {
-                self.wanted[a as usize] = self.scene.name(column);
+                self.result_names[a as usize] = self.context.name(column);
             }
         }
     }
 
     fn read(&mut self, register: Register, reader: u32, reading_loop: u32) {
         self.is_read[register as usize] = true;
-        let home = &mut self.of[register as usize];
-        match *home {
-            Home::Local { function, .. } | Home::BeyondLoop { function } if function != reader => {
-                *home = Home::Term(self.terms);
+        let location = &mut self.of[register as usize];
+        match *location {
+            Location::Local { function, .. } | Location::BeyondLoop { function } if function != reader => {
+                *location = Location::Term(self.terms);
                 self.terms += 1;
             }
-            Home::Local { function, of_loop } if of_loop != STRAIGHT && of_loop != reading_loop => {
-                *home = Home::BeyondLoop { function };
+            Location::Local { function, of_loop } if of_loop != STRAIGHT && of_loop != reading_loop => {
+                *location = Location::BeyondLoop { function };
             }
             _ => {}
         }

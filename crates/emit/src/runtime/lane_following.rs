@@ -2,15 +2,15 @@
 
 use super::error::Error;
 use super::follow::{Follows, follow};
+use super::input_path::{InputDriven, Signals};
 use super::lane_solutions::Laned;
 use super::lanes::{States, put};
 use super::limits::MOST_STEPS_TO_FOLLOW;
-use super::way::{Led, Signals};
 use super::work::Work;
 
 /// Leads every lane to signals of its own, each with the bits that it would have alone, one after the other. Says of each lane whether it
 /// has got there, and if not, why; it stays as it was.
-pub fn follow_each<E: Led<K>, M: Follows<E, K> + Laned<L>, const K: usize, const L: usize>(
+pub fn follow_each<E: InputDriven<K>, M: Follows<E, K> + Laned<L>, const K: usize, const L: usize>(
     signals: &[Signals<K>; L],
     states: &mut States<M, L>,
 ) -> [Result<(), Error>; L] {
@@ -21,7 +21,7 @@ pub fn follow_each<E: Led<K>, M: Follows<E, K> + Laned<L>, const K: usize, const
         };
         *result = follow(signals, &mut state, MOST_STEPS_TO_FOLLOW, &mut Work::default());
         states.both().0.set_lane(lane, state.at());
-        put(&mut states.lead, lane, &state.lead);
+        put(&mut states.continuation, lane, &state.continuation);
         put(&mut states.is_smooth, lane, &false);
     }
     results

@@ -42,7 +42,7 @@ impl Writer<'_> {
     /// Whether some operation looks into a column of a table, or may by its number.
     fn is_looked_into(&self, table: u32, column: Column) -> bool {
         let all = || STAGES.iter().flat_map(|stage| self.unit.program.stage(*stage));
-        self.equations.book.is_some() || all().any(|&op| op.column() == Some((table, column)))
+        self.equations.pool.is_some() || all().any(|&op| op.column() == Some((table, column)))
     }
 
     /// The times of the file's analysis.

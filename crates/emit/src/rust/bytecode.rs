@@ -1,9 +1,9 @@
 //! Solvers whose operations are written as numbers.
 
 use super::Writer;
+use crate::bytecode::ConstantPool;
 use crate::print::{Head, Page};
 use crate::solution::Solution;
-use crate::tape::Book;
 use mechc_engine::solver::Solver;
 
 /// What a solver gives beside the motion.
@@ -21,16 +21,16 @@ struct More {
 
 impl Writer<'_> {
     /// The function that solves.
-    pub fn solver_as_numbers(&self, solution: &Solution<'_>, book: &mut Book, page: &mut Page) {
+    pub fn solver_as_numbers(&self, solution: &Solution<'_>, pool: &mut ConstantPool, page: &mut Page) {
         page.docs("Position, velocity and acceleration at a time, by the operations of [`SOLVE`].");
         self.listed(solution, "solve", &[], page, |page| {
             page.line("listed::solve::<Numbers, REGISTERS>(&LISTING, guess, &inputs, at);");
         });
-        solution.listing(&solution.motion.solver, "", book, page);
+        solution.listing(&solution.motion.solver, "", pool, page);
     }
 
     /// The same with the derivatives by parameters.
-    pub fn sensitive_solver_as_numbers(&self, solution: &Solution<'_>, book: &mut Book, page: &mut Page) {
+    pub fn sensitive_solver_as_numbers(&self, solution: &Solution<'_>, pool: &mut ConstantPool, page: &mut Page) {
         let more = More {
             name: "solve_by_params",
             what: "the derivatives of the coordinates by parameters",
@@ -38,11 +38,11 @@ impl Writer<'_> {
             list: "by.as_flattened_mut()",
             ending: "_BY_PARAMS",
         };
-        self.solver_with_more_as_numbers(solution, solution.motion.sensitive.as_ref(), &more, book, page);
+        self.solver_with_more_as_numbers(solution, solution.motion.sensitive.as_ref(), &more, pool, page);
     }
 
     /// The same with what joints exert and drivers supply.
-    pub fn forced_solver_as_numbers(&self, solution: &Solution<'_>, book: &mut Book, page: &mut Page) {
+    pub fn forced_solver_as_numbers(&self, solution: &Solution<'_>, pool: &mut ConstantPool, page: &mut Page) {
         let more = More {
             name: "solve_with_forces",
             what: "what joints exert and drivers supply",
@@ -50,7 +50,7 @@ impl Writer<'_> {
             list: "forces",
             ending: "_WITH_FORCES",
         };
-        self.solver_with_more_as_numbers(solution, solution.motion.forced.as_ref(), &more, book, page);
+        self.solver_with_more_as_numbers(solution, solution.motion.forced.as_ref(), &more, pool, page);
     }
 
     fn solver_with_more_as_numbers(
@@ -58,22 +58,22 @@ impl Writer<'_> {
         solution: &Solution<'_>,
         solver: Option<&Solver>,
         More { name, what, argument, list, ending }: &More,
-        book: &mut Book,
+        pool: &mut ConstantPool,
         page: &mut Page,
     ) {
         let Some(solver) = solver else {
             return;
         };
-        self.uses("listed_more", "WithMore");
+        self.requires("extra_results", "ExtendedResults");
         page.docs(&format!("As [`solve`], with {what}."));
         self.listed(solution, name, &[*argument], page, |page| {
             let first = solution.first_of_more();
-            page.line(&format!("let mut all = WithMore {{ at, more: {list}, first: {first} }};"));
+            page.line(&format!("let mut all = ExtendedResults {{ at, more: {list}, first: {first} }};"));
             page.line(&format!(
                 "listed::solve::<Numbers, REGISTERS{ending}>(&LISTING{ending}, guess, &inputs, &mut all);"
             ));
         });
-        solution.listing(solver, ending, book, page);
+        solution.listing(solver, ending, pool, page);
     }
 
     /// A function that runs a listing.
@@ -85,10 +85,10 @@ impl Writer<'_> {
         page: &mut Page,
         run: impl FnOnce(&mut Page),
     ) {
-        self.uses("tables", "Arrays");
-        let runtime = if self.equations.is_led { "super::runtime" } else { "runtime" };
-        let (is_led, has_params) = (self.equations.is_led, !self.unit.system.params().is_empty());
-        let model = if solution.known.is_empty() && !has_params && !is_led { "_m" } else { "m" };
+        self.requires("bytecode_interpreter", "Arrays");
+        let runtime = if self.equations.is_input_driven { "super::runtime" } else { "runtime" };
+        let (is_input_driven, has_params) = (self.equations.is_input_driven, !self.unit.system.params().is_empty());
+        let model = if solution.derived.is_empty() && !has_params && !is_input_driven { "_m" } else { "m" };
         let mut arguments = vec![("guess", "&[f64; TEARS]"), ("t", "f64"), (model, "&Model")];
         arguments.extend(self.has_sides().then_some(("sides", "&Sides")));
         arguments.push(("at", "&mut Solution"));
@@ -97,19 +97,19 @@ impl Writer<'_> {
         page.function(&Head { kind: "fn", name, arguments: &arguments, result: "" }, |page| {
             page.line(&format!("use {runtime}::listed;\n"));
             page.line("at.begin(t);");
-            let params = match (has_params, is_led) {
+            let params = match (has_params, is_input_driven) {
                 (false, _) => "&[]",
                 (true, false) => "&m.params.list()",
-                (true, true) => "&m.way.params.list()",
+                (true, true) => "&m.path.params.list()",
             };
-            let known = if solution.known.is_empty() { "&[]" } else { "&m.known" };
+            let derived = if solution.derived.is_empty() { "&[]" } else { "&m.derived" };
             let sides = if self.has_sides() { "sides" } else { "&[]" };
-            let time = if is_led { "&m.way.list::<{ 3 * SIGNALS }>(t)" } else { "&[t]" };
-            if is_led {
-                self.equations.uses.borrow_mut().file("way_list");
+            let time = if is_input_driven { "&m.path.list::<{ 3 * SIGNALS }>(t)" } else { "&[t]" };
+            if is_input_driven {
+                self.equations.deps.borrow_mut().file("input_list");
             }
             page.line(&format!(
-                "let inputs: Arrays<'_> = [{params}, {known}, {sides}, {time}, &[], &[], &[], &[], &[], &[]];"
+                "let inputs: Arrays<'_> = [{params}, {derived}, {sides}, {time}, &[], &[], &[], &[], &[], &[]];"
             ));
             run(page);
         });

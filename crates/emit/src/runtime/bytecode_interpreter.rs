@@ -12,7 +12,7 @@ use super::sine_and_cosine::sin_cos;
 pub type Arrays<'a> = [&'a [f64]; 10];
 
 /// What operations name by numbers.
-pub trait Book {
+pub trait ConstantPool {
     /// A number.
     fn number(number: usize) -> f64;
 
@@ -55,7 +55,7 @@ impl<const K: usize> Results for [f64; K] {
 }
 
 /// What operations work on.
-struct Work<'a, R> {
+struct Interpreter<'a, R> {
     guess: &'a [f64],
     inputs: &'a Arrays<'a>,
     v: &'a mut [f64],
@@ -63,20 +63,20 @@ struct Work<'a, R> {
 }
 
 /// Runs operations on registers: what to do, where the result goes, and what it is done with.
-pub fn run<B: Book>(code: &[u32], guess: &[f64], inputs: &Arrays<'_>, v: &mut [f64], out: &mut impl Results) {
-    let mut work = Work { guess, inputs, v, out };
+pub fn run<B: ConstantPool>(code: &[u32], guess: &[f64], inputs: &Arrays<'_>, v: &mut [f64], out: &mut impl Results) {
+    let mut interpreter = Interpreter { guess, inputs, v, out };
     let mut rest = code;
     // every operation takes a word at least
     for _ in 0..code.len() {
         let Some((&what, words)) = rest.split_first() else {
             return;
         };
-        let length = match work.value::<B>(what, words) {
+        let length = match interpreter.value::<B>(what, words) {
             Some((value, length)) => {
-                work.put(words, 0, value);
+                interpreter.put(words, 0, value);
                 length
             }
-            None => work.act::<B>(what, words),
+            None => interpreter.act::<B>(what, words),
         };
         rest = words.get(length..).unwrap_or(&[]);
     }
@@ -88,7 +88,7 @@ fn word(words: &[u32], k: usize) -> usize {
     words.get(k).map_or(0, |word| *word as usize)
 }
 
-impl<R: Results> Work<'_, R> {
+impl<R: Results> Interpreter<'_, R> {
     /// The value of an operand's register.
     #[inline]
     fn of(&self, words: &[u32], k: usize) -> f64 {
@@ -105,7 +105,7 @@ impl<R: Results> Work<'_, R> {
 
     /// The result of an operation that has one, and how many words it takes.
     #[inline]
-    fn value<B: Book>(&mut self, what: u32, words: &[u32]) -> Option<(f64, usize)> {
+    fn value<B: ConstantPool>(&mut self, what: u32, words: &[u32]) -> Option<(f64, usize)> {
         let of = |k: usize| self.of(words, k);
         let operand = |k: usize| word(words, k);
         let truth = f64::from;
@@ -160,7 +160,7 @@ impl<R: Results> Work<'_, R> {
 
     /// Does what leaves no value in a register; gives how many words it takes.
     #[inline]
-    fn act<B: Book>(&mut self, what: u32, words: &[u32]) -> usize {
+    fn act<B: ConstantPool>(&mut self, what: u32, words: &[u32]) -> usize {
         match what {
             codes::STORE => {
                 self.out.store(word(words, 0), self.of(words, 1));

@@ -1,11 +1,11 @@
 //! Solving by operations that are written as numbers.
 
+use super::bytecode_interpreter::{Arrays, ConstantPool, Results, run};
 use super::grid::on_grid;
 use super::limits::ITERATIONS;
 use super::measured::Measured;
 use super::newton::Newton;
 use super::solution::{Along, Solution, Solved};
-use super::tables::{Arrays, Book, Results, run};
 
 /// Operations that follow each other, and the coordinates that they are repeated for: where they begin and end in their lists.
 pub struct Segment {
@@ -16,7 +16,7 @@ pub struct Segment {
 }
 
 /// A coordinate that Newton solves for.
-pub struct Settling {
+pub struct NewtonCoordinate {
     /// The registers of it and of its correction.
     pub registers: [usize; 2],
     /// The width of a cell of its grid, and what it is judged against.
@@ -28,7 +28,7 @@ pub struct Listing {
     /// In order.
     pub segments: &'static [Segment],
     /// The coordinates that Newton solves for.
-    pub settling: &'static [Settling],
+    pub newton: &'static [NewtonCoordinate],
     /// The operations.
     pub code: &'static [u32],
 }
@@ -40,7 +40,7 @@ pub trait Settled: Results {
 }
 
 /// Solves on so many registers.
-pub fn solve<B: Book, const REGISTERS: usize>(
+pub fn solve<B: ConstantPool, const REGISTERS: usize>(
     listing: &Listing,
     guess: &[f64],
     inputs: &Arrays<'_>,
@@ -49,7 +49,7 @@ pub fn solve<B: Book, const REGISTERS: usize>(
     let mut v = [0.0; REGISTERS];
     for Segment { code: [from, to], tears: [first, last] } in listing.segments {
         let code = listing.code.get(*from..*to).unwrap_or(&[]);
-        let tears = listing.settling.get(*first..*last).unwrap_or(&[]);
+        let tears = listing.newton.get(*first..*last).unwrap_or(&[]);
         if tears.is_empty() {
             run::<B>(code, guess, inputs, &mut v, out);
             continue;
@@ -58,8 +58,8 @@ pub fn solve<B: Book, const REGISTERS: usize>(
         correct(&mut v, tears, |x, _, cell| on_grid(x, cell));
         for _ in 0..ITERATIONS {
             run::<B>(code, guess, inputs, &mut v, out);
-            for Settling { registers, sizes } in tears {
-                newton.see(v.get(registers[1]).copied().unwrap_or(f64::NAN), sizes[0], sizes[1]);
+            for NewtonCoordinate { registers, sizes } in tears {
+                newton.record(v.get(registers[1]).copied().unwrap_or(f64::NAN), sizes[0], sizes[1]);
             }
             if newton.is_done() {
                 break;
@@ -72,8 +72,8 @@ pub fn solve<B: Book, const REGISTERS: usize>(
 }
 
 /// Puts another value in the place of each coordinate, by what it is, its correction, and the width of its cells.
-fn correct(v: &mut [f64], tears: &[Settling], other: impl Fn(f64, f64, f64) -> f64) {
-    for Settling { registers, sizes } in tears {
+fn correct(v: &mut [f64], tears: &[NewtonCoordinate], other: impl Fn(f64, f64, f64) -> f64) {
+    for NewtonCoordinate { registers, sizes } in tears {
         let delta = v.get(registers[1]).copied().unwrap_or(f64::NAN);
         if let Some(x) = v.get_mut(registers[0]) {
             *x = other(*x, delta, sizes[0]);

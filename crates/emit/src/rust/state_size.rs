@@ -17,11 +17,11 @@ use mechc_ir::tolerances::steps::rims::MOST_HALVINGS;
 const WORD: usize = 8;
 
 impl Writer<'_> {
-    /// Words of a state, but for what leads it: the mechanism, two solutions, how far steps go, which rims were passed, how it was
+    /// Words of a state, but for what leads it: the mechanism, two solutions, how far steps go, which boundaries were passed, how it was
     /// assembled.
     pub fn words(&self, solution: &Solution<'_>) -> usize {
-        let of_model = self.unit.system.params().len() + solution.known.len();
-        of_model + 2 * self.words_of_solution(solution) + self.rims().count() + 2 + words_of(2) + words_of(1)
+        let of_model = self.unit.system.params().len() + solution.derived.len();
+        of_model + 2 * self.words_of_solution(solution) + self.boundaries().count() + 2 + words_of(2) + words_of(1)
     }
 
     /// Words of what leads it: the mechanism on a way of signals, two solutions, how far it goes, what it takes, where it was going.
@@ -29,13 +29,13 @@ impl Writer<'_> {
         let signals = self.unit.system.inputs().len();
         let of_way = self.unit.system.params().len() + 4 * signals;
         let of_track = 2 * self.words_of_solution(solution) + 1 + words_of(2);
-        of_way + solution.known.len() + of_track + signals + (signals + 1) + words_of(1)
+        of_way + solution.derived.len() + of_track + signals + (signals + 1) + words_of(1)
     }
 
     fn words_of_solution(&self, solution: &Solution<'_>) -> usize {
         let (n, outputs) = (self.unit.system.coordinates().len(), &self.unit.program.outputs);
         let of_measures = outputs.measures.len() + outputs.measures_d.len() + outputs.measures_dd.len();
-        let signals = if self.equations.is_led { self.unit.system.inputs().len() } else { 0 };
+        let signals = if self.equations.is_input_driven { self.unit.system.inputs().len() } else { 0 };
         let answers = outputs.watches.len() + solution.motion.solver.turns().len() + 2;
         let numbers = 3 + 3 * n + of_measures + solution.joined.len() + self.equations.sides.len();
         numbers + signals * (n + 1) + words_of(answers)
@@ -74,8 +74,8 @@ impl Writer<'_> {
     /// The bounds of a mechanism, with what its inputs take.
     pub fn bounds(&self, lead: Option<Work>) -> Bounds {
         let own = self.work();
-        let of_rims = self.rims().count() * (MOST_HALVINGS + 3) + 2 + 2 * MOST_LOOKS * own.reaching;
-        let of_own_step = own.step + if self.has_rims() { of_rims } else { 0 };
+        let most_work = self.boundaries().count() * (MOST_HALVINGS + 3) + 2 + 2 * MOST_LOOKS * own.reaching;
+        let of_own_step = own.step + if self.has_boundaries() { most_work } else { 0 };
         let of_lead_step = lead.map_or(0, |lead| lead.step + 1);
         let to_follow = |lead: Work| 1 + lead.sides + lead.reaching + lead.regular + lead.reaching + 2;
         let to_take_up = lead.map_or(0, |lead| to_follow(lead) + 1 + own.sides + own.reaching);

@@ -3,9 +3,9 @@
 //! A short loop in the emitted code reads them (`runtime/tables.rs`). Registers are shared, so that a large mechanism does not ask
 //! for a large stack.
 
-use super::goods::Uses;
 use super::operations::{binary, callee, callee_of_two, unary};
 use super::print::{Head, Page};
+use super::runtime_files::RuntimeDeps;
 use super::text::literal;
 use mechc_engine::solver::{Instruction, Segment, from_bits};
 use mechc_expr::{Binary, Unary};
@@ -100,7 +100,7 @@ fn last_uses(instructions: &[Instruction], segments: &[Segment], registers: usiz
 
 /// The words of operations, and the numbers among them.
 #[derive(Default)]
-pub(super) struct Tape {
+pub(super) struct Bytecode {
     pub words: Vec<u32>,
     /// Where each operation begins, and where the last one ends.
     pub starts: Vec<u32>,
@@ -147,17 +147,17 @@ pub(super) struct Notes<'n> {
 
 /// What all lists of operations share.
 #[derive(Default)]
-pub(super) struct Book {
+pub(super) struct ConstantPool {
     numbers: Numbers,
     /// The functions that they call, by their number.
     unary: BTreeMap<u32, Unary>,
     binary: BTreeMap<u32, Binary>,
 }
 
-impl Book {
+impl ConstantPool {
     /// Writes operations down.
-    pub fn encode(&mut self, instructions: &[Instruction], notes: &Notes<'_>) -> Tape {
-        let mut tape = Tape::default();
+    pub fn encode(&mut self, instructions: &[Instruction], notes: &Notes<'_>) -> Bytecode {
+        let mut tape = Bytecode::default();
         for &instruction in instructions {
             tape.starts.push(tape.words.len() as u32);
             self.write(instruction, &mut tape.words, notes);
@@ -207,8 +207,14 @@ impl Book {
     }
 
     /// The numbers, the functions and the columns of so many tables, by their numbers; a column is called by its name.
-    pub fn print(&self, tables: usize, called: impl Fn(u32, Column) -> String, uses: &mut Uses, page: &mut Page) {
-        uses.name("tables", "Book");
+    pub fn print(
+        &self,
+        tables: usize,
+        called: impl Fn(u32, Column) -> String,
+        deps: &mut RuntimeDeps,
+        page: &mut Page,
+    ) {
+        deps.name("bytecode_interpreter", "ConstantPool");
         let values: Vec<String> = self.numbers.values.iter().copied().map(literal).collect();
         page.docs("The numbers among the operations.");
         page.line("#[rustfmt::skip]");
@@ -218,12 +224,12 @@ impl Book {
         page.line("struct Numbers;\n");
         let mut unary_arms = Vec::new();
         for (number, of) in &self.unary {
-            uses.callee(callee(*of));
+            deps.callee(callee(*of));
             unary_arms.push((*number, unary(*of, "a")));
         }
         let mut binary_arms = Vec::new();
         for (number, of) in &self.binary {
-            uses.callee(callee_of_two(*of));
+            deps.callee(callee_of_two(*of));
             binary_arms.push((*number, binary(*of, "a", "b")));
         }
         let mut column_arms = Vec::new();
@@ -234,7 +240,7 @@ impl Book {
             }
         }
         page.line("#[rustfmt::skip]");
-        page.item("impl Book for Numbers", |page| {
+        page.item("impl ConstantPool for Numbers", |page| {
             let number = Head { kind: "fn", name: "number", arguments: &[("number", "usize")], result: "f64" };
             page.function(&number, |page| page.line("NUMBERS.get(number).copied().unwrap_or(f64::NAN)"));
             choice(page, "unary", &["a"], "f64", &unary_arms);
@@ -281,8 +287,8 @@ pub(super) fn list(docs: &str, name: &str, words: &[u32], page: &mut Page) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Book, Loaded, Notes};
-    use crate::runtime::tables::{self, Results, run};
+    use super::{ConstantPool, Loaded, Notes};
+    use crate::runtime::bytecode_interpreter::{self, Results, run};
     use mechc_engine::solver::Instruction;
     use mechc_expr::{Binary, Comparison, Unary, binary_value, unary_value};
     use mechc_ir::program::{Column, LaneMachine, LaneValues, Op, Program, codes};
@@ -302,7 +308,7 @@ mod tests {
 
     struct Named;
 
-    impl tables::Book for Named {
+    impl bytecode_interpreter::ConstantPool for Named {
         fn number(number: usize) -> f64 {
             NUMBERS[number]
         }
@@ -380,7 +386,7 @@ mod tests {
         COLUMNS.get_or_init(|| values.collect());
         let numbers = [0.0, -0.0, 0.3, 1.5, -2.25, 3.0, 1e9, f64::INFINITY, f64::NAN];
         for op in operations() {
-            let tape = Book::default().encode(&[Instruction::Compute(op)], &no_notes());
+            let tape = ConstantPool::default().encode(&[Instruction::Compute(op)], &no_notes());
             for n in 0..numbers.len().pow(3) {
                 let [mut a, b, c] =
                     [n, n / numbers.len(), n / numbers.len().pow(2)].map(|k| numbers[k % numbers.len()]);
@@ -429,8 +435,8 @@ mod tests {
     #[test]
     fn written_instructions_do_what_they_say() {
         let input = |_| Loaded::Input { array: 1, index: 2 };
-        let mut book = Book::default();
-        let mut tape = book.encode(
+        let mut pool = ConstantPool::default();
+        let mut tape = pool.encode(
             &[
                 Instruction::number(0, 2.5),
                 Instruction::Load { to: 1, from: 9 },
@@ -444,11 +450,11 @@ mod tests {
             ],
             &no_notes(),
         );
-        let more = book.encode(&[Instruction::Load { to: 6, from: 9 }], &Notes { loaded: &input, ..no_notes() });
+        let more = pool.encode(&[Instruction::Load { to: 6, from: 9 }], &Notes { loaded: &input, ..no_notes() });
         tape.words.extend(more.words);
-        assert_eq!(book.numbers.values, NUMBERS);
+        assert_eq!(pool.numbers.values, NUMBERS);
         let (mut v, mut left) = ([f64::NAN; 7], Left::default());
-        let mut inputs: tables::Arrays<'_> = [&[]; 10];
+        let mut inputs: bytecode_interpreter::Arrays<'_> = [&[]; 10];
         (inputs[1], inputs[super::TIME as usize]) = (&[0.0, 0.0, 42.0], &[0.75]);
         run::<Named>(&tape.words, &[10.0, 11.0], &inputs, &mut v, &mut left);
         assert_eq!(v.to_vec(), [2.5, 0.125, 0.75, 106.0, 11.0, 0.3125, 42.0]);

@@ -1,7 +1,7 @@
 //! What decides the branches of formulas, and what must hold on them.
 
 use super::Writer;
-use crate::equations::{Given, Wanted};
+use crate::equations::{FunctionSpec, Given};
 use crate::print::{Head, Page};
 use crate::solution::Solution;
 use crate::text::{constant, literal};
@@ -21,14 +21,14 @@ impl Writer<'_> {
             let only: Vec<Register> =
                 switches.iter().map(|switch| if switch.on_time { switch.to } else { zero }).collect();
             let docs = "The branches that time alone decides, the others as 0.";
-            self.equations.function(&wanted_of_sides("sides_of_time", docs, 0, &only, Given::None), page);
+            self.equations.function(&spec_of_sides("sides_of_time", docs, 0, &only, Given::None), page);
         }
         if of_motion {
             let is_of_time: Vec<String> = switches.iter().map(|switch| switch.on_time.to_string()).collect();
             page.text(&constant("Which of them time alone decides.", "IS_OF_TIME", "bool", "SIDES", &is_of_time));
             let all: Vec<Register> = switches.iter().map(|switch| switch.to).collect();
             let docs = "The branches at a position, those of time being known.";
-            self.equations.function(&wanted_of_sides("sides_of_motion", docs, 1, &all, Given::OfTime), page);
+            self.equations.function(&spec_of_sides("sides_of_motion", docs, 1, &all, Given::OfTime), page);
         }
     }
 
@@ -41,7 +41,7 @@ impl Writer<'_> {
 
     /// What decides them, for who solves the equations.
     pub fn branches(&self, solution: &Solution<'_>, page: &mut Page) {
-        self.uses("equations", "Branches");
+        self.requires("equations", "Branches");
         let (of_time, of_motion) = self.switches();
         if !of_time && !of_motion {
             page.line("impl Branches for Model {}\n");
@@ -54,7 +54,7 @@ impl Writer<'_> {
             if of_motion {
                 page.line("const OF_MOTION: bool = true;");
             }
-            if let Some(to) = solution.motion.to.filter(|_| !self.equations.is_led) {
+            if let Some(to) = solution.motion.to.filter(|_| !self.equations.is_input_driven) {
                 page.line(&format!("const END: Option<f64> = Some({});", literal(to)));
             }
             page.blank();
@@ -73,7 +73,8 @@ impl Writer<'_> {
     pub fn checks(&self, page: &mut Page) {
         let (outputs, watches) = (self.open_conditions(), &self.unit.program.outputs.watches);
         let mut function = |name: &str, docs: &str, outputs: &[Register], length: &str| {
-            self.equations.function(&Wanted { orders: 1, ..Wanted::of(name, docs, outputs, length) }, page);
+            self.equations
+                .function(&FunctionSpec { orders: 1, ..FunctionSpec::new(name, docs, outputs, length) }, page);
         };
         if !outputs.is_empty() {
             let docs = "Distances, and places within intervals and tables: all must be positive.";
@@ -81,7 +82,7 @@ impl Writer<'_> {
         }
         if !watches.is_empty() {
             let docs = "What keeps its sign along a branch of the motion.";
-            function("watched", docs, watches, &watches.len().to_string());
+            function("monitors", docs, watches, &watches.len().to_string());
         }
         let checks = self.unit.system.checks();
         if !checks.is_empty() {
@@ -100,13 +101,13 @@ impl Writer<'_> {
     /// Whether anything must hold beside the equations.
     pub fn has_checks(&self) -> bool {
         let is_left_out = !self.unit.system.checks().is_empty();
-        let is_watched = !self.unit.system.watches().is_empty();
-        self.has_sides() || is_left_out || is_watched || self.has_rims() || !self.open_conditions().is_empty()
+        let has_monitors = !self.unit.system.watches().is_empty();
+        self.has_sides() || is_left_out || has_monitors || self.has_boundaries() || !self.open_conditions().is_empty()
     }
 
     /// What must hold, for who solves the equations.
     pub fn checked(&self, page: &mut Page) {
-        self.uses("equations", "Checks");
+        self.requires("equations", "Checks");
         let watches = self.unit.program.outputs.watches.len();
         let call = |name: &str, given: Given| self.call(name, &["q"], given);
         let answer = |page: &mut Page, name: &str, result: &str, body: [&str; 2]| {
@@ -119,9 +120,9 @@ impl Writer<'_> {
             });
         };
         page.item("impl Checks for Model", |page| {
-            page.line(&format!("type Watched = [bool; {watches}];"));
+            page.line(&format!("type Monitors = [bool; {watches}];"));
             if !self.unit.system.checks().is_empty() {
-                page.line("const LEAVES_OUT: bool = true;");
+                page.line("const HAS_REDUNDANT_ROWS: bool = true;");
             }
             page.blank();
             if !self.open_conditions().is_empty() {
@@ -129,63 +130,67 @@ impl Writer<'_> {
                 answer(page, "conditions_hold", "bool", [&all, "all.iter().all(|value| *value > 0.0)"]);
             }
             if !self.unit.system.checks().is_empty() {
-                self.uses("left_out", "left_out_holds");
+                self.requires("redundant_rows", "redundant_rows_hold");
                 let left = format!("let left = {};", call(&self.on_sides("left_out"), Given::All));
-                answer(page, "left_out_holds", "bool", [&left, "left_out_holds(&left, &LEFT_OUT_SCALES)"]);
+                answer(page, "redundant_rows_hold", "bool", [&left, "redundant_rows_hold(&left, &LEFT_OUT_SCALES)"]);
             }
             if watches > 0 {
-                self.uses("watched", "positive");
-                let all = format!("let all = {};", call("watched", Given::All));
-                answer(page, "watched", "Self::Watched", [&all, "positive(&all)"]);
+                self.requires("monitors", "positive");
+                let all = format!("let all = {};", call("monitors", Given::All));
+                answer(page, "monitors", "Self::Monitors", [&all, "positive(&all)"]);
             }
         });
     }
 
     /// Whether formulas of time may end.
-    pub fn has_rims(&self) -> bool {
-        self.rims().next().is_some()
+    pub fn has_boundaries(&self) -> bool {
+        self.boundaries().next().is_some()
     }
 
-    pub fn rims(&self) -> impl Iterator<Item = &PlacedRim> {
-        let is_led = self.equations.is_led;
-        self.unit.program.outputs.rims.iter().filter(move |rim| rim.on_time && !is_led)
+    pub fn boundaries(&self) -> impl Iterator<Item = &PlacedRim> {
+        let is_input_driven = self.equations.is_input_driven;
+        self.unit.program.outputs.rims.iter().filter(move |boundary| boundary.on_time && !is_input_driven)
     }
 
     /// What looks for times at which formulas of time come to the end of what their functions take; nothing where none may.
-    pub fn rimmed(&self, page: &mut Page) {
-        if !self.has_rims() {
+    pub fn boundary_search(&self, page: &mut Page) {
+        if !self.has_boundaries() {
             return;
         }
-        let outputs: Vec<Register> = self.rims().map(|rim| rim.gauge).chain(self.rims().map(|rim| rim.slope)).collect();
+        let outputs: Vec<Register> = self
+            .boundaries()
+            .map(|boundary| boundary.gauge)
+            .chain(self.boundaries().map(|boundary| boundary.slope))
+            .collect();
         let docs = "Number of places where a formula of time may end.";
-        page.constant(docs, "const RIMS: usize", &self.rims().count().to_string());
+        page.constant(docs, "const BOUNDARIES: usize", &self.boundaries().count().to_string());
         self.equations.function(
-            &Wanted {
+            &FunctionSpec {
                 given: Given::None,
-                ..Wanted::of(
-                    "rims_of_time",
+                ..FunctionSpec::new(
+                    "domain_gauges",
                     "Quantities that are zero where a formula of time may end, and then their slopes.",
                     &outputs,
-                    "2 * RIMS",
+                    "2 * BOUNDARIES",
                 )
             },
             page,
         );
-        self.uses("rims", "Rimmed");
-        page.item("impl Rimmed for Model", |page| {
-            page.line("type Gauges = [f64; 2 * RIMS];\n");
-            self.method(page, "gauges", "rims_of_time", &[], "Self::Gauges", Given::None);
+        self.requires("domain_boundaries", "BoundedDomain");
+        page.item("impl BoundedDomain for Model", |page| {
+            page.line("type Gauges = [f64; 2 * BOUNDARIES];\n");
+            self.method(page, "gauges", "domain_gauges", &[], "Self::Gauges", Given::None);
         });
     }
 }
 
 /// A function that gives the branches of formulas.
-fn wanted_of_sides<'f>(
+fn spec_of_sides<'f>(
     name: &'f str,
     docs: &'f str,
     orders: usize,
     outputs: &'f [Register],
     given: Given,
-) -> Wanted<'f> {
-    Wanted { orders, given, ..Wanted::of(name, docs, outputs, "SIDES") }
+) -> FunctionSpec<'f> {
+    FunctionSpec { orders, given, ..FunctionSpec::new(name, docs, outputs, "SIDES") }
 }

@@ -1,13 +1,13 @@
 //! Newton's loops, of one at a time and of lanes.
 
-use super::homes::Home;
-use super::{AT, Printer, Scene};
+use super::value_locations::Location;
+use super::{AT, CodeContext, Printer};
 use crate::operand::Operand;
 use crate::text::literal;
 use mechc_engine::solver::Tear;
 use std::ops::Range;
 
-impl<S: Scene> Printer<'_, S> {
+impl<S: CodeContext> Printer<'_, S> {
     pub(super) fn newton(&mut self, range: Range<usize>, tears: &[Tear], text: &mut String) {
         let mut body = String::new();
         for at in range.clone() {
@@ -15,8 +15,8 @@ impl<S: Scene> Printer<'_, S> {
         }
         for at in range {
             for register in self.instructions[at].writes() {
-                if let (Home::BeyondLoop { .. }, Some(name)) =
-                    (self.homes.home(register), &self.names[register as usize])
+                if let (Location::BeyondLoop { .. }, Some(name)) =
+                    (self.locations.location(register), &self.names[register as usize])
                 {
                     *text += &format!("    let mut {name} = 0.0;\n");
                 }
@@ -35,7 +35,7 @@ impl<S: Scene> Printer<'_, S> {
             before += &format!("            let {name} = {place};\n");
             self.used.extend(place.arguments());
             places.push(place);
-            self.names[tear.x as usize] = Some(Operand::own(name));
+            self.names[tear.x as usize] = Some(Operand::local(name));
         }
         let mut body = String::new();
         for at in range {
@@ -46,7 +46,7 @@ impl<S: Scene> Printer<'_, S> {
             let delta = self.value(tear.delta);
             let number = self.guessed.get(&tear.x).copied().unwrap_or(0);
             let (cell, scale) = (format!("TEAR_CELLS[{number}]"), format!("TEAR_SCALES[{number}]"));
-            after += &format!("            newton.see(k, {delta}, {cell}, {scale});\n");
+            after += &format!("            newton.record(k, {delta}, {cell}, {scale});\n");
             go_on += &format!("            {place} = newton.next(k, {place}, {delta}, {cell});\n");
             end += &format!("        {place} += {delta};\n");
             self.names[tear.x as usize] = Some(place);
@@ -54,7 +54,7 @@ impl<S: Scene> Printer<'_, S> {
         self.used.insert(AT);
         let lanes = "for k in 0..LANES {\n";
         *text += &format!(
-            "    {lanes}{begin}    }}\n    let mut newton = Settling::new();\n    for _ in 0..ITERATIONS {{\n        \
+            "    {lanes}{begin}    }}\n    let mut newton = LaneNewton::new();\n    for _ in 0..ITERATIONS {{\n        \
              {lanes}{before}{body}{after}        }}\n        if newton.is_done() {{\n            break;\n        }}\n        \
              {lanes}{go_on}        }}\n    }}\n    newton.note(at);\n    {lanes}{end}    }}\n"
         );
@@ -67,7 +67,7 @@ impl<S: Scene> Printer<'_, S> {
             let (x, delta) = (self.value(tear.x), self.value(tear.delta));
             let (cell, scale) = (literal(tear.cell), literal(tear.scale));
             begin += &format!("    {x} = on_grid({x}, {cell});\n");
-            after += &format!("        newton.see({delta}, {cell}, {scale});\n");
+            after += &format!("        newton.record({delta}, {cell}, {scale});\n");
             go_on += &format!("        {x} = newton.next({x}, {delta}, {cell});\n");
             end += &format!("    {x} += {delta};\n");
         }

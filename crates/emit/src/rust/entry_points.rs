@@ -34,15 +34,15 @@ const COUNTED: &str =
 deadline, and for tables of what calls cost.";
 
 impl Writer<'_> {
-    pub fn doors(&self, page: &mut Page) {
+    pub fn entry_points(&self, page: &mut Page) {
         for file in ["state", "assemble", "step"] {
-            self.equations.uses.borrow_mut().file(file);
+            self.equations.deps.borrow_mut().file(file);
         }
         page.line("pub use runtime::error::Error;");
         page.line("pub use runtime::limits::MOST_STEPS;");
         page.line("pub use runtime::state::Assembly;");
         page.line("pub use runtime::work::{Progress, Work};\n");
-        self.equations.uses.borrow_mut().limit("MOST_STEPS");
+        self.equations.deps.borrow_mut().limit("MOST_STEPS");
         page.constant("The mechanism at a time.", "pub type State", "runtime::state::State<Model>");
         self.of_state(page);
         let docs = "Evaluations that any call takes at most that is not told how many steps it may take.";
