@@ -1,4 +1,4 @@
-//! The start of a motion.
+//! Assembly at the start of a motion.
 
 use super::branches::sides_near;
 use super::error::{Error, Fault};
@@ -10,7 +10,7 @@ use super::state::{Assembly, Continuation, Parameters, State, Timed};
 use super::track::Track;
 use super::work::{Work, of_reaching, of_sides};
 
-/// Evaluations that it takes at most.
+/// Largest number of evaluations of an assembly.
 pub const fn most_work<M: Timed>() -> usize {
     let of_start = of_sides::<M>() + of_reaching::<M>();
     (2 + FIRST_PARTS + MOST_PARTS) * (of_start + of_sides::<M>() + 1)
@@ -18,15 +18,15 @@ pub const fn most_work<M: Timed>() -> usize {
         + (1 + MOST_SHORTER) * MOST_TRIALS
 }
 
-/// Brings the mechanism to its first time with some parameters: along the branch that the file's parameters give where a short way
-/// leads there, else from the poses that the file draws with these parameters, and only then along a long way.
+/// Assembles the mechanism at its first time with the given parameters: along the branch of the file's parameters if a
+/// short path leads there, else from the poses that the file draws with these parameters, and only then along a long path.
 pub fn assemble<M: Timed>(params: &M::Params, work: &mut Work) -> Result<State<M>, Error> {
     if !params.is_finite() {
         return Err(Error::NotANumber);
     }
     let mut path = ParameterPath::<M>::new(work)?;
     let model = M::new(params);
-    match path.lead(params, FIRST_PARTS, work) {
+    match path.advance(params, FIRST_PARTS, work) {
         Ok(at) => return Ok(path.state(model, at, Assembly::Led)),
         Err(Error::NotANumber) => return Err(Error::NotANumber),
         Err(_) => {}
@@ -36,31 +36,31 @@ pub fn assemble<M: Timed>(params: &M::Params, work: &mut Work) -> Result<State<M
     if drawn.is_some_and(|q| start(&q, &model, &mut at, work).is_ok()) {
         return Ok(path.state(model, at, Assembly::Drawn));
     }
-    let at = path.lead(params, MOST_PARTS, work)?;
+    let at = path.advance(params, MOST_PARTS, work)?;
     Ok(path.state(model, at, Assembly::Led))
 }
 
-/// The way from the file's parameters to others.
+/// The path from the file's parameters to others.
 struct ParameterPath<M: Timed> {
-    /// How steep the equations are with the file's.
+    /// Steepness of the equations with the file's parameters.
     usual: f64,
-    /// The solution where it has come to.
+    /// Solution at the present position.
     at: Solution<M>,
-    /// The part that is done, and the next one that is tried.
+    /// Fraction that is done, and the next increment to try.
     done: f64,
     part: f64,
 }
 
 impl<M: Timed> ParameterPath<M> {
-    /// Its beginning.
+    /// Creates the path at its beginning.
     fn new(work: &mut Work) -> Result<Self, Error> {
         let mut at = Solution::ZERO;
         start(M::start(), &M::new(&M::Params::default()), &mut at, work).map_err(Fault::at_start)?;
         Ok(Self { usual: at.steepest, at, done: 0.0, part: 1.0 })
     }
 
-    /// Goes on to the end, in so many trials at most.
-    fn lead(&mut self, params: &M::Params, most: usize, work: &mut Work) -> Result<Solution<M>, Error> {
+    /// Continues to the end in at most `most` trials.
+    fn advance(&mut self, params: &M::Params, most: usize, work: &mut Work) -> Result<Solution<M>, Error> {
         let (file, mut found, mut why) = (M::Params::default(), self.at, Error::Divergence);
         for _ in 0..most {
             let next = f64::min(self.done + self.part, 1.0);
@@ -85,7 +85,7 @@ impl<M: Timed> ParameterPath<M> {
         Err(why)
     }
 
-    /// The state at a solution.
+    /// Creates the state at a solution.
     fn state(&self, model: M, at: Solution<M>, assembly: Assembly) -> State<M> {
         let ratio = at.steepest / self.usual;
         let mut passed = M::Passed::ZERO;
@@ -101,7 +101,8 @@ impl<M: Timed> ParameterPath<M> {
     }
 }
 
-/// Whether a position is too far away to solve from, by the operations alone: to try harder costs many times as much.
+/// Returns whether a position is too far away to solve from by the operations alone; pivoting would cost many times as
+/// much.
 fn is_far<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>, work: &mut Work) -> bool {
     let sides = sides_near(q, M::START_TIME, m, work);
     work.add(1);
@@ -109,7 +110,7 @@ fn is_far<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>, work: &mut Work) -> b
     !at.is_settled && at.first > LARGEST_CORRECTION
 }
 
-/// Solves at the first time, from a position nearby.
+/// Solves at the first time from a position nearby.
 fn start<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>, work: &mut Work) -> Result<(), Fault> {
     let mut near = Solution::near(q, M::START_TIME);
     near.sides = sides_near(q, M::START_TIME, m, work);

@@ -1,4 +1,4 @@
-//! The branches of formulas along the motion.
+//! Branches of formulas along the motion.
 
 use super::equations::Branches;
 use super::limits::{MOST_HALVINGS, SLACK};
@@ -6,8 +6,8 @@ use super::neighbours::{bisect, shortly_after};
 use super::solution::{Along, Solution, Solved};
 use super::work::{Work, of_sides};
 
-/// The branches of formulas of time at a time: the later ones where they change just then, but at the end of the file's analysis
-/// the earlier ones.
+/// Returns the branches of formulas of time at a time: the later ones if they change at that time, but the earlier ones at
+/// the end of the file's analysis.
 pub fn sides_at<M: Branches>(t: f64, m: &M, work: &mut Work) -> M::Sides {
     work.add(of_sides::<M>());
     match M::END {
@@ -16,12 +16,12 @@ pub fn sides_at<M: Branches>(t: f64, m: &M, work: &mut Work) -> M::Sides {
     }
 }
 
-/// Whether a time is the end of the file's analysis.
+/// Returns whether a time is the end of the file's analysis.
 fn is_end<M: Branches>(t: f64) -> bool {
     M::END.is_some_and(|end| t <= end && shortly_after(t, SLACK) >= end)
 }
 
-/// The first time of a step at which formulas of time take other branches than at its beginning; its end if they do not.
+/// Returns the first time in a step at which formulas of time change their branches; the end of the step if they do not.
 pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M, work: &mut Work) -> f64 {
     let here = sides_at(from, m, work);
     if sides_at(to, m, work) == here {
@@ -31,12 +31,12 @@ pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M, work: &mut Work) -> f6
     edge
 }
 
-/// The branches at a position that is next to one that is looked for.
+/// Returns the branches at a position next to the one that is solved for.
 pub fn sides_near<M: Branches>(q: &M::Q, t: f64, m: &M, work: &mut Work) -> M::Sides {
     m.sides_of_motion(q, t, &sides_at(t, m, work))
 }
 
-/// The branches with those of time exchanged.
+/// Replaces the branches of time.
 pub fn with_time<M: Branches>(sides: &M::Sides, of_time: &M::Sides) -> M::Sides {
     let mut all = *sides;
     let pairs = of_time.as_ref().iter().zip(M::is_of_time());
@@ -48,7 +48,8 @@ pub fn with_time<M: Branches>(sides: &M::Sides, of_time: &M::Sides) -> M::Sides 
     all
 }
 
-/// The branches of formulas of the motion that lie ahead of a position; at the end of the file's analysis those that lie behind it.
+/// Returns the branches of formulas of the motion just ahead of a position; at the end of the file's analysis those just
+/// behind it.
 pub fn sides_ahead<M: Solved>(at: &Solution<M>, m: &M) -> M::Sides {
     let (mut q, t) = M::Along::ahead(m, at);
     if !is_end::<M>(at.t) {

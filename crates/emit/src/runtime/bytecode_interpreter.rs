@@ -1,4 +1,4 @@
-//! Operations as numbers: what runs them, and what they leave behind.
+//! Interpreter of bytecode.
 
 use super::codes;
 use super::either::either;
@@ -7,37 +7,37 @@ use super::piece::piece;
 use super::select::select;
 use super::sine_and_cosine::sin_cos;
 
-/// Arrays that operations read: by number, parameters, what follows from these, the branches of formulas, the time or signals, the
-/// coordinates with their derivatives, derivatives by inputs and parameters, and multipliers.
+/// Arrays that operations read: by number, parameters, values that follow from these, branches of formulas, time or
+/// signals, coordinates with their derivatives, derivatives by inputs and parameters, and multipliers.
 pub type Arrays<'a> = [&'a [f64]; 10];
 
-/// What operations name by numbers.
+/// Constants, functions and tables that operations name by number.
 pub trait ConstantPool {
-    /// A number.
+    /// Returns a constant.
     fn number(number: usize) -> f64;
 
-    /// A function of one argument.
+    /// Evaluates a function of one argument.
     fn unary(number: usize, a: f64) -> f64;
 
-    /// A function of two arguments.
+    /// Evaluates a function of two arguments.
     fn binary(number: usize, a: f64, b: f64) -> f64;
 
-    /// A column of a table.
+    /// Returns a column of a table.
     fn column(number: usize) -> &'static [f64];
 }
 
-/// What operations leave behind.
+/// Destination of results.
 pub trait Results {
-    /// A result, by its column.
+    /// Stores a result by its column.
     fn store(&mut self, column: usize, value: f64);
 
-    /// A result that has been stored.
+    /// Returns a result that has been stored.
     fn stored(&self, column: usize) -> f64;
 
-    /// A value that must not be above its bound.
+    /// Records a value that must not exceed its bound.
     fn bounded(&mut self, _size: f64, _bound: f64) {}
 
-    /// One over a pivot, the turn that it counts for, and what makes it a pure number.
+    /// Records the reciprocal of a pivot, the index of its block, and the weight that makes it dimensionless.
     fn pivoted(&mut self, _turn: usize, _inverse: f64, _weight: f64) {}
 }
 
@@ -54,7 +54,7 @@ impl<const K: usize> Results for [f64; K] {
     }
 }
 
-/// What operations work on.
+/// State of the interpreter.
 struct Interpreter<'a, R> {
     guess: &'a [f64],
     inputs: &'a Arrays<'a>,
@@ -62,7 +62,7 @@ struct Interpreter<'a, R> {
     out: &'a mut R,
 }
 
-/// Runs operations on registers: what to do, where the result goes, and what it is done with.
+/// Runs operations on registers. Each operation is its code, the register of the result, and its operands.
 pub fn run<B: ConstantPool>(code: &[u32], guess: &[f64], inputs: &Arrays<'_>, v: &mut [f64], out: &mut impl Results) {
     let mut interpreter = Interpreter { guess, inputs, v, out };
     let mut rest = code;
@@ -82,20 +82,20 @@ pub fn run<B: ConstantPool>(code: &[u32], guess: &[f64], inputs: &Arrays<'_>, v:
     }
 }
 
-/// An operand.
+/// Returns an operand.
 #[inline]
 fn word(words: &[u32], k: usize) -> usize {
     words.get(k).map_or(0, |word| *word as usize)
 }
 
 impl<R: Results> Interpreter<'_, R> {
-    /// The value of an operand's register.
+    /// Returns the value in the register of an operand.
     #[inline]
     fn of(&self, words: &[u32], k: usize) -> f64 {
         self.v.get(word(words, k)).copied().unwrap_or(f64::NAN)
     }
 
-    /// Leaves a value in the register of an operand.
+    /// Writes a value to the register of an operand.
     #[inline]
     fn put(&mut self, words: &[u32], k: usize, value: f64) {
         if let Some(place) = self.v.get_mut(word(words, k)) {
@@ -103,7 +103,7 @@ impl<R: Results> Interpreter<'_, R> {
         }
     }
 
-    /// The result of an operation that has one, and how many words it takes.
+    /// Returns the result of an operation that has one, and the number of its words.
     #[inline]
     fn value<B: ConstantPool>(&mut self, what: u32, words: &[u32]) -> Option<(f64, usize)> {
         let of = |k: usize| self.of(words, k);
@@ -158,7 +158,7 @@ impl<R: Results> Interpreter<'_, R> {
         })
     }
 
-    /// Does what leaves no value in a register; gives how many words it takes.
+    /// Runs an operation without a result register. Returns the number of its words.
     #[inline]
     fn act<B: ConstantPool>(&mut self, what: u32, words: &[u32]) -> usize {
         match what {
@@ -178,7 +178,7 @@ impl<R: Results> Interpreter<'_, R> {
                 self.out.pivoted(word(words, 1), self.of(words, 0), B::number(word(words, 2)));
                 3
             }
-            // nothing else is there
+            // no other code exists
             _ => words.len(),
         }
     }

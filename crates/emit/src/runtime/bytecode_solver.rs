@@ -1,4 +1,4 @@
-//! Solving by operations that are written as numbers.
+//! Solver that runs bytecode.
 
 use super::bytecode_interpreter::{Arrays, ConstantPool, Results, run};
 use super::grid::on_grid;
@@ -7,39 +7,39 @@ use super::measured::Measured;
 use super::newton::Newton;
 use super::solution::{Along, Solution, Solved};
 
-/// Operations that follow each other, and the coordinates that they are repeated for: where they begin and end in their lists.
+/// A section of the bytecode, and the coordinates for which it is iterated, as ranges in their lists.
 pub struct Segment {
-    /// In the list of operations.
+    /// Range in the bytecode.
     pub code: [usize; 2],
-    /// In the list of coordinates.
+    /// Range in the list of coordinates.
     pub tears: [usize; 2],
 }
 
 /// A coordinate that Newton solves for.
 pub struct NewtonCoordinate {
-    /// The registers of it and of its correction.
+    /// Registers of the coordinate and of its correction.
     pub registers: [usize; 2],
-    /// The width of a cell of its grid, and what it is judged against.
+    /// Width of a cell of its grid, and its scale.
     pub sizes: [f64; 2],
 }
 
-/// What a solver runs.
+/// Program of a solver.
 pub struct Listing {
-    /// In order.
+    /// Segments in order.
     pub segments: &'static [Segment],
     /// The coordinates that Newton solves for.
     pub newton: &'static [NewtonCoordinate],
-    /// The operations.
+    /// Bytecode.
     pub code: &'static [u32],
 }
 
-/// Results of a solver.
+/// Results of a solver with Newton iterations.
 pub trait Settled: Results {
-    /// Takes over how an iteration of Newton went.
+    /// Records the outcome of a Newton iteration.
     fn settled(&mut self, newton: &Newton);
 }
 
-/// Solves on so many registers.
+/// Solves with `REGISTERS` registers.
 pub fn solve<B: ConstantPool, const REGISTERS: usize>(
     listing: &Listing,
     guess: &[f64],
@@ -71,7 +71,7 @@ pub fn solve<B: ConstantPool, const REGISTERS: usize>(
     }
 }
 
-/// Puts another value in the place of each coordinate, by what it is, its correction, and the width of its cells.
+/// Replaces the value of each coordinate by a function of its value, its correction, and the width of its cells.
 fn correct(v: &mut [f64], tears: &[NewtonCoordinate], other: impl Fn(f64, f64, f64) -> f64) {
     for NewtonCoordinate { registers, sizes } in tears {
         let delta = v.get(registers[1]).copied().unwrap_or(f64::NAN);

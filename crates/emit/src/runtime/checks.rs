@@ -3,11 +3,11 @@
 use super::{equations, limits, numbers};
 
 pub mod redundant_rows {
-    //! Equations that were left out, since they follow from the others.
+    //! Equations that were left out because they follow from the others.
 
     use super::limits::LARGEST_OPENING;
 
-    /// Whether what is left of them is nothing, beside their scales.
+    /// Returns whether all residuals are negligible relative to their scales.
     pub fn redundant_rows_hold(left: &[f64], scales: &[f64]) -> bool {
         let mut pairs = left.iter().zip(scales);
         pairs.all(|(value, scale)| value.abs() / scale <= LARGEST_OPENING)
@@ -15,11 +15,11 @@ pub mod redundant_rows {
 }
 
 pub mod monitors {
-    //! What keeps its sign along a branch of the motion.
+    //! Quantities that keep their signs along a branch of the motion.
 
     use super::numbers::Flags;
 
-    /// Which of some quantities are positive.
+    /// Returns a flag for each value: whether it is positive.
     pub fn positive<F: Flags>(values: &[f64]) -> F {
         let mut flags = F::NONE;
         for (flag, value) in flags.as_mut().iter_mut().zip(values) {
@@ -30,16 +30,17 @@ pub mod monitors {
 }
 
 pub mod constraint_drift {
-    //! Where equations that were left out would cease to hold.
+    //! Directions in which redundant equations cease to hold.
 
     use super::equations::Equations;
     use super::limits::MISSES;
     use super::numbers::Numbers;
 
-    /// Derivatives of the coordinates in whose direction an equation that was left out would cease to hold have no value, for the
-    /// mechanism cannot be assembled beside where it is: `|D Φ| ≤ ε ‖Φ_q‖ Σ |D q|`, scaled.
+    /// Sets derivatives of the coordinates to NaN in whose direction a redundant equation ceases to hold, since the
+    /// mechanism cannot be assembled next to its position: `|D Φ| > ε ‖Φ_q‖ Σ |D q|`, scaled.
     ///
-    /// `slopes` are how these equations change with coordinates, by `entries`, and then with what each of the derivatives is by.
+    /// `slopes` are the derivatives of these equations by coordinates, one for each of `entries`, followed by those by the
+    /// variable of each derivative.
     pub fn reject_drift<M: Equations, const K: usize, const LEFT_OUT: usize>(
         by: &mut [M::Q; K],
         entries: &[(usize, usize)],

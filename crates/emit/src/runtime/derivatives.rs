@@ -12,7 +12,7 @@ pub mod sensitivity {
 
     /// Equations with the operations that give the derivatives of the coordinates by their parameters too.
     pub trait Sensitive<const K: usize>: Solved {
-        /// As [`solve`](Solved::solve), with the derivatives of the coordinates by parameters.
+        /// Solves as [`solve`](Solved::solve) does and computes the derivatives of the coordinates by parameters.
         fn solve_by_params(
             &self,
             guess: &Self::Tears,
@@ -22,8 +22,8 @@ pub mod sensitivity {
             by: &mut [Self::Q; K],
         );
 
-        /// The same by elimination with partial pivoting, next to where that has failed with `at`; a fault where blocks are too large for
-        /// that.
+        /// Does the same by elimination with partial pivoting next to `from`, after the operations have failed with `at`.
+        /// Returns a fault if blocks are too large for that.
         fn pivoted_by_params(
             &self,
             _from: &Solution<Self>,
@@ -33,11 +33,11 @@ pub mod sensitivity {
             Err(at.fault())
         }
 
-        /// Derivatives in whose direction an equation that was left out would cease to hold have no value.
+        /// Sets derivatives to NaN in whose direction a redundant equation ceases to hold.
         fn reject_drift_by_params(&self, _by: &mut [Self::Q; K], _at: &Solution<Self>, _sides: &Self::Sides) {}
     }
 
-    /// The derivatives of the coordinates by each parameter, next to a solution.
+    /// Returns the derivatives of the coordinates by each parameter next to a solution.
     pub fn by_params<M: Sensitive<K>, const K: usize>(m: &M, from: &Solution<M>) -> Result<[M::Q; K], Error> {
         let (mut at, mut by) = (*from, [M::Q::ZERO; K]);
         m.solve_by_params(&M::tears(&from.q), from.t, &from.sides, &mut at, &mut by);
@@ -52,7 +52,8 @@ pub mod sensitivity {
         }
     }
 
-    /// The same at the position that some parameters have next to that of a state.
+    /// Returns the derivatives of the coordinates by each parameter at the position next to that of a state, for the given
+    /// parameters.
     pub fn sensitivity<M: Timed + Sensitive<K>, const K: usize>(
         params: &M::Params,
         state: &State<M>,
@@ -65,7 +66,7 @@ pub mod sensitivity {
 }
 
 pub mod input_driven_sensitivity {
-    //! The derivatives of the coordinates by parameters, where inputs may have led.
+    //! Derivatives of the coordinates by parameters of a mechanism with inputs.
 
     use super::error::Error;
     use super::follow::Follows;
@@ -73,7 +74,8 @@ pub mod input_driven_sensitivity {
     use super::sensitivity::{Sensitive, by_params, sensitivity};
     use super::state::{Parameters, State};
 
-    /// The derivatives of the coordinates by each parameter, next to a state: inputs that have led stay what they are.
+    /// Returns the derivatives of the coordinates by each parameter next to a state. Inputs that the state was moved to
+    /// stay constant.
     pub fn input_driven_sensitivity<E, M, const K: usize, const P: usize>(
         params: &M::Params,
         state: &State<M>,
@@ -88,8 +90,8 @@ pub mod input_driven_sensitivity {
         if !params.is_finite() {
             return Err(Error::NotANumber);
         }
-        let way = InputPath { params: *params, ..*state.continuation.model.path() };
-        by_params(&E::new(&way), state.continuation.at())
+        let path = InputPath { params: *params, ..*state.continuation.model.path() };
+        by_params(&E::new(&path), state.continuation.at())
     }
 }
 
@@ -100,7 +102,7 @@ pub mod pivoted_derivatives {
     use super::pivoting::{Elimination, Pivoting, solve_with_pivoting, without_signs_of_zero};
     use super::solution::Solution;
 
-    /// Solves next to a solution, and then for the derivatives with some right sides.
+    /// Solves next to a solution, then for the derivatives with the given right sides.
     pub fn derivatives_with_pivoting<M: Pivoting, const K: usize>(
         m: &M,
         from: &Solution<M>,

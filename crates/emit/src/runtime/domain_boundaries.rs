@@ -1,4 +1,4 @@
-//! Times at which formulas of time come to the end of what their functions take.
+//! Boundaries of domains: times at which formulas of time reach the end of the domain of a function.
 
 use super::error::Error;
 use super::limits::{
@@ -11,22 +11,21 @@ use super::solution::Solution;
 use super::state::{State, Timed};
 use super::work::{Work, of_reaching};
 
-/// Evaluations that the search for so many boundaries takes at most, and then the look at one.
+/// Largest number of evaluations for the search for `boundaries` boundaries and the check of one.
 pub const fn most_work<M: Timed>(boundaries: usize) -> usize {
     2 + boundaries * (MOST_HALVINGS + 3) + 2 * MOST_LOOKS * of_reaching::<M>()
 }
 
-/// A mechanism whose formulas of time may end.
+/// A mechanism whose formulas of time have domain boundaries.
 pub trait BoundedDomain: Timed {
-    /// By boundary a number for its gauge, and then one for the slope of each.
+    /// Gauges of all boundaries, then their slopes.
     type Gauges: Numbers;
 
-    /// Quantities that are zero where a formula of time may end, and then their slopes.
+    /// Returns the gauges, which are zero where the domain of a formula of time may end, then their slopes.
     fn gauges(&self, t: f64) -> Self::Gauges;
 }
 
-/// The first time of a step at which the gauge of a boundary comes to zero and was not looked at yet, with the boundary: it changes its sign, or
-/// goes down to zero and up again.
+/// Returns the first unchecked boundary in a step, with its time: where a gauge changes its sign, or touches zero.
 pub fn first_boundary<M: BoundedDomain>(
     m: &M,
     from: f64,
@@ -42,15 +41,15 @@ pub fn first_boundary<M: BoundedDomain>(
     let mut found = None;
     for ((boundary, passed), ((a, b), slopes)) in passed.as_ref().iter().enumerate().zip(gauges.zip(slopes)) {
         let sign = 1.0_f64.copysign(*a);
-        let way = (sign * (to - from)).signum();
+        let change_of_q = (sign * (to - from)).signum();
         let is_crossed = sign * b < 0.0;
-        let comes_and_goes = way * slopes.0 < 0.0 && way * slopes.1 > 0.0;
+        let comes_and_goes = change_of_q * slopes.0 < 0.0 && change_of_q * slopes.1 > 0.0;
         if !is_crossed && !comes_and_goes {
             continue;
         }
         let is_before = |t: f64| {
             let (value, slope) = gauge(boundary, t, m, work);
-            if is_crossed { sign * value > 0.0 } else { way * slope < 0.0 }
+            if is_crossed { sign * value > 0.0 } else { change_of_q * slope < 0.0 }
         };
         let [_, at] = bisect([from, to], MOST_HALVINGS, is_before);
         let is_new = (at - passed).abs() > PASSED * M::SPAN;
@@ -62,7 +61,7 @@ pub fn first_boundary<M: BoundedDomain>(
     found
 }
 
-/// The gauge of a boundary and its slope.
+/// Returns the gauge of a boundary and its slope.
 fn gauge<M: BoundedDomain>(boundary: usize, t: f64, m: &M, work: &mut Work) -> (f64, f64) {
     work.add(1);
     let all = m.gauges(t);
@@ -71,7 +70,7 @@ fn gauge<M: BoundedDomain>(boundary: usize, t: f64, m: &M, work: &mut Work) -> (
     (of(boundary), of(boundary + all.len() / 2))
 }
 
-/// Whether a gauge is zero at a time, as far as numbers can tell.
+/// Returns whether a gauge is zero at a time, within rounding.
 fn is_zero<M: BoundedDomain>(boundary: usize, t: f64, m: &M, work: &mut Work) -> bool {
     let moment = MOMENT * f64::EPSILON * t.abs() + f64::MIN_POSITIVE;
     let (here, _) = gauge(boundary, t, m, work);
@@ -83,36 +82,36 @@ fn is_zero<M: BoundedDomain>(boundary: usize, t: f64, m: &M, work: &mut Work) ->
     here.abs() <= ROUNDING * f64::EPSILON || changes(t - moment) || changes(t + moment)
 }
 
-/// What is seen of both sides of a boundary, the nearer the later.
+/// Record of probes on both sides of a boundary, from far to near.
 struct Probes {
     count: usize,
-    /// How many of them show a jump.
+    /// Number of probes that show a jump.
     jumps: usize,
-    /// In how many velocities and accelerations have grown.
+    /// Numbers of probes in which velocities and accelerations have grown.
     growths: [usize; 2],
     fastest: f64,
     hardest: f64,
-    /// What no smooth motion explains: at first, and now.
+    /// Deviation from any smooth motion: at first, and now.
     widest: f64,
     rest: f64,
 }
 
 impl Probes {
-    /// One more look, a distance on both sides.
+    /// Adds a probe at a distance on both sides.
     fn add<M: Timed>(&mut self, before: &Solution<M>, after: &Solution<M>, distance: f64) {
         let scales = M::scales();
         let speed = larger(largest(&before.qd, scales), largest(&after.qd, scales));
         let force = larger(largest(&before.qdd, scales), largest(&after.qdd, scales));
-        let (mut way, mut change) = (difference(&after.q, &before.q), difference(&after.qd, &before.qd));
+        let (mut change_of_q, mut change) = (difference(&after.q, &before.q), difference(&after.qd, &before.qd));
         let rates = before.qd.as_ref().iter().zip(after.qd.as_ref());
         let bends = before.qdd.as_ref().iter().zip(after.qdd.as_ref());
-        let parts = way.as_mut().iter_mut().zip(change.as_mut());
-        for ((way, change), ((v, w), (a, b))) in parts.zip(rates.zip(bends)) {
+        let parts = change_of_q.as_mut().iter_mut().zip(change.as_mut());
+        for ((change_of_q, change), ((v, w), (a, b))) in parts.zip(rates.zip(bends)) {
             let bend = distance * distance * (b - a) / 3.0;
-            *way = *way - distance * (v + w) + bend;
+            *change_of_q = *change_of_q - distance * (v + w) + bend;
             *change -= distance * (a + b);
         }
-        self.rest = larger(largest(&change, scales), largest(&way, scales) / M::SPAN);
+        self.rest = larger(largest(&change, scales), largest(&change_of_q, scales) / M::SPAN);
         if self.count == 0 {
             self.widest = self.rest;
         }
@@ -124,7 +123,7 @@ impl Probes {
         self.count += 1;
     }
 
-    /// Whether the motion goes on smoothly.
+    /// Checks that the motion continues smoothly.
     fn verdict<M: Timed>(&self) -> Result<(), Error> {
         let [of_speed, of_force] = self.growths;
         let is_seen = self.count >= FEWEST_LOOKS;
@@ -174,7 +173,7 @@ pub fn check_boundary<M: Timed>(state: &mut State<M>, boundary: usize, t: f64, w
     probes.verdict::<M>()
 }
 
-/// Solves at a time close to a solution; whether it could.
+/// Solves at a time close to a solution. Returns whether that succeeded.
 fn probe<M: Timed>(t: f64, near: &Solution<M>, m: &M, at: &mut Solution<M>, work: &mut Work) -> bool {
     let tears = [&near.q, &near.qd, &near.qdd].map(M::tears);
     let guess = predicted(&tears[0], &tears[1], &tears[2], t - near.t);

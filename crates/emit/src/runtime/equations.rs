@@ -1,82 +1,82 @@
-//! What is asked of a mechanism with its parameters: its equations, their branches, and what must hold beside them.
+//! Interface of a mechanism with its parameters: equations, their branches, and conditions beside them.
 
 use super::numbers::{Flags, Numbers};
 use core::fmt::Debug;
 
-/// The equations `phi = 0` and what follows from them.
+/// The equations `phi = 0` and their derivatives.
 pub trait Equations: Copy + Debug {
-    /// A number for each coordinate, and for each equation.
+    /// A number for each coordinate, or each equation.
     type Q: Numbers;
-    /// One for each entry of `phi_q` that does not vanish.
+    /// A number for each entry of `phi_q` that does not vanish.
     type Entries: Numbers;
-    /// Which branch formulas take, by place: what a comparison gives, the number of a piece.
+    /// Branches of formulas: the result of each comparison, the number of each piece.
     type Sides: Numbers + PartialEq;
 
-    /// Row and column of each entry of `phi_q`.
+    /// Returns row and column of each entry of `phi_q`.
     fn pattern() -> &'static [(usize, usize)];
 
-    /// What a change of each coordinate is judged against.
+    /// Returns the scale of each coordinate.
     fn scales() -> &'static Self::Q;
 
-    /// What is left of the equations.
+    /// Returns the residuals of the equations.
     fn phi(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
 
-    /// The entries of their Jacobian.
+    /// Returns the entries of the Jacobian.
     fn phi_q(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Entries;
 
-    /// The right side of the velocity equation.
+    /// Returns the right side of the velocity equation.
     fn nu(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
 
-    /// The right side of the acceleration equation.
+    /// Returns the right side of the acceleration equation.
     fn gamma(&self, q: &Self::Q, qd: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
 }
 
-/// What decides the branches of formulas. Where formulas have none, all of this is nothing.
+/// Conditions that select the branches of formulas. By default formulas have none.
 pub trait Branches: Equations {
-    /// Whether time alone decides some.
+    /// True if some branches depend on time alone.
     const OF_TIME: bool = false;
 
-    /// Whether the motion decides some.
+    /// True if some branches depend on the motion.
     const OF_MOTION: bool = false;
 
-    /// The last time of the file's analysis (s), at which formulas of time take their earlier branches.
+    /// Last time of the file's analysis (s), at which formulas of time take their earlier branches.
     const END: Option<f64> = None;
 
-    /// Which of them time alone decides.
+    /// Returns for each branch whether it depends on time alone.
     fn is_of_time() -> &'static [bool] {
         &[]
     }
 
-    /// The branches that time alone decides, the others as 0.
+    /// Returns the branches that depend on time alone, and 0 for the others.
     fn sides_of_time(&self, _t: f64) -> Self::Sides {
         Self::Sides::ZERO
     }
 
-    /// The branches at a position, those of time being known.
+    /// Returns all branches at a position, with those of time given in `sides`.
     fn sides_of_motion(&self, _q: &Self::Q, _t: f64, sides: &Self::Sides) -> Self::Sides {
         *sides
     }
 }
 
-/// What must hold beside the equations; of most mechanisms nothing.
+/// Conditions beside the equations; most mechanisms have none.
 pub trait Checks: Equations {
-    /// Which quantities that keep their signs along a branch are positive.
+    /// A flag for each quantity that keeps its sign along a branch: whether it is positive.
     type Monitors: Flags;
 
-    /// Whether equations were left out as redundant.
+    /// True if equations were left out as redundant.
     const HAS_REDUNDANT_ROWS: bool = false;
 
-    /// Whether distances are positive, and places within their intervals and tables.
+    /// Returns whether distances are positive, and positions lie within their intervals and tables.
     fn conditions_hold(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
         true
     }
 
-    /// Whether the equations that were left out hold.
+    /// Returns whether the redundant equations hold.
     fn redundant_rows_hold(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
         true
     }
 
-    /// What keeps its sign along a branch of the motion.
+    /// Returns the signs of quantities that keep them along a branch of the motion.
     fn monitors(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> Self::Monitors {
         Self::Monitors::NONE
     }

@@ -1,6 +1,6 @@
-//! Why something cannot be done.
+//! Errors of emitted code.
 
-/// Why a mechanism could not be brought to a time.
+/// The reason why a mechanism could not be moved to a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
@@ -38,7 +38,7 @@ impl core::fmt::Display for Error {
 
 impl core::error::Error for Error {}
 
-/// Why a step is refused.
+/// The reason why a step is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// Something is not a number.
@@ -54,7 +54,7 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// Why a mechanism cannot be assembled.
+    /// Returns the error of a mechanism that cannot be assembled.
     pub fn at_start(self) -> Error {
         match self {
             Self::NotANumber => Error::NotANumber,

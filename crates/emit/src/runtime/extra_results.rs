@@ -1,17 +1,17 @@
-//! More than the motion by operations that are written as numbers.
+//! Results beyond the motion from bytecode.
 
 use super::bytecode_interpreter::Results;
 use super::bytecode_solver::Settled;
 use super::newton::Newton;
 use super::solution::{Solution, Solved};
 
-/// Results with others behind them.
+/// Results followed by others.
 pub struct ExtendedResults<'a, M: Solved> {
     /// The results.
     pub at: &'a mut Solution<M>,
     /// The others.
     pub more: &'a mut [f64],
-    /// The column at which these begin.
+    /// Column at which the others begin.
     pub first: usize,
 }
 

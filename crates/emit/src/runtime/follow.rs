@@ -1,4 +1,4 @@
-//! What follows inputs.
+//! Continuation along inputs.
 
 use super::branches::{first_edge, sides_near};
 use super::equations::Branches;
@@ -13,34 +13,34 @@ use super::numbers::{Numbers, add_zeros, difference, larger, largest};
 use super::reach::{find, reach, stays_on_branch};
 use super::solution::{Solution, Solved};
 use super::state::{Continuation, State, Timed};
-use super::step::tried;
+use super::step::try_step;
 use super::track::{Checkpoint, Track};
 use super::work::{Progress, Work, of_reaching, of_sides, of_step};
 
-/// What leads a mechanism by its inputs.
+/// Continuation of a mechanism along its inputs.
 #[derive(Clone, Copy, Debug)]
 pub struct InputContinuation<E: InputDriven<K>, const K: usize> {
     pub(super) model: E,
-    /// Where it is; times are places of the way, and steps are changes of a signal.
+    /// Present position: times are positions on the path, and steps are changes of a signal.
     pub(super) track: Track<E>,
-    /// The largest change of each signal that a call takes.
+    /// Largest change of each signal in a call.
     largest_change: [f64; K],
-    /// Where a way leads that was left before its end, and the change that goes well on it.
+    /// Target of a path that was left before its end, and the step size that works well on it.
     unfinished: ([f64; K], f64),
-    /// Whether inputs have led to where the mechanism is, rather than the time.
+    /// True if inputs, rather than time, have moved the mechanism to its position.
     is_active: bool,
 }
 
-/// A mechanism with what leads it: they have the same coordinates, measures and parameters.
+/// A mechanism with its continuation along inputs, which has the same coordinates, measures and parameters.
 pub trait Follows<E: InputDriven<K>, const K: usize>:
     Timed<Q = E::Q, Measures = E::Measures, Params = E::Params, Continuation = InputContinuation<E, K>>
 {
-    /// Whether time is the last of the signals.
+    /// True if time is the last of the signals.
     const HAS_TIME: bool;
 }
 
 impl<E: InputDriven<K>, M: Follows<E, K>, const K: usize> Continuation<M> for InputContinuation<E, K> {
-    // beside the way, the solution of the time
+    // beside the path, the solution at the time
     const WORK: [usize; 2] = [most_work::<E, K>(0) + of_beginning::<M>(), of_step::<E>() + 1];
 
     fn new(params: &M::Params) -> Self {
@@ -56,9 +56,9 @@ impl<E: InputDriven<K>, M: Follows<E, K>, const K: usize> Continuation<M> for In
         work.add(1);
         let wanted = E::by_formulas(state.params(), t);
         let mut left = most;
-        let come = state.continuation.go(&wanted, &mut left, false, state.steepness, work);
-        state.take_over();
-        if !come?.is_reached() {
+        let progress = state.continuation.go(&wanted, &mut left, false, state.steepness, work);
+        state.take_input_solution();
+        if !progress?.is_reached() {
             return Ok(None);
         }
         let q = state.at().q;
@@ -70,40 +70,40 @@ impl<E: InputDriven<K>, M: Follows<E, K>, const K: usize> Continuation<M> for In
     }
 }
 
-/// Evaluations that a call of so many steps takes at most.
+/// Largest number of evaluations of a call with at most `most` steps.
 pub const fn most_work<E: InputDriven<K>, const K: usize>(most: usize) -> usize {
-    // that of the turn where a step is refused
+    // one more for the distance to a dead point where a step is refused
     most.saturating_mul(of_step::<E>() + 1)
         .saturating_add(of_beginning::<E>() + of_regular::<E>() + of_reaching::<E>() + 2)
 }
 
-/// Evaluations that it takes to begin where the time has led, or to go on from there.
+/// Largest number of evaluations at the beginning of a continuation from a time, or at the return to time.
 const fn of_beginning<E: Branches>() -> usize {
     1 + of_sides::<E>() + of_reaching::<E>()
 }
 
-/// Leads a state from its inputs to others in so many steps at most, along the straight line between them. After an error the state is
-/// as it was; what so many steps do not reach is one.
+/// Moves a state from its inputs to others in at most `most` steps, along the straight line between them. After an error
+/// the state is unchanged; not arriving within the steps is an error.
 pub fn follow<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(
     signals: &Signals<K>,
     state: &mut State<M>,
     most: usize,
     work: &mut Work,
 ) -> Result<(), Error> {
-    lead(signals, state, most, true, work).map(|_| ())
+    continue_to(signals, state, most, true, work).map(|_| ())
 }
 
-/// The same, but what so many steps do not reach is on its way.
+/// Moves a state as [`follow`] does, but returns the progress if the steps do not suffice.
 pub fn follow_within<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(
     signals: &Signals<K>,
     state: &mut State<M>,
     most: usize,
     work: &mut Work,
 ) -> Result<Progress, Error> {
-    lead(signals, state, most, false, work)
+    continue_to(signals, state, most, false, work)
 }
 
-fn lead<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(
+fn continue_to<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(
     signals: &Signals<K>,
     state: &mut State<M>,
     most: usize,
@@ -116,15 +116,15 @@ fn lead<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(
         return Err(Error::NotANumber);
     }
     if state.is_input_driven() {
-        state.continuation.takes(&state.continuation.at().along.signals, signals)?;
-        let come = state.continuation.go(signals, &mut { most }, is_whole, state.steepness, work)?;
-        state.take_over();
-        return Ok(come);
+        state.continuation.check_change(&state.continuation.at().along.signals, signals)?;
+        let progress = state.continuation.go(signals, &mut { most }, is_whole, state.steepness, work)?;
+        state.take_input_solution();
+        return Ok(progress);
     }
     begin(signals, state, most, is_whole, work)
 }
 
-/// Leads a state that inputs have not led yet.
+/// Moves a state whose inputs have not been moved yet.
 #[cold]
 #[inline(never)]
 fn begin<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(
@@ -137,23 +137,23 @@ fn begin<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(
     let (before, q, t) = (state.continuation, state.at().q, state.at().t);
     let [now, ..] = E::by_formulas(state.params(), t);
     work.add(1);
-    state.continuation.takes(&now, signals)?;
-    let lead = &mut state.continuation;
-    let come = lead.begin(&q, t, work).and_then(|()| lead.go(signals, &mut { most }, is_whole, state.steepness, work));
-    match come {
-        Ok(come) if come.fraction > 0.0 => {
+    state.continuation.check_change(&now, signals)?;
+    let continuation = &mut state.continuation;
+    let progress = continuation.begin(&q, t, work).and_then(|()| continuation.go(signals, &mut { most }, is_whole, state.steepness, work));
+    match progress {
+        Ok(progress) if progress.fraction > 0.0 => {
             state.continuation.is_active = true;
-            state.take_over();
+            state.take_input_solution();
         }
         Ok(_) => state.continuation = InputContinuation { unfinished: state.continuation.unfinished, ..before },
         Err(_) => state.continuation = before,
     }
-    come
+    progress
 }
 
 impl<M: Timed> State<M> {
-    /// Takes over where its inputs have led.
-    fn take_over<E: InputDriven<K>, const K: usize>(&mut self)
+    /// Copies the solution to which the inputs have moved.
+    fn take_input_solution<E: InputDriven<K>, const K: usize>(&mut self)
     where
         M: Follows<E, K>,
     {
@@ -165,40 +165,40 @@ impl<M: Timed> State<M> {
     }
 }
 
-/// By signal: the largest change that a call takes.
+/// Returns the largest change of each signal in a call.
 pub fn largest_change<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(state: &State<M>) -> &[f64; K] {
     &state.continuation.largest_change
 }
 
-/// The same, to be written.
+/// Returns the largest change of each signal for modification.
 pub fn largest_change_mut<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(state: &mut State<M>) -> &mut [f64; K] {
     &mut state.continuation.largest_change
 }
 
-/// The signals at a state: what they were followed to, or what their formulas say at its time.
+/// Returns the signals of a state: those that it was moved to, or those that the formulas give at its time.
 pub fn signals<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(state: &State<M>) -> Signals<K> {
     if state.is_input_driven() {
-        let way = state.continuation.model.path();
-        [state.continuation.at().along.signals, way.rates, way.accelerations]
+        let path = state.continuation.model.path();
+        [state.continuation.at().along.signals, path.rates, path.accelerations]
     } else {
         E::by_formulas(state.params(), state.t())
     }
 }
 
-/// The derivatives of the coordinates by each signal: for a constant shift of it, along the branch that the state is on.
+/// Returns the derivatives of the coordinates by each signal: for a constant shift of it, along the branch of the state.
 pub fn influence<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(state: &State<M>) -> Result<[M::Q; K], Error> {
     let at = |continuation: &InputContinuation<E, K>| {
-        let at = lead.at();
+        let at = continuation.at();
         let mut by_signal = at.along.by_signal;
-        lead.model.reject_drift(&mut by_signal, at);
+        continuation.model.reject_drift(&mut by_signal, at);
         by_signal
     };
     if state.is_input_driven() {
         return Ok(at(&state.continuation));
     }
-    let mut lead = InputContinuation::with(state.params());
-    lead.begin(state.q(), state.t(), &mut Work::default())?;
-    Ok(at(&lead))
+    let mut continuation = InputContinuation::with(state.params());
+    continuation.begin(state.q(), state.t(), &mut Work::default())?;
+    Ok(at(&continuation))
 }
 
 impl<E: InputDriven<K>, const K: usize> InputContinuation<E, K> {
@@ -213,22 +213,22 @@ impl<E: InputDriven<K>, const K: usize> InputContinuation<E, K> {
         }
     }
 
-    /// The solution of now.
+    /// Returns the present solution.
     pub(super) fn at(&self) -> &Solution<E> {
         self.track.at()
     }
 
-    /// Whether no signal changes by more than is taken.
-    fn takes(&self, from: &[f64; K], [to, ..]: &Signals<K>) -> Result<(), Error> {
+    /// Checks that no signal changes by more than is allowed.
+    fn check_change(&self, from: &[f64; K], [to, ..]: &Signals<K>) -> Result<(), Error> {
         let mut changes = from.iter().zip(to).zip(&self.largest_change);
         if changes.all(|((from, to), largest)| (to - from).abs() <= *largest) { Ok(()) } else { Err(Error::TooFar) }
     }
 
-    /// Begins at a position that the text's formulas give at a time (s).
+    /// Begins at the position that the text's formulas give at a time (s).
     fn begin(&mut self, q: &E::Q, t: f64, work: &mut Work) -> Result<(), Error> {
-        let way = self.model.path_mut();
-        let signals = E::by_formulas(&way.params, t);
-        way.turn(&signals[0], &signals);
+        let path = self.model.path_mut();
+        let signals = E::by_formulas(&path.params, t);
+        path.restart(&signals[0], &signals);
         let mut near = Solution::near(q, 1.0);
         near.sides = sides_near(q, 1.0, &self.model, work);
         self.track.is_smooth = false;
@@ -237,8 +237,8 @@ impl<E: InputDriven<K>, const K: usize> InputContinuation<E, K> {
         if now.first <= LARGEST_CORRECTION { Ok(()) } else { Err(Error::Divergence) }
     }
 
-    /// Goes from the signals of now to others in so many steps at most, of which it leaves what it does not take. After an error, all
-    /// is as it was.
+    /// Moves from the present signals to others in at most `left` steps, and leaves the number of unused steps there. After
+    /// an error everything is unchanged.
     fn go(
         &mut self,
         signals: &Signals<K>,
@@ -248,17 +248,17 @@ impl<E: InputDriven<K>, const K: usize> InputContinuation<E, K> {
         work: &mut Work,
     ) -> Result<Progress, Error> {
         let from = self.at().along.signals;
-        let (mut before, way) = (Checkpoint::of(&self.track), *self.model.path());
-        self.model.path_mut().turn(&from, signals);
+        let (mut before, path) = (Checkpoint::of(&self.track), *self.model.path());
+        self.model.path_mut().restart(&from, signals);
         self.track.at_mut().t = 0.0;
         let ((goal, stride), usual) = (self.unfinished, self.track.stride);
-        let goes_on = goal == signals[0];
-        if goes_on {
+        let continues = goal == signals[0];
+        if continues {
             self.track.stride = stride;
         }
         let mut why = self.march(left, &mut before, steepness, work);
         if why.is_none() {
-            if goes_on {
+            if continues {
                 self.unfinished = ([f64::NAN; K], f64::INFINITY);
             }
             return Ok(Progress::REACHED);
@@ -266,18 +266,18 @@ impl<E: InputDriven<K>, const K: usize> InputContinuation<E, K> {
         if why == Some(Error::TooFar) && !is_whole {
             self.unfinished = (signals[0], self.track.stride);
             if self.at().t > 0.0 {
-                // what goes well elsewhere is not what goes well here
+                // the step size of another path may not suit this one
                 self.track.stride = usual;
                 return Ok(Progress::part(self.at().t, 1.0));
             }
             why = None;
         }
         before.restore(&mut self.track);
-        *self.model.path_mut() = way;
+        *self.model.path_mut() = path;
         why.map_or(Ok(Progress { fraction: 0.0 }), Err)
     }
 
-    /// Steps from place to place to the end of the way; why it ends before, if it does.
+    /// Steps along the path to its end. Returns the reason if it stops before.
     #[inline(always)]
     #[allow(clippy::inline_always)] // a call would keep everything in memory
     fn march(
@@ -288,14 +288,14 @@ impl<E: InputDriven<K>, const K: usize> InputContinuation<E, K> {
         work: &mut Work,
     ) -> Option<Error> {
         let length = self.model.path().length();
-        // the branch asks for steps of the same change on any way
+        // the branch needs steps of the same change on any path
         let smallest = SHORTEST_STEP / larger(length, 1.0);
         let mut refused = None;
         while *left > 0 {
             *left -= 1;
             let now = self.at().t;
             let step = f64::max(self.track.stride / length, smallest);
-            // a way without length is one step
+            // a path without length is one step
             let wanted = if step < CRUMB * (1.0 - now) { now + step } else { 1.0 };
             let next = first_edge(now, wanted, &self.model, work);
             let (is_last, size) = (next >= 1.0, next - now);
@@ -343,7 +343,7 @@ impl<E: InputDriven<K>, const K: usize> InputContinuation<E, K> {
         }
     }
 
-    /// One step to a place of the way; says whether a longer one would do as well.
+    /// Takes one step to a position of the path. Returns whether a longer step would do as well.
     fn advance(&mut self, t: f64, is_wanted: bool, steepness: f64, work: &mut Work) -> Result<bool, Fault> {
         let is_smooth = self.track.is_smooth;
         let (from, at) = self.track.both();
@@ -351,11 +351,11 @@ impl<E: InputDriven<K>, const K: usize> InputContinuation<E, K> {
         let h = t - from.t;
         let change = m.path().direction().map(|rate| h * rate);
         let v = tears_along(from, &change);
-        let mut way = if is_smooth { bend(from, at, &v, &change) } else { E::Tears::ZERO };
-        for (way, v) in way.as_mut().iter_mut().zip(v.as_ref()) {
-            *way += v;
+        let mut motion = if is_smooth { bend(from, at, &v, &change) } else { E::Tears::ZERO };
+        for (motion, v) in motion.as_mut().iter_mut().zip(v.as_ref()) {
+            *motion += v;
         }
-        let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, &v, &change), work)?;
+        let is_calm = try_step(&motion, from, t, m, at, |at| gap(from, at, &v, &change), work)?;
         if !stays_on_branch(from, at, m, is_wanted, steepness, work) {
             return Err(Fault::Singular);
         }
@@ -368,7 +368,7 @@ impl<E: InputDriven<K>, const K: usize> InputContinuation<E, K> {
         Ok(is_calm)
     }
 
-    /// Why even the shortest step towards a place of the way is refused.
+    /// Returns the reason why even the shortest step towards a position of the path is refused.
     fn explain(&self, fault: Fault, t: f64, steepness: f64, work: &mut Work) -> Error {
         let (at, m) = (self.at(), &self.model);
         if let Some(error) = regular(at, fault, t, m, work) {
@@ -384,8 +384,8 @@ impl<E: InputDriven<K>, const K: usize> InputContinuation<E, K> {
         meeting::<E>(self.until_turn(work), 1.0 + m.path().length())
     }
 
-    /// Whether the position jumps on the way to a place, without a branch of a formula: it is found there, but much farther away than the
-    /// slopes on this side lead.
+    /// Returns whether the position jumps before `t`, without a change of branches: it is found there, but much farther
+    /// away than the slopes on this side predict.
     fn jumps(&self, t: f64, work: &mut Work) -> bool {
         let (at, m) = (self.at(), &self.model);
         let mut beyond = *at;
@@ -393,19 +393,19 @@ impl<E: InputDriven<K>, const K: usize> InputContinuation<E, K> {
             return false;
         }
         let change = m.path().direction().map(|rate| (t - at.t) * rate);
-        let led = largest(&at.along.along(&change), E::scales());
-        largest(&difference(&beyond.q, &at.q), E::scales()) > larger(POSITION_JUMP, JUMP * led)
+        let predicted = largest(&at.along.along(&change), E::scales());
+        largest(&difference(&beyond.q, &at.q), E::scales()) > larger(POSITION_JUMP, JUMP * predicted)
     }
 
-    /// The change of a signal that is left to a dead point, where a step was refused so near to a singular position that this can be
-    /// told; infinite otherwise.
+    /// Returns the change of a signal until a dead point, if a step was refused close enough to a singular position to
+    /// estimate it; infinity otherwise.
     fn turn(&self, fault: Fault, steepness: f64, work: &mut Work) -> f64 {
         let is_near = self.at().steepest >= NEAR_TURN * steepness && matches!(fault, Fault::TooFar | Fault::Singular);
         let left = if is_near { self.until_turn(work) } else { f64::INFINITY };
         if left > 0.0 { left } else { f64::INFINITY }
     }
 
-    /// The change of the signal that changes most, all others with it, to a dead point.
+    /// Returns the change of the fastest-changing signal until a dead point, while all others change with it.
     fn until_turn(&self, work: &mut Work) -> f64 {
         let (at, m) = (self.at(), &self.model);
         let longest = m.path().length();
@@ -419,12 +419,12 @@ impl<E: InputDriven<K>, const K: usize> InputContinuation<E, K> {
     }
 }
 
-/// How those coordinates change that Newton solves for, along a direction of the signals.
+/// Returns the change of the Newton coordinates along a direction of the signals.
 fn tears_along<E: InputDriven<K>, const K: usize>(at: &Solution<E>, direction: &[f64; K]) -> E::Tears {
     sum(at.along.by_signal.each_ref().map(E::tears), direction)
 }
 
-/// How far positions are from what the slopes at both ends make of the way between, scaled.
+/// Returns the distance of positions from those that the slopes at both ends predict, scaled.
 fn gap<E: InputDriven<K>, const K: usize>(
     from: &Solution<E>,
     at: &Solution<E>,
@@ -433,16 +433,17 @@ fn gap<E: InputDriven<K>, const K: usize>(
 ) -> f64 {
     let (x, y, w) = (E::tears(&from.q), E::tears(&at.q), tears_along(at, change));
     let mut gaps = E::Tears::ZERO;
-    let ways = y.as_ref().iter().zip(x.as_ref());
+    let positions = y.as_ref().iter().zip(x.as_ref());
     let rates = v.as_ref().iter().zip(w.as_ref());
-    for ((gap, (y, x)), (v, w)) in gaps.as_mut().iter_mut().zip(ways).zip(rates) {
+    for ((gap, (y, x)), (v, w)) in gaps.as_mut().iter_mut().zip(positions).zip(rates) {
         *gap = y - x - 0.5 * (v + w);
     }
     largest(&gaps, E::tear_scales())
 }
 
-/// What the motion since the solution before adds to the way `v` that the slopes of now make of a change of the signals: values and
-/// slopes at two places make a cubic (Hermite). Where the signals turn elsewhere, the change of the slopes counts alone.
+/// Returns the correction, by the previous solution, of the change `v` that the present slopes predict for a change of the
+/// signals: values and slopes at two positions define a cubic (Hermite). If the signals change direction, only the change
+/// of the slopes counts.
 fn bend<E: InputDriven<K>, const K: usize>(
     now: &Solution<E>,
     before: &Solution<E>,
@@ -465,9 +466,9 @@ fn bend<E: InputDriven<K>, const K: usize>(
     let mut bend = E::Tears::ZERO;
     if is_straight {
         let (v, w) = (tears_along(now, &behind), tears_along(before, &behind));
-        let ways = x.as_ref().iter().zip(y.as_ref());
+        let positions = x.as_ref().iter().zip(y.as_ref());
         let slopes = v.as_ref().iter().zip(w.as_ref());
-        for ((bend, (x, y)), (v, w)) in bend.as_mut().iter_mut().zip(ways).zip(slopes) {
+        for ((bend, (x, y)), (v, w)) in bend.as_mut().iter_mut().zip(positions).zip(slopes) {
             let (value, slope) = (y - x + v, v - w);
             *bend = u * u * (3.0 * value - slope + u * (2.0 * value - slope));
         }
@@ -481,8 +482,8 @@ fn bend<E: InputDriven<K>, const K: usize>(
     bend
 }
 
-/// Whether a position differs on the two sides of a place at which formulas change their branches: `at` is the later side, and `from`
-/// has the branches of the earlier one.
+/// Returns whether a position differs on the two sides of a point at which formulas change their branches: `at` is the
+/// later side, and `from` has the branches of the earlier one.
 fn jumps<M: Solved>(from: &Solution<M>, at: &Solution<M>, m: &M, work: &mut Work) -> bool {
     let mut before = *at;
     if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before, work).is_err() {

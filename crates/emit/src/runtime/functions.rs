@@ -3,7 +3,7 @@
 pub mod sign {
     //! The sign of a number.
 
-    /// -1, 0 or 1; 0 at 0.
+    /// Returns -1, 0 or 1; 0 at 0.
     pub fn sign(x: f64) -> f64 {
         if x > 0.0 {
             1.0
@@ -18,7 +18,7 @@ pub mod sign {
 pub mod lesser {
     //! The smaller of two numbers.
 
-    /// The smaller one; not a number if either is not.
+    /// Returns the smaller number; NaN if either is NaN.
     pub fn lesser(a: f64, b: f64) -> f64 {
         if a.is_nan() || a < b { a } else { b }
     }
@@ -27,7 +27,7 @@ pub mod lesser {
 pub mod greater {
     //! The larger of two numbers.
 
-    /// The larger one; not a number if either is not.
+    /// Returns the larger number; NaN if either is NaN.
     pub fn greater(a: f64, b: f64) -> f64 {
         if a.is_nan() || a > b { a } else { b }
     }
@@ -36,16 +36,16 @@ pub mod greater {
 pub mod select {
     //! A choice.
 
-    /// The second if the first is not 0, else the third.
+    /// Returns `a` if the condition is not 0, else `b`.
     pub fn select(condition: f64, a: f64, b: f64) -> f64 {
         if condition == 0.0 { b } else { a }
     }
 }
 
 pub mod either {
-    //! A choice of which both sides are numbers.
+    //! A choice between two values that must both be numbers.
 
-    /// As `select`, but not a number if either is not.
+    /// Selects as `select` does; NaN if either value is NaN.
     pub fn either(condition: f64, a: f64, b: f64) -> f64 {
         if a.is_nan() || b.is_nan() {
             f64::NAN
@@ -58,9 +58,9 @@ pub mod either {
 }
 
 pub mod piece {
-    //! Where a number lies in a table.
+    //! Position of a number in a table.
 
-    /// The piece of a table that `x` lies in, counted from 0.
+    /// Returns the piece of a table that contains `x`, counted from 0.
     pub fn piece(x: f64, knots: &[f64]) -> f64 {
         if x.is_nan() {
             return x;
@@ -82,9 +82,9 @@ pub mod piece {
 }
 
 pub mod pick {
-    //! What a table has for a piece.
+    //! Entry of a table for a piece.
 
-    /// The entry of a column for a piece.
+    /// Returns the entry of a column for a piece.
     pub fn pick(column: &[f64], piece: f64) -> f64 {
         if piece.is_nan() {
             return piece;

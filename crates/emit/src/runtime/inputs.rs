@@ -3,7 +3,7 @@
 use super::{equations, limits, numbers, solution, state};
 
 pub mod input_path {
-    //! The way of the signals that lead a mechanism.
+    //! Path of the signals that drive a mechanism.
 
     use super::equations::Equations;
     use super::limits::FARTHEST_AHEAD;
@@ -14,35 +14,35 @@ pub mod input_path {
     /// Values, rates and accelerations of signals.
     pub type Signals<const K: usize> = [[f64; K]; 3];
 
-    /// A way of the signals: a straight line from 0 to 1.
+    /// A path of the signals: a straight line from 0 to 1.
     #[derive(Clone, Copy, Debug)]
     pub struct InputPath<P, const K: usize> {
         /// The parameters of the mechanism.
         pub params: P,
-        /// The values at its beginning.
+        /// Values at the beginning.
         pub from: [f64; K],
-        /// The values at its end.
+        /// Values at the end.
         pub to: [f64; K],
-        /// The rates all along.
+        /// Rates on the whole path.
         pub rates: [f64; K],
-        /// The accelerations all along.
+        /// Accelerations on the whole path.
         pub accelerations: [f64; K],
     }
 
     impl<P: Parameters, const K: usize> InputPath<P, K> {
-        /// A way that leads nowhere.
+        /// Creates a path of length 0.
         pub fn new(params: &P) -> Self {
             let zero = [0.0; K];
             Self { params: *params, from: zero, to: zero, rates: zero, accelerations: zero }
         }
 
-        /// Goes on from some values to signals.
-        pub fn turn(&mut self, from: &[f64; K], to: &Signals<K>) {
+        /// Starts a new path from `from` to the signals `to`.
+        pub fn restart(&mut self, from: &[f64; K], to: &Signals<K>) {
             self.from = *from;
             [self.to, self.rates, self.accelerations] = *to;
         }
 
-        /// The value of a signal at a place of the way.
+        /// Returns the value of a signal at a position of the path.
         #[inline]
         pub fn value(&self, k: usize, t: f64) -> f64 {
             match (self.from.get(k), self.to.get(k)) {
@@ -52,63 +52,63 @@ pub mod input_path {
             }
         }
 
-        /// Those of all.
+        /// Returns the values of all signals at a position of the path.
         pub fn values(&self, t: f64) -> [f64; K] {
             core::array::from_fn(|k| self.value(k, t))
         }
 
-        /// How the signals change along the whole way.
+        /// Returns the change of each signal along the whole path.
         pub fn direction(&self) -> [f64; K] {
             core::array::from_fn(|k| self.value(k, 1.0) - self.value(k, 0.0))
         }
 
-        /// How much the one changes that changes most.
+        /// Returns the largest change of a signal along the whole path.
         pub fn length(&self) -> f64 {
             largest(&self.direction(), &[1.0; K])
         }
     }
 
-    /// A mechanism whose motion goes along signals.
+    /// A mechanism whose motion follows signals.
     pub trait InputDriven<const K: usize>: Solved<Along = Slopes<<Self as Equations>::Q, K>> {
-        /// Its parameters.
+        /// Parameters of the mechanism.
         type Params: Parameters;
 
-        /// By signal: the largest change that a call takes, if nobody says otherwise.
+        /// Largest change of each signal in a call, by default.
         const LARGEST_CHANGE: [f64; K];
 
-        /// The mechanism on a way.
-        fn new(way: &InputPath<Self::Params, K>) -> Self;
+        /// Creates the mechanism on a path.
+        fn new(path: &InputPath<Self::Params, K>) -> Self;
 
-        /// The way that it is on.
+        /// Returns the path.
         fn path(&self) -> &InputPath<Self::Params, K>;
 
-        /// The same, to be written.
+        /// Returns the path for modification.
         fn path_mut(&mut self) -> &mut InputPath<Self::Params, K>;
 
-        /// What the text's formulas say of the signals at a time (s).
+        /// Returns the signals that the text's formulas give at a time (s).
         fn by_formulas(params: &Self::Params, t: f64) -> Signals<K>;
 
-        /// Derivatives in whose direction an equation that was left out would cease to hold have no value.
+        /// Sets derivatives to NaN in whose direction a redundant equation ceases to hold.
         fn reject_drift(&self, _by: &mut [Self::Q; K], _at: &Solution<Self>) {}
     }
 
-    /// The motion goes along signals: the derivatives of the coordinates by each, and what these are.
+    /// Motion along signals: their values and the derivatives of the coordinates by each.
     #[derive(Clone, Copy, Debug)]
     pub struct Slopes<Q, const K: usize> {
-        /// By signal: how the coordinates change with it.
+        /// Derivatives of the coordinates by each signal.
         pub by_signal: [Q; K],
         /// The values of the signals.
         pub signals: [f64; K],
     }
 
     impl<Q: Numbers, const K: usize> Slopes<Q, K> {
-        /// How the coordinates change along a direction of the signals.
+        /// Returns the change of the coordinates along a direction of the signals.
         pub fn along(&self, direction: &[f64; K]) -> Q {
             sum(self.by_signal, direction)
         }
     }
 
-    /// The sum of some lists of numbers, each with its factor.
+    /// Returns the sum of lists of numbers, each multiplied by its factor.
     pub fn sum<N: Numbers, const K: usize>(lists: [N; K], factors: &[f64; K]) -> N {
         let mut sum = N::ZERO;
         for (list, factor) in lists.iter().zip(factors) {
@@ -144,7 +144,7 @@ pub mod input_path {
         }
     }
 
-    /// Coordinates a distance on, with their rates.
+    /// Extrapolates coordinates by a distance with constant rates.
     fn moved<N: Numbers>(q: &N, rates: &N, distance: f64) -> N {
         let mut moved = *q;
         let pairs = moved.as_mut().iter_mut().zip(rates.as_ref());
@@ -154,13 +154,13 @@ pub mod input_path {
 }
 
 pub mod input_list {
-    //! Signals as one list.
+    //! Signals in one list.
 
     use super::input_path::InputPath;
     use super::state::Parameters;
 
     impl<P: Parameters, const K: usize> InputPath<P, K> {
-        /// Value, rate and acceleration of each signal at a place of the way, one behind the other.
+        /// Returns value, rate and acceleration of each signal at a position of the path, one after the other.
         pub fn list<const L: usize>(&self, t: f64) -> [f64; L] {
             let of = |all: &[f64; K], k: usize| all.get(k).copied().unwrap_or(f64::NAN);
             core::array::from_fn(|place| match (place / 3, place % 3) {

@@ -1,4 +1,4 @@
-//! Lanes that are led by their inputs.
+//! Continuation of lanes along inputs.
 
 use super::error::Error;
 use super::follow::{Follows, follow};
@@ -8,8 +8,8 @@ use super::lanes::{States, put};
 use super::limits::MOST_STEPS_TO_FOLLOW;
 use super::work::Work;
 
-/// Leads every lane to signals of its own, each with the bits that it would have alone, one after the other. Says of each lane whether it
-/// has got there, and if not, why; it stays as it was.
+/// Moves every lane to its signals, one after the other, each with the bits that it would have alone. Returns for each lane
+/// the reason if it has not arrived; such a lane is unchanged.
 pub fn follow_each<E: InputDriven<K>, M: Follows<E, K> + Laned<L>, const K: usize, const L: usize>(
     signals: &[Signals<K>; L],
     states: &mut States<M, L>,

@@ -1,6 +1,6 @@
 //! Newton's iteration in lanes.
 
-// what is done in every lane reads best, and vectorises best, with the lane's number
+// loops by lane number read best and vectorise best
 #![allow(clippy::needless_range_loop)]
 
 use super::grid::{bound_at_first, going_on, next_point};
@@ -8,28 +8,28 @@ use super::lane_solutions::{Laned, Solutions};
 use super::limits::{BORDER, LARGEST_CORRECTION};
 use super::running_max::running_max;
 
-/// An iteration of Newton in every lane, until all have settled or are lost. A lane that has settled stays where it is.
+/// A Newton iteration in every lane, until each has settled or is lost. A lane that has settled stays where it is.
 pub struct LaneNewton<const L: usize> {
     is_first: bool,
     first: [f64; L],
-    /// The largest correction, scaled.
+    /// Largest correction, scaled.
     far: [f64; L],
-    /// The largest correction now, and with which one it ends, both in cells of the grid.
+    /// Largest correction of this iteration, and the bound below which it ends, both in cells of the grid.
     largest: [f64; L],
     bound: [f64; L],
-    /// The cells, in cells, among whose points coordinates next to a border go on; 0 where all stay.
+    /// Spacing, in cells, of the points to which coordinates next to a border continue; 0 in lanes that stay.
     cells: [f64; L],
 }
 
 impl<const L: usize> LaneNewton<L> {
-    /// It has not begun.
+    /// Creates an iteration before its first step.
     pub fn new() -> Self {
         let zero = [0.0; L];
         let bound = [bound_at_first(BORDER); L];
         Self { is_first: true, first: zero, far: zero, largest: zero, bound, cells: zero }
     }
 
-    /// The correction of a coordinate; its grid has cells so wide, and it is judged against `scale`.
+    /// Records the correction of a coordinate, whose grid has cells of width `cell`, and whose scale is `scale`.
     #[inline]
     pub fn record(&mut self, lane: usize, delta: f64, cell: f64, scale: f64) {
         let size = delta.abs();
@@ -39,7 +39,7 @@ impl<const L: usize> LaneNewton<L> {
         }
     }
 
-    /// Whether no further iteration is needed, or none helps.
+    /// Returns whether the iteration is done in every lane: it has settled or is lost.
     pub fn is_done(&mut self) -> bool {
         if self.is_first {
             self.first = self.far;
@@ -50,7 +50,7 @@ impl<const L: usize> LaneNewton<L> {
             let is_lost = self.far[k].is_nan() || self.far[k] > LARGEST_CORRECTION;
             let stays = is_lost || self.largest[k] <= self.bound[k];
             let (bound, cells) = going_on(self.largest[k], self.bound[k], BORDER);
-            // from now on it stays
+            // the lane stays from now on
             self.bound[k] = if stays { f64::INFINITY } else { bound };
             self.cells[k] = if stays { 0.0 } else { cells };
             open += self.cells[k];
@@ -59,7 +59,7 @@ impl<const L: usize> LaneNewton<L> {
         open == 0.0
     }
 
-    /// The grid point that a coordinate goes on to.
+    /// Returns the grid point to which a coordinate continues.
     #[inline]
     pub fn next(&self, lane: usize, x: f64, delta: f64, cell: f64) -> f64 {
         let cells = self.cells.get(lane).copied().unwrap_or(0.0);
@@ -67,7 +67,7 @@ impl<const L: usize> LaneNewton<L> {
         if cells > 0.0 { next } else { x }
     }
 
-    /// Leaves word of how it went. What is not a number is in the coordinates, too.
+    /// Records the outcome. Values that are NaN appear in the coordinates, too.
     pub fn note<M: Laned<L>>(&self, at: &mut Solutions<M, L>) {
         for k in 0..L {
             at.first[k] = running_max(at.first[k], self.first[k]);

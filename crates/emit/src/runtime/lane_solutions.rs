@@ -1,6 +1,6 @@
-//! What solves the equations in every lane.
+//! Solutions of the equations in every lane.
 
-// what is done in every lane reads best, and vectorises best, with the lane's number
+// loops by lane number read best and vectorise best
 #![allow(clippy::needless_range_loop)]
 
 use super::measured::Measured;
@@ -8,9 +8,9 @@ use super::solution::Solution;
 use super::state::Timed;
 use core::fmt::Debug;
 
-/// So many numbers, each in every lane.
+/// A list of numbers for every lane.
 pub trait Lists<T, const L: usize>: Copy + Debug + AsRef<[[T; L]]> + AsMut<[[T; L]]> {
-    /// All of them 0.
+    /// All numbers 0.
     const ZERO: Self;
 }
 
@@ -26,26 +26,26 @@ impl<const K: usize, const L: usize> Lists<u64, L> for [[u64; L]; K] {
 pub trait Laned<const L: usize>: Timed {
     /// A number for each coordinate.
     type Coordinates: Lists<f64, L>;
-    /// One for each that Newton solves for.
+    /// A number for each coordinate that Newton solves for.
     type Guesses: Lists<f64, L>;
-    /// One for each measure; each rate; each acceleration.
+    /// A number for each measure, its rate, its acceleration.
     type Values: Lists<f64, L>;
     /// See [`Values`](Laned::Values).
     type Rates: Lists<f64, L>;
     /// See [`Values`](Laned::Values).
     type Accelerations: Lists<f64, L>;
-    /// One for each value that only measures need.
+    /// A number for each value that only measures need.
     type OfJoined: Lists<f64, L>;
-    /// What has the sign of its determinant, for each block.
+    /// A number for each block that has the sign of its determinant.
     type Signs: Lists<u64, L>;
 
-    /// Whether anything must hold beside the equations.
+    /// True if conditions beside the equations exist.
     const HAS_CHECKS: bool;
 
-    /// Out of all coordinates those that Newton solves for.
+    /// Selects the coordinates that Newton solves for.
     fn tears_of(q: &Self::Coordinates) -> Self::Guesses;
 
-    /// Position, velocity and acceleration in every lane.
+    /// Solves for position, velocity and acceleration in every lane.
     fn solve_each(
         guess: &Self::Guesses,
         t: &[f64; L],
@@ -55,7 +55,7 @@ pub trait Laned<const L: usize>: Timed {
     );
 }
 
-/// What solves the equations in every lane.
+/// Solutions of the equations in every lane.
 #[derive(Clone, Debug)]
 pub struct Solutions<M: Laned<L>, const L: usize> {
     /// Times (s).
@@ -68,25 +68,25 @@ pub struct Solutions<M: Laned<L>, const L: usize> {
     pub qdd: M::Coordinates,
     /// Measures.
     pub values: M::Values,
-    /// Their rates.
+    /// Rates of the measures.
     pub rates: M::Rates,
-    /// Their accelerations.
+    /// Accelerations of the measures.
     pub accelerations: M::Accelerations,
-    /// What only measures need.
+    /// Values that only measures need.
     #[allow(dead_code)] // mostly they need nothing
     pub joined: M::OfJoined,
-    /// By block: what has the sign of its determinant.
+    /// A number for each block that has the sign of its determinant.
     pub signs: M::Signs,
-    /// Multipliers, residuals, angles and corrections beside what is bearable: 1 at most.
+    /// Largest ratio of multipliers, residuals, angles and corrections to their bounds: at most 1 in a valid lane.
     pub strain: [f64; L],
-    /// Newton's largest first correction, scaled.
+    /// Largest first correction of Newton's iteration, scaled.
     pub first: [f64; L],
-    /// One over the smallest pivot, scaled.
+    /// Reciprocal of the smallest pivot, scaled.
     pub steepest: [f64; L],
 }
 
 impl<M: Laned<L>, const L: usize> Solutions<M, L> {
-    /// Nothing is solved yet.
+    /// Solutions before the first solve.
     pub const ZERO: Self = Self {
         t: [0.0; L],
         q: M::Coordinates::ZERO,
@@ -102,7 +102,7 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
         steepest: [0.0; L],
     };
 
-    /// Makes ready for being solved for.
+    /// Resets the records before a solve.
     pub fn begin(&mut self, t: &[f64; L]) {
         self.t = *t;
         let zero = [0.0; L];
@@ -112,12 +112,12 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
         }
     }
 
-    /// Coordinates that Newton solves for, with their velocities and accelerations.
+    /// Returns the coordinates that Newton solves for, with their velocities and accelerations.
     pub fn tears(&self) -> [M::Guesses; 3] {
         [M::tears_of(&self.q), M::tears_of(&self.qd), M::tears_of(&self.qdd)]
     }
 
-    /// Which lanes hold nothing but numbers.
+    /// Returns for each lane whether all its numbers are finite.
     pub fn are_finite(&self) -> [bool; L] {
         let mut sum = [0.0; L];
         for list in [&self.q, &self.qd, &self.qdd] {
@@ -130,7 +130,7 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
         sum.map(|sum| sum == 0.0)
     }
 
-    /// A lane on its own.
+    /// Returns the solution of one lane.
     pub fn lane(&self, lane: usize) -> Solution<M> {
         let mut at = Solution::<M>::ZERO;
         at.t = of(&self.t, lane);
@@ -149,7 +149,7 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
         at
     }
 
-    /// Takes over a lane on its own.
+    /// Sets the solution of one lane.
     pub fn set_lane(&mut self, lane: usize, at: &Solution<M>) {
         set([at.t].as_slice(), lane, core::slice::from_mut(&mut self.t));
         set([at.steepest].as_slice(), lane, core::slice::from_mut(&mut self.steepest));
@@ -168,17 +168,17 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
     }
 }
 
-/// The number of a lane.
+/// Returns the number of a lane.
 fn of<const L: usize>(each: &[f64; L], lane: usize) -> f64 {
     each.get(lane).copied().unwrap_or(f64::NAN)
 }
 
-/// The numbers of a lane.
+/// Reads the numbers of a lane.
 fn get<const L: usize>(each: &[[f64; L]], lane: usize, to: &mut [f64]) {
     to.iter_mut().zip(each).for_each(|(to, each)| *to = of(each, lane));
 }
 
-/// Leaves numbers in a lane.
+/// Writes the numbers of a lane.
 fn set<const L: usize>(values: &[f64], lane: usize, to: &mut [[f64; L]]) {
     for (each, value) in to.iter_mut().zip(values) {
         if let Some(place) = each.get_mut(lane) {

@@ -1,7 +1,7 @@
-//! The same for several variants of the mechanism, or several times, at once: in loops over the lanes that a compiler turns into vector
+//! Several variants of the mechanism, or several times, at once: in loops over the lanes that a compiler turns into vector
 //! instructions. Each lane has the bits that it would have alone.
 
-// what is done in every lane reads best, and vectorises best, with the lane's number
+// loops by lane number read best and vectorise best
 #![allow(clippy::needless_range_loop)]
 
 use super::assemble::assemble;
@@ -19,13 +19,13 @@ use super::step::step;
 use super::track::Track;
 use super::work::Work;
 
-/// As many mechanisms, each with its own parameters, at a time of its own.
+/// A mechanism in every lane, with parameters and a time of its own.
 #[derive(Clone, Debug)]
 pub struct States<M: Laned<L>, const L: usize> {
     pub(super) models: [M; L],
-    /// The solutions of now and the ones before, or the next ones in the making.
+    /// The present solutions, and the previous ones or the next ones in progress.
     pub(super) solutions: [Solutions<M, L>; 2],
-    /// Whether those of now are the second.
+    /// True if the present solutions are the second.
     pub(super) is_second: bool,
     pub(super) is_smooth: [bool; L],
     pub(super) steepness: [f64; L],
@@ -33,54 +33,54 @@ pub struct States<M: Laned<L>, const L: usize> {
     pub(super) assembly: [Assembly; L],
     pub(super) sides: [M::Sides; L],
     pub(super) monitors: [M::Monitors; L],
-    /// What leads each lane by inputs.
+    /// Continuation of each lane along inputs.
     pub(super) continuation: [M::Continuation; L],
 }
 
 impl<M: Laned<L>, const L: usize> States<M, L> {
-    /// The solutions of now.
+    /// Returns the present solutions.
     fn now(&self) -> &Solutions<M, L> {
         let [first, second] = &self.solutions;
         if self.is_second { second } else { first }
     }
 
-    /// The ones before, or the next ones in the making.
+    /// Returns the previous solutions, or the next ones in progress.
     fn other(&self) -> &Solutions<M, L> {
         let [first, second] = &self.solutions;
         if self.is_second { first } else { second }
     }
 
-    /// Both, to be changed: those of now, and the others.
+    /// Returns the present solutions and the others for modification.
     pub(super) fn both(&mut self) -> (&mut Solutions<M, L>, &mut Solutions<M, L>) {
         let [first, second] = &mut self.solutions;
         if self.is_second { (second, first) } else { (first, second) }
     }
 
-    /// The times (s).
+    /// Returns the times (s).
     #[must_use]
     pub fn t(&self) -> &[f64; L] {
         &self.now().t
     }
 
-    /// The coordinates (m, rad), by their indices.
+    /// Returns the coordinates (m, rad), by their indices.
     #[must_use]
     pub fn q(&self) -> &M::Coordinates {
         &self.now().q
     }
 
-    /// Their velocities (m/s, rad/s).
+    /// Returns the velocities of the coordinates (m/s, rad/s).
     #[must_use]
     pub fn qd(&self) -> &M::Coordinates {
         &self.now().qd
     }
 
-    /// Their accelerations (m/s^2, rad/s^2).
+    /// Returns the accelerations of the coordinates (m/s^2, rad/s^2).
     #[must_use]
     pub fn qdd(&self) -> &M::Coordinates {
         &self.now().qdd
     }
 
-    /// A lane on its own; none where there is no such lane.
+    /// Returns the state of one lane; `None` if the lane does not exist.
     #[must_use]
     pub fn get(&self, lane: usize) -> Option<State<M>> {
         let (model, lead) = (*self.models.get(lane)?, *self.continuation.get(lane)?);
@@ -106,7 +106,7 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
         })
     }
 
-    /// Takes over where a lane on its own has come to.
+    /// Sets the state of one lane.
     fn set(&mut self, lane: usize, state: &State<M>) {
         put(&mut self.step, lane, &state.track.stride);
         put(&mut self.sides, lane, &state.at().sides);
@@ -115,12 +115,12 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
         put(&mut self.is_smooth, lane, &false);
     }
 
-    /// Moves a lane on its own, and leaves it among the other solutions.
+    /// Moves one lane alone, and leaves its solution among the other ones.
     fn alone(&mut self, lane: usize, t: f64) -> Result<(), Error> {
         let Some(mut state) = self.get(lane) else {
             return Ok(());
         };
-        // where the solution before was, the one that has been tried is now
+        // the rejected trial has replaced the previous solution
         state.track.is_smooth = false;
         let result = step(t, &mut state, MOST_STEPS, &mut Work::default());
         self.both().1.set_lane(lane, state.at());
@@ -128,7 +128,7 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
         result
     }
 
-    /// Tries one step of every lane; says which ones have got there.
+    /// Tries one step of every lane. Returns for each lane whether it has arrived.
     fn advance(&mut self, t: &[f64; L]) -> [bool; L] {
         let is_smooth = self.is_smooth;
         let [first, second] = &mut self.solutions;
@@ -172,7 +172,8 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
         is_done
     }
 
-    /// Whether a lane's next solution lies on the branches of formulas that it comes from; time takes up alone where inputs have led.
+    /// Returns whether the next solution of a lane keeps the branches of formulas. A lane that inputs have moved has to
+    /// return to time alone.
     fn keeps_branch(&self, lane: usize) -> bool {
         if self.continuation.get(lane).is_none_or(Continuation::is_active) {
             return false;
@@ -205,8 +206,8 @@ impl<M: Laned<L>, const L: usize> States<M, L> {
     }
 }
 
-/// Brings the mechanisms to the first time, each with its own parameters; says of each lane why it cannot be assembled, if it cannot.
-/// Such a lane has the parameters of the file.
+/// Assembles a mechanism for each set of parameters. Returns for each lane the reason if it cannot be assembled; such a
+/// lane has the parameters of the file.
 #[allow(clippy::type_complexity)] // the states, and an answer for each
 pub fn assemble_each<M: Laned<L>, const L: usize>(
     params: &[M::Params; L],
@@ -239,8 +240,8 @@ pub fn assemble_each<M: Laned<L>, const L: usize>(
     Ok((states, results))
 }
 
-/// Moves every lane to a time of its own (s); one that asks for more than one step goes its way alone. Says of each lane whether it has
-/// got there, and if not, why; it stays at the last time that it could reach.
+/// Moves every lane to its time (s); a lane that needs more than one step moves alone. Returns for each lane the reason if
+/// it has not arrived; it stays at the last time that it could reach.
 pub fn step_each<M: Laned<L>, const L: usize>(t: &[f64; L], states: &mut States<M, L>) -> [Result<(), Error>; L] {
     let is_done = states.advance(t);
     let mut results = [Ok(()); L];
@@ -253,7 +254,7 @@ pub fn step_each<M: Laned<L>, const L: usize>(t: &[f64; L], states: &mut States<
     results
 }
 
-/// Where Newton begins in every lane, and how far that is, scaled.
+/// Returns the start of Newton's iteration in every lane, and its distance from the present position, scaled.
 fn guess<M: Laned<L>, const L: usize>(
     from: &Solutions<M, L>,
     before: &Solutions<M, L>,
@@ -277,15 +278,15 @@ fn guess<M: Laned<L>, const L: usize>(
         for k in 0..L {
             let (h, x, v, a) = (h[k], x[k], v[k], a[k]);
             let bend = bend_ahead([x, v, a], [y[k], w[k], b[k]], back[k], u[k]);
-            let way = h * (v + 0.5 * h * a) + bend;
-            guess[k] = x + way;
-            motion[k] = running_max(motion[k], way.abs() / scale);
+            let step = h * (v + 0.5 * h * a) + bend;
+            guess[k] = x + step;
+            motion[k] = running_max(motion[k], step.abs() / scale);
         }
     }
     (guess, motion)
 }
 
-/// How far positions are from what both ends' velocities and accelerations make of the way between, scaled.
+/// Returns the distance of positions from those that velocities and accelerations at both ends predict (Hermite), scaled.
 fn gap<M: Laned<L>, const L: usize>(from: &Solutions<M, L>, at: &Solutions<M, L>, h: &[f64; L]) -> [f64; L] {
     let [x, v, a] = from.tears();
     let [y, w, b] = at.tears();
@@ -303,7 +304,7 @@ fn gap<M: Laned<L>, const L: usize>(from: &Solutions<M, L>, at: &Solutions<M, L>
     gap
 }
 
-/// Leaves something in a lane.
+/// Sets the value of a lane.
 pub fn put<T: Clone>(each: &mut [T], lane: usize, value: &T) {
     if let Some(place) = each.get_mut(lane) {
         place.clone_from(value);

@@ -1,22 +1,22 @@
-//! What is measured.
+//! Measures.
 
 use core::fmt::Debug;
 
 /// Measures with their first and second time derivatives.
 pub trait Measured: Copy + Debug {
-    /// Nothing is measured yet.
+    /// Measures before the first solution.
     const ZERO: Self;
 
-    /// Which of them, in the order of [`lists`](Measured::lists), are derivatives by inputs or parameters, or forces.
+    /// Flags in the order of [`lists`](Measured::lists): true for derivatives by inputs or parameters, and for forces.
     const IS_VARIED: &'static [bool] = &[];
 
-    /// Values, rates and accelerations.
+    /// Returns values, rates and accelerations.
     fn lists(&self) -> [&[f64]; 3];
 
-    /// The same, to be written.
+    /// Returns values, rates and accelerations for modification.
     fn lists_mut(&mut self) -> [&mut [f64]; 3];
 
-    /// What is not finite is no number.
+    /// Replaces values that are not finite by NaN.
     fn leave_out(&mut self) {
         for list in self.lists_mut() {
             for value in list.iter_mut().filter(|value| !value.is_finite()) {
@@ -25,7 +25,8 @@ pub trait Measured: Copy + Debug {
         }
     }
 
-    /// Close to a singular position derivatives by inputs and parameters, and forces, have no value.
+    /// Replaces derivatives by inputs and parameters, and forces, by NaN, since they have no value close to a singular
+    /// position.
     fn leave_varied_out(&mut self) {
         let mut rest = Self::IS_VARIED.iter();
         for list in self.lists_mut() {
@@ -36,7 +37,7 @@ pub trait Measured: Copy + Debug {
     }
 }
 
-/// Where nothing is measured.
+/// A mechanism without measures.
 impl Measured for () {
     const ZERO: Self = ();
 

@@ -1,9 +1,9 @@
-//! What goes along with emitted code, compiled and tested here as it stands.
+//! The runtime that emitted code carries along, compiled and tested here unchanged.
 
 #![allow(dead_code)] // each mechanism has its part of it
 // halving ends where two times are neighbours, and a piece is a whole number
 #![allow(clippy::float_cmp, clippy::cast_sign_loss)]
-// what an associated type gives is asked for by a closure, which names no trait
+// closures are needed where the trait of an associated type is not in scope
 #![allow(clippy::redundant_closure_for_method_calls, clippy::struct_field_names)]
 
 pub mod assemble;

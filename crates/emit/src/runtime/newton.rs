@@ -6,27 +6,27 @@ use super::numbers::larger;
 use super::running_max::running_max;
 use super::solution::{Solution, Solved};
 
-/// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace in where it ends.
+/// A Newton iteration from grid point to grid point, so that its result does not depend on its start.
 pub struct Newton {
     is_first: bool,
     is_lost: bool,
     has_settled: bool,
     first: f64,
-    /// The largest correction, and with which one it ends, both in cells of the grid.
+    /// Largest correction, and the bound below which the iteration ends, both in cells of the grid.
     largest: f64,
     bound: f64,
-    /// The cells, in cells, among whose points coordinates next to a border go on.
+    /// Spacing, in cells, of the points to which coordinates next to a border continue.
     cells: f64,
 }
 
 impl Newton {
-    /// It has not begun.
+    /// Creates an iteration before its first step.
     pub fn new() -> Self {
         let bound = bound_at_first(BORDER);
         Self { is_first: true, is_lost: false, has_settled: false, first: 0.0, largest: 0.0, bound, cells: 1.0 }
     }
 
-    /// The correction of a coordinate; its grid has cells so wide, and it is judged against `scale`.
+    /// Records the correction of a coordinate, whose grid has cells of width `cell`, and whose scale is `scale`.
     pub fn record(&mut self, delta: f64, cell: f64, scale: f64) {
         let size = delta.abs();
         if self.is_first {
@@ -36,7 +36,7 @@ impl Newton {
         self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
     }
 
-    /// Whether no further iteration is needed, or none helps.
+    /// Returns whether the iteration is done: it has settled or is lost.
     pub fn is_done(&mut self) -> bool {
         self.has_settled = !self.is_lost && self.largest <= self.bound;
         let is_done = self.has_settled || self.is_lost;
@@ -47,14 +47,14 @@ impl Newton {
         is_done
     }
 
-    /// The grid point that a coordinate goes on to.
+    /// Returns the grid point to which a coordinate continues.
     pub fn next(&self, x: f64, delta: f64, cell: f64) -> f64 {
         next_point(x, delta, cell, self.cells, BORDER)
     }
 }
 
 impl<M: Solved> Solution<M> {
-    /// Takes over how an iteration went.
+    /// Records the outcome of an iteration.
     pub fn note(&mut self, newton: &Newton) {
         self.is_settled &= newton.has_settled;
         self.first = larger(self.first, newton.first);

@@ -1,10 +1,10 @@
-//! Numbers by place, and how large they are.
+//! Lists of numbers and their norms.
 
 use core::fmt::Debug;
 
-/// So many numbers.
+/// A list of numbers.
 pub trait Numbers: Copy + Debug + 'static + AsRef<[f64]> + AsMut<[f64]> {
-    /// All of them 0.
+    /// All numbers 0.
     const ZERO: Self;
 }
 
@@ -12,9 +12,9 @@ impl<const K: usize> Numbers for [f64; K] {
     const ZERO: Self = [0.0; K];
 }
 
-/// So many answers.
+/// A list of flags.
 pub trait Flags: Copy + Debug + PartialEq + 'static + AsRef<[bool]> + AsMut<[bool]> {
-    /// All of them no.
+    /// All flags false.
     const NONE: Self;
 }
 
@@ -22,19 +22,19 @@ impl<const K: usize> Flags for [bool; K] {
     const NONE: Self = [false; K];
 }
 
-/// The largest value beside its scale; not a number if one is not.
+/// Returns the largest absolute value relative to its scale; NaN if any is NaN.
 pub fn largest<N: Numbers>(values: &N, scales: &N) -> f64 {
     let pairs = values.as_ref().iter().zip(scales.as_ref());
     let sizes = pairs.map(|(value, scale)| value.abs() / scale);
     sizes.fold(0.0, larger)
 }
 
-/// The larger one; not a number if one is not.
+/// Returns the larger number; NaN if either is NaN.
 pub fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
 
-/// Adds a zero for each value, which one that is not finite turns into no number: all are looked at without a branch for each.
+/// Adds 0 for each finite value and NaN for each other one, so that a single comparison checks all without branches.
 #[inline(always)]
 #[allow(clippy::inline_always)] // a call would cost more than it does
 pub fn add_zeros<N: Numbers>(values: &N, sums: &mut [f64; 4]) {
@@ -52,14 +52,14 @@ pub fn add_zeros<N: Numbers>(values: &N, sums: &mut [f64; 4]) {
     }
 }
 
-/// What leads from some numbers to others.
+/// Returns the differences `to - from`.
 pub fn difference<N: Numbers>(to: &N, from: &N) -> N {
-    let mut way = *to;
-    way.as_mut().iter_mut().zip(from.as_ref()).for_each(|(way, from)| *way -= from);
-    way
+    let mut difference = *to;
+    difference.as_mut().iter_mut().zip(from.as_ref()).for_each(|(difference, from)| *difference -= from);
+    difference
 }
 
-/// Coordinates after a time `h` (s), by their velocities and accelerations now.
+/// Returns the coordinates after a time `h` (s), from the present velocities and accelerations.
 pub fn predicted<N: Numbers>(q: &N, qd: &N, qdd: &N, h: f64) -> N {
     let mut later = *q;
     let rates = qd.as_ref().iter().zip(qdd.as_ref());

@@ -1,4 +1,4 @@
-//! Solving by elimination with partial pivoting, where the order that `solve` has loses digits.
+//! Elimination with partial pivoting, for positions where the fixed order of `solve` loses digits.
 
 use super::blocks::{self, Blocks};
 use super::branches::sides_near;
@@ -11,37 +11,38 @@ use super::work::Work;
 
 /// Equations that can be solved by elimination with partial pivoting.
 pub trait Pivoting: Solved {
-    /// Numbers that the elimination of the largest block works on.
+    /// Workspace for the elimination of the largest block.
     type Work: Numbers;
-    /// An answer for each block of equations.
+    /// A flag for each block of equations.
     type Blocks: Flags;
-    /// The derivatives of coordinates, velocities and accelerations by inputs and parameters that measures hold.
+    /// Derivatives of coordinates, velocities and accelerations by inputs and parameters that measures hold.
     type Varied: Numbers;
-    /// A right side for each derivative by what the motion goes along.
+    /// A right side for each derivative by the variable of the motion.
     type Rights: AsRef<[Self::Q]>;
 
-    /// What may be left of an equation, beside the norm of its row.
+    /// Largest residual of an equation, relative to the norm of its row.
     const TOLERANCE: f64;
-    /// Whether measures hold third derivatives of the coordinates.
+    /// True if measures hold third derivatives of the coordinates.
     const HAS_JERK: bool = false;
-    /// By derivative by inputs and parameters: whether it is one by two.
+    /// True for each derivative by inputs and parameters that is one by two of them.
     const IS_BY_TWO: &'static [bool] = &[];
 
-    /// How the equations fall apart into blocks.
+    /// Returns the blocks of the equations.
     fn blocks() -> &'static Blocks<'static>;
 
-    /// The blocks whose determinants change.
+    /// Returns the blocks whose determinants change.
     fn turning() -> &'static [usize];
 
-    /// The width of a cell of each coordinate's grid.
+    /// Returns the width of a cell of each coordinate's grid.
     fn cells() -> &'static Self::Q;
 
-    /// The right side of the jerk equation.
+    /// Returns the right side of the jerk equation.
     fn jerk(&self, _orders: [&Self::Q; 3], _t: f64, _sides: &Self::Sides) -> Self::Q {
         Self::Q::ZERO
     }
 
-    /// The right sides for the derivatives by inputs and parameters, as far as those before them are found.
+    /// Returns the right sides for the derivatives by inputs and parameters, as far as the derivatives before them are
+    /// solved.
     fn varied_right(
         &self,
         _orders: [&Self::Q; 3],
@@ -52,32 +53,33 @@ pub trait Pivoting: Solved {
         Self::Varied::ZERO
     }
 
-    /// The transposed matrix, where somebody asks for forces.
+    /// Returns the transposed matrix, if forces are needed.
     fn transposed() -> Option<&'static Transposed> {
         None
     }
 
-    /// What the multipliers have to hold, by coordinate.
+    /// Returns the loads that the multipliers have to balance, by coordinate.
     fn needed(&self, _orders: [&Self::Q; 4], _t: f64, _sides: &Self::Sides) -> Self::Q {
         Self::Q::ZERO
     }
 
-    /// The right sides for the derivatives by what the motion goes along.
+    /// Returns the right sides for the derivatives by the variable of the motion.
     fn rights(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Rights;
 
-    /// What is measured, from the coordinates with their first three derivatives, what these vary by, and the multipliers.
+    /// Returns the measures, from the coordinates with their first three derivatives, their variations, and the
+    /// multipliers.
     fn measured(&self, orders: [&Self::Q; 4], varied: &Self::Varied, multipliers: &Self::Q, t: f64) -> Self::Measures;
 }
 
 /// The transposed matrix, an equation for each coordinate.
 pub struct Transposed {
-    /// How its equations fall apart into blocks.
+    /// Blocks of its equations.
     pub blocks: &'static Blocks<'static>,
-    /// The place of each of its entries among those of the matrix.
+    /// Index of each of its entries among those of the matrix.
     pub places: &'static [usize],
 }
 
-/// The solution from a position nearby. All coordinates lie on a grid while Newton goes on.
+/// Solves from a position nearby. All coordinates stay on a grid during Newton's iteration.
 pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Sides) -> Result<Solution<M>, Fault> {
     let mut at = Solution::near(q, t);
     let mut elimination = Elimination::<M>::new();
@@ -107,8 +109,9 @@ pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Side
     if at.holds { Ok(at) } else { Err(Fault::TooFar) }
 }
 
-/// Newton's iteration from far away, for which an equation counts by what a change of its coordinates makes of it: each correction is
-/// so short that nothing moves by more than its scale, and that the equations come nearer to holding. Nothing where it does not arrive.
+/// Solves by Newton's iteration from far away, with equations scaled by the effect of their coordinates. Each correction is
+/// so short that nothing moves by more than its scale, and that the residual decreases. Returns `None` if it does not
+/// converge.
 pub fn close<M: Pivoting>(m: &M, q: &M::Q, t: f64, work: &mut Work) -> Option<M::Q> {
     let (mut q, mut elimination) = (*q, Elimination::<M>::new());
     let mut sides = sides_near(&q, t, m, work);
@@ -144,7 +147,7 @@ pub fn close<M: Pivoting>(m: &M, q: &M::Q, t: f64, work: &mut Work) -> Option<M:
     None
 }
 
-/// What a change of the coordinates by their scales makes of each equation at most.
+/// Returns the largest change of each equation by a change of the coordinates by their scales.
 fn norms<M: Pivoting>(slopes: &M::Entries) -> M::Q {
     let mut norms = M::Q::ZERO;
     norms.as_mut().fill(f64::MIN_POSITIVE);
@@ -156,7 +159,7 @@ fn norms<M: Pivoting>(slopes: &M::Entries) -> M::Q {
     norms
 }
 
-/// Newton's iteration; whether it has arrived.
+/// Runs Newton's iteration. Returns whether it has converged.
 fn settle<M: Pivoting>(m: &M, at: &mut Solution<M>, sides: &M::Sides, elimination: &mut Elimination<M>) -> bool {
     let mut bound = bound_at_first(BORDER);
     for (q, cell) in at.q.as_mut().iter_mut().zip(M::cells().as_ref()) {
@@ -183,8 +186,8 @@ fn settle<M: Pivoting>(m: &M, at: &mut Solution<M>, sides: &M::Sides, eliminatio
     false
 }
 
-/// The derivatives of the coordinates, their velocities and accelerations by inputs and parameters: those by one before those by two,
-/// each order from those before.
+/// Returns the derivatives of the coordinates, their velocities and accelerations by inputs and parameters: those by one
+/// before those by two, each order from those before.
 fn vary<M: Pivoting>(
     m: &M,
     elimination: &mut Elimination<M>,
@@ -212,19 +215,19 @@ fn vary<M: Pivoting>(
     varied
 }
 
-/// The work of solving linear equations in blocks.
+/// Workspace for solving linear equations in blocks.
 pub struct Elimination<M: Pivoting> {
     work: M::Work,
     is_negative: M::Blocks,
 }
 
 impl<M: Pivoting> Elimination<M> {
-    /// Room for the work.
+    /// Creates an empty workspace.
     pub fn new() -> Self {
         Self { work: M::Work::ZERO, is_negative: M::Blocks::NONE }
     }
 
-    /// The solution for a right side, and the smallest pivot.
+    /// Returns the solution for a right side, and the smallest pivot.
     pub fn solve(&mut self, slopes: &M::Entries, right: &M::Q) -> (M::Q, f64) {
         let mut x = M::Q::ZERO;
         let (work, is_negative) = (self.work.as_mut(), self.is_negative.as_mut());
@@ -232,7 +235,7 @@ impl<M: Pivoting> Elimination<M> {
         (x, pivot)
     }
 
-    /// The third derivatives of the coordinates; 0 where nobody asks for them.
+    /// Returns the third derivatives of the coordinates; 0 if measures do not need them.
     pub fn third_derivatives(
         &mut self,
         m: &M,
@@ -244,7 +247,7 @@ impl<M: Pivoting> Elimination<M> {
         if M::HAS_JERK { self.solve(slopes, &m.jerk(orders, t, sides)).0 } else { M::Q::ZERO }
     }
 
-    /// The multipliers of a state; 0 where nobody asks for forces.
+    /// Returns the multipliers of a state; 0 if forces are not needed.
     pub fn multipliers(&mut self, m: &M, slopes: &M::Entries, orders: [&M::Q; 4], t: f64, sides: &M::Sides) -> M::Q {
         let mut multipliers = M::Q::ZERO;
         let Some(Transposed { blocks, places }) = M::transposed() else { return multipliers };
@@ -259,7 +262,7 @@ impl<M: Pivoting> Elimination<M> {
     }
 }
 
-/// Whether what is left of the equations is within their tolerance, and what rounding makes of the coordinates.
+/// Returns whether the residuals are within the tolerance and the rounding error of the coordinates.
 fn is_next_to_nothing<M: Pivoting>(values: &M::Q, slopes: &M::Entries, q: &M::Q) -> bool {
     let mut bounds = M::Q::ZERO;
     for (&(row, column), slope) in M::pattern().iter().zip(slopes.as_ref()) {
@@ -273,7 +276,7 @@ fn is_next_to_nothing<M: Pivoting>(values: &M::Q, slopes: &M::Entries, q: &M::Q)
     pairs.all(|(value, bound)| value.abs() <= *bound)
 }
 
-/// No number is -0.
+/// Replaces -0 by 0.
 pub fn without_signs_of_zero<N: Numbers>(mut values: N) -> N {
     values.as_mut().iter_mut().for_each(|value| *value += 0.0);
     values

@@ -1,4 +1,4 @@
-//! Solving at a time, on the branches that are there.
+//! Solves at a time, on the branches that hold there.
 
 use super::branches::{sides_ahead, sides_at, with_time};
 use super::error::Fault;
@@ -8,7 +8,7 @@ use super::numbers::{larger, largest};
 use super::solution::{Along, Solution, Solved};
 use super::work::Work;
 
-/// Solves at a time, from a guess; `from` is where the motion comes from.
+/// Solves at a time from a guess; `from` is the previous solution of the motion.
 pub fn reach<M: Solved>(
     guess: &M::Tears,
     from: &Solution<M>,
@@ -34,7 +34,7 @@ pub fn reach<M: Solved>(
     Err(Fault::TooFar)
 }
 
-/// Solves with branches of formulas that are known.
+/// Solves on given branches of formulas.
 pub fn find<M: Solved>(
     guess: &M::Tears,
     from: &Solution<M>,
@@ -63,7 +63,7 @@ pub fn find<M: Solved>(
     if at.is_finite() { Ok(()) } else { Err(Fault::NotANumber) }
 }
 
-/// Solves once more from a position that is known, and if that does not help either, takes that.
+/// Solves by pivoting, then again by the operations from that position; keeps the result of pivoting if they fail again.
 #[cold]
 #[inline(never)]
 fn find_with_pivoting<M: Solved>(
@@ -84,8 +84,8 @@ fn find_with_pivoting<M: Solved>(
     Ok(())
 }
 
-/// What rounding makes of the velocities and accelerations, for every unit of steepness: they are amplified by as much as the
-/// position is near to a singular one.
+/// Returns the relative rounding error of velocities and accelerations per unit of steepness. The closer a position is to a
+/// singular one, the more rounding is amplified.
 pub fn rounding<M: Solved>(at: &Solution<M>, m: &M) -> f64 {
     let (t, sides, scales) = (at.t, &at.sides, M::scales());
     let slopes = m.phi_q(&at.q, t, sides);
@@ -106,7 +106,8 @@ pub fn rounding<M: Solved>(at: &Solution<M>, m: &M) -> f64 {
     f64::EPSILON * amplified
 }
 
-/// Whether a position that is reached lies on the branch of the motion that it comes from, whose equations are so steep.
+/// Returns whether a solution lies on the branch of `from`; `steepness` is how much steeper the parameters make the
+/// equations than those of the file.
 pub fn stays_on_branch<M: Solved>(
     from: &Solution<M>,
     at: &mut Solution<M>,

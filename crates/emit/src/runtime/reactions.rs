@@ -3,7 +3,7 @@
 use super::{error, follow, input_path, limits, numbers, pivoting, solution, state};
 
 pub mod forces {
-    //! What joints exert and drivers supply.
+    //! Forces that joints exert and drivers supply.
 
     use super::error::Fault;
     use super::limits::STEEP;
@@ -11,12 +11,12 @@ pub mod forces {
     use super::solution::{Solution, Solved};
     use super::state::{State, Timed};
 
-    /// Equations with the operations that give what joints exert and drivers supply too.
+    /// Equations whose operations also give the forces.
     pub trait Forced: Solved {
-        /// A number for each of them.
+        /// A number for each force.
         type Forces: Numbers;
 
-        /// As [`solve`](Solved::solve), with the forces.
+        /// Solves as [`solve`](Solved::solve) does and computes the forces.
         fn solve_with_forces(
             &self,
             guess: &Self::Tears,
@@ -26,8 +26,8 @@ pub mod forces {
             forces: &mut Self::Forces,
         );
 
-        /// The same by elimination with partial pivoting, next to where that has failed with `at`; a fault where blocks are too large for
-        /// that.
+        /// Does the same by elimination with partial pivoting next to `from`, after the operations have failed with `at`.
+        /// Returns a fault if blocks are too large for that.
         fn pivoted_forces(
             &self,
             _from: &Solution<Self>,
@@ -38,8 +38,8 @@ pub mod forces {
         }
     }
 
-    /// The forces next to a solution, where these parameters make the equations so much steeper than the file's. Close to a singular
-    /// position there are none.
+    /// Returns the forces next to a solution; NaN close to a singular position. `steepness` is how much steeper the
+    /// parameters make the equations than those of the file.
     pub fn forces_at<M: Forced>(m: &M, from: &Solution<M>, steepness: f64) -> M::Forces {
         let (mut at, mut forces) = (*from, M::Forces::ZERO);
         m.solve_with_forces(&M::tears(&from.q), from.t, &from.sides, &mut at, &mut forces);
@@ -52,21 +52,21 @@ pub mod forces {
         forces
     }
 
-    /// The forces of a state.
+    /// Returns the forces of a state.
     pub fn forces<M: Timed + Forced>(state: &State<M>) -> M::Forces {
         forces_at(&state.model, state.at(), state.steepness)
     }
 }
 
 pub mod input_driven_forces {
-    //! What joints exert and drivers supply, where inputs may have led.
+    //! Forces of a mechanism with inputs.
 
     use super::follow::Follows;
     use super::forces::{Forced, forces, forces_at};
     use super::input_path::InputDriven;
     use super::state::State;
 
-    /// The forces of a state.
+    /// Returns the forces of a state.
     pub fn input_driven_forces<E, M, const K: usize>(state: &State<M>) -> M::Forces
     where
         M: Follows<E, K> + Forced,
@@ -81,14 +81,14 @@ pub mod input_driven_forces {
 }
 
 pub mod pivoted_forces {
-    //! What joints exert and drivers supply by elimination with partial pivoting.
+    //! Forces by elimination with partial pivoting.
 
     use super::error::Fault;
     use super::forces::Forced;
     use super::pivoting::{Elimination, Pivoting, solve_with_pivoting, without_signs_of_zero};
     use super::solution::Solution;
 
-    /// Solves next to a solution, and then for the multipliers, which exert the forces.
+    /// Solves next to a solution, then for the multipliers, which exert the forces.
     pub fn forces_with_pivoting<M: Pivoting + Forced>(
         m: &M,
         from: &Solution<M>,

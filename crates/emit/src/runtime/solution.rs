@@ -1,4 +1,4 @@
-//! What solves the equations at a time, and what that is found by.
+//! Solutions of the equations at a time, and the interface of the solver.
 
 use super::equations::{Branches, Checks};
 use super::error::Fault;
@@ -8,31 +8,31 @@ use core::fmt::Debug;
 
 /// Equations with the operations that solve them.
 pub trait Solved: Branches + Checks {
-    /// A number for each coordinate that Newton solves for; the others follow.
+    /// A number for each coordinate that Newton solves for; the others follow from these.
     type Tears: Numbers;
-    /// An answer for each block of equations whose determinant changes with the position.
+    /// A flag for each block of equations whose determinant changes with the position.
     type Turns: Flags;
-    /// What is measured.
+    /// Measures.
     type Measures: Measured;
     /// Values that only measures need.
     type Joined: Numbers;
-    /// What the motion goes along: time, or signals.
+    /// Variable of the motion: time, or signals.
     type Along: Along<Self>;
 
-    /// What a change of each coordinate that Newton solves for is judged against.
+    /// Returns the scale of each coordinate that Newton solves for.
     fn tear_scales() -> &'static Self::Tears;
 
-    /// Whether determinants are negative where all pivots are positive.
+    /// Returns for each block whether its determinant is negative if all pivots are positive.
     fn turned() -> &'static Self::Turns;
 
-    /// Of all coordinates those that Newton solves for.
+    /// Selects the coordinates that Newton solves for.
     fn tears(q: &Self::Q) -> Self::Tears;
 
-    /// Position, velocity and acceleration at a time.
+    /// Solves for position, velocity and acceleration at a time.
     fn solve(&self, guess: &Self::Tears, t: f64, sides: &Self::Sides, at: &mut Solution<Self>);
 
-    /// The same by elimination with partial pivoting from a position nearby, where [`solve`](Solved::solve) has failed with `at`;
-    /// a fault where blocks are too large for that.
+    /// Solves by elimination with partial pivoting from a position nearby, after [`solve`](Solved::solve) has failed with
+    /// `at`. Returns a fault if blocks are too large for that.
     fn pivoted(
         &self,
         _q: &Self::Q,
@@ -44,36 +44,36 @@ pub trait Solved: Branches + Checks {
     }
 }
 
-/// What a motion goes along, with what a solution holds of that.
+/// The variable of a motion, with the part of a solution that belongs to it.
 pub trait Along<M: Solved>: Copy + Debug {
-    /// Nothing is known yet.
+    /// Value before the first solution.
     const ZERO: Self;
 
-    /// Coordinates at a distance `h` from a solution.
+    /// Returns the predicted coordinates at a distance `h` from a solution.
     fn predicted(m: &M, from: &Solution<M>, h: f64) -> M::Q;
 
-    /// A place a little ahead, at which the branches of formulas tell those on which the motion goes on.
+    /// Returns a position and time slightly ahead, where the branches of formulas are those on which the motion continues.
     fn ahead(m: &M, at: &Solution<M>) -> (M::Q, f64);
 
-    /// Takes down what a solution has been found for.
+    /// Records the point that a solution belongs to.
     fn note(&mut self, _m: &M, _t: f64) {}
 
-    /// The derivatives of the coordinates, by what the motion goes along.
+    /// Returns the derivatives of the coordinates by the variable of the motion.
     fn slopes(&self) -> &[M::Q] {
         &[]
     }
 
-    /// The same, to be written.
+    /// Returns these derivatives for modification.
     #[allow(dead_code)] // what is neither pivoted nor listed knows them by their names
     fn slopes_mut(&mut self) -> &mut [M::Q] {
         &mut []
     }
 }
 
-/// What solves the equations at a time.
+/// Solution of the equations at a time.
 #[derive(Debug)]
 pub struct Solution<M: Solved> {
-    /// The time (s), or the place on a way.
+    /// Time (s), or position on a path.
     pub t: f64,
     /// Coordinates.
     pub q: M::Q,
@@ -83,24 +83,24 @@ pub struct Solution<M: Solved> {
     pub qdd: M::Q,
     /// Measures.
     pub measures: M::Measures,
-    /// What only measures need.
+    /// Values that only measures need.
     #[allow(dead_code)] // mostly they need nothing
     pub joined: M::Joined,
-    /// What it holds of what the motion goes along.
+    /// Part of the solution that belongs to the variable of the motion.
     pub along: M::Along,
-    /// The branches of formulas.
+    /// Branches of formulas.
     pub sides: M::Sides,
-    /// Which quantities that must keep their signs are positive.
+    /// Signs of quantities that keep them along a branch: true if positive.
     pub monitors: M::Monitors,
-    /// By block of equations: whether its determinant is negative.
+    /// Signs of the determinants of the blocks of equations.
     pub is_negative: M::Turns,
-    /// Whether Newton has arrived.
+    /// True if Newton's iteration has converged.
     pub is_settled: bool,
-    /// Whether no digits were lost, and the equations hold.
+    /// True if no digits were lost and the equations hold.
     pub holds: bool,
-    /// Newton's largest first correction, scaled.
+    /// Largest first correction of Newton's iteration, scaled.
     pub first: f64,
-    /// One over the smallest pivot, scaled.
+    /// Reciprocal of the smallest pivot, scaled.
     pub steepest: f64,
 }
 
@@ -113,7 +113,7 @@ impl<M: Solved> Clone for Solution<M> {
 impl<M: Solved> Copy for Solution<M> {}
 
 impl<M: Solved> Solution<M> {
-    /// Nothing is solved yet.
+    /// Solution before the first solve.
     pub const ZERO: Self = Self {
         t: 0.0,
         q: M::Q::ZERO,
@@ -131,14 +131,14 @@ impl<M: Solved> Solution<M> {
         steepest: 0.0,
     };
 
-    /// Nothing but a position and its time.
+    /// Creates a solution that holds only a position and its time.
     pub fn near(q: &M::Q, t: f64) -> Self {
         let mut near = Self::ZERO;
         (near.t, near.q) = (t, *q);
         near
     }
 
-    /// Makes ready for being solved for.
+    /// Resets the records before a solve.
     pub fn begin(&mut self, t: f64) {
         self.t = t;
         self.is_negative = *M::turned();
@@ -146,12 +146,12 @@ impl<M: Solved> Solution<M> {
         (self.first, self.steepest) = (0.0, 0.0);
     }
 
-    /// Why it cannot be used.
+    /// Returns the reason why the solution cannot be used.
     pub fn fault(&self) -> Fault {
         if self.is_finite() { Fault::TooFar } else { Fault::NotANumber }
     }
 
-    /// Whether all of it is numbers; measures may be none.
+    /// Returns whether coordinates and their derivatives are finite; measures may be NaN.
     pub fn is_finite(&self) -> bool {
         let mut sums = [0.0; 4];
         add_zeros(&self.q, &mut sums);

@@ -3,23 +3,23 @@
 use super::{lane_solutions, solution};
 
 pub mod running_max {
-    //! What is the largest, found one by one.
+    //! Maximum of a sequence.
 
-    /// What is the largest so far, in the loops that solve, which have time for one comparison: a value that is not a number wins, but only
-    /// until the next. What it comes from is not a number either, and is asked for that.
+    /// Returns the maximum so far with a single comparison, for inner loops: NaN wins, but only until the next value. The
+    /// results that a NaN comes from are NaN as well and are checked for that.
     pub fn running_max(largest: f64, value: f64) -> f64 {
         if value <= largest { largest } else { value }
     }
 }
 
 pub mod pivots {
-    //! What pivots tell of a position.
+    //! Record of pivots.
 
     use super::running_max::running_max;
     use super::solution::{Solution, Solved};
 
     impl<M: Solved> Solution<M> {
-        /// Takes note of one over a pivot, and of what makes that a pure number.
+        /// Records the reciprocal of a pivot; `weight` makes it dimensionless.
         pub fn pivot(&mut self, turn: usize, inverse: f64, weight: f64) {
             if let Some(is_negative) = self.is_negative.as_mut().get_mut(turn) {
                 *is_negative ^= inverse < 0.0;
@@ -30,13 +30,13 @@ pub mod pivots {
 }
 
 pub mod lane_pivots {
-    //! What pivots tell of a position in a lane.
+    //! Record of pivots in a lane.
 
     use super::lane_solutions::{Laned, Solutions};
     use super::running_max::running_max;
 
     impl<M: Laned<L>, const L: usize> Solutions<M, L> {
-        /// Takes note of one over a pivot, and of what makes that a pure number.
+        /// Records the reciprocal of a pivot; `weight` makes it dimensionless.
         #[inline]
         pub fn pivot(&mut self, lane: usize, turn: usize, inverse: f64, weight: f64) {
             let signs = self.signs.as_mut().get_mut(turn).and_then(|signs| signs.get_mut(lane));
@@ -49,13 +49,13 @@ pub mod lane_pivots {
 }
 
 pub mod lane_residuals {
-    //! What must not be too large in a lane.
+    //! Record of bounded quantities in a lane.
 
     use super::lane_solutions::{Laned, Solutions};
     use super::running_max::running_max;
 
     impl<M: Laned<L>, const L: usize> Solutions<M, L> {
-        /// Takes note of a value that must not be above 1 when it is multiplied by a factor.
+        /// Records a value that times `factor` must not exceed 1.
         #[inline]
         pub fn watch(&mut self, lane: usize, value: f64, factor: f64) {
             if let Some(strain) = self.strain.get_mut(lane) {

@@ -1,4 +1,4 @@
-//! A mechanism that moves with time, and where it is.
+//! A mechanism that moves with time, and its state.
 
 use super::error::Error;
 use super::limits::{AHEAD, FARTHEST_AHEAD, LONGEST_AHEAD};
@@ -9,79 +9,79 @@ use super::track::Track;
 use super::work::Work;
 use core::fmt::Debug;
 
-/// What can be set of a mechanism.
+/// Parameters of a mechanism.
 pub trait Parameters: Copy + Debug + Default {
-    /// Part of the way from these to others.
+    /// Interpolates between these parameters and others.
     #[must_use]
     fn towards(&self, other: &Self, part: f64) -> Self;
 
-    /// Whether all are numbers.
+    /// Returns whether all parameters are finite.
     fn is_finite(&self) -> bool;
 }
 
-/// A mechanism whose motion goes along time.
+/// A mechanism whose motion follows time.
 pub trait Timed: Solved<Along = Time> {
-    /// Its parameters.
+    /// Parameters of the mechanism.
     type Params: Parameters;
-    /// What leads it by its inputs; `()` where it has none.
+    /// Continuation along inputs; `()` if the mechanism has none.
     type Continuation: Continuation<Self>;
-    /// By boundary, where formulas of time may end: the time at which it was looked at last (s).
+    /// Time of the last check of each domain boundary of a formula of time (s).
     type Passed: Numbers;
     /// A number for each result.
     type Row: Numbers;
 
-    /// The first time of the file's analysis (s), at which the mechanism is assembled.
+    /// First time of the file's analysis (s), at which the mechanism is assembled.
     const START_TIME: f64;
-    /// How long the file's analysis takes (s).
+    /// Duration of the file's analysis (s).
     const SPAN: f64;
-    /// The longest step (s).
+    /// Longest step (s).
     const LONGEST_STEP: f64;
-    /// The shortest step (s).
+    /// Shortest step (s).
     const SMALLEST_STEP: f64;
-    /// Evaluations that the boundaries of a step take at most.
+    /// Largest number of evaluations for the domain boundaries of a step.
     const WORK_OF_BOUNDARIES: usize = 0;
 
-    /// The mechanism with some parameters.
+    /// Creates the mechanism with the given parameters.
     fn new(params: &Self::Params) -> Self;
 
-    /// Its parameters.
+    /// Parameters of the mechanism.
     fn params(&self) -> &Self::Params;
 
-    /// The assembled position with the file's parameters.
+    /// Returns the assembled position with the parameters of the file.
     fn start() -> &'static Self::Q;
 
-    /// Where the file's poses put the coordinates with its parameters, roughly: what is not closed yet.
+    /// Returns the coordinates by the poses of the file, with the present parameters; the loops are not closed yet.
     fn drawn(&self) -> Self::Q;
 
-    /// Solves at a place from far away; nothing where that does not arrive, or blocks are too large for it.
+    /// Solves at a position from far away. Returns `None` if that does not converge, or if blocks are too large for it.
     fn closed(&self, _q: &Self::Q, _t: f64, _work: &mut Work) -> Option<Self::Q> {
         None
     }
 
-    /// The first boundary of a step that was not looked at yet, with its time.
+    /// Returns the first unchecked domain boundary in a step, with its time.
     fn first_boundary(&self, _from: f64, _to: f64, _passed: &Self::Passed, _work: &mut Work) -> Option<(usize, f64)> {
         None
     }
 
-    /// Looks at both sides of a boundary next to the state.
+    /// Checks both sides of a domain boundary near the state.
     fn check_boundary(_state: &mut State<Self>, _rim: usize, _t: f64, _work: &mut Work) -> Result<(), Error> {
         Ok(())
     }
 }
 
-/// What leads a mechanism by its inputs.
+/// Continuation of a mechanism along its inputs.
 pub trait Continuation<M: Timed>: Copy + Debug {
-    /// Evaluations that taking up the time takes at most beside its steps, and each of these.
+    /// Largest number of evaluations for the return to time: without steps, and for each step.
     const WORK: [usize; 2];
 
-    /// Nothing is led yet.
+    /// Creates an inactive continuation.
     fn new(params: &M::Params) -> Self;
 
-    /// Whether inputs have led to where the mechanism is, rather than the time.
+    /// Returns whether inputs, rather than time, have moved the mechanism to its position.
     fn is_active(&self) -> bool;
 
-    /// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its time, in so many steps at most;
-    /// gives how many of them are left, or nothing where it is still on its way.
+    /// Moves a mechanism back to the inputs that its formulas give at its time, in at most `most` steps. Returns the number
+    /// of steps that are left, or `None` if it has not arrived yet.
     fn resume_time(state: &mut State<M>, most: usize, work: &mut Work) -> Result<Option<usize>, Error>;
 }
 
@@ -99,7 +99,7 @@ impl<M: Timed> Continuation<M> for () {
     }
 }
 
-/// The motion goes along time.
+/// Motion along time.
 #[derive(Clone, Copy, Debug)]
 pub struct Time;
 
@@ -118,13 +118,13 @@ impl<M: Timed> Along<M> for Time {
     }
 }
 
-/// How a mechanism was assembled with its parameters.
+/// How a mechanism was assembled for its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Assembly {
-    /// It was led from the assembled position of the file's own parameters, along its branch.
+    /// By continuation from the assembled position of the file's own parameters, along its branch.
     Led,
-    /// No way led there: the equations were solved from the poses that the file draws with these parameters, as `mechc run --set` does.
-    /// It may be another branch.
+    /// From the poses that the file draws with these parameters, as `mechc run --set` does, because the continuation did
+    /// not arrive. This may be another branch.
     Drawn,
 }
 
@@ -132,74 +132,74 @@ pub enum Assembly {
 #[derive(Clone, Debug)]
 pub struct State<M: Timed> {
     pub(super) model: M,
-    /// Where it is along the time.
+    /// Position along time.
     pub(super) track: Track<M>,
-    /// How much steeper these parameters make the equations than the file's.
+    /// Steepness of the equations relative to that with the parameters of the file.
     pub(super) steepness: f64,
-    /// How it was assembled.
+    /// The kind of assembly.
     pub(super) assembly: Assembly,
-    /// What leads by inputs.
+    /// Continuation along inputs.
     pub(super) continuation: M::Continuation,
-    /// By boundary: the time at which it was looked at last (s).
+    /// Time of the last check of each domain boundary (s).
     pub(super) passed: M::Passed,
 }
 
 impl<M: Timed> State<M> {
-    /// The solution of now.
+    /// Returns the present solution.
     pub(super) fn at(&self) -> &Solution<M> {
         self.track.at()
     }
 
-    /// How it was assembled with its parameters.
+    /// Returns how the mechanism was assembled for its parameters.
     #[must_use]
     pub fn assembly(&self) -> Assembly {
         self.assembly
     }
 
-    /// The time (s).
+    /// Returns the time (s).
     #[must_use]
     pub fn t(&self) -> f64 {
         self.at().t
     }
 
-    /// The parameters.
+    /// Returns the parameters.
     #[must_use]
     pub fn params(&self) -> &M::Params {
         self.model.params()
     }
 
-    /// The coordinates (m, rad), by their indices.
+    /// Returns the coordinates (m, rad), by their indices.
     #[must_use]
     pub fn q(&self) -> &M::Q {
         &self.at().q
     }
 
-    /// Their velocities (m/s, rad/s).
+    /// Returns the velocities of the coordinates (m/s, rad/s).
     #[must_use]
     pub fn qd(&self) -> &M::Q {
         &self.at().qd
     }
 
-    /// Their accelerations (m/s^2, rad/s^2).
+    /// Returns the accelerations of the coordinates (m/s^2, rad/s^2).
     #[must_use]
     pub fn qdd(&self) -> &M::Q {
         &self.at().qdd
     }
 
-    /// The measures, by their indices, and their first and second time derivatives; `NAN` where one has no value, and no step fails
-    /// for that.
+    /// Returns the measures, by their indices, with their first and second time derivatives; `NAN` where a measure has no
+    /// value, which fails no step.
     #[must_use]
     pub fn measures(&self) -> &M::Measures {
         &self.at().measures
     }
 
-    /// Whether inputs have led here, rather than the time.
+    /// Returns whether inputs, rather than time, have moved the mechanism here.
     pub(super) fn is_input_driven(&self) -> bool {
         self.continuation.is_active()
     }
 
-    /// All results, in the order of the columns of `mechc run`: the time, coordinates and measures, then their first and their second
-    /// derivatives.
+    /// Returns all results in the order of the columns of `mechc run`: the time, coordinates and measures, then their first
+    /// and second derivatives.
     #[must_use]
     pub fn row(&self) -> M::Row {
         let at = self.at();

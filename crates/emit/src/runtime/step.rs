@@ -1,4 +1,4 @@
-//! Steps from time to time.
+//! Steps along time.
 
 use super::branches::first_edge;
 use super::error::{Error, Fault};
@@ -15,17 +15,17 @@ use super::state::{Continuation, State, Timed};
 use super::track::Checkpoint;
 use super::work::{Progress, Work, of_step};
 
-/// Evaluations that a call of so many steps takes at most.
+/// Largest number of evaluations of a call with at most `most` steps.
 pub const fn most_work<M: Timed>(most: usize) -> usize {
-    let [of_lead, of_its_step] = M::Continuation::WORK;
+    let [of_return, of_return_step] = M::Continuation::WORK;
     let of_step = of_step::<M>() + M::WORK_OF_BOUNDARIES;
-    let of_step = if of_its_step > of_step { of_its_step } else { of_step };
-    most.saturating_mul(of_step).saturating_add(of_lead + of_regular::<M>())
+    let of_step = if of_return_step > of_step { of_return_step } else { of_step };
+    most.saturating_mul(of_step).saturating_add(of_return + of_regular::<M>())
 }
 
-/// Moves a state to time `t` (s), in so many steps at most, each as short as the motion asks for: position, velocity and acceleration
-/// are those of the branch that it is on, whichever way `t` lies. After an error the state is as it was; what so many steps do not
-/// reach is one.
+/// Moves a state to time `t` (s) in at most `most` steps, whose length is controlled by the motion. Position, velocity and
+/// acceleration are those of the branch of the state, whichever direction `t` lies in. After an error the state is
+/// unchanged; not arriving within the steps is an error.
 pub fn step<M: Timed>(t: f64, state: &mut State<M>, most: usize, work: &mut Work) -> Result<(), Error> {
     let is_beyond = (t - state.at().t).abs() > M::LONGEST_STEP * most as f64;
     if is_beyond && t.is_finite() {
@@ -34,7 +34,7 @@ pub fn step<M: Timed>(t: f64, state: &mut State<M>, most: usize, work: &mut Work
     go(t, state, most, true, work).map(|_| ())
 }
 
-/// The same, but what so many steps do not reach is on its way.
+/// Moves a state towards time `t` (s) as [`step`] does, but returns the progress if the steps do not suffice.
 pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize, work: &mut Work) -> Result<Progress, Error> {
     go(t, state, most, false, work)
 }
@@ -44,23 +44,23 @@ fn go<M: Timed>(t: f64, state: &mut State<M>, most: usize, is_whole: bool, work:
         return Err(Error::NotANumber);
     }
     if state.is_input_driven() {
-        take_up(t, state, most, is_whole, work)
+        resume(t, state, most, is_whole, work)
     } else {
         march(t, state, most, is_whole, work)
     }
 }
 
-/// Goes on by the time from where inputs have led.
+/// Returns to the inputs that the formulas give, then moves along time.
 #[cold]
 #[inline(never)]
-fn take_up<M: Timed>(
+fn resume<M: Timed>(
     t: f64,
     state: &mut State<M>,
     most: usize,
     is_whole: bool,
     work: &mut Work,
 ) -> Result<Progress, Error> {
-    let (lead, track) = (state.continuation, state.track);
+    let (continuation, track) = (state.continuation, state.track);
     let result = match M::Continuation::resume_time(state, most, work) {
         Ok(Some(left)) => march(t, state, left, is_whole, work),
         Ok(None) if is_whole => Err(Error::TooFar),
@@ -68,12 +68,12 @@ fn take_up<M: Timed>(
         Err(error) => Err(error),
     };
     if result.is_err() {
-        (state.continuation, state.track) = (lead, track);
+        (state.continuation, state.track) = (continuation, track);
     }
     result
 }
 
-/// Steps from time to time.
+/// Steps along time.
 fn march<M: Timed>(
     t: f64,
     state: &mut State<M>,
@@ -91,7 +91,7 @@ fn march<M: Timed>(
         }
         let stride = state.track.stride;
         let wanted = if stride >= CRUMB * left.abs() { t } else { now + stride.copysign(left) };
-        // what is fast may be over before the step's end
+        // a branch that holds only briefly may be over before the end of the step
         let edge = first_edge(now, wanted, &state.model, work);
         let next = match state.model.first_boundary(now, edge, &state.passed, work) {
             None => edge,
@@ -139,19 +139,19 @@ fn march<M: Timed>(
     Err(why)
 }
 
-/// One step to a time; says whether a longer one would do as well.
+/// Takes one step to a time. Returns whether a longer step would do as well.
 fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool, work: &mut Work) -> Result<bool, Fault> {
     let is_smooth = state.track.is_smooth;
     let (from, at) = state.track.both();
     let m = &state.model;
     let h = t - from.t;
     let (v, a) = (M::tears(&from.qd), M::tears(&from.qdd));
-    let mut way = if is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
-    for (way, (v, a)) in way.as_mut().iter_mut().zip(v.as_ref().iter().zip(a.as_ref())) {
+    let mut motion = if is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
+    for (motion, (v, a)) in motion.as_mut().iter_mut().zip(v.as_ref().iter().zip(a.as_ref())) {
         // Taylor
-        *way += h * (v + 0.5 * h * a);
+        *motion += h * (v + 0.5 * h * a);
     }
-    let is_calm = tried(&way, from, t, m, at, |at| gap(from, at, h), work)?;
+    let is_calm = try_step(&motion, from, t, m, at, |at| gap(from, at, h), work)?;
     if !stays_on_branch(from, at, m, is_wanted, state.steepness, work) {
         return Err(Fault::Singular);
     }
@@ -164,10 +164,11 @@ fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool, work: &mut W
     Ok(is_calm)
 }
 
-/// Solves at a time, or a place of a way, to which the tears are expected to go so far, if that is near enough for a step; says whether
-/// a longer step would do as well. A gap is how far a solution is from what the slopes at both ends make of the way between, scaled.
-pub fn tried<M: Solved>(
-    way: &M::Tears,
+/// Solves at a time, or at a position of a path, if the expected motion of the Newton coordinates and the gap are small
+/// enough for a step. Returns whether a longer step would do as well. The gap is the distance of a solution from the
+/// position that the slopes at both ends predict, scaled.
+pub fn try_step<M: Solved>(
+    motion: &M::Tears,
     from: &Solution<M>,
     t: f64,
     m: &M,
@@ -175,14 +176,14 @@ pub fn tried<M: Solved>(
     gap: impl FnOnce(&Solution<M>) -> f64,
     work: &mut Work,
 ) -> Result<bool, Fault> {
-    // what is not a number is not small either
-    let is_short = largest(way, M::tear_scales()) <= LARGEST_MOTION;
+    // NaN is not small either
+    let is_short = largest(motion, M::tear_scales()) <= LARGEST_MOTION;
     if !is_short {
         return Err(Fault::TooFar);
     }
     let mut guess = M::tears(&from.q);
-    for (guess, way) in guess.as_mut().iter_mut().zip(way.as_ref()) {
-        *guess += *way;
+    for (guess, motion) in guess.as_mut().iter_mut().zip(motion.as_ref()) {
+        *guess += *motion;
     }
     reach(&guess, from, t, m, at, work)?;
     let gap = gap(at);
@@ -193,21 +194,21 @@ pub fn tried<M: Solved>(
     Ok(at.first < LARGEST_CORRECTION / CALM_CORRECTION && gap < LARGEST_GAP / CALM_BETWEEN)
 }
 
-/// How far positions are from what both ends' velocities and accelerations make of the way between (Hermite), scaled.
+/// Returns the distance of positions from those that velocities and accelerations at both ends predict (Hermite), scaled.
 fn gap<M: Solved>(from: &Solution<M>, at: &Solution<M>, h: f64) -> f64 {
     let (x, v, a) = (M::tears(&from.q), M::tears(&from.qd), M::tears(&from.qdd));
     let (y, w, b) = (M::tears(&at.q), M::tears(&at.qd), M::tears(&at.qdd));
     let mut gaps = M::Tears::ZERO;
-    let ways = y.as_ref().iter().zip(x.as_ref());
+    let positions = y.as_ref().iter().zip(x.as_ref());
     let rates = v.as_ref().iter().zip(w.as_ref());
     let bends = a.as_ref().iter().zip(b.as_ref());
-    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
+    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.as_mut().iter_mut().zip(positions).zip(rates.zip(bends)) {
         *gap = y - x - 0.5 * h * (v + w) - h * h * (1.0 / 12.0) * (a - b);
     }
     largest(&gaps, M::tear_scales())
 }
 
-/// What the motion since the solution before adds to Taylor's way over a time `h` (s).
+/// Returns the correction of Taylor's prediction over a time `h` (s) by the previous solution.
 fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears {
     let back = now.t - before.t;
     let u = h / back;
@@ -217,24 +218,24 @@ fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears 
     let (x, v, a) = (M::tears(&now.q), M::tears(&now.qd), M::tears(&now.qdd));
     let (y, w, b) = (M::tears(&before.q), M::tears(&before.qd), M::tears(&before.qdd));
     let mut bend = M::Tears::ZERO;
-    let ways = x.as_ref().iter().zip(y.as_ref());
+    let positions = x.as_ref().iter().zip(y.as_ref());
     let rates = v.as_ref().iter().zip(w.as_ref());
     let bends = a.as_ref().iter().zip(b.as_ref());
-    for ((bend, (x, y)), ((v, w), (a, b))) in bend.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
+    for ((bend, (x, y)), ((v, w), (a, b))) in bend.as_mut().iter_mut().zip(positions).zip(rates.zip(bends)) {
         *bend = bend_ahead([*x, *v, *a], [*y, *w, *b], back, u);
     }
     bend
 }
 
-/// Whether position or velocity differ on the two sides of a time at which formulas change their branches: `at` is the later side, and
-/// `from` has the branches of the earlier one.
+/// Returns whether position or velocity differ on the two sides of a time at which formulas change their branches: `at` is
+/// the later side, and `from` has the branches of the earlier one.
 fn jumps<M: Timed>(from: &Solution<M>, at: &Solution<M>, m: &M, work: &mut Work) -> bool {
     let mut before = *at;
     if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before, work).is_err() {
         return true;
     }
-    let (way, change) = (difference(&at.q, &before.q), difference(&at.qd, &before.qd));
+    let (motion, change) = (difference(&at.q, &before.q), difference(&at.qd, &before.qd));
     let scales = M::scales();
     let fastest = largest(&at.qd, scales) + largest(&before.qd, scales) + REST / M::SPAN;
-    largest(&way, scales) > POSITION_JUMP || largest(&change, scales) > VELOCITY_JUMP * fastest
+    largest(&motion, scales) > POSITION_JUMP || largest(&change, scales) > VELOCITY_JUMP * fastest
 }

@@ -1,4 +1,4 @@
-//! What goes along with emitted code follows a mechanism that is written by hand: a point on a circle, whose height grows with time.
+//! Tests of the runtime on a mechanism written by hand: a point on a circle, whose height grows with time.
 
 use super::assemble::assemble;
 use super::domain_boundaries::{BoundedDomain, first_boundary};
@@ -16,7 +16,7 @@ use super::work::{Progress, Work};
 /// The cells of the grid, a power of two.
 const CELL: f64 = 1.0 / 134_217_728.0;
 
-/// How fast the height grows (1/s).
+/// Rate of the height (1/s).
 #[derive(Clone, Copy, Debug)]
 struct Speed(f64);
 
