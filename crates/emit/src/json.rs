@@ -6,7 +6,7 @@
 use super::not_written;
 use mechc_expr::{ExprId, Printer, Symbol, Table};
 use mechc_ir::{
-    ConditionKind, ConstraintSystem, CoordinateKind, DeclarationKind, Mechanics, Owner, SparseRows, WatchKind,
+    ConditionKind, ConstraintSystem, CoordinateKind, DeclarationKind, Mechanics, MonitorKind, Owner, SparseRows,
 };
 use mechc_text::source::{Sources, Span};
 use serde_json::{Value, json};
@@ -281,9 +281,9 @@ impl Writer<'_> {
     fn watches(&self) -> Vec<Value> {
         let watches = self.system.watches().iter().map(|watch| {
             let kind = match watch.kind {
-                WatchKind::LineOfCenters => "line_of_centers",
-                WatchKind::Tangents => "tangents",
-                WatchKind::Curvature => "curvature",
+                MonitorKind::LineOfCenters => "line_of_centers",
+                MonitorKind::Tangents => "tangents",
+                MonitorKind::Curvature => "curvature",
             };
             json!({ "declaration": watch.declaration.index(), "kind": kind, "value": (self.text)(watch.value) })
         });

@@ -10,7 +10,7 @@ use super::text::literal;
 use super::{EmittedMotion, TranslationUnit};
 use mechc_engine::solver::{Instruction, Segment, Solver};
 use mechc_ir::With;
-use mechc_ir::layout::{Holds, row_holds};
+use mechc_ir::layout::{Holds, row_contents};
 use mechc_ir::program::{Column, Register};
 use mechc_ir::tolerances::solving::solver::LARGEST_MULTIPLIER;
 use rustc_hash::FxHashMap;
@@ -31,8 +31,14 @@ pub(super) struct Solution<'s> {
 impl<'s> Solution<'s> {
     pub fn new(unit: &'s TranslationUnit<'s>, motion: &'s EmittedMotion, equations: &'s Equations<'s>) -> Solution<'s> {
         let joined = joined([Some(&motion.solver), motion.forced.as_ref()].into_iter().flatten());
-        let mut solution =
-            Solution { unit, motion, equations, derived: FxHashMap::default(), joined, holds: row_holds(unit.system) };
+        let mut solution = Solution {
+            unit,
+            motion,
+            equations,
+            derived: FxHashMap::default(),
+            joined,
+            holds: row_contents(unit.system),
+        };
         let instructions = || {
             let more = motion.sensitive.iter().chain(&motion.forced).flat_map(Solver::instructions);
             motion.solver.instructions().iter().chain(more)
@@ -386,7 +392,7 @@ impl CodeContext for SolverContext<'_> {
             Holds::Reaction(k) => Operand::new(format!("{FORCES}[{k}]"), &[FORCES]),
             Holds::Time
             | Holds::Slope { by: With::Time(_), .. }
-            | Holds::Appended(_)
+            | Holds::DerivativeColumn(_)
             | Holds::Varied
             | Holds::Multiplier => {
                 debug_assert!(false, "no code has a place for {held:?}");

@@ -139,7 +139,9 @@ fn begin<E: InputDriven<K>, M: Follows<E, K>, const K: usize>(
     work.add(1);
     state.continuation.check_change(&now, signals)?;
     let continuation = &mut state.continuation;
-    let progress = continuation.begin(&q, t, work).and_then(|()| continuation.go(signals, &mut { most }, is_whole, state.steepness, work));
+    let progress = continuation
+        .begin(&q, t, work)
+        .and_then(|()| continuation.go(signals, &mut { most }, is_whole, state.steepness, work));
     match progress {
         Ok(progress) if progress.fraction > 0.0 => {
             state.continuation.is_active = true;

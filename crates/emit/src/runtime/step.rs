@@ -43,11 +43,7 @@ fn go<M: Timed>(t: f64, state: &mut State<M>, most: usize, is_whole: bool, work:
     if !(t - state.at().t).is_finite() {
         return Err(Error::NotANumber);
     }
-    if state.is_input_driven() {
-        resume(t, state, most, is_whole, work)
-    } else {
-        march(t, state, most, is_whole, work)
-    }
+    if state.is_input_driven() { resume(t, state, most, is_whole, work) } else { march(t, state, most, is_whole, work) }
 }
 
 /// Returns to the inputs that the formulas give, then moves along time.

@@ -5,7 +5,7 @@ use crate::equations::{FunctionSpec, Given};
 use crate::print::{Head, Page};
 use crate::solution::Solution;
 use crate::text::{constant, literal};
-use mechc_ir::program::{PlacedRim, Register};
+use mechc_ir::program::{BoundaryRegisters, Register};
 
 impl Writer<'_> {
     /// The branches of formulas.
@@ -147,7 +147,7 @@ impl Writer<'_> {
         self.boundaries().next().is_some()
     }
 
-    pub fn boundaries(&self) -> impl Iterator<Item = &PlacedRim> {
+    pub fn boundaries(&self) -> impl Iterator<Item = &BoundaryRegisters> {
         let is_input_driven = self.equations.is_input_driven;
         self.unit.program.outputs.rims.iter().filter(move |boundary| boundary.on_time && !is_input_driven)
     }
