@@ -6,7 +6,9 @@
 //! mechc-instructions sines COUNT
 //! ```
 
-use mechc::{Cancel, Checked, Choice, Compiled, Memory, Parsed, Redundant, RunOptions, SweepOptions, Times, VaryOptions};
+use mechc::{
+    Cancel, Checked, Choice, Compiled, Memory, Parsed, Redundant, RunOptions, SweepOptions, Times, VaryOptions,
+};
 use std::error::Error;
 use std::hint::black_box;
 
@@ -42,7 +44,8 @@ fn rows(file: &str, count: usize) -> Result<(), Box<dyn Error>> {
 
 /// Computes the results of variants on one thread.
 fn variants(file: &str, param: &str) -> Result<(), Box<dyn Error>> {
-    let choice = Choice { lead: true, results: vec!["largest = max(abs(der(der(travel))))".to_owned()], ..Choice::default() };
+    let choice =
+        Choice { lead: true, results: vec!["largest = max(abs(der(der(travel))))".to_owned()], ..Choice::default() };
     let (checked, compiled) = compile(file, &choice)?;
     let vary = VaryOptions { params: vec![param.to_owned()], ..VaryOptions::default() };
     let variants = checked.variants(&vary, &choice, &Memory::default()).map_err(|_| "the variants are refused")?;
