@@ -2,10 +2,9 @@
 //! with `s` the way of the driver they are `x² = s² + ε`, and the least singular value goes with `√(s² + ε)`. The motion goes on along one of
 //! them. For a four-bar `ε` is about three times the part of a link that it is off by.
 
-use crate::analysis::explain::singular;
+use crate::analysis::explain::{Warning, singular};
 use crate::analysis::state::{Kinematics, State};
 use mechc_ir::tolerances::singular::misses::{EVEN, FALLS, FAR, OF_LENGTHS, WITHIN};
-use mechc_text::diag::Diagnostic;
 
 /// What there is to be said of the least distance to a singular position so far.
 pub struct Misses {
@@ -101,9 +100,9 @@ impl Misses {
     }
 
     /// What has been found up to a time (s), once; the motion stays where it is, `here`.
-    pub fn tell(&mut self, kinematics: &mut Kinematics, here: &State, t: f64) -> Option<Diagnostic> {
+    pub fn tell(&mut self, kinematics: &mut Kinematics, here: &State, t: f64) -> Option<Warning> {
         let Miss { t, within } = self.found.take_if(|miss| miss.t <= t)?;
-        let why = singular::explain_miss(kinematics, &self.nearest, within, t);
+        let why = singular::warn_of_miss(kinematics, &self.nearest, within, t);
         kinematics.restore(here);
         self.is_told = why.is_some();
         why

@@ -2,11 +2,10 @@
 
 use super::restless::may_change;
 use super::{Edge, Edges};
-use crate::analysis::explain::errors;
-use crate::analysis::state::{Fault, Kinematics};
+use crate::analysis::explain::{Cause, Stop};
+use crate::analysis::state::Kinematics;
 use mechc_expr::math::{Halving, bisect};
 use mechc_ir::tolerances::steps::edges::{FINEST, MOST_PARTS};
-use mechc_text::diag::Diagnostic;
 
 impl Edges {
     /// The first edge of time from a time on, where all switches are known, up to another.
@@ -14,7 +13,7 @@ impl Edges {
         &mut self,
         kinematics: &mut Kinematics,
         whole: [f64; 2],
-    ) -> Result<Option<Edge>, Box<Diagnostic>> {
+    ) -> Result<Option<Edge>, Box<Stop>> {
         let mut parts = Halving::<64>::new(whole, FINEST * self.span, MOST_PARTS);
         while let Some(part) = parts.next_part() {
             if self.is_steady_in_time(kinematics, part) || parts.halve(part) {
@@ -38,7 +37,7 @@ impl Edges {
         &mut self,
         kinematics: &mut Kinematics,
         [mut low, b]: [f64; 2],
-    ) -> Result<Option<Edge>, Box<Diagnostic>> {
+    ) -> Result<Option<Edge>, Box<Stop>> {
         if !self.happens_at(kinematics, b) {
             return Ok(None);
         }
@@ -47,7 +46,7 @@ impl Edges {
             [low, high] = bisect([low, b], usize::MAX, |t| !self.happens_at(kinematics, t));
             kinematics.set_time(high);
             if let Some(index) = kinematics.broken_condition().filter(|_| high <= self.last) {
-                return Err(Box::new(errors::no_value(kinematics.system(), Fault::Condition { index }, high)));
+                return Err(Cause::Condition { index }.at(high));
             }
             let after = high.next_up();
             if self.happens_at(kinematics, after) {

@@ -16,10 +16,9 @@ mod signals;
 
 use super::remarks::Remarks;
 use super::step::Step;
-use crate::analysis::explain::singular;
+use crate::analysis::explain::{Stop, singular};
 use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
 use mechc_ir::program::Enclosure;
-use mechc_text::diag::Diagnostic;
 use restless::Restless;
 use rims::Rims;
 use sides::Sides;
@@ -137,7 +136,7 @@ impl Edges {
         step: &mut Step,
         next: f64,
         is_output: bool,
-    ) -> Result<Option<Edge>, Box<Diagnostic>> {
+    ) -> Result<Option<Edge>, Box<Stop>> {
         let reach = if is_output { shortly_after(next) } else { next };
         let of_time = if self.in_time.is_empty() { None } else { self.edge_of_time(kinematics, [step.t(), reach])? };
         let edge = Edge::earlier(of_time, self.met.filter(|edge| edge.t <= reach));
@@ -154,7 +153,7 @@ impl Edges {
         step: &mut Step,
         edge: Edge,
         remarks: &mut Remarks,
-    ) -> Result<bool, Box<Diagnostic>> {
+    ) -> Result<bool, Box<Stop>> {
         if edge.is_rim {
             return self.cross_rim(kinematics, step, remarks).map(|()| false);
         }
@@ -167,7 +166,7 @@ impl Edges {
             Ok(None) => self.note_restless(kinematics, step.t()),
             Ok(Some(jump)) => self.sides.say(kinematics, step, jump, remarks)?,
             Err(fault) => {
-                return Err(Box::new(singular::explain(kinematics, self.sides.before(), fault, 0.0, step.t())));
+                return Err(singular::find_stop(kinematics, self.sides.before(), fault, [0.0, step.t()]));
             }
         }
         Ok(true)
@@ -179,7 +178,7 @@ impl Edges {
         kinematics: &mut Kinematics,
         step: &mut Step,
         remarks: &mut Remarks,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Box<Stop>> {
         self.rims.cross(kinematics, step, remarks)
     }
 
@@ -190,7 +189,7 @@ impl Edges {
         step: &mut Step,
         h: f64,
         remarks: &mut Remarks,
-    ) -> Option<Box<Diagnostic>> {
+    ) -> Option<Box<Stop>> {
         self.rims.end(kinematics, step, h, remarks)
     }
 

@@ -9,7 +9,7 @@
 use super::gauges::{Gauges, Met, Way};
 use super::limits::{Limits, Nearer, Verdict};
 use super::sides::columns_that_jump;
-use crate::analysis::explain::errors;
+use crate::analysis::explain::{Cause, Stop, errors};
 use crate::analysis::follow::remarks::Remarks;
 use crate::analysis::follow::step::{Step, write_prediction};
 use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
@@ -18,15 +18,14 @@ use mechc_ir::tolerances::steps::rims::{
     FARTHEST, FINEST, FINEST_BETWEEN, KNOWN, LAST_MOMENT, MOMENT, MOMENT_OF_MOTION, MOST_HALVINGS, MOST_PARTS,
     MOST_PARTS_BETWEEN, ROUNDING,
 };
-use mechc_text::diag::Diagnostic;
 
 /// What is known of the rims.
 pub(super) struct Rims {
     gauges: Gauges,
     /// The rim that a step has come to, at a time (s).
     met: Option<Met>,
-    /// Where the motion ends, and why.
-    end: Option<(f64, Box<Diagnostic>)>,
+    /// The stop that the motion comes to.
+    end: Option<Box<Stop>>,
     limits: Limits,
     /// The rows of both sides.
     rows: [Vec<f64>; 2],
@@ -62,7 +61,7 @@ impl Rims {
         if self.gauges.is_empty() {
             return None;
         }
-        let end = self.end.as_ref().map(|(t, _)| t - (shortly_after(*t) - t) * (LAST_MOMENT / 4.0));
+        let end = self.end.as_ref().map(|end| end.t - (shortly_after(end.t) - end.t) * (LAST_MOMENT / 4.0));
         let reach = end.map_or(reach, |end| end.min(reach));
         self.met = self.met.take().filter(|met| !self.gauges.rim(met.rim).on_time);
         let from = step.t();
@@ -84,13 +83,13 @@ impl Rims {
         kinematics: &mut Kinematics,
         step: &mut Step,
         remarks: &mut Remarks,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Box<Stop>> {
         if let Some(Met { rim, t }) = self.met.take() {
             self.judge(kinematics, step, (rim, t), remarks);
             return Ok(());
         }
         match self.end.take() {
-            Some((_, why)) => Err(why),
+            Some(stop) => Err(stop),
             None => Ok(()),
         }
     }
@@ -102,7 +101,7 @@ impl Rims {
         step: &mut Step,
         h: f64,
         remarks: &mut Remarks,
-    ) -> Option<Box<Diagnostic>> {
+    ) -> Option<Box<Stop>> {
         if self.end.is_none() {
             // the way that the state leads to, as far as a rim may be that keeps steps from coming nearer
             let h = h.max(FARTHEST * self.span);
@@ -113,7 +112,7 @@ impl Rims {
                 self.judge(kinematics, step, (met.rim, step.t() + met.t * h), remarks);
             }
         }
-        self.end.take().map(|(_, why)| why)
+        self.end.take()
     }
 
     /// Looks for rims that a step of length `h` goes over, on the curve through both its ends, which must have been drawn.
@@ -163,22 +162,25 @@ impl Rims {
         let _ = step.derive_state(kinematics);
         let (system, behind) = (kinematics.system(), &kinematics.system().rims()[rim].declarations);
         let [before, after] = self.limits.sides();
-        let why = match verdict {
+        let declarations = behind.clone();
+        let cause = match verdict {
             Verdict::Smooth => return,
             Verdict::Acceleration => {
                 let [before, after] = &self.rows;
-                remarks.warn_of_jump(system, behind, || columns_that_jump(system, self.span, [before, after]), t);
+                remarks.warn_of_jump(behind, || columns_that_jump(system, self.span, [before, after]), t);
                 return;
             }
-            Verdict::Position { column, by } => errors::position_jump(system, behind, false, (column, by), t),
-            Verdict::Corner => errors::position_jump(system, behind, true, (0, 0.0), t),
-            Verdict::Velocity { column } => {
-                errors::velocity_jump(system, behind, column, [before.qd[column], after.qd[column]], t)
+            Verdict::Position { column, by } => {
+                Cause::PositionJump { declarations, jump: Some((column, by)), is_corner: false }
             }
-            Verdict::NotFinite => errors::formula_not_finite(system, behind, t),
+            Verdict::Corner => Cause::PositionJump { declarations, jump: None, is_corner: true },
+            Verdict::Velocity { column } => {
+                Cause::VelocityJump { declarations, column, velocities: [before.qd[column], after.qd[column]] }
+            }
+            Verdict::NotFinite => Cause::NotFinite { declarations },
         };
-        if self.end.as_ref().is_none_or(|(known, _)| t < *known) {
-            self.end = Some((t, Box::new(why)));
+        if self.end.as_ref().is_none_or(|end| t < end.t) {
+            self.end = Some(cause.at(t));
         }
     }
 

@@ -1,6 +1,6 @@
 //! Both sides of an edge, at the same time: what jumps there.
 
-use crate::analysis::explain::errors;
+use crate::analysis::explain::{Cause, Stop};
 use crate::analysis::follow::remarks::Remarks;
 use crate::analysis::follow::step::{Step, write_prediction};
 use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
@@ -8,7 +8,6 @@ use mechc_ir::layout::{ColumnKind, columns};
 use mechc_ir::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};
 use mechc_ir::tolerances::steps::edges::{AHEAD, FARTHEST_AHEAD, ITERATIONS, LAST_DIGITS, TAKES_PART, UNCERTAIN};
 use mechc_ir::{ConstraintSystem, CoordinateKind, DeclarationId};
-use mechc_text::diag::Diagnostic;
 
 /// What jumps at an edge, the lowest derivative first.
 #[derive(Clone, Copy, Debug)]
@@ -150,7 +149,7 @@ impl Sides {
         step: &Step,
         jump: Jump,
         remarks: &mut Remarks,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Box<Stop>> {
         let system = kinematics.system();
         let behind = self.declarations_behind(kinematics, jump);
         let t = step.t();
@@ -159,17 +158,17 @@ impl Sides {
                 let delta = step.delta();
                 let far = |k: &usize| delta[*k].abs() / kinematics.linear().column_scale(*k);
                 let column = (0..delta.len()).max_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0);
-                let far = (column, delta[column]);
-                Err(Box::new(errors::position_jump(system, &behind, is_corner(kinematics), far, t)))
+                let (jump, is_corner) = (Some((column, delta[column])), is_corner(kinematics));
+                Err(Cause::PositionJump { declarations: behind, jump, is_corner }.at(t))
             }
             Jump::Velocity { column } => {
                 let velocities = [self.before.qd[column], step.state().qd[column]];
-                Err(Box::new(errors::velocity_jump(system, &behind, column, velocities, t)))
+                Err(Cause::VelocityJump { declarations: behind, column, velocities }.at(t))
             }
             Jump::Acceleration => {
                 remarks.take_jump(t);
                 let columns = || columns_that_jump(system, self.span, [&self.row_before, &self.row]);
-                remarks.warn_of_jump(system, &behind, columns, t);
+                remarks.warn_of_jump(&behind, columns, t);
                 Ok(())
             }
         }

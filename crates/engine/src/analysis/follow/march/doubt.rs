@@ -2,13 +2,13 @@
 //! over that position, or against itself.
 
 use super::Follower;
+use crate::analysis::explain::Stop;
 use crate::analysis::follow::crossing::is_clear;
 use crate::analysis::state::{Kinematics, State, Trust, are_small};
 use mechc_expr::math::GOLDEN;
 use mechc_ir::layout::RowLayout;
 use mechc_ir::tolerances::solving::doubt::{CELL, NEAREST_BRANCH, PLACES, RIGHT};
 use mechc_ir::tolerances::solving::rows::STEPS_AHEAD;
-use mechc_text::diag::Diagnostic;
 
 /// The range of no values.
 const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
@@ -16,7 +16,7 @@ const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 impl Follower {
     /// A row of a time `t` whose derivatives are in doubt. If it lies on the way up to a bifurcation that way shows whether they
     /// are right, and what they are if not. The motion is left as it was, so that the rows behind it are the same.
-    pub(super) fn row_in_doubt(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
+    pub(super) fn row_in_doubt(&mut self, t: f64) -> Result<(), Box<Stop>> {
         let (row, here, probe) = (self.rows.own().to_vec(), self.bookmark(), self.step.probe());
         let (said, aside) = (self.remarks.said(), self.crossing.lay_aside());
         let mut on_bridge = self.row_on_bridge(t);
@@ -43,7 +43,7 @@ impl Follower {
     }
 
     /// Steps from a row of a time `t` on until the motion is clear again, or cannot go on; gives why.
-    fn step_ahead(&mut self, t: f64) -> Option<Box<Diagnostic>> {
+    fn step_ahead(&mut self, t: f64) -> Option<Box<Stop>> {
         let ahead = self.time_ahead(t);
         for _ in 0..STEPS_AHEAD {
             if let Err(why) = self.step_towards(ahead) {
@@ -105,7 +105,7 @@ impl Follower {
 
     /// The row of a time on a bridge, or else the same solved for, be it as near to the singular position as it likes, if it can
     /// be trusted.
-    pub(super) fn or_trusted(&mut self, t: f64, row: Result<(), Box<Diagnostic>>) -> Result<(), Box<Diagnostic>> {
+    pub(super) fn or_trusted(&mut self, t: f64, row: Result<(), Box<Stop>>) -> Result<(), Box<Stop>> {
         row.or_else(|why| if self.trusted_row(t) || self.narrow_row(t) { Ok(()) } else { Err(why) })
     }
 

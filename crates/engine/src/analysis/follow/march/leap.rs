@@ -1,12 +1,12 @@
 //! Steps over several output times.
 
 use super::Follower;
+use crate::analysis::explain::Stop;
 use crate::analysis::follow::crossing::is_clear;
 use crate::analysis::follow::rows::Place;
 use crate::analysis::follow::step::{Accepted, keep_away};
 use crate::analysis::state::{Fault, Trust};
 use mechc_ir::tolerances::steps::march::{LARGEST_BETWEEN, LARGEST_CORRECTION};
-use mechc_text::diag::Diagnostic;
 
 impl Follower {
     /// Whether a step may go over several output times: the state is clear of singular positions.
@@ -16,7 +16,7 @@ impl Follower {
     }
 
     /// Tries a step over as many output times as the error allows.
-    pub(super) fn leap(&mut self) -> Result<(), Box<Diagnostic>> {
+    pub(super) fn leap(&mut self) -> Result<(), Box<Stop>> {
         let (from, upcoming) = (self.step.t(), self.rows.upcoming());
         let target = self.rows.target(from, self.step.h());
         let edge = self.edges.next(&mut self.kinematics, &mut self.step, target, target >= upcoming)?;

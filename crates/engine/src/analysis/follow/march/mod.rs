@@ -19,12 +19,11 @@ use super::remarks::Remarks;
 use super::rows::{ForceWatch, Leap, Place, Rows};
 use super::step::{Accepted, Step, keep_away};
 use crate::analysis::assemble::Started;
-use crate::analysis::explain::singular;
+use crate::analysis::explain::{Stop, Warning, singular};
 use crate::analysis::state::{Fault, Kinematics, State, Times, Trust, behind_start};
 use crate::solver::Solver;
 use mechc_ir::tolerances::UNTOLD_SPAN;
 use mechc_ir::tolerances::steps::march::{FEWEST_STEPS_NEAR, MOST_STEPS};
-use mechc_text::diag::{Diagnostic, Diagnostics};
 use std::sync::Arc;
 pub use stretches::Stretch;
 
@@ -113,8 +112,8 @@ impl Follower {
     }
 
     /// What there is to say beside the rows so far, each thing once.
-    pub fn take_remarks(&mut self) -> Diagnostics {
-        self.rows.say_what_is_missing(&self.kinematics, &mut self.remarks);
+    pub fn take_remarks(&mut self) -> Vec<Warning> {
+        self.rows.say_what_is_missing(&mut self.remarks);
         let Follower { kinematics, step, rows, misses, remarks, .. } = self;
         if let Some(missed) = rows.last_time().and_then(|t| misses.tell(kinematics, step.state(), t)) {
             remarks.push(missed);
@@ -127,7 +126,7 @@ impl Follower {
     ///
     /// # Errors
     /// Why and where the motion cannot go on.
-    pub fn next_row(&mut self) -> Option<Result<&[f64], Box<Diagnostic>>> {
+    pub fn next_row(&mut self) -> Option<Result<&[f64], Box<Stop>>> {
         if self.forces.is_none()
             && let Some(place) = self.rows.hand_out_ready()
         {
@@ -156,7 +155,7 @@ impl Follower {
     }
 
     /// Goes on until the row of the next output time `t` (s) is there.
-    fn reach(&mut self, t: f64) -> Result<Place, Box<Diagnostic>> {
+    fn reach(&mut self, t: f64) -> Result<Place, Box<Stop>> {
         self.begin()?;
         loop {
             if let Some(place) = self.row_in_leap(t) {
@@ -187,7 +186,7 @@ impl Follower {
     }
 
     /// Derivatives at the start, if they are not known yet; says whether they were.
-    fn begin(&mut self) -> Result<bool, Box<Diagnostic>> {
+    fn begin(&mut self) -> Result<bool, Box<Stop>> {
         if std::mem::replace(&mut self.begun, true) {
             return Ok(true);
         }
@@ -239,23 +238,23 @@ impl Follower {
     }
 
     /// Why the state where the motion is has no row.
-    fn explain_state(&mut self, fault: Fault) -> Box<Diagnostic> {
+    fn explain_state(&mut self, fault: Fault) -> Box<Stop> {
         let state = self.step.state();
-        Box::new(singular::explain(&mut self.kinematics, state, fault, 0.0, state.t))
+        singular::find_stop(&mut self.kinematics, state, fault, [0.0, state.t])
     }
 
-    fn count_step(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
+    fn count_step(&mut self, t: f64) -> Result<(), Box<Stop>> {
         // who cancelled does not read why
         if self.rows.count_step() || self.kinematics.is_cancelled() {
             let state = self.step.state();
-            return Err(Box::new(singular::explain_haste(&mut self.kinematics, state, MOST_STEPS, t)));
+            return Err(singular::find_stop_of_haste(&mut self.kinematics, state, MOST_STEPS, t));
         }
         Ok(())
     }
 
     /// Steps to an output time on its own; says whether its row was solved for there, and not taken from the way over a singular
     /// position.
-    fn go_to(&mut self, t: f64) -> Result<bool, Box<Diagnostic>> {
+    fn go_to(&mut self, t: f64) -> Result<bool, Box<Stop>> {
         while self.step.t() < t {
             self.count_step(t)?;
             if let Err(why) = self.step_towards(t) {
@@ -276,13 +275,13 @@ impl Follower {
     }
 
     /// A step, as far as the error and the next edge allow, which is gone over.
-    fn step_towards(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
+    fn step_towards(&mut self, t: f64) -> Result<(), Box<Stop>> {
         let edge = self.step_to_edge(t)?;
         edge.map_or(Ok(()), |edge| self.cross(edge))
     }
 
     /// The same, up to the edge.
-    fn step_to_edge(&mut self, t: f64) -> Result<Option<Edge>, Box<Diagnostic>> {
+    fn step_to_edge(&mut self, t: f64) -> Result<Option<Edge>, Box<Stop>> {
         let next = self.step.end_towards(t);
         let edge = self.edges.next(&mut self.kinematics, &mut self.step, next, next >= t)?;
         let next = edge.map_or(next, |edge| edge.t);
@@ -339,7 +338,7 @@ impl Follower {
     }
 
     /// What there is to do where a step of length `h` on the way to `target` was refused.
-    fn give_way(&mut self, h: f64, fault: Fault, target: f64) -> Result<(), Box<Diagnostic>> {
+    fn give_way(&mut self, h: f64, fault: Fault, target: f64) -> Result<(), Box<Stop>> {
         if fault == Fault::Choice && self.choose_equations() {
             return Ok(());
         }
@@ -365,14 +364,14 @@ impl Follower {
     }
 
     /// Goes over to the later side of the edge that the last step ended at, if it did.
-    fn cross_edge(&mut self) -> Result<bool, Box<Diagnostic>> {
+    fn cross_edge(&mut self) -> Result<bool, Box<Stop>> {
         match self.edge.take() {
             Some(edge) => self.cross(edge).map(|()| true),
             None => Ok(false),
         }
     }
 
-    fn cross(&mut self, edge: Edge) -> Result<(), Box<Diagnostic>> {
+    fn cross(&mut self, edge: Edge) -> Result<(), Box<Stop>> {
         let Follower { kinematics, step, edges, rows, remarks, .. } = self;
         if edges.cross(kinematics, step, edge, remarks)? {
             // the row at an edge is one of its later side
@@ -382,7 +381,7 @@ impl Follower {
     }
 
     /// The row of the state that has been reached already: the start.
-    fn row_at_rest(&mut self) -> Result<(), Box<Diagnostic>> {
+    fn row_at_rest(&mut self) -> Result<(), Box<Stop>> {
         self.kinematics.restore(self.step.state());
         let mut trust = self.trust_at_rest();
         if trust == Ok(Trust::Doubtful) {
@@ -405,7 +404,7 @@ impl Follower {
     }
 
     /// Writes the row of a time on the way over a singular position, if it is on one.
-    fn row_on_bridge(&mut self, t: f64) -> Option<Result<(), Box<Diagnostic>>> {
+    fn row_on_bridge(&mut self, t: f64) -> Option<Result<(), Box<Stop>>> {
         let Follower { kinematics, step, crossing, rows, .. } = self;
         crossing.write_row(kinematics, step, t, rows.own_mut())
     }

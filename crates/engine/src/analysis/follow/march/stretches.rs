@@ -3,10 +3,10 @@
 //! They do not depend on which rows are asked for, and end at the edges of the equations.
 
 use super::Follower;
+use crate::analysis::explain::Stop;
 use crate::analysis::follow::choice::{Choice, Chosen};
 use crate::analysis::follow::crossing::Bridge;
 use crate::analysis::state::State;
-use mechc_text::diag::Diagnostic;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -52,7 +52,7 @@ impl Follower {
     ///
     /// # Errors
     /// Why and where the motion cannot go on.
-    pub fn next_stretch(&mut self) -> Result<Option<Stretch>, Box<Diagnostic>> {
+    pub fn next_stretch(&mut self) -> Result<Option<Stretch>, Box<Stop>> {
         let mut begins_at_edge = !self.begin()?;
         let last = self.last;
         let mut from = self.step.state().clone();

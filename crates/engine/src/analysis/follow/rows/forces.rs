@@ -1,6 +1,6 @@
 //! Forces beside the rows: contacts that would have to pull, in rows or between them, and loads that have no value.
 
-use crate::analysis::explain::errors;
+use crate::analysis::explain::{Cause, Event, Stop, Warning};
 use crate::analysis::follow::remarks::Remarks;
 use crate::analysis::state::{Kinematics, State};
 use mechc_expr::ExprId;
@@ -9,7 +9,6 @@ use mechc_ir::layout::RowLayout;
 use mechc_ir::program::{Program, Ranges, Register, Registers, Stage};
 use mechc_ir::tolerances::contacts::{CORRECTIONS, FINEST_BETWEEN, MOST_BETWEEN, PULLS, STRIKES, WIDEST_BETWEEN};
 use mechc_ir::{ConstraintSystem, LoadForce};
-use mechc_text::diag::Diagnostic;
 
 /// A load, as it is watched.
 struct WatchedLoad {
@@ -68,20 +67,19 @@ impl WatchedLoad {
     /// Warns once of a distance that has no direction at a time (s); a load that has no value is why there is none of anything.
     fn look(
         &mut self,
-        of: &LoadForce,
-        system: &ConstraintSystem,
+        index: usize,
         registers: &Registers,
         t: f64,
         remarks: &mut Remarks,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Box<Stop>> {
         if !registers.get(self.force).is_finite() {
             let holds = |register: &Register| registers.get(*register) > 0.0;
-            let broken = self.conditions.iter().position(|condition| !holds(condition)).map(|k| &of.conditions[k]);
-            return Err(Box::new(errors::load_not_finite(system, of, broken, t)));
+            let broken = self.conditions.iter().position(|condition| !holds(condition));
+            return Err(Cause::Load { index, broken }.at(t));
         }
         if !self.is_told && self.excess.is_some_and(|excess| registers.get(excess) <= 0.0) {
             self.is_told = true;
-            remarks.push(errors::load_without_direction(of, t));
+            remarks.push(Warning { t, event: Event::LoadWithoutDirection { index } });
         }
         Ok(())
     }
@@ -148,7 +146,7 @@ impl ForceWatch {
     /// Looks at a row of a motion: warns once of each contact that pulls there, with a part of the row's largest force that is no rounding, or
     /// has pulled on the way to it; where no curve tells its side, of one that presses to the other side than before. A load that has no value is
     /// why there is none.
-    pub fn look(&mut self, of: &Kinematics, row: &[f64], remarks: &mut Remarks) -> Result<(), Box<Diagnostic>> {
+    pub fn look(&mut self, of: &Kinematics, row: &[f64], remarks: &mut Remarks) -> Result<(), Box<Stop>> {
         self.has_begun = true;
         let is_whole = row.iter().all(|value| value.is_finite());
         if is_whole && self.has_pulled.iter().all(|has_pulled| *has_pulled) {
@@ -158,11 +156,11 @@ impl ForceWatch {
         self.set_row(row);
         self.compute();
         let system = self.kinematics.system();
-        for (load, of) in self.loads.iter_mut().zip(system.loads()) {
-            load.look(of, system, &self.registers, row[0], remarks)?;
+        for (index, load) in self.loads.iter_mut().enumerate() {
+            load.look(index, &self.registers, row[0], remarks)?;
         }
         let least = PULLS * self.largest(system);
-        for (k, of) in system.presses().iter().enumerate() {
+        for k in 0..self.presses.len() {
             let force = self.registers.get(self.presses[k]);
             if self.sides[k] == 0.0 && force.abs() > least {
                 self.sides[k] = force.signum();
@@ -174,7 +172,7 @@ impl ForceWatch {
                 && !self.has_pulled[k]
             {
                 self.has_pulled[k] = true;
-                remarks.push(errors::contact_pulls(system, of, pressing, t));
+                remarks.push(Warning { t, event: Event::ContactPulls { index: k, force: pressing } });
             }
         }
         Ok(())

@@ -1,6 +1,6 @@
 //! Rows in which a measure, derivative or force has no value.
 
-use crate::analysis::explain::errors;
+use crate::analysis::explain::{Event, Warning};
 use crate::analysis::follow::remarks::Remarks;
 use crate::analysis::state::Unknown;
 use mechc_ir::ConstraintSystem;
@@ -54,13 +54,13 @@ impl Missing {
     }
 
     /// A warning for each, once.
-    pub fn say(&mut self, system: &ConstraintSystem, remarks: &mut Remarks) {
+    pub fn say(&mut self, remarks: &mut Remarks) {
         let measures = self.measures.iter_mut().enumerate().map(|(k, gap)| (Unknown::Measure(k), gap));
         let derivatives = self.derivatives.iter_mut().enumerate().map(|(k, gap)| (Unknown::Derivative(k), gap));
         let all = measures.chain(derivatives).chain([(Unknown::Forces, &mut self.forces)]);
-        for (what, gap) in all.filter(|(_, gap)| gap.rows > 0 && !gap.is_told) {
+        for (quantity, gap) in all.filter(|(_, gap)| gap.rows > 0 && !gap.is_told) {
             gap.is_told = true;
-            remarks.push(errors::without_value(system, what, gap.first, gap.rows));
+            remarks.push(Warning { t: gap.first, event: Event::WithoutValue { quantity, rows: gap.rows } });
         }
     }
 }

@@ -241,7 +241,7 @@ impl Rows {
     }
 
     /// A warning for each measure that had no value, once.
-    pub fn say_what_is_missing(&mut self, kinematics: &Kinematics, remarks: &mut Remarks) {
-        self.missing.say(kinematics.system(), remarks);
+    pub fn say_what_is_missing(&mut self, remarks: &mut Remarks) {
+        self.missing.say(remarks);
     }
 }
