@@ -4,7 +4,7 @@
 //! positions, from the estimates and then from perturbed ones. What comes out is assembled, or nothing does.
 
 use super::search::{Noise, levenberg_marquardt};
-use crate::analysis::explain::{Cause, Stop, open_loop, singular};
+use crate::analysis::explain::{Stop, StopCause, open_loop, singular};
 use crate::analysis::state::{Fault, Horizon, Kinematics, State, behind_start};
 use mechc_ir::tolerances::assembly::newton::{
     AGREES, BESIDE, EXPLICIT_STEPS, LARGEST_DENSE, LARGEST_STEP, MOVED, NEARBY, NEWTON_STEPS, OPEN_NEARBY,
@@ -232,11 +232,7 @@ fn newton(kinematics: &mut Kinematics, start: &[f64]) -> Option<Vec<f64>> {
 }
 
 /// The assembled position, and whether the estimates had to be perturbed to find it.
-fn by_least_squares(
-    kinematics: &mut Kinematics,
-    estimates: &[f64],
-    t: f64,
-) -> Result<(Vec<f64>, bool), Box<Stop>> {
+fn by_least_squares(kinematics: &mut Kinematics, estimates: &[f64], t: f64) -> Result<(Vec<f64>, bool), Box<Stop>> {
     let mut nearest = None;
     let mut noise = Noise::new();
     let mut start = estimates.to_vec();
@@ -280,17 +276,17 @@ fn find_stop(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Box<Stop> {
         return singular::without_value(kinematics.system(), fault).at(t);
     }
     if let Some(open) = open_loop::found(&kinematics.determined(), q, t) {
-        return Cause::OpenLoop(Box::new(open)).at(t);
+        return StopCause::OpenLoop(Box::new(open)).at(t);
     }
     let _ = kinematics.factor();
     if kinematics.violated().is_none()
         && let Some(index) = kinematics.broken_check()
     {
-        return Cause::RedundantRowAtStart { check: index }.at(t);
+        return StopCause::RedundantRowAtStart { check: index }.at(t);
     }
     let open = |row: usize| kinematics.residual(row);
     let worst = (0..q.len()).max_by(|&a, &b| open(a).total_cmp(&open(b))).unwrap_or(0);
-    Cause::NotAssembled { row: worst, residual: open(worst) }.at(t)
+    StopCause::NotAssembled { row: worst, residual: open(worst) }.at(t)
 }
 
 /// Where a tangent vanishes the condition that tangents are parallel says nothing: a spurious root.
@@ -304,7 +300,7 @@ fn refuse_vanishing_tangents(kinematics: &mut Kinematics, q: &[f64], t: f64) -> 
         system.watches()[*k].kind == WatchKind::Tangents && kinematics.watched(*k).abs() < VANISHING_TANGENT
     };
     match (0..system.watches().len()).find(vanishes) {
-        Some(watch) => Err(Cause::NoContact { watch }.at(t)),
+        Some(watch) => Err(StopCause::NoContact { watch }.at(t)),
         None => Ok(()),
     }
 }
@@ -319,7 +315,7 @@ fn refuse_singular(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(),
         return Err(singular::without_value(system, fault).at(t));
     }
     if let Some(row) = kinematics.row_without_slope(WITHOUT_SLOPE) {
-        return Err(Cause::WithoutEffect { row }.at(t));
+        return Err(StopCause::WithoutEffect { row }.at(t));
     }
     if factored.is_ok() && kinematics.nearness(SINGULAR_START) > SINGULAR_START {
         return Ok(());

@@ -15,4 +15,4 @@ mod stop;
 
 pub use determine::{determine, free_motions};
 pub use freedom::FreeMotion;
-pub use stop::{Cause, Event, SingularPosition, Stop, Warning};
+pub use stop::{SingularPosition, Stop, StopCause, Warning, WarningCause};

@@ -1,7 +1,7 @@
 //! Finds the reason why an analysis stops: which formula, which lock-up, which bifurcation.
 
 use super::errors::{self, StartVerdict};
-use super::stop::{Cause, Event, SingularPosition, Stop, Warning};
+use super::stop::{SingularPosition, Stop, StopCause, Warning, WarningCause};
 use crate::analysis::state::{Fault, Horizon, Kinematics, Singular, State};
 use mechc_ir::program::PlacedRim;
 use mechc_ir::tolerances::singular::reasons::{
@@ -28,7 +28,7 @@ pub fn find_stop_near_fold(
         return without_value(system, fault).at(state.t + h);
     }
     if let Fault::Check { index } = fault {
-        return Cause::RedundantRow { check: index }.at(state.t);
+        return StopCause::RedundantRow { check: index }.at(state.t);
     }
     // a formula that ends just ahead, or at the end of the step, explains more than the equations do
     let just_ahead = f64::min(state.t + STEPS_AHEAD * h, target);
@@ -48,20 +48,20 @@ pub fn find_stop_near_fold(
     } else if let Some(at_rim) = rim_at_hand(kinematics, state) {
         at_rim
     } else {
-        Cause::NoStep { driver: fastest_driver(kinematics, state, just_ahead) }.at(state.t)
+        StopCause::NoStep { driver: fastest_driver(kinematics, state, just_ahead) }.at(state.t)
     };
     Box::new(Stop { residual: Some(residual), ..*stop })
 }
 
 /// Returns the cause of a formula that has no value, or not one that it may have.
-pub fn without_value(system: &ConstraintSystem, fault: Fault) -> Cause {
+pub fn without_value(system: &ConstraintSystem, fault: Fault) -> StopCause {
     match fault {
-        Fault::NotFinite { row } => Cause::NotFinite { declarations: vec![system.rows()[row].declaration] },
-        Fault::Condition { index } => Cause::Condition { index },
-        Fault::Watch { index } => Cause::NoContact { watch: index },
-        Fault::Check { index } => Cause::RedundantRow { check: index },
+        Fault::NotFinite { row } => StopCause::NotFinite { declarations: vec![system.rows()[row].declaration] },
+        Fault::Condition { index } => StopCause::Condition { index },
+        Fault::Watch { index } => StopCause::NoContact { watch: index },
+        Fault::Check { index } => StopCause::RedundantRow { check: index },
         Fault::Singular | Fault::Uncertain | Fault::TooFar | Fault::Choice | Fault::Rim | Fault::Edge { .. } => {
-            Cause::NoStep { driver: None }
+            StopCause::NoStep { driver: None }
         }
     }
 }
@@ -91,8 +91,8 @@ fn singular_position(kinematics: &Kinematics, state: &State, singular: &Singular
         flat_contact: flat_contact(kinematics),
     };
     match driver {
-        Some(driver) => Cause::LockUp { driver, singular }.at(t),
-        None => Cause::Bifurcation { singular }.at(t),
+        Some(driver) => StopCause::LockUp { driver, singular }.at(t),
+        None => StopCause::Bifurcation { singular }.at(t),
     }
 }
 
@@ -115,9 +115,9 @@ pub fn end_of_contact(kinematics: &Kinematics, index: usize, t: f64) -> Box<Stop
     // with `T` the tangent and `B` its derivative the radius is T²/B across; where the argument alone rests it is no less than usual
     let tangent = kinematics.watched(index);
     if kind == WatchKind::Tangents && is_flat && tangent * tangent < CUSP * curvature {
-        Cause::Undercut { watch: index }.at(t)
+        StopCause::Undercut { watch: index }.at(t)
     } else {
-        Cause::NoContact { watch: index }.at(t)
+        StopCause::NoContact { watch: index }.at(t)
     }
 }
 
@@ -128,8 +128,8 @@ pub fn stop_at_bifurcation(kinematics: &mut Kinematics, state: &State) -> Box<St
     let system = kinematics.system();
     let joints = joints_in(system, &singular.left);
     let cause = match driver_in(system, &singular.left) {
-        Some(driver) => Cause::RestInDeadPoint { driver, joints },
-        None => Cause::Bifurcation {
+        Some(driver) => StopCause::RestInDeadPoint { driver, joints },
+        None => StopCause::Bifurcation {
             singular: SingularPosition { joints, columns: columns_in(&singular.right), flat_contact: None },
         },
     };
@@ -143,7 +143,7 @@ pub fn warn_of_passage(kinematics: &mut Kinematics, state: &State) -> Warning {
     let system = kinematics.system();
     let driver = driver_in(system, &singular.left);
     let (joints, columns) = (joints_in(system, &singular.left), columns_in(&singular.right));
-    Warning { t: state.t, event: Event::Passed { driver, joints, columns } }
+    Warning { t: state.t, cause: WarningCause::Passed { driver, joints, columns } }
 }
 
 /// Returns the warning of a singular position that the motion has missed by a part of the lengths, at the state that is nearest to it; `None`
@@ -154,7 +154,7 @@ pub fn warn_of_miss(kinematics: &mut Kinematics, state: &State, within: f64, t: 
     let system = kinematics.system();
     let (joints, columns) = (joints_in(system, &singular.left), columns_in(&singular.right));
     let moves_bodies = columns.iter().any(|&column| system.body_of(column).is_some());
-    moves_bodies.then_some(Warning { t, event: Event::NearChangePoint { joints, columns, within } })
+    moves_bodies.then_some(Warning { t, cause: WarningCause::NearChangePoint { joints, columns, within } })
 }
 
 /// The watch over a line of centres that vanishes, or nearly so, where the position was set.
@@ -179,7 +179,7 @@ pub fn find_stop_of_haste(kinematics: &mut Kinematics, state: &State, steps: u64
     let system = determined.system();
     match fault_at(kinematics, state, target) {
         Some(fault) => without_value(system, fault).at(target),
-        None => Cause::TooFast { driver: fastest_driver(kinematics, state, target), target, steps }.at(state.t),
+        None => StopCause::TooFast { driver: fastest_driver(kinematics, state, target), target, steps }.at(state.t),
     }
 }
 
@@ -201,8 +201,8 @@ fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Box<Stop>> 
     let declarations = system.rims()[index].declarations.clone();
     let has_tangent = declarations.iter().any(|&declaration| errors::has_tangent(system, declaration));
     Some(match corner.filter(|_| has_tangent) {
-        Some(left) => Cause::PositionJump { declarations, jump: None, is_corner: true }.at(state.t + left),
-        None => Cause::NotFinite { declarations }.at(state.t),
+        Some(left) => StopCause::PositionJump { declarations, jump: None, is_corner: true }.at(state.t + left),
+        None => StopCause::NotFinite { declarations }.at(state.t),
     })
 }
 
@@ -233,7 +233,7 @@ fn fault_at(kinematics: &mut Kinematics, state: &State, t: f64) -> Option<Fault>
 
 /// Returns the stop at a position so near to a singular one that its derivatives are not known.
 pub fn uncertain(system: &ConstraintSystem, left: &[f64], t: f64) -> Box<Stop> {
-    Cause::Uncertain { declarations: declarations_in(system, left) }.at(t)
+    StopCause::Uncertain { declarations: declarations_in(system, left) }.at(t)
 }
 
 /// Returns the stop of a start in a singular position.
@@ -253,7 +253,7 @@ pub fn singular_start(
         (None, _) => StartVerdict::Unknown,
     };
     let (declarations, columns) = (declarations_in(system, left), columns_in(right));
-    Cause::SingularStart { verdict, declarations, free: right.clone(), columns, horizon }.at(horizon.from)
+    StopCause::SingularStart { verdict, declarations, free: right.clone(), columns, horizon }.at(horizon.from)
 }
 
 /// The driver's row that weighs most in a dependency, if one takes part.

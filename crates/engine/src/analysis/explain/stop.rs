@@ -15,7 +15,7 @@ pub struct Stop {
     /// Time (s), or the fraction of a path from 0 to 1 where that stands for time.
     pub t: f64,
     /// Reason.
-    pub cause: Cause,
+    pub cause: StopCause,
     /// Largest scaled residual of `Φ` at the last accepted state, where the reason was searched for there.
     pub residual: Option<f64>,
 }
@@ -24,7 +24,7 @@ pub struct Stop {
 ///
 /// Rows, conditions, watches, checks, columns and loads are indices into the constraint system.
 #[derive(Clone, Debug)]
-pub enum Cause {
+pub enum StopCause {
     /// A formula of these declarations, or a derivative of it, is not finite.
     NotFinite {
         /// Declarations that hold the formula.
@@ -169,7 +169,7 @@ pub struct SingularPosition {
     pub flat_contact: Option<DeclarationId>,
 }
 
-impl Cause {
+impl StopCause {
     /// Makes a stop of the cause.
     #[must_use]
     pub fn at(self, t: f64) -> Box<Stop> {
@@ -181,14 +181,14 @@ impl Stop {
     /// Returns the stop before the start of an analysis, on the way there from the mechanism's own first time (s).
     #[must_use]
     pub(in crate::analysis) fn before_start(self: Box<Stop>, from: f64) -> Box<Stop> {
-        Cause::BeforeStart { from, is_backward: false, stop: self }.at_of_inner()
+        StopCause::BeforeStart { from, is_backward: false, stop: self }.at_of_inner()
     }
 
     /// Returns the innermost cause.
     #[must_use]
-    pub fn root_cause(&self) -> &Cause {
+    pub fn root_cause(&self) -> &StopCause {
         match &self.cause {
-            Cause::BeforeStart { stop, .. } => stop.root_cause(),
+            StopCause::BeforeStart { stop, .. } => stop.root_cause(),
             cause => cause,
         }
     }
@@ -196,13 +196,13 @@ impl Stop {
     /// True if a velocity or position jumps there.
     #[must_use]
     pub fn is_jump(&self) -> bool {
-        matches!(self.root_cause(), Cause::PositionJump { .. } | Cause::VelocityJump { .. })
+        matches!(self.root_cause(), StopCause::PositionJump { .. } | StopCause::VelocityJump { .. })
     }
 
     /// True if a formula has no value there.
     #[must_use]
     pub fn is_without_value(&self) -> bool {
-        matches!(self.root_cause(), Cause::NotFinite { .. } | Cause::Condition { .. } | Cause::Load { .. })
+        matches!(self.root_cause(), StopCause::NotFinite { .. } | StopCause::Condition { .. } | StopCause::Load { .. })
     }
 
     /// Describes the stop of a system in words.
@@ -216,41 +216,41 @@ impl Stop {
     }
 }
 
-impl Cause {
+impl StopCause {
     fn at_of_inner(self) -> Box<Stop> {
-        let t = if let Cause::BeforeStart { stop, .. } = &self { stop.t } else { f64::NAN };
+        let t = if let StopCause::BeforeStart { stop, .. } = &self { stop.t } else { f64::NAN };
         self.at(t)
     }
 
     fn explain(&self, system: &ConstraintSystem, t: f64) -> Diagnostic {
         match self {
-            Cause::NotFinite { declarations } => errors::formula_not_finite(system, declarations, t),
-            Cause::Condition { index } => errors::condition(system, &system.conditions()[*index], t),
-            Cause::Load { index, broken } => errors::load_not_finite(system, &system.loads()[*index], *broken, t),
-            Cause::NoContact { watch } => errors::no_contact(system, *watch, t),
-            Cause::Undercut { watch } => errors::undercut(system, *watch, t),
-            Cause::RedundantRow { check } => errors::ceases_to_hold(system, *check, t),
-            Cause::RedundantRowAtStart { check } => errors::does_not_hold(system, *check, t),
-            Cause::LockUp { driver, singular } => {
+            StopCause::NotFinite { declarations } => errors::formula_not_finite(system, declarations, t),
+            StopCause::Condition { index } => errors::condition(system, &system.conditions()[*index], t),
+            StopCause::Load { index, broken } => errors::load_not_finite(system, &system.loads()[*index], *broken, t),
+            StopCause::NoContact { watch } => errors::no_contact(system, *watch, t),
+            StopCause::Undercut { watch } => errors::undercut(system, *watch, t),
+            StopCause::RedundantRow { check } => errors::ceases_to_hold(system, *check, t),
+            StopCause::RedundantRowAtStart { check } => errors::does_not_hold(system, *check, t),
+            StopCause::LockUp { driver, singular } => {
                 singular.annotate(system, errors::lock_up(system, *driver, &singular.joints, &singular.columns, t))
             }
-            Cause::Bifurcation { singular } => {
+            StopCause::Bifurcation { singular } => {
                 singular.annotate(system, errors::bifurcation(system, &singular.joints, &singular.columns, t))
             }
-            Cause::RestInDeadPoint { driver, joints } => errors::driver_rests(system, *driver, joints, t, false),
-            Cause::Uncertain { declarations } => errors::uncertain(system, declarations, t),
-            Cause::PositionJump { declarations, jump, is_corner } => {
+            StopCause::RestInDeadPoint { driver, joints } => errors::driver_rests(system, *driver, joints, t, false),
+            StopCause::Uncertain { declarations } => errors::uncertain(system, declarations, t),
+            StopCause::PositionJump { declarations, jump, is_corner } => {
                 errors::position_jump(system, declarations, *is_corner, jump.unwrap_or_default(), t)
             }
-            Cause::VelocityJump { declarations, column, velocities } => {
+            StopCause::VelocityJump { declarations, column, velocities } => {
                 errors::velocity_jump(system, declarations, *column, *velocities, t)
             }
-            Cause::NoStep { driver } => errors::cannot_follow(system, t, *driver),
-            Cause::TooFast { driver, target, steps } => errors::too_fast(system, t, *target, *steps, *driver),
-            Cause::OpenLoop(open) => errors::open_loop(system, open, t),
-            Cause::NotAssembled { row, residual } => errors::cannot_assemble(system, *row, *residual, t),
-            Cause::WithoutEffect { row } => errors::without_effect(system, *row, t),
-            Cause::SingularStart { verdict, declarations, free, columns, horizon } => {
+            StopCause::NoStep { driver } => errors::cannot_follow(system, t, *driver),
+            StopCause::TooFast { driver, target, steps } => errors::too_fast(system, t, *target, *steps, *driver),
+            StopCause::OpenLoop(open) => errors::open_loop(system, open, t),
+            StopCause::NotAssembled { row, residual } => errors::cannot_assemble(system, *row, *residual, t),
+            StopCause::WithoutEffect { row } => errors::without_effect(system, *row, t),
+            StopCause::SingularStart { verdict, declarations, free, columns, horizon } => {
                 let dependent =
                     if *verdict == StartVerdict::Always { explain_dependent(system, *horizon) } else { None };
                 dependent.unwrap_or_else(|| {
@@ -258,8 +258,8 @@ impl Cause {
                         .note(motion_in_words(system, free))
                 })
             }
-            Cause::Undetermined(diagnostic) => (**diagnostic).clone(),
-            Cause::BeforeStart { from, is_backward, stop } => {
+            StopCause::Undetermined(diagnostic) => (**diagnostic).clone(),
+            StopCause::BeforeStart { from, is_backward, stop } => {
                 let inner = stop.explain(system);
                 errors::before_start(if *is_backward { at_another_time(inner, t) } else { inner }, *from)
             }
@@ -281,15 +281,15 @@ impl SingularPosition {
 pub struct Warning {
     /// Time (s), or the fraction of a path from 0 to 1 where that stands for time.
     pub t: f64,
-    /// Event.
-    pub event: Event,
+    /// WarningCause.
+    pub cause: WarningCause,
 }
 
 /// The event of a [`Warning`].
 ///
 /// Columns, rows, loads and contacts are indices into the constraint system.
 #[derive(Clone, Debug)]
-pub enum Event {
+pub enum WarningCause {
     /// A bifurcation was passed, along the branch that continues smoothly.
     Passed {
         /// Row of a driver that rests there in a dead point.
@@ -305,7 +305,7 @@ pub enum Event {
         from: f64,
         /// True if the requested time is earlier: rows and numbers of the event are then those of a path back.
         is_backward: bool,
-        /// Event.
+        /// WarningCause.
         warning: Box<Warning>,
     },
     /// The motion passes near a change point.
@@ -349,37 +349,40 @@ impl Warning {
     /// True if a bifurcation was passed.
     #[must_use]
     pub fn is_passage(&self) -> bool {
-        matches!(self.event, Event::Passed { .. } | Event::PassedBeforeStart { .. })
+        matches!(self.cause, WarningCause::Passed { .. } | WarningCause::PassedBeforeStart { .. })
     }
 
     /// Returns the event as one that happened on the way from the mechanism's own first time (s) to the requested one.
     #[must_use]
     pub(in crate::analysis) fn before_start(self, from: f64) -> Warning {
-        Warning { t: self.t, event: Event::PassedBeforeStart { from, is_backward: false, warning: Box::new(self) } }
+        Warning {
+            t: self.t,
+            cause: WarningCause::PassedBeforeStart { from, is_backward: false, warning: Box::new(self) },
+        }
     }
 
     /// Describes the event of a system in words.
     #[must_use]
     pub fn explain(&self, system: &ConstraintSystem) -> Diagnostic {
         let t = self.t;
-        match &self.event {
-            Event::Passed { driver: Some(driver), joints, .. } => {
+        match &self.cause {
+            WarningCause::Passed { driver: Some(driver), joints, .. } => {
                 errors::driver_rests(system, *driver, joints, t, true)
             }
-            Event::Passed { driver: None, joints, columns } => errors::passed(system, joints, columns, t),
-            Event::PassedBeforeStart { from, is_backward, warning } => {
+            WarningCause::Passed { driver: None, joints, columns } => errors::passed(system, joints, columns, t),
+            WarningCause::PassedBeforeStart { from, is_backward, warning } => {
                 let inner = warning.explain(system);
                 errors::before_start(if *is_backward { at_another_time(inner, t) } else { inner }, *from)
             }
-            Event::NearChangePoint { joints, columns, within } => {
+            WarningCause::NearChangePoint { joints, columns, within } => {
                 errors::near_change_point(system, joints, columns, *within, t)
             }
-            Event::AccelerationJump { declarations, columns } => {
+            WarningCause::AccelerationJump { declarations, columns } => {
                 errors::acceleration_jump(system, declarations, columns, t)
             }
-            Event::WithoutValue { quantity, rows } => errors::without_value(system, *quantity, t, *rows),
-            Event::LoadWithoutDirection { index } => errors::load_without_direction(&system.loads()[*index], t),
-            Event::ContactPulls { index, force } => {
+            WarningCause::WithoutValue { quantity, rows } => errors::without_value(system, *quantity, t, *rows),
+            WarningCause::LoadWithoutDirection { index } => errors::load_without_direction(&system.loads()[*index], t),
+            WarningCause::ContactPulls { index, force } => {
                 errors::contact_pulls(system, &system.presses()[*index], *force, t)
             }
         }

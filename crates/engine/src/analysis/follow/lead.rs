@@ -2,7 +2,7 @@
 //! where others do, along the branch.
 
 use crate::analysis::assemble::{Solving, Started, Unassembled};
-use crate::analysis::explain::{Cause, Stop, Warning};
+use crate::analysis::explain::{Stop, StopCause, Warning};
 use crate::analysis::state::{Horizon, Times};
 use crate::solver::Solver;
 use mechc_ir::ConstraintSystem;
@@ -132,7 +132,7 @@ impl<'l> Leader<'l> {
             from = (behind, beyond.q().to_vec());
             started = beyond;
         }
-        way.stopped = Some(Cause::NoStep { driver: None }.at(from.0));
+        way.stopped = Some(StopCause::NoStep { driver: None }.at(from.0));
         way
     }
 
@@ -176,7 +176,7 @@ impl<'l> Leader<'l> {
                 }
                 Some(Err(stop)) => stopped = Some(stop),
                 // cancelled: the reason is of no use
-                None => stopped = Some(Cause::NoStep { driver: None }.at(from)),
+                None => stopped = Some(StopCause::NoStep { driver: None }.at(from)),
             }
             break;
         }

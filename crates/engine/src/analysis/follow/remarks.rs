@@ -1,6 +1,6 @@
 //! What there is to say beside the rows, and what is known of accelerations that jump.
 
-use crate::analysis::explain::{Event, Warning};
+use crate::analysis::explain::{Warning, WarningCause};
 use mechc_ir::{ConstraintSystem, DeclarationId, IdVec};
 
 /// Remarks of a motion so far.
@@ -64,18 +64,16 @@ impl Remarks {
     }
 
     /// Warns of declarations that make an acceleration jump at a time (s), once of each.
-    pub fn warn_of_jump(
-        &mut self,
-        behind: &[DeclarationId],
-        columns: impl FnOnce() -> Vec<String>,
-        t: f64,
-    ) {
+    pub fn warn_of_jump(&mut self, behind: &[DeclarationId], columns: impl FnOnce() -> Vec<String>, t: f64) {
         if behind.iter().all(|&declaration| self.said.warned[declaration]) {
             return;
         }
         for &declaration in behind {
             self.said.warned[declaration] = true;
         }
-        self.push(Warning { t, event: Event::AccelerationJump { declarations: behind.to_vec(), columns: columns() } });
+        self.push(Warning {
+            t,
+            cause: WarningCause::AccelerationJump { declarations: behind.to_vec(), columns: columns() },
+        });
     }
 }

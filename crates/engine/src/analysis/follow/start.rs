@@ -5,7 +5,7 @@
 
 use super::lead::{LeadOptions, Leader, WAY, Way};
 use crate::analysis::assemble::{Doubt, Solving, Started, Unassembled, close_without_drivers, driver_residuals};
-use crate::analysis::explain::{Cause, Event, Stop, Warning};
+use crate::analysis::explain::{Stop, StopCause, Warning, WarningCause};
 use crate::analysis::state::{Horizon, Times};
 use mechc_expr::math;
 use mechc_ir::layout::RowLayout;
@@ -41,11 +41,7 @@ pub fn start(
 ///
 /// # Errors
 /// It cannot be assembled, starts in a singular position, or a formula has no value there.
-pub fn start_from(
-    whole: &Unassembled,
-    estimates: Option<&[f64]>,
-    solving: Solving,
-) -> Result<Started, Box<Stop>> {
+pub fn start_from(whole: &Unassembled, estimates: Option<&[f64]>, solving: Solving) -> Result<Started, Box<Stop>> {
     let (mut kinematics, t) = (whole.kinematics(estimates), whole.horizon.from);
     let Some(residuals) = driver_residuals(&mut kinematics, t) else { return whole.close_with(kinematics, solving) };
     let drawn = kinematics.estimates();
@@ -154,10 +150,7 @@ fn close_and_lead(
 ///
 /// # Errors
 /// The motion does not get there, or cannot begin there.
-pub fn follow_to(
-    whole: &Unassembled,
-    (started, own): (Started, f64),
-) -> Result<(Started, Vec<Warning>), Box<Stop>> {
+pub fn follow_to(whole: &Unassembled, (started, own): (Started, f64)) -> Result<(Started, Vec<Warning>), Box<Stop>> {
     let to = whole.horizon.from;
     let solver = started.shared_solver();
     let (q, passed) = if to < own {
@@ -170,7 +163,7 @@ pub fn follow_to(
         }
         let q = match motion.next_row() {
             Some(row) => row.map(|row| layout.position(row).to_vec()).map_err(|stop| stop.before_start(own))?,
-            None => return Err(Cause::NoStep { driver: None }.at(own)),
+            None => return Err(StopCause::NoStep { driver: None }.at(own)),
         };
         let passed = motion.take_remarks().into_iter().filter(Warning::is_passage);
         (q, passed.map(|warning| warning.before_start(own)).collect())
@@ -179,11 +172,7 @@ pub fn follow_to(
 }
 
 /// Where a motion comes from [m, rad], at a time before its start: it is followed back, along a straight line of time.
-fn follow_back(
-    whole: &Unassembled,
-    started: &Started,
-    own: f64,
-) -> Result<(Vec<f64>, Vec<Warning>), Box<Stop>> {
+fn follow_back(whole: &Unassembled, started: &Started, own: f64) -> Result<(Vec<f64>, Vec<Warning>), Box<Stop>> {
     let to = whole.horizon.from;
     let back = along(whole, &Homotopy::Time([own, to]))?;
     let options = LeadOptions::of(&back, own);
@@ -194,15 +183,15 @@ fn follow_back(
         (Some(q), _) => {
             let passed = way.passed.into_iter().map(|warning| Warning {
                 t: time_of(warning.t),
-                event: Event::PassedBeforeStart { from: own, is_backward: true, warning: Box::new(warning) },
+                cause: WarningCause::PassedBeforeStart { from: own, is_backward: true, warning: Box::new(warning) },
             });
             Ok((q, passed.collect()))
         }
         (None, Some(stop)) => {
             let t = time_of(stop.t);
-            Err(Cause::BeforeStart { from: own, is_backward: true, stop }.at(t))
+            Err(StopCause::BeforeStart { from: own, is_backward: true, stop }.at(t))
         }
-        (None, None) => Err(Cause::NoStep { driver: None }.at(own)),
+        (None, None) => Err(StopCause::NoStep { driver: None }.at(own)),
     }
 }
 
@@ -211,7 +200,10 @@ fn follow_back(
 /// # Errors
 /// These equations do not determine it.
 fn along(whole: &Unassembled, homotopy: &Homotopy) -> Result<Unassembled, Box<Stop>> {
-    let determined = whole.determined.along(homotopy).map_err(|refused| Cause::Undetermined(Box::new(refused.diagnostic)).at(whole.horizon.from))?;
+    let determined = whole
+        .determined
+        .along(homotopy)
+        .map_err(|refused| StopCause::Undetermined(Box::new(refused.diagnostic)).at(whole.horizon.from))?;
     let program = Arc::new(Program::new(determined.system()));
     Ok(Unassembled { determined: Arc::new(determined), program, horizon: WAY, ..whole.clone() })
 }

@@ -27,8 +27,8 @@ mod turn;
 mod varying;
 
 use crate::analysis::assemble::Started;
-use crate::analysis::follow::{Follower, Stretch};
 use crate::analysis::explain::Stop;
+use crate::analysis::follow::{Follower, Stretch};
 use crate::analysis::state::{Kinematics, State, Times};
 use crate::solver::Solver;
 use certain::Near;
@@ -290,7 +290,9 @@ impl Analysis {
     /// No results: the motion ends before the analysis does.
     fn without_motion(&self, stop: &Stop) -> Answers {
         let outcomes = &self.system().results().outcomes;
-        let notes = outcomes.first().map(|first| errors::results_without_motion(first, outcomes.len(), &stop.explain(self.system())));
+        let notes = outcomes
+            .first()
+            .map(|first| errors::results_without_motion(first, outcomes.len(), &stop.explain(self.system())));
         Answers {
             values: vec![None; outcomes.len()],
             digits: vec![0; outcomes.len()],

@@ -2,7 +2,7 @@
 
 use super::Crossing;
 use super::bridge::Bridge;
-use crate::analysis::explain::{Cause, Stop};
+use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, State};
 use mechc_ir::tolerances::singular::bridge::{CERTAIN, EXACT, OPEN, SOLVABLE};
@@ -35,7 +35,7 @@ impl Crossing {
             return Some(Ok(()));
         }
         // it may be certain as it is found without the bridge
-        self.passes.then(|| Err(Cause::Uncertain { declarations: Vec::new() }.at(t)))
+        self.passes.then(|| Err(StopCause::Uncertain { declarations: Vec::new() }.at(t)))
     }
 
     /// The state at a time by the curve over the last singular position.

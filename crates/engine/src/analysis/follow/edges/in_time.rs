@@ -2,7 +2,7 @@
 
 use super::restless::may_change;
 use super::{Edge, Edges};
-use crate::analysis::explain::{Cause, Stop};
+use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::state::Kinematics;
 use mechc_expr::math::{Halving, bisect};
 use mechc_ir::tolerances::steps::edges::{FINEST, MOST_PARTS};
@@ -33,11 +33,7 @@ impl Edges {
 
     /// The edge of time between two times, the switches being known at the first; none if nothing has changed at the second
     /// and shortly after it.
-    fn edge_within(
-        &mut self,
-        kinematics: &mut Kinematics,
-        [mut low, b]: [f64; 2],
-    ) -> Result<Option<Edge>, Box<Stop>> {
+    fn edge_within(&mut self, kinematics: &mut Kinematics, [mut low, b]: [f64; 2]) -> Result<Option<Edge>, Box<Stop>> {
         if !self.happens_at(kinematics, b) {
             return Ok(None);
         }
@@ -46,7 +42,7 @@ impl Edges {
             [low, high] = bisect([low, b], usize::MAX, |t| !self.happens_at(kinematics, t));
             kinematics.set_time(high);
             if let Some(index) = kinematics.broken_condition().filter(|_| high <= self.last) {
-                return Err(Cause::Condition { index }.at(high));
+                return Err(StopCause::Condition { index }.at(high));
             }
             let after = high.next_up();
             if self.happens_at(kinematics, after) {

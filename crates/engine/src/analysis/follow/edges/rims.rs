@@ -9,7 +9,7 @@
 use super::gauges::{Gauges, Met, Way};
 use super::limits::{Limits, Nearer, Verdict};
 use super::sides::columns_that_jump;
-use crate::analysis::explain::{Cause, Stop, errors};
+use crate::analysis::explain::{Stop, StopCause, errors};
 use crate::analysis::follow::remarks::Remarks;
 use crate::analysis::follow::step::{Step, write_prediction};
 use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
@@ -171,13 +171,13 @@ impl Rims {
                 return;
             }
             Verdict::Position { column, by } => {
-                Cause::PositionJump { declarations, jump: Some((column, by)), is_corner: false }
+                StopCause::PositionJump { declarations, jump: Some((column, by)), is_corner: false }
             }
-            Verdict::Corner => Cause::PositionJump { declarations, jump: None, is_corner: true },
+            Verdict::Corner => StopCause::PositionJump { declarations, jump: None, is_corner: true },
             Verdict::Velocity { column } => {
-                Cause::VelocityJump { declarations, column, velocities: [before.qd[column], after.qd[column]] }
+                StopCause::VelocityJump { declarations, column, velocities: [before.qd[column], after.qd[column]] }
             }
-            Verdict::NotFinite => Cause::NotFinite { declarations },
+            Verdict::NotFinite => StopCause::NotFinite { declarations },
         };
         if self.end.as_ref().is_none_or(|end| t < end.t) {
             self.end = Some(cause.at(t));

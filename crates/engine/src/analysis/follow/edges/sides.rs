@@ -1,6 +1,6 @@
 //! Both sides of an edge, at the same time: what jumps there.
 
-use crate::analysis::explain::{Cause, Stop};
+use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::follow::remarks::Remarks;
 use crate::analysis::follow::step::{Step, write_prediction};
 use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
@@ -159,11 +159,11 @@ impl Sides {
                 let far = |k: &usize| delta[*k].abs() / kinematics.linear().column_scale(*k);
                 let column = (0..delta.len()).max_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0);
                 let (jump, is_corner) = (Some((column, delta[column])), is_corner(kinematics));
-                Err(Cause::PositionJump { declarations: behind, jump, is_corner }.at(t))
+                Err(StopCause::PositionJump { declarations: behind, jump, is_corner }.at(t))
             }
             Jump::Velocity { column } => {
                 let velocities = [self.before.qd[column], step.state().qd[column]];
-                Err(Cause::VelocityJump { declarations: behind, column, velocities }.at(t))
+                Err(StopCause::VelocityJump { declarations: behind, column, velocities }.at(t))
             }
             Jump::Acceleration => {
                 remarks.take_jump(t);

@@ -1,6 +1,6 @@
 //! Forces beside the rows: contacts that would have to pull, in rows or between them, and loads that have no value.
 
-use crate::analysis::explain::{Cause, Event, Stop, Warning};
+use crate::analysis::explain::{Stop, StopCause, Warning, WarningCause};
 use crate::analysis::follow::remarks::Remarks;
 use crate::analysis::state::{Kinematics, State};
 use mechc_expr::ExprId;
@@ -65,21 +65,15 @@ impl WatchedLoad {
     }
 
     /// Warns once of a distance that has no direction at a time (s); a load that has no value is why there is none of anything.
-    fn look(
-        &mut self,
-        index: usize,
-        registers: &Registers,
-        t: f64,
-        remarks: &mut Remarks,
-    ) -> Result<(), Box<Stop>> {
+    fn look(&mut self, index: usize, registers: &Registers, t: f64, remarks: &mut Remarks) -> Result<(), Box<Stop>> {
         if !registers.get(self.force).is_finite() {
             let holds = |register: &Register| registers.get(*register) > 0.0;
             let broken = self.conditions.iter().position(|condition| !holds(condition));
-            return Err(Cause::Load { index, broken }.at(t));
+            return Err(StopCause::Load { index, broken }.at(t));
         }
         if !self.is_told && self.excess.is_some_and(|excess| registers.get(excess) <= 0.0) {
             self.is_told = true;
-            remarks.push(Warning { t, event: Event::LoadWithoutDirection { index } });
+            remarks.push(Warning { t, cause: WarningCause::LoadWithoutDirection { index } });
         }
         Ok(())
     }
@@ -172,7 +166,7 @@ impl ForceWatch {
                 && !self.has_pulled[k]
             {
                 self.has_pulled[k] = true;
-                remarks.push(Warning { t, event: Event::ContactPulls { index: k, force: pressing } });
+                remarks.push(Warning { t, cause: WarningCause::ContactPulls { index: k, force: pressing } });
             }
         }
         Ok(())

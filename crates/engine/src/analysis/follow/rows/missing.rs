@@ -1,6 +1,6 @@
 //! Rows in which a measure, derivative or force has no value.
 
-use crate::analysis::explain::{Event, Warning};
+use crate::analysis::explain::{Warning, WarningCause};
 use crate::analysis::follow::remarks::Remarks;
 use crate::analysis::state::Unknown;
 use mechc_ir::ConstraintSystem;
@@ -60,7 +60,7 @@ impl Missing {
         let all = measures.chain(derivatives).chain([(Unknown::Forces, &mut self.forces)]);
         for (quantity, gap) in all.filter(|(_, gap)| gap.rows > 0 && !gap.is_told) {
             gap.is_told = true;
-            remarks.push(Warning { t: gap.first, event: Event::WithoutValue { quantity, rows: gap.rows } });
+            remarks.push(Warning { t: gap.first, cause: WarningCause::WithoutValue { quantity, rows: gap.rows } });
         }
     }
 }
