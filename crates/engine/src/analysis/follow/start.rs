@@ -3,7 +3,7 @@
 //! The branch of a motion is decided once, by the drawing: the equations are closed with the drivers where the drawing has them, and
 //! then the drivers are led to where they begin, along that branch. To any other first time the motion is followed from there.
 
-use super::lead::{LeadOptions, Leader, WAY, Way};
+use super::continuation::{Continuation, LeadOptions, WAY, Way};
 use crate::analysis::assemble::{Doubt, Solving, Started, Unassembled, close_without_drivers, driver_residuals};
 use crate::analysis::explain::{Stop, StopCause, Warning, WarningCause};
 use crate::analysis::state::{Horizon, Times};
@@ -37,7 +37,7 @@ pub fn start(
 ///
 /// Where the drawing closes clearly better with the drivers where they begin, as of a crank that is not drawn, it means that. Where it closes
 /// neither way, or no way leads on, it is closed with its drivers left out, and driven from there; else it is closed from the estimates with
-/// the drivers where they begin. Both leave the branch in doubt, which [`Started::remarks`] tells.
+/// the drivers where they begin. Both leave the branch in doubt, which [`Started::warnings`] tells.
 ///
 /// # Errors
 /// It cannot be assembled, starts in a singular position, or a formula has no value there.
@@ -84,7 +84,7 @@ pub fn lead(
     parts: &[f64],
     options: &LeadOptions,
 ) -> Result<Way, Box<Stop>> {
-    let leader = Leader::new(determined, program, Solving::New, options);
+    let leader = Continuation::new(determined, program, Solving::New, options);
     let started = match stands {
         Some(q) => leader.whole(WAY).assemble_at(q, Solving::New)?,
         None => start_from(&leader.whole(WAY), None, Solving::New)?,
@@ -134,7 +134,7 @@ fn close_and_lead(
     let lines = residuals.iter().map(|residual| (residual.0, [residual.1, TAU * turns(residual)])).collect();
     let way = along(whole, &Homotopy::Residuals { t, lines }).ok()?;
     let options = LeadOptions::of(&way, t);
-    let leader = Leader::new(&way.determined, &way.program, Solving::With(None), &options);
+    let leader = Continuation::new(&way.determined, &way.program, Solving::With(None), &options);
     let closed = way.close(Some(drawn), Solving::With(None)).ok()?;
     let (doubt, moved) = (closed.doubt(), closed.moved_in_loops());
     if doubt == Some(Doubt::Perturbed) {
@@ -165,7 +165,7 @@ pub fn follow_to(whole: &Unassembled, (started, own): (Started, f64)) -> Result<
             Some(row) => row.map(|row| layout.position(row).to_vec()).map_err(|stop| stop.before_start(own))?,
             None => return Err(StopCause::NoStep { driver: None }.at(own)),
         };
-        let passed = motion.take_remarks().into_iter().filter(Warning::is_passage);
+        let passed = motion.take_warnings().into_iter().filter(Warning::is_passage);
         (q, passed.map(|warning| warning.before_start(own)).collect())
     };
     Ok((whole.assemble_at(&q, Solving::With(solver))?, passed))
@@ -176,7 +176,7 @@ fn follow_back(whole: &Unassembled, started: &Started, own: f64) -> Result<(Vec<
     let to = whole.horizon.from;
     let back = along(whole, &Homotopy::Time([own, to]))?;
     let options = LeadOptions::of(&back, own);
-    let leader = Leader::new(&back.determined, &back.program, Solving::With(None), &options);
+    let leader = Continuation::new(&back.determined, &back.program, Solving::With(None), &options);
     let mut way = leader.lead(back.assemble_at(started.q(), Solving::With(None))?, &[1.0]);
     let time_of = |fraction: f64| own + (to - own) * fraction;
     match (way.reached.pop(), way.stopped) {

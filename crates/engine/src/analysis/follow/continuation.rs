@@ -43,7 +43,7 @@ pub struct Way {
     /// The coordinates [m, rad] at the parts of the way that were asked for, as far as it got.
     pub reached: Vec<Vec<f64>>,
     /// What is to be said of where it began.
-    pub remarks: Diagnostics,
+    pub warnings: Diagnostics,
     /// Bifurcations that were passed; each `t` is a fraction of the path.
     pub passed: Vec<Warning>,
     /// Stop before the end; its `t` is a fraction of the path.
@@ -60,7 +60,7 @@ pub fn before_ways(
     stands: &[f64],
     options: &LeadOptions,
 ) -> Result<Started, Box<Stop>> {
-    Leader::new(determined, program, Solving::New, options).whole(WAY).assemble_at(stands, Solving::New)
+    Continuation::new(determined, program, Solving::New, options).whole(WAY).assemble_at(stands, Solving::New)
 }
 
 /// Leads a mechanism to the end of its path, from the start and with the solver that [`before_ways`] made for the same mechanism.
@@ -74,27 +74,27 @@ pub fn lead_again(
     options: &LeadOptions,
 ) -> Result<Way, Box<Stop>> {
     let solving = Solving::With(solver);
-    let leader = Leader::new(determined, program, solving.clone(), options);
+    let leader = Continuation::new(determined, program, solving.clone(), options);
     let started = leader.whole(WAY).assemble_at(stands, solving)?;
     Ok(leader.lead(started, &[1.0]))
 }
 
 /// What is led, and how.
-pub(super) struct Leader<'l> {
+pub(super) struct Continuation<'l> {
     determined: &'l Arc<Determined>,
     program: &'l Arc<Program>,
     solving: Solving,
     options: &'l LeadOptions,
 }
 
-impl<'l> Leader<'l> {
+impl<'l> Continuation<'l> {
     pub fn new(
         determined: &'l Arc<Determined>,
         program: &'l Arc<Program>,
         solving: Solving,
         options: &'l LeadOptions,
-    ) -> Leader<'l> {
-        Leader { determined, program, solving, options }
+    ) -> Continuation<'l> {
+        Continuation { determined, program, solving, options }
     }
 
     /// What is led, to be assembled where a horizon begins.
@@ -107,8 +107,8 @@ impl<'l> Leader<'l> {
     /// Follows it from a start at 0 to some parts of the way.
     pub fn lead(&self, mut started: Started, parts: &[f64]) -> Way {
         let options = self.options;
-        let remarks = started.far_estimates_at(options.t);
-        let mut way = Way { reached: Vec::new(), remarks, passed: Vec::new(), stopped: None };
+        let warnings = started.far_estimates_at(options.t);
+        let mut way = Way { reached: Vec::new(), warnings, passed: Vec::new(), stopped: None };
         let mut from = (0.0, started.q().to_vec());
         for _ in 0..MOST_KINKS {
             let known = way.reached.len();
@@ -180,7 +180,7 @@ impl<'l> Leader<'l> {
             }
             break;
         }
-        passed.extend(motion.take_remarks().into_iter().filter(Warning::is_passage));
+        passed.extend(motion.take_warnings().into_iter().filter(Warning::is_passage));
         stopped
     }
 }

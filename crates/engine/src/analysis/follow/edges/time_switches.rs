@@ -1,6 +1,6 @@
 //! Edges of time, which are looked for before a step.
 
-use super::restless::may_change;
+use super::chattering::may_change;
 use super::{Edge, Edges};
 use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::state::Kinematics;
@@ -27,8 +27,8 @@ impl Edges {
     }
 
     fn is_steady_in_time(&mut self, kinematics: &Kinematics, part: [f64; 2]) -> bool {
-        let Edges { in_time, restless, .. } = self;
-        kinematics.is_steady(in_time, part, &[], |register| may_change(kinematics, restless, register, part[0]))
+        let Edges { in_time, chattering, .. } = self;
+        kinematics.is_steady(in_time, part, &[], |register| may_change(kinematics, chattering, register, part[0]))
     }
 
     /// The edge of time between two times, the switches being known at the first; none if nothing has changed at the second
@@ -62,8 +62,8 @@ impl Edges {
     /// Whether a switch of time would change at a time, or a formula of time ends.
     fn happens_at(&self, kinematics: &mut Kinematics, t: f64) -> bool {
         kinematics.set_time(t);
-        let switches = kinematics.switches().iter().zip(&self.restless);
-        let mut of_time = switches.filter(|(switch, restless)| switch.on_time && !restless.is_left_alone(t));
+        let switches = kinematics.switches().iter().zip(&self.chattering);
+        let mut of_time = switches.filter(|(switch, chattering)| switch.on_time && !chattering.is_suspended(t));
         of_time.any(|(switch, _)| kinematics.would_switch(switch)) || self.breaks_in_time(kinematics)
     }
 

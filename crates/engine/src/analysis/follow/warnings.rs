@@ -3,8 +3,8 @@
 use crate::analysis::explain::{Warning, WarningCause};
 use mechc_ir::{ConstraintSystem, DeclarationId, IdVec};
 
-/// Remarks of a motion so far.
-pub struct Remarks {
+/// Warnings of a motion so far.
+pub struct Warnings {
     said: Said,
     /// Times at which accelerations have jumped (s), if anybody asks for them.
     jumps: Option<Vec<f64>>,
@@ -18,10 +18,10 @@ pub struct Said {
     warned: IdVec<DeclarationId, bool>,
 }
 
-impl Remarks {
-    pub fn new(system: &ConstraintSystem) -> Remarks {
+impl Warnings {
+    pub fn new(system: &ConstraintSystem) -> Warnings {
         let warned = system.declarations().map(|_| false);
-        Remarks { said: Said { warnings: Vec::new(), warned }, jumps: None }
+        Warnings { said: Said { warnings: Vec::new(), warned }, jumps: None }
     }
 
     pub fn push(&mut self, warning: Warning) {

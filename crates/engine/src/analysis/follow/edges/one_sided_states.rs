@@ -1,8 +1,8 @@
 //! Both sides of an edge, at the same time: what jumps there.
 
 use crate::analysis::explain::{Stop, StopCause};
-use crate::analysis::follow::remarks::Remarks;
 use crate::analysis::follow::step::{Step, write_prediction};
+use crate::analysis::follow::warnings::Warnings;
 use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
 use mechc_ir::layout::{ColumnKind, columns};
 use mechc_ir::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};
@@ -29,7 +29,7 @@ struct Pace {
 }
 
 /// The earlier side of the edge that is being crossed, and what there is to compare the later one with.
-pub(super) struct Sides {
+pub(super) struct OneSidedStates {
     before: State,
     row_before: Vec<f64>,
     /// Of the later side.
@@ -41,11 +41,11 @@ pub(super) struct Sides {
     span: f64,
 }
 
-impl Sides {
-    pub fn new(kinematics: &Kinematics, state: &State, span: f64) -> Sides {
+impl OneSidedStates {
+    pub fn new(kinematics: &Kinematics, state: &State, span: f64) -> OneSidedStates {
         let row = vec![0.0; kinematics.row_length()];
         let switches = vec![0.0; kinematics.switches().len()];
-        Sides { before: state.clone(), row_before: row.clone(), row, switches, pace: Pace::default(), span }
+        OneSidedStates { before: state.clone(), row_before: row.clone(), row, switches, pace: Pace::default(), span }
     }
 
     /// The earlier side.
@@ -64,7 +64,7 @@ impl Sides {
     }
 
     /// Takes note of how fast a motion changes from one state to another, `h` (s) later.
-    pub fn take_pace(&mut self, kinematics: &Kinematics, [a, b]: [&State; 2], h: f64) {
+    pub fn record_rates(&mut self, kinematics: &Kinematics, [a, b]: [&State; 2], h: f64) {
         let linear = kinematics.linear();
         let change = |a: &[f64], b: &[f64]| {
             let scaled = |k: usize| (b[k] - a[k]).abs() / linear.column_scale(k);
@@ -148,7 +148,7 @@ impl Sides {
         kinematics: &Kinematics,
         step: &Step,
         jump: Jump,
-        remarks: &mut Remarks,
+        warnings: &mut Warnings,
     ) -> Result<(), Box<Stop>> {
         let system = kinematics.system();
         let behind = self.declarations_behind(kinematics, jump);
@@ -166,9 +166,9 @@ impl Sides {
                 Err(StopCause::VelocityJump { declarations: behind, column, velocities }.at(t))
             }
             Jump::Acceleration => {
-                remarks.take_jump(t);
+                warnings.take_jump(t);
                 let columns = || columns_that_jump(system, self.span, [&self.row_before, &self.row]);
-                remarks.warn_of_jump(&behind, columns, t);
+                warnings.warn_of_jump(&behind, columns, t);
                 Ok(())
             }
         }

@@ -7,7 +7,7 @@ use crate::analysis::state::{Kinematics, State};
 use mechc_ir::tolerances::singular::misses::{EVEN, FALLS, FAR, OF_LENGTHS, WITHIN};
 
 /// What there is to be said of the least distance to a singular position so far.
-pub struct Misses {
+pub struct NearMisses {
     /// The last two states that were come to.
     last: [Look; 2],
     /// The second of these.
@@ -20,7 +20,7 @@ pub struct Misses {
     highest: f64,
     /// Whether rows are handed out, beside which it is told; a motion that is followed for its results alone is not watched.
     is_watching: bool,
-    is_told: bool,
+    is_reported: bool,
     found: Option<Miss>,
 }
 
@@ -44,16 +44,16 @@ impl Look {
     const NONE: Look = Look { t: f64::NEG_INFINITY, sigma: f64::NEG_INFINITY };
 }
 
-impl Misses {
-    pub fn new(state: &State) -> Misses {
-        Misses {
+impl NearMisses {
+    pub fn new(state: &State) -> NearMisses {
+        NearMisses {
             last: [Look::NONE; 2],
             state: state.clone(),
             nearest: state.clone(),
             beside: state.clone(),
             highest: 0.0,
             is_watching: false,
-            is_told: false,
+            is_reported: false,
             found: None,
         }
     }
@@ -71,7 +71,7 @@ impl Misses {
     /// Looks at a state that was just come to, where it was factored, with what it was factored with left as it is.
     pub fn take(&mut self, kinematics: &mut Kinematics, state: &State) {
         // where equations were left out, those that are solved near singular positions at which all together do not
-        if !self.is_watching || self.is_told || !kinematics.system().checks().is_empty() {
+        if !self.is_watching || self.is_reported || !kinematics.system().checks().is_empty() {
             return;
         }
         if state.t <= self.last[1].t {
@@ -90,7 +90,7 @@ impl Misses {
             let within = OF_LENGTHS * turning * speed * speed;
             if is_even && within <= WITHIN {
                 self.nearest.copy_from(&self.state);
-                (self.is_told, self.found) = (true, Some(Miss { t, within }));
+                (self.is_reported, self.found) = (true, Some(Miss { t, within }));
             }
             kinematics.restore(state);
         }
@@ -104,7 +104,7 @@ impl Misses {
         let Miss { t, within } = self.found.take_if(|miss| miss.t <= t)?;
         let why = singular::warn_of_miss(kinematics, &self.nearest, within, t);
         kinematics.restore(here);
-        self.is_told = why.is_some();
+        self.is_reported = why.is_some();
         why
     }
 }
