@@ -48,7 +48,7 @@ pub use mechc_pipeline::{
 pub use mechc_syntax::{Comment, Trivia};
 pub use mechc_text::cancel::Cancel;
 pub use mechc_text::diag::{
-    Applies, Blame, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, Severity, fixed, render,
+    Applies, Blame, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, OptionText, Severity, fixed, render,
 };
 pub use mechc_text::source::{Encoding, FileId, Source, Sources, Span};
 pub use mechc_text::vocabulary::{Category, Word, words};

@@ -1,6 +1,7 @@
 //! Diagnostics as exceptions: the data, the text that the command prints, and the kind that says who is to mend it. The classes are
 //! in `mechc/errors.py`.
 
+use crate::words::in_python;
 use mechc::{Blame, Color, Diagnostic, Diagnostics, Format, Severity, Sources, render};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -29,10 +30,13 @@ pub type Packed = (Vec<String>, String, String, Option<f64>, Option<String>);
 impl Said {
     /// Diagnostics of some texts.
     pub fn of(diagnostics: &Diagnostics, sources: &Sources) -> Said {
-        let each =
-            |format| move |of: &Diagnostic| render(of, sources, format, Color::Never).trim_end_matches('\n').to_owned();
-        let json = diagnostics.iter().map(each(Format::Json)).collect();
-        let texts: Vec<String> = diagnostics.iter().map(each(Format::Human)).collect();
+        let (mut json, mut texts) = (Vec::new(), Vec::new());
+        for diagnostic in diagnostics.iter() {
+            let (diagnostic, sources) = in_python(diagnostic, sources);
+            let text = |format| render(&diagnostic, &sources, format, Color::Never).trim_end_matches('\n').to_owned();
+            json.push(text(Format::Json));
+            texts.push(text(Format::Human));
+        }
         let first = diagnostics.iter().find(|of| of.severity() == Severity::Error);
         let blame = match Blame::of(diagnostics, sources) {
             None => "",

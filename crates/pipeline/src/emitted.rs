@@ -243,5 +243,5 @@ struct Signals {
 
 fn too_large() -> Diagnostic {
     Diagnostic::new(Code::E0706, "the solver of this mechanism would take too many operations")
-        .help("leave it out with `--with equations`, in a file that `-o` names")
+        .help("write the equations alone: `--with equations`")
 }

@@ -226,7 +226,7 @@ fn refuse_without_counterpart(vary: &VaryOptions, asked: &[Asked]) -> Result<(),
     match (range, even, vary.sample) {
         (Some((name, ..)), Some(even), _) => refused(
             format!("`{even}` has a number of values, and `{name}` has none"),
-            "give all ranges a number of values, as in `A..B:50`, or none, with `--sample N` for all of them together",
+            "give all ranges a number of values, as in `--vary NAME=A..B:50`, or none, with `--sample N` for all of them together",
         ),
         (Some((name, first, last)), None, None) => refused(
             format!("it is not said how many values `{name}` has"),

@@ -163,6 +163,16 @@ impl Sources {
         FileId(self.files.len() as u32 - 1)
     }
 
+    /// Returns the texts with other names for those of options, which `name` gives from the present ones.
+    #[must_use]
+    pub fn with_option_names(&self, name: impl Fn(&str) -> String) -> Sources {
+        let renamed = |source: &Arc<Source>| match source.is_option {
+            true => Arc::new(Source { name: name(&source.name), ..(**source).clone() }),
+            false => Arc::clone(source),
+        };
+        Sources { files: self.files.iter().map(renamed).collect() }
+    }
+
     /// The text behind an id that [`Sources::add`] gave.
     #[must_use]
     pub fn get(&self, file: FileId) -> &Source {

@@ -1,19 +1,18 @@
 //! What all variants of a mechanism share, and the careful way from there to one of them: it is assembled with its own values, and led over
 //! to others along the branch. Where a variant begins depends on its own values alone, whichever others there are.
 
-use crate::analysis::{self, Horizon, LeadOptions, Solving, Started, Unassembled};
+use crate::analysis::{self, Horizon, LeadOptions, Solving, Started, Stop, Unassembled, Warning};
 use crate::solver::Solver;
 use mechc_ir::program::Program;
 use mechc_ir::structure::Determined;
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::{Diagnostic, Diagnostics};
 use std::sync::Arc;
 
 /// A mechanism that is compiled.
 pub type Whole = (Arc<Determined>, Arc<Program>);
 
 /// The bifurcations that were passed, by their parts of the way from 0 to 1, with what is to be said of each.
-pub type Passed = Vec<(f64, Diagnostic)>;
+pub type Passed = Vec<Warning>;
 
 /// A place where a mechanism stands, with what solves for its rows from there on.
 #[derive(Clone)]
@@ -58,15 +57,15 @@ pub struct Arrived {
     /// What was passed on the way.
     pub passed: Passed,
     /// What is to be said of its motion from its own first time to the one that is asked for.
-    pub said: Diagnostics,
+    pub said: Vec<Warning>,
 }
 
 /// Why a variant stands nowhere.
 pub enum Lost {
     /// The way ends at a part of it, from 0 to 1, with what happens there.
-    OnItsWay(f64, Box<Diagnostic>),
+    OnItsWay(Box<Stop>),
     /// It got there, and cannot begin there.
-    There(Box<Diagnostic>),
+    There(Box<Stop>),
 }
 
 impl Base {
@@ -81,7 +80,7 @@ impl Base {
         on_its_way: Whole,
         (led, goes): (Vec<u32>, bool),
         options: LeadOptions,
-    ) -> Result<Base, Box<Diagnostic>> {
+    ) -> Result<Base, Box<Stop>> {
         let (own, stands) = (whole.0.system().values_of_params(), Place::of(started));
         let begins = analysis::before_ways(&on_its_way.0, &on_its_way.1, &stands.q, &options)?;
         let (is_plain, begins) = (begins.is_plain(), Place::of(&begins));
@@ -118,7 +117,7 @@ impl Base {
         let solving = Solving::With(self.stands.solver.clone());
         if is_there {
             let started = whole.assemble_at(&q, solving).map_err(Lost::There)?;
-            return Ok(Arrived { started, passed, said: Diagnostics::default() });
+            return Ok(Arrived { started, passed, said: Vec::new() });
         }
         let begun = Unassembled { horizon: horizon.beginning(own), ..whole.clone() }.assemble_at(&q, solving);
         let followed = begun.and_then(|begun| analysis::follow_to(&whole, (begun, own)));
@@ -138,10 +137,10 @@ impl Base {
         let determined = Arc::new(self.on_its_way.0.with_values(&on_its_way));
         let options = LeadOptions { cancel: cancel.clone(), ..self.options.clone() };
         let way = analysis::lead_again(&determined, &self.on_its_way.1, self.begins.shared(), &options);
-        let mut way = way.map_err(|why| Lost::OnItsWay(0.0, why))?;
+        let mut way = way.map_err(|stop| Lost::OnItsWay(Box::new(Stop { t: 0.0, ..*stop })))?;
         match (way.reached.pop(), way.stopped) {
             (Some(q), _) => Ok((q, way.passed)),
-            (None, Some((part, why))) => Err(Lost::OnItsWay(part, why)),
+            (None, Some(stop)) => Err(Lost::OnItsWay(stop)),
             // who cancelled does not read why
             (None, None) => Ok((self.stands.q.clone(), Vec::new())),
         }

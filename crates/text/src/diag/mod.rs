@@ -9,6 +9,7 @@ mod codes;
 mod fix;
 mod nearest;
 mod number;
+mod options;
 mod render;
 
 pub use blame::Blame;
@@ -16,6 +17,7 @@ pub use codes::Code;
 pub use fix::{Applies, Edit, Fix, fixed};
 pub use nearest::nearest;
 pub use number::readable;
+pub use options::OptionText;
 pub use render::{Color, Format, render, render_made, visible};
 
 use crate::source::Span;

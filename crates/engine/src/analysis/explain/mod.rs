@@ -11,6 +11,8 @@ mod proposals;
 mod redundancy;
 mod sharing;
 pub mod singular;
+mod stop;
 
 pub use determine::{determine, free_motions};
 pub use freedom::FreeMotion;
+pub use stop::{SingularPosition, Stop, StopCause, Warning, WarningCause};

@@ -15,6 +15,7 @@ use mechc_ir::tolerances::determinacy::open_loop::{
 use mechc_ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, PointId};
 
 /// A loop that does not close.
+#[derive(Clone, Debug)]
 pub struct OpenLoop {
     /// The declaration at which it is told to be open.
     pub at: DeclarationId,
@@ -31,6 +32,7 @@ pub struct OpenLoop {
 }
 
 /// A length that is too short or too long.
+#[derive(Clone, Debug)]
 pub struct Link {
     /// What it is of.
     pub of: LinkOf,

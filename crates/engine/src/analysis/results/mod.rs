@@ -27,6 +27,7 @@ mod turn;
 mod varying;
 
 use crate::analysis::assemble::Started;
+use crate::analysis::explain::Stop;
 use crate::analysis::follow::{Follower, Stretch};
 use crate::analysis::state::{Kinematics, State, Times};
 use crate::solver::Solver;
@@ -189,7 +190,7 @@ impl Analysis {
     }
 
     /// Looks at the motion for some reductions.
-    fn follow(&mut self, level: &[usize]) -> Result<(), Box<Diagnostic>> {
+    fn follow(&mut self, level: &[usize]) -> Result<(), Box<Stop>> {
         let determined = Arc::clone(&self.determined);
         let system = determined.system();
         let mut asked: Vec<(usize, Reduction, [f64; 2])> = Vec::with_capacity(level.len());
@@ -238,7 +239,7 @@ impl Analysis {
     }
 
     /// Looks at formulas along the whole motion, which is followed once if its steps can be kept.
-    fn look(&mut self, all: &mut [Reduced], places: &mut Places) -> Result<(), Box<Diagnostic>> {
+    fn look(&mut self, all: &mut [Reduced], places: &mut Places) -> Result<(), Box<Stop>> {
         let [from, to] = self.asked.interval;
         let span = to - from;
         if let Some(steps) = &self.steps {
@@ -287,9 +288,11 @@ impl Analysis {
     }
 
     /// No results: the motion ends before the analysis does.
-    fn without_motion(&self, why: &Diagnostic) -> Answers {
+    fn without_motion(&self, stop: &Stop) -> Answers {
         let outcomes = &self.system().results().outcomes;
-        let notes = outcomes.first().map(|first| errors::results_without_motion(first, outcomes.len(), why));
+        let notes = outcomes
+            .first()
+            .map(|first| errors::results_without_motion(first, outcomes.len(), &stop.explain(self.system())));
         Answers {
             values: vec![None; outcomes.len()],
             digits: vec![0; outcomes.len()],

@@ -1,7 +1,7 @@
 //! States within a stretch of the motion, solved for where they are asked for.
 
 use super::varying::Varying;
-use crate::analysis::follow::{Alone, Chosen, Stretch, quintic_between, state_of_row};
+use crate::analysis::follow::{SelectedRows, SingleRow, Stretch, quintic_between, state_of_row};
 use crate::analysis::state::{Kinematics, State};
 use crate::solver::{Batch, Solver};
 use mechc_expr::math::along;
@@ -15,10 +15,10 @@ use std::sync::Arc;
 pub(super) struct Places {
     kinematics: Kinematics,
     /// The equations that are solved, if they are others than those at the start.
-    chosen: Option<Arc<Chosen>>,
+    chosen: Option<Arc<SelectedRows>>,
     /// Those at the start, with what solves them.
     first: (Kinematics, Option<Arc<Solver>>),
-    solver: Option<(Arc<Solver>, Alone)>,
+    solver: Option<(Arc<Solver>, SingleRow)>,
     curve: Vec<[f64; 6]>,
     delta: Vec<f64>,
     /// By row of Φ, one over what may be left of it; of the stretch, once that has been asked for.
@@ -54,7 +54,7 @@ impl Places {
         let signals = Ranges::new(program, values, &registers, Stage::Time, true);
         let first = (kinematics.clone(), solver.clone());
         let solver = solver.map(|solver| {
-            let alone = Alone::new(&kinematics, &solver);
+            let alone = SingleRow::new(&kinematics, &solver);
             (solver, alone)
         });
         Places {

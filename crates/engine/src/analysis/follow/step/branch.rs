@@ -96,7 +96,7 @@ impl Branch {
         self.way = Way { h, smallest_pivot: kinematics.linear().smallest_pivot() };
     }
 
-    pub fn take_sides(&mut self, kinematics: &Kinematics) {
+    pub fn record_monitor_signs(&mut self, kinematics: &Kinematics) {
         kinematics.sides(&mut self.now.sides);
     }
 

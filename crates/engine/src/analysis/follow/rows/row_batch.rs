@@ -1,7 +1,7 @@
 //! A step over several output times, whose rows are solved for on its curve, several at once (`solver`).
 
-use super::alone::Alone;
-use crate::analysis::follow::bookmark::Bookmark;
+use super::single_row::SingleRow;
+use crate::analysis::follow::checkpoint::Checkpoint;
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, State, Times, are_alike};
 use crate::solver::{Batch, Bend, Lanes, Pivoting, Solver};
@@ -18,7 +18,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 
 /// Rows within a step, a few at a time.
-pub struct Leap {
+pub struct RowBatch {
     solver: Arc<Solver>,
     /// The registers of each thread.
     lanes: Vec<Lanes<LANES>>,
@@ -27,7 +27,7 @@ pub struct Leap {
     begin: usize,
     holds: Vec<[bool; LANES]>,
     /// For the end of a step.
-    alone: Alone,
+    alone: SingleRow,
     /// A position as a curve that stays there.
     rest: Vec<[f64; 6]>,
     /// Where the solver's order of elimination loses digits; none where a block is too large.
@@ -44,7 +44,7 @@ pub struct Leap {
     bounds: Vec<f64>,
     has_bounds: bool,
     /// Where the step begins.
-    origin: Bookmark,
+    origin: Checkpoint,
     length: f64,
     /// Where the step before began, if it led smoothly to this one.
     before: State,
@@ -78,18 +78,18 @@ pub fn state_of_row(layout: &RowLayout, row: &[f64], like: &State, t: f64) -> St
     State { t, q: part(0), qd: part(1), qdd: part(2), qddd }
 }
 
-impl Leap {
-    /// With the operations of a solver, for a motion that is at a bookmark and is measured against a span (s).
-    pub fn new(kinematics: &Kinematics, solver: Arc<Solver>, origin: Bookmark, span: f64) -> Leap {
+impl RowBatch {
+    /// With the operations of a solver, for a motion that is at a checkpoint and is measured against a span (s).
+    pub fn new(kinematics: &Kinematics, solver: Arc<Solver>, origin: Checkpoint, span: f64) -> RowBatch {
         let threads = threads(&solver);
         let n = kinematics.system().coordinates().len();
         let values = vec![0.0; threads * LANES * solver.layout().stride + WIDE];
-        Leap {
+        RowBatch {
             lanes: vec![Lanes::for_rows(&solver, kinematics.vectors()); threads],
             begin: to_next_line(values.as_ptr()),
             values,
             holds: vec![[false; LANES]; threads],
-            alone: Alone::new(kinematics, &solver),
+            alone: SingleRow::new(kinematics, &solver),
             rest: vec![[0.0; 6]; n],
             pivoting: Pivoting::new(&kinematics.determined()),
             pivoted: origin.state().clone(),
@@ -122,7 +122,7 @@ impl Leap {
     }
 
     /// Where the step that was gone over last begins.
-    pub fn origin(&self) -> &Bookmark {
+    pub fn origin(&self) -> &Checkpoint {
         &self.origin
     }
 
@@ -181,7 +181,7 @@ impl Leap {
 
     /// The same from where the derivatives lead, for a step of length `h`.
     fn solve_on_parabola(&mut self, kinematics: &Kinematics, step: &mut Step, h: f64, t: f64) -> bool {
-        step.draw_way_ahead(h, self.solver.tears().iter().map(|&tear| tear as usize));
+        step.extrapolate_curve(h, self.solver.tears().iter().map(|&tear| tear as usize));
         self.solve_within(kinematics, step.curve(), [step.t(), h, t])
     }
 
@@ -234,7 +234,7 @@ impl Leap {
         step: &Step,
         (times, next): (&Times, u64),
         (h, end, to_edge): (f64, f64, bool),
-        take_origin: impl FnOnce(&mut Bookmark),
+        take_origin: impl FnOnce(&mut Checkpoint),
     ) {
         let behind = times.first_after(end, next);
         let at_end = to_edge && behind > next && times.at(behind - 1) >= end;
@@ -298,7 +298,7 @@ impl Leap {
     /// Solves for the next rows of a step, in threads where there is enough to do: each has times of its own, so that the bits
     /// are the same.
     fn solve_batch(&mut self, kinematics: &Kinematics, step: &Step, (times, next): (&Times, u64)) {
-        let Leap { solver, lanes, values, holds, bounds, bends, .. } = self;
+        let RowBatch { solver, lanes, values, holds, bounds, bends, .. } = self;
         let (first, last) = (next, self.last.min(next + (LANES * lanes.len()) as u64));
         (self.first, self.end) = (first, last);
         let batch = |part: usize| Batch {

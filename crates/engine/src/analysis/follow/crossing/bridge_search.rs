@@ -1,7 +1,7 @@
 //! A way over the singular position that the steps have come up to is looked for.
 
 use super::bridge::Bridge;
-use super::reach::end_of_reach;
+use super::end_of_reach::end_of_reach;
 use super::singular_times::{settle_times, singular_time};
 use super::{Crossing, is_clear};
 use crate::analysis::explain::singular;

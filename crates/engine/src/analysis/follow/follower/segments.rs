@@ -3,10 +3,10 @@
 //! They do not depend on which rows are asked for, and end at the edges of the equations.
 
 use super::Follower;
-use crate::analysis::follow::choice::{Choice, Chosen};
+use crate::analysis::explain::Stop;
 use crate::analysis::follow::crossing::Bridge;
+use crate::analysis::follow::row_selection::{RowSelection, SelectedRows};
 use crate::analysis::state::State;
-use mechc_text::diag::Diagnostic;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ pub struct Stretch {
     /// The results of the equations' switches.
     pub switches: Rc<[f64]>,
     /// The equations that are solved there, if they are others than those at the start.
-    pub chosen: Option<Arc<Chosen>>,
+    pub chosen: Option<Arc<SelectedRows>>,
     /// The way over a singular position, if it is one.
     pub bridge: Option<Bridge>,
     /// Whether it begins behind an edge, or at the start.
@@ -52,7 +52,7 @@ impl Follower {
     ///
     /// # Errors
     /// Why and where the motion cannot go on.
-    pub fn next_stretch(&mut self) -> Result<Option<Stretch>, Box<Diagnostic>> {
+    pub fn next_stretch(&mut self) -> Result<Option<Stretch>, Box<Stop>> {
         let mut begins_at_edge = !self.begin()?;
         let last = self.last;
         let mut from = self.step.state().clone();
@@ -83,7 +83,7 @@ impl Follower {
         let bridge = crossing.bridge_to(kinematics, step, to.t).cloned();
         let middle = if bridge.is_some() { None } else { self.middle_of_leap() };
         let ends_at_edge = self.edge.is_some() || to.t >= self.last;
-        let chosen = self.choice.as_ref().and_then(Choice::current).cloned();
+        let chosen = self.choice.as_ref().and_then(RowSelection::current).cloned();
         Stretch { from, middle, to, switches: self.switches(), chosen, bridge, begins_at_edge, ends_at_edge }
     }
 

@@ -1,4 +1,4 @@
-//! Rims: the times where a formula comes to the end of what one of its functions takes, as `sqrt((t - 1 s)^2)` does.
+//! DomainBoundaries: the times where a formula comes to the end of what one of its functions takes, as `sqrt((t - 1 s)^2)` does.
 //!
 //! No switch tells of such an edge, and at its very time the formula mostly has no derivative. What is known is a quantity,
 //! the gauge, that is zero there, and its slope along the motion. A step is proven by intervals to hold none: the gauge
@@ -6,28 +6,27 @@
 //! neighbouring doubles, the step ends before it, and both sides are judged by states ever nearer to it
 //! (`analysis/follow/edges/limits.rs`). What agrees on both sides is no edge, and the motion goes on as if nothing had been.
 
-use super::gauges::{Gauges, Met, Way};
-use super::limits::{Limits, Nearer, Verdict};
-use super::sides::columns_that_jump;
-use crate::analysis::explain::errors;
-use crate::analysis::follow::remarks::Remarks;
+use super::event_functions::{EventFunctions, Met, Way};
+use super::one_sided_limits::{Nearer, OneSidedLimits, Verdict};
+use super::one_sided_states::columns_that_jump;
+use crate::analysis::explain::{Stop, StopCause, errors};
 use crate::analysis::follow::step::{Step, write_prediction};
+use crate::analysis::follow::warnings::Warnings;
 use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
 use mechc_expr::math::{Halving, bisect};
 use mechc_ir::tolerances::steps::rims::{
     FARTHEST, FINEST, FINEST_BETWEEN, KNOWN, LAST_MOMENT, MOMENT, MOMENT_OF_MOTION, MOST_HALVINGS, MOST_PARTS,
     MOST_PARTS_BETWEEN, ROUNDING,
 };
-use mechc_text::diag::Diagnostic;
 
 /// What is known of the rims.
-pub(super) struct Rims {
-    gauges: Gauges,
+pub(super) struct DomainBoundaries {
+    gauges: EventFunctions,
     /// The rim that a step has come to, at a time (s).
     met: Option<Met>,
-    /// Where the motion ends, and why.
-    end: Option<(f64, Box<Diagnostic>)>,
-    limits: Limits,
+    /// The stop that the motion comes to.
+    end: Option<Box<Stop>>,
+    limits: OneSidedLimits,
     /// The rows of both sides.
     rows: [Vec<f64>; 2],
     /// Results of the switches where the motion is.
@@ -40,14 +39,14 @@ pub(super) struct Rims {
     last: f64,
 }
 
-impl Rims {
-    pub fn new(kinematics: &Kinematics, state: &State, span: f64, last: f64) -> Rims {
+impl DomainBoundaries {
+    pub fn new(kinematics: &Kinematics, state: &State, span: f64, last: f64) -> DomainBoundaries {
         let (n, row) = (state.q.len(), vec![0.0; kinematics.row_length()]);
-        Rims {
-            gauges: Gauges::new(kinematics, state.t, span),
+        DomainBoundaries {
+            gauges: EventFunctions::new(kinematics, state.t, span),
             met: None,
             end: None,
-            limits: Limits::new(state),
+            limits: OneSidedLimits::new(state),
             rows: [row.clone(), row],
             switches: vec![0.0; kinematics.switches().len()],
             place: vec![0.0; n],
@@ -62,7 +61,7 @@ impl Rims {
         if self.gauges.is_empty() {
             return None;
         }
-        let end = self.end.as_ref().map(|(t, _)| t - (shortly_after(*t) - t) * (LAST_MOMENT / 4.0));
+        let end = self.end.as_ref().map(|end| end.t - (shortly_after(end.t) - end.t) * (LAST_MOMENT / 4.0));
         let reach = end.map_or(reach, |end| end.min(reach));
         self.met = self.met.take().filter(|met| !self.gauges.rim(met.rim).on_time);
         let from = step.t();
@@ -83,14 +82,14 @@ impl Rims {
         &mut self,
         kinematics: &mut Kinematics,
         step: &mut Step,
-        remarks: &mut Remarks,
-    ) -> Result<(), Box<Diagnostic>> {
+        warnings: &mut Warnings,
+    ) -> Result<(), Box<Stop>> {
         if let Some(Met { rim, t }) = self.met.take() {
-            self.judge(kinematics, step, (rim, t), remarks);
+            self.judge(kinematics, step, (rim, t), warnings);
             return Ok(());
         }
         match self.end.take() {
-            Some((_, why)) => Err(why),
+            Some(stop) => Err(stop),
             None => Ok(()),
         }
     }
@@ -101,19 +100,19 @@ impl Rims {
         kinematics: &mut Kinematics,
         step: &mut Step,
         h: f64,
-        remarks: &mut Remarks,
-    ) -> Option<Box<Diagnostic>> {
+        warnings: &mut Warnings,
+    ) -> Option<Box<Stop>> {
         if self.end.is_none() {
             // the way that the state leads to, as far as a rim may be that keeps steps from coming nearer
             let h = h.max(FARTHEST * self.span);
             if self.gauges.has_any(Way::Curve(h)) {
-                step.draw_way_ahead(h, 0..step.state().q.len());
+                step.extrapolate_curve(h, 0..step.state().q.len());
             }
             if let Some(met) = self.first_on_curve(kinematics, step, h) {
-                self.judge(kinematics, step, (met.rim, step.t() + met.t * h), remarks);
+                self.judge(kinematics, step, (met.rim, step.t() + met.t * h), warnings);
             }
         }
-        self.end.take().map(|(_, why)| why)
+        self.end.take()
     }
 
     /// Looks for rims that a step of length `h` goes over, on the curve through both its ends, which must have been drawn.
@@ -149,7 +148,7 @@ impl Rims {
         kinematics: &mut Kinematics,
         step: &mut Step,
         (rim, near): (usize, f64),
-        remarks: &mut Remarks,
+        warnings: &mut Warnings,
     ) {
         self.keep_switches(kinematics);
         let on_time = self.gauges.rim(rim).on_time;
@@ -163,22 +162,25 @@ impl Rims {
         let _ = step.derive_state(kinematics);
         let (system, behind) = (kinematics.system(), &kinematics.system().rims()[rim].declarations);
         let [before, after] = self.limits.sides();
-        let why = match verdict {
+        let declarations = behind.clone();
+        let cause = match verdict {
             Verdict::Smooth => return,
             Verdict::Acceleration => {
                 let [before, after] = &self.rows;
-                remarks.warn_of_jump(system, behind, || columns_that_jump(system, self.span, [before, after]), t);
+                warnings.warn_of_jump(behind, || columns_that_jump(system, self.span, [before, after]), t);
                 return;
             }
-            Verdict::Position { column, by } => errors::position_jump(system, behind, false, (column, by), t),
-            Verdict::Corner => errors::position_jump(system, behind, true, (0, 0.0), t),
-            Verdict::Velocity { column } => {
-                errors::velocity_jump(system, behind, column, [before.qd[column], after.qd[column]], t)
+            Verdict::Position { column, by } => {
+                StopCause::PositionJump { declarations, jump: Some((column, by)), is_corner: false }
             }
-            Verdict::NotFinite => errors::formula_not_finite(system, behind, t),
+            Verdict::Corner => StopCause::PositionJump { declarations, jump: None, is_corner: true },
+            Verdict::Velocity { column } => {
+                StopCause::VelocityJump { declarations, column, velocities: [before.qd[column], after.qd[column]] }
+            }
+            Verdict::NotFinite => StopCause::NotFinite { declarations },
         };
-        if self.end.as_ref().is_none_or(|(known, _)| t < *known) {
-            self.end = Some((t, Box::new(why)));
+        if self.end.as_ref().is_none_or(|end| t < end.t) {
+            self.end = Some(cause.at(t));
         }
     }
 

@@ -13,19 +13,19 @@ const CONDITIONS: usize = 12;
 
 /// Each coordinate by Newton's polynomial over times with three conditions each.
 #[derive(Clone, Debug)]
-pub struct Finer {
+pub struct RefinedBridge {
     /// Where the bridge begins, and its length (s).
     from: f64,
     length: f64,
     coefficients: Vec<[f64; CONDITIONS]>,
 }
 
-impl Finer {
+impl RefinedBridge {
     /// Times in parts of the bridge.
     const NODES: [f64; 4] = [-OUTWARD, 0.0, 1.0, 1.0 + OUTWARD];
 
     /// Through four states, in their order.
-    fn through(states: [&State; 4]) -> Finer {
+    fn through(states: [&State; 4]) -> RefinedBridge {
         let (from, length) = (states[1].t, states[2].t - states[1].t);
         let coefficients = (0..states[0].q.len()).map(|k| {
             let at = |place: usize| {
@@ -34,7 +34,7 @@ impl Finer {
             };
             divided_differences(at)
         });
-        Finer { from, length, coefficients: coefficients.collect() }
+        RefinedBridge { from, length, coefficients: coefficients.collect() }
     }
 
     /// The state at a time (s).
@@ -45,7 +45,7 @@ impl Finer {
             // Taylor's coefficients at x, by Horner's rule
             let mut taylor = [0.0; 4];
             for (place, coefficient) in coefficients.iter().enumerate().rev() {
-                let way = x - Finer::NODES[place / 3];
+                let way = x - RefinedBridge::NODES[place / 3];
                 for order in (1..taylor.len()).rev() {
                     taylor[order] = taylor[order] * way + taylor[order - 1];
                 }
@@ -71,7 +71,7 @@ fn divided_differences(at: impl Fn(usize) -> [f64; 3]) -> [f64; CONDITIONS] {
             column[place] = if first == last {
                 at(place)[order]
             } else {
-                (column[place + 1] - column[place]) / (Finer::NODES[last] - Finer::NODES[first])
+                (column[place + 1] - column[place]) / (RefinedBridge::NODES[last] - RefinedBridge::NODES[first])
             };
         }
         *coefficient = column[0];
@@ -79,13 +79,13 @@ fn divided_differences(at: impl Fn(usize) -> [f64; 3]) -> [f64; CONDITIONS] {
     coefficients
 }
 
-impl Finer {
+impl RefinedBridge {
     /// A finer curve than that between two states, if there is one that is exact.
-    pub fn between(kinematics: &mut Kinematics, step: &mut Step, [from, to]: [&State; 2]) -> Option<Finer> {
+    pub fn between(kinematics: &mut Kinematics, step: &mut Step, [from, to]: [&State; 2]) -> Option<RefinedBridge> {
         let way = OUTWARD * (to.t - from.t);
         let before = walk(kinematics, step, from, -way)?;
         let behind = walk(kinematics, step, to, way)?;
-        let finer = Finer::through([&before, from, to, &behind]);
+        let finer = RefinedBridge::through([&before, from, to, &behind]);
         let places = [0.5 * (before.t + from.t), 0.5 * (to.t + behind.t)];
         places.into_iter().all(|t| finer.is_exact(kinematics, step, t)).then_some(finer)
     }

@@ -56,7 +56,7 @@ struct Pair {
 }
 
 /// Pairs of states, from far to near.
-pub(super) struct Limits {
+pub(super) struct OneSidedLimits {
     before: State,
     after: State,
     pairs: [Option<Pair>; MOST],
@@ -71,9 +71,9 @@ pub(super) struct Limits {
     span: f64,
 }
 
-impl Limits {
-    pub fn new(state: &State) -> Limits {
-        Limits {
+impl OneSidedLimits {
+    pub fn new(state: &State) -> OneSidedLimits {
+        OneSidedLimits {
             before: state.clone(),
             after: state.clone(),
             pairs: [None; MOST],

@@ -2,7 +2,7 @@
 //! where others do, along the branch.
 
 use crate::analysis::assemble::{Solving, Started, Unassembled};
-use crate::analysis::explain::errors;
+use crate::analysis::explain::{Stop, StopCause, Warning};
 use crate::analysis::state::{Horizon, Times};
 use crate::solver::Solver;
 use mechc_ir::ConstraintSystem;
@@ -11,7 +11,7 @@ use mechc_ir::program::Program;
 use mechc_ir::structure::Determined;
 use mechc_ir::tolerances::assembly::lead::{BESIDE_A_KINK, KINK, MOST_KINKS};
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::{Code, Diagnostic, Diagnostics};
+use mechc_text::diag::Diagnostics;
 use std::sync::Arc;
 
 /// The way as a time.
@@ -43,11 +43,11 @@ pub struct Way {
     /// The coordinates [m, rad] at the parts of the way that were asked for, as far as it got.
     pub reached: Vec<Vec<f64>>,
     /// What is to be said of where it began.
-    pub remarks: Diagnostics,
-    /// The bifurcations that were passed, from 0 to 1, and what is to be said of each.
-    pub passed: Vec<(f64, Diagnostic)>,
-    /// Where it did not go on, from 0 to 1, and what happens there.
-    pub stopped: Option<(f64, Box<Diagnostic>)>,
+    pub warnings: Diagnostics,
+    /// Bifurcations that were passed; each `t` is a fraction of the path.
+    pub passed: Vec<Warning>,
+    /// Stop before the end; its `t` is a fraction of the path.
+    pub stopped: Option<Box<Stop>>,
 }
 
 /// What begins all ways of a mechanism whose parameters say where they lead: it stands at their beginning, whatever these are.
@@ -59,8 +59,8 @@ pub fn before_ways(
     program: &Arc<Program>,
     stands: &[f64],
     options: &LeadOptions,
-) -> Result<Started, Box<Diagnostic>> {
-    Leader::new(determined, program, Solving::New, options).whole(WAY).assemble_at(stands, Solving::New)
+) -> Result<Started, Box<Stop>> {
+    Continuation::new(determined, program, Solving::New, options).whole(WAY).assemble_at(stands, Solving::New)
 }
 
 /// Leads a mechanism to the end of its path, from the start and with the solver that [`before_ways`] made for the same mechanism.
@@ -72,29 +72,29 @@ pub fn lead_again(
     program: &Arc<Program>,
     (stands, solver): (&[f64], Option<Arc<Solver>>),
     options: &LeadOptions,
-) -> Result<Way, Box<Diagnostic>> {
+) -> Result<Way, Box<Stop>> {
     let solving = Solving::With(solver);
-    let leader = Leader::new(determined, program, solving.clone(), options);
+    let leader = Continuation::new(determined, program, solving.clone(), options);
     let started = leader.whole(WAY).assemble_at(stands, solving)?;
     Ok(leader.lead(started, &[1.0]))
 }
 
 /// What is led, and how.
-pub(super) struct Leader<'l> {
+pub(super) struct Continuation<'l> {
     determined: &'l Arc<Determined>,
     program: &'l Arc<Program>,
     solving: Solving,
     options: &'l LeadOptions,
 }
 
-impl<'l> Leader<'l> {
+impl<'l> Continuation<'l> {
     pub fn new(
         determined: &'l Arc<Determined>,
         program: &'l Arc<Program>,
         solving: Solving,
         options: &'l LeadOptions,
-    ) -> Leader<'l> {
-        Leader { determined, program, solving, options }
+    ) -> Continuation<'l> {
+        Continuation { determined, program, solving, options }
     }
 
     /// What is led, to be assembled where a horizon begins.
@@ -107,21 +107,21 @@ impl<'l> Leader<'l> {
     /// Follows it from a start at 0 to some parts of the way.
     pub fn lead(&self, mut started: Started, parts: &[f64]) -> Way {
         let options = self.options;
-        let remarks = started.far_estimates_at(options.t);
-        let mut way = Way { reached: Vec::new(), remarks, passed: Vec::new(), stopped: None };
+        let warnings = started.far_estimates_at(options.t);
+        let mut way = Way { reached: Vec::new(), warnings, passed: Vec::new(), stopped: None };
         let mut from = (0.0, started.q().to_vec());
         for _ in 0..MOST_KINKS {
             let known = way.reached.len();
             let Way { reached, passed, .. } = &mut way;
             way.stopped = self.follow(started, from.0, &parts[known..], reached, passed);
-            let Some((part, why)) = &way.stopped else { return way };
+            let Some(stop) = &way.stopped else { return way };
             if let Some(last) = way.reached[known..].last() {
                 from = (parts[way.reached.len() - 1], last.clone());
             }
-            if why.code != Code::E0609 || options.cancel.is_cancelled() {
+            if !stop.is_jump() || options.cancel.is_cancelled() {
                 return way;
             }
-            let Some((behind, beyond)) = self.beyond_kink(*part, &from) else { return way };
+            let Some((behind, beyond)) = self.beyond_kink(stop.t, &from) else { return way };
             way.stopped = None;
             while parts.get(way.reached.len()).is_some_and(|&part| part <= behind) {
                 way.reached.push(beyond.q().to_vec());
@@ -132,7 +132,7 @@ impl<'l> Leader<'l> {
             from = (behind, beyond.q().to_vec());
             started = beyond;
         }
-        way.stopped = Some((from.0, Box::new(errors::cannot_follow(self.determined.system(), from.0, None))));
+        way.stopped = Some(StopCause::NoStep { driver: None }.at(from.0));
         way
     }
 
@@ -160,14 +160,13 @@ impl<'l> Leader<'l> {
         from: f64,
         parts: &[f64],
         reached: &mut Vec<Vec<f64>>,
-        passed: &mut Vec<(f64, Diagnostic)>,
-    ) -> Option<(f64, Box<Diagnostic>)> {
+        passed: &mut Vec<Warning>,
+    ) -> Option<Box<Stop>> {
         let layout = RowLayout::new(started.system());
         let mut motion = started.into_motion(&Times::listed(from, parts.to_vec()));
         if self.options.pass_bifurcations {
             motion.pass_bifurcations();
         }
-        let part_of = |why: &Diagnostic| why.data.get("t").and_then(serde_json::Value::as_f64).unwrap_or(from);
         let mut stopped = None;
         for _ in parts {
             match motion.next_row() {
@@ -175,16 +174,13 @@ impl<'l> Leader<'l> {
                     reached.push(layout.position(row).to_vec());
                     continue;
                 }
-                Some(Err(why)) => stopped = Some((part_of(&why), why)),
-                None => {
-                    let why = Diagnostic::new(Code::E0604, "the way was not followed to its end");
-                    stopped = Some((from, Box::new(why)));
-                }
+                Some(Err(stop)) => stopped = Some(stop),
+                // cancelled: the reason is of no use
+                None => stopped = Some(StopCause::NoStep { driver: None }.at(from)),
             }
             break;
         }
-        let remarks = motion.take_remarks().into_iter().filter(|remark| remark.code == Code::W0602);
-        passed.extend(remarks.map(|remark| (part_of(&remark), remark)));
+        passed.extend(motion.take_warnings().into_iter().filter(Warning::is_passage));
         stopped
     }
 }

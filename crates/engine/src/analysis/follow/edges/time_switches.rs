@@ -1,12 +1,11 @@
 //! Edges of time, which are looked for before a step.
 
-use super::restless::may_change;
+use super::chattering::may_change;
 use super::{Edge, Edges};
-use crate::analysis::explain::errors;
-use crate::analysis::state::{Fault, Kinematics};
+use crate::analysis::explain::{Stop, StopCause};
+use crate::analysis::state::Kinematics;
 use mechc_expr::math::{Halving, bisect};
 use mechc_ir::tolerances::steps::edges::{FINEST, MOST_PARTS};
-use mechc_text::diag::Diagnostic;
 
 impl Edges {
     /// The first edge of time from a time on, where all switches are known, up to another.
@@ -14,7 +13,7 @@ impl Edges {
         &mut self,
         kinematics: &mut Kinematics,
         whole: [f64; 2],
-    ) -> Result<Option<Edge>, Box<Diagnostic>> {
+    ) -> Result<Option<Edge>, Box<Stop>> {
         let mut parts = Halving::<64>::new(whole, FINEST * self.span, MOST_PARTS);
         while let Some(part) = parts.next_part() {
             if self.is_steady_in_time(kinematics, part) || parts.halve(part) {
@@ -28,17 +27,13 @@ impl Edges {
     }
 
     fn is_steady_in_time(&mut self, kinematics: &Kinematics, part: [f64; 2]) -> bool {
-        let Edges { in_time, restless, .. } = self;
-        kinematics.is_steady(in_time, part, &[], |register| may_change(kinematics, restless, register, part[0]))
+        let Edges { in_time, chattering, .. } = self;
+        kinematics.is_steady(in_time, part, &[], |register| may_change(kinematics, chattering, register, part[0]))
     }
 
     /// The edge of time between two times, the switches being known at the first; none if nothing has changed at the second
     /// and shortly after it.
-    fn edge_within(
-        &mut self,
-        kinematics: &mut Kinematics,
-        [mut low, b]: [f64; 2],
-    ) -> Result<Option<Edge>, Box<Diagnostic>> {
+    fn edge_within(&mut self, kinematics: &mut Kinematics, [mut low, b]: [f64; 2]) -> Result<Option<Edge>, Box<Stop>> {
         if !self.happens_at(kinematics, b) {
             return Ok(None);
         }
@@ -47,7 +42,7 @@ impl Edges {
             [low, high] = bisect([low, b], usize::MAX, |t| !self.happens_at(kinematics, t));
             kinematics.set_time(high);
             if let Some(index) = kinematics.broken_condition().filter(|_| high <= self.last) {
-                return Err(Box::new(errors::no_value(kinematics.system(), Fault::Condition { index }, high)));
+                return Err(StopCause::Condition { index }.at(high));
             }
             let after = high.next_up();
             if self.happens_at(kinematics, after) {
@@ -67,8 +62,8 @@ impl Edges {
     /// Whether a switch of time would change at a time, or a formula of time ends.
     fn happens_at(&self, kinematics: &mut Kinematics, t: f64) -> bool {
         kinematics.set_time(t);
-        let switches = kinematics.switches().iter().zip(&self.restless);
-        let mut of_time = switches.filter(|(switch, restless)| switch.on_time && !restless.is_left_alone(t));
+        let switches = kinematics.switches().iter().zip(&self.chattering);
+        let mut of_time = switches.filter(|(switch, chattering)| switch.on_time && !chattering.is_suspended(t));
         of_time.any(|(switch, _)| kinematics.would_switch(switch)) || self.breaks_in_time(kinematics)
     }
 

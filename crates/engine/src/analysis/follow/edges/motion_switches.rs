@@ -1,6 +1,6 @@
 //! Edges of the motion, which are looked for behind a step, on its curve.
 
-use super::restless::may_change;
+use super::chattering::may_change;
 use super::{Edge, Edges};
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Fault, Kinematics};
@@ -11,9 +11,9 @@ use std::cell::Cell;
 impl Edges {
     /// The switch of the motion beyond whose edge the position is that was just set, on the way from a time (s).
     pub fn switch_met(&self, kinematics: &Kinematics, from: f64) -> Option<usize> {
-        let mut switches = kinematics.switches().iter().zip(&self.restless);
-        switches.position(|(switch, restless)| {
-            !switch.on_time && !restless.is_left_alone(from) && kinematics.would_switch(switch)
+        let mut switches = kinematics.switches().iter().zip(&self.chattering);
+        switches.position(|(switch, chattering)| {
+            !switch.on_time && !chattering.is_suspended(from) && kinematics.would_switch(switch)
         })
     }
 
@@ -86,8 +86,8 @@ impl Edges {
             *of = [taylor[0], farthest(&taylor[1..], reach) + slack];
         }
         let t = step.t();
-        let Edges { along, boxes, restless, .. } = self;
-        let may_change = |register| may_change(kinematics, restless, register, t);
+        let Edges { along, boxes, chattering, .. } = self;
+        let may_change = |register| may_change(kinematics, chattering, register, t);
         kinematics.is_steady(along, [t + a * h, t + b * h], boxes, may_change)
     }
 
@@ -95,6 +95,6 @@ impl Edges {
     fn look_at(&self, kinematics: &mut Kinematics, step: &mut Step, h: f64, x: f64) -> Result<(), Fault> {
         step.set_on_curve(kinematics, h, x)?;
         self.before_switch(kinematics, step.t(), step.t() + x * h)?;
-        step.same_sides(kinematics)
+        step.check_monitors(kinematics)
     }
 }

@@ -4,8 +4,8 @@
 //! all rows together do not, a weight grows: the row that it belongs to is left out instead, which makes the volume that the kept rows span larger by
 //! that factor (S. A. Goreinov et al., *How to find a good submatrix*, 2010). In a singular position of all rows no weight grows.
 
-use super::bookmark::Bookmark;
-use super::rows::Leap;
+use super::checkpoint::Checkpoint;
+use super::rows::RowBatch;
 use crate::analysis::state::{Kinematics, State};
 use crate::solver::Solver;
 use mechc_expr::ExprId;
@@ -15,13 +15,13 @@ use mechc_ir::tolerances::steps::choice::{HEAVY, LARGEST_WEIGHT, MOST_EXCHANGES}
 use std::sync::Arc;
 
 /// Some equations that are solved, with what solves them.
-pub struct Chosen {
+pub struct SelectedRows {
     determined: Arc<Determined>,
     program: Arc<Program>,
     pub solver: Option<Arc<Solver>>,
 }
 
-impl Chosen {
+impl SelectedRows {
     /// A motion with these equations.
     pub fn kinematics(&self, like: &Kinematics) -> Kinematics {
         like.with_equations(Arc::clone(&self.determined), Arc::clone(&self.program))
@@ -35,7 +35,7 @@ impl Chosen {
 }
 
 /// What watches the equations that are solved.
-pub struct Choice {
+pub struct RowSelection {
     program: Program,
     registers: Registers,
     /// By row of the whole, its slopes.
@@ -46,13 +46,13 @@ pub struct Choice {
     slope: Vec<f64>,
     weights: Vec<f64>,
     /// What has been chosen so far.
-    known: Vec<Arc<Chosen>>,
-    current: Option<Arc<Chosen>>,
+    known: Vec<Arc<SelectedRows>>,
+    current: Option<Arc<SelectedRows>>,
 }
 
-impl Choice {
+impl RowSelection {
     /// Of equations of which some are left out; none where all are needed.
-    pub fn of(kinematics: &Kinematics) -> Option<Choice> {
+    pub fn of(kinematics: &Kinematics) -> Option<RowSelection> {
         let determined = kinematics.determined();
         let whole = determined.whole();
         if determined.left_out().is_empty() || whole.has_signals() {
@@ -70,11 +70,11 @@ impl Choice {
         let registers = program.start(&whole.values_of_params());
         let kept = determined.kept();
         let (slope, weights) = (vec![0.0; n], vec![0.0; n]);
-        Some(Choice { program, registers, slopes, kept, slope, weights, known: Vec::new(), current: None })
+        Some(RowSelection { program, registers, slopes, kept, slope, weights, known: Vec::new(), current: None })
     }
 
     /// The equations that are solved, if they are others than those at the start.
-    pub fn current(&self) -> Option<&Arc<Chosen>> {
+    pub fn current(&self) -> Option<&Arc<SelectedRows>> {
         self.current.as_ref()
     }
 
@@ -143,7 +143,7 @@ impl Choice {
     }
 
     /// The equations of the whole without some rows, of which no solver is known yet where they are new.
-    fn chosen(&mut self, kinematics: &Kinematics, left_out: &[usize], state: &State) -> Option<Arc<Chosen>> {
+    fn chosen(&mut self, kinematics: &Kinematics, left_out: &[usize], state: &State) -> Option<Arc<SelectedRows>> {
         let known = self.known.iter().find(|known| known.determined.left_out() == left_out);
         if let Some(known) = known {
             return Some(Arc::clone(known));
@@ -154,14 +154,14 @@ impl Choice {
         other.restore(state);
         other.choose_orders();
         let solver = other.solver().map(Arc::new);
-        let chosen = Arc::new(Chosen { determined, program, solver });
+        let chosen = Arc::new(SelectedRows { determined, program, solver });
         self.known.push(Arc::clone(&chosen));
         Some(chosen)
     }
 
     /// What solves for rows of a motion with the equations that are solved now, measured against a span (s).
-    pub fn leap(&self, kinematics: &Kinematics, origin: Bookmark, span: f64) -> Option<Leap> {
+    pub fn leap(&self, kinematics: &Kinematics, origin: Checkpoint, span: f64) -> Option<RowBatch> {
         let solver = self.current.as_ref()?.solver.clone()?;
-        Some(Leap::new(kinematics, solver, origin, span))
+        Some(RowBatch::new(kinematics, solver, origin, span))
     }
 }

@@ -2,13 +2,13 @@
 //! over that position, or against itself.
 
 use super::Follower;
+use crate::analysis::explain::Stop;
 use crate::analysis::follow::crossing::is_clear;
 use crate::analysis::state::{Kinematics, State, Trust, are_small};
 use mechc_expr::math::GOLDEN;
 use mechc_ir::layout::RowLayout;
 use mechc_ir::tolerances::solving::doubt::{CELL, NEAREST_BRANCH, PLACES, RIGHT};
 use mechc_ir::tolerances::solving::rows::STEPS_AHEAD;
-use mechc_text::diag::Diagnostic;
 
 /// The range of no values.
 const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
@@ -16,34 +16,34 @@ const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 impl Follower {
     /// A row of a time `t` whose derivatives are in doubt. If it lies on the way up to a bifurcation that way shows whether they
     /// are right, and what they are if not. The motion is left as it was, so that the rows behind it are the same.
-    pub(super) fn row_in_doubt(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
-        let (row, here, probe) = (self.rows.own().to_vec(), self.bookmark(), self.step.probe());
-        let (said, aside) = (self.remarks.said(), self.crossing.lay_aside());
+    pub(super) fn row_in_doubt(&mut self, t: f64) -> Result<(), Box<Stop>> {
+        let (row, here, probe) = (self.rows.single().to_vec(), self.checkpoint(), self.step.probe());
+        let (said, aside) = (self.warnings.said(), self.crossing.suspend());
         let mut on_bridge = self.row_on_bridge(t);
         let mut why = None;
         if on_bridge.is_none() && !self.crossing.is_clear_ahead(t) {
             why = self.step_ahead(t);
             on_bridge = self.row_on_bridge(t);
         }
-        self.crossing.take_up(aside);
-        let better = on_bridge.is_some().then(|| self.rows.own().to_vec());
+        self.crossing.resume(aside);
+        let better = on_bridge.is_some().then(|| self.rows.single().to_vec());
         self.go_back(&here);
         self.step.set_probe(probe);
-        self.remarks.take_back_to(said);
-        if better.is_none() && !self.stands_up(here.state()) {
+        self.warnings.take_back_to(said);
+        if better.is_none() && !self.is_reproducible(here.state()) {
             return Err(self.explain_refused(t, why));
         }
-        self.rows.own_mut().copy_from_slice(&row);
+        self.rows.single_mut().copy_from_slice(&row);
         self.refine(t);
         self.kinematics.restore(self.step.state());
-        if let Some(better) = better.filter(|better| !agree(&self.kinematics, self.rows.own(), better)) {
-            self.rows.own_mut().copy_from_slice(&better);
+        if let Some(better) = better.filter(|better| !agree(&self.kinematics, self.rows.single(), better)) {
+            self.rows.single_mut().copy_from_slice(&better);
         }
         Ok(())
     }
 
     /// Steps from a row of a time `t` on until the motion is clear again, or cannot go on; gives why.
-    fn step_ahead(&mut self, t: f64) -> Option<Box<Diagnostic>> {
+    fn step_ahead(&mut self, t: f64) -> Option<Box<Stop>> {
         let ahead = self.time_ahead(t);
         for _ in 0..STEPS_AHEAD {
             if let Err(why) = self.step_towards(ahead) {
@@ -65,13 +65,13 @@ impl Follower {
     /// Whether a row that has been found is certain, be it that it was in doubt.
     pub(super) fn is_certain(&mut self, state: &State) -> bool {
         let trust = self.rows.trust();
-        trust.is_certain() || (trust == Trust::Doubtful && self.stands_up(state))
+        trust.is_certain() || (trust == Trust::Doubtful && self.is_reproducible(state))
     }
 
     /// Whether velocities and accelerations of a state stay what they are where its position is solved for again, from places
     /// beside it: then rounding does not add up as it might. These places lie about a point of a grid, whichever way led to the
     /// state.
-    pub(super) fn stands_up(&mut self, state: &State) -> bool {
+    pub(super) fn is_reproducible(&mut self, state: &State) -> bool {
         let n = state.q.len();
         let mut ranges = [vec![NOTHING; n], vec![NOTHING; n]];
         let is_solved = (0..PLACES).all(|place| {
@@ -105,13 +105,13 @@ impl Follower {
 
     /// The row of a time on a bridge, or else the same solved for, be it as near to the singular position as it likes, if it can
     /// be trusted.
-    pub(super) fn or_trusted(&mut self, t: f64, row: Result<(), Box<Diagnostic>>) -> Result<(), Box<Diagnostic>> {
+    pub(super) fn or_solve_directly(&mut self, t: f64, row: Result<(), Box<Stop>>) -> Result<(), Box<Stop>> {
         row.or_else(|why| if self.trusted_row(t) || self.narrow_row(t) { Ok(()) } else { Err(why) })
     }
 
     fn narrow_row(&mut self, t: f64) -> bool {
         let Follower { kinematics, step, crossing, rows, .. } = self;
-        crossing.write_narrow_row(kinematics, step, t, rows.own_mut())
+        crossing.write_narrow_row(kinematics, step, t, rows.single_mut())
     }
 
     fn trusted_row(&mut self, t: f64) -> bool {
@@ -131,12 +131,12 @@ impl Follower {
         let solved = step.trial().clone();
         let is_trusted = match Trust::of(kinematics, &solved) {
             Trust::Certain => true,
-            Trust::Doubtful => self.stands_up(&solved),
+            Trust::Doubtful => self.is_reproducible(&solved),
             Trust::Uncertain => false,
         };
         if is_trusted {
             self.kinematics.restore(&solved);
-            self.kinematics.write_given_row(&solved, self.rows.own_mut());
+            self.kinematics.write_given_row(&solved, self.rows.single_mut());
         }
         is_trusted
     }

@@ -1,11 +1,10 @@
 //! What there is to say beside the rows, and what is known of accelerations that jump.
 
-use crate::analysis::explain::errors;
+use crate::analysis::explain::{Warning, WarningCause};
 use mechc_ir::{ConstraintSystem, DeclarationId, IdVec};
-use mechc_text::diag::{Diagnostic, Diagnostics};
 
-/// Remarks of a motion so far.
-pub struct Remarks {
+/// Warnings of a motion so far.
+pub struct Warnings {
     said: Said,
     /// Times at which accelerations have jumped (s), if anybody asks for them.
     jumps: Option<Vec<f64>>,
@@ -14,24 +13,24 @@ pub struct Remarks {
 /// What has been said, which may have to be taken back.
 #[derive(Clone)]
 pub struct Said {
-    diagnostics: Diagnostics,
+    warnings: Vec<Warning>,
     /// Declarations of which it has been said that they make an acceleration jump.
     warned: IdVec<DeclarationId, bool>,
 }
 
-impl Remarks {
-    pub fn new(system: &ConstraintSystem) -> Remarks {
+impl Warnings {
+    pub fn new(system: &ConstraintSystem) -> Warnings {
         let warned = system.declarations().map(|_| false);
-        Remarks { said: Said { diagnostics: Diagnostics::default(), warned }, jumps: None }
+        Warnings { said: Said { warnings: Vec::new(), warned }, jumps: None }
     }
 
-    pub fn push(&mut self, diagnostic: Diagnostic) {
-        self.said.diagnostics.push(diagnostic);
+    pub fn push(&mut self, warning: Warning) {
+        self.said.warnings.push(warning);
     }
 
     /// All that has been said since this was asked last.
-    pub fn take(&mut self) -> Diagnostics {
-        std::mem::take(&mut self.said.diagnostics)
+    pub fn take(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.said.warnings)
     }
 
     /// What has been said so far.
@@ -65,19 +64,16 @@ impl Remarks {
     }
 
     /// Warns of declarations that make an acceleration jump at a time (s), once of each.
-    pub fn warn_of_jump(
-        &mut self,
-        system: &ConstraintSystem,
-        behind: &[DeclarationId],
-        columns: impl FnOnce() -> Vec<String>,
-        t: f64,
-    ) {
+    pub fn warn_of_jump(&mut self, behind: &[DeclarationId], columns: impl FnOnce() -> Vec<String>, t: f64) {
         if behind.iter().all(|&declaration| self.said.warned[declaration]) {
             return;
         }
         for &declaration in behind {
             self.said.warned[declaration] = true;
         }
-        self.push(errors::acceleration_jump(system, behind, &columns(), t));
+        self.push(Warning {
+            t,
+            cause: WarningCause::AccelerationJump { declarations: behind.to_vec(), columns: columns() },
+        });
     }
 }

@@ -4,14 +4,14 @@ use crate::analysis::state::Kinematics;
 use crate::solver::{Batch, Lanes, Solver};
 
 /// One lane and its row.
-pub struct Alone {
+pub struct SingleRow {
     lane: Lanes<1>,
     row: Vec<f64>,
 }
 
-impl Alone {
-    pub fn new(kinematics: &Kinematics, solver: &Solver) -> Alone {
-        Alone { lane: Lanes::new(solver, kinematics.vectors()), row: vec![0.0; solver.layout().stride] }
+impl SingleRow {
+    pub fn new(kinematics: &Kinematics, solver: &Solver) -> SingleRow {
+        SingleRow { lane: Lanes::new(solver, kinematics.vectors()), row: vec![0.0; solver.layout().stride] }
     }
 
     /// Solves at one time; says whether it holds.

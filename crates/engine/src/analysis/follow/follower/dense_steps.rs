@@ -1,12 +1,12 @@
 //! Steps over several output times.
 
 use super::Follower;
+use crate::analysis::explain::Stop;
 use crate::analysis::follow::crossing::is_clear;
 use crate::analysis::follow::rows::Place;
-use crate::analysis::follow::step::{Accepted, keep_away};
+use crate::analysis::follow::step::{Accepted, reject_near_singular};
 use crate::analysis::state::{Fault, Trust};
 use mechc_ir::tolerances::steps::march::{LARGEST_BETWEEN, LARGEST_CORRECTION};
-use mechc_text::diag::Diagnostic;
 
 impl Follower {
     /// Whether a step may go over several output times: the state is clear of singular positions.
@@ -16,7 +16,7 @@ impl Follower {
     }
 
     /// Tries a step over as many output times as the error allows.
-    pub(super) fn leap(&mut self) -> Result<(), Box<Diagnostic>> {
+    pub(super) fn leap(&mut self) -> Result<(), Box<Stop>> {
         let (from, upcoming) = (self.step.t(), self.rows.upcoming());
         let target = self.rows.target(from, self.step.h());
         let edge = self.edges.next(&mut self.kinematics, &mut self.step, target, target >= upcoming)?;
@@ -34,12 +34,12 @@ impl Follower {
                 Ok(())
             }
             Ok(None) => {
-                self.rows.be_careful_until(upcoming);
+                self.rows.single_step_until(upcoming);
                 Ok(())
             }
             Err(fault) => {
                 self.rows.close_leap();
-                self.give_way(h, fault, upcoming)
+                self.handle_rejection(h, fault, upcoming)
             }
         }
     }
@@ -66,7 +66,7 @@ impl Follower {
         }
         kinematics.factor()?;
         step.same_branch(kinematics)?;
-        keep_away(kinematics)?;
+        reject_near_singular(kinematics)?;
         if !is_clear(kinematics) {
             return Ok(None);
         }
@@ -80,7 +80,7 @@ impl Follower {
         if between > LARGEST_BETWEEN {
             return Err(Fault::TooFar);
         }
-        edges.look_between(kinematics, step, h, (!to_edge_of_motion).then_some(between))?;
+        edges.check_interior(kinematics, step, h, (!to_edge_of_motion).then_some(between))?;
         step.look_for_touch(kinematics, h, motion)?;
         Ok(Some(Accepted { first_correction, between, motion }))
     }
@@ -94,7 +94,7 @@ impl Follower {
         let way = leap.way();
         if self.row_on_curve(way, t) {
             self.refine(t);
-            return Some(Place::Own);
+            return Some(Place::Single);
         }
         self.take_step_back();
         None
@@ -112,7 +112,7 @@ impl Follower {
             && is_clear(kinematics)
             && Trust::of(kinematics, step.trial()).is_certain();
         if is_solved {
-            kinematics.write_row(step.trial(), rows.own_mut());
+            kinematics.write_row(step.trial(), rows.single_mut());
         }
         is_solved
     }
@@ -120,7 +120,7 @@ impl Follower {
     /// Goes back to where the last step began, to go over it time by time.
     fn take_step_back(&mut self) {
         let origin = self.rows.leap().map(|(leap, _)| leap.origin().clone());
-        self.rows.be_careful_until(self.step.t());
+        self.rows.single_step_until(self.step.t());
         self.edge = None;
         self.rows.close_leap();
         if let Some(origin) = origin {

@@ -1,14 +1,13 @@
 //! Both sides of an edge, at the same time: what jumps there.
 
-use crate::analysis::explain::errors;
-use crate::analysis::follow::remarks::Remarks;
+use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::follow::step::{Step, write_prediction};
+use crate::analysis::follow::warnings::Warnings;
 use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
 use mechc_ir::layout::{ColumnKind, columns};
 use mechc_ir::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};
 use mechc_ir::tolerances::steps::edges::{AHEAD, FARTHEST_AHEAD, ITERATIONS, LAST_DIGITS, TAKES_PART, UNCERTAIN};
 use mechc_ir::{ConstraintSystem, CoordinateKind, DeclarationId};
-use mechc_text::diag::Diagnostic;
 
 /// What jumps at an edge, the lowest derivative first.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +29,7 @@ struct Pace {
 }
 
 /// The earlier side of the edge that is being crossed, and what there is to compare the later one with.
-pub(super) struct Sides {
+pub(super) struct OneSidedStates {
     before: State,
     row_before: Vec<f64>,
     /// Of the later side.
@@ -42,11 +41,11 @@ pub(super) struct Sides {
     span: f64,
 }
 
-impl Sides {
-    pub fn new(kinematics: &Kinematics, state: &State, span: f64) -> Sides {
+impl OneSidedStates {
+    pub fn new(kinematics: &Kinematics, state: &State, span: f64) -> OneSidedStates {
         let row = vec![0.0; kinematics.row_length()];
         let switches = vec![0.0; kinematics.switches().len()];
-        Sides { before: state.clone(), row_before: row.clone(), row, switches, pace: Pace::default(), span }
+        OneSidedStates { before: state.clone(), row_before: row.clone(), row, switches, pace: Pace::default(), span }
     }
 
     /// The earlier side.
@@ -65,7 +64,7 @@ impl Sides {
     }
 
     /// Takes note of how fast a motion changes from one state to another, `h` (s) later.
-    pub fn take_pace(&mut self, kinematics: &Kinematics, [a, b]: [&State; 2], h: f64) {
+    pub fn record_rates(&mut self, kinematics: &Kinematics, [a, b]: [&State; 2], h: f64) {
         let linear = kinematics.linear();
         let change = |a: &[f64], b: &[f64]| {
             let scaled = |k: usize| (b[k] - a[k]).abs() / linear.column_scale(k);
@@ -149,8 +148,8 @@ impl Sides {
         kinematics: &Kinematics,
         step: &Step,
         jump: Jump,
-        remarks: &mut Remarks,
-    ) -> Result<(), Box<Diagnostic>> {
+        warnings: &mut Warnings,
+    ) -> Result<(), Box<Stop>> {
         let system = kinematics.system();
         let behind = self.declarations_behind(kinematics, jump);
         let t = step.t();
@@ -159,17 +158,17 @@ impl Sides {
                 let delta = step.delta();
                 let far = |k: &usize| delta[*k].abs() / kinematics.linear().column_scale(*k);
                 let column = (0..delta.len()).max_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0);
-                let far = (column, delta[column]);
-                Err(Box::new(errors::position_jump(system, &behind, is_corner(kinematics), far, t)))
+                let (jump, is_corner) = (Some((column, delta[column])), is_corner(kinematics));
+                Err(StopCause::PositionJump { declarations: behind, jump, is_corner }.at(t))
             }
             Jump::Velocity { column } => {
                 let velocities = [self.before.qd[column], step.state().qd[column]];
-                Err(Box::new(errors::velocity_jump(system, &behind, column, velocities, t)))
+                Err(StopCause::VelocityJump { declarations: behind, column, velocities }.at(t))
             }
             Jump::Acceleration => {
-                remarks.take_jump(t);
+                warnings.take_jump(t);
                 let columns = || columns_that_jump(system, self.span, [&self.row_before, &self.row]);
-                remarks.warn_of_jump(system, &behind, columns, t);
+                warnings.warn_of_jump(&behind, columns, t);
                 Ok(())
             }
         }

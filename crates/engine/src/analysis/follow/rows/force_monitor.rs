@@ -1,7 +1,7 @@
 //! Forces beside the rows: contacts that would have to pull, in rows or between them, and loads that have no value.
 
-use crate::analysis::explain::errors;
-use crate::analysis::follow::remarks::Remarks;
+use crate::analysis::explain::{Stop, StopCause, Warning, WarningCause};
+use crate::analysis::follow::warnings::Warnings;
 use crate::analysis::state::{Kinematics, State};
 use mechc_expr::ExprId;
 use mechc_expr::math::{Halving, about, along, farthest};
@@ -9,16 +9,15 @@ use mechc_ir::layout::RowLayout;
 use mechc_ir::program::{Program, Ranges, Register, Registers, Stage};
 use mechc_ir::tolerances::contacts::{CORRECTIONS, FINEST_BETWEEN, MOST_BETWEEN, PULLS, STRIKES, WIDEST_BETWEEN};
 use mechc_ir::{ConstraintSystem, LoadForce};
-use mechc_text::diag::Diagnostic;
 
 /// A load, as it is watched.
-struct WatchedLoad {
+struct LoadMonitor {
     force: Register,
     /// By how much the distance that it works on is longer than what has no direction.
     excess: Option<Register>,
     /// What must be above zero, in the order of its conditions.
     conditions: Vec<Register>,
-    is_told: bool,
+    is_reported: bool,
 }
 
 /// A contact that pulls between rows.
@@ -31,7 +30,7 @@ struct Pull {
 }
 
 /// What looks at the forces of rows, once more, and of the way between them.
-pub struct ForceWatch {
+pub struct ForceMonitor {
     kinematics: Kinematics,
     program: Program,
     registers: Registers,
@@ -44,7 +43,7 @@ pub struct ForceWatch {
     has_begun: bool,
     /// By contact: where it pulls on the way that no row has been told of.
     between: Vec<Option<Pull>>,
-    loads: Vec<WatchedLoad>,
+    loads: Vec<LoadMonitor>,
     /// By load: what it can be on a part of the way.
     ranges: Vec<Ranges>,
     /// By load: its value at both ends of that part, and the largest so far.
@@ -56,40 +55,33 @@ pub struct ForceWatch {
     state: State,
 }
 
-impl WatchedLoad {
+impl LoadMonitor {
     /// A load whose formulas are in the next registers.
-    fn of(load: &LoadForce, registers: &mut impl Iterator<Item = Register>) -> Option<WatchedLoad> {
+    fn of(load: &LoadForce, registers: &mut impl Iterator<Item = Register>) -> Option<LoadMonitor> {
         let force = registers.next()?;
         let excess = load.excess.and_then(|_| registers.next());
         let conditions = registers.take(load.conditions.len()).collect();
-        Some(WatchedLoad { force, excess, conditions, is_told: false })
+        Some(LoadMonitor { force, excess, conditions, is_reported: false })
     }
 
     /// Warns once of a distance that has no direction at a time (s); a load that has no value is why there is none of anything.
-    fn look(
-        &mut self,
-        of: &LoadForce,
-        system: &ConstraintSystem,
-        registers: &Registers,
-        t: f64,
-        remarks: &mut Remarks,
-    ) -> Result<(), Box<Diagnostic>> {
+    fn look(&mut self, index: usize, registers: &Registers, t: f64, warnings: &mut Warnings) -> Result<(), Box<Stop>> {
         if !registers.get(self.force).is_finite() {
             let holds = |register: &Register| registers.get(*register) > 0.0;
-            let broken = self.conditions.iter().position(|condition| !holds(condition)).map(|k| &of.conditions[k]);
-            return Err(Box::new(errors::load_not_finite(system, of, broken, t)));
+            let broken = self.conditions.iter().position(|condition| !holds(condition));
+            return Err(StopCause::Load { index, broken }.at(t));
         }
-        if !self.is_told && self.excess.is_some_and(|excess| registers.get(excess) <= 0.0) {
-            self.is_told = true;
-            remarks.push(errors::load_without_direction(of, t));
+        if !self.is_reported && self.excess.is_some_and(|excess| registers.get(excess) <= 0.0) {
+            self.is_reported = true;
+            warnings.push(Warning { t, cause: WarningCause::LoadWithoutDirection { index } });
         }
         Ok(())
     }
 }
 
-impl ForceWatch {
+impl ForceMonitor {
     /// Of equations in a state; none where there is nothing to watch.
-    pub fn of(kinematics: &Kinematics, state: &State) -> Option<ForceWatch> {
+    pub fn of(kinematics: &Kinematics, state: &State) -> Option<ForceMonitor> {
         let system = kinematics.system();
         if system.loads().is_empty() && system.presses().is_empty() {
             return None;
@@ -100,11 +92,11 @@ impl ForceWatch {
         let (program, registers) = Program::of_formulas(system.graph(), counts, &formulas);
         let mut registers = registers.into_iter();
         let presses: Vec<Register> = registers.by_ref().take(system.presses().len()).collect();
-        let loads: Vec<WatchedLoad> =
-            system.loads().iter().map_while(|load| WatchedLoad::of(load, &mut registers)).collect();
+        let loads: Vec<LoadMonitor> =
+            system.loads().iter().map_while(|load| LoadMonitor::of(load, &mut registers)).collect();
         let params = system.values_of_params();
         let registers = program.start(&params);
-        let range = |load: &WatchedLoad| Ranges::new(&program, &registers, &[load.force], Stage::Measures, false);
+        let range = |load: &LoadMonitor| Ranges::new(&program, &registers, &[load.force], Stage::Measures, false);
         let ranges: Vec<Ranges> = loads.iter().map(range).collect();
         let (between, ends) = (vec![None; presses.len()], vec![[0.0; 2]; loads.len()]);
         let delta = vec![0.0; state.q.len()];
@@ -112,7 +104,7 @@ impl ForceWatch {
         let has_pulled = vec![false; presses.len()];
         let sides = system.presses().iter().map(|press| f64::from(u8::from(press.is_sided))).collect();
         let (kinematics, state) = (kinematics.clone(), state.clone());
-        Some(ForceWatch {
+        Some(ForceMonitor {
             kinematics,
             program,
             registers,
@@ -133,14 +125,14 @@ impl ForceWatch {
 
     /// Goes on with other equations, which exert the same.
     pub fn change_equations(&mut self, kinematics: &Kinematics) {
-        if let Some(other) = ForceWatch::of(kinematics, &self.state) {
-            let told: Vec<bool> = self.loads.iter().map(|load| load.is_told).collect();
+        if let Some(other) = ForceMonitor::of(kinematics, &self.state) {
+            let told: Vec<bool> = self.loads.iter().map(|load| load.is_reported).collect();
             let (has_pulled, sides) = (std::mem::take(&mut self.has_pulled), std::mem::take(&mut self.sides));
             let (has_begun, largest_load) = (self.has_begun, self.largest_load);
             let between = std::mem::take(&mut self.between);
-            *self = ForceWatch { has_pulled, sides, has_begun, between, largest_load, ..other };
-            for (load, is_told) in self.loads.iter_mut().zip(told) {
-                load.is_told = is_told;
+            *self = ForceMonitor { has_pulled, sides, has_begun, between, largest_load, ..other };
+            for (load, is_reported) in self.loads.iter_mut().zip(told) {
+                load.is_reported = is_reported;
             }
         }
     }
@@ -148,7 +140,7 @@ impl ForceWatch {
     /// Looks at a row of a motion: warns once of each contact that pulls there, with a part of the row's largest force that is no rounding, or
     /// has pulled on the way to it; where no curve tells its side, of one that presses to the other side than before. A load that has no value is
     /// why there is none.
-    pub fn look(&mut self, of: &Kinematics, row: &[f64], remarks: &mut Remarks) -> Result<(), Box<Diagnostic>> {
+    pub fn look(&mut self, of: &Kinematics, row: &[f64], warnings: &mut Warnings) -> Result<(), Box<Stop>> {
         self.has_begun = true;
         let is_whole = row.iter().all(|value| value.is_finite());
         if is_whole && self.has_pulled.iter().all(|has_pulled| *has_pulled) {
@@ -158,11 +150,11 @@ impl ForceWatch {
         self.set_row(row);
         self.compute();
         let system = self.kinematics.system();
-        for (load, of) in self.loads.iter_mut().zip(system.loads()) {
-            load.look(of, system, &self.registers, row[0], remarks)?;
+        for (index, load) in self.loads.iter_mut().enumerate() {
+            load.look(index, &self.registers, row[0], warnings)?;
         }
         let least = PULLS * self.largest(system);
-        for (k, of) in system.presses().iter().enumerate() {
+        for k in 0..self.presses.len() {
             let force = self.registers.get(self.presses[k]);
             if self.sides[k] == 0.0 && force.abs() > least {
                 self.sides[k] = force.signum();
@@ -174,7 +166,7 @@ impl ForceWatch {
                 && !self.has_pulled[k]
             {
                 self.has_pulled[k] = true;
-                remarks.push(errors::contact_pulls(system, of, pressing, t));
+                warnings.push(Warning { t, cause: WarningCause::ContactPulls { index: k, force: pressing } });
             }
         }
         Ok(())
@@ -182,7 +174,7 @@ impl ForceWatch {
 
     /// Looks at the way that a step of length `h` from a time (s) goes over, each coordinate being a polynomial of the part of the step. Where a
     /// load may do what its values at both ends of a part do not tell it is looked at in smaller parts. What is found is told with the next row.
-    pub fn look_between(&mut self, of: &Kinematics, [from, h]: [f64; 2], curve: &[[f64; 6]]) {
+    pub fn check_interior(&mut self, of: &Kinematics, [from, h]: [f64; 2], curve: &[[f64; 6]]) {
         if !self.has_begun {
             return;
         }
@@ -231,7 +223,7 @@ impl ForceWatch {
 
     /// Whether a load may leave the values that it has at both ends of a part of a step.
     fn may_strike(&mut self, curve: &[[f64; 6]], [from, h]: [f64; 2], [a, b]: [f64; 2]) -> bool {
-        let ForceWatch { program, registers, ranges, ends, .. } = self;
+        let ForceMonitor { program, registers, ranges, ends, .. } = self;
         let (middle, reach) = (0.5 * (a + b), 0.5 * (b - a));
         let least = STRIKES * self.largest_load;
         ranges.iter_mut().zip(ends).any(|(ranges, ends)| {
@@ -253,7 +245,7 @@ impl ForceWatch {
 
     /// Solves for a place of the curve of a step and computes what is watched there; says whether it could.
     fn set_on_curve(&mut self, curve: &[[f64; 6]], [from, h]: [f64; 2], x: f64) -> bool {
-        let ForceWatch { kinematics, state, delta, .. } = self;
+        let ForceMonitor { kinematics, state, delta, .. } = self;
         state.t = from + x * h;
         for (q, curve) in state.q.iter_mut().zip(curve) {
             *q = along(curve, x);
@@ -282,7 +274,7 @@ impl ForceWatch {
 
     /// Takes the state of a row.
     fn set_row(&mut self, row: &[f64]) {
-        let ForceWatch { state, coordinates, .. } = self;
+        let ForceMonitor { state, coordinates, .. } = self;
         let n = state.q.len();
         state.t = row[0];
         let own = [&mut state.q, &mut state.qd, &mut state.qdd];
@@ -293,7 +285,7 @@ impl ForceWatch {
 
     /// Computes what is watched at the state.
     fn compute(&mut self) {
-        let ForceWatch { kinematics, program, registers, state, .. } = self;
+        let ForceMonitor { kinematics, program, registers, state, .. } = self;
         kinematics.vary_at(state);
         let inputs = program.inputs;
         registers.set(inputs.time, state.t);

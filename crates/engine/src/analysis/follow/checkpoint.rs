@@ -7,7 +7,7 @@ use crate::analysis::state::State;
 
 /// What the next step begins from.
 #[derive(Clone)]
-pub struct Bookmark {
+pub struct Checkpoint {
     pub mark: Mark,
     /// The last state that was clear of singular positions.
     pub clear: State,
@@ -15,9 +15,9 @@ pub struct Bookmark {
     pub met: Option<Edge>,
 }
 
-impl Bookmark {
-    pub fn new(step: &Step, edges: &Edges, crossing: &Crossing) -> Bookmark {
-        Bookmark { mark: step.mark(), clear: crossing.clear().clone(), met: edges.met() }
+impl Checkpoint {
+    pub fn new(step: &Step, edges: &Edges, crossing: &Crossing) -> Checkpoint {
+        Checkpoint { mark: step.mark(), clear: crossing.clear().clone(), met: edges.met() }
     }
 
     /// The same, into this one.

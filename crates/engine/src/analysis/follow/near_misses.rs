@@ -2,13 +2,12 @@
 //! with `s` the way of the driver they are `x² = s² + ε`, and the least singular value goes with `√(s² + ε)`. The motion goes on along one of
 //! them. For a four-bar `ε` is about three times the part of a link that it is off by.
 
-use crate::analysis::explain::singular;
+use crate::analysis::explain::{Warning, singular};
 use crate::analysis::state::{Kinematics, State};
 use mechc_ir::tolerances::singular::misses::{EVEN, FALLS, FAR, OF_LENGTHS, WITHIN};
-use mechc_text::diag::Diagnostic;
 
 /// What there is to be said of the least distance to a singular position so far.
-pub struct Misses {
+pub struct NearMisses {
     /// The last two states that were come to.
     last: [Look; 2],
     /// The second of these.
@@ -21,7 +20,7 @@ pub struct Misses {
     highest: f64,
     /// Whether rows are handed out, beside which it is told; a motion that is followed for its results alone is not watched.
     is_watching: bool,
-    is_told: bool,
+    is_reported: bool,
     found: Option<Miss>,
 }
 
@@ -45,16 +44,16 @@ impl Look {
     const NONE: Look = Look { t: f64::NEG_INFINITY, sigma: f64::NEG_INFINITY };
 }
 
-impl Misses {
-    pub fn new(state: &State) -> Misses {
-        Misses {
+impl NearMisses {
+    pub fn new(state: &State) -> NearMisses {
+        NearMisses {
             last: [Look::NONE; 2],
             state: state.clone(),
             nearest: state.clone(),
             beside: state.clone(),
             highest: 0.0,
             is_watching: false,
-            is_told: false,
+            is_reported: false,
             found: None,
         }
     }
@@ -72,7 +71,7 @@ impl Misses {
     /// Looks at a state that was just come to, where it was factored, with what it was factored with left as it is.
     pub fn take(&mut self, kinematics: &mut Kinematics, state: &State) {
         // where equations were left out, those that are solved near singular positions at which all together do not
-        if !self.is_watching || self.is_told || !kinematics.system().checks().is_empty() {
+        if !self.is_watching || self.is_reported || !kinematics.system().checks().is_empty() {
             return;
         }
         if state.t <= self.last[1].t {
@@ -91,7 +90,7 @@ impl Misses {
             let within = OF_LENGTHS * turning * speed * speed;
             if is_even && within <= WITHIN {
                 self.nearest.copy_from(&self.state);
-                (self.is_told, self.found) = (true, Some(Miss { t, within }));
+                (self.is_reported, self.found) = (true, Some(Miss { t, within }));
             }
             kinematics.restore(state);
         }
@@ -101,11 +100,11 @@ impl Misses {
     }
 
     /// What has been found up to a time (s), once; the motion stays where it is, `here`.
-    pub fn tell(&mut self, kinematics: &mut Kinematics, here: &State, t: f64) -> Option<Diagnostic> {
+    pub fn tell(&mut self, kinematics: &mut Kinematics, here: &State, t: f64) -> Option<Warning> {
         let Miss { t, within } = self.found.take_if(|miss| miss.t <= t)?;
-        let why = singular::explain_miss(kinematics, &self.nearest, within, t);
+        let why = singular::warn_of_miss(kinematics, &self.nearest, within, t);
         kinematics.restore(here);
-        self.is_told = why.is_some();
+        self.is_reported = why.is_some();
         why
     }
 }

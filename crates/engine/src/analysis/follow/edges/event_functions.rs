@@ -24,7 +24,7 @@ pub(super) struct Met {
 }
 
 /// The gauges of all rims, with room to look at them.
-pub(super) struct Gauges {
+pub(super) struct EventFunctions {
     all: Vec<PlacedRim>,
     of_time: Vec<usize>,
     of_motion: Vec<usize>,
@@ -38,14 +38,14 @@ pub(super) struct Gauges {
     span: f64,
 }
 
-impl Gauges {
+impl EventFunctions {
     /// Of a motion that begins at a time and is measured against a span (s).
-    pub fn new(kinematics: &Kinematics, t: f64, span: f64) -> Gauges {
+    pub fn new(kinematics: &Kinematics, t: f64, span: f64) -> EventFunctions {
         let all = kinematics.rims().to_vec();
         let of = |on_time: bool| (0..all.len()).filter(|&k| all[k].on_time == on_time).collect();
         let [in_time, along] = kinematics.enclosures_of_rims();
         let n = kinematics.system().coordinates().len();
-        Gauges {
+        EventFunctions {
             of_time: of(true),
             of_motion: of(false),
             in_time,

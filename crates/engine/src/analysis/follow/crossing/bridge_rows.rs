@@ -2,12 +2,11 @@
 
 use super::Crossing;
 use super::bridge::Bridge;
-use crate::analysis::explain::errors;
+use crate::analysis::explain::{Stop, StopCause};
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, State};
 use mechc_ir::tolerances::singular::bridge::{CERTAIN, EXACT, OPEN, SOLVABLE};
 use mechc_ir::tolerances::solving::trust::SLOW;
-use mechc_text::diag::Diagnostic;
 
 impl Crossing {
     /// Writes the row of a time on a bridge, if it is on one; where the bridge is not passed, on its way up to the singular position.
@@ -17,7 +16,7 @@ impl Crossing {
         step: &mut Step,
         t: f64,
         row: &mut [f64],
-    ) -> Option<Result<(), Box<Diagnostic>>> {
+    ) -> Option<Result<(), Box<Stop>>> {
         let is_on = |bridge: &&mut Bridge| {
             let end = if self.passes { bridge.to.t } else { bridge.at - CERTAIN * bridge.length() };
             t > bridge.from.t && t < end
@@ -36,7 +35,7 @@ impl Crossing {
             return Some(Ok(()));
         }
         // it may be certain as it is found without the bridge
-        self.passes.then(|| Err(Box::new(errors::uncertain(kinematics.system(), &[], t))))
+        self.passes.then(|| Err(StopCause::Uncertain { declarations: Vec::new() }.at(t)))
     }
 
     /// The state at a time by the curve over the last singular position.

@@ -5,28 +5,27 @@
 //! for on its curve, several at once. Near a singular position, and where such a row does not hold, steps go to each
 //! time on its own.
 
-mod ahead;
-mod doubt;
-mod leap;
-mod stretches;
+mod dense_steps;
+mod ill_conditioned_rows;
+mod lookahead;
+mod segments;
 
-use super::bookmark::Bookmark;
-use super::choice::Choice;
+use super::checkpoint::Checkpoint;
 use super::crossing::{Crossing, is_clear};
 use super::edges::{Edge, Edges};
-use super::misses::Misses;
-use super::remarks::Remarks;
-use super::rows::{ForceWatch, Leap, Place, Rows};
-use super::step::{Accepted, Step, keep_away};
+use super::near_misses::NearMisses;
+use super::row_selection::RowSelection;
+use super::rows::{ForceMonitor, Place, RowBatch, Rows};
+use super::step::{Accepted, Step, reject_near_singular};
+use super::warnings::Warnings;
 use crate::analysis::assemble::Started;
-use crate::analysis::explain::singular;
+use crate::analysis::explain::{Stop, Warning, singular};
 use crate::analysis::state::{Fault, Kinematics, State, Times, Trust, behind_start};
 use crate::solver::Solver;
 use mechc_ir::tolerances::UNTOLD_SPAN;
 use mechc_ir::tolerances::steps::march::{FEWEST_STEPS_NEAR, MOST_STEPS};
-use mechc_text::diag::{Diagnostic, Diagnostics};
+pub use segments::Stretch;
 use std::sync::Arc;
-pub use stretches::Stretch;
 
 /// A motion in progress: rows at ascending times, computed without allocating.
 pub struct Follower {
@@ -36,11 +35,11 @@ pub struct Follower {
     crossing: Crossing,
     rows: Rows,
     /// None where all equations are needed.
-    choice: Option<Choice>,
+    choice: Option<RowSelection>,
     /// None where there are no contacts and loads, or nobody asks for forces.
-    forces: Option<ForceWatch>,
-    misses: Misses,
-    remarks: Remarks,
+    forces: Option<ForceMonitor>,
+    misses: NearMisses,
+    warnings: Warnings,
     /// Whether derivatives at the start are known.
     begun: bool,
     /// The edge that the last step ended at, if its later side has not been taken yet.
@@ -69,14 +68,14 @@ impl Follower {
         let edges_end = times.end();
         let edges = Edges::new(&mut kinematics, &state, span, edges_end);
         let crossing = Crossing::new(&state, span, last);
-        let forces = ForceWatch::of(&kinematics, &state);
-        let misses = Misses::new(&state);
+        let forces = ForceMonitor::of(&kinematics, &state);
+        let misses = NearMisses::new(&state);
         let step = Step::new(&kinematics, state, times.span());
-        let origin = || Bookmark::new(&step, &edges, &crossing);
-        let leap = solver.map(|solver| Leap::new(&kinematics, solver, origin(), span));
+        let origin = || Checkpoint::new(&step, &edges, &crossing);
+        let leap = solver.map(|solver| RowBatch::new(&kinematics, solver, origin(), span));
         let rows = Rows::new(&kinematics, leap, times);
-        let remarks = Remarks::new(kinematics.system());
-        let choice = Choice::of(&kinematics);
+        let warnings = Warnings::new(kinematics.system());
+        let choice = RowSelection::of(&kinematics);
         let (begun, edge) = (false, None);
         Follower {
             kinematics,
@@ -87,7 +86,7 @@ impl Follower {
             choice,
             forces,
             misses,
-            remarks,
+            warnings,
             begun,
             edge,
             span,
@@ -96,30 +95,30 @@ impl Follower {
         }
     }
 
-    /// Goes on beyond bifurcations, along the branch that continues smoothly, with a remark each time.
+    /// Goes on beyond bifurcations, along the branch that continues smoothly, with a warning each time.
     pub fn pass_bifurcations(&mut self) {
         self.crossing.pass_bifurcations();
     }
 
     /// From now on it remembers at which times accelerations jump.
     pub fn keep_edges(&mut self) {
-        self.remarks.keep_jumps();
+        self.warnings.keep_jumps();
     }
 
     /// These times (s), ascending, each once.
     #[must_use]
     pub fn edges(&self) -> Vec<f64> {
-        self.remarks.jumps()
+        self.warnings.jumps()
     }
 
     /// What there is to say beside the rows so far, each thing once.
-    pub fn take_remarks(&mut self) -> Diagnostics {
-        self.rows.say_what_is_missing(&self.kinematics, &mut self.remarks);
-        let Follower { kinematics, step, rows, misses, remarks, .. } = self;
+    pub fn take_warnings(&mut self) -> Vec<Warning> {
+        self.rows.say_what_is_missing(&mut self.warnings);
+        let Follower { kinematics, step, rows, misses, warnings, .. } = self;
         if let Some(missed) = rows.last_time().and_then(|t| misses.tell(kinematics, step.state(), t)) {
-            remarks.push(missed);
+            warnings.push(missed);
         }
-        self.remarks.take()
+        self.warnings.take()
     }
 
     /// The row of the next output time, in the order of `Started::columns`; none behind the last one, and where the motion
@@ -127,7 +126,7 @@ impl Follower {
     ///
     /// # Errors
     /// Why and where the motion cannot go on.
-    pub fn next_row(&mut self) -> Option<Result<&[f64], Box<Diagnostic>>> {
+    pub fn next_row(&mut self) -> Option<Result<&[f64], Box<Stop>>> {
         if self.forces.is_none()
             && let Some(place) = self.rows.hand_out_ready()
         {
@@ -143,8 +142,8 @@ impl Follower {
                 return if self.kinematics.is_cancelled() { None } else { Some(Err(why)) };
             }
         };
-        let Follower { kinematics, forces, rows, remarks, .. } = self;
-        if let Some(Err(why)) = forces.as_mut().map(|forces| forces.look(kinematics, rows.row(place), remarks)) {
+        let Follower { kinematics, forces, rows, warnings, .. } = self;
+        if let Some(Err(why)) = forces.as_mut().map(|forces| forces.look(kinematics, rows.row(place), warnings)) {
             rows.stop();
             return Some(Err(why));
         }
@@ -156,7 +155,7 @@ impl Follower {
     }
 
     /// Goes on until the row of the next output time `t` (s) is there.
-    fn reach(&mut self, t: f64) -> Result<Place, Box<Diagnostic>> {
+    fn reach(&mut self, t: f64) -> Result<Place, Box<Stop>> {
         self.begin()?;
         loop {
             if let Some(place) = self.row_in_leap(t) {
@@ -165,21 +164,21 @@ impl Follower {
             self.cross_edge()?;
             if let Some(row) = self.row_on_bridge(t) {
                 if row.is_err() && self.plain_row(t) {
-                    return Ok(Place::Own);
+                    return Ok(Place::Single);
                 }
-                return self.or_trusted(t, row).map(|()| Place::Own);
+                return self.or_solve_directly(t, row).map(|()| Place::Single);
             }
             if t <= self.step.t() {
                 self.row_at_rest()?;
                 self.refine(t);
-                return Ok(Place::Own);
+                return Ok(Place::Single);
             }
             if !self.may_leap() {
                 // beside a bifurcation that is passed every digit counts
                 if self.go_to(t)? && !self.rows.is_near() {
                     self.refine(t);
                 }
-                return Ok(Place::Own);
+                return Ok(Place::Single);
             }
             self.count_step(t)?;
             self.leap()?;
@@ -187,7 +186,7 @@ impl Follower {
     }
 
     /// Derivatives at the start, if they are not known yet; says whether they were.
-    fn begin(&mut self) -> Result<bool, Box<Diagnostic>> {
+    fn begin(&mut self) -> Result<bool, Box<Stop>> {
         if std::mem::replace(&mut self.begun, true) {
             return Ok(true);
         }
@@ -201,7 +200,7 @@ impl Follower {
             self.kinematics.restore(self.step.state());
         }
         self.step.begin_branch(&self.kinematics);
-        self.step.take_sides(&self.kinematics);
+        self.step.record_monitor_signs(&self.kinematics);
         match self.step.derive_state(&mut self.kinematics) {
             Ok(()) => Ok(false),
             Err(fault) => Err(self.explain_state(fault)),
@@ -229,7 +228,7 @@ impl Follower {
         if let Some(forces) = forces {
             forces.change_equations(kinematics);
         }
-        let origin = Bookmark::new(step, edges, &self.crossing);
+        let origin = Checkpoint::new(step, edges, &self.crossing);
         rows.change_solver(choice.leap(kinematics, origin, self.span));
         if !self.kinematics.switches().is_empty() {
             self.settle();
@@ -239,23 +238,23 @@ impl Follower {
     }
 
     /// Why the state where the motion is has no row.
-    fn explain_state(&mut self, fault: Fault) -> Box<Diagnostic> {
+    fn explain_state(&mut self, fault: Fault) -> Box<Stop> {
         let state = self.step.state();
-        Box::new(singular::explain(&mut self.kinematics, state, fault, 0.0, state.t))
+        singular::find_stop(&mut self.kinematics, state, fault, [0.0, state.t])
     }
 
-    fn count_step(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
+    fn count_step(&mut self, t: f64) -> Result<(), Box<Stop>> {
         // who cancelled does not read why
         if self.rows.count_step() || self.kinematics.is_cancelled() {
             let state = self.step.state();
-            return Err(Box::new(singular::explain_haste(&mut self.kinematics, state, MOST_STEPS, t)));
+            return Err(singular::find_stop_of_haste(&mut self.kinematics, state, MOST_STEPS, t));
         }
         Ok(())
     }
 
     /// Steps to an output time on its own; says whether its row was solved for there, and not taken from the way over a singular
     /// position.
-    fn go_to(&mut self, t: f64) -> Result<bool, Box<Diagnostic>> {
+    fn go_to(&mut self, t: f64) -> Result<bool, Box<Stop>> {
         while self.step.t() < t {
             self.count_step(t)?;
             if let Err(why) = self.step_towards(t) {
@@ -264,7 +263,7 @@ impl Follower {
             }
         }
         if let Some(row) = self.row_on_bridge(t) {
-            return self.or_trusted(t, row).map(|()| false);
+            return self.or_solve_directly(t, row).map(|()| false);
         }
         if self.rows.trust() == Trust::Doubtful && !self.crossing.passes() {
             return self.row_in_doubt(t).map(|()| false);
@@ -276,13 +275,13 @@ impl Follower {
     }
 
     /// A step, as far as the error and the next edge allow, which is gone over.
-    fn step_towards(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
+    fn step_towards(&mut self, t: f64) -> Result<(), Box<Stop>> {
         let edge = self.step_to_edge(t)?;
         edge.map_or(Ok(()), |edge| self.cross(edge))
     }
 
     /// The same, up to the edge.
-    fn step_to_edge(&mut self, t: f64) -> Result<Option<Edge>, Box<Diagnostic>> {
+    fn step_to_edge(&mut self, t: f64) -> Result<Option<Edge>, Box<Stop>> {
         let next = self.step.end_towards(t);
         let edge = self.edges.next(&mut self.kinematics, &mut self.step, next, next >= t)?;
         let next = edge.map_or(next, |edge| edge.t);
@@ -295,7 +294,7 @@ impl Follower {
                 self.accept(h, &accepted);
                 Ok(edge)
             }
-            Err(fault) => self.give_way(h, fault, t).map(|()| None),
+            Err(fault) => self.handle_rejection(h, fault, t).map(|()| None),
         }
     }
 
@@ -309,7 +308,7 @@ impl Follower {
             edges.before_switch(kinematics, step.t(), t)?;
         }
         step.same_branch(kinematics)?;
-        keep_away(kinematics)?;
+        reject_near_singular(kinematics)?;
         if choice.as_mut().is_some_and(|choice| !choice.is_good(kinematics, step.trial())) {
             return Err(Fault::Choice);
         }
@@ -318,7 +317,7 @@ impl Follower {
             rows.take(kinematics, step.trial(), |kinematics| crossing.passes() && !is_clear(kinematics));
         }
         let between = step.correction_between(kinematics, h)?;
-        edges.look_between(kinematics, step, h, (!to_edge_of_motion).then_some(between))?;
+        edges.check_interior(kinematics, step, h, (!to_edge_of_motion).then_some(between))?;
         step.look_for_touch(kinematics, h, motion)?;
         Ok(Accepted { first_correction, between, motion })
     }
@@ -329,70 +328,70 @@ impl Follower {
             misses.forget();
         }
         if let Some(forces) = forces {
-            forces.look_between(kinematics, [step.t(), h], step.curve());
+            forces.check_interior(kinematics, [step.t(), h], step.curve());
         }
-        edges.take_pace(kinematics, step, h);
+        edges.record_rates(kinematics, step, h);
         step.accept(kinematics);
         crossing.keep_if_clear(kinematics, step.state());
-        step.go_on(kinematics, h, accepted);
+        step.commit(kinematics, h, accepted);
         misses.take(kinematics, step.state());
     }
 
     /// What there is to do where a step of length `h` on the way to `target` was refused.
-    fn give_way(&mut self, h: f64, fault: Fault, target: f64) -> Result<(), Box<Diagnostic>> {
+    fn handle_rejection(&mut self, h: f64, fault: Fault, target: f64) -> Result<(), Box<Stop>> {
         if fault == Fault::Choice && self.choose_equations() {
             return Ok(());
         }
-        let Follower { kinematics, step, edges, remarks, .. } = self;
+        let Follower { kinematics, step, edges, warnings, .. } = self;
         match fault {
             Fault::Edge { t, switch } if edges.rests(kinematics, step, switch) => {
                 // a step of a few units in the last place may have been refused at its very beginning
-                edges.leave_alone(switch, t.max(step.t().next_up()));
+                edges.suspend_until(switch, t.max(step.t().next_up()));
                 return Ok(());
             }
             Fault::Edge { t, .. } if edges.locate(kinematics, step, t) => return Ok(()),
-            Fault::Rim => return edges.cross_rim(kinematics, step, remarks),
+            Fault::Rim => return edges.cross_rim(kinematics, step, warnings),
             _ => {}
         }
         if !step.halve(h) {
             return Ok(());
         }
-        let Follower { kinematics, step, edges, crossing, remarks, .. } = self;
-        match edges.end_at_rim(kinematics, step, h, remarks) {
+        let Follower { kinematics, step, edges, crossing, warnings, .. } = self;
+        match edges.end_at_rim(kinematics, step, h, warnings) {
             Some(why) => Err(why),
-            None => crossing.pass_or_explain(kinematics, step, (fault, h, target), remarks),
+            None => crossing.pass_or_explain(kinematics, step, (fault, h, target), warnings),
         }
     }
 
     /// Goes over to the later side of the edge that the last step ended at, if it did.
-    fn cross_edge(&mut self) -> Result<bool, Box<Diagnostic>> {
+    fn cross_edge(&mut self) -> Result<bool, Box<Stop>> {
         match self.edge.take() {
             Some(edge) => self.cross(edge).map(|()| true),
             None => Ok(false),
         }
     }
 
-    fn cross(&mut self, edge: Edge) -> Result<(), Box<Diagnostic>> {
-        let Follower { kinematics, step, edges, rows, remarks, .. } = self;
-        if edges.cross(kinematics, step, edge, remarks)? {
+    fn cross(&mut self, edge: Edge) -> Result<(), Box<Stop>> {
+        let Follower { kinematics, step, edges, rows, warnings, .. } = self;
+        if edges.cross(kinematics, step, edge, warnings)? {
             // the row at an edge is one of its later side
-            rows.own_mut().copy_from_slice(edges.later_row());
+            rows.single_mut().copy_from_slice(edges.later_row());
         }
         Ok(())
     }
 
     /// The row of the state that has been reached already: the start.
-    fn row_at_rest(&mut self) -> Result<(), Box<Diagnostic>> {
+    fn row_at_rest(&mut self) -> Result<(), Box<Stop>> {
         self.kinematics.restore(self.step.state());
         let mut trust = self.trust_at_rest();
         if trust == Ok(Trust::Doubtful) {
             let state = self.step.state().clone();
-            trust = if self.stands_up(&state) { self.trust_at_rest() } else { Err(Fault::Uncertain) };
+            trust = if self.is_reproducible(&state) { self.trust_at_rest() } else { Err(Fault::Uncertain) };
         }
         if let Err(fault) = trust {
             return Err(self.explain_state(fault));
         }
-        self.kinematics.write_row(self.step.state(), self.rows.own_mut());
+        self.kinematics.write_row(self.step.state(), self.rows.single_mut());
         Ok(())
     }
 
@@ -405,9 +404,9 @@ impl Follower {
     }
 
     /// Writes the row of a time on the way over a singular position, if it is on one.
-    fn row_on_bridge(&mut self, t: f64) -> Option<Result<(), Box<Diagnostic>>> {
+    fn row_on_bridge(&mut self, t: f64) -> Option<Result<(), Box<Stop>>> {
         let Follower { kinematics, step, crossing, rows, .. } = self;
-        crossing.write_row(kinematics, step, t, rows.own_mut())
+        crossing.write_row(kinematics, step, t, rows.single_mut())
     }
 
     /// Solves for the row of a time once more, by the operations that all other rows come from.
@@ -416,11 +415,11 @@ impl Follower {
     }
 
     /// Where the motion is, to go back to.
-    fn bookmark(&self) -> Bookmark {
-        Bookmark::new(&self.step, &self.edges, &self.crossing)
+    fn checkpoint(&self) -> Checkpoint {
+        Checkpoint::new(&self.step, &self.edges, &self.crossing)
     }
 
-    fn go_back(&mut self, to: &Bookmark) {
+    fn go_back(&mut self, to: &Checkpoint) {
         self.step.go_back(&to.mark);
         self.crossing.go_back(&to.clear);
         self.edges.go_back(to.met);

@@ -9,23 +9,23 @@ use mechc_ir::tolerances::steps::edges::{AT_REST, FINEST, LONGEST_REST, NUDGE, R
 /// A switch that has gone back and forth without anything to show for it: two branches that agree to rounding. It is left
 /// alone for a while, and for longer each time.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Restless {
+pub(super) struct Chattering {
     last: f64,
     length: f64,
     until: f64,
 }
 
-impl Restless {
+impl Chattering {
     /// One that has never been so.
-    pub const NEVER: Restless = Restless { last: f64::NEG_INFINITY, length: 0.0, until: f64::NEG_INFINITY };
+    pub const NEVER: Chattering = Chattering { last: f64::NEG_INFINITY, length: 0.0, until: f64::NEG_INFINITY };
 
     /// Whether nobody looks at it behind a time (s).
-    pub fn is_left_alone(&self, t: f64) -> bool {
+    pub fn is_suspended(&self, t: f64) -> bool {
         self.until > t
     }
 
     /// Nobody looks at it up to a time (s).
-    pub fn leave_alone(&mut self, until: f64) {
+    pub fn suspend_until(&mut self, until: f64) {
         self.until = until;
     }
 
@@ -39,18 +39,18 @@ impl Restless {
 }
 
 /// Whether the switch that is computed in a register is left alone behind a time (s), so that it may change.
-pub(super) fn may_change(kinematics: &Kinematics, restless: &[Restless], register: Register, t: f64) -> bool {
-    let mut switches = kinematics.switches().iter().zip(restless);
-    switches.any(|(switch, restless)| switch.to == register && restless.is_left_alone(t))
+pub(super) fn may_change(kinematics: &Kinematics, chattering: &[Chattering], register: Register, t: f64) -> bool {
+    let mut switches = kinematics.switches().iter().zip(chattering);
+    switches.any(|(switch, chattering)| switch.to == register && chattering.is_suspended(t))
 }
 
 impl Edges {
     /// Nothing jumps at an edge: if it is one of many in no time at all, its switch is left alone for a while.
-    pub(super) fn note_restless(&mut self, kinematics: &Kinematics, t: f64) {
+    pub(super) fn note_chattering(&mut self, kinematics: &Kinematics, t: f64) {
         let switches = kinematics.switches().iter().zip(self.sides.switches());
-        for (restless, (switch, before)) in self.restless.iter_mut().zip(switches) {
+        for (chattering, (switch, before)) in self.chattering.iter_mut().zip(switches) {
             if kinematics.switch(switch).to_bits() != before.to_bits() {
-                restless.take_change(t, self.span);
+                chattering.take_change(t, self.span);
             }
         }
     }
@@ -77,7 +77,7 @@ impl Edges {
     }
 
     /// Leaves a switch alone up to a time (s).
-    pub fn leave_alone(&mut self, switch: usize, t: f64) {
-        self.restless[switch].leave_alone(t);
+    pub fn suspend_until(&mut self, switch: usize, t: f64) {
+        self.chattering[switch].suspend_until(t);
     }
 }

@@ -1,13 +1,12 @@
 //! Rows that are held against what comes behind them.
 
 use super::Follower;
-use crate::analysis::explain::singular;
-use crate::analysis::follow::bookmark::Bookmark;
+use crate::analysis::explain::{Stop, singular};
+use crate::analysis::follow::checkpoint::Checkpoint;
 use crate::analysis::follow::crossing::is_clear;
 use crate::analysis::state::Trust;
 use mechc_ir::tolerances::solving::rows::STEPS_AHEAD;
 use mechc_ir::tolerances::steps::march::FEWEST_STEPS_NEAR;
-use mechc_text::diag::Diagnostic;
 
 impl Follower {
     /// How far the motion is looked ahead from a time `t` (s): a singular position that a row is so near to that its derivatives
@@ -20,8 +19,8 @@ impl Follower {
 
     /// A row whose derivatives would be more rounding than digits: mostly a lock-up comes right behind it, or a bifurcation,
     /// and then the row may lie on the way over it. Says whether it does not.
-    pub(super) fn look_ahead(&mut self, t: f64) -> Result<bool, Box<Diagnostic>> {
-        let (trust, row, here) = (self.rows.trust(), self.rows.own().to_vec(), self.bookmark());
+    pub(super) fn look_ahead(&mut self, t: f64) -> Result<bool, Box<Stop>> {
+        let (trust, row, here) = (self.rows.trust(), self.rows.single().to_vec(), self.checkpoint());
         let is_certain = self.is_certain(here.state());
         // a run that passes nothing prints it too, if nothing has been passed before
         let is_plain = is_certain && !self.crossing.has_passed(t);
@@ -39,7 +38,7 @@ impl Follower {
                 Some(Err(_)) if is_plain => return Ok(self.keep_plain(here, &row)),
                 Some(on_bridge) => {
                     self.rows.keep_plain(is_plain.then_some(here));
-                    return self.or_trusted(t, on_bridge).map(|()| false);
+                    return self.or_solve_directly(t, on_bridge).map(|()| false);
                 }
                 None => {}
             }
@@ -58,14 +57,14 @@ impl Follower {
         // the next row lies before what was looked at
         self.go_back(&here);
         if is_certain {
-            self.rows.own_mut().copy_from_slice(&row);
+            self.rows.single_mut().copy_from_slice(&row);
             return Ok(true);
         }
         Err(self.explain_uncertain(t))
     }
 
     /// The row of a time `t`, which is not certain as it was found, where the motion behind it cannot go on.
-    fn row_before(&mut self, t: f64, here: &Bookmark, why: Box<Diagnostic>) -> Result<(), Box<Diagnostic>> {
+    fn row_before(&mut self, t: f64, here: &Checkpoint, why: Box<Stop>) -> Result<(), Box<Stop>> {
         let on_bridge = self.row_on_bridge(t);
         self.go_back(here);
         on_bridge.unwrap_or_else(|| Err(self.explain_refused(t, Some(why))))
@@ -73,20 +72,18 @@ impl Follower {
 
     /// Why the row of a time `t` is not printed: what ends the motion, unless that comes behind the last row, for which nobody
     /// asked, or its own nearness to a singular position.
-    pub(super) fn explain_refused(&mut self, t: f64, why: Option<Box<Diagnostic>>) -> Box<Diagnostic> {
-        let at = |why: &Diagnostic| why.data.get("t").and_then(serde_json::Value::as_f64);
-        let is_behind = |why: &Diagnostic| at(why).is_some_and(|at| at > self.last);
-        why.filter(|why| !is_behind(why)).unwrap_or_else(|| self.explain_uncertain(t))
+    pub(super) fn explain_refused(&mut self, t: f64, why: Option<Box<Stop>>) -> Box<Stop> {
+        why.filter(|stop| stop.t <= self.last).unwrap_or_else(|| self.explain_uncertain(t))
     }
 
-    fn explain_uncertain(&mut self, t: f64) -> Box<Diagnostic> {
+    fn explain_uncertain(&mut self, t: f64) -> Box<Stop> {
         let singular = self.kinematics.worst();
-        Box::new(singular::name_uncertain(self.kinematics.system(), &singular.left, t))
+        singular::uncertain(self.kinematics.system(), &singular.left, t)
     }
 
     /// Keeps a row that was found without a bridge, so that the next one on that bridge may be found in the same way.
-    fn keep_plain(&mut self, here: Bookmark, row: &[f64]) -> bool {
-        self.rows.own_mut().copy_from_slice(row);
+    fn keep_plain(&mut self, here: Checkpoint, row: &[f64]) -> bool {
+        self.rows.single_mut().copy_from_slice(row);
         self.kinematics.restore(here.state());
         self.refine(here.state().t);
         self.kinematics.restore(self.step.state());
@@ -100,14 +97,14 @@ impl Follower {
         let Some(plain) = self.rows.take_plain(t) else {
             return false;
         };
-        let (beyond, aside) = (self.bookmark(), self.crossing.forget());
+        let (beyond, aside) = (self.checkpoint(), self.crossing.forget());
         self.go_back(&plain);
         let is_found = self.steps_to(t) && self.is_certain(&self.step.state().clone());
-        let here = self.bookmark();
+        let here = self.checkpoint();
         self.crossing.remember(aside);
         self.go_back(&beyond);
         if is_found {
-            let row = self.rows.own().to_vec();
+            let row = self.rows.single().to_vec();
             self.keep_plain(here, &row);
         }
         is_found

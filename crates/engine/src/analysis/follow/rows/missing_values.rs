@@ -1,7 +1,7 @@
 //! Rows in which a measure, derivative or force has no value.
 
-use crate::analysis::explain::errors;
-use crate::analysis::follow::remarks::Remarks;
+use crate::analysis::explain::{Warning, WarningCause};
+use crate::analysis::follow::warnings::Warnings;
 use crate::analysis::state::Unknown;
 use mechc_ir::ConstraintSystem;
 
@@ -12,11 +12,11 @@ struct Gap {
     first: f64,
     last: f64,
     rows: u64,
-    is_told: bool,
+    is_reported: bool,
 }
 
 impl Gap {
-    const NONE: Gap = Gap { first: 0.0, last: f64::NAN, rows: 0, is_told: false };
+    const NONE: Gap = Gap { first: 0.0, last: f64::NAN, rows: 0, is_reported: false };
 
     /// A cell of a row at a time; several of one row count once.
     fn take_note(&mut self, t: f64) {
@@ -30,17 +30,17 @@ impl Gap {
 }
 
 /// The rows in which something has no value, by what has none.
-pub(super) struct Missing {
+pub(super) struct MissingValues {
     measures: Vec<Gap>,
     derivatives: Vec<Gap>,
     forces: Gap,
 }
 
-impl Missing {
-    pub fn new(system: &ConstraintSystem) -> Missing {
+impl MissingValues {
+    pub fn new(system: &ConstraintSystem) -> MissingValues {
         let gaps = |count: usize| vec![Gap::NONE; count];
         let (measures, derivatives) = (gaps(system.measures().len()), gaps(system.variables().len()));
-        Missing { measures, derivatives, forces: Gap::NONE }
+        MissingValues { measures, derivatives, forces: Gap::NONE }
     }
 
     /// There is no number in a cell of the row of a time (s).
@@ -54,13 +54,13 @@ impl Missing {
     }
 
     /// A warning for each, once.
-    pub fn say(&mut self, system: &ConstraintSystem, remarks: &mut Remarks) {
+    pub fn say(&mut self, warnings: &mut Warnings) {
         let measures = self.measures.iter_mut().enumerate().map(|(k, gap)| (Unknown::Measure(k), gap));
         let derivatives = self.derivatives.iter_mut().enumerate().map(|(k, gap)| (Unknown::Derivative(k), gap));
         let all = measures.chain(derivatives).chain([(Unknown::Forces, &mut self.forces)]);
-        for (what, gap) in all.filter(|(_, gap)| gap.rows > 0 && !gap.is_told) {
-            gap.is_told = true;
-            remarks.push(errors::without_value(system, what, gap.first, gap.rows));
+        for (quantity, gap) in all.filter(|(_, gap)| gap.rows > 0 && !gap.is_reported) {
+            gap.is_reported = true;
+            warnings.push(Warning { t: gap.first, cause: WarningCause::WithoutValue { quantity, rows: gap.rows } });
         }
     }
 }
