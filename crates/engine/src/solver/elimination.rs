@@ -34,7 +34,7 @@ pub(super) struct Inverse {
 
 impl Factors {
     /// Of one equation for one unknown.
-    pub fn of_one(tape: &mut Tape, slope: Value) -> Factors {
+    pub fn single(tape: &mut Tape, slope: Value) -> Factors {
         Factors {
             pivots: vec![(0, 0)],
             inverses: vec![tape.recip(slope)],
@@ -66,19 +66,19 @@ impl Factors {
                 }
             }
             let mut line = std::mem::take(&mut rows[row as usize]);
-            let pivot = taken(&mut line, column);
+            let pivot = take_entry(&mut line, column);
             let inverse = tape.recip(pivot.unwrap_or(Value::ZERO));
             let mut lower = Vec::with_capacity(below.len());
             for &other in below {
                 let target = &mut rows[other as usize];
-                let Some(entry) = taken(target, column) else {
+                let Some(entry) = take_entry(target, column) else {
                     continue;
                 };
                 let multiplier = match &mut weight {
                     Some(weight) => tape.multiplier(entry, inverse, || weight(row, other)),
                     None => tape.mul(entry, inverse),
                 };
-                subtract(tape, target, multiplier, &line);
+                subtract_multiple(tape, target, multiplier, &line);
                 lower.push((other, multiplier));
             }
             factors.inverses.push(inverse);
@@ -102,9 +102,9 @@ impl Factors {
     /// Solves: `right` by rows becomes the solution by columns.
     pub fn solve(&self, tape: &mut Tape, mut right: Vec<Value>) -> Vec<Value> {
         for (&(row, _), lower) in self.pivots.iter().zip(&self.lower) {
-            let own = right[row as usize];
+            let value = right[row as usize];
             for &(other, multiplier) in lower {
-                let product = tape.mul(multiplier, own);
+                let product = tape.mul(multiplier, value);
                 right[other as usize] = tape.sub(right[other as usize], product);
             }
         }
@@ -127,10 +127,10 @@ impl Factors {
     pub fn solve_transposed(&self, tape: &mut Tape, mut right: Vec<Value>) -> Vec<Value> {
         let mut solution = vec![Value::ZERO; right.len()];
         for ((&(row, column), &inverse), upper) in self.pivots.iter().zip(&self.inverses).zip(&self.upper) {
-            let own = tape.mul(right[column as usize], inverse);
-            solution[row as usize] = own;
+            let unknown = tape.mul(right[column as usize], inverse);
+            solution[row as usize] = unknown;
             for &(other, value) in upper {
-                let product = tape.mul(value, own);
+                let product = tape.mul(value, unknown);
                 right[other as usize] = tape.sub(right[other as usize], product);
             }
         }
@@ -159,8 +159,8 @@ impl TwoByTwo {
             return None;
         };
         let entry = |row: u32, column: u32| {
-            let found = rows[row as usize].iter().find(|(own, _)| *own == column).map(|(_, value)| *value);
-            found.filter(|value| matches!(value, Value::Of { .. }))
+            let entry = rows[row as usize].iter().find(|(other, _)| *other == column).map(|(_, value)| *value);
+            entry.filter(|value| matches!(value, Value::Register { .. }))
         };
         let entries = [[entry(upper, first)?, entry(upper, second)?], [entry(lower, first)?, entry(lower, second)?]];
         let (down, up) = (tape.mul(entries[0][0], entries[1][1]), tape.mul(entries[0][1], entries[1][0]));
@@ -199,17 +199,17 @@ impl TwoByTwo {
 }
 
 /// Takes the entry of a column out of a row.
-fn taken(line: &mut Line, column: u32) -> Option<Value> {
-    line.iter().position(|(own, _)| *own == column).map(|at| line.swap_remove(at).1)
+fn take_entry(line: &mut Line, column: u32) -> Option<Value> {
+    line.iter().position(|(other, _)| *other == column).map(|at| line.swap_remove(at).1)
 }
 
 /// Takes a multiple of one row from another.
-fn subtract(tape: &mut Tape, target: &mut Line, multiplier: Value, line: &[(u32, Value)]) {
-    for &(own, value) in line {
+fn subtract_multiple(tape: &mut Tape, target: &mut Line, multiplier: Value, line: &[(u32, Value)]) {
+    for &(column, value) in line {
         let product = tape.mul(multiplier, value);
-        match target.iter_mut().find(|(known, _)| *known == own) {
+        match target.iter_mut().find(|(other, _)| *other == column) {
             Some((_, entry)) => *entry = tape.sub(*entry, product),
-            None => target.push((own, product.negated())),
+            None => target.push((column, product.negated())),
         }
     }
 }

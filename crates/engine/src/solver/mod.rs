@@ -15,33 +15,33 @@
 //!
 //! The operations work on several times at once, as [`Lanes`]; each lane has the bits that it would have alone.
 
-mod age;
-mod alike;
 mod build;
-mod curve;
+mod components;
+mod constant_folding;
+mod derivative_solves;
 mod elimination;
-mod finish;
-mod folding;
-mod forces;
-mod fusion;
-mod groups;
 mod instruction;
+mod lane_invariants;
 mod lanes;
+mod multiplier_solves;
+mod optimize;
 mod order;
+mod peephole;
 mod pivoting;
-mod rates;
+mod predictor;
+mod schedule;
+mod symbolic_values;
 mod tape;
 mod tear;
-mod terms;
 mod variants;
 
-pub use curve::Bend;
 pub use instruction::{Instruction, from_bits};
-pub use lanes::{Batch, Lanes, PART};
+pub use lanes::{Batch, CHUNK, Lanes};
 use mechc_ir::tolerances::solving::solver::{LARGEST_MULTIPLIER, MOST_OPERATIONS};
 pub use order::{BlockEntry, Order};
 pub use pivoting::{BlockTables, Equations, Pivoting};
-pub use variants::{Abreast, Guesses};
+pub use predictor::Bend;
+pub use variants::{VariantBatch, VariantLanes};
 
 use mechc_ir::layout::RowLayout;
 use mechc_ir::program::{Program, Register};
@@ -54,7 +54,7 @@ pub struct Solver {
     /// Those of all components one behind the other: they are read in a row, time and again.
     instructions: Vec<Instruction>,
     /// So many of them, the first ones, are run once for numbers and parameters; none where nothing is set apart.
-    fixed: usize,
+    prologue_len: usize,
     /// What there is to run, component by component, and last the measures that join components, from what these have stored.
     segments: Vec<Segment>,
     registers: usize,
@@ -86,14 +86,14 @@ pub struct Turn {
 }
 
 /// Of a register, while a solver is laid out: that what it holds is fixed.
-const FIXED: Register = 1 << 31;
+const PROLOGUE: Register = 1 << 31;
 
 /// Blocks that depend on each other, in an order of solution, as operations.
 #[derive(Clone, Debug, Default)]
 struct Component {
     /// What only numbers and parameters lead to, where that is set apart, and how many registers it has of its own, each of them [`FIXED`].
-    fixed: Vec<Instruction>,
-    fixed_registers: usize,
+    prologue: Vec<Instruction>,
+    prologue_registers: usize,
     instructions: Vec<Instruction>,
     segments: Vec<Segment>,
     registers: usize,
@@ -138,20 +138,20 @@ impl Segment {
     }
 
     /// The same, of instructions that stand so many places further on.
-    fn behind(self, places: usize) -> Segment {
-        let moved = |range: Range<usize>| range.start + places..range.end + places;
+    fn shifted(self, by: usize) -> Segment {
+        let shifted = |range: Range<usize>| range.start + by..range.end + by;
         match self {
-            Segment::Once(range) => Segment::Once(moved(range)),
-            Segment::Newton { instructions, tears } => Segment::Newton { instructions: moved(instructions), tears },
+            Segment::Once(range) => Segment::Once(shifted(range)),
+            Segment::Newton { instructions, tears } => Segment::Newton { instructions: shifted(instructions), tears },
         }
     }
 
     /// The same with other registers.
     #[must_use]
-    pub fn renumbered(mut self, own: impl Fn(Register) -> Register) -> Segment {
+    pub fn renumbered(mut self, new: impl Fn(Register) -> Register) -> Segment {
         if let Segment::Newton { tears, .. } = &mut self {
             for tear in tears {
-                (tear.x, tear.delta) = (own(tear.x), own(tear.delta));
+                (tear.x, tear.delta) = (new(tear.x), new(tear.delta));
             }
         }
         self
@@ -287,24 +287,24 @@ impl Solver {
     }
 
     /// The columns in which they leave what only numbers and parameters lead to.
-    fn fixed_columns(&self) -> impl Iterator<Item = u32> {
-        stored(&self.instructions[..self.fixed])
+    fn prologue_columns(&self) -> impl Iterator<Item = u32> {
+        stored_columns(&self.instructions[..self.prologue_len])
     }
 
     /// Which columns have one number at all times.
-    pub fn is_fixed(&self) -> impl Fn(u32) -> bool + use<> {
-        let is_fixed = self.by_column(self.fixed_columns());
-        move |column| is_fixed[column as usize]
+    pub fn is_prologue_column(&self) -> impl Fn(u32) -> bool + use<> {
+        let is_among = self.column_mask(self.prologue_columns());
+        move |column| is_among[column as usize]
     }
 
     /// Which columns they leave something in.
-    pub fn keeps(&self) -> impl Fn(u32) -> bool + use<> {
-        let is_kept = self.by_column(stored(&self.instructions));
-        move |column| is_kept[column as usize]
+    pub fn is_stored_column(&self) -> impl Fn(u32) -> bool + use<> {
+        let is_stored = self.column_mask(stored_columns(&self.instructions));
+        move |column| is_stored[column as usize]
     }
 
     /// By column: whether it is among some.
-    fn by_column(&self, columns: impl Iterator<Item = u32>) -> Vec<bool> {
+    fn column_mask(&self, columns: impl Iterator<Item = u32>) -> Vec<bool> {
         let mut is_among = vec![false; self.layout.stride];
         columns.for_each(|column| is_among[column as usize] = true);
         is_among
@@ -318,7 +318,7 @@ impl Solver {
 }
 
 /// The columns in which instructions leave something.
-fn stored(instructions: &[Instruction]) -> impl Iterator<Item = u32> {
+fn stored_columns(instructions: &[Instruction]) -> impl Iterator<Item = u32> {
     instructions.iter().filter_map(|instruction| match *instruction {
         Instruction::Store { column, .. } => Some(column),
         _ => None,

@@ -74,7 +74,7 @@ impl Elimination {
 
     /// Eliminates one unknown.
     fn step(&mut self) {
-        let Some((row, column)) = self.choose() else {
+        let Some((row, column)) = self.choose_pivot() else {
             return;
         };
         self.is_done[row as usize] = true;
@@ -90,8 +90,8 @@ impl Elimination {
             };
             let multiplier = line.swap_remove(at).1 / pivot;
             for &(c, value, _) in pivot_row.iter().filter(|(c, ..)| *c != column) {
-                if let Some((_, own, is_number)) = line.iter_mut().find(|(own, ..)| *own == c) {
-                    *own -= multiplier * value;
+                if let Some((_, entry, is_number)) = line.iter_mut().find(|(other, ..)| *other == c) {
+                    *entry -= multiplier * value;
                     *is_number = false;
                 } else {
                     line.push((c, -multiplier * value, false));
@@ -108,7 +108,7 @@ impl Elimination {
     }
 
     /// The pivot that makes fewest entries among the shortest rows; among equals a number, and then the largest.
-    fn choose(&mut self) -> Option<(u32, u32)> {
+    fn choose_pivot(&mut self) -> Option<(u32, u32)> {
         let shortest = self.shortest();
         let mut best: Option<(Cost, (u32, u32))> = None;
         for &row in &shortest {
@@ -119,7 +119,7 @@ impl Elimination {
                     continue;
                 }
                 let cost = ((line.len() - 1) * (count - 1), !is_number, -value.abs());
-                if best.is_none_or(|(known, _)| cost < known) {
+                if best.is_none_or(|(least_cost, _)| cost < least_cost) {
                     best = Some((cost, (row, column)));
                 }
             }
@@ -162,7 +162,7 @@ impl Elimination {
         let left = (0..self.rows.len()).filter(|&row| !self.is_done[row]);
         let entries =
             left.flat_map(|row| self.rows[row].iter().map(move |&(column, value, _)| (row as u32, column, value)));
-        let found = entries.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()));
-        found.map(|(row, column, _)| (row, column))
+        let largest = entries.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()));
+        largest.map(|(row, column, _)| (row, column))
     }
 }

@@ -20,19 +20,19 @@ pub(super) type Entry = (u32, bool);
 /// Tears a block of as many rows as columns.
 pub(super) fn tear(rows: &[Vec<Entry>]) -> Tearing {
     let mut search = Search::new(rows);
-    while search.known < rows.len() {
+    while search.resolved < rows.len() {
         match search.next_row() {
             Some((row, Some(column))) => {
                 search.tearing.assigned.push((row, column));
                 search.take(row);
-                search.learn(column);
+                search.resolve(column);
             }
             // its coordinates are known, or it cannot be solved for the last of them
             Some((row, None)) => search.take(row),
             None => {
                 let column = search.best_tear();
                 search.tearing.tears.push(column);
-                search.learn(column);
+                search.resolve(column);
             }
         }
     }
@@ -44,12 +44,12 @@ struct Search<'r> {
     /// By column: the rows that hold it, and whether it can be assigned by one.
     users: Vec<Vec<u32>>,
     is_assignable: Vec<bool>,
-    is_known: Vec<bool>,
+    is_resolved: Vec<bool>,
     is_taken: Vec<bool>,
     unknowns: Vec<usize>,
     /// The rows that are left, those with the fewest unknowns first.
     left: BTreeSet<(usize, u32)>,
-    known: usize,
+    resolved: usize,
     tearing: Tearing,
 }
 
@@ -67,11 +67,11 @@ impl<'r> Search<'r> {
             rows,
             users,
             is_assignable,
-            is_known: vec![false; n],
+            is_resolved: vec![false; n],
             is_taken: vec![false; n],
             unknowns: rows.iter().map(Vec::len).collect(),
             left: rows.iter().enumerate().map(|(row, entries)| (entries.len(), row as u32)).collect(),
-            known: 0,
+            resolved: 0,
             tearing: Tearing::default(),
         }
     }
@@ -79,7 +79,7 @@ impl<'r> Search<'r> {
     /// A row with at most one unknown, and that unknown if the row can be solved for it.
     fn next_row(&self) -> Option<(u32, Option<u32>)> {
         let &(unknowns, row) = self.left.first().filter(|(unknowns, _)| *unknowns <= 1)?;
-        let unknown = self.rows[row as usize].iter().find(|(column, _)| !self.is_known[*column as usize]);
+        let unknown = self.rows[row as usize].iter().find(|(column, _)| !self.is_resolved[*column as usize]);
         let column = unknown.filter(|(_, is_number)| unknowns == 1 && *is_number).map(|(column, _)| *column);
         Some((row, column))
     }
@@ -89,9 +89,9 @@ impl<'r> Search<'r> {
         self.left.remove(&(self.unknowns[row as usize], row));
     }
 
-    fn learn(&mut self, column: u32) {
-        self.is_known[column as usize] = true;
-        self.known += 1;
+    fn resolve(&mut self, column: u32) {
+        self.is_resolved[column as usize] = true;
+        self.resolved += 1;
         for k in 0..self.users[column as usize].len() {
             let row = self.users[column as usize][k] as usize;
             if !self.is_taken[row] {
@@ -107,13 +107,14 @@ impl<'r> Search<'r> {
     fn best_tear(&self) -> u32 {
         let users = |column: u32| self.users[column as usize].len();
         let rows = || self.left.iter().take(CANDIDATES).map(|&(_, row)| self.rows[row as usize].as_slice());
-        let unknowns = |row: &'r [Entry]| row.iter().map(|&(column, _)| column).filter(|&c| !self.is_known[c as usize]);
+        let unknowns =
+            |row: &'r [Entry]| row.iter().map(|&(column, _)| column).filter(|&c| !self.is_resolved[c as usize]);
         let hopeless = |row: &'r [Entry]| {
             unknowns(row).filter(|&column| !self.is_assignable[column as usize]).max_by_key(|&column| users(column))
         };
         let any = || rows().next().and_then(|row| unknowns(row).max_by_key(|&column| users(column)));
         // rows that cannot be solved for their last unknown leave it to be torn
-        let left_over = || self.is_known.iter().position(|known| !known).unwrap_or(0) as u32;
+        let left_over = || self.is_resolved.iter().position(|resolved| !resolved).unwrap_or(0) as u32;
         rows().find_map(hopeless).or_else(any).unwrap_or_else(left_over)
     }
 
@@ -146,10 +147,10 @@ mod tests {
         assert_eq!(tearing.tears.len(), 2);
         assert!(tearing.tears.contains(&2) && tearing.tears.contains(&5));
         assert_eq!(tearing.residuals.len(), 2);
-        let mut known = tearing.tears.clone();
+        let mut resolved = tearing.tears.clone();
         for &(row, column) in &tearing.assigned {
-            assert!(rows[row as usize].iter().all(|&(c, _)| c == column || known.contains(&c)), "out of order");
-            known.push(column);
+            assert!(rows[row as usize].iter().all(|&(c, _)| c == column || resolved.contains(&c)), "out of order");
+            resolved.push(column);
         }
     }
 

@@ -2,34 +2,34 @@
 
 /// Rounds follow one another: what a block needs, its loop, what follows from that loop, the next loop, and so on. Later is greater.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) struct Age {
+pub(super) struct EvalTime {
     round: u32,
-    when: When,
+    phase: Phase,
 }
 
 /// How often a value is computed.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-enum When {
+enum Phase {
     Once,
     /// Anew in each iteration of Newton.
     InLoop,
 }
 
-impl Age {
+impl EvalTime {
     /// Before all others: of what is not known.
-    pub const NEVER: Age = Age { round: 0, when: When::Once };
+    pub const NEVER: EvalTime = EvalTime { round: 0, phase: Phase::Once };
 
     /// In the loop that begins now.
-    pub fn in_loop(self) -> Age {
-        Age { round: self.round, when: When::InLoop }
+    pub fn in_loop(self) -> EvalTime {
+        EvalTime { round: self.round, phase: Phase::InLoop }
     }
 
     /// When what is under way has been done.
-    pub fn after(self) -> Age {
-        Age { round: self.round + 1, when: When::Once }
+    pub fn after(self) -> EvalTime {
+        EvalTime { round: self.round + 1, phase: Phase::Once }
     }
 
     pub fn is_in_loop(self) -> bool {
-        self.when == When::InLoop
+        self.phase == Phase::InLoop
     }
 }

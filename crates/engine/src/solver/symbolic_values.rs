@@ -1,7 +1,7 @@
 //! What the registers of a program are worth while its system is being solved: known, given, or laid out when first asked for.
 
-use super::age::Age;
-use super::folding::{Folding, Results};
+use super::constant_folding::{ConstantFolder, Results};
+use super::schedule::EvalTime;
 use super::tape::{Tape, Value};
 use super::{Instruction, RowLayout, Tear};
 use mechc_ir::ConstraintSystem;
@@ -10,7 +10,7 @@ use mechc_ir::tolerances::solving::build::WIDEST_CELL;
 use rustc_hash::FxHashMap;
 
 /// The values of a program's registers, and the instructions that they take.
-pub(super) struct Terms<'s> {
+pub(super) struct SymbolicValues<'s> {
     program: &'s Program,
     layout: RowLayout,
     /// The registers of variations, and of multipliers.
@@ -20,24 +20,24 @@ pub(super) struct Terms<'s> {
     definitions: Vec<Option<(Stage, Op)>>,
     literals: FxHashMap<Register, f64>,
     /// By register of the program: its value, and how old that is.
-    known: Vec<(Age, Value)>,
+    values: Vec<(EvalTime, Value)>,
     pub tape: Tape,
-    age: Age,
+    time: EvalTime,
     /// Whether what components have left in columns may be asked for.
-    is_across: bool,
-    open: Vec<Register>,
+    reads_columns: bool,
+    stack: Vec<Register>,
     /// Registers whose values hold for this block alone: they depend on coordinates of later blocks, which cancel in what the
     /// block needs.
-    passing: Vec<Register>,
-    is_passing: Vec<bool>,
+    block_local: Vec<Register>,
+    is_block_local: Vec<bool>,
     /// Of the block's tears that have one: sine and cosine at the grid point, and from there on the correction.
-    pairs: Vec<Pair>,
+    sin_cos_of_tears: Vec<TearSinCos>,
     /// Whether these are turned by an instruction of their own.
-    turns_at_once: bool,
+    has_rotation_op: bool,
 }
 
 /// A tear with its sine and cosine where Newton has evaluated them last.
-struct Pair {
+struct TearSinCos {
     x: Register,
     sin: Register,
     cos: Register,
@@ -45,80 +45,85 @@ struct Pair {
     delta: Option<Register>,
 }
 
-impl<'s> Terms<'s> {
-    pub fn new(system: &ConstraintSystem, program: &'s Program, layout: RowLayout, turns_at_once: bool) -> Terms<'s> {
+impl<'s> SymbolicValues<'s> {
+    pub fn new(
+        system: &ConstraintSystem,
+        program: &'s Program,
+        layout: RowLayout,
+        has_rotation_op: bool,
+    ) -> SymbolicValues<'s> {
         let variations = system.variations().len() as u32;
         let has_forces = !program.outputs.forces.is_empty();
         let last_multipliers = if has_forces { variations + 1 } else { 0 };
         let multipliers = program.inputs.multipliers;
-        Terms {
+        SymbolicValues {
             program,
             layout,
             varied: program.inputs.varied..program.inputs.varied(variations, 0),
             multipliers: multipliers..multipliers + last_multipliers * program.inputs.n,
             definitions: program.definitions(),
             literals: program.constants().iter().copied().collect(),
-            known: vec![(Age::NEVER, Value::ZERO); program.registers()],
-            tape: Tape::new(Age::NEVER),
-            age: Age::NEVER,
-            is_across: false,
-            open: Vec::new(),
-            passing: Vec::new(),
-            is_passing: vec![false; program.registers()],
-            pairs: Vec::new(),
-            turns_at_once,
+            values: vec![(EvalTime::NEVER, Value::ZERO); program.registers()],
+            tape: Tape::new(EvalTime::NEVER),
+            time: EvalTime::NEVER,
+            reads_columns: false,
+            stack: Vec::new(),
+            block_local: Vec::new(),
+            is_block_local: vec![false; program.registers()],
+            sin_cos_of_tears: Vec::new(),
+            has_rotation_op,
         }
     }
 
     /// Begins a component: nothing is known.
-    pub fn begin(&mut self) {
-        self.age = self.age.after();
-        self.tape = Tape::new(self.age);
+    pub fn begin_component(&mut self) {
+        self.time = self.time.after();
+        self.tape = Tape::new(self.time);
     }
 
     /// Begins what joins components: all that they have stored may be asked for.
-    pub fn begin_across(&mut self) {
-        self.begin();
-        self.is_across = true;
+    pub fn begin_shared_outputs(&mut self) {
+        self.begin_component();
+        self.reads_columns = true;
     }
 
     /// From now on what depends on tears changes from one iteration to the next.
     pub fn enter_loop(&mut self) {
-        self.age = self.age.in_loop();
+        self.time = self.time.in_loop();
     }
 
     /// From now on tears are what they are.
     pub fn leave_loop(&mut self, tears: &[Tear]) {
-        self.age = self.age.after();
-        self.settle_pairs(tears);
+        self.time = self.time.after();
+        self.settle_sin_cos(tears);
         for tear in tears {
-            self.tape.set_age(tear.x, self.age);
+            self.tape.set_time(tear.x, self.time);
         }
     }
 
     /// Forgets what holds for a block alone, which is done.
     pub fn end_block(&mut self) {
-        self.pairs.clear();
-        for register in std::mem::take(&mut self.passing) {
-            self.is_passing[register as usize] = false;
-            self.known[register as usize] = (Age::NEVER, Value::ZERO);
+        self.sin_cos_of_tears.clear();
+        for register in std::mem::take(&mut self.block_local) {
+            self.is_block_local[register as usize] = false;
+            self.values[register as usize] = (EvalTime::NEVER, Value::ZERO);
         }
     }
 
     /// A register of its own for a tear, which is written by the curve at first.
-    pub fn guess(&mut self, tear: u32) -> Register {
-        let to = self.tape.fresh(self.age);
+    pub fn new_tear(&mut self, tear: u32) -> Register {
+        let to = self.tape.new_register(self.time);
         self.tape.instructions.push(Instruction::Curve { to, tear });
         to
     }
 
-    pub fn know(&mut self, register: Register, value: Value) {
-        self.known[register as usize] = (self.tape.age(value), value);
+    pub fn define(&mut self, register: Register, value: Value) {
+        self.values[register as usize] = (self.tape.eval_time(value), value);
     }
 
-    pub fn is_known(&self, register: Register) -> bool {
-        let (age, _) = self.known[register as usize];
-        age >= self.tape.first() && (!age.is_in_loop() || age == self.age)
+    pub fn is_defined(&self, register: Register) -> bool {
+        let (time, _) = self.values[register as usize];
+        time >= self.tape.start() && (!time.is_in_loop() || time == self.time)
     }
 
     /// The number that a register always holds.
@@ -127,140 +132,141 @@ impl<'s> Terms<'s> {
     }
 
     /// The value of a register of the program; lays out what it needs.
-    pub fn value(&mut self, wanted: Register) -> Value {
-        let mut open = std::mem::take(&mut self.open);
-        open.push(wanted);
-        while let Some(&register) = open.last() {
-            if self.is_known(register) {
-                open.pop();
-            } else if let Some(value) = self.leaf(register) {
-                self.know(register, value);
+    pub fn value(&mut self, requested: Register) -> Value {
+        let mut stack = std::mem::take(&mut self.stack);
+        stack.push(requested);
+        while let Some(&register) = stack.last() {
+            if self.is_defined(register) {
+                stack.pop();
+            } else if let Some(value) = self.input_value(register) {
+                self.define(register, value);
             } else if let Some((_, op)) = self.definitions[register as usize] {
-                let waiting = open.len();
-                open.extend(op.reads().into_iter().filter(|&read| !self.is_known(read)));
-                if open.len() == waiting {
-                    self.learn(op);
+                let depth = stack.len();
+                stack.extend(op.reads().into_iter().filter(|&read| !self.is_defined(read)));
+                if stack.len() == depth {
+                    self.emit(op);
                 }
             } else {
                 // a coordinate of a later block, or a derivative that nothing needs: it cancels, and may be anything
-                self.know(register, Value::ZERO);
-                self.let_pass(register);
+                self.define(register, Value::ZERO);
+                self.mark_block_local(register);
             }
         }
-        self.open = open;
-        self.known[wanted as usize].1
+        self.stack = stack;
+        self.values[requested as usize].1
     }
 
     /// `sum − slope · known`
-    pub fn less_product(&mut self, sum: Value, slope: Register, known: Register) -> Value {
-        let (slope, known) = (self.value(slope), self.value(known));
-        let product = self.tape.mul(slope, known);
+    pub fn minus_product(&mut self, sum: Value, slope: Register, factor: Register) -> Value {
+        let (slope, factor) = (self.value(slope), self.value(factor));
+        let product = self.tape.mul(slope, factor);
         self.tape.sub(sum, product)
     }
 
     /// The value of a sum in which an input, which it is linear in, is left out.
-    pub fn without(&mut self, sum: Register, left_out: Register) -> Value {
+    pub fn value_without(&mut self, sum: Register, left_out: Register) -> Value {
         // none: it does not depend on that input
-        let mut found: FxHashMap<Register, Option<Value>> = FxHashMap::default();
-        found.insert(left_out, Some(Value::ZERO));
-        let mut open = vec![sum];
-        while let Some(&register) = open.last() {
+        let mut values_without: FxHashMap<Register, Option<Value>> = FxHashMap::default();
+        values_without.insert(left_out, Some(Value::ZERO));
+        let mut stack = vec![sum];
+        while let Some(&register) = stack.last() {
             let op = self.definitions[register as usize].filter(|_| !self.is_loaded(register));
-            let Some((_, op)) = op.filter(|_| !found.contains_key(&register)) else {
-                found.entry(register).or_insert(None);
-                open.pop();
+            let Some((_, op)) = op.filter(|_| !values_without.contains_key(&register)) else {
+                values_without.entry(register).or_insert(None);
+                stack.pop();
                 continue;
             };
-            let (reads, waiting) = (op.reads(), open.len());
-            open.extend(reads.into_iter().filter(|read| !found.contains_key(read)));
-            if open.len() > waiting {
+            let (reads, depth) = (op.reads(), stack.len());
+            stack.extend(reads.into_iter().filter(|read| !values_without.contains_key(read)));
+            if stack.len() > depth {
                 continue;
             }
-            if reads.iter().all(|read| found[read].is_none()) {
-                found.extend(op.writes().into_iter().map(|register| (register, None)));
+            if reads.iter().all(|read| values_without[read].is_none()) {
+                values_without.extend(op.writes().into_iter().map(|register| (register, None)));
                 continue;
             }
             let mut operands = [(sum, Value::ZERO); 3];
             for (operand, read) in operands.iter_mut().zip(reads) {
-                *operand = (read, found[&read].unwrap_or_else(|| self.value(read)));
+                *operand = (read, values_without[&read].unwrap_or_else(|| self.value(read)));
             }
-            let of =
-                |read: Register| operands.iter().find(|(own, _)| *own == read).map_or(Value::ZERO, |found| found.1);
-            let results = folded(&mut self.tape, op, of);
-            found.extend(results.into_iter().flatten().map(|(register, value)| (register, Some(value))));
+            let operand = |read: Register| {
+                operands.iter().find(|(register, _)| *register == read).map_or(Value::ZERO, |(_, value)| *value)
+            };
+            let results = fold(&mut self.tape, op, operand);
+            values_without.extend(results.into_iter().flatten().map(|(register, value)| (register, Some(value))));
         }
-        match found[&sum] {
+        match values_without[&sum] {
             Some(value) => value,
             None => self.value(sum),
         }
     }
 
     /// Lays an operation out whose operands are known.
-    fn learn(&mut self, op: Op) {
-        let results = self.turned(op).unwrap_or_else(|| self.laid_out(op));
-        let passes = op.reads().iter().any(|&read| self.is_passing[read as usize]);
+    fn emit(&mut self, op: Op) {
+        let results = self.rotate(op).unwrap_or_else(|| self.emit_folded(op));
+        let reads_block_local = op.reads().iter().any(|&read| self.is_block_local[read as usize]);
         for (register, value) in results.into_iter().flatten() {
-            self.know(register, value);
-            if passes {
-                self.let_pass(register);
+            self.define(register, value);
+            if reads_block_local {
+                self.mark_block_local(register);
             }
         }
     }
 
-    fn laid_out(&mut self, op: Op) -> Results {
-        let known = &self.known;
-        let results = folded(&mut self.tape, op, |register| known[register as usize].1);
-        if let (Op::SinCos { a, .. }, true) = (op, self.age.is_in_loop())
-            && let Value::Of { at: x, negative: false } = known[a as usize].1
-            && let [Some((_, Value::Of { at: sin, .. })), Some((_, Value::Of { at: cos, .. }))] = results
+    fn emit_folded(&mut self, op: Op) -> Results {
+        let values = &self.values;
+        let results = fold(&mut self.tape, op, |register| values[register as usize].1);
+        if let (Op::SinCos { a, .. }, true) = (op, self.time.is_in_loop())
+            && let Value::Register { at: x, negative: false } = values[a as usize].1
+            && let [Some((_, Value::Register { at: sin, .. })), Some((_, Value::Register { at: cos, .. }))] = results
         {
-            self.pairs.push(Pair { x, sin, cos, delta: None });
+            self.sin_cos_of_tears.push(TearSinCos { x, sin, cos, delta: None });
         }
         results
     }
 
     /// Sine and cosine of a tear that has settled: three terms of Taylor's series are enough.
-    fn turned(&mut self, op: Op) -> Option<Results> {
+    fn rotate(&mut self, op: Op) -> Option<Results> {
         let Op::SinCos { sin: to_sin, cos: to_cos, a } = op else {
             return None;
         };
-        let x = self.known[a as usize].1;
-        let of = |at: Register| Value::Of { at, negative: false };
-        let pair = self.pairs.iter().find(|pair| x == of(pair.x))?;
+        let x = self.values[a as usize].1;
+        let register = |at: Register| Value::Register { at, negative: false };
+        let pair = self.sin_cos_of_tears.iter().find(|pair| x == register(pair.x))?;
         let delta = pair.delta?;
-        let half = self.tape.mul(Value::Number(0.5), of(delta));
+        let half = self.tape.mul(Value::Number(0.5), register(delta));
         let half = self.tape.register(half);
         let (sin, cos) = (pair.sin, pair.cos);
-        let turn = |[to_sin, to_cos]: [Register; 2]| Op::Turn { to_sin, to_cos, sin, cos, half, delta };
-        if !self.turns_at_once {
-            return Some(folded(&mut self.tape, turn([to_sin, to_cos]), of));
+        let rotation = |[to_sin, to_cos]: [Register; 2]| Op::Turn { to_sin, to_cos, sin, cos, half, delta };
+        if !self.has_rotation_op {
+            return Some(fold(&mut self.tape, rotation([to_sin, to_cos]), register));
         }
-        let [sin, cos] = self.tape.compute_two(turn);
+        let [sin, cos] = self.tape.compute_two(rotation);
         Some([Some((to_sin, sin)), Some((to_cos, cos))])
     }
 
     /// From now on sines and cosines of tears are those of the grid point, turned by the correction.
-    fn settle_pairs(&mut self, tears: &[Tear]) {
-        self.pairs.retain_mut(|pair| {
+    fn settle_sin_cos(&mut self, tears: &[Tear]) {
+        self.sin_cos_of_tears.retain_mut(|pair| {
             let tear = tears.iter().find(|tear| tear.x == pair.x && tear.cell <= WIDEST_CELL);
             pair.delta = tear.map(|tear| tear.delta);
             pair.delta.is_some()
         });
-        for pair in &self.pairs {
+        for pair in &self.sin_cos_of_tears {
             for register in [pair.sin, pair.cos].into_iter().chain(pair.delta) {
-                self.tape.set_age(register, self.age);
+                self.tape.set_time(register, self.time);
             }
         }
     }
 
     /// Forgets the value of a register when the block is done.
-    fn let_pass(&mut self, register: Register) {
-        self.is_passing[register as usize] = true;
-        self.passing.push(register);
+    fn mark_block_local(&mut self, register: Register) {
+        self.is_block_local[register as usize] = true;
+        self.block_local.push(register);
     }
 
     /// A value that is not computed from others here.
-    fn leaf(&mut self, register: Register) -> Option<Value> {
+    fn input_value(&mut self, register: Register) -> Option<Value> {
         let inputs = &self.program.inputs;
         if let Some(value) = self.number(register) {
             return Some(Value::Number(value));
@@ -280,7 +286,7 @@ impl<'s> Terms<'s> {
             let mut columns = runs.filter(|(first, _)| (*first..first + inputs.n).contains(&register));
             columns.next().map(|(first, column)| column + (register - first))?
         };
-        self.is_across.then(|| self.tape.push(|to| Instruction::Column { to, column }))
+        self.reads_columns.then(|| self.tape.push(|to| Instruction::Column { to, column }))
     }
 
     /// Whether a register is of a signal that no operation says.
@@ -295,8 +301,8 @@ impl<'s> Terms<'s> {
     }
 }
 
-fn folded(tape: &mut Tape, op: Op, read: impl Fn(Register) -> Value) -> Results {
-    let mut folding = Folding { tape, read, results: [None; 2] };
-    op.run(&mut folding);
-    folding.results
+fn fold(tape: &mut Tape, op: Op, read: impl Fn(Register) -> Value) -> Results {
+    let mut folder = ConstantFolder { tape, read, results: [None; 2] };
+    op.run(&mut folder);
+    folder.results
 }

@@ -1,4 +1,4 @@
-//! The numbers of a column of variants, in memory that is used again.
+//! Columns of numbers, in memory that is reused from block to block.
 
 use mechc_expr::math::{WIDE, to_next_line};
 use std::collections::BTreeMap;
@@ -6,68 +6,67 @@ use std::fmt;
 use std::ops::{Deref, DerefMut};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-/// Memory of numbers that nobody asks for any more: to be written over it need not be cleared, and is at hand. That of a column is used for that
-/// column again: where that has the same numbers for each variant, all is there already.
+/// A pool of memory for columns. Reused memory need not be cleared. It returns to the same column, which often repeats the numbers of the block
+/// before, so that they need not be written again.
 #[derive(Debug)]
 pub struct Spare {
-    /// By column.
-    kept: Mutex<BTreeMap<usize, Vec<Memory>>>,
-    /// Of each so much is kept at the most.
-    most: usize,
+    /// Unused memory, by column.
+    free: Mutex<BTreeMap<usize, Vec<Memory>>>,
+    /// The largest number of entries of each column.
+    limit: usize,
 }
 
-/// All that has been written somewhere.
+/// All that was ever written to a piece of memory.
 #[derive(Default, Debug)]
 struct Memory {
     numbers: Vec<f64>,
-    /// Where the column begins, at a line of the processor's memory.
+    /// The index at which the column begins, aligned to a cache line.
     begin: usize,
-    /// How long the pattern is, if it is known that from there on all numbers repeat the first ones.
+    /// The period, if all numbers from there on are known to repeat with one.
     period: Option<usize>,
 }
 
 impl Spare {
-    /// None yet, and never more than that of so many at once of a column.
+    /// Creates an empty pool that keeps at most `limit` pieces of memory for each column.
     #[must_use]
-    pub fn new(most: usize) -> Spare {
-        Spare { kept: Mutex::default(), most }
+    pub fn new(limit: usize) -> Spare {
+        Spare { free: Mutex::default(), limit }
     }
 
-    /// Memory for so many numbers of a column.
+    /// Takes memory for `capacity` numbers of a column.
     fn take(&self, capacity: usize, column: usize) -> Memory {
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = kept.get_mut(&column).and_then(Vec::pop);
+        let mut free = self.free.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = free.get_mut(&column).and_then(Vec::pop);
         let new = || Memory { numbers: Vec::with_capacity(capacity), ..Memory::default() };
         found.filter(|memory| memory.numbers.capacity() >= capacity).unwrap_or_else(new)
     }
 
     fn give_back(&self, memory: Memory, column: usize) {
-        // who takes some has it for a moment, or for ever, in a process that has forked meanwhile: then it is let go
-        let Ok(mut kept) = self.kept.try_lock() else { return };
-        let kept = kept.entry(column).or_default();
-        if kept.len() < self.most {
-            kept.push(memory);
+        // the lock is held for a moment, or forever in a process that was forked meanwhile: then the memory is dropped.
+        let Ok(mut free) = self.free.try_lock() else { return };
+        let free = free.entry(column).or_default();
+        if free.len() < self.limit {
+            free.push(memory);
         }
     }
 }
 
-/// Numbers of a column, one behind the other. They begin where a line of the processor's memory does: what is written line by line is there
-/// at once.
+/// Numbers of a column. They begin at a cache line, so that whole lines can be written.
 #[derive(Default)]
 pub struct Numbers {
-    /// Of it the column has so many numbers from where it begins.
+    /// The column is `count` numbers from `memory.begin` on.
     memory: Memory,
     count: usize,
-    /// Where its memory goes then, as long as somebody may take it from there, as that of which column.
-    spare: Weak<Spare>,
+    /// The pool that receives the memory on drop, as that of `column`.
+    pool: Weak<Spare>,
     column: usize,
 }
 
 impl Numbers {
-    /// None yet, with memory for so many of a column, by its number.
+    /// Creates an empty column with memory for `capacity` numbers from a pool. `column` is its index there.
     #[must_use]
-    pub fn with_capacity(capacity: usize, spare: &Arc<Spare>, column: usize) -> Numbers {
-        let mut memory = spare.take(capacity + WIDE, column);
+    pub fn with_capacity(capacity: usize, pool: &Arc<Spare>, column: usize) -> Numbers {
+        let mut memory = pool.take(capacity + WIDE, column);
         let begin = to_next_line(memory.numbers.as_ptr());
         if begin != memory.begin {
             (memory.begin, memory.period) = (begin, None);
@@ -75,17 +74,17 @@ impl Numbers {
         if memory.numbers.len() < begin {
             memory.numbers.resize(begin, 0.0);
         }
-        Numbers { memory, count: 0, spare: Arc::downgrade(spare), column }
+        Numbers { memory, count: 0, pool: Arc::downgrade(pool), column }
     }
 
-    /// None yet, with memory for so many of another column from where its own comes.
+    /// Creates an empty column with memory from the same pool, with another index.
     #[must_use]
-    pub fn another(&self, capacity: usize, column: usize) -> Numbers {
+    pub fn new_in_pool(&self, capacity: usize, column: usize) -> Numbers {
         let new = || Numbers::from(Vec::with_capacity(capacity));
-        self.spare.upgrade().map_or_else(new, |spare| Numbers::with_capacity(capacity, &spare, column))
+        self.pool.upgrade().map_or_else(new, |pool| Numbers::with_capacity(capacity, &pool, column))
     }
 
-    /// Makes room for so many more, which are to be written: what stands there is of no use.
+    /// Appends `more` numbers with unspecified values, which the caller is to write.
     pub fn make_room(&mut self, more: usize) {
         self.count += more;
         let Memory { numbers, begin, period } = &mut self.memory;
@@ -96,22 +95,22 @@ impl Numbers {
         }
     }
 
-    /// Makes all from a number on repetitions of some numbers; those before are such too, or there are none.
-    pub fn repeat_from(&mut self, first: usize, those: &[f64]) {
+    /// Fills all from index `first` on with repetitions of a pattern. Numbers before that repeat it already, or `first` is 0.
+    pub fn repeat_from(&mut self, first: usize, pattern: &[f64]) {
         let Memory { numbers, begin, period } = &mut self.memory;
-        let is_there = |known: &[f64]| *period == Some(known.len()) && is_same(known, those);
-        if numbers[*begin..].get(..those.len()).is_some_and(is_there) {
+        let is_there = |numbers: &[f64]| *period == Some(numbers.len()) && is_same(numbers, pattern);
+        if numbers[*begin..].get(..pattern.len()).is_some_and(is_there) {
             return;
         }
-        // all that has ever been written, if all of it is the column's own
+        // with `first` 0 the whole memory is filled, which makes the period valid.
         let end = if first == 0 { numbers.len() } else { *begin + self.count };
-        for to in numbers[*begin + first..end].chunks_mut(those.len()) {
-            to.copy_from_slice(&those[..to.len()]);
+        for to in numbers[*begin + first..end].chunks_mut(pattern.len()) {
+            to.copy_from_slice(&pattern[..to.len()]);
         }
-        *period = (first == 0).then_some(those.len());
+        *period = (first == 0).then_some(pattern.len());
     }
 
-    /// Keeps the first ones, so many.
+    /// Keeps the first `count` numbers.
     pub fn truncate(&mut self, count: usize) {
         self.count = self.count.min(count);
     }
@@ -123,8 +122,8 @@ fn is_same(some: &[f64], others: &[f64]) -> bool {
 
 impl Drop for Numbers {
     fn drop(&mut self) {
-        if let Some(spare) = self.spare.upgrade() {
-            spare.give_back(std::mem::take(&mut self.memory), self.column);
+        if let Some(pool) = self.pool.upgrade() {
+            pool.give_back(std::mem::take(&mut self.memory), self.column);
         }
     }
 }
@@ -141,7 +140,7 @@ impl Extend<f64> for Numbers {
 impl From<Vec<f64>> for Numbers {
     fn from(numbers: Vec<f64>) -> Numbers {
         let (count, memory) = (numbers.len(), Memory { numbers, begin: 0, period: None });
-        Numbers { count, memory, spare: Weak::new(), column: 0 }
+        Numbers { count, memory, pool: Weak::new(), column: 0 }
     }
 }
 
@@ -186,54 +185,54 @@ mod tests {
     use std::sync::Arc;
 
     #[test]
-    fn memory_is_used_again_and_holds_what_was_written_last() {
-        let spare = Arc::new(Spare::new(3));
-        let kept = || -> Vec<usize> { spare.kept.lock().expect("nobody has it").values().map(Vec::len).collect() };
+    fn reused_memory_holds_the_latest_numbers() {
+        let pool = Arc::new(Spare::new(3));
+        let kept = || -> Vec<usize> { pool.free.lock().expect("unlocked").values().map(Vec::len).collect() };
         for round in 0..3 {
-            let mut numbers = Numbers::with_capacity(20, &spare, 0);
+            let mut numbers = Numbers::with_capacity(20, &pool, 0);
             assert!(numbers.is_empty());
             let at = numbers.memory.numbers.as_ptr() as usize + 8 * numbers.memory.begin;
-            assert_eq!(at % 64, 0, "it begins with a line");
+            assert_eq!(at % 64, 0, "begins at a cache line");
             numbers.make_room(10);
             numbers.iter_mut().zip(0..).for_each(|(number, k)| *number = f64::from(10 * round + k));
             numbers.extend([7.0, 8.0]);
             numbers.truncate(11);
-            let wanted: Vec<f64> = (0..10).map(|k| f64::from(10 * round + k)).chain([7.0]).collect();
-            assert_eq!(*numbers, *wanted);
-            assert_eq!(*numbers.clone(), *wanted);
+            let expected: Vec<f64> = (0..10).map(|k| f64::from(10 * round + k)).chain([7.0]).collect();
+            assert_eq!(*numbers, *expected);
+            assert_eq!(*numbers.clone(), *expected);
             assert_eq!(kept().iter().sum::<usize>(), 0);
             drop(numbers);
             assert_eq!(kept(), [1]);
         }
-        let many: Vec<Numbers> = (0..9).map(|_| Numbers::with_capacity(20, &spare, 0)).collect();
-        let mut others: Vec<Numbers> = (0..2).map(|_| many[0].another(20, 4)).collect();
+        let many: Vec<Numbers> = (0..9).map(|_| Numbers::with_capacity(20, &pool, 0)).collect();
+        let mut others: Vec<Numbers> = (0..2).map(|_| many[0].new_in_pool(20, 4)).collect();
         drop(many);
         others.truncate(1);
-        assert_eq!(kept(), [3, 1], "no more of a column is kept than is said");
-        let had = spare.kept.lock().expect("nobody has it");
-        // who would have to wait lets it go
+        assert_eq!(kept(), [3, 1], "the limit of a column");
+        let had = pool.free.lock().expect("unlocked");
+        // while the lock is held, memory is dropped
         drop(others);
         drop(had);
         assert_eq!(kept(), [3, 1]);
     }
 
     #[test]
-    fn what_is_repeated_stays_there_until_somebody_may_have_written() {
-        let spare = Arc::new(Spare::new(2));
+    fn period_is_valid_until_numbers_may_have_changed() {
+        let pool = Arc::new(Spare::new(2));
         let period = |numbers: &Numbers| numbers.memory.period;
         for (number, those) in [&[0.0][..], &[2.5], &[1.0, -0.0, 3.0], &[1.0, 0.0, 3.0], &[7.0; 3]].iter().enumerate() {
-            let wanted: Vec<f64> = those.iter().copied().cycle().take(9).collect();
+            let expected: Vec<f64> = those.iter().copied().cycle().take(9).collect();
             for round in 0..4 {
-                let mut numbers = Numbers::with_capacity(20, &spare, 3);
+                let mut numbers = Numbers::with_capacity(20, &pool, 3);
                 if round == 3 {
                     assert_eq!(period(&numbers), Some(those.len()));
                 }
                 for before in [0, 3, 6] {
                     numbers.make_room(3);
                     numbers.repeat_from(before, those);
-                    assert!(super::is_same(&numbers, &wanted[..before + 3]), "{those:?} {round}");
+                    assert!(super::is_same(&numbers, &expected[..before + 3]), "{those:?} {round}");
                 }
-                // memory that had to grow is known the next time
+                // memory that had to grow gets its period in the next round
                 assert_eq!(period(&numbers).is_some(), (number, round) != (0, 0));
                 if round == 1 {
                     numbers[7] = 8.0;
@@ -241,14 +240,14 @@ mod tests {
                 }
             }
         }
-        let mut written = Numbers::with_capacity(20, &spare, 3);
+        let mut written = Numbers::with_capacity(20, &pool, 3);
         written.extend([1.0, 2.0, 3.0]);
         written.make_room(4);
         written.repeat_from(3, &[0.0, 4.0]);
         assert_eq!(*written, [1.0, 2.0, 3.0, 0.0, 4.0, 0.0, 4.0]);
         assert_eq!(period(&written), None);
         drop(written);
-        // another column has nothing of it
-        assert!(Numbers::with_capacity(20, &spare, 4).memory.numbers.len() < 20);
+        // memory does not go to another column
+        assert!(Numbers::with_capacity(20, &pool, 4).memory.numbers.len() < 20);
     }
 }

@@ -8,37 +8,41 @@ use mechc_ir::program::{Column, Machine, Op, Register};
 pub(super) type Results = [Option<(Register, Value)>; 2];
 
 /// A machine on which an operation becomes instructions, or numbers.
-pub(super) struct Folding<'f, R> {
+pub(super) struct ConstantFolder<'f, R> {
     pub tape: &'f mut Tape,
     /// What a register of the program is worth.
     pub read: R,
     pub results: Results,
 }
 
-impl<R: Fn(Register) -> Value> Folding<'_, R> {
+impl<R: Fn(Register) -> Value> ConstantFolder<'_, R> {
     /// An operation that goes for any operands.
-    fn any<const N: usize>(&mut self, operands: [Value; N], op: impl FnOnce(Register, [Register; N]) -> Op) -> Value {
+    fn emit_op<const N: usize>(
+        &mut self,
+        operands: [Value; N],
+        op: impl FnOnce(Register, [Register; N]) -> Op,
+    ) -> Value {
         let registers = operands.map(|value| self.tape.register(value));
         let value = self.tape.compute(|to| op(to, registers));
-        self.inherit(value, &operands)
+        self.propagate_nonfinite(value, &operands)
     }
 
     /// What comes of doubtful operands is doubtful.
-    fn inherit(&mut self, value: Value, operands: &[Value]) -> Value {
-        if operands.iter().any(|&operand| self.tape.is_doubtful(operand)) {
-            self.tape.doubt(value);
+    fn propagate_nonfinite(&mut self, value: Value, operands: &[Value]) -> Value {
+        if operands.iter().any(|&operand| self.tape.may_be_nonfinite(operand)) {
+            self.tape.mark_nonfinite(value);
         }
         value
     }
 
     /// What may be no finite number even of operands that are.
-    fn doubted(&mut self, value: Value) -> Value {
-        self.tape.doubt(value);
+    fn marked_nonfinite(&mut self, value: Value) -> Value {
+        self.tape.mark_nonfinite(value);
         value
     }
 }
 
-impl<R: Fn(Register) -> Value> Machine for Folding<'_, R> {
+impl<R: Fn(Register) -> Value> Machine for ConstantFolder<'_, R> {
     type Value = Value;
 
     fn read(&mut self, register: Register) -> Value {
@@ -52,29 +56,35 @@ impl<R: Fn(Register) -> Value> Machine for Folding<'_, R> {
 
     fn add(&mut self, a: Value, b: Value) -> Value {
         let sum = self.tape.add(a, b);
-        self.inherit(sum, &[a, b])
+        self.propagate_nonfinite(sum, &[a, b])
     }
 
     fn sub(&mut self, a: Value, b: Value) -> Value {
         let difference = self.tape.sub(a, b);
-        self.inherit(difference, &[a, b])
+        self.propagate_nonfinite(difference, &[a, b])
     }
 
     fn mul(&mut self, a: Value, b: Value) -> Value {
         // nothing times what is infinite is no number
-        let is_open = (a.is_zero() && self.tape.is_doubtful(b)) || (b.is_zero() && self.tape.is_doubtful(a));
-        if is_open {
-            return self.any([a, b], |to, [a, b]| Op::Mul { to, a, b });
+        let may_be_nan =
+            (a.is_zero() && self.tape.may_be_nonfinite(b)) || (b.is_zero() && self.tape.may_be_nonfinite(a));
+        if may_be_nan {
+            return self.emit_op([a, b], |to, [a, b]| Op::Mul { to, a, b });
         }
         let product = self.tape.mul(a, b);
-        self.inherit(product, &[a, b])
+        self.propagate_nonfinite(product, &[a, b])
     }
 
     fn div(&mut self, a: Value, b: Value) -> Value {
         // nothing by nothing is no number either
-        let is_open = a.is_zero() && matches!(b, Value::Of { .. });
-        let quotient = if is_open { self.any([a, b], |to, [a, b]| Op::Div { to, a, b }) } else { self.tape.div(a, b) };
-        if matches!(b, Value::Number(_)) { self.inherit(quotient, &[a]) } else { self.doubted(quotient) }
+        let may_be_nan = a.is_zero() && matches!(b, Value::Register { .. });
+        let quotient =
+            if may_be_nan { self.emit_op([a, b], |to, [a, b]| Op::Div { to, a, b }) } else { self.tape.div(a, b) };
+        if matches!(b, Value::Number(_)) {
+            self.propagate_nonfinite(quotient, &[a])
+        } else {
+            self.marked_nonfinite(quotient)
+        }
     }
 
     fn neg(&mut self, a: Value) -> Value {
@@ -83,15 +93,15 @@ impl<R: Fn(Register) -> Value> Machine for Folding<'_, R> {
 
     fn recip(&mut self, a: Value) -> Value {
         let inverse = self.tape.recip(a);
-        self.doubted(inverse)
+        self.marked_nonfinite(inverse)
     }
 
     fn sin_cos(&mut self, a: Value) -> [Value; 2] {
-        self.tape.sin_cos(a).map(|value| self.inherit(value, &[a]))
+        self.tape.sin_cos(a).map(|value| self.propagate_nonfinite(value, &[a]))
     }
 
     fn unary(&mut self, function: Unary, a: Value) -> Value {
-        let value = self.any([a], |to, [a]| Op::Unary { function, to, a });
+        let value = self.emit_op([a], |to, [a]| Op::Unary { function, to, a });
         match function {
             Unary::Abs | Unary::Sign | Unary::Floor | Unary::Sin | Unary::Cos | Unary::Atan | Unary::Tanh => value,
             Unary::Tan
@@ -102,44 +112,44 @@ impl<R: Fn(Register) -> Value> Machine for Folding<'_, R> {
             | Unary::Exp
             | Unary::Ln
             | Unary::Log10
-            | Unary::Sqrt => self.doubted(value),
+            | Unary::Sqrt => self.marked_nonfinite(value),
         }
     }
 
     fn binary(&mut self, function: Binary, a: Value, b: Value) -> Value {
-        let value = self.any([a, b], |to, [a, b]| Op::Binary { function, to, a, b });
-        if matches!(function, Binary::Pow | Binary::Mod) { self.doubted(value) } else { value }
+        let value = self.emit_op([a, b], |to, [a, b]| Op::Binary { function, to, a, b });
+        if matches!(function, Binary::Pow | Binary::Mod) { self.marked_nonfinite(value) } else { value }
     }
 
     fn compare(&mut self, comparison: Comparison, a: Value, b: Value) -> Value {
-        self.any([a, b], |to, [a, b]| Op::Compare { comparison, to, a, b })
+        self.emit_op([a, b], |to, [a, b]| Op::Compare { comparison, to, a, b })
     }
 
     fn and(&mut self, a: Value, b: Value) -> Value {
-        self.any([a, b], |to, [a, b]| Op::And { to, a, b })
+        self.emit_op([a, b], |to, [a, b]| Op::And { to, a, b })
     }
 
     fn or(&mut self, a: Value, b: Value) -> Value {
-        self.any([a, b], |to, [a, b]| Op::Or { to, a, b })
+        self.emit_op([a, b], |to, [a, b]| Op::Or { to, a, b })
     }
 
     fn not(&mut self, a: Value) -> Value {
-        self.any([a], |to, [a]| Op::Not { to, a })
+        self.emit_op([a], |to, [a]| Op::Not { to, a })
     }
 
     fn select(&mut self, condition: Value, a: Value, b: Value) -> Value {
-        self.any([condition, a, b], |to, [condition, a, b]| Op::Select { to, condition, a, b })
+        self.emit_op([condition, a, b], |to, [condition, a, b]| Op::Select { to, condition, a, b })
     }
 
     fn either(&mut self, condition: Value, a: Value, b: Value) -> Value {
-        self.any([condition, a, b], |to, [condition, a, b]| Op::Either { to, condition, a, b })
+        self.emit_op([condition, a, b], |to, [condition, a, b]| Op::Either { to, condition, a, b })
     }
 
     fn piece(&mut self, table: u32, a: Value) -> Value {
-        self.any([a], |to, [a]| Op::Piece { to, table, a })
+        self.emit_op([a], |to, [a]| Op::Piece { to, table, a })
     }
 
     fn pick(&mut self, table: u32, column: Column, piece: Value) -> Value {
-        self.any([piece], |to, [piece]| Op::Pick { to, table, column, piece })
+        self.emit_op([piece], |to, [piece]| Op::Pick { to, table, column, piece })
     }
 }
