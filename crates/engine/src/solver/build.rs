@@ -1,4 +1,4 @@
-//! Laying the solution of a system out, component by component and block by block.
+//! Generates the instructions that solve a system, component by component and block by block.
 
 use super::components::{ComponentOutputs, Partition};
 use super::elimination::{Factors, Line};
@@ -17,12 +17,12 @@ use mechc_ir::structure::{Block, Determined};
 use mechc_ir::tolerances::solving::build::CELL;
 use rustc_hash::FxHashSet;
 
-/// The width of a cell of a coordinate's grid, by what the coordinate is judged against.
+/// Returns the width of a grid cell for a coordinate (m or rad) with this scale.
 pub(super) fn cell(scale: f64) -> f64 {
     CELL * power_of_two_below(scale)
 }
 
-/// None where it takes too many instructions.
+/// Generates a solver for a purpose, which stores the columns for which `is_kept` holds. Returns `None` if that takes more than [`MOST_OPERATIONS`].
 pub(super) fn build(
     determined: &Determined,
     program: &Program,
@@ -57,7 +57,7 @@ pub(super) fn build(
 }
 
 impl Component {
-    /// Puts another behind this one. In code every value has a register of its own.
+    /// Appends another component. In lanes, components reuse the same registers; in code, every value has its own.
     fn append(&mut self, other: Component, purpose: Purpose) {
         let from = self.instructions.len();
         let segments = other.segments.into_iter().map(|segment| segment.shifted(from));
@@ -91,9 +91,9 @@ impl Component {
 }
 
 impl Component {
-    /// The same with what is fixed in front of all else, its registers being the first ones.
+    /// Puts the prologue first, with the first registers.
     fn with_prologue_first(self) -> Component {
-        // nothing is renumbered for nothing: there may be millions
+        // without a prologue nothing needs new registers, and there may be millions of instructions
         if self.prologue.is_empty() {
             return self;
         }
@@ -114,7 +114,7 @@ impl Component {
     }
 }
 
-/// The columns of what is wanted across groups beside accelerations: third derivatives, variations, multipliers.
+/// Returns the columns, other than positions, velocities and accelerations, that shared outputs read: third derivatives, variations, multipliers.
 fn shared_columns(system: &ConstraintSystem, layout: &RowLayout, outputs: &ComponentOutputs) -> FxHashSet<u32> {
     let column = |symbol| match symbol {
         Symbol::Coordinate { index, order: 3 } => Some(layout.coordinate(index, 3)),
@@ -126,7 +126,7 @@ fn shared_columns(system: &ConstraintSystem, layout: &RowLayout, outputs: &Compo
     system.graph().symbols_of_all(&outputs.formulas(system)).into_iter().filter_map(column).collect()
 }
 
-/// A solver in the making.
+/// A solver under construction.
 pub(super) struct Builder<'s, V> {
     system: &'s ConstraintSystem,
     pub(super) program: &'s Program,
@@ -135,14 +135,14 @@ pub(super) struct Builder<'s, V> {
     purpose: Purpose,
     pub(super) layout: RowLayout,
     pub(super) symbolic: SymbolicValues<'s>,
-    /// Each column's place in its block.
+    /// By column of `Φ_q`: its index within its block.
     index_in_block: Vec<u32>,
-    /// By measure: how many measures before it have a first, and how many a second derivative.
+    /// By measure: the number of measures before it that have a first and a second derivative.
     measures_before: Vec<[u32; 2]>,
     segments: Vec<Segment>,
     weights: Vec<f64>,
     tears: Vec<u32>,
-    /// Columns of the third derivatives and variations that join groups.
+    /// The columns of third derivatives, variations and multipliers that shared outputs read.
     shared_columns: FxHashSet<u32>,
     pivots: Vec<Pivot>,
     turns: Vec<Turn>,
@@ -159,8 +159,8 @@ impl<'s, V: Values> Builder<'s, V> {
         let (system, layout) = (determined.system(), RowLayout::new(determined.system()));
         let mut index_in_block = vec![0; system.coordinates().len()];
         for block in determined.blocks() {
-            for (place, &column) in block.columns.iter().enumerate() {
-                index_in_block[column as usize] = place as u32;
+            for (index, &column) in block.columns.iter().enumerate() {
+                index_in_block[column as usize] = index as u32;
             }
         }
         let before = system.measures().iter().scan([0; 2], |counts, measure| {
@@ -188,7 +188,7 @@ impl<'s, V: Values> Builder<'s, V> {
         }
     }
 
-    /// Ends a component, of whose columns some are kept.
+    /// Ends a component and optimizes it; it stores the columns for which `is_kept` holds.
     fn finish_component(&mut self, is_kept: &dyn Fn(u32) -> bool) -> Component {
         self.close_once();
         let tape = &mut self.symbolic.tape;
@@ -207,13 +207,13 @@ impl<'s, V: Values> Builder<'s, V> {
         optimize(component, is_live, self.purpose)
     }
 
-    /// Ends a run of instructions that are done once.
+    /// Ends a segment of instructions that run once.
     fn close_once(&mut self) {
         let from = self.segments.last().map_or(0, |segment| segment.range().end);
         self.segments.push(Segment::Once(from..self.symbolic.tape.instructions.len()));
     }
 
-    /// Position and rates of a block; gives its factors.
+    /// Solves a block for position and derivatives; returns its factors.
     fn block(&mut self, block: &Block) -> Factors {
         let factors = if block.explicit { self.explicit(block) } else { self.implicit(block) };
         for &column in &block.columns {
@@ -227,7 +227,8 @@ impl<'s, V: Values> Builder<'s, V> {
         factors
     }
 
-    /// Notes the pivots of a block that are no numbers, with what the others and their order make of the determinant's sign.
+    /// Emits the variable pivots of a block. The constant pivots and the order of elimination determine the sign of the determinant at positive
+    /// pivots.
     fn emit_pivots(&mut self, block: &Block, factors: &Factors) {
         let turn = self.turns.len() as u32;
         let mut is_negative = factors.is_odd();
@@ -237,7 +238,7 @@ impl<'s, V: Values> Builder<'s, V> {
                 Value::Number(x) => is_negative ^= x < 0.0,
                 Value::Register { at, negative } => {
                     is_negative ^= negative;
-                    let weight = inverse.places.iter().map(|&place| self.weight(block, place)).product();
+                    let weight = inverse.positions.iter().map(|&position| self.weight(block, position)).product();
                     let pivot = self.pivots.len() as u32;
                     self.pivots.push(Pivot { turn, weight });
                     self.symbolic.tape.emit(Instruction::Pivot { a: at, pivot });
@@ -250,13 +251,13 @@ impl<'s, V: Values> Builder<'s, V> {
         }
     }
 
-    /// What makes one over a pivot a pure number.
+    /// Returns the scale that makes an inverse pivot dimensionless.
     fn weight(&self, block: &Block, (row, column): (u32, u32)) -> f64 {
         let scale = self.system.coordinates()[block.columns[column as usize] as usize].scale;
         self.values.row_norm(block.rows[row as usize] as usize) / scale
     }
 
-    /// One equation that is linear in its coordinate.
+    /// Solves one equation that is linear in its coordinate.
     fn explicit(&mut self, block: &Block) -> Factors {
         let (row, column) = (block.rows[0] as usize, block.columns[0]);
         let slope = self.block_rows(block)[0][0].1;
@@ -267,13 +268,13 @@ impl<'s, V: Values> Builder<'s, V> {
         Factors::single(&mut self.symbolic.tape, slope)
     }
 
-    /// Equations that are solved by iteration for some coordinates, the others following from these.
+    /// Solves equations by iterating on the tears; the other coordinates are assigned from these.
     fn implicit(&mut self, block: &Block) -> Factors {
         let pattern: Vec<Vec<(u32, bool)>> = block.rows.iter().map(|&row| self.assignable(block, row)).collect();
         let tearing = tear(&pattern);
         let order = self.order(block);
         self.newton(block, &tearing, &order);
-        // where it has settled
+        // at the solution
         self.assign(block, &tearing.assigned);
         for &row in &tearing.residuals {
             let row = block.rows[row as usize];
@@ -284,7 +285,7 @@ impl<'s, V: Values> Builder<'s, V> {
         self.eliminate(block, &order)
     }
 
-    /// The loop that finds the tears of a block.
+    /// Emits the Newton loop for the tears of a block.
     fn newton(&mut self, block: &Block, tearing: &Tearing, order: &Order) {
         self.symbolic.enter_loop();
         let guesses: Vec<Register> =
@@ -299,31 +300,31 @@ impl<'s, V: Values> Builder<'s, V> {
         }
         let corrections = factors.solve(&mut self.symbolic.tape, right);
         let mut tears = Vec::with_capacity(guesses.len());
-        for (&place, &x) in tearing.tears.iter().zip(&guesses) {
-            let scale = self.system.coordinates()[block.columns[place as usize] as usize].scale;
-            let delta = self.symbolic.tape.register(corrections[place as usize]);
+        for (&index, &x) in tearing.tears.iter().zip(&guesses) {
+            let scale = self.system.coordinates()[block.columns[index as usize] as usize].scale;
+            let delta = self.symbolic.tape.register(corrections[index as usize]);
             tears.push(Tear::new(x, delta, scale));
         }
         self.symbolic.leave_loop(&tears);
         self.close_once();
         let instructions = self.symbolic.tape.close_loop();
         self.segments.push(Segment::Newton { instructions, tears });
-        for (&place, &at) in tearing.tears.iter().zip(&guesses) {
-            let register = self.coordinate(0, block.columns[place as usize]);
+        for (&index, &at) in tearing.tears.iter().zip(&guesses) {
+            let register = self.coordinate(0, block.columns[index as usize]);
             self.symbolic.define(register, Value::Register { at, negative: false });
         }
     }
 
-    /// The entries of a row within its block, and whether the row can be solved for the coordinate of each without losing digits:
-    /// its slope is a number, and no other number in the row is larger.
+    /// Returns the entries of a row within its block: column, and whether the row can be solved for it without losing digits, that is, its slope is a
+    /// number, and no other number in the row is larger.
     fn assignable(&self, block: &Block, row: u32) -> Vec<(u32, bool)> {
         let slope = |at: usize| self.symbolic.number(self.program.outputs.phi_q[at]).map_or(0.0, f64::abs);
         let entries = || self.entries_inside(block, row);
         let largest = entries().map(|(_, at)| slope(at)).fold(0.0, f64::max);
-        entries().map(|(place, at)| (place, slope(at) > 0.0 && slope(at) >= largest)).collect()
+        entries().map(|(index, at)| (index, slope(at) > 0.0 && slope(at) >= largest)).collect()
     }
 
-    /// A coordinate that iteration begins with.
+    /// Adds a coordinate that Newton solves for; returns its register.
     fn new_tear(&mut self, column: u32) -> Register {
         let tear = self.tears.len() as u32;
         self.tears.push(column);
@@ -332,15 +333,15 @@ impl<'s, V: Values> Builder<'s, V> {
         at
     }
 
-    /// Coordinates that follow from those that are known.
+    /// Solves rows, one by one, for the coordinates assigned to them.
     fn assign(&mut self, block: &Block, assigned: &[(u32, u32)]) {
-        for &(row, place) in assigned {
-            let (row, column) = (block.rows[row as usize], block.columns[place as usize]);
+        for &(row, index) in assigned {
+            let (row, column) = (block.rows[row as usize], block.columns[index as usize]);
             let register = self.coordinate(0, column);
             if self.symbolic.is_defined(register) {
                 continue;
             }
-            let slope = self.entries_inside(block, row).find(|(other, _)| *other == place).map(|(_, at)| at);
+            let slope = self.entries_inside(block, row).find(|(other, _)| *other == index).map(|(_, at)| at);
             let slope = slope.map_or(Value::Number(1.0), |at| self.symbolic.value(self.program.outputs.phi_q[at]));
             let rest = self.symbolic.value_without(self.program.outputs.phi[row as usize], register);
             let value = self.symbolic.tape.div(rest.negated(), slope);
@@ -349,7 +350,7 @@ impl<'s, V: Values> Builder<'s, V> {
         }
     }
 
-    /// What is wanted of a component beside its coordinates.
+    /// Stores the requested outputs of a component: reactions, measures and appended columns.
     fn store_outputs(&mut self, requested: &ComponentOutputs) {
         let outputs = &self.program.outputs;
         for &k in &requested.reactions {
@@ -377,13 +378,13 @@ impl<'s, V: Values> Builder<'s, V> {
         }
     }
 
-    /// Leaves a coordinate, or a derivative of it, in its column.
+    /// Stores a coordinate, or a derivative of it, in its column.
     fn store(&mut self, order: usize, column: u32) {
         let value = self.symbolic.value(self.coordinate(order, column));
         self.symbolic.tape.store(self.layout.coordinates[order] + column, value);
     }
 
-    /// The order of elimination of a block.
+    /// Returns the order of elimination of a block.
     fn order(&self, block: &Block) -> Order {
         let mut entries = Vec::new();
         for (row, &number) in block.rows.iter().enumerate() {
@@ -395,7 +396,7 @@ impl<'s, V: Values> Builder<'s, V> {
         Order::new(block.rows.len(), &entries)
     }
 
-    /// Eliminates a block's part of `Φ_q` in an order, with an eye on its multipliers.
+    /// Eliminates a block of `Φ_q` in an order; the multipliers are checked.
     fn eliminate(&mut self, block: &Block, order: &Order) -> Factors {
         let rows = self.block_rows(block);
         let (weights, values) = (&mut self.weights, self.values);
@@ -407,18 +408,18 @@ impl<'s, V: Values> Builder<'s, V> {
         Factors::new(&mut self.symbolic.tape, rows, order, Some(weight))
     }
 
-    /// The entries of a block's rows within the block.
+    /// Returns the rows of a block, restricted to its columns.
     fn block_rows(&mut self, block: &Block) -> Vec<Line> {
         let mut rows = Vec::with_capacity(block.rows.len());
         for &row in &block.rows {
-            let places: Vec<(u32, usize)> = self.entries_inside(block, row).collect();
+            let indices: Vec<(u32, usize)> = self.entries_inside(block, row).collect();
             let phi_q = &self.program.outputs.phi_q;
-            rows.push(places.into_iter().map(|(place, at)| (place, self.symbolic.value(phi_q[at]))).collect());
+            rows.push(indices.into_iter().map(|(index, at)| (index, self.symbolic.value(phi_q[at]))).collect());
         }
         rows
     }
 
-    /// The entries of a row within its block: place of the column, and position in the pattern.
+    /// Returns the entries of a row within its block: column in the block, and position in the pattern.
     fn entries_inside(&self, block: &Block, row: u32) -> impl Iterator<Item = (u32, usize)> + use<'s, '_, V> {
         let this = self.partition.block_of_column[block.columns[0] as usize];
         let pattern = self.system.phi_q();
@@ -428,7 +429,7 @@ impl<'s, V: Values> Builder<'s, V> {
             .map(|(at, &(column, _))| (self.index_in_block[column as usize], at))
     }
 
-    /// The entries of a row in blocks before its own: position in the pattern, and column.
+    /// Returns the entries of a row outside its block, in blocks before it: position in the pattern, and column.
     pub(super) fn entries_outside(&self, block: &Block, row: u32) -> Vec<(usize, u32)> {
         let this = self.partition.block_of_column[block.columns[0] as usize];
         let pattern = self.system.phi_q();
@@ -439,12 +440,12 @@ impl<'s, V: Values> Builder<'s, V> {
             .collect()
     }
 
-    /// The program's register of a coordinate's derivative.
+    /// Returns the program's register of a derivative of a coordinate.
     fn coordinate(&self, order: usize, column: u32) -> Register {
         self.program.inputs.coordinates[order] + column
     }
 
-    /// Whether a column is left for others than its own component. Code has no use for the others of third derivatives and variations.
+    /// Returns whether shared outputs read a column. In code only these third derivatives and variations are stored.
     pub(super) fn is_shared(&self, column: u32) -> bool {
         self.shared_columns.contains(&column)
     }

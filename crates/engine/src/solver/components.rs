@@ -1,30 +1,30 @@
-//! Blocks that depend on each other, and what depends on one group of them alone.
+//! Partitions the blocks of a system into independent components, and assigns outputs to them.
 
 use mechc_expr::{ExprId, Symbol};
 use mechc_ir::ConstraintSystem;
 use mechc_ir::structure::Determined;
 
-/// Blocks that depend on each other.
+/// The components of a system: blocks that depend on each other.
 pub(super) struct Partition {
-    /// Each group's blocks, in an order of solution.
+    /// By component: its blocks, in an order of solution.
     pub blocks: Vec<Vec<usize>>,
     component_of_column: Vec<usize>,
     pub block_of_column: Vec<usize>,
     component_of_row: Vec<usize>,
 }
 
-/// What is wanted beside the motion, by numbers.
+/// The outputs of a component other than its motion, as indices.
 #[derive(Clone, Default)]
 pub(super) struct ComponentOutputs {
-    /// Columns of what joints exert and drivers supply.
+    /// Columns of joint reactions and driver efforts.
     pub reactions: Vec<usize>,
     pub measures: Vec<usize>,
-    /// Columns of derivatives.
+    /// Columns of appended derivatives.
     pub appended: Vec<usize>,
 }
 
 impl ComponentOutputs {
-    /// All of its formulas.
+    /// Returns the formulas of all outputs.
     pub fn formulas(&self, system: &ConstraintSystem) -> Vec<ExprId> {
         let reactions = self.reactions.iter().map(|&k| system.reactions()[k].value);
         let measures = self.measures.iter().flat_map(|&k| {
@@ -53,7 +53,7 @@ impl Partition {
                 }
             }
         }
-        // a load may speak of others than it works on
+        // a load on one component may depend on coordinates of another
         for (&block, &needed) in block_of_column.iter().zip(system.needed_forces()) {
             for symbol in system.graph().symbols(needed) {
                 if let Symbol::Coordinate { index, .. } = symbol {
@@ -77,7 +77,7 @@ impl Partition {
         Partition { blocks: components, component_of_column, block_of_column, component_of_row }
     }
 
-    /// What is wanted of each group beside its motion, with or without what joints exert; and last what joins groups.
+    /// Returns the outputs of each component, with or without reactions, and last the shared outputs, which depend on several components.
     pub fn outputs_by_component(&self, system: &ConstraintSystem, with_reactions: bool) -> Vec<ComponentOutputs> {
         let mut outputs = vec![ComponentOutputs::default(); self.blocks.len() + 1];
         let reactions = if with_reactions { system.reactions() } else { &[] };
@@ -94,7 +94,7 @@ impl Partition {
         outputs
     }
 
-    /// The group that some formulas speak of; where there are several, the number behind the last one.
+    /// Returns the component that formulas depend on, or the number of components if there are several or none.
     fn component_of(&self, system: &ConstraintSystem, formulas: impl IntoIterator<Item = ExprId>) -> usize {
         let symbols = formulas.into_iter().flat_map(|id| system.graph().symbols(id));
         let mut components = symbols.filter_map(|symbol| match symbol {

@@ -1,22 +1,22 @@
-//! Operations of a program, laid out for operands of which some are numbers already.
+//! Constant folding: emits an operation of a program for operands of which some are numbers.
 
 use super::tape::{Tape, Value};
 use mechc_expr::{Binary, Comparison, Unary};
 use mechc_ir::program::{Column, Machine, Op, Register};
 
-/// The registers of the program that an operation writes, and what they are worth then.
+/// The registers of the program that an operation writes, with their values.
 pub(super) type Results = [Option<(Register, Value)>; 2];
 
-/// A machine on which an operation becomes instructions, or numbers.
+/// A machine that emits instructions for operations, or folds them to numbers.
 pub(super) struct ConstantFolder<'f, R> {
     pub tape: &'f mut Tape,
-    /// What a register of the program is worth.
+    /// Returns the value of a register of the program.
     pub read: R,
     pub results: Results,
 }
 
 impl<R: Fn(Register) -> Value> ConstantFolder<'_, R> {
-    /// An operation that goes for any operands.
+    /// Emits an operation without folding.
     fn emit_op<const N: usize>(
         &mut self,
         operands: [Value; N],
@@ -27,7 +27,7 @@ impl<R: Fn(Register) -> Value> ConstantFolder<'_, R> {
         self.propagate_nonfinite(value, &operands)
     }
 
-    /// What comes of doubtful operands is doubtful.
+    /// Marks a value that may not be finite because an operand may not be.
     fn propagate_nonfinite(&mut self, value: Value, operands: &[Value]) -> Value {
         if operands.iter().any(|&operand| self.tape.may_be_nonfinite(operand)) {
             self.tape.mark_nonfinite(value);
@@ -35,7 +35,7 @@ impl<R: Fn(Register) -> Value> ConstantFolder<'_, R> {
         value
     }
 
-    /// What may be no finite number even of operands that are.
+    /// Marks a value that may not be finite even for finite operands.
     fn marked_nonfinite(&mut self, value: Value) -> Value {
         self.tape.mark_nonfinite(value);
         value
@@ -65,7 +65,7 @@ impl<R: Fn(Register) -> Value> Machine for ConstantFolder<'_, R> {
     }
 
     fn mul(&mut self, a: Value, b: Value) -> Value {
-        // nothing times what is infinite is no number
+        // 0 times an infinite value is NaN, so the product must not be folded to 0
         let may_be_nan =
             (a.is_zero() && self.tape.may_be_nonfinite(b)) || (b.is_zero() && self.tape.may_be_nonfinite(a));
         if may_be_nan {
@@ -76,7 +76,7 @@ impl<R: Fn(Register) -> Value> Machine for ConstantFolder<'_, R> {
     }
 
     fn div(&mut self, a: Value, b: Value) -> Value {
-        // nothing by nothing is no number either
+        // 0 divided by 0 is NaN too
         let may_be_nan = a.is_zero() && matches!(b, Value::Register { .. });
         let quotient =
             if may_be_nan { self.emit_op([a, b], |to, [a, b]| Op::Div { to, a, b }) } else { self.tape.div(a, b) };

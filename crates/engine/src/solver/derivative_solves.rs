@@ -1,5 +1,4 @@
-//! What a block's factors give beside its position: derivatives by time, by signals and parameters, and variations. All solve
-//! `Φ_q x = right`.
+//! Linear solves `Φ_q x = right` with a block's factors: derivatives with respect to time, signals and parameters, and variations.
 
 use super::Values;
 use super::build::Builder;
@@ -10,13 +9,13 @@ use mechc_ir::program::{PlacedSide, Register};
 use mechc_ir::structure::Block;
 
 impl<V: Values> Builder<'_, V> {
-    /// All that is asked of a block whose position is known.
+    /// Solves for all derivatives of a block whose position is solved.
     pub fn solve_derivatives(&mut self, block: &Block, factors: &Factors) {
         let program = self.program;
         let (outputs, inputs) = (&program.outputs, &program.inputs);
         let mut others = 0;
         for PlacedSide { with, entries } in &outputs.right_sides {
-            // code has no use for third derivatives but in its measures
+            // code needs third derivatives in its measures only
             let is_of_measures = *with == With::Time(3) && self.is_for_code();
             let stored = if is_of_measures { Stored::Shared } else { Stored::All };
             let (unknown, column) = if let With::Time(order) = with {
@@ -38,7 +37,8 @@ impl<V: Values> Builder<'_, V> {
         }
     }
 
-    /// Solves with a block's factors for unknowns of which the program has the first in a register, and the row in a column.
+    /// Solves a block of `Φ_q x = right`. `right` holds a register of the program for each row; `unknown` and `column` are the program's register and
+    /// the stored column of the first unknown of the system.
     fn solve(
         &mut self,
         block: &Block,
@@ -58,19 +58,19 @@ impl<V: Values> Builder<'_, V> {
             sums.push(sum);
         }
         let solution: Vec<Value> = factors.solve(&mut self.symbolic.tape, sums);
-        for (&place, &value) in block.columns.iter().zip(&solution) {
-            self.symbolic.define(unknown + place, value);
-            if stored == Stored::All || self.is_shared(column + place) {
-                self.symbolic.tape.store(column + place, value);
+        for (&coordinate, &value) in block.columns.iter().zip(&solution) {
+            self.symbolic.define(unknown + coordinate, value);
+            if stored == Stored::All || self.is_shared(column + coordinate) {
+                self.symbolic.tape.store(column + coordinate, value);
             }
         }
     }
 }
 
-/// What of a solution is left in its columns.
+/// The part of a solution that is stored in columns.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Stored {
     All,
-    /// What joins components.
+    /// The columns that shared outputs read.
     Shared,
 }

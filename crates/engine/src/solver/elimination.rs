@@ -1,24 +1,24 @@
-//! The elimination of a block's part of `Φ_q`, laid out in an order that was chosen before.
+//! Symbolic elimination of a block of `Φ_q` in a given order.
 
 use super::order::Order;
 use super::tape::{Tape, Value};
 
-/// A row of a block: the columns of its entries within the block, and their values.
+/// A row of a block: the columns of its entries within the block, with their values.
 pub(super) type Line = Vec<(u32, Value)>;
 
-/// The factors of a block's part of `Φ_q`, by places within the block.
+/// The factors of a block of `Φ_q`. Rows and columns are counted within the block.
 pub(super) struct Factors {
     pivots: Vec<(u32, u32)>,
     inverses: Vec<Value>,
-    /// For each pivot the rows below it with their multipliers, and the rest of its row.
+    /// By pivot: the rows below it with their multipliers, and the other entries of its row.
     lower: Vec<Line>,
     upper: Vec<Line>,
-    /// The last two unknowns, where they are found together.
+    /// The last two unknowns, if they are solved together.
     pair: Option<TwoByTwo>,
 }
 
-/// Two equations for two unknowns, by rows, with one over their determinant (G. Cramer, 1750): one division instead of two, one
-/// after the other.
+/// Two equations for two unknowns with the inverse of their determinant, solved by Cramer's rule (G. Cramer, 1750): one division instead of two in
+/// sequence.
 struct TwoByTwo {
     rows: [u32; 2],
     columns: [u32; 2],
@@ -26,14 +26,14 @@ struct TwoByTwo {
     inverse: Value,
 }
 
-/// One over a pivot, or over the determinant of the last two, with the rows and columns that it stands for.
+/// The inverse of a pivot, or of the determinant of the last two, with its rows and columns.
 pub(super) struct Inverse {
     pub value: Value,
-    pub places: Vec<(u32, u32)>,
+    pub positions: Vec<(u32, u32)>,
 }
 
 impl Factors {
-    /// Of one equation for one unknown.
+    /// Factorizes one equation for one unknown.
     pub fn single(tape: &mut Tape, slope: Value) -> Factors {
         Factors {
             pivots: vec![(0, 0)],
@@ -44,7 +44,7 @@ impl Factors {
         }
     }
 
-    /// Eliminates rows in an order. Multipliers of one row for another are watched where there are weights for them.
+    /// Eliminates rows in an order. `weight`, if given, returns the number of the weight by which a multiplier of one row for another is checked.
     pub fn new(
         tape: &mut Tape,
         mut rows: Vec<Line>,
@@ -88,18 +88,19 @@ impl Factors {
         factors
     }
 
-    /// One over each pivot, and last over the determinant of the two that are found together.
+    /// Returns the inverse of each pivot, and last that of the 2 × 2 determinant, if there is one.
     pub fn inverses(&self) -> Vec<Inverse> {
         let singles = self.pivots.iter().zip(&self.inverses);
-        let mut all: Vec<Inverse> = singles.map(|(&place, &value)| Inverse { value, places: vec![place] }).collect();
+        let mut all: Vec<Inverse> =
+            singles.map(|(&position, &value)| Inverse { value, positions: vec![position] }).collect();
         if let Some(TwoByTwo { rows, columns, inverse, .. }) = self.pair {
-            let places = rows.into_iter().zip(columns).collect();
-            all.push(Inverse { value: inverse, places });
+            let positions = rows.into_iter().zip(columns).collect();
+            all.push(Inverse { value: inverse, positions });
         }
         all
     }
 
-    /// Solves: `right` by rows becomes the solution by columns.
+    /// Solves `A x = right`, from `right` by rows to the solution by columns.
     pub fn solve(&self, tape: &mut Tape, mut right: Vec<Value>) -> Vec<Value> {
         for (&(row, _), lower) in self.pivots.iter().zip(&self.lower) {
             let value = right[row as usize];
@@ -123,7 +124,7 @@ impl Factors {
         solution
     }
 
-    /// Solves with the transposed matrix: `right` by columns becomes the solution by rows.
+    /// Solves `Aᵀ x = right`, from `right` by columns to the solution by rows.
     pub fn solve_transposed(&self, tape: &mut Tape, mut right: Vec<Value>) -> Vec<Value> {
         let mut solution = vec![Value::ZERO; right.len()];
         for ((&(row, column), &inverse), upper) in self.pivots.iter().zip(&self.inverses).zip(&self.upper) {
@@ -146,14 +147,14 @@ impl Factors {
         solution
     }
 
-    /// Whether the order of rows with their columns takes an odd number of exchanges to make.
+    /// Returns whether the permutation of rows to pivot columns is odd.
     pub fn is_odd(&self) -> bool {
         is_odd(&self.pivots)
     }
 }
 
 impl TwoByTwo {
-    /// The last two unknowns of an elimination, where either equation holds both and no pivot is a number.
+    /// Solves for the last two unknowns together, if both equations contain both and no entry is a number; else returns `None`.
     fn new(tape: &mut Tape, order: &Order, rows: &[Line]) -> Option<TwoByTwo> {
         let &[.., (upper, first), (lower, second)] = order.pivots.as_slice() else {
             return None;
@@ -174,7 +175,7 @@ impl TwoByTwo {
         self.by_cramer(tape, self.entries, right, self.columns, solution);
     }
 
-    /// As [`TwoByTwo::solve`] with the entries across.
+    /// Solves the transposed equations.
     fn solve_transposed(&self, tape: &mut Tape, right: &[Value], solution: &mut [Value]) {
         let [[a, b], [c, d]] = self.entries;
         let right = self.columns.map(|column| right[column as usize]);
@@ -198,12 +199,12 @@ impl TwoByTwo {
     }
 }
 
-/// Takes the entry of a column out of a row.
+/// Removes the entry of a column from a row.
 fn take_entry(line: &mut Line, column: u32) -> Option<Value> {
     line.iter().position(|(other, _)| *other == column).map(|at| line.swap_remove(at).1)
 }
 
-/// Takes a multiple of one row from another.
+/// Subtracts a multiple of one row from another.
 fn subtract_multiple(tape: &mut Tape, target: &mut Line, multiplier: Value, line: &[(u32, Value)]) {
     for &(column, value) in line {
         let product = tape.mul(multiplier, value);
@@ -214,7 +215,7 @@ fn subtract_multiple(tape: &mut Tape, target: &mut Line, multiplier: Value, line
     }
 }
 
-/// Whether an order of rows with their columns takes an odd number of exchanges to make.
+/// Returns whether the permutation of rows to columns is odd.
 fn is_odd(pivots: &[(u32, u32)]) -> bool {
     let mut column_of = vec![0; pivots.len()];
     for &(row, column) in pivots {

@@ -1,13 +1,13 @@
-//! What is alike in all variants that go side by side: what numbers, time and parameters lead to that are the same for all of them.
+//! Lane invariants: columns that are equal in all lanes of a batch of variants.
 
 use super::{Instruction, Solver};
 use mechc_ir::program::Register;
 
 impl Solver {
-    /// By column: whether it is the same for all variants at a time, where some of the program's registers may differ between them. What Newton
-    /// solves for may, and what a table leads to.
+    /// Returns by column whether it is equal for all variants at a time, if the program's registers for which `varies` holds differ between variants.
+    /// Tears and what is looked up in tables count as different.
     #[must_use]
-    pub fn lane_invariant_columns(&self, varies: impl Fn(Register) -> bool) -> Vec<bool> {
+    pub(crate) fn lane_invariant_columns(&self, varies: impl Fn(Register) -> bool) -> Vec<bool> {
         let (mut registers, mut columns) = (vec![false; self.registers], vec![false; self.layout.stride]);
         for instruction in &self.instructions {
             let mut is_invariant = instruction.reads().iter().all(|&register| registers[register as usize]);

@@ -1,5 +1,5 @@
-//! Running a solver in several lanes at once: at several times of one mechanism, or for several variants of it (`variants.rs`). Allocates
-//! nothing but the registers, once.
+//! Runs a solver in several lanes: at several times of one mechanism, or for several variants of it (`variants.rs`). Allocates only the registers,
+//! once.
 
 use super::predictor::Bend;
 use super::{Instruction, LARGEST_MULTIPLIER, Solver, Tear, from_bits};
@@ -10,33 +10,33 @@ use mechc_ir::tolerances::solving::lanes::{BORDER, ITERATIONS, LARGEST_CORRECTIO
 use std::array::from_fn;
 use std::ops::Range;
 
-/// Lanes that are gone through together: as many as the widest vector registers hold.
+/// The number of lanes in a chunk, which are executed together: that of the widest vector registers.
 pub const CHUNK: usize = WIDE;
 
-/// Registers for `W` times.
+/// The registers of a solver in `W` lanes.
 #[derive(Clone, Debug)]
 pub struct Lanes<const W: usize> {
     vectors: Vectors,
     values: Vec<LaneValues<W>>,
-    /// The columns of rows, to be turned to these; none where that does not pay.
+    /// The columns of rows, to be transposed into these; empty if that does not pay.
     columns: Vec<LaneValues<W>>,
     checks: RunChecks<W>,
-    /// What is seen of what depends on numbers and parameters alone.
+    /// The checks of the prologue, which stay valid until its next run.
     prologue_checks: RunChecks<W>,
 }
 
-/// What is seen of each lane in a run.
+/// The checks of a run, by lane.
 #[derive(Clone, Debug)]
 struct RunChecks<const W: usize> {
-    /// The largest multiplier, and the largest part of its bound that a residual takes.
+    /// The largest scaled multiplier, and the largest ratio of a residual to its bound.
     multiplier: LaneValues<W>,
     residual: LaneValues<W>,
     /// The largest correction, and the largest first one, scaled.
     max_correction: LaneValues<W>,
     first_correction: LaneValues<W>,
-    /// With which largest correction Newton ends, in cells.
+    /// The largest correction with which Newton ends, in cells.
     bound: LaneValues<W>,
-    /// 0 if all that was stored is finite, else not a number.
+    /// 0 if all stored values are finite, else NaN.
     finite: LaneValues<W>,
 }
 
@@ -53,7 +53,7 @@ impl<const W: usize> RunChecks<W> {
         }
     };
 
-    /// Goes on from what has been seen of what stays, before there is any correction; bounds are set where Newton begins.
+    /// Resets to the checks of the prologue, without corrections. Bounds are set when Newton begins.
     fn reset_to(&mut self, prologue: &RunChecks<W>) {
         let zero = LaneValues([0.0; W]);
         (self.max_correction, self.first_correction) = (zero, zero);
@@ -61,47 +61,47 @@ impl<const W: usize> RunChecks<W> {
     }
 }
 
-/// What a run reads beside its registers, and where it leaves its results: part by part of its lanes, `P` in each.
+/// The inputs and outputs of a run other than its registers, by chunk of `P` lanes.
 pub(super) trait LaneEnvironment<const P: usize> {
-    /// How many parts there are.
+    /// Returns the number of chunks to execute.
     fn chunks(&self) -> usize;
-    /// The value of one of the program's registers.
+    /// Returns the value of a register of the program.
     fn loaded(&self, from: Register, chunk: usize) -> [f64; P];
-    /// The times (s).
+    /// Returns the times (s).
     fn times(&self, chunk: usize) -> [f64; P];
-    /// Where Newton begins with a tear.
+    /// Returns the initial guess for a tear.
     fn guess(&self, tear: u32, chunk: usize) -> [f64; P];
-    /// What has been left in a column.
+    /// Returns the stored value of a column.
     fn stored(&self, column: u32, chunk: usize) -> [f64; P];
-    /// Leaves a result in a column, told part by part.
+    /// Stores a column; `values` returns its values by chunk.
     fn store(&mut self, column: u32, values: impl FnMut(usize) -> [f64; P]);
-    /// One over what may be left of a row of `Φ`.
+    /// Returns the inverse of the largest residual of a row of `Φ`.
     fn inverse_bound(&self, row: u32) -> f64;
-    /// Takes note of one over a pivot.
+    /// Records the inverse of a pivot.
     fn note_pivot(&mut self, pivot: u32, chunk: usize, inverse: &[f64; P]);
-    /// With corrections of up to so many cells Newton ends, where nobody asks for bits; 0 where only the grid point next to the solution will do.
+    /// Returns the largest correction, in cells, with which Newton ends if bits do not matter; 0 if only the grid point next to the solution will do.
     fn loose_bound(&self) -> f64;
 }
 
-/// Times to solve at, and what is known there.
+/// The times to solve at, with the step that contains them.
 #[derive(Clone, Copy, Debug)]
 pub struct Batch<'b, const W: usize> {
-    /// The times (s), ascending; all within a step.
+    /// The times (s), ascending, all within the step.
     pub times: [f64; W],
-    /// Where the step begins (s).
+    /// The start of the step (s).
     pub from: f64,
     /// The length of the step (s).
     pub length: f64,
-    /// Each coordinate as a polynomial of the part of the step.
+    /// By coordinate: a polynomial in the fraction of the step, its coefficients.
     pub curve: &'b [[f64; 6]],
-    /// How the curve of each tear goes on from the step before, where there was one.
+    /// By tear: the correction of its curve from the step before; empty without one.
     pub bends: &'b [Bend],
-    /// By row of `Φ`: one over what may be left of it.
+    /// By row of `Φ`: the inverse of the largest residual.
     pub bounds: &'b [f64],
 }
 
 impl<const W: usize> Lanes<W> {
-    /// Registers for a solver, which is run with some vector instructions.
+    /// Allocates the registers for a solver, which runs with the given vector instructions.
     #[must_use]
     pub fn new(solver: &Solver, vectors: Vectors) -> Lanes<W> {
         Lanes {
@@ -113,7 +113,7 @@ impl<const W: usize> Lanes<W> {
         }
     }
 
-    /// The same, for rows of which each has its numbers one behind the other ([`Lanes::run`]).
+    /// Allocates the registers for a solver that writes contiguous rows ([`Lanes::run`]).
     #[must_use]
     pub fn for_rows(solver: &Solver, vectors: Vectors) -> Lanes<W> {
         let stride = solver.layout.stride;
@@ -122,22 +122,22 @@ impl<const W: usize> Lanes<W> {
         Lanes { columns, ..Lanes::new(solver, vectors) }
     }
 
-    /// How far the curve was from the solution in the last run: the largest first correction, scaled; not a number if one is not.
+    /// Returns the largest first correction of the last run, scaled: the error of the initial guess; NaN if a correction is NaN.
     #[must_use]
     pub fn first_correction(&self) -> f64 {
         self.first_corrections().0.iter().copied().fold(0.0, math::max)
     }
 
-    /// Whether all numbers of a lane's row are finite.
+    /// Returns whether all numbers in the row of a lane are finite.
     #[must_use]
     pub fn is_finite(&self, lane: usize) -> bool {
         self.checks.finite.0[lane] == 0.0
     }
 
-    /// Solves at the times of a batch and writes a row for each, one behind the other; says which of them hold: their Newton
-    /// has settled, every equation is met, and no pivot was too small.
+    /// Solves at the times of a batch and writes their rows, one after the other. Returns the lanes that are accepted: Newton has converged, every
+    /// residual is within its bound, and no multiplier is too large.
     ///
-    /// `scalars` are the program's registers, whose switches stand as they are in this step.
+    /// `scalars` are the program's registers, with the switches of this step.
     pub fn run(
         &mut self,
         solver: &Solver,
@@ -146,7 +146,7 @@ impl<const W: usize> Lanes<W> {
         batch: &Batch<'_, W>,
         rows: &mut [f64],
     ) -> [bool; W] {
-        // all at once: there is work for all of them
+        // all lanes in one chunk
         let mut columns = std::mem::take(&mut self.columns);
         self.solve::<W>(
             solver,
@@ -165,7 +165,7 @@ impl<const W: usize> Lanes<W> {
         from_fn(|k| !has_diverged(max_correction.0[k]) && multiplier.0[k] <= LARGEST_MULTIPLIER && residual.0[k] <= 1.0)
     }
 
-    /// Computes what depends on numbers and parameters alone, and leaves what results of it: it stays until they are others.
+    /// Runs the prologue, the instructions that depend on numbers and parameters alone. Its results stay until its next run.
     pub(super) fn run_prologue<const P: usize>(
         &mut self,
         solver: &Solver,
@@ -182,7 +182,7 @@ impl<const W: usize> Lanes<W> {
         self.prologue_checks = self.checks.clone();
     }
 
-    /// Solves in the lanes of the parts that there are, of `P` lanes each.
+    /// Runs the solver in the chunks of `env`, of `P` lanes each.
     pub(super) fn solve<const P: usize>(
         &mut self,
         solver: &Solver,
@@ -190,7 +190,7 @@ impl<const W: usize> Lanes<W> {
         env: impl LaneEnvironment<P>,
     ) {
         self.checks.reset_to(&self.prologue_checks);
-        // one lane has nothing to do at once
+        // vector instructions do not pay for one lane
         let vectors = if W == 1 { Vectors::BASE } else { self.vectors };
         let is_all = env.chunks() == W / P;
         let mut run = Run { lanes: self, solver, program, env };
@@ -207,10 +207,10 @@ impl<const W: usize> Lanes<W> {
         }
     }
 
-    /// Adds to each lane in which Newton has not settled, an equation is not met, a multiplier is above a part of the largest, or what was
-    /// stored is not finite.
+    /// Increments the count of each lane that is rejected: Newton has not converged, a residual exceeds its bound, a multiplier exceeds a fraction of
+    /// its limit, or a stored value is not finite.
     #[inline(always)]
-    #[allow(clippy::inline_always, clippy::needless_range_loop)] // compiled for several kinds of processors; by lane it vectorises best
+    #[allow(clippy::inline_always, clippy::needless_range_loop)] // compiled for several vector instruction sets; lane indices vectorise best
     pub(super) fn add_rejections(&self, fraction: f64, rejections: &mut LaneValues<W>) {
         let limit = fraction * LARGEST_MULTIPLIER;
         let RunChecks { max_correction, residual, multiplier, finite, .. } = &self.checks;
@@ -227,23 +227,23 @@ impl<const W: usize> Lanes<W> {
         }
     }
 
-    /// How far the guess of each lane was from its solution, scaled.
+    /// Returns by lane the error of the initial guess, scaled.
     pub(super) fn first_corrections(&self) -> &LaneValues<W> {
         &self.checks.first_correction
     }
 }
 
-/// Several times of one mechanism, and a row for each.
+/// Several times of one mechanism, with a row for each.
 struct TimesEnvironment<'r, const W: usize> {
     solver: &'r Solver,
     scalars: &'r Registers,
     batch: &'r Batch<'r, W>,
     rows: &'r mut [f64],
-    /// What is turned to rows when all is there; none where it goes there at once.
+    /// The columns that are transposed into rows at the end; empty if results are stored in the rows at once.
     columns: &'r mut [LaneValues<W>],
 }
 
-#[allow(clippy::inline_always)] // as all that `Lanes::solve` does
+#[allow(clippy::inline_always)] // inlined into `Lanes::solve`
 impl<const W: usize, const P: usize> LaneEnvironment<P> for TimesEnvironment<'_, W> {
     #[inline(always)]
     fn chunks(&self) -> usize {
@@ -317,7 +317,7 @@ struct Run<'r, A, const W: usize, const P: usize> {
     env: A,
 }
 
-// All of it becomes part of `Lanes::solve`, once for each kind of vector instructions.
+// All of it is inlined into `Lanes::solve`, once for each set of vector instructions.
 #[allow(clippy::inline_always)]
 impl<A: LaneEnvironment<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
     #[inline(always)]
@@ -327,7 +327,7 @@ impl<A: LaneEnvironment<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
             self.snap_guesses(tears);
             for iteration in 0..ITERATIONS {
                 self.instructions::<ALL>(segment.range());
-                // what is run once is done then
+                // a segment without tears runs once
                 if tears.is_empty() || self.newton_step(tears, iteration) {
                     break;
                 }
@@ -336,7 +336,7 @@ impl<A: LaneEnvironment<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
         }
     }
 
-    /// Newton begins at the grid points next to its guesses.
+    /// Moves the initial guesses to the nearest grid points.
     #[inline(always)]
     fn snap_guesses(&mut self, tears: &[Tear]) {
         let loose_bound = self.env.loose_bound();
@@ -349,7 +349,7 @@ impl<A: LaneEnvironment<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
         }
     }
 
-    /// Goes on to the next grid points in the lanes that have not settled; says whether there are none.
+    /// Moves to the next grid points in the lanes that have not converged; returns whether all have.
     #[inline(always)]
     fn newton_step(&mut self, tears: &[Tear], iteration: usize) -> bool {
         let mut has_settled = true;
@@ -359,7 +359,7 @@ impl<A: LaneEnvironment<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
         has_settled
     }
 
-    /// The same in a part of the lanes (`math/grid.rs`). A lane that has settled stays where it is, whatever the others do.
+    /// Does a Newton step in a chunk of lanes (`math/grid.rs`). A lane that has converged does not move any more, whatever the others do.
     #[inline(always)]
     fn newton_step_in(&mut self, chunk: usize, tears: &[Tear], iteration: usize) -> bool {
         let loose_bound = self.env.loose_bound();
@@ -378,16 +378,16 @@ impl<A: LaneEnvironment<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
         }
         let (mut bound, mut moves) = (*checks.bound.part::<P>(chunk), [0.0_f64; P]);
         for k in 0..P {
-            // those that are lost stay where they are
+            // diverged lanes do not move either
             let (is_beyond, is_near) = (in_cells[k] > bound[k], max_correction[k] <= LARGEST_CORRECTION);
             moves[k] = if is_beyond & is_near { 1.0 } else { 0.0 };
         }
-        // mostly none does, which is seen in all lanes at once
+        // mostly no lane moves, which one test for all lanes shows
         if moves.iter().fold(0, |open, moves| open | moves.to_bits()) == 0 {
             *checks.bound.part_mut(chunk) = [f64::INFINITY; P];
             return true;
         }
-        // by lane: the cells, in cells, among whose points coordinates next to a border go on; 0 where all stay
+        // by lane: the spacing, in cells, of the points to which coordinates next to a border move; 0 for lanes that do not move
         let mut cells = [0.0; P];
         for k in 0..P {
             let (next, width) = going_on(in_cells[k], bound[k], BORDER);
@@ -405,7 +405,7 @@ impl<A: LaneEnvironment<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
             }
         }
         if iteration + 1 == ITERATIONS {
-            // lanes that have not settled never will
+            // lanes that still move have not converged
             for (max_correction, cells) in checks.max_correction.part_mut::<P>(chunk).iter_mut().zip(cells) {
                 *max_correction = if cells > 0.0 { f64::INFINITY } else { *max_correction };
             }
@@ -413,7 +413,7 @@ impl<A: LaneEnvironment<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
         false
     }
 
-    /// From the last grid points the corrections lead to the solution.
+    /// Adds the last corrections to the last grid points, which gives the solution.
     #[inline(always)]
     fn apply_corrections(&mut self, tears: &[Tear]) {
         for tear in tears {
@@ -432,7 +432,7 @@ impl<A: LaneEnvironment<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
         let mut machine = LaneMachine::<W, P, ALL>::new(values, env.chunks(), self.program);
         let chunks = machine.parts();
         for instruction in &self.solver.instructions[range] {
-            // most are operations: one choice of many, and not two
+            // most instructions are operations, which are dispatched once and not twice
             if let Instruction::Compute(op) = instruction {
                 op.run(&mut machine);
                 continue;
@@ -477,15 +477,15 @@ impl<A: LaneEnvironment<P>, const W: usize, const P: usize> Run<'_, A, W, P> {
 }
 
 impl<const W: usize> Batch<'_, W> {
-    /// Where Newton begins with a tear: on the curve of the step.
+    /// Returns the initial guess for a tear, on the curve of the step.
     #[inline(always)]
-    #[allow(clippy::inline_always)] // as all that `Lanes::solve` does
+    #[allow(clippy::inline_always)] // inlined into `Lanes::solve`
     fn on_curve<const P: usize>(&self, solver: &Solver, tear: u32, chunk: usize) -> [f64; P] {
         let curve = &self.curve[solver.tears[tear as usize] as usize];
         let bend = self.bends.get(tear as usize).unwrap_or(&Bend::NONE);
         let per_second = 1.0 / self.length;
         let mut values = self.times.as_chunks().0[chunk];
-        // no closure, which would be compiled for every processor
+        // no closure, which would be compiled without the vector instructions
         for value in &mut values {
             *value = bend.on_curve(curve, (*value - self.from) * per_second);
         }
@@ -493,16 +493,16 @@ impl<const W: usize> Batch<'_, W> {
     }
 }
 
-/// Whether an iteration has gone astray whose largest correction, scaled, is this.
+/// Returns whether an iteration with this largest scaled correction has diverged.
 #[inline(always)]
-#[allow(clippy::inline_always)] // as all that `Lanes::solve` does
+#[allow(clippy::inline_always)] // inlined into `Lanes::solve`
 fn has_diverged(max_correction: f64) -> bool {
     max_correction.is_nan() || max_correction > LARGEST_CORRECTION
 }
 
-/// Keeps the larger of what is known and `|value| factor`; what is not a number stays.
+/// Updates a maximum with `|value| factor`; NaN stays.
 #[inline(always)]
-#[allow(clippy::inline_always)] // as all that `Lanes::solve` does
+#[allow(clippy::inline_always)] // inlined into `Lanes::solve`
 fn keep_max<const W: usize>(largest: &mut [f64; W], values: &[f64; W], factor: f64) {
     for (largest, value) in largest.iter_mut().zip(values) {
         *largest = math::max(*largest, value.abs() * factor);

@@ -1,4 +1,4 @@
-//! The multipliers of a component's equations, by the factors of its blocks: `Φ_qᵀ λ = p`, from the last block to the first.
+//! Linear solves `Φ_qᵀ λ = p` for the multipliers of a component, with the factors of its blocks from the last to the first.
 
 use super::Values;
 use super::build::Builder;
@@ -9,7 +9,7 @@ use mechc_ir::structure::Block;
 use rustc_hash::FxHashMap;
 
 impl<V: Values> Builder<'_, V> {
-    /// The multipliers, and how they vary, of a component whose motion is known.
+    /// Solves for the multipliers, and their variations, of a component whose motion is solved.
     pub fn solve_multipliers(&mut self, blocks: &[(&Block, Factors)]) {
         let program = self.program;
         let (outputs, inputs) = (&program.outputs, &program.inputs);
@@ -22,11 +22,12 @@ impl<V: Values> Builder<'_, V> {
         }
     }
 
-    /// Solves for unknowns, one for each equation, of which the program has the first in a register. The right side is by coordinates.
+    /// Solves for one unknown for each equation; `unknown` is the program's register of the first. The right side, in registers of the program, is by
+    /// coordinate.
     fn solve_transposed(&mut self, blocks: &[(&Block, Factors)], right: &[Register], unknown: Register) {
         let program = self.program;
         let column = self.layout.multipliers + (unknown - program.inputs.multipliers);
-        // by coordinate: what the equations of later blocks exert on it, as positions in the pattern with rows
+        // by coordinate: entries of the equations of later blocks, as positions in the pattern with rows
         let mut transferred: FxHashMap<u32, Vec<(usize, u32)>> = FxHashMap::default();
         for (block, factors) in blocks.iter().rev() {
             let mut sums = Vec::with_capacity(block.columns.len());

@@ -1,4 +1,4 @@
-//! What nothing needs is left out, products are joined with their sums, and registers are used again.
+//! Optimizes the instructions of a component: dead-code elimination, fused products and sums, hoisting of the prologue, register allocation.
 
 use super::peephole::fuse_products;
 use super::{Component, Instruction, PROLOGUE, Purpose, Segment};
@@ -7,8 +7,8 @@ use std::ops::Range;
 
 const NONE: u32 = u32::MAX;
 
-/// A component whose registers are each written once, in fewer instructions: those that are needed for themselves, and what leads to them. Its
-/// registers may be used several times, if that is what it is for.
+/// Optimizes a component in single-assignment form: keeps the instructions for which `is_result` holds and those that they depend on, and allocates
+/// registers unless the purpose is code.
 pub(super) fn optimize(
     mut component: Component,
     is_result: impl Fn(&Instruction) -> bool,
@@ -34,14 +34,14 @@ pub(super) fn optimize(
     component
 }
 
-/// The same with what can be done in one go.
+/// Applies the peephole pass.
 fn with_peephole(mut component: Component) -> Component {
     let keep = fuse_products(&mut component);
     compact(component, &keep)
 }
 
-/// Sets apart what only numbers and parameters lead to: it is computed once for these, and stays. What is left is done in as few goes as can be.
-/// Gives the registers that what stays has of its own; [`NONE`] for all others.
+/// Hoists the instructions that depend on numbers and parameters alone into the prologue, which runs once for these; the peephole pass treats the
+/// others alone, so that no fusion crosses. Returns the registers of the prologue, with [`NONE`] for all others.
 fn hoist_prologue(component: Component) -> (Component, Vec<Register>) {
     let mut allocated = vec![NONE; component.registers];
     let (mut prologue, mut count) = (Vec::new(), 0);
@@ -71,14 +71,14 @@ fn hoist_prologue(component: Component) -> (Component, Vec<Register>) {
     (Component { prologue, prologue_registers: count as usize, ..rest }, allocated)
 }
 
-/// Which instructions are needed for themselves, or lead to some that are.
+/// Returns the instructions that are results, or that a result depends on.
 fn live_instructions(component: &Component, is_result: impl Fn(&Instruction) -> bool) -> Vec<bool> {
     let mut is_read = vec![false; component.registers];
     for tear in component.segments.iter().flat_map(Segment::tears) {
         (is_read[tear.x as usize], is_read[tear.delta as usize]) = (true, true);
     }
     let mut is_live = vec![false; component.instructions.len()];
-    // what a loop reads of itself it has written before, in the same iteration
+    // one backward pass is enough, since a loop reads only values written earlier in the same iteration
     for (at, instruction) in component.instructions.iter().enumerate().rev() {
         let writes = instruction.writes();
         is_live[at] = is_result(instruction) || writes.iter().any(|&register| is_read[register as usize]);
@@ -91,7 +91,7 @@ fn live_instructions(component: &Component, is_result: impl Fn(&Instruction) -> 
     is_live
 }
 
-/// Joins products that only one sum uses with that sum; says which products are in it now.
+/// Fuses products that are used once with the sum that uses them; returns which products are gone.
 fn fuse_multiply_adds(component: &mut Component, is_live: &[bool]) -> Vec<bool> {
     let instructions = &mut component.instructions;
     let (mut uses, mut written_by) = (vec![0_u32; component.registers], vec![NONE; component.registers]);
@@ -124,7 +124,7 @@ fn fuse_multiply_adds(component: &mut Component, is_live: &[bool]) -> Vec<bool> 
     is_fused
 }
 
-/// A sum or difference with one of its operands as a product, and where that product was.
+/// Returns a sum or difference fused with the product of one operand, and the index of that product.
 fn multiply_add(op: Op, product: impl Fn(Register) -> Option<(usize, [Register; 2])>) -> Option<(usize, Op)> {
     match op {
         Op::Add { to, a, b } => {
@@ -158,13 +158,13 @@ fn compact(component: Component, keep: &[bool]) -> Component {
     component
 }
 
-/// Gives registers out anew, each to several values one after the other. Some have their place already, which they share with none.
+/// Allocates registers by live range. Registers of the prologue, which are allocated already, are not shared.
 fn allocate_registers(component: &mut Component, mut allocated: Vec<Register>) {
     let registers = component.registers;
     let LiveRanges { last_use, last_loop } = LiveRanges::new(component);
     let is_prologue: Vec<bool> = allocated.iter().map(|&register| register != NONE).collect();
     let (mut free, mut next): (Vec<Register>, Register) = (Vec::new(), 0);
-    // those that live to the end of a loop, by where it ends
+    // by loop: registers that are live to its end
     let mut ends: Vec<Vec<Register>> = Vec::new();
     let loops: Vec<Range<usize>> = component
         .segments
@@ -211,7 +211,7 @@ fn allocate_registers(component: &mut Component, mut allocated: Vec<Register>) {
         component.instructions[at] =
             instruction.renumbered(|register| allocated[register as usize], |register| allocated[register as usize]);
         for register in instruction.writes() {
-            // nobody reads it
+            // an unused result
             if last_use[register as usize] == NONE {
                 free.push(allocated[register as usize]);
             }
@@ -222,11 +222,11 @@ fn allocate_registers(component: &mut Component, mut allocated: Vec<Register>) {
     component.registers = next as usize;
 }
 
-/// How long registers are needed.
+/// The live ranges of registers.
 struct LiveRanges {
-    /// The last operation that reads each; none if none does.
+    /// By register: the last instruction that reads it, or [`NONE`].
     last_use: Vec<u32>,
-    /// The last loop to whose end each is needed, be it that no operation reads it so late.
+    /// By register: the last loop through whose end it is live, or [`NONE`].
     last_loop: Vec<u32>,
 }
 

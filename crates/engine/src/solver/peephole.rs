@@ -1,10 +1,10 @@
-//! What follows each other is done in one go where nobody else asks for what is between: a choice, a result to be put away and an operand to be
-//! fetched are saved. Each product and each sum is rounded as before, so no bit changes.
+//! Peephole pass: fuses an operation with the one that computes its operand, if that has no other use. This saves dispatch, a store and a load. Each
+//! product and each sum is rounded as before, so no bit changes.
 
 use super::{Component, Instruction, Segment};
 use mechc_ir::program::{Op, Register};
 
-/// Joins products with what they are multiplied with, added to or taken from; says which instructions are left.
+/// Fuses products with the factors, sums and differences around them; returns which instructions are left.
 pub(super) fn fuse_products(component: &mut Component) -> Vec<bool> {
     let use_counts = use_counts(component);
     let mut keep = vec![true; component.instructions.len()];
@@ -35,7 +35,7 @@ pub(super) fn fuse_products(component: &mut Component) -> Vec<bool> {
     keep
 }
 
-/// By register: how many ask for what it holds.
+/// Returns by register the number of instructions and tears that read it.
 fn use_counts(component: &Component) -> Vec<u32> {
     let mut use_counts = vec![0; component.registers];
     let of_tears = component.segments.iter().flat_map(Segment::tears).flat_map(|tear| [tear.x, tear.delta]);
@@ -46,7 +46,8 @@ fn use_counts(component: &Component) -> Vec<u32> {
     use_counts
 }
 
-/// An operation with one that leads to it, and where that was: `only_here` tells what leads to nothing else.
+/// Returns an operation fused with one that computes an operand, and the index of the latter. `single_use` returns the instruction that computes a
+/// register without another use.
 fn fused_op(op: Op, single_use: impl Fn(Register) -> Option<(usize, Op)>) -> Option<(Op, usize)> {
     let product = |register| match single_use(register)? {
         (by, Op::Mul { a, b, .. }) => Some((by, [a, b])),
@@ -70,7 +71,7 @@ fn fused_op(op: Op, single_use: impl Fn(Register) -> Option<(usize, Op)>) -> Opt
     }
 }
 
-/// What is found in one place, times what stands in a register.
+/// Returns the product of an operation's result and a register as one operation, and the index of the former.
 fn product_with(to: Register, factor: Option<(usize, Op)>, by: Register) -> Option<(Op, usize)> {
     let (at, factor) = factor?;
     let product = match factor {

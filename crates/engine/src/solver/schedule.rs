@@ -1,30 +1,31 @@
-//! When, in the solution of a component, a value is known.
+//! The schedule of a component: when its values are available, and how often they are computed.
 
-/// Rounds follow one another: what a block needs, its loop, what follows from that loop, the next loop, and so on. Later is greater.
+/// A time in the execution of a component; later is greater. Rounds follow one another: the inputs of a block, its Newton loop, the values behind
+/// that loop, the next loop, and so on.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct EvalTime {
     round: u32,
     phase: Phase,
 }
 
-/// How often a value is computed.
+/// The frequency of a computation.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum Phase {
     Once,
-    /// Anew in each iteration of Newton.
+    /// In each iteration of Newton.
     InLoop,
 }
 
 impl EvalTime {
-    /// Before all others: of what is not known.
+    /// The time before all others, for undefined values.
     pub const NEVER: EvalTime = EvalTime { round: 0, phase: Phase::Once };
 
-    /// In the loop that begins now.
+    /// Returns the time in the loop that begins now.
     pub fn in_loop(self) -> EvalTime {
         EvalTime { round: self.round, phase: Phase::InLoop }
     }
 
-    /// When what is under way has been done.
+    /// Returns the time after the present round.
     pub fn after(self) -> EvalTime {
         EvalTime { round: self.round + 1, phase: Phase::Once }
     }

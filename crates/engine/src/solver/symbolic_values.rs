@@ -1,4 +1,4 @@
-//! What the registers of a program are worth while its system is being solved: known, given, or laid out when first asked for.
+//! Symbolic values of a program's registers while its system is being solved: solved, given, or emitted on first use.
 
 use super::constant_folding::{ConstantFolder, Results};
 use super::schedule::EvalTime;
@@ -9,39 +9,38 @@ use mechc_ir::program::{Op, Program, Register, Stage};
 use mechc_ir::tolerances::solving::build::WIDEST_CELL;
 use rustc_hash::FxHashMap;
 
-/// The values of a program's registers, and the instructions that they take.
+/// The values of a program's registers, and the instructions that compute them.
 pub(super) struct SymbolicValues<'s> {
     program: &'s Program,
     layout: RowLayout,
     /// The registers of variations, and of multipliers.
     varied: std::ops::Range<Register>,
     multipliers: std::ops::Range<Register>,
-    /// What each register of the program is written by.
+    /// By register of the program: the operation that writes it.
     definitions: Vec<Option<(Stage, Op)>>,
     literals: FxHashMap<Register, f64>,
-    /// By register of the program: its value, and how old that is.
+    /// By register of the program: its value, and the time at which that was defined.
     values: Vec<(EvalTime, Value)>,
     pub tape: Tape,
     time: EvalTime,
-    /// Whether what components have left in columns may be asked for.
+    /// True if values may be read from the stored columns of components.
     reads_columns: bool,
     stack: Vec<Register>,
-    /// Registers whose values hold for this block alone: they depend on coordinates of later blocks, which cancel in what the
-    /// block needs.
+    /// Registers whose values are valid in this block only: they depend on coordinates of later blocks, which cancel where the block uses them.
     block_local: Vec<Register>,
     is_block_local: Vec<bool>,
-    /// Of the block's tears that have one: sine and cosine at the grid point, and from there on the correction.
+    /// The block's tears with sine and cosine.
     sin_cos_of_tears: Vec<TearSinCos>,
-    /// Whether these are turned by an instruction of their own.
+    /// True if their correction is one instruction, [`Op::Turn`].
     has_rotation_op: bool,
 }
 
-/// A tear with its sine and cosine where Newton has evaluated them last.
+/// A tear with its sine and cosine at the last iterate of Newton.
 struct TearSinCos {
     x: Register,
     sin: Register,
     cos: Register,
-    /// From there to the solution; none while Newton goes on.
+    /// The correction from there to the solution; `None` inside the loop.
     delta: Option<Register>,
 }
 
@@ -75,24 +74,24 @@ impl<'s> SymbolicValues<'s> {
         }
     }
 
-    /// Begins a component: nothing is known.
+    /// Begins a component: no value is defined.
     pub fn begin_component(&mut self) {
         self.time = self.time.after();
         self.tape = Tape::new(self.time);
     }
 
-    /// Begins what joins components: all that they have stored may be asked for.
+    /// Begins the shared outputs, which read the stored columns of components.
     pub fn begin_shared_outputs(&mut self) {
         self.begin_component();
         self.reads_columns = true;
     }
 
-    /// From now on what depends on tears changes from one iteration to the next.
+    /// Enters a Newton loop: values that depend on tears are computed in each iteration from now on.
     pub fn enter_loop(&mut self) {
         self.time = self.time.in_loop();
     }
 
-    /// From now on tears are what they are.
+    /// Leaves a Newton loop: the tears are final from now on.
     pub fn leave_loop(&mut self, tears: &[Tear]) {
         self.time = self.time.after();
         self.settle_sin_cos(tears);
@@ -101,7 +100,7 @@ impl<'s> SymbolicValues<'s> {
         }
     }
 
-    /// Forgets what holds for a block alone, which is done.
+    /// Undefines the values that are valid in the finished block only.
     pub fn end_block(&mut self) {
         self.sin_cos_of_tears.clear();
         for register in std::mem::take(&mut self.block_local) {
@@ -110,7 +109,7 @@ impl<'s> SymbolicValues<'s> {
         }
     }
 
-    /// A register of its own for a tear, which is written by the curve at first.
+    /// Returns a new register for a tear, which holds the initial guess.
     pub fn new_tear(&mut self, tear: u32) -> Register {
         let to = self.tape.new_register(self.time);
         self.tape.instructions.push(Instruction::Curve { to, tear });
@@ -126,12 +125,12 @@ impl<'s> SymbolicValues<'s> {
         time >= self.tape.start() && (!time.is_in_loop() || time == self.time)
     }
 
-    /// The number that a register always holds.
+    /// Returns the number that a register always holds, if it is a literal.
     pub fn number(&self, register: Register) -> Option<f64> {
         self.literals.get(&register).copied()
     }
 
-    /// The value of a register of the program; lays out what it needs.
+    /// Returns the value of a register of the program, and emits the instructions that it needs.
     pub fn value(&mut self, requested: Register) -> Value {
         let mut stack = std::mem::take(&mut self.stack);
         stack.push(requested);
@@ -147,7 +146,7 @@ impl<'s> SymbolicValues<'s> {
                     self.emit(op);
                 }
             } else {
-                // a coordinate of a later block, or a derivative that nothing needs: it cancels, and may be anything
+                // a coordinate of a later block, or an unused derivative: it cancels, so any value will do
                 self.define(register, Value::ZERO);
                 self.mark_block_local(register);
             }
@@ -156,16 +155,16 @@ impl<'s> SymbolicValues<'s> {
         self.values[requested as usize].1
     }
 
-    /// `sum − slope · known`
+    /// Returns `sum − slope · factor`.
     pub fn minus_product(&mut self, sum: Value, slope: Register, factor: Register) -> Value {
         let (slope, factor) = (self.value(slope), self.value(factor));
         let product = self.tape.mul(slope, factor);
         self.tape.sub(sum, product)
     }
 
-    /// The value of a sum in which an input, which it is linear in, is left out.
+    /// Returns the value of a sum without the term of an input that it is linear in.
     pub fn value_without(&mut self, sum: Register, left_out: Register) -> Value {
-        // none: it does not depend on that input
+        // `None` for registers that do not depend on that input
         let mut values_without: FxHashMap<Register, Option<Value>> = FxHashMap::default();
         values_without.insert(left_out, Some(Value::ZERO));
         let mut stack = vec![sum];
@@ -201,7 +200,7 @@ impl<'s> SymbolicValues<'s> {
         }
     }
 
-    /// Lays an operation out whose operands are known.
+    /// Emits an operation whose operands are defined.
     fn emit(&mut self, op: Op) {
         let results = self.rotate(op).unwrap_or_else(|| self.emit_folded(op));
         let reads_block_local = op.reads().iter().any(|&read| self.is_block_local[read as usize]);
@@ -225,7 +224,7 @@ impl<'s> SymbolicValues<'s> {
         results
     }
 
-    /// Sine and cosine of a tear that has settled: three terms of Taylor's series are enough.
+    /// Returns sine and cosine of a solved tear, rotated from the last grid point: three terms of the Taylor series are enough.
     fn rotate(&mut self, op: Op) -> Option<Results> {
         let Op::SinCos { sin: to_sin, cos: to_cos, a } = op else {
             return None;
@@ -245,7 +244,7 @@ impl<'s> SymbolicValues<'s> {
         Some([Some((to_sin, sin)), Some((to_cos, cos))])
     }
 
-    /// From now on sines and cosines of tears are those of the grid point, turned by the correction.
+    /// Makes sines and cosines of solved tears those of the last grid point, rotated by the correction.
     fn settle_sin_cos(&mut self, tears: &[Tear]) {
         self.sin_cos_of_tears.retain_mut(|pair| {
             let tear = tears.iter().find(|tear| tear.x == pair.x && tear.cell <= WIDEST_CELL);
@@ -259,13 +258,13 @@ impl<'s> SymbolicValues<'s> {
         }
     }
 
-    /// Forgets the value of a register when the block is done.
+    /// Marks a register whose value is undefined at the end of the block.
     fn mark_block_local(&mut self, register: Register) {
         self.is_block_local[register as usize] = true;
         self.block_local.push(register);
     }
 
-    /// A value that is not computed from others here.
+    /// Returns the value of a register that is an input here: a number, a parameter, a switch, the time, or a stored column.
     fn input_value(&mut self, register: Register) -> Option<Value> {
         let inputs = &self.program.inputs;
         if let Some(value) = self.number(register) {
@@ -289,12 +288,12 @@ impl<'s> SymbolicValues<'s> {
         self.reads_columns.then(|| self.tape.push(|to| Instruction::Column { to, column }))
     }
 
-    /// Whether a register is of a signal that no operation says.
+    /// Returns whether a register belongs to a signal without an operation.
     fn is_given_signal(&self, register: Register) -> bool {
         self.program.inputs.all_signals().contains(&register) && self.definitions[register as usize].is_none()
     }
 
-    /// Whether a register of the program keeps its value within a step: it depends on parameters alone, or is a switch.
+    /// Returns whether a register of the program is constant within a step: it depends on parameters alone, or is a switch.
     fn is_loaded(&self, register: Register) -> bool {
         self.definitions[register as usize]
             .is_some_and(|(stage, op)| stage == Stage::Prologue || (op.switched().is_some() && stage.can_switch()))

@@ -1,4 +1,4 @@
-//! Instructions being laid out, and arithmetic on values of which some are numbers already.
+//! The tape that instructions are emitted to, with arithmetic on values of which some are numbers.
 
 use super::Instruction;
 use super::schedule::EvalTime;
@@ -7,7 +7,7 @@ use mechc_ir::program::{Op, Register};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
-/// A number that is known already, or what an operation gives.
+/// A number, or the result of an instruction with a sign.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Value {
     Number(f64),
@@ -21,13 +21,13 @@ impl Value {
         matches!(self, Value::Number(x) if x == 0.0)
     }
 
-    /// Whether it is 1 or −1.
+    /// Returns whether it is 1 or −1.
     #[allow(clippy::float_cmp)] // exactly
     fn is_unit(self) -> bool {
         matches!(self, Value::Number(x) if x.abs() == 1.0)
     }
 
-    /// Itself, or turned where a number is negative.
+    /// Returns the value, negated if `number` is negative.
     fn times_sign_of(self, number: Value) -> Value {
         if matches!(number, Value::Number(x) if x < 0.0) { self.negated() } else { self }
     }
@@ -42,18 +42,17 @@ impl Value {
 
 /// The instructions of a component so far.
 ///
-/// Those whose values change from one iteration of Newton to the next are put aside until the loop is closed; all others are
-/// done once, before it.
+/// Instructions that depend on tears are collected until the Newton loop is closed; all others run once, before it.
 pub(super) struct Tape {
     pub instructions: Vec<Instruction>,
-    /// Those of the loop that is being written.
+    /// The instructions of the loop under construction.
     in_loop: Vec<Instruction>,
-    /// By register.
+    /// By register: the time at which its value is available.
     eval_times: Vec<EvalTime>,
-    /// The age of what depends on no unknown of this component.
+    /// The time of values that depend on no unknown of this component.
     start: EvalTime,
     numbers: FxHashMap<u64, Register>,
-    /// What formulas give that may be no finite number: of that even nothing, times it, is not known to be nothing.
+    /// Registers that may not be finite, so that their product with 0 must not be folded to 0.
     nonfinite: FxHashSet<Register>,
 }
 
@@ -63,17 +62,17 @@ impl Tape {
         Tape { instructions: Vec::new(), in_loop: Vec::new(), eval_times: Vec::new(), start, numbers, nonfinite }
     }
 
-    /// The age of what depends on no unknown of this component.
+    /// Returns the time of values that depend on no unknown of this component.
     pub fn start(&self) -> EvalTime {
         self.start
     }
 
-    /// How many registers are in use.
+    /// Returns the number of registers.
     pub fn registers(&self) -> usize {
         self.eval_times.len()
     }
 
-    /// A register that is written otherwise than by an instruction of its own.
+    /// Returns a new register, which a special instruction or the Newton loop writes.
     pub fn new_register(&mut self, eval_time: EvalTime) -> Register {
         self.eval_times.push(eval_time);
         (self.eval_times.len() - 1) as Register
@@ -90,20 +89,20 @@ impl Tape {
         }
     }
 
-    /// Puts the loop behind what is done before it, and gives its instructions' places.
+    /// Appends the loop to the instructions before it, and returns its range.
     pub fn close_loop(&mut self) -> Range<usize> {
         let from = self.instructions.len();
         self.instructions.append(&mut self.in_loop);
         from..self.instructions.len()
     }
 
-    /// Adds an instruction without a result.
+    /// Emits an instruction without a result.
     pub fn emit(&mut self, instruction: Instruction) {
         let eval_time = self.time_of(instruction);
         self.emit_at(instruction, eval_time);
     }
 
-    /// Leaves a result in a column.
+    /// Stores a result in a column.
     pub fn store(&mut self, column: u32, value: Value) {
         let a = self.register(value);
         self.emit(Instruction::Store { column, a });
@@ -121,7 +120,7 @@ impl Tape {
         }
     }
 
-    /// Adds an instruction that writes a register of its own.
+    /// Emits an instruction that writes a new register.
     pub fn push(&mut self, instruction: impl FnOnce(Register) -> Instruction) -> Value {
         let to = self.eval_times.len() as Register;
         let instruction = instruction(to);
@@ -131,12 +130,12 @@ impl Tape {
         Value::Register { at: to, negative: false }
     }
 
-    /// Adds an operation that writes a register of its own.
+    /// Emits an operation that writes a new register.
     pub fn compute(&mut self, op: impl FnOnce(Register) -> Op) -> Value {
         self.push(|to| Instruction::Compute(op(to)))
     }
 
-    /// Adds an operation that writes two registers of its own.
+    /// Emits an operation that writes two new registers.
     pub fn compute_two(&mut self, op: impl FnOnce([Register; 2]) -> Op) -> [Value; 2] {
         let first = self.eval_times.len() as Register;
         let to = [first, first + 1];
@@ -156,7 +155,7 @@ impl Tape {
         self.compute_two(|[sin, cos]| Op::SinCos { sin, cos, a })
     }
 
-    /// The register of a value, its sign being made right.
+    /// Returns a register that holds a value, negated if necessary.
     pub fn register(&mut self, value: Value) -> Register {
         match value {
             Value::Number(x) => {
@@ -176,7 +175,7 @@ impl Tape {
         }
     }
 
-    /// Whether a value may be no finite number, though no unknown that it comes from is none.
+    /// Returns whether a value may be infinite or NaN although all unknowns are finite.
     pub fn may_be_nonfinite(&self, value: Value) -> bool {
         match value {
             Value::Number(x) => !x.is_finite(),
@@ -184,14 +183,14 @@ impl Tape {
         }
     }
 
-    /// Notes that a value may be no finite number.
+    /// Marks a value that may be infinite or NaN.
     pub fn mark_nonfinite(&mut self, value: Value) {
         if let Value::Register { at, .. } = value {
             self.nonfinite.insert(at);
         }
     }
 
-    /// Notes that a value is an unknown: where it is no finite number, there is no row.
+    /// Marks the value of an unknown as finite: a row with an unknown that is not finite is rejected anyway.
     pub fn mark_finite(&mut self, value: Value) {
         if let Value::Register { at, .. } = value {
             self.nonfinite.remove(&at);
@@ -253,7 +252,7 @@ impl Tape {
         if minus { inverse.negated() } else { inverse }
     }
 
-    /// `a b`, watched where it may grow.
+    /// Returns `a inverse`, a multiplier of an elimination; checks it unless it is constant.
     pub fn multiplier(&mut self, a: Value, inverse: Value, weight: impl FnOnce() -> u32) -> Value {
         let (Value::Register { .. }, false) = (inverse, a.is_zero()) else {
             return self.mul(a, inverse);
@@ -264,7 +263,7 @@ impl Tape {
         if minus_a == minus_b { product } else { product.negated() }
     }
 
-    /// A value's register, and whether its sign is still to be turned.
+    /// Returns a value's register, and whether its sign is still to be changed.
     fn register_and_sign(&mut self, value: Value) -> (Register, bool) {
         match value {
             Value::Register { at, negative } => (at, negative),

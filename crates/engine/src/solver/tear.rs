@@ -1,23 +1,24 @@
-//! Which coordinates of a block are guessed, so that all others follow one by one.
+//! Tearing: chooses the coordinates of a block that Newton solves for, so that all others follow by assignment (compare H. Elmqvist, M. Otter,
+//! *Methods for tearing systems of equations*, 1994).
 
 use mechc_ir::tolerances::solving::tear::CANDIDATES;
 use std::collections::BTreeSet;
 
-/// How a block falls apart once its tears are known; rows and columns are counted within the block.
+/// The result of tearing a block. Rows and columns are counted within the block.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub(super) struct Tearing {
-    /// Equations with the coordinate that each gives, in an order of solution.
+    /// Equations with the coordinate that each is solved for, in an order of solution.
     pub assigned: Vec<(u32, u32)>,
     /// The coordinates that Newton solves for.
     pub tears: Vec<u32>,
-    /// The equations that it solves, as many.
+    /// The equations that Newton solves, as many as tears.
     pub residuals: Vec<u32>,
 }
 
 /// An entry of a block: its column, and whether it is a number, so that its row can be solved for the column.
 pub(super) type Entry = (u32, bool);
 
-/// Tears a block of as many rows as columns.
+/// Tears a block with as many rows as columns.
 pub(super) fn tear(rows: &[Vec<Entry>]) -> Tearing {
     let mut search = Search::new(rows);
     while search.resolved < rows.len() {
@@ -27,7 +28,7 @@ pub(super) fn tear(rows: &[Vec<Entry>]) -> Tearing {
                 search.take(row);
                 search.resolve(column);
             }
-            // its coordinates are known, or it cannot be solved for the last of them
+            // all its coordinates are resolved, or it cannot be solved for the last of them
             Some((row, None)) => search.take(row),
             None => {
                 let column = search.best_tear();
@@ -41,13 +42,13 @@ pub(super) fn tear(rows: &[Vec<Entry>]) -> Tearing {
 
 struct Search<'r> {
     rows: &'r [Vec<Entry>],
-    /// By column: the rows that hold it, and whether it can be assigned by one.
+    /// By column: the rows that contain it, and whether one of them can be solved for it.
     users: Vec<Vec<u32>>,
     is_assignable: Vec<bool>,
     is_resolved: Vec<bool>,
     is_taken: Vec<bool>,
     unknowns: Vec<usize>,
-    /// The rows that are left, those with the fewest unknowns first.
+    /// The remaining rows with their numbers of unknowns, fewest first.
     left: BTreeSet<(usize, u32)>,
     resolved: usize,
     tearing: Tearing,
@@ -76,7 +77,7 @@ impl<'r> Search<'r> {
         }
     }
 
-    /// A row with at most one unknown, and that unknown if the row can be solved for it.
+    /// Returns a row with at most one unknown, and that unknown if the row can be solved for it.
     fn next_row(&self) -> Option<(u32, Option<u32>)> {
         let &(unknowns, row) = self.left.first().filter(|(unknowns, _)| *unknowns <= 1)?;
         let unknown = self.rows[row as usize].iter().find(|(column, _)| !self.is_resolved[*column as usize]);
@@ -102,8 +103,8 @@ impl<'r> Search<'r> {
         }
     }
 
-    /// Of the rows with the fewest unknowns a coordinate that no equation gives, the one that most rows use; or else of the
-    /// first of them any.
+    /// Returns the next tear: among the unknowns of the shortest rows one that no equation can be solved for, used by the most rows; or else the
+    /// unknown of the shortest row that the most rows use.
     fn best_tear(&self) -> u32 {
         let users = |column: u32| self.users[column as usize].len();
         let rows = || self.left.iter().take(CANDIDATES).map(|&(_, row)| self.rows[row as usize].as_slice());
@@ -113,7 +114,7 @@ impl<'r> Search<'r> {
             unknowns(row).filter(|&column| !self.is_assignable[column as usize]).max_by_key(|&column| users(column))
         };
         let any = || rows().next().and_then(|row| unknowns(row).max_by_key(|&column| users(column)));
-        // rows that cannot be solved for their last unknown leave it to be torn
+        // rows that cannot be solved for their last unknown leave it unresolved
         let left_over = || self.is_resolved.iter().position(|resolved| !resolved).unwrap_or(0) as u32;
         rows().find_map(hopeless).or_else(any).unwrap_or_else(left_over)
     }
@@ -156,7 +157,7 @@ mod tests {
 
     #[test]
     fn angles_are_torn_rather_than_places() {
-        // two crossed bars, each with an end on what is known; their middles are joined
+        // two crossed bars, each with an end on a fixed point, joined in their middles
         let rows = [
             vec![(0, true), (3, true)],
             vec![(1, true), (4, true)],

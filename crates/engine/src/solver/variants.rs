@@ -1,4 +1,4 @@
-//! Running a solver for several variants of a mechanism at once, each with parameters and a time of its own.
+//! Runs a solver for several variants of a mechanism, each with its own parameters and time.
 
 use super::lanes::{CHUNK, LaneEnvironment, Lanes};
 use super::{Pivot, Solver};
@@ -7,32 +7,32 @@ use mechc_ir::program::{LaneValues, Program, Register, Registers};
 use mechc_ir::tolerances::solving::variants::CERTAIN_MULTIPLIER;
 use std::ops::Range;
 
-/// No column is left there.
+/// The index of a column that is not kept.
 const NOT_KEPT: u32 = u32::MAX;
 
-/// Registers for `W` variants, and what a run leaves of each.
+/// The registers and outputs of a solver for `W` variants.
 #[derive(Clone, Debug)]
 pub struct VariantLanes<const W: usize> {
     lanes: Lanes<W>,
     outputs: VariantOutputs<W>,
 }
 
-/// What a run leaves.
+/// The outputs of a run.
 #[derive(Clone, Debug)]
 struct VariantOutputs<const W: usize> {
-    /// By column of a row: where it is among the numbers that are kept.
+    /// By column of a row: its location in `kept`.
     slots: Vec<Slot>,
-    /// By column that is kept, by row of those that are kept of it.
+    /// The kept values: by kept column, then by row.
     kept: Vec<LaneValues<W>>,
-    /// Which of the rows is written and read.
+    /// The row that is written and read.
     row: usize,
-    /// By turn of the solver: one over the block's determinant, but for its sign where pivots are positive.
+    /// By turn of the solver: the product of the inverse pivots, which is the inverse of the determinant up to a constant sign.
     determinants: Vec<LaneValues<W>>,
-    /// One over the smallest pivot, scaled.
+    /// The largest scaled inverse of a pivot.
     max_inverse_pivots: LaneValues<W>,
 }
 
-/// Where a column is among the numbers that are kept, and of how many rows.
+/// The location of a column in the kept values: its first index, and its number of rows.
 #[derive(Clone, Copy, Debug)]
 struct Slot {
     first: u32,
@@ -40,29 +40,30 @@ struct Slot {
 }
 
 impl Slot {
-    /// Of a column that is not kept.
+    /// The slot of a column that is not kept.
     const NOT_KEPT: Slot = Slot { first: NOT_KEPT, rows: 0 };
 }
 
-/// What variants are solved with.
+/// The inputs of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct VariantBatch<'g, const W: usize> {
     /// The times (s).
     pub times: [f64; W],
-    /// By tear: where Newton begins.
+    /// By tear: the initial guess.
     pub tears: &'g [LaneValues<W>],
-    /// The program's registers, as far as they depend on parameters alone.
+    /// By register of the program: its values, as far as they depend on parameters alone.
     pub loaded: &'g [LaneValues<W>],
-    /// By row of `Φ`: one over what may be left of it.
+    /// By row of `Φ`: the inverse of the largest residual.
     pub bounds: &'g [f64],
-    /// In so many parts of the lanes somebody goes, the first ones.
+    /// The number of leading chunks of lanes to execute.
     pub chunks: usize,
-    /// With corrections of up to so many cells Newton ends; 0 where rows are wanted, whose bits must not depend on the guesses.
+    /// The largest correction with which Newton ends, in cells; 0 for rows, whose bits must not depend on the guesses.
     pub loose_bound: f64,
 }
 
 impl<const W: usize> VariantLanes<W> {
-    /// For a solver that is laid out for variants, which keeps so many rows of each column: of none, of the last one, or of as many as of others.
+    /// Allocates the registers for a solver for variants. `rows` returns the number of rows that are kept of a column: 0, 1 for the last row, or a
+    /// number common to the other columns.
     #[must_use]
     pub fn new(solver: &Solver, rows: impl Fn(u32) -> u32, vectors: Vectors) -> VariantLanes<W> {
         let (mut slots, mut count) = (vec![Slot::NOT_KEPT; solver.layout.stride], 0);
@@ -70,7 +71,7 @@ impl<const W: usize> VariantLanes<W> {
             let rows = rows(column as u32);
             if rows > 0 {
                 *slot = Slot { first: count, rows };
-                // an odd number of rows apart: else all columns of a row would want the same few places of the processor's memory
+                // an odd distance, for otherwise all columns of a row would map to the same few cache sets
                 count += rows | 1;
             }
         }
@@ -82,8 +83,8 @@ impl<const W: usize> VariantLanes<W> {
         }
     }
 
-    /// Takes over what depends on parameters alone, of the program's registers, in so many parts of the lanes, and leaves in all rows that are kept
-    /// what is so itself: it stays until this is called again.
+    /// Runs the prologue in the leading chunks, from registers of the program that depend on parameters alone, and stores its results in all kept
+    /// rows, where they stay until the next call.
     pub fn load(&mut self, solver: &Solver, program: (&Program, &Registers), loaded: &[LaneValues<W>], chunks: usize) {
         let batch = VariantBatch { times: [0.0; W], tears: &[], loaded, bounds: &[], chunks, loose_bound: 0.0 };
         let env = VariantsEnvironment { batch: &batch, pivots: &solver.pivots, outputs: &mut self.outputs };
@@ -94,7 +95,7 @@ impl<const W: usize> VariantLanes<W> {
         }
     }
 
-    /// Solves for all variants, once what depends on their parameters is loaded.
+    /// Solves for all variants; their parameters must have been loaded.
     pub fn run(&mut self, solver: &Solver, program: (&Program, &Registers), batch: &VariantBatch<'_, W>) {
         let outputs = &mut self.outputs;
         outputs.determinants.fill(LaneValues([1.0; W]));
@@ -102,45 +103,45 @@ impl<const W: usize> VariantLanes<W> {
         self.lanes.solve::<CHUNK>(solver, program, VariantsEnvironment { batch, pivots: &solver.pivots, outputs });
     }
 
-    /// Adds to each lane that does not hold beyond doubt: its Newton has settled, every equation is met, no pivot was too small, and all that
-    /// was kept is finite.
+    /// Increments the count of each lane that is rejected: Newton has not converged, a residual exceeds its bound, a multiplier is too close to its
+    /// limit, or a kept value is not finite.
     #[inline(always)]
-    #[allow(clippy::inline_always)] // it is compiled for several kinds of processors
+    #[allow(clippy::inline_always)] // compiled for several vector instruction sets
     pub fn add_rejections(&self, rejections: &mut LaneValues<W>) {
         self.lanes.add_rejections(CERTAIN_MULTIPLIER, rejections);
     }
 
-    /// How far the guess of each lane was from its solution, scaled.
+    /// Returns by lane the error of the initial guess, scaled.
     #[must_use]
     pub fn first_corrections(&self) -> &LaneValues<W> {
         self.lanes.first_corrections()
     }
 
-    /// One over the smallest pivot of a lane, scaled.
+    /// Returns by lane the largest scaled inverse of a pivot.
     #[must_use]
     pub fn max_inverse_pivots(&self) -> &LaneValues<W> {
         &self.outputs.max_inverse_pivots
     }
 
-    /// By turn of the solver: one over the block's determinant, but for a sign that stays.
+    /// Returns by turn of the solver the inverse of the block's determinant, up to a constant sign.
     #[must_use]
     pub fn determinants(&self) -> &[LaneValues<W>] {
         &self.outputs.determinants
     }
 
-    /// Goes to one of the rows that are kept: that is written and read from then on.
+    /// Selects the kept row that is written and read from now on.
     pub fn select_row(&mut self, row: usize) {
         self.outputs.row = row;
     }
 
-    /// What is in a column that is kept.
+    /// Returns the selected row of a kept column.
     #[must_use]
     #[inline]
     pub fn column(&self, column: u32) -> &LaneValues<W> {
         &self.outputs.kept[self.outputs.slot(column)]
     }
 
-    /// What is in a column of all rows that are kept.
+    /// Returns all kept rows of a column.
     #[must_use]
     pub fn rows(&self, column: u32) -> &[LaneValues<W>] {
         &self.outputs.kept[self.outputs.rows_of(column)]
@@ -154,7 +155,7 @@ impl<const W: usize> VariantOutputs<W> {
         first as usize + if rows > 1 { self.row } else { 0 }
     }
 
-    /// The places of all rows.
+    /// Returns the indices of all kept rows of a column.
     #[inline]
     fn rows_of(&self, column: u32) -> Range<usize> {
         let Slot { first, rows } = self.slots[column as usize];
@@ -162,14 +163,14 @@ impl<const W: usize> VariantOutputs<W> {
     }
 }
 
-/// Several variants.
+/// Several variants, with the inputs and outputs of a run.
 struct VariantsEnvironment<'r, const W: usize> {
     batch: &'r VariantBatch<'r, W>,
     pivots: &'r [Pivot],
     outputs: &'r mut VariantOutputs<W>,
 }
 
-#[allow(clippy::inline_always)] // as all that `Lanes::solve` does
+#[allow(clippy::inline_always)] // inlined into `Lanes::solve`
 impl<const W: usize> LaneEnvironment<CHUNK> for VariantsEnvironment<'_, W> {
     #[inline(always)]
     fn chunks(&self) -> usize {

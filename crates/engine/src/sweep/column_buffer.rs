@@ -22,7 +22,7 @@ struct Memory {
     numbers: Vec<f64>,
     /// The index at which the column begins, aligned to a cache line.
     begin: usize,
-    /// The period, if all numbers from there on are known to repeat with one.
+    /// The period, if all numbers from there on are guaranteed to repeat with one.
     period: Option<usize>,
 }
 
@@ -36,9 +36,9 @@ impl Spare {
     /// Takes memory for `capacity` numbers of a column.
     fn take(&self, capacity: usize, column: usize) -> Memory {
         let mut free = self.free.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = free.get_mut(&column).and_then(Vec::pop);
+        let memory = free.get_mut(&column).and_then(Vec::pop);
         let new = || Memory { numbers: Vec::with_capacity(capacity), ..Memory::default() };
-        found.filter(|memory| memory.numbers.capacity() >= capacity).unwrap_or_else(new)
+        memory.filter(|memory| memory.numbers.capacity() >= capacity).unwrap_or_else(new)
     }
 
     fn give_back(&self, memory: Memory, column: usize) {
@@ -220,17 +220,18 @@ mod tests {
     fn period_is_valid_until_numbers_may_have_changed() {
         let pool = Arc::new(Spare::new(2));
         let period = |numbers: &Numbers| numbers.memory.period;
-        for (number, those) in [&[0.0][..], &[2.5], &[1.0, -0.0, 3.0], &[1.0, 0.0, 3.0], &[7.0; 3]].iter().enumerate() {
-            let expected: Vec<f64> = those.iter().copied().cycle().take(9).collect();
+        for (number, pattern) in [&[0.0][..], &[2.5], &[1.0, -0.0, 3.0], &[1.0, 0.0, 3.0], &[7.0; 3]].iter().enumerate()
+        {
+            let expected: Vec<f64> = pattern.iter().copied().cycle().take(9).collect();
             for round in 0..4 {
                 let mut numbers = Numbers::with_capacity(20, &pool, 3);
                 if round == 3 {
-                    assert_eq!(period(&numbers), Some(those.len()));
+                    assert_eq!(period(&numbers), Some(pattern.len()));
                 }
                 for before in [0, 3, 6] {
                     numbers.make_room(3);
-                    numbers.repeat_from(before, those);
-                    assert!(super::is_same(&numbers, &expected[..before + 3]), "{those:?} {round}");
+                    numbers.repeat_from(before, pattern);
+                    assert!(super::is_same(&numbers, &expected[..before + 3]), "{pattern:?} {round}");
                 }
                 // memory that had to grow gets its period in the next round
                 assert_eq!(period(&numbers).is_some(), (number, round) != (0, 0));

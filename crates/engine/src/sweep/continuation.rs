@@ -34,7 +34,7 @@ impl Configuration {
 }
 
 /// The starting point of all continuations of a mechanism, shared by its variants.
-pub struct Base {
+pub struct ContinuationBase {
     compiled: CompiledSystem,
     nominal_params: Vec<f64>,
     /// The position with the nominal parameters, at the nominal first time.
@@ -44,9 +44,9 @@ pub struct Base {
     path_start: Configuration,
     /// The parameters that a path may change, as indices.
     continued_params: Vec<u32>,
-    /// Whether time changes along a path.
+    /// True if time changes along a path.
     time_varies: bool,
-    /// Whether the equations are smooth all along every path.
+    /// True if the equations are smooth all along every path.
     is_smooth: bool,
     options: LeadOptions,
 }
@@ -62,14 +62,14 @@ pub struct Arrived {
 }
 
 /// The reason why a continuation gives no start.
-pub enum Lost {
+pub enum ContinuationError {
     /// The path ends at this fraction, from 0 to 1, with the cause.
     OnItsWay(f64, Box<Diagnostic>),
     /// The variant was reached and cannot start.
     There(Box<Diagnostic>),
 }
 
-impl Base {
+impl ContinuationBase {
     /// Prepares continuations from `started`, the mechanism with its nominal parameters. `path_system` is the system on a path, which changes
     /// `continued_params` (indices), and time if `time_varies`.
     ///
@@ -81,11 +81,11 @@ impl Base {
         path_system: CompiledSystem,
         (continued_params, time_varies): (Vec<u32>, bool),
         options: LeadOptions,
-    ) -> Result<Base, Box<Diagnostic>> {
+    ) -> Result<ContinuationBase, Box<Diagnostic>> {
         let (nominal_params, nominal) = (compiled.0.system().values_of_params(), Configuration::from_started(started));
         let path_start = analysis::before_ways(&path_system.0, &path_system.1, &nominal.q, &options)?;
         let (is_smooth, path_start) = (path_start.is_plain(), Configuration::from_started(&path_start));
-        Ok(Base {
+        Ok(ContinuationBase {
             compiled,
             nominal_params,
             nominal,
@@ -118,7 +118,12 @@ impl Base {
     ///
     /// # Errors
     /// The path ends before the variant, or the variant cannot start.
-    pub fn alone(&self, variant: Arc<Determined>, horizon: Horizon, cancel: &Cancel) -> Result<Arrived, Lost> {
+    pub fn alone(
+        &self,
+        variant: Arc<Determined>,
+        horizon: Horizon,
+        cancel: &Cancel,
+    ) -> Result<Arrived, ContinuationError> {
         let LeadOptions { tolerance, t: nominal_time, pass_bifurcations, .. } = self.options;
         let (q, passed) = self.continue_to(&variant.system().values_of_params(), horizon.from, cancel)?;
         let is_at_start_time = self.time_varies || horizon.from.total_cmp(&nominal_time).is_eq();
@@ -127,18 +132,23 @@ impl Base {
         let unassembled = Unassembled { determined: variant, program, horizon, tolerance, pass_bifurcations, cancel };
         let solving = Solving::With(self.nominal.solver.clone());
         if is_at_start_time {
-            let started = unassembled.assemble_at(&q, solving).map_err(Lost::There)?;
+            let started = unassembled.assemble_at(&q, solving).map_err(ContinuationError::There)?;
             return Ok(Arrived { started, passed, said: Diagnostics::default() });
         }
         let begun = Unassembled { horizon: horizon.beginning(nominal_time), ..unassembled.clone() };
         let begun = begun.assemble_at(&q, solving);
         let followed = begun.and_then(|begun| analysis::follow_to(&unassembled, (begun, nominal_time)));
-        let (started, said) = followed.map_err(Lost::There)?;
+        let (started, said) = followed.map_err(ContinuationError::There)?;
         Ok(Arrived { started, passed, said })
     }
 
     /// Follows the path to other parameters (SI) and a first time `t` (s); returns the coordinates at its end and the bifurcations on it.
-    fn continue_to(&self, values: &[f64], t: f64, cancel: &Cancel) -> Result<(Vec<f64>, PassedBifurcations), Lost> {
+    fn continue_to(
+        &self,
+        values: &[f64],
+        t: f64,
+        cancel: &Cancel,
+    ) -> Result<(Vec<f64>, PassedBifurcations), ContinuationError> {
         let is_nominal = |&k: &u32| values[k as usize].to_bits() == self.nominal_params[k as usize].to_bits();
         if !self.time_varies && self.continued_params.iter().all(is_nominal) {
             return Ok((self.nominal.q.clone(), Vec::new()));
@@ -149,10 +159,10 @@ impl Base {
         let determined = Arc::new(self.path_system.0.with_values(&path_params));
         let options = LeadOptions { cancel: cancel.clone(), ..self.options.clone() };
         let path = analysis::lead_again(&determined, &self.path_system.1, self.path_start.to_shared(), &options);
-        let mut path = path.map_err(|cause| Lost::OnItsWay(0.0, cause))?;
+        let mut path = path.map_err(|cause| ContinuationError::OnItsWay(0.0, cause))?;
         match (path.reached.pop(), path.stopped) {
             (Some(q), _) => Ok((q, path.passed)),
-            (None, Some((fraction, cause))) => Err(Lost::OnItsWay(fraction, cause)),
+            (None, Some((fraction, cause))) => Err(ContinuationError::OnItsWay(fraction, cause)),
             // cancelled: the caller discards the result
             (None, None) => Ok((self.nominal.q.clone(), Vec::new())),
         }

@@ -71,14 +71,14 @@ impl Sampling {
     }
 
     fn values(&self, index: u64, mut set: impl FnMut(usize, f64)) {
-        let mut place = |k: usize, fraction: f64| set(k, between(self.ends[k][0], self.ends[k][1], fraction));
+        let mut set_fraction = |k: usize, fraction: f64| set(k, between(self.ends[k][0], self.ends[k][1], fraction));
         match &self.generator {
-            Generator::Sobol(sobol) => (0..self.ends.len()).for_each(|k| place(k, sobol.coordinate(index, k))),
+            Generator::Sobol(sobol) => (0..self.ends.len()).for_each(|k| set_fraction(k, sobol.coordinate(index, k))),
             Generator::Random(random) => {
                 let mut random = ChaCha8Rng::clone(random);
                 // a number takes two words of the generator
                 random.set_word_pos(u128::from(index) * self.ends.len() as u128 * 2);
-                (0..self.ends.len()).for_each(|k| place(k, unit(random.next_u64())));
+                (0..self.ends.len()).for_each(|k| set_fraction(k, unit(random.next_u64())));
             }
         }
     }
@@ -86,7 +86,7 @@ impl Sampling {
 
 /// Returns value `index` of `count` equidistant ones from first to last, both included; with few digits, 0.3 rather than 0.30000000000000004.
 #[must_use]
-pub fn evenly([first, last]: [f64; 2], index: u64, count: u64) -> f64 {
+pub fn linspace_value([first, last]: [f64; 2], index: u64, count: u64) -> f64 {
     let (steps, k) = ((count - 1) as f64, index as f64);
     match index {
         0 => first,
@@ -94,14 +94,18 @@ pub fn evenly([first, last]: [f64; 2], index: u64, count: u64) -> f64 {
         _ => {
             let value = (first * (steps - k) + last * k) / steps;
             // the sum of large ends may be infinite
-            rounded(if value.is_finite() { value } else { first * ((steps - k) / steps) + last * (k / steps) })
+            round_to_15_digits(if value.is_finite() {
+                value
+            } else {
+                first * ((steps - k) / steps) + last * (k / steps)
+            })
         }
     }
 }
 
 /// Returns a number rounded to fifteen significant digits.
 #[must_use]
-pub fn rounded(value: f64) -> f64 {
+pub fn round_to_15_digits(value: f64) -> f64 {
     format!("{value:.14e}").parse().unwrap_or(value)
 }
 
@@ -131,7 +135,7 @@ impl Varying {
 
     fn values(&self, index: u64, into: &mut [f64]) {
         match &self.values {
-            Levels::Even { ends, count } => into[self.params[0]] = evenly(*ends, index, *count),
+            Levels::Even { ends, count } => into[self.params[0]] = linspace_value(*ends, index, *count),
             Levels::Listed(rows) => {
                 let row = &rows[index as usize * self.params.len()..];
                 self.params.iter().zip(row).for_each(|(&param, &value)| into[param] = value);
@@ -175,17 +179,17 @@ impl Points {
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
         let mut take = |value: f64| (least, most) = (least.min(value), most.max(value));
         for axis in &self.axes {
-            let Some(place) = axis.params.iter().position(|&other| other == param) else { continue };
+            let Some(position) = axis.params.iter().position(|&other| other == param) else { continue };
             match &axis.values {
                 // a single value is the first
                 Levels::Even { ends: [first, last], count } => {
                     [*first, if *count > 1 { *last } else { *first }].map(&mut take)
                 }
                 Levels::Listed(rows) => {
-                    rows.iter().skip(place).step_by(axis.params.len()).copied().for_each(&mut take);
+                    rows.iter().skip(position).step_by(axis.params.len()).copied().for_each(&mut take);
                     continue;
                 }
-                Levels::Sampled(sample) => sample.ends[place].map(&mut take),
+                Levels::Sampled(sample) => sample.ends[position].map(&mut take),
             };
         }
         [least, most]
@@ -211,12 +215,12 @@ mod tests {
     }
 
     fn all(points: &Points) -> Vec<Vec<f64>> {
-        let of = |variant| {
+        let point = |variant| {
             let mut values = vec![f64::NAN; points.params().len()];
             points.values(variant, &mut values);
             values
         };
-        (0..points.count()).map(of).collect()
+        (0..points.count()).map(point).collect()
     }
 
     #[test]
@@ -236,23 +240,23 @@ mod tests {
     #[test]
     fn axes_are_crossed() {
         let list = Levels::Listed(vec![1.0, 2.0, 3.0, 4.0]);
-        let found = all(&points(vec![
+        let crossed = all(&points(vec![
             Varying { params: vec![1], values: Levels::Even { ends: [0.0, 1.0], count: 2 } },
             Varying { params: vec![0, 2], values: list },
         ]));
-        assert_eq!(found, [[1.0, 0.0, 2.0], [3.0, 0.0, 4.0], [1.0, 1.0, 2.0], [3.0, 1.0, 4.0]]);
+        assert_eq!(crossed, [[1.0, 0.0, 2.0], [3.0, 0.0, 4.0], [1.0, 1.0, 2.0], [3.0, 1.0, 4.0]]);
     }
 
     #[test]
     fn ends_are_the_extreme_values() {
         let sample = Sampling::of(vec![[1.0, 2.0], [-3.0, -5.0]], 9, Method::Sobol, None);
-        let found = points(vec![
+        let variants = points(vec![
             Varying { params: vec![0], values: Levels::Even { ends: [2.0, 1.0], count: 3 } },
             Varying { params: vec![1], values: Levels::Even { ends: [2.0, 1.0], count: 1 } },
             Varying { params: vec![3, 2], values: Levels::Listed(vec![1.0, 7.0, 4.0, 5.0, -2.0, 6.0]) },
             Varying { params: vec![4, 5], values: Levels::Sampled(Box::new(sample)) },
         ]);
-        let ends: Vec<[f64; 2]> = (0..6).map(|param| found.ends(param)).collect();
+        let ends: Vec<[f64; 2]> = (0..6).map(|param| variants.ends(param)).collect();
         assert_eq!(ends, [[1.0, 2.0], [2.0, 2.0], [5.0, 7.0], [-2.0, 4.0], [1.0, 2.0], [-5.0, -3.0]]);
     }
 
@@ -270,14 +274,14 @@ mod tests {
     #[test]
     fn samples_lie_within_their_ranges_and_seeds_differ() {
         for method in [Method::Sobol, Method::Random] {
-            let of = |seed| sampled(method, Some(seed));
-            assert_eq!(of(7), of(7));
-            assert_ne!(of(7), of(8));
-            for point in of(7) {
+            let seeded = |seed| sampled(method, Some(seed));
+            assert_eq!(seeded(7), seeded(7));
+            assert_ne!(seeded(7), seeded(8));
+            for point in seeded(7) {
                 assert!((1.0..2.0).contains(&point[0]) && (-5.0..=-3.0).contains(&point[1]), "{point:?}");
             }
             // each half of a range has about half of the points
-            let below = of(7).iter().filter(|point| point[0] < 1.5).count();
+            let below = seeded(7).iter().filter(|point| point[0] < 1.5).count();
             assert!((200..=312).contains(&below), "{below} of 512");
         }
         assert_eq!(sampled(Method::Sobol, None)[..3], [[1.0, -3.0], [1.5, -4.0], [1.75, -3.5]]);
@@ -286,8 +290,8 @@ mod tests {
     /// Published results stay reproducible on every platform.
     #[test]
     fn random_points_are_stable() {
-        let found = sampled(Method::Random, None);
-        assert_eq!(found[0], [1.709_075_415_426_562, -3.931_843_444_579_220_3]);
-        assert_eq!(found[511], [1.158_953_054_000_719_4, -4.944_080_692_901_279]);
+        let sample = sampled(Method::Random, None);
+        assert_eq!(sample[0], [1.709_075_415_426_562, -3.931_843_444_579_220_3]);
+        assert_eq!(sample[511], [1.158_953_054_000_719_4, -4.944_080_692_901_279]);
     }
 }

@@ -40,15 +40,15 @@ impl Sobol {
 
 /// Returns the direction numbers of coordinate `k`, counted from 0.
 fn directions(k: usize) -> [u64; BITS as usize] {
-    let place = |m: u64, digit: usize| m << (BITS as usize - 1 - digit);
+    let shifted = |m: u64, digit: usize| m << (BITS as usize - 1 - digit);
     let Some((a, first)) = k.checked_sub(1).map(|k| DIRECTIONS[k]) else {
-        return std::array::from_fn(|digit| place(1, digit));
+        return std::array::from_fn(|digit| shifted(1, digit));
     };
     let degree = first.len();
     let mut numbers = [0; BITS as usize];
     for digit in 0..numbers.len() {
         numbers[digit] = if let Some(&m) = first.get(digit) {
-            place(m, digit)
+            shifted(m, digit)
         } else {
             let before = numbers[digit - degree];
             // the first and the last coefficient of the primitive polynomial are 1

@@ -6,7 +6,7 @@ use super::result_queries::ResultQueries;
 use super::{CHUNK, LANES, PerLane, ZERO};
 use crate::analysis::{Started, Times};
 use crate::solver::{Solver, VariantBatch, VariantLanes};
-use crate::sweep::continuation::Base;
+use crate::sweep::continuation::ContinuationBase;
 use mechc_expr::math::Vectors;
 use mechc_ir::CoordinateKind;
 use mechc_ir::program::{LaneMachine, LaneValues, Op, Program, Register, Registers, Stage};
@@ -83,7 +83,7 @@ impl RowPlan {
 pub struct WantedOfEach<'w> {
     /// The output times and the columns of rows; no columns if only results are requested.
     pub rows: (&'w Times, Option<&'w [usize]>),
-    /// Whether results are requested.
+    /// True if results are requested.
     pub results: bool,
 }
 
@@ -92,7 +92,7 @@ impl Together {
     /// `None` if variants are to be computed alone.
     #[must_use]
     pub fn of(
-        base: &Base,
+        base: &ContinuationBase,
         started: &Started,
         params: &[u32],
         request: &WantedOfEach<'_>,
@@ -206,11 +206,11 @@ impl Together {
 
     /// Writes guesses for the tears: linear in the parameters around the nominal state.
     pub(super) fn write_first_guesses(&self, params: &[PerLane], guesses: &mut [PerLane]) {
-        for (place, (guess, &tear)) in guesses.iter_mut().zip(&self.tears).enumerate() {
+        for (index, (guess, &tear)) in guesses.iter_mut().zip(&self.tears).enumerate() {
             guess.0 = [self.q[tear]; LANES];
             for (&param, slopes) in self.varied_params.iter().zip(&self.tear_slopes) {
                 let (nominal, values) = (self.nominal_params[param as usize], &params[param as usize].0);
-                guess.0.iter_mut().zip(values).for_each(|(guess, value)| *guess += slopes[place] * (value - nominal));
+                guess.0.iter_mut().zip(values).for_each(|(guess, value)| *guess += slopes[index] * (value - nominal));
             }
         }
     }

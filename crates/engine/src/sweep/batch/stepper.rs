@@ -85,7 +85,7 @@ impl Extrapolation {
 pub(super) struct LaneSolver<'s> {
     pub solver: &'s Solver,
     pub lanes: &'s mut VariantLanes<LANES>,
-    /// Whether the solution must have the bits that it has alone.
+    /// True if the solution must have the bits that it has alone.
     pub is_exact: bool,
 }
 
