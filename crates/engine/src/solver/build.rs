@@ -26,14 +26,15 @@ pub(super) fn cell(scale: f64) -> f64 {
 pub(super) fn build(
     determined: &Determined,
     program: &Program,
-    values: &impl Values,
-    (purpose, is_kept): (Purpose, &dyn Fn(u32) -> bool),
+    reference: &impl Values,
+    purpose: Purpose,
+    is_kept: &dyn Fn(u32) -> bool,
 ) -> Option<Solver> {
     let system = determined.system();
     let partition = Partition::new(determined);
     let outputs = partition.outputs_by_component(system, !program.outputs.reactions.is_empty());
     let shared = partition.blocks.len();
-    let mut builder = Builder::new(determined, program, values, &partition, purpose);
+    let mut builder = Builder::new(determined, program, reference, &partition, purpose);
     builder.shared_columns = shared_columns(system, &builder.layout, &outputs[shared]);
     let mut all = Component::default();
     for (component, blocks) in partition.blocks.iter().enumerate() {
@@ -88,17 +89,16 @@ impl Component {
             }
         }
     }
-}
 
-impl Component {
     /// Puts the prologue first, with the first registers.
     fn with_prologue_first(self) -> Component {
         // without a prologue nothing needs new registers, and there may be millions of instructions
         if self.prologue.is_empty() {
             return self;
         }
-        let used = self.prologue_registers as Register;
-        let new_register = |register: Register| if register < PROLOGUE { register + used } else { register - PROLOGUE };
+        let shift = self.prologue_registers as Register;
+        let new_register =
+            |register: Register| if register < PROLOGUE { register + shift } else { register - PROLOGUE };
         let (prologue_len, prologue_registers) = (self.prologue.len(), self.prologue_registers);
         let all = self.prologue.into_iter().chain(self.instructions);
         Component {
@@ -130,7 +130,7 @@ fn shared_columns(system: &ConstraintSystem, layout: &RowLayout, outputs: &Compo
 pub(super) struct Builder<'s, V> {
     system: &'s ConstraintSystem,
     pub(super) program: &'s Program,
-    values: &'s V,
+    reference: &'s V,
     partition: &'s Partition,
     purpose: Purpose,
     pub(super) layout: RowLayout,
@@ -152,7 +152,7 @@ impl<'s, V: Values> Builder<'s, V> {
     fn new(
         determined: &'s Determined,
         program: &'s Program,
-        values: &'s V,
+        reference: &'s V,
         partition: &'s Partition,
         purpose: Purpose,
     ) -> Builder<'s, V> {
@@ -172,7 +172,7 @@ impl<'s, V: Values> Builder<'s, V> {
         Builder {
             system,
             program,
-            values,
+            reference,
             partition,
             purpose,
             layout,
@@ -254,7 +254,7 @@ impl<'s, V: Values> Builder<'s, V> {
     /// Returns the scale that makes an inverse pivot dimensionless.
     fn weight(&self, block: &Block, (row, column): (u32, u32)) -> f64 {
         let scale = self.system.coordinates()[block.columns[column as usize] as usize].scale;
-        self.values.row_norm(block.rows[row as usize] as usize) / scale
+        self.reference.row_norm(block.rows[row as usize] as usize) / scale
     }
 
     /// Solves one equation that is linear in its coordinate.
@@ -390,7 +390,7 @@ impl<'s, V: Values> Builder<'s, V> {
         for (row, &number) in block.rows.iter().enumerate() {
             for (column, at) in self.entries_inside(block, number) {
                 let is_number = self.symbolic.number(self.program.outputs.phi_q[at]).is_some_and(|value| value != 0.0);
-                entries.push(BlockEntry { row: row as u32, column, value: self.values.entry(at), is_number });
+                entries.push(BlockEntry { row: row as u32, column, value: self.reference.entry(at), is_number });
             }
         }
         Order::new(block.rows.len(), &entries)
@@ -399,8 +399,8 @@ impl<'s, V: Values> Builder<'s, V> {
     /// Eliminates a block of `Φ_q` in an order; the multipliers are checked.
     fn eliminate(&mut self, block: &Block, order: &Order) -> Factors {
         let rows = self.block_rows(block);
-        let (weights, values) = (&mut self.weights, self.values);
-        let norm = |row: u32| values.row_norm(block.rows[row as usize] as usize);
+        let (weights, reference) = (&mut self.weights, self.reference);
+        let norm = |row: u32| reference.row_norm(block.rows[row as usize] as usize);
         let weight = |row: u32, other: u32| {
             weights.push(norm(row) / norm(other));
             (weights.len() - 1) as u32

@@ -109,6 +109,7 @@ impl Partition {
     }
 }
 
+/// Returns the root of an element in a union-find forest, and shortens its path.
 fn root(parent: &mut [usize], mut k: usize) -> usize {
     while parent[k] != k {
         parent[k] = parent[parent[k]];

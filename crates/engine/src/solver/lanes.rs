@@ -75,7 +75,7 @@ pub(super) trait LaneEnvironment<const P: usize> {
     fn stored(&self, column: u32, chunk: usize) -> [f64; P];
     /// Stores a column; `values` returns its values by chunk.
     fn store(&mut self, column: u32, values: impl FnMut(usize) -> [f64; P]);
-    /// Returns the inverse of the largest residual of a row of `Φ`.
+    /// Returns the inverse of the bound on the residual of a row of `Φ`.
     fn inverse_bound(&self, row: u32) -> f64;
     /// Records the inverse of a pivot.
     fn note_pivot(&mut self, pivot: u32, chunk: usize, inverse: &[f64; P]);
@@ -96,7 +96,7 @@ pub struct Batch<'b, const W: usize> {
     pub curve: &'b [[f64; 6]],
     /// By tear: the correction of its curve from the step before; empty without one.
     pub bends: &'b [Bend],
-    /// By row of `Φ`: the inverse of the largest residual.
+    /// By row of `Φ`: the inverse of the bound on its residual.
     pub bounds: &'b [f64],
 }
 
@@ -117,8 +117,8 @@ impl<const W: usize> Lanes<W> {
     #[must_use]
     pub fn for_rows(solver: &Solver, vectors: Vectors) -> Lanes<W> {
         let stride = solver.layout.stride;
-        let are_transposed = W.is_multiple_of(WIDE) && stride <= MOST_TURNED;
-        let columns = vec![LaneValues([0.0; W]); if are_transposed { stride } else { 0 }];
+        let is_transposed = W.is_multiple_of(WIDE) && stride <= MOST_TURNED;
+        let columns = vec![LaneValues([0.0; W]); if is_transposed { stride } else { 0 }];
         Lanes { columns, ..Lanes::new(solver, vectors) }
     }
 

@@ -208,15 +208,15 @@ pub(crate) trait Values {
 impl Solver {
     /// Generates a solver for lanes at several times; returns `None` if that takes too many instructions.
     #[must_use]
-    pub(crate) fn new(determined: &Determined, program: &Program, values: &impl Values) -> Option<Solver> {
-        build::build(determined, program, values, (Purpose::Lanes, &|_| true))
+    pub(crate) fn new(determined: &Determined, program: &Program, reference: &impl Values) -> Option<Solver> {
+        build::build(determined, program, reference, Purpose::Lanes, &|_| true)
     }
 
     /// Generates a solver for emitted code, which records the pivots and has a register for every value; returns `None` if that takes too many
     /// instructions.
     #[must_use]
-    pub(crate) fn for_code(determined: &Determined, program: &Program, values: &impl Values) -> Option<Solver> {
-        build::build(determined, program, values, (Purpose::Code, &|_| true))
+    pub(crate) fn for_code(determined: &Determined, program: &Program, reference: &impl Values) -> Option<Solver> {
+        build::build(determined, program, reference, Purpose::Code, &|_| true)
     }
 
     /// Generates a solver for lanes of variants, with the operations of [`Solver::new`], which records the pivots and computes only what the
@@ -225,18 +225,18 @@ impl Solver {
     pub(crate) fn for_variants(
         determined: &Determined,
         program: &Program,
-        values: &impl Values,
-        is_wanted: &dyn Fn(u32) -> bool,
+        reference: &impl Values,
+        is_requested: &dyn Fn(u32) -> bool,
     ) -> Option<Solver> {
-        let whole = build::build(determined, program, values, (Purpose::Variants, &|_| true))?;
+        let whole = build::build(determined, program, reference, Purpose::Variants, &|_| true)?;
         // shared outputs read columns, which must be stored too
         let read = |instruction: &Instruction| match *instruction {
             Instruction::Column { column, .. } => Some(column),
             _ => None,
         };
-        let joining: Vec<u32> = whole.instructions.iter().filter_map(read).collect();
-        let is_kept = |column: u32| is_wanted(column) || joining.contains(&column);
-        build::build(determined, program, values, (Purpose::Variants, &is_kept))
+        let shared: Vec<u32> = whole.instructions.iter().filter_map(read).collect();
+        let is_kept = |column: u32| is_requested(column) || shared.contains(&column);
+        build::build(determined, program, reference, Purpose::Variants, &is_kept)
     }
 
     /// Returns the segments in order of execution.

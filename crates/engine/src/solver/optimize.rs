@@ -5,6 +5,7 @@ use super::{Component, Instruction, PROLOGUE, Purpose, Segment};
 use mechc_ir::program::{Op, Register};
 use std::ops::Range;
 
+/// No register, instruction or loop.
 const NONE: u32 = u32::MAX;
 
 /// Optimizes a component in single-assignment form: keeps the instructions for which `is_result` holds and those that they depend on, and allocates
@@ -142,6 +143,7 @@ fn multiply_add(op: Op, product: impl Fn(Register) -> Option<(usize, [Register; 
     }
 }
 
+/// Removes the instructions that are not kept.
 fn compact(component: Component, keep: &[bool]) -> Component {
     let Component { instructions, segments, registers, .. } = component;
     let mut component = Component { registers, ..Component::default() };
@@ -234,15 +236,15 @@ impl LiveRanges {
     fn new(component: &Component) -> LiveRanges {
         let registers = component.registers;
         let mut written_at = vec![0_u32; registers];
-        let mut life = LiveRanges { last_use: vec![NONE; registers], last_loop: vec![NONE; registers] };
+        let mut ranges = LiveRanges { last_use: vec![NONE; registers], last_loop: vec![NONE; registers] };
         let mut number = 0;
         for segment in &component.segments {
             let range = segment.range();
             for at in range.clone() {
                 for register in component.instructions[at].reads() {
-                    life.last_use[register as usize] = at as u32;
+                    ranges.last_use[register as usize] = at as u32;
                     if segment.is_loop() && (written_at[register as usize] as usize) < range.start {
-                        life.last_loop[register as usize] = number;
+                        ranges.last_loop[register as usize] = number;
                     }
                 }
                 for register in component.instructions[at].writes() {
@@ -251,14 +253,14 @@ impl LiveRanges {
             }
             if let Segment::Newton { tears, .. } = segment {
                 for register in tears.iter().flat_map(|tear| [tear.x, tear.delta]) {
-                    life.last_loop[register as usize] = number;
-                    if life.last_use[register as usize] == NONE {
-                        life.last_use[register as usize] = range.start as u32;
+                    ranges.last_loop[register as usize] = number;
+                    if ranges.last_use[register as usize] == NONE {
+                        ranges.last_use[register as usize] = range.start as u32;
                     }
                 }
                 number += 1;
             }
         }
-        life
+        ranges
     }
 }

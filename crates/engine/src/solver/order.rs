@@ -57,7 +57,7 @@ struct Elimination {
     rows: Vec<Vec<RowEntry>>,
     /// By column: the rows that use it, eliminated ones included.
     users: Vec<Vec<u32>>,
-    is_done: Vec<bool>,
+    is_eliminated: Vec<bool>,
     order: Order,
     /// Rows by their number of entries when they were sorted in; outdated entries remain.
     by_length: Vec<Vec<u32>>,
@@ -73,7 +73,7 @@ impl Elimination {
         }
         let order = Order { pivots: Vec::new(), below: Vec::new(), right: Vec::new() };
         let by_length = vec![Vec::new(); n + 1];
-        let mut elimination = Elimination { rows, users, is_done: vec![false; n], order, by_length };
+        let mut elimination = Elimination { rows, users, is_eliminated: vec![false; n], order, by_length };
         (0..n as u32).for_each(|row| elimination.sort_in(row));
         elimination
     }
@@ -88,24 +88,24 @@ impl Elimination {
         let Some((row, column)) = self.choose_pivot() else {
             return;
         };
-        self.is_done[row as usize] = true;
+        self.is_eliminated[row as usize] = true;
         let pivot_row = std::mem::take(&mut self.rows[row as usize]);
         let pivot = pivot_row.iter().find(|entry| entry.column == column).map_or(LEAST_PIVOT, |entry| entry.value);
         let pivot = if pivot.abs() < LEAST_PIVOT { LEAST_PIVOT } else { pivot };
         let users = std::mem::take(&mut self.users[column as usize]);
-        let below: Vec<u32> = users.into_iter().filter(|&user| !self.is_done[user as usize]).collect();
+        let below: Vec<u32> = users.into_iter().filter(|&user| !self.is_eliminated[user as usize]).collect();
         for &other in &below {
-            let line = &mut self.rows[other as usize];
-            let Some(at) = line.iter().position(|entry| entry.column == column) else {
+            let entries = &mut self.rows[other as usize];
+            let Some(at) = entries.iter().position(|entry| entry.column == column) else {
                 continue;
             };
-            let multiplier = line.swap_remove(at).value / pivot;
+            let multiplier = entries.swap_remove(at).value / pivot;
             for &RowEntry { column: c, value, .. } in pivot_row.iter().filter(|entry| entry.column != column) {
-                if let Some(entry) = line.iter_mut().find(|entry| entry.column == c) {
+                if let Some(entry) = entries.iter_mut().find(|entry| entry.column == c) {
                     entry.value -= multiplier * value;
                     entry.is_number = false;
                 } else {
-                    line.push(RowEntry { column: c, value: -multiplier * value, is_number: false });
+                    entries.push(RowEntry { column: c, value: -multiplier * value, is_number: false });
                     self.users[c as usize].push(other);
                 }
             }
@@ -120,26 +120,26 @@ impl Elimination {
 
     /// Returns the pivot with the least fill-in among the shortest rows; on a tie a number, and then the largest.
     fn choose_pivot(&mut self) -> Option<(u32, u32)> {
-        let shortest = self.shortest();
+        let shortest = self.shortest_rows();
         let mut best: Option<(Cost, (u32, u32))> = None;
         for &row in &shortest {
-            let line = &self.rows[row as usize];
-            for &RowEntry { column, value, is_number } in line {
-                let (count, largest) = self.column(column);
+            let entries = &self.rows[row as usize];
+            for &RowEntry { column, value, is_number } in entries {
+                let (count, largest) = self.column_usage(column);
                 if value == 0.0 || value.abs() < THRESHOLD * largest {
                     continue;
                 }
-                let cost = ((line.len() - 1) * (count - 1), !is_number, -value.abs());
+                let cost = ((entries.len() - 1) * (count - 1), !is_number, -value.abs());
                 if best.is_none_or(|(least_cost, _)| cost < least_cost) {
                     best = Some((cost, (row, column)));
                 }
             }
         }
-        best.map(|(_, pivot)| pivot).or_else(|| self.largest_of_all())
+        best.map(|(_, pivot)| pivot).or_else(|| self.largest_entry())
     }
 
     /// Returns up to [`CANDIDATES`] of the shortest rows that are left.
-    fn shortest(&mut self) -> Vec<u32> {
+    fn shortest_rows(&mut self) -> Vec<u32> {
         let mut shortest: Vec<u32> = Vec::with_capacity(CANDIDATES);
         for length in 0..self.by_length.len() {
             let bucket = &mut self.by_length[length];
@@ -147,7 +147,7 @@ impl Elimination {
             while k > 0 && shortest.len() < CANDIDATES {
                 k -= 1;
                 let row = bucket[k];
-                if self.is_done[row as usize] || self.rows[row as usize].len() != length {
+                if self.is_eliminated[row as usize] || self.rows[row as usize].len() != length {
                     // a row whose length has changed has been sorted in a second time
                     bucket.swap_remove(k);
                 } else if !shortest.contains(&row) {
@@ -162,15 +162,15 @@ impl Elimination {
     }
 
     /// Returns the number of remaining rows that use a column, and its largest entry in them.
-    fn column(&self, column: u32) -> (usize, f64) {
-        let left = self.users[column as usize].iter().filter(|&&row| !self.is_done[row as usize]);
+    fn column_usage(&self, column: u32) -> (usize, f64) {
+        let left = self.users[column as usize].iter().filter(|&&row| !self.is_eliminated[row as usize]);
         let values = left.filter_map(|&row| self.rows[row as usize].iter().find(|entry| entry.column == column));
         values.fold((0, 0.0), |(count, largest), entry| (count + 1, f64::max(largest, entry.value.abs())))
     }
 
     /// Returns the largest entry of all, for when the shortest rows hold no pivot that is large enough.
-    fn largest_of_all(&self) -> Option<(u32, u32)> {
-        let left = (0..self.rows.len()).filter(|&row| !self.is_done[row]);
+    fn largest_entry(&self) -> Option<(u32, u32)> {
+        let left = (0..self.rows.len()).filter(|&row| !self.is_eliminated[row]);
         let entries = left.flat_map(|row| self.rows[row].iter().map(move |entry| (row as u32, entry)));
         let largest = entries.max_by(|(_, a), (_, b)| a.value.abs().total_cmp(&b.value.abs()));
         largest.map(|(row, entry)| (row, entry.column))

@@ -25,11 +25,11 @@ pub(super) fn tear(rows: &[Vec<Entry>]) -> Tearing {
         match search.next_row() {
             Some((row, Some(column))) => {
                 search.tearing.assigned.push((row, column));
-                search.take(row);
+                search.consume(row);
                 search.resolve(column);
             }
             // all its coordinates are resolved, or it cannot be solved for the last of them
-            Some((row, None)) => search.take(row),
+            Some((row, None)) => search.consume(row),
             None => {
                 let column = search.best_tear();
                 search.tearing.tears.push(column);
@@ -46,10 +46,10 @@ struct Search<'r> {
     users: Vec<Vec<u32>>,
     is_assignable: Vec<bool>,
     is_resolved: Vec<bool>,
-    is_taken: Vec<bool>,
+    is_consumed: Vec<bool>,
     unknowns: Vec<usize>,
     /// The remaining rows with their numbers of unknowns, fewest first.
-    left: BTreeSet<(usize, u32)>,
+    open_rows: BTreeSet<(usize, u32)>,
     resolved: usize,
     tearing: Tearing,
 }
@@ -69,9 +69,9 @@ impl<'r> Search<'r> {
             users,
             is_assignable,
             is_resolved: vec![false; n],
-            is_taken: vec![false; n],
+            is_consumed: vec![false; n],
             unknowns: rows.iter().map(Vec::len).collect(),
-            left: rows.iter().enumerate().map(|(row, entries)| (entries.len(), row as u32)).collect(),
+            open_rows: rows.iter().enumerate().map(|(row, entries)| (entries.len(), row as u32)).collect(),
             resolved: 0,
             tearing: Tearing::default(),
         }
@@ -79,15 +79,15 @@ impl<'r> Search<'r> {
 
     /// Returns a row with at most one unknown, and that unknown if the row can be solved for it.
     fn next_row(&self) -> Option<(u32, Option<u32>)> {
-        let &(unknowns, row) = self.left.first().filter(|(unknowns, _)| *unknowns <= 1)?;
+        let &(unknowns, row) = self.open_rows.first().filter(|(unknowns, _)| *unknowns <= 1)?;
         let unknown = self.rows[row as usize].iter().find(|(column, _)| !self.is_resolved[*column as usize]);
         let column = unknown.filter(|(_, is_number)| unknowns == 1 && *is_number).map(|(column, _)| *column);
         Some((row, column))
     }
 
-    fn take(&mut self, row: u32) {
-        self.is_taken[row as usize] = true;
-        self.left.remove(&(self.unknowns[row as usize], row));
+    fn consume(&mut self, row: u32) {
+        self.is_consumed[row as usize] = true;
+        self.open_rows.remove(&(self.unknowns[row as usize], row));
     }
 
     fn resolve(&mut self, column: u32) {
@@ -95,9 +95,9 @@ impl<'r> Search<'r> {
         self.resolved += 1;
         for k in 0..self.users[column as usize].len() {
             let row = self.users[column as usize][k] as usize;
-            if !self.is_taken[row] {
-                self.left.remove(&(self.unknowns[row], row as u32));
-                self.left.insert((self.unknowns[row] - 1, row as u32));
+            if !self.is_consumed[row] {
+                self.open_rows.remove(&(self.unknowns[row], row as u32));
+                self.open_rows.insert((self.unknowns[row] - 1, row as u32));
             }
             self.unknowns[row] -= 1;
         }
@@ -107,16 +107,16 @@ impl<'r> Search<'r> {
     /// unknown of the shortest row that the most rows use.
     fn best_tear(&self) -> u32 {
         let users = |column: u32| self.users[column as usize].len();
-        let rows = || self.left.iter().take(CANDIDATES).map(|&(_, row)| self.rows[row as usize].as_slice());
+        let rows = || self.open_rows.iter().take(CANDIDATES).map(|&(_, row)| self.rows[row as usize].as_slice());
         let unknowns =
             |row: &'r [Entry]| row.iter().map(|&(column, _)| column).filter(|&c| !self.is_resolved[c as usize]);
-        let hopeless = |row: &'r [Entry]| {
+        let unassignable = |row: &'r [Entry]| {
             unknowns(row).filter(|&column| !self.is_assignable[column as usize]).max_by_key(|&column| users(column))
         };
         let any = || rows().next().and_then(|row| unknowns(row).max_by_key(|&column| users(column)));
         // rows that cannot be solved for their last unknown leave it unresolved
-        let left_over = || self.is_resolved.iter().position(|resolved| !resolved).unwrap_or(0) as u32;
-        rows().find_map(hopeless).or_else(any).unwrap_or_else(left_over)
+        let unresolved = || self.is_resolved.iter().position(|resolved| !resolved).unwrap_or(0) as u32;
+        rows().find_map(unassignable).or_else(any).unwrap_or_else(unresolved)
     }
 
     fn finish(mut self) -> Tearing {

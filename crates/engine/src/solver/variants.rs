@@ -53,7 +53,7 @@ pub struct VariantBatch<'g, const W: usize> {
     pub tears: &'g [LaneValues<W>],
     /// By register of the program: its values, as far as they depend on parameters alone.
     pub loaded: &'g [LaneValues<W>],
-    /// By row of `Φ`: the inverse of the largest residual.
+    /// By row of `Φ`: the inverse of the bound on its residual.
     pub bounds: &'g [f64],
     /// The number of leading chunks of lanes to execute.
     pub chunks: usize,

@@ -42,7 +42,7 @@ impl Spare {
     }
 
     fn give_back(&self, memory: Memory, column: usize) {
-        // the lock is held for a moment, or forever in a process that was forked meanwhile: then the memory is dropped.
+        // the lock is held for a moment, or forever in a process that was forked meanwhile: then the memory is dropped
         let Ok(mut free) = self.free.try_lock() else { return };
         let free = free.entry(column).or_default();
         if free.len() < self.limit {
@@ -102,7 +102,7 @@ impl Numbers {
         if numbers[*begin..].get(..pattern.len()).is_some_and(is_there) {
             return;
         }
-        // with `first` 0 the whole memory is filled, which makes the period valid.
+        // with `first` 0 the whole memory is filled, which makes the period valid
         let end = if first == 0 { numbers.len() } else { *begin + self.count };
         for to in numbers[*begin + first..end].chunks_mut(pattern.len()) {
             to.copy_from_slice(&pattern[..to.len()]);

@@ -30,7 +30,7 @@ impl Sobol {
 
     /// Returns coordinate `k` of a point, in [0, 1).
     pub fn coordinate(&self, index: u64, k: usize) -> f64 {
-        // in the order of the Gray code, as the sequence is usually given, neighbours differ by one direction number.
+        // in the order of the Gray code, as the sequence is usually given, neighbours differ by one direction number
         let gray = index ^ (index >> 1);
         let digits = self.directions[k].iter().enumerate().filter(|(digit, _)| gray >> digit & 1 == 1);
         let point = digits.fold(self.shift[k], |point, (_, direction)| point ^ direction);

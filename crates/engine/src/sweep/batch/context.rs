@@ -36,7 +36,7 @@ pub struct Together {
     pub(super) tracked: Vec<TrackedCoordinate>,
     /// By tear: its index among the tracked coordinates.
     pub(super) tears: Vec<usize>,
-    /// By row of `Φ`: the inverse of the largest residual, for steps and for rows.
+    /// By row of `Φ`: the inverse of the bound on its residual, for steps and for rows.
     pub(super) bounds: [Vec<f64>; 2],
     /// The nominal state: the tracked coordinates, and by turn of the solver the inverse of the determinant.
     q: Vec<f64>,
