@@ -34,6 +34,15 @@ pub(super) struct ResultFinder {
     pub is_complete: [bool; LANES],
 }
 
+/// The inputs of a search: what a batch shares, its queries, and by lane its parameters (SI) and the registers that depend on these alone.
+#[derive(Clone, Copy)]
+struct Inputs<'i> {
+    context: &'i Together,
+    queries: &'i ResultQueries,
+    params: &'i [PerLane],
+    loaded: &'i [PerLane],
+}
+
 /// A query whose times are being refined.
 struct Search {
     /// The query, as an index.
@@ -85,12 +94,13 @@ impl ResultFinder {
     ) {
         self.is_complete = [false; LANES];
         self.record_motion(context, queries, stepper, params, active);
+        let inputs = Inputs { context, queries, params, loaded: &stepper.registers };
         let mut open = stepper.active;
         for number in 0..queries.queries.len() {
             if !open.contains(&true) || cancel.is_cancelled() {
                 return;
             }
-            self.answer(context, queries, &stepper.registers, params, number, &mut open);
+            self.answer(inputs, number, &mut open);
         }
         let count = queries.result_count();
         for lane in (0..LANES).filter(|&lane| open[lane]) {
@@ -127,20 +137,12 @@ impl ResultFinder {
         }
     }
 
-    /// Answers a query, given by its index, in the `open` lanes; closes those in which the answer is in doubt. `loaded` holds the registers of
-    /// parameters.
-    fn answer(
-        &mut self,
-        context: &Together,
-        queries: &ResultQueries,
-        loaded: &[PerLane],
-        params: &[PerLane],
-        number: usize,
-        open: &mut [bool; LANES],
-    ) {
+    /// Answers a query, given by its index, in the `open` lanes; closes those in which the answer is in doubt.
+    fn answer(&mut self, inputs: Inputs<'_>, number: usize, open: &mut [bool; LANES]) {
+        let Inputs { queries, params, .. } = inputs;
         let (query, [from, to]) = (queries.queries[number], queries.interval);
         if query.kind == QueryKind::Integral {
-            self.integrate(context, queries, loaded, number, open);
+            self.integrate(inputs, number, open);
             return;
         }
         let mut search = Search { query: number, times: [from; LANES], extrema: [None; LANES] };
@@ -158,28 +160,22 @@ impl ResultFinder {
                 }
             }
         }
-        self.settle(context, queries, loaded, search, open);
+        self.settle(inputs, search, open);
         if is_constant.contains(&true) {
-            self.settle_constant(context, queries, loaded, number, is_constant, open);
+            self.settle_constant(inputs, number, is_constant, open);
         }
     }
 
     /// Answers a query for an integral in the `open` lanes.
-    fn integrate(
-        &mut self,
-        context: &Together,
-        queries: &ResultQueries,
-        loaded: &[PerLane],
-        number: usize,
-        open: &mut [bool; LANES],
-    ) {
+    fn integrate(&mut self, inputs: Inputs<'_>, number: usize, open: &mut [bool; LANES]) {
+        let queries = inputs.queries;
         let quantity = queries.queries[number].quantity;
         let mut integrals: Vec<SpectralIntegral> = vec![SpectralIntegral::new(queries.interval); LANES];
         let mut left = *open;
         while let Some(first) = left.iter().position(|&is_left| is_left) {
             for (k, t) in integrals[first].times() {
                 let mut solved = left;
-                self.solve_at(context, queries, loaded, &[t; LANES], &mut solved);
+                self.solve_at(inputs, &[t; LANES], &mut solved);
                 queries.evaluate(quantity, &mut self.registers[quantity], &self.lanes);
                 let [values, ..] = queries.tower(quantity, &self.registers[quantity]);
                 for (lane, integral) in integrals.iter_mut().enumerate().filter(|(lane, _)| left[*lane]) {
@@ -207,19 +203,18 @@ impl ResultFinder {
     /// the answer, or the smaller one.
     fn settle_constant(
         &mut self,
-        context: &Together,
-        queries: &ResultQueries,
-        loaded: &[PerLane],
+        inputs: Inputs<'_>,
         number: usize,
         is_constant: [bool; LANES],
         open: &mut [bool; LANES],
     ) {
+        let queries = inputs.queries;
         let QueryKind::Extreme { largest } = queries.queries[number].kind else { return };
         let at_first = self.answers[number];
         let [_, to] = queries.interval;
         let mut evaluated = from_fn(|lane| is_constant[lane] && open[lane]);
         let search = Search { query: number, times: [to; LANES], extrema: [None; LANES] };
-        self.settle(context, queries, loaded, search, &mut evaluated);
+        self.settle(inputs, search, &mut evaluated);
         for lane in (0..LANES).filter(|&lane| is_constant[lane]) {
             let ([t, first], [_, last]) = (at_first[lane], self.answers[number][lane]);
             let is_last = if largest { last > first } else { last < first };
@@ -250,14 +245,8 @@ impl ResultFinder {
     }
 
     /// Refines the extrema of a search until they are settled, and evaluates its query there, or at the given times of the other lanes.
-    fn settle(
-        &mut self,
-        context: &Together,
-        queries: &ResultQueries,
-        loaded: &[PerLane],
-        mut search: Search,
-        open: &mut [bool; LANES],
-    ) {
+    fn settle(&mut self, inputs: Inputs<'_>, mut search: Search, open: &mut [bool; LANES]) {
+        let queries = inputs.queries;
         let quantity = queries.queries[search.query].quantity;
         let mut is_left = *open;
         while is_left.contains(&true) {
@@ -267,7 +256,7 @@ impl ResultFinder {
                 for (t, extremum) in search.times.iter_mut().zip(&search.extrema) {
                     *t = extremum.map_or(*t, |extremum| extremum.time(sample));
                 }
-                self.solve_at(context, queries, loaded, &search.times, open);
+                self.solve_at(inputs, &search.times, open);
                 queries.evaluate(quantity, &mut self.registers[quantity], &self.lanes);
                 for (lane, samples) in samples.iter_mut().enumerate() {
                     samples[sample] = queries.sample(quantity, &self.registers[quantity], lane);
@@ -290,14 +279,8 @@ impl ResultFinder {
     }
 
     /// Solves exactly at a time of each lane (s), between its steps; closes the lanes in which the solution is rejected.
-    fn solve_at(
-        &mut self,
-        context: &Together,
-        queries: &ResultQueries,
-        loaded: &[PerLane],
-        times: &[f64; LANES],
-        open: &mut [bool; LANES],
-    ) {
+    fn solve_at(&mut self, inputs: Inputs<'_>, times: &[f64; LANES], open: &mut [bool; LANES]) {
+        let Inputs { context, queries, loaded, .. } = inputs;
         let ResultFinder { lanes, history, guesses, .. } = self;
         history.write_guesses(times, guesses);
         let batch = VariantBatch {
