@@ -160,7 +160,7 @@ impl Together {
         let nominal: Vec<PerLane> = self.nominal_params.iter().map(|&value| LaneValues([value; LANES])).collect();
         self.solve_near_nominal(&mut lanes, &mut loaded, &nominal)?;
         self.determinants = lanes.determinants().iter().map(|inverse| inverse.0[0]).collect();
-        // pivots of rows of unit norm exceed the singular value by little at most
+        // pivots of rows of unit norm overestimate the singular value, if only by little, so the scale is at most 1
         self.pivot_scale = f64::min(1.0, started.conditioning() * lanes.max_inverse_pivots().0[0].max(1.0));
         self.nominal_distance = singular_distance(self.pivot_scale, lanes.max_inverse_pivots().0[0]);
         let position = |lanes: &VariantLanes<LANES>, tear: usize| lanes.column(self.tracked[tear].columns[0]).0[0];
