@@ -84,7 +84,7 @@ pub mod variants {
     pub const PARTS_OF_WAY: [u32; 6] = [1, 2, 4, 8, 16, 32];
 }
 
-/// The course of a formula of a variant (`crates/engine/src/analysis/results/course.rs`, `crates/engine/src/sweep/steps.rs`, `crates/engine/src/sweep/survey.rs`).
+/// The course of a formula of a variant (`crates/engine/src/analysis/results/course.rs`, `crates/engine/src/sweep/batch/step_history.rs`, `crates/engine/src/sweep/batch/result_finder.rs`).
 pub mod course {
     /// How much farther than the quintic in the middle of a cell a second derivative may be from the straight line between its ends: so much as
     /// results of a variant alone allow of a half of a cell.

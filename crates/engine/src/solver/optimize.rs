@@ -1,108 +1,112 @@
-//! What nothing needs is left out, products are joined with their sums, and registers are used again.
+//! Optimizes the instructions of a component: dead-code elimination, fused products and sums, hoisting of the prologue, register allocation.
 
-use super::fusion::fuse;
-use super::{Component, FIXED, Instruction, Purpose, Segment};
+use super::peephole::fuse_products;
+use super::{Component, Instruction, PROLOGUE, Purpose, Segment};
 use mechc_ir::program::{Op, Register};
 use std::ops::Range;
 
+/// No register, instruction or loop.
 const NONE: u32 = u32::MAX;
 
-/// A component whose registers are each written once, in fewer instructions: those that are needed for themselves, and what leads to them. Its
-/// registers may be used several times, if that is what it is for.
-pub(super) fn finish(
+/// Optimizes a component in single-assignment form: keeps the instructions for which `is_result` holds and those that they depend on, and allocates
+/// registers unless the purpose is code.
+pub(super) fn optimize(
     mut component: Component,
-    is_needed: impl Fn(&Instruction) -> bool,
+    is_result: impl Fn(&Instruction) -> bool,
     purpose: Purpose,
 ) -> Component {
-    let is_needed = needed(&component, is_needed);
-    let is_joined = join(&mut component, &is_needed);
-    let keep: Vec<bool> = is_needed.iter().zip(&is_joined).map(|(needed, joined)| *needed && !joined).collect();
+    let is_live = live_instructions(&component, is_result);
+    let is_fused = fuse_multiply_adds(&mut component, &is_live);
+    let keep: Vec<bool> = is_live.iter().zip(&is_fused).map(|(live, fused)| *live && !fused).collect();
     let mut component = compact(component, &keep);
     match purpose {
         Purpose::Code => {}
         Purpose::Lanes => {
-            component = fused(component);
-            let unknown = vec![NONE; component.registers];
-            share_registers(&mut component, unknown);
+            component = with_peephole(component);
+            let unallocated = vec![NONE; component.registers];
+            allocate_registers(&mut component, unallocated);
         }
         Purpose::Variants => {
-            let (rest, own) = set_fixed_apart(component);
+            let (rest, allocated) = hoist_prologue(component);
             component = rest;
-            share_registers(&mut component, own);
+            allocate_registers(&mut component, allocated);
         }
     }
     component
 }
 
-/// The same with what can be done in one go.
-fn fused(mut component: Component) -> Component {
-    let keep = fuse(&mut component);
+/// Applies the peephole pass.
+fn with_peephole(mut component: Component) -> Component {
+    let keep = fuse_products(&mut component);
     compact(component, &keep)
 }
 
-/// Sets apart what only numbers and parameters lead to: it is computed once for these, and stays. What is left is done in as few goes as can be.
-/// Gives the registers that what stays has of its own; [`NONE`] for all others.
-fn set_fixed_apart(component: Component) -> (Component, Vec<Register>) {
-    let mut own = vec![NONE; component.registers];
-    let (mut fixed, mut count) = (Vec::new(), 0);
+/// Hoists the instructions that depend on numbers and parameters alone into the prologue, which runs once for these; the peephole pass treats the
+/// others alone, so that no fusion crosses. Returns the registers of the prologue, with [`NONE`] for all others.
+fn hoist_prologue(component: Component) -> (Component, Vec<Register>) {
+    let mut allocated = vec![NONE; component.registers];
+    let (mut prologue, mut count) = (Vec::new(), 0);
     let mut keep = vec![true; component.instructions.len()];
     for at in component.segments.iter().filter(|segment| !segment.is_loop()).flat_map(Segment::range) {
         let instruction = component.instructions[at];
-        let is_fixed = match instruction {
+        let is_prologue = match instruction {
             Instruction::Number { .. } | Instruction::Load { .. } => true,
             Instruction::Compute(_) | Instruction::Store { .. } => {
-                instruction.reads().iter().all(|&register| own[register as usize] != NONE)
+                instruction.reads().iter().all(|&register| allocated[register as usize] != NONE)
             }
             _ => false,
         };
-        if is_fixed {
+        if is_prologue {
             keep[at] = false;
             for &register in instruction.writes().iter() {
-                own[register as usize] = FIXED | count;
+                allocated[register as usize] = PROLOGUE | count;
                 count += 1;
             }
-            fixed.push(instruction.renumbered(|register| own[register as usize], |register| own[register as usize]));
+            prologue.push(
+                instruction
+                    .renumbered(|register| allocated[register as usize], |register| allocated[register as usize]),
+            );
         }
     }
-    let rest = fused(compact(component, &keep));
-    (Component { fixed, fixed_registers: count as usize, ..rest }, own)
+    let rest = with_peephole(compact(component, &keep));
+    (Component { prologue, prologue_registers: count as usize, ..rest }, allocated)
 }
 
-/// Which instructions are needed for themselves, or lead to some that are.
-fn needed(component: &Component, is_result: impl Fn(&Instruction) -> bool) -> Vec<bool> {
+/// Returns the instructions that are results, or that a result depends on.
+fn live_instructions(component: &Component, is_result: impl Fn(&Instruction) -> bool) -> Vec<bool> {
     let mut is_read = vec![false; component.registers];
     for tear in component.segments.iter().flat_map(Segment::tears) {
         (is_read[tear.x as usize], is_read[tear.delta as usize]) = (true, true);
     }
-    let mut is_needed = vec![false; component.instructions.len()];
-    // what a loop reads of itself it has written before, in the same iteration
+    let mut is_live = vec![false; component.instructions.len()];
+    // one backward pass is enough, since a loop reads only values written earlier in the same iteration
     for (at, instruction) in component.instructions.iter().enumerate().rev() {
         let writes = instruction.writes();
-        is_needed[at] = is_result(instruction) || writes.iter().any(|&register| is_read[register as usize]);
-        if is_needed[at] {
+        is_live[at] = is_result(instruction) || writes.iter().any(|&register| is_read[register as usize]);
+        if is_live[at] {
             for register in instruction.reads() {
                 is_read[register as usize] = true;
             }
         }
     }
-    is_needed
+    is_live
 }
 
-/// Joins products that only one sum uses with that sum; says which products are in it now.
-fn join(component: &mut Component, is_needed: &[bool]) -> Vec<bool> {
+/// Fuses products that are used once with the sum that uses them; returns which products are gone.
+fn fuse_multiply_adds(component: &mut Component, is_live: &[bool]) -> Vec<bool> {
     let instructions = &mut component.instructions;
     let (mut uses, mut written_by) = (vec![0_u32; component.registers], vec![NONE; component.registers]);
-    for (at, instruction) in instructions.iter().enumerate().filter(|(at, _)| is_needed[*at]) {
+    for (at, instruction) in instructions.iter().enumerate().filter(|(at, _)| is_live[*at]) {
         instruction.reads().iter().for_each(|&register| uses[register as usize] += 1);
         instruction.writes().iter().for_each(|&register| written_by[register as usize] = at as u32);
     }
-    let mut is_joined = vec![false; instructions.len()];
+    let mut is_fused = vec![false; instructions.len()];
     for segment in &component.segments {
         let range = segment.range();
         for tear in segment.tears() {
             uses[tear.delta as usize] += 1;
         }
-        for at in range.clone().filter(|at| is_needed[*at]) {
+        for at in range.clone().filter(|at| is_live[*at]) {
             let product = |register: Register| {
                 let by = written_by[register as usize] as usize;
                 match (uses[register as usize], instructions.get(by)) {
@@ -111,18 +115,18 @@ fn join(component: &mut Component, is_needed: &[bool]) -> Vec<bool> {
                 }
             };
             if let Instruction::Compute(op) = instructions[at]
-                && let Some((by, op)) = with_product(op, product)
+                && let Some((by, op)) = multiply_add(op, product)
             {
                 instructions[at] = Instruction::Compute(op);
-                is_joined[by] = true;
+                is_fused[by] = true;
             }
         }
     }
-    is_joined
+    is_fused
 }
 
-/// A sum or difference with one of its operands as a product, and where that product was.
-fn with_product(op: Op, product: impl Fn(Register) -> Option<(usize, [Register; 2])>) -> Option<(usize, Op)> {
+/// Returns a sum or difference fused with the product of one operand, and the index of that product.
+fn multiply_add(op: Op, product: impl Fn(Register) -> Option<(usize, [Register; 2])>) -> Option<(usize, Op)> {
     match op {
         Op::Add { to, a, b } => {
             let (by, [x, y], c) = match product(b) {
@@ -139,6 +143,7 @@ fn with_product(op: Op, product: impl Fn(Register) -> Option<(usize, [Register; 
     }
 }
 
+/// Removes the instructions that are not kept.
 fn compact(component: Component, keep: &[bool]) -> Component {
     let Component { instructions, segments, registers, .. } = component;
     let mut component = Component { registers, ..Component::default() };
@@ -155,13 +160,13 @@ fn compact(component: Component, keep: &[bool]) -> Component {
     component
 }
 
-/// Gives registers out anew, each to several values one after the other. Some have their place already, which they share with none.
-fn share_registers(component: &mut Component, mut place: Vec<Register>) {
+/// Allocates registers by live range. Registers of the prologue, which are allocated already, are not shared.
+fn allocate_registers(component: &mut Component, mut allocated: Vec<Register>) {
     let registers = component.registers;
-    let Life { last_use, outlives } = Life::new(component);
-    let is_fixed: Vec<bool> = place.iter().map(|&place| place != NONE).collect();
+    let LiveRanges { last_use, last_loop } = LiveRanges::new(component);
+    let is_prologue: Vec<bool> = allocated.iter().map(|&register| register != NONE).collect();
     let (mut free, mut next): (Vec<Register>, Register) = (Vec::new(), 0);
-    // those that live to the end of a loop, by where it ends
+    // by loop: registers that are live to its end
     let mut ends: Vec<Vec<Register>> = Vec::new();
     let loops: Vec<Range<usize>> = component
         .segments
@@ -171,17 +176,19 @@ fn share_registers(component: &mut Component, mut place: Vec<Register>) {
         .inspect(|_| ends.push(Vec::new()))
         .collect();
     for register in 0..registers {
-        if !is_fixed[register]
-            && outlives[register] != NONE
-            && last_use[register] < loops[outlives[register] as usize].end as u32
+        if !is_prologue[register]
+            && last_loop[register] != NONE
+            && last_use[register] < loops[last_loop[register] as usize].end as u32
         {
-            ends[outlives[register] as usize].push(register as Register);
+            ends[last_loop[register] as usize].push(register as Register);
         }
     }
     let mut open = loops.iter().zip(ends).peekable();
     for at in 0..=component.instructions.len() {
         while let Some((_, ended)) = open.next_if(|(range, _)| range.end == at) {
-            free.extend(ended.into_iter().map(|register| place[register as usize]).filter(|&place| place != NONE));
+            free.extend(
+                ended.into_iter().map(|register| allocated[register as usize]).filter(|&register| register != NONE),
+            );
         }
         let Some(instruction) = component.instructions.get(at).copied() else {
             break;
@@ -189,55 +196,55 @@ fn share_registers(component: &mut Component, mut place: Vec<Register>) {
         let reads = instruction.reads();
         let dies = |register: Register| {
             let k = register as usize;
-            let in_loop = outlives[k] != NONE && last_use[k] < loops[outlives[k] as usize].end as u32;
-            last_use[k] == at as u32 && !in_loop && !is_fixed[k]
+            let in_loop = last_loop[k] != NONE && last_use[k] < loops[last_loop[k] as usize].end as u32;
+            last_use[k] == at as u32 && !in_loop && !is_prologue[k]
         };
         for (k, &register) in reads.iter().enumerate() {
             if dies(register) && !reads[..k].contains(&register) {
-                free.push(place[register as usize]);
+                free.push(allocated[register as usize]);
             }
         }
         for register in instruction.writes() {
-            place[register as usize] = free.pop().unwrap_or_else(|| {
+            allocated[register as usize] = free.pop().unwrap_or_else(|| {
                 next += 1;
                 next - 1
             });
         }
         component.instructions[at] =
-            instruction.renumbered(|register| place[register as usize], |register| place[register as usize]);
+            instruction.renumbered(|register| allocated[register as usize], |register| allocated[register as usize]);
         for register in instruction.writes() {
-            // nobody reads it
+            // an unused result
             if last_use[register as usize] == NONE {
-                free.push(place[register as usize]);
+                free.push(allocated[register as usize]);
             }
         }
     }
     let segments = std::mem::take(&mut component.segments).into_iter();
-    component.segments = segments.map(|segment| segment.renumbered(|register| place[register as usize])).collect();
+    component.segments = segments.map(|segment| segment.renumbered(|register| allocated[register as usize])).collect();
     component.registers = next as usize;
 }
 
-/// How long registers are needed.
-struct Life {
-    /// The last operation that reads each; none if none does.
+/// The live ranges of registers.
+struct LiveRanges {
+    /// By register: the last instruction that reads it, or [`NONE`].
     last_use: Vec<u32>,
-    /// The last loop to whose end each is needed, be it that no operation reads it so late.
-    outlives: Vec<u32>,
+    /// By register: the last loop through whose end it is live, or [`NONE`].
+    last_loop: Vec<u32>,
 }
 
-impl Life {
-    fn new(component: &Component) -> Life {
+impl LiveRanges {
+    fn new(component: &Component) -> LiveRanges {
         let registers = component.registers;
         let mut written_at = vec![0_u32; registers];
-        let mut life = Life { last_use: vec![NONE; registers], outlives: vec![NONE; registers] };
+        let mut ranges = LiveRanges { last_use: vec![NONE; registers], last_loop: vec![NONE; registers] };
         let mut number = 0;
         for segment in &component.segments {
             let range = segment.range();
             for at in range.clone() {
                 for register in component.instructions[at].reads() {
-                    life.last_use[register as usize] = at as u32;
+                    ranges.last_use[register as usize] = at as u32;
                     if segment.is_loop() && (written_at[register as usize] as usize) < range.start {
-                        life.outlives[register as usize] = number;
+                        ranges.last_loop[register as usize] = number;
                     }
                 }
                 for register in component.instructions[at].writes() {
@@ -246,14 +253,14 @@ impl Life {
             }
             if let Segment::Newton { tears, .. } = segment {
                 for register in tears.iter().flat_map(|tear| [tear.x, tear.delta]) {
-                    life.outlives[register as usize] = number;
-                    if life.last_use[register as usize] == NONE {
-                        life.last_use[register as usize] = range.start as u32;
+                    ranges.last_loop[register as usize] = number;
+                    if ranges.last_use[register as usize] == NONE {
+                        ranges.last_use[register as usize] = range.start as u32;
                     }
                 }
                 number += 1;
             }
         }
-        life
+        ranges
     }
 }

@@ -1,30 +1,30 @@
-//! Blocks that depend on each other, and what depends on one group of them alone.
+//! Partitions the blocks of a system into independent components, and assigns outputs to them.
 
 use mechc_expr::{ExprId, Symbol};
 use mechc_ir::ConstraintSystem;
 use mechc_ir::structure::Determined;
 
-/// Blocks that depend on each other.
-pub(super) struct Groups {
-    /// Each group's blocks, in an order of solution.
+/// The components of a system: blocks that depend on each other.
+pub(super) struct Partition {
+    /// By component: its blocks, in an order of solution.
     pub blocks: Vec<Vec<usize>>,
-    group_of_column: Vec<usize>,
+    component_of_column: Vec<usize>,
     pub block_of_column: Vec<usize>,
-    group_of_row: Vec<usize>,
+    component_of_row: Vec<usize>,
 }
 
-/// What is wanted beside the motion, by numbers.
+/// The outputs of a component other than its motion, as indices.
 #[derive(Clone, Default)]
-pub(super) struct Wanted {
-    /// Columns of what joints exert and drivers supply.
+pub(super) struct ComponentOutputs {
+    /// Columns of joint reactions and driver efforts.
     pub reactions: Vec<usize>,
     pub measures: Vec<usize>,
-    /// Columns of derivatives.
+    /// Columns of appended derivatives.
     pub appended: Vec<usize>,
 }
 
-impl Wanted {
-    /// All of its formulas.
+impl ComponentOutputs {
+    /// Returns the formulas of all outputs.
     pub fn formulas(&self, system: &ConstraintSystem) -> Vec<ExprId> {
         let reactions = self.reactions.iter().map(|&k| system.reactions()[k].value);
         let measures = self.measures.iter().flat_map(|&k| {
@@ -35,8 +35,8 @@ impl Wanted {
     }
 }
 
-impl Groups {
-    pub fn new(determined: &Determined) -> Groups {
+impl Partition {
+    pub fn new(determined: &Determined) -> Partition {
         let (system, blocks) = (determined.system(), determined.blocks());
         let block_of_column = determined.block_of_columns();
         let mut parent: Vec<usize> = (0..blocks.len()).collect();
@@ -53,7 +53,7 @@ impl Groups {
                 }
             }
         }
-        // a load may speak of others than it works on
+        // a load on one component may depend on coordinates of another
         for (&block, &needed) in block_of_column.iter().zip(system.needed_forces()) {
             for symbol in system.graph().symbols(needed) {
                 if let Symbol::Coordinate { index, .. } = symbol {
@@ -62,53 +62,54 @@ impl Groups {
             }
         }
         let mut number = vec![usize::MAX; blocks.len()];
-        let mut groups: Vec<Vec<usize>> = Vec::new();
+        let mut components: Vec<Vec<usize>> = Vec::new();
         for k in 0..blocks.len() {
             let root = root(&mut parent, k);
             if number[root] == usize::MAX {
-                number[root] = groups.len();
-                groups.push(Vec::new());
+                number[root] = components.len();
+                components.push(Vec::new());
             }
-            groups[number[root]].push(k);
+            components[number[root]].push(k);
         }
-        let mut group_of = |block: &usize| number[root(&mut parent, *block)];
-        let group_of_column = block_of_column.iter().map(&mut group_of).collect();
-        let group_of_row = block_of_row.iter().map(&mut group_of).collect();
-        Groups { blocks: groups, group_of_column, block_of_column, group_of_row }
+        let mut component_of_block = |block: &usize| number[root(&mut parent, *block)];
+        let component_of_column = block_of_column.iter().map(&mut component_of_block).collect();
+        let component_of_row = block_of_row.iter().map(&mut component_of_block).collect();
+        Partition { blocks: components, component_of_column, block_of_column, component_of_row }
     }
 
-    /// What is wanted of each group beside its motion, with or without what joints exert; and last what joins groups.
-    pub fn wanted(&self, system: &ConstraintSystem, with_reactions: bool) -> Vec<Wanted> {
-        let mut wanted = vec![Wanted::default(); self.blocks.len() + 1];
+    /// Returns the outputs of each component, with or without reactions, and last the shared outputs, which depend on several components.
+    pub fn outputs_by_component(&self, system: &ConstraintSystem, with_reactions: bool) -> Vec<ComponentOutputs> {
+        let mut outputs = vec![ComponentOutputs::default(); self.blocks.len() + 1];
         let reactions = if with_reactions { system.reactions() } else { &[] };
         for (k, reaction) in reactions.iter().enumerate() {
-            wanted[self.of(system, [reaction.value])].reactions.push(k);
+            outputs[self.component_of(system, [reaction.value])].reactions.push(k);
         }
         for (k, measure) in system.measures().iter().enumerate() {
             let formulas = [Some(measure.value), measure.first, measure.second];
-            wanted[self.of(system, formulas.into_iter().flatten())].measures.push(k);
+            outputs[self.component_of(system, formulas.into_iter().flatten())].measures.push(k);
         }
         for (k, column) in system.appended().iter().enumerate() {
-            wanted[self.of(system, [column.value])].appended.push(k);
+            outputs[self.component_of(system, [column.value])].appended.push(k);
         }
-        wanted
+        outputs
     }
 
-    /// The group that some formulas speak of; where there are several, the number behind the last one.
-    fn of(&self, system: &ConstraintSystem, formulas: impl IntoIterator<Item = ExprId>) -> usize {
+    /// Returns the component that formulas depend on, or the number of components if there are several or none.
+    fn component_of(&self, system: &ConstraintSystem, formulas: impl IntoIterator<Item = ExprId>) -> usize {
         let symbols = formulas.into_iter().flat_map(|id| system.graph().symbols(id));
-        let mut groups = symbols.filter_map(|symbol| match symbol {
+        let mut components = symbols.filter_map(|symbol| match symbol {
             Symbol::Coordinate { index, .. } | Symbol::Varied { index, .. } => {
-                Some(self.group_of_column[index as usize])
+                Some(self.component_of_column[index as usize])
             }
-            Symbol::Multiplier(row) | Symbol::VariedMultiplier { row, .. } => Some(self.group_of_row[row as usize]),
+            Symbol::Multiplier(row) | Symbol::VariedMultiplier { row, .. } => Some(self.component_of_row[row as usize]),
             _ => None,
         });
-        let first = groups.next();
-        first.filter(|first| groups.all(|group| group == *first)).unwrap_or(self.blocks.len())
+        let first = components.next();
+        first.filter(|first| components.all(|component| component == *first)).unwrap_or(self.blocks.len())
     }
 }
 
+/// Returns the root of an element in a union-find forest, and shortens its path.
 fn root(parent: &mut [usize], mut k: usize) -> usize {
     while parent[k] != k {
         parent[k] = parent[parent[k]];

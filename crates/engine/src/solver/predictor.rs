@@ -1,32 +1,32 @@
-//! Where Newton begins: on the curve through the ends of a step, bent to come from the step before.
+//! The predictor of Newton: the curve through the ends of a step, corrected by the step before.
 
 use mechc_expr::math::{along, value_and_slopes};
 
-/// What the curve through the ends of two steps differs by from the one through the ends of the later step: `(x (1 − x))³` times
-/// a parabola, `x` being the part of the later step.
+/// The difference between the curve through the ends of two steps and the one through the ends of the later step: `(x (1 − x))³` times a parabola,
+/// with `x` the fraction of the later step.
 ///
-/// Value, slope and curvature at three places make a polynomial of degree 8 (Hermite). It is nearer to the motion by orders of
-/// magnitude, so that mostly one iteration is enough.
+/// Value, slope and curvature at three nodes make a Hermite polynomial of degree 8. It is closer to the motion by orders of magnitude, so that mostly
+/// one iteration is enough.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Bend {
-    /// The length of the step before, in lengths of this one.
+    /// The length of the step before, as a multiple of this one.
     back: f64,
-    /// The parabola, by its coefficients in `x + back`.
+    /// The coefficients of the parabola, in powers of `x + back`.
     parabola: [f64; 3],
 }
 
 impl Bend {
-    /// Where there is no step before.
+    /// No correction, for a motion without a step before.
     pub const NONE: Bend = Bend { back: 0.0, parabola: [0.0; 3] };
 
-    /// From the curve of a step, and value and derivatives by the part of this step where the one before began, `back` lengths
-    /// earlier.
+    /// Computes the correction of a step's curve from value, slope and curvature, with respect to the fraction of this step, at the start of the step
+    /// before, `back` step lengths earlier.
     #[must_use]
     pub fn new(curve: &[f64; 6], [value, slope, curvature]: [f64; 3], back: f64) -> Bend {
         let x = -back;
-        // what is missing there, and the factor (x (1 − x))³, each with two derivatives
-        let there = value_and_slopes(curve, x);
-        let missing = [value - there[0], slope - there[1], curvature - there[2]];
+        // the value that the curve misses there, and the factor (x (1 − x))³, each with two derivatives
+        let on_curve = value_and_slopes(curve, x);
+        let missing = [value - on_curve[0], slope - on_curve[1], curvature - on_curve[2]];
         let (u, du) = (x * (1.0 - x), 1.0 - 2.0 * x);
         let factor = [u * u * u, 3.0 * u * u * du, 6.0 * u * (du * du - u)];
         let first = missing[0] / factor[0];
@@ -35,10 +35,10 @@ impl Bend {
         Bend { back, parabola: [first, second, 0.5 * third] }
     }
 
-    /// The place on the bent curve at a part of the step.
+    /// Evaluates the corrected curve at a fraction of the step.
     #[must_use]
     #[inline(always)]
-    #[allow(clippy::inline_always)] // for several lanes at once
+    #[allow(clippy::inline_always)] // inlined into loops over lanes
     pub fn on_curve(&self, curve: &[f64; 6], x: f64) -> f64 {
         let u = x * (1.0 - x);
         let s = x + self.back;
@@ -52,7 +52,7 @@ mod tests {
     use super::Bend;
     use mechc_expr::math::quintic;
 
-    /// A polynomial and its first two derivatives.
+    /// Returns a polynomial and its first two derivatives.
     fn polynomial(c: &[f64], x: f64) -> [f64; 3] {
         let power = |k: usize, order: usize| {
             let factor: f64 = (0..order).map(|i| k as f64 - i as f64).product();
@@ -62,7 +62,7 @@ mod tests {
     }
 
     #[test]
-    fn polynomials_of_degree_eight_are_met() {
+    fn polynomials_of_degree_eight_are_exact() {
         let c = [0.3, -1.2, 0.7, 0.4, -0.9, 1.1, -0.6, 0.2, 0.8];
         let (a, b) = (polynomial(&c, 0.0), polynomial(&c, 1.0));
         let curve = quintic(a, b, 1.0);
@@ -70,8 +70,8 @@ mod tests {
             let bend = Bend::new(&curve, polynomial(&c, -back), back);
             for k in 0..=10 {
                 let x = 0.1 * f64::from(k);
-                let (got, want) = (bend.on_curve(&curve, x), polynomial(&c, x)[0]);
-                assert!((got - want).abs() < 1e-13, "at {x} after {back}: {got} instead of {want}");
+                let (value, expected) = (bend.on_curve(&curve, x), polynomial(&c, x)[0]);
+                assert!((value - expected).abs() < 1e-13, "at {x} after {back}: {value} instead of {expected}");
             }
         }
     }

@@ -1,4 +1,4 @@
-//! The multipliers of a component's equations, by the factors of its blocks: `Φ_qᵀ λ = p`, from the last block to the first.
+//! Linear solves `Φ_qᵀ λ = p` for the multipliers of a component, with the factors of its blocks from the last to the first.
 
 use super::Values;
 use super::build::Builder;
@@ -9,8 +9,8 @@ use mechc_ir::structure::Block;
 use rustc_hash::FxHashMap;
 
 impl<V: Values> Builder<'_, V> {
-    /// The multipliers, and how they vary, of a component whose motion is known.
-    pub fn forces(&mut self, blocks: &[(&Block, Factors)]) {
+    /// Solves for the multipliers, and their variations, of a component whose motion is solved.
+    pub fn solve_multipliers(&mut self, blocks: &[(&Block, Factors)]) {
         let program = self.program;
         let (outputs, inputs) = (&program.outputs, &program.inputs);
         if outputs.forces.is_empty() {
@@ -22,29 +22,30 @@ impl<V: Values> Builder<'_, V> {
         }
     }
 
-    /// Solves for unknowns, one for each equation, of which the program has the first in a register. The right side is by coordinates.
+    /// Solves for one unknown for each equation; `unknown` is the program's register of the first. The right side, in registers of the program, is by
+    /// coordinate.
     fn solve_transposed(&mut self, blocks: &[(&Block, Factors)], right: &[Register], unknown: Register) {
         let program = self.program;
         let column = self.layout.multipliers + (unknown - program.inputs.multipliers);
-        // by coordinate: what the equations of later blocks exert on it, as positions in the pattern with rows
-        let mut exerted: FxHashMap<u32, Vec<(usize, u32)>> = FxHashMap::default();
+        // by coordinate: entries of the equations of later blocks, as positions in the pattern with rows
+        let mut transferred: FxHashMap<u32, Vec<(usize, u32)>> = FxHashMap::default();
         for (block, factors) in blocks.iter().rev() {
             let mut sums = Vec::with_capacity(block.columns.len());
             for &column in &block.columns {
-                let mut sum = self.terms.value(right[column as usize]);
-                for (at, row) in exerted.remove(&column).into_iter().flatten() {
-                    sum = self.terms.less_product(sum, program.outputs.phi_q[at], unknown + row);
+                let mut sum = self.symbolic.value(right[column as usize]);
+                for (at, row) in transferred.remove(&column).into_iter().flatten() {
+                    sum = self.symbolic.minus_product(sum, program.outputs.phi_q[at], unknown + row);
                 }
                 sums.push(sum);
             }
-            let solution: Vec<Value> = factors.solve_transposed(&mut self.terms.tape, sums);
+            let solution: Vec<Value> = factors.solve_transposed(&mut self.symbolic.tape, sums);
             for (&row, &value) in block.rows.iter().zip(&solution) {
-                self.terms.know(unknown + row, value);
-                if self.is_joined(column + row) {
-                    self.terms.tape.store(column + row, value);
+                self.symbolic.define(unknown + row, value);
+                if self.is_shared(column + row) {
+                    self.symbolic.tape.store(column + row, value);
                 }
                 for (at, other) in self.entries_outside(block, row) {
-                    exerted.entry(other).or_default().push((at, row));
+                    transferred.entry(other).or_default().push((at, row));
                 }
             }
         }

@@ -1,0 +1,179 @@
+//! Continuation from the nominal parameters of a mechanism, those of its text, to those of a variant, along the branch. A variant's start
+//! depends on its own parameters alone, not on the other variants of a sweep.
+
+use crate::analysis::{self, Horizon, LeadOptions, Solving, Started, Stop, Unassembled, Warning};
+use crate::solver::Solver;
+use mechc_ir::program::Program;
+use mechc_ir::structure::Determined;
+use mechc_text::cancel::Cancel;
+use mechc_text::diag::Diagnostic;
+use std::sync::Arc;
+
+/// A determined system with its operations.
+pub type CompiledSystem = (Arc<Determined>, Arc<Program>);
+
+/// A position, with the solver for rows from there on.
+#[derive(Clone)]
+struct Configuration {
+    /// The coordinates [m, rad].
+    q: Vec<f64>,
+    solver: Option<Arc<Solver>>,
+}
+
+impl Configuration {
+    fn from_started(started: &Started) -> Configuration {
+        Configuration { q: started.q().to_vec(), solver: started.shared_solver() }
+    }
+
+    fn to_shared(&self) -> (&[f64], Option<Arc<Solver>>) {
+        (&self.q, self.solver.clone())
+    }
+}
+
+/// The starting point of all continuations of a mechanism, shared by its variants.
+pub struct ContinuationBase {
+    compiled: CompiledSystem,
+    nominal_params: Vec<f64>,
+    /// The position with the nominal parameters, at the nominal first time.
+    nominal: Configuration,
+    /// The system on a path, with further parameters for the path's end (`lower::lower_on_its_way`), and where all paths begin.
+    path_system: CompiledSystem,
+    path_start: Configuration,
+    /// The parameters that a path may change, as indices.
+    continued_params: Vec<u32>,
+    /// True if time changes along a path.
+    time_varies: bool,
+    /// True if the equations are smooth all along every path.
+    is_smooth: bool,
+    options: LeadOptions,
+}
+
+/// A variant at the end of its continuation.
+pub struct Arrived {
+    /// The variant, ready to be followed.
+    pub started: Started,
+    /// The bifurcations on the path, at fractions of it from 0 to 1.
+    pub passed: Vec<Warning>,
+    /// The bifurcations on the way from the nominal first time to the requested one.
+    pub passed_before_start: Vec<Warning>,
+}
+
+/// The reason why a continuation gives no start.
+pub enum ContinuationError {
+    /// The path ends at a fraction of it, from 0 to 1.
+    OnPath(Box<Stop>),
+    /// The variant was reached and cannot start.
+    AtTarget(Box<Stop>),
+}
+
+impl ContinuationBase {
+    /// Prepares continuations from `started`, the mechanism with its nominal parameters. `path_system` is the system on a path, which changes
+    /// `continued_params` (indices), and time if `time_varies`.
+    ///
+    /// # Errors
+    /// No path can begin at the nominal position.
+    pub fn new(
+        compiled: CompiledSystem,
+        started: &Started,
+        path_system: CompiledSystem,
+        (continued_params, time_varies): (Vec<u32>, bool),
+        options: LeadOptions,
+    ) -> Result<ContinuationBase, Box<Stop>> {
+        let (nominal_params, nominal) = (compiled.0.system().values_of_params(), Configuration::from_started(started));
+        let path_start = analysis::before_ways(&path_system.0, &path_system.1, &nominal.q, &options)?;
+        let (is_smooth, path_start) = (path_start.is_plain(), Configuration::from_started(&path_start));
+        Ok(ContinuationBase {
+            compiled,
+            nominal_params,
+            nominal,
+            path_system,
+            path_start,
+            continued_params,
+            time_varies,
+            is_smooth,
+            options,
+        })
+    }
+
+    /// Returns the compiled system and the nominal parameters (SI).
+    pub(super) fn nominal(&self) -> (&CompiledSystem, &[f64]) {
+        (&self.compiled, &self.nominal_params)
+    }
+
+    /// Returns whether paths change all of `params` (indices) and are free of events, so that batches may follow them.
+    pub(super) fn is_smooth_in(&self, params: &[u32]) -> bool {
+        self.is_smooth && !self.time_varies && params.iter().all(|param| self.continued_params.contains(param))
+    }
+
+    /// Describes a stop on a path, which `ContinuationError::OnPath` holds, in words.
+    #[must_use]
+    pub fn explain(&self, stop: &Stop) -> Diagnostic {
+        stop.explain(self.path_system.0.system())
+    }
+
+    /// Describes a bifurcation on a path in words.
+    #[must_use]
+    pub fn explain_warning(&self, warning: &Warning) -> Diagnostic {
+        warning.explain(self.path_system.0.system())
+    }
+
+    /// Returns the system with other parameters (SI, all of them).
+    #[must_use]
+    pub fn variant(&self, values: &[f64]) -> Arc<Determined> {
+        Arc::new(self.compiled.0.with_values(values))
+    }
+
+    /// Continues to a variant and starts it for `horizon`.
+    ///
+    /// # Errors
+    /// The path ends before the variant, or the variant cannot start.
+    pub fn alone(
+        &self,
+        variant: Arc<Determined>,
+        horizon: Horizon,
+        cancel: &Cancel,
+    ) -> Result<Arrived, ContinuationError> {
+        let LeadOptions { tolerance, t: nominal_time, pass_bifurcations, .. } = self.options;
+        let (q, passed) = self.continue_to(&variant.system().values_of_params(), horizon.from, cancel)?;
+        let is_at_start_time = self.time_varies || horizon.from.total_cmp(&nominal_time).is_eq();
+        let program = Arc::clone(&self.compiled.1);
+        let cancel = cancel.clone();
+        let unassembled = Unassembled { determined: variant, program, horizon, tolerance, pass_bifurcations, cancel };
+        let solving = Solving::With(self.nominal.solver.clone());
+        if is_at_start_time {
+            let started = unassembled.assemble_at(&q, solving).map_err(ContinuationError::AtTarget)?;
+            return Ok(Arrived { started, passed, passed_before_start: Vec::new() });
+        }
+        let begun = Unassembled { horizon: horizon.beginning(nominal_time), ..unassembled.clone() };
+        let begun = begun.assemble_at(&q, solving);
+        let followed = begun.and_then(|begun| analysis::follow_to(&unassembled, (begun, nominal_time)));
+        let (started, passed_before_start) = followed.map_err(ContinuationError::AtTarget)?;
+        Ok(Arrived { started, passed, passed_before_start })
+    }
+
+    /// Follows the path to other parameters (SI) and a first time `t` (s); returns the coordinates at its end and the bifurcations on it.
+    fn continue_to(
+        &self,
+        values: &[f64],
+        t: f64,
+        cancel: &Cancel,
+    ) -> Result<(Vec<f64>, Vec<Warning>), ContinuationError> {
+        let is_nominal = |&k: &u32| values[k as usize].to_bits() == self.nominal_params[k as usize].to_bits();
+        if !self.time_varies && self.continued_params.iter().all(is_nominal) {
+            return Ok((self.nominal.q.clone(), Vec::new()));
+        }
+        let ends = self.continued_params.iter().map(|&k| values[k as usize]);
+        let times = self.time_varies.then_some([self.options.t, t]).into_iter().flatten();
+        let path_params: Vec<f64> = self.nominal_params.iter().copied().chain(ends).chain(times).collect();
+        let determined = Arc::new(self.path_system.0.with_values(&path_params));
+        let options = LeadOptions { cancel: cancel.clone(), ..self.options.clone() };
+        let path = analysis::lead_again(&determined, &self.path_system.1, self.path_start.to_shared(), &options);
+        let mut path = path.map_err(|stop| ContinuationError::OnPath(Box::new(Stop { t: 0.0, ..*stop })))?;
+        match (path.reached.pop(), path.stopped) {
+            (Some(q), _) => Ok((q, path.passed)),
+            (None, Some(stop)) => Err(ContinuationError::OnPath(stop)),
+            // cancelled: the caller discards the result
+            (None, None) => Ok((self.nominal.q.clone(), Vec::new())),
+        }
+    }
+}
