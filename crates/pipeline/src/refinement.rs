@@ -8,9 +8,9 @@
 //! The refinement ends with the motion; or behind a window in which nothing was drawn anew, if all ends of the steps behind it lie on the
 //! lines so far. Where there are too many rows before that, lines end there, and a warning says so.
 
-use super::options::RunOptions;
-use super::seen::Seen;
-use super::{Checked, Compiled};
+use crate::options::RunOptions;
+use crate::visualization::Seen;
+use crate::{Checked, Compiled};
 use mechc_draw::scene::{
     Anchor, DrawnLine, Gaps, Motion, Pen, RETRACE_TOLERANCE, Track, Vector, bounds, distance, is_finite, length,
 };

@@ -1,9 +1,9 @@
-//! The last stage: a motion in progress, row by row.
+//! The last stage: a motion in progress, row by row. Knows where a mechanism starts; the steps are the engine's.
 
-use super::Compiled;
-use super::lead::{Begin, Outset};
-use super::options::{RunOptions, Stand};
-use super::used_at::UsedAt;
+use crate::Compiled;
+use crate::continuation::{CompiledSystem, ContinuationOrigin, InitialGuess};
+use crate::options::{RunOptions, Stand};
+use crate::part_backtrace::PartBacktrace;
 use mechc_engine::analysis::{self, Answers, Asked, Follower, Horizon, Solving, Started, Times, Unassembled};
 use mechc_ir::layout::{ColumnUnit, RowLayout};
 use mechc_text::cancel::Cancel;
@@ -13,17 +13,17 @@ use std::sync::Arc;
 /// The position in which a mechanism was assembled.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Assembly {
-    /// When (s).
+    /// Time (s).
     pub t: f64,
-    /// Each coordinate: its name, its value (SI), its unit.
+    /// For each coordinate: name, value (SI), unit.
     pub coordinates: Vec<(String, f64, &'static str)>,
     /// How far the bodies moved from their estimates, in words.
     pub moved: String,
-    /// The distance to a singular position: 1 is far, 0 is singular.
+    /// Distance to a singular position: 1 is far, 0 is singular.
     pub conditioning: f64,
 }
 
-/// A motion, which owns all it needs: an iterator over its rows.
+/// A motion in progress: an iterator over its rows, which owns all it needs.
 ///
 /// ```
 /// # use mechc::{Cancel, Choice, Memory, Parsed, Redundant, RunOptions, Times};
@@ -53,25 +53,24 @@ pub struct Run {
     cancel: Cancel,
     has_ended: bool,
     has_stopped: bool,
-    /// What results are computed from; none where there are none.
+    /// What results are computed from; `None` if there are none.
     asked: Option<Asked>,
     results: usize,
-    used_at: UsedAt,
+    part_backtrace: PartBacktrace,
 }
 
 impl Compiled {
-    /// Assembles it at the first of some times, and gives what follows it; with what is to be said of that. Nothing where it cannot
-    /// be assembled, starts in a singular position, a formula has no value there, or it is cancelled.
+    /// Assembles the mechanism at the first of some times, and returns the motion, with diagnostics of the start. `None` if it cannot be assembled,
+    /// starts in a singular position, a formula has no value there, or the work is cancelled.
     ///
-    /// A mechanism that is told its inputs begins where these lead it. An error may stand beside a run: no way leads there (E0612), and it
-    /// was assembled from the file's estimates alone.
+    /// If inputs are given, the start is continued to them. There may be an error together with a run: no path leads to the given values
+    /// (E0612), and the mechanism was assembled from the estimates of the text alone.
     #[must_use]
     pub fn run(&self, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
         Run::of(self, times, options)
     }
 
-    /// Where it stands at a time (s), as [`Compiled::run`] begins there, with what is to be said of that; in less time, as nothing will
-    /// follow.
+    /// Returns the position at a time (s) at which [`Compiled::run`] would begin, with diagnostics of the start. Takes less time than a run.
     ///
     /// ```
     /// # use mechc::{Cancel, Choice, Memory, Parsed, Redundant, RunOptions};
@@ -91,43 +90,43 @@ impl Compiled {
     #[must_use]
     pub fn assembled(&self, t: f64, options: &RunOptions) -> (Option<Assembly>, Diagnostics) {
         let horizon = Horizon::of_analysis(self.analysis()).beginning(t);
-        let (started, mut said) = self.started(horizon, options, Solving::With(None));
+        let (started, mut diagnostics) = self.started(horizon, options, Solving::With(None));
         match started {
             _ if options.cancel.is_cancelled() => (None, Diagnostics::default()),
             Ok(mut started) => {
-                said.extend(self.used_at().told(started.remarks()));
-                (Some(assembly(self, &mut started, t)), said)
+                diagnostics.extend(self.part_backtrace().annotate_all(started.remarks()));
+                (Some(assembly(self, &mut started, t)), diagnostics)
             }
             Err(why) => {
-                said.push(self.used_at().tell(*why));
-                (None, said)
+                diagnostics.push(self.part_backtrace().annotate(*why));
+                (None, diagnostics)
             }
         }
     }
 
-    /// A time (s) of its analysis, followed from another one.
-    pub(super) fn one_time(&self, from: f64, t: f64) -> Times {
+    /// Returns the single time `t` (s), followed from the time `from`.
+    pub(crate) fn one_time(&self, from: f64, t: f64) -> Times {
         Times::listed(from, vec![t]).within_analysis_to(self.analysis().map(|[_, to, _]| to))
     }
 
-    /// Where it stands at a time (s), followed from the first time of its analysis.
+    /// Returns the configuration at a time (s), followed from the first time of the analysis.
     ///
     /// # Errors
-    /// It does not get there.
+    /// The motion does not get there.
     pub fn stand(&self, t: f64, options: &RunOptions) -> Result<Stand, Diagnostics> {
         let from = self.analysis().map_or(t, |[from, ..]| from.min(t));
-        let (run, said) = self.run(&self.one_time(from, t), options);
+        let (run, diagnostics) = self.run(&self.one_time(from, t), options);
         let layout = RowLayout::new(self.system());
         match run.and_then(|mut run| run.next()) {
             Some(Ok(row)) => Ok(Stand { t, q: layout.position(&row).to_vec() }),
             Some(Err(why)) => Err((*why).into()),
-            None => Err(said),
+            None => Err(diagnostics),
         }
     }
 
-    /// Assembles it at the first time of a horizon, from the file's estimates, or from where the inputs that it is told lead it; with what is to be
-    /// said of the way.
-    pub(super) fn start(
+    /// Assembles the mechanism at the first time of a horizon, from the estimates of the text or from the end of a continuation; returns the
+    /// diagnostics of that, too.
+    pub(crate) fn start(
         &self,
         horizon: Horizon,
         options: &RunOptions,
@@ -141,19 +140,19 @@ impl Compiled {
         options: &RunOptions,
         solving: Solving,
     ) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
-        let (beginning, mut said) = self.begins(horizon, options);
+        let (beginning, mut diagnostics) = self.initial_guess(horizon, options);
         let started = match beginning {
-            Beginning::Started(started) => return (*started, said),
-            Beginning::At(Begin::Position(q), at) => self.unassembled(at, options).assemble_at(&q, solving),
-            Beginning::At(Begin::Estimates(drawn), at) => {
+            StartStage::Started(started) => return (*started, diagnostics),
+            StartStage::At(InitialGuess::Position(q), at) => self.unassembled(at, options).assemble_at(&q, solving),
+            StartStage::At(InitialGuess::Estimates(drawn), at) => {
                 let whole = self.unassembled(at, options);
-                // where no way leads to what is told or set, the estimates alone are tried
-                let started = if said.has_errors() {
+                // if no path leads to what is given or set, the estimates alone are tried
+                let started = if diagnostics.has_errors() {
                     whole.close(drawn.as_deref(), solving)
                 } else {
                     analysis::start_from(&whole, drawn.as_deref(), solving)
                 };
-                // parts that begin elsewhere than they are drawn are no estimates of the text
+                // starting positions of parts are no estimates of the text, and moving from them is not reported
                 let started = started.map(|started| match drawn {
                     Some(_) => started.moved_from(&whole.kinematics(None).estimates()),
                     None => started,
@@ -163,65 +162,68 @@ impl Compiled {
                         return Ok(started);
                     }
                     let whole = self.unassembled(horizon, options);
-                    said.extend(started.far_estimates_at(at.from));
+                    diagnostics.extend(started.far_estimates_at(at.from));
                     let (started, passed) = analysis::follow_to(&whole, (started, at.from))?;
-                    said.extend(passed);
+                    diagnostics.extend(passed);
                     Ok(started)
                 })
             }
         };
-        (started, said)
+        (started, diagnostics)
     }
 
-    /// Where it comes nearest to being assembled at a time (s), if it cannot be assembled there: its coordinates [m, rad].
-    pub(super) fn nearest(&self, t: f64, options: &RunOptions) -> Option<Vec<f64>> {
+    /// Returns the coordinates [m, rad] that come nearest to being assembled at a time (s), for a mechanism that cannot be assembled there.
+    pub(crate) fn nearest(&self, t: f64, options: &RunOptions) -> Option<Vec<f64>> {
         let horizon = Horizon::of_analysis(self.analysis()).beginning(t);
-        let (from, at) = match self.begins(horizon, options).0 {
-            Beginning::Started(started) => (started.ok().map(|started| started.q().to_vec()), horizon),
-            Beginning::At(Begin::Position(q), at) => (Some(q), at),
-            Beginning::At(Begin::Estimates(drawn), at) => (drawn, at),
+        let (from, at) = match self.initial_guess(horizon, options).0 {
+            StartStage::Started(started) => (started.ok().map(|started| started.q().to_vec()), horizon),
+            StartStage::At(InitialGuess::Position(q), at) => (Some(q), at),
+            StartStage::At(InitialGuess::Estimates(drawn), at) => (drawn, at),
         };
         self.unassembled(at, options).nearest(from.as_deref())
     }
 
-    /// The first time of the text's own analysis (s), or 0: there the drawing decides which branch is followed.
+    /// Returns the first time of the text's analysis (s), or 0. The estimates select the branch at that time.
     fn first_time(&self) -> f64 {
         self.analysis().map_or(0.0, |[from, ..]| from)
     }
 
-    /// What is to be assembled at the first time of a horizon.
-    pub(super) fn unassembled(&self, horizon: Horizon, options: &RunOptions) -> Unassembled {
+    /// Returns the mechanism with all that its assembly at the first time of a horizon needs.
+    pub(crate) fn unassembled(&self, horizon: Horizon, options: &RunOptions) -> Unassembled {
         let RunOptions { tolerance, pass_bifurcations, ref cancel, .. } = *options;
         let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
         Unassembled { determined, program, horizon, tolerance, pass_bifurcations, cancel: cancel.clone() }
     }
 
-    /// Where the values of its params lead it, the inputs that it is told, and its parts; with what is to be said of the way.
-    fn begins(&self, horizon: Horizon, options: &RunOptions) -> (Beginning, Diagnostics) {
-        let is_told = self.leading().is_some_and(|(leading, _)| leading.is_told);
-        let stand = options.stand.as_ref().filter(|_| is_told);
-        let (outset, mut said) = match (stand, self.over()) {
-            // who stands somewhere has got there with the params that are set
-            (Some(stand), _) => (Outset::At(stand.t, stand.q.clone()), Diagnostics::default()),
-            (None, None) => (Outset::Own(self.first_time()), Diagnostics::default()),
-            (None, Some(over)) => match over.lead(self.system(), horizon, options) {
-                (Some(Ok(started)), said) if is_told => (Outset::At(horizon.from, started.q().to_vec()), said),
-                (Some(started), said) => return (Beginning::Started(Box::new(started)), said),
-                (None, said) => (Outset::Estimates, said),
+    /// Returns the start, as far as continuations decide it, with their diagnostics: to params that are set, to given inputs, and of parts.
+    fn initial_guess(&self, horizon: Horizon, options: &RunOptions) -> (StartStage, Diagnostics) {
+        let has_given_inputs = self.start_solver().is_some_and(|(start_solver, _)| start_solver.has_given_inputs);
+        let stand = options.stand.as_ref().filter(|_| has_given_inputs);
+        let (origin, mut diagnostics) = match (stand, self.continuation()) {
+            // a configuration that is handed in was reached with the params that are set
+            (Some(stand), _) => (ContinuationOrigin::Configuration(stand.t, stand.q.clone()), Diagnostics::default()),
+            (None, None) => (ContinuationOrigin::Nominal(self.first_time()), Diagnostics::default()),
+            (None, Some(continuation)) => match continuation.start_system(self.system(), horizon, options) {
+                (Some(Ok(started)), diagnostics) if has_given_inputs => {
+                    (ContinuationOrigin::Configuration(horizon.from, started.q().to_vec()), diagnostics)
+                }
+                (Some(started), diagnostics) => return (StartStage::Started(Box::new(started)), diagnostics),
+                (None, diagnostics) => (ContinuationOrigin::Estimates, diagnostics),
             },
         };
-        // inputs that are told may have no value at the text's own first time
-        let is_there = is_told || self.first_time().total_cmp(&horizon.from).is_eq();
+        // given inputs may have no value at the first time of the text's analysis
+        let is_there = has_given_inputs || self.first_time().total_cmp(&horizon.from).is_eq();
         let at = if is_there { horizon } else { Horizon::of_analysis(self.analysis()).beginning(self.first_time()) };
-        let Some((leading, leave_out)) = self.leading() else {
-            return (Beginning::At(Begin::Estimates(None), at), said);
+        let Some((start_solver, leave_out)) = self.start_solver() else {
+            return (StartStage::At(InitialGuess::Estimates(None), at), diagnostics);
         };
-        let (begin, more) = leading.begin((self.determined(), self.program()), at, &outset, leave_out, options);
-        said.extend(more);
-        (Beginning::At(begin, at), said)
+        let system = CompiledSystem { determined: Arc::clone(self.determined()), program: Arc::clone(self.program()) };
+        let (guess, more) = start_solver.initial_guess(&system, at, &origin, leave_out, options);
+        diagnostics.extend(more);
+        (StartStage::At(guess, at), diagnostics)
     }
 
-    /// Why it cannot start, with a mend where a text without an analysis has no values at 0 s.
+    /// Adds a fix to an error of the start if the text has no analysis and no values at 0 s.
     fn with_analysis_proposed(&self, why: Box<Diagnostic>, horizon: Horizon) -> Box<Diagnostic> {
         let has_no_value = matches!(why.code, Code::E0605 | Code::E0606 | Code::E0608);
         if self.analysis().is_some() || horizon.from.total_cmp(&0.0).is_eq() || !has_no_value {
@@ -235,12 +237,12 @@ impl Compiled {
     }
 }
 
-/// How far it is known where a mechanism begins.
-enum Beginning {
-    /// Assembled, or why it cannot be.
+/// A start, as far as continuations decide it.
+enum StartStage {
+    /// Assembled, or why that fails.
     Started(Box<Result<Started, Box<Diagnostic>>>),
-    /// So, at the first time of a horizon.
-    At(Begin, Horizon),
+    /// To be assembled from a guess, at the first time of a horizon.
+    At(InitialGuess, Horizon),
 }
 
 impl Run {
@@ -249,16 +251,16 @@ impl Run {
         if let Some(refused) = refused.filter(Diagnostics::has_errors) {
             return (None, refused);
         }
-        let (started, mut said) = compiled.start(Horizon::of(times), options);
+        let (started, mut diagnostics) = compiled.start(Horizon::of(times), options);
         let mut started = match started {
             _ if options.cancel.is_cancelled() => return (None, Diagnostics::default()),
             Ok(started) => started,
             Err(why) => {
-                said.push(compiled.used_at().tell(*why));
-                return (None, said);
+                diagnostics.push(compiled.part_backtrace().annotate(*why));
+                return (None, diagnostics);
             }
         };
-        said.extend(compiled.used_at().told(started.remarks()));
+        diagnostics.extend(compiled.part_backtrace().annotate_all(started.remarks()));
         started.use_vectors(options.vectors);
         let assembly = assembly(compiled, &mut started, times.from());
         let results = compiled.system().results().outcomes.len();
@@ -281,39 +283,39 @@ impl Run {
             has_stopped: false,
             asked,
             results,
-            used_at: compiled.used_at().clone(),
+            part_backtrace: compiled.part_backtrace().clone(),
         };
-        (Some(run), said)
+        (Some(run), diagnostics)
     }
 
-    /// The names of the numbers of a row.
+    /// Returns the names of the columns.
     #[must_use]
     pub fn columns(&self) -> &[String] {
         &self.columns
     }
 
-    /// The units in which the numbers of a row are printed; the row itself is in SI.
+    /// Returns the units in which the columns are printed; rows themselves are in SI.
     #[must_use]
     pub fn units(&self) -> &[ColumnUnit] {
         &self.units
     }
 
-    /// The position at the first time.
+    /// Returns the position at the first time.
     #[must_use]
     pub fn assembly(&self) -> &Assembly {
         &self.assembly
     }
 
-    /// The output times.
+    /// Returns the output times.
     #[must_use]
     pub fn times(&self) -> &Times {
         &self.times
     }
 
-    /// The next row, in SI and the order of [`Run::columns`], without a copy; `None` behind the last one, and when it was cancelled.
+    /// Returns the next row, in SI and the order of [`Run::columns`], without a copy; `None` after the last one, and when it is cancelled.
     ///
     /// # Errors
-    /// Why the motion cannot go on; nothing comes behind that.
+    /// The motion cannot continue, and this is why; no rows follow.
     pub fn next_row(&mut self) -> Option<Result<&[f64], Box<Diagnostic>>> {
         if self.has_ended || self.cancel.is_cancelled() {
             return None;
@@ -321,11 +323,11 @@ impl Run {
         let row = self.motion.next_row();
         self.has_ended = !matches!(row, Some(Ok(_)));
         self.has_stopped |= matches!(row, Some(Err(_)));
-        row.map(|row| row.map_err(|why| Box::new(self.used_at.tell(*why))))
+        row.map(|row| row.map_err(|why| Box::new(self.part_backtrace.annotate(*why))))
     }
 
-    /// The results, in the order of [`Compiled::results`]; none at all where only some times were asked for or it was cancelled, and each
-    /// without a value once the motion has stopped. The motion is followed once more for them, the first time that they are asked for.
+    /// Returns the results, in the order of [`Compiled::results`]. `None` if only some times were requested or the work is cancelled; results have
+    /// no values if the motion has stopped. The first call follows the motion once more, later ones return `None`.
     pub fn results(&mut self) -> Option<Answers> {
         let asked = self.asked.take()?;
         if self.has_stopped {
@@ -333,26 +335,26 @@ impl Run {
             return Some(Answers { values: vec![None; count], digits: vec![0; count], ..Answers::default() });
         }
         let Answers { values, digits, notes, has_all_rows } = asked.answer()?;
-        let mut said = Diagnostics::default();
-        said.extend(notes);
-        let notes = self.used_at.told(said).into_iter().collect();
+        let mut diagnostics = Diagnostics::default();
+        diagnostics.extend(notes);
+        let notes = self.part_backtrace.annotate_all(diagnostics).into_iter().collect();
         Some(Answers { values, digits, notes, has_all_rows })
     }
 
-    /// From now on it remembers at which times accelerations jump.
+    /// Records from now on the times at which accelerations jump.
     pub fn keep_edges(&mut self) {
         self.motion.keep_edges();
     }
 
-    /// The times (s) at which accelerations have jumped, or have been seen to jump behind the last row; ascending.
+    /// Returns the times (s) at which accelerations jumped, rising; some may be after the last row.
     #[must_use]
     pub fn edges(&self) -> Vec<f64> {
         self.motion.edges()
     }
 
-    /// What there is to say beside the rows so far, each thing once.
+    /// Returns the warnings and notes of the rows so far, and forgets them.
     pub fn take_remarks(&mut self) -> Diagnostics {
-        self.used_at.told(self.motion.take_remarks())
+        self.part_backtrace.annotate_all(self.motion.take_remarks())
     }
 }
 
@@ -395,8 +397,8 @@ mod tests {
         assert!(run.next_row().is_some_and(|row| row.is_ok()));
         cancel.cancel();
         assert!(run.next_row().is_none(), "it went on, or was told why");
-        let (run, said) = compiled_now.run(&times, &options);
-        assert!(run.is_none() && said.is_empty());
+        let (run, diagnostics) = compiled_now.run(&times, &options);
+        assert!(run.is_none() && diagnostics.is_empty());
         assert!(compiled(&cancel).is_none());
     }
 

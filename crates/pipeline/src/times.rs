@@ -1,28 +1,40 @@
-//! Which times to compute: what is asked for over what the file's analysis says.
+//! Times to compute: what options request, over the analysis of the text.
 
-use super::seconds;
 use mechc_engine::analysis::Times;
+use mechc_lang::check;
+use mechc_lang::model::Dimension;
+use mechc_syntax as syntax;
 use mechc_text::diag::{Code, Diagnostic, Diagnostics, readable};
 use mechc_text::source::Sources;
 
-/// First time, last time and step (s), as far as they are said; and times of their own.
+/// Returns the time (s) that an option gives as a number of seconds, or as a formula with units.
+///
+/// # Errors
+/// The text does not follow the grammar, or is no time.
+pub fn seconds(option: &str, text: &str, sources: &mut Sources) -> Result<f64, Diagnostics> {
+    let file = sources.add_option(option, text);
+    let formula = syntax::parse_expression(sources, file)?;
+    check::constant(&formula, &format!("the value of `{option}`"), Dimension::TIME, sources)
+}
+
+/// First time, last time and step (s), as far as they are given; and single times.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct AskedTimes {
-    /// The first time.
+    /// First time.
     pub from: Option<f64>,
-    /// The last time.
+    /// Last time.
     pub to: Option<f64>,
-    /// From one output time to the next.
+    /// Step between output times.
     pub every: Option<f64>,
-    /// Only these, followed from the first time; all of the interval where there are none.
+    /// Single times, followed from the first time; empty for all times of the interval.
     pub at: Vec<f64>,
 }
 
 impl AskedTimes {
-    /// As options say them, by their names: numbers of seconds, or formulas with units.
+    /// Reads the values of the options `--from`, `--to`, `--every` and `--at`: numbers of seconds, or formulas with units.
     ///
     /// # Errors
-    /// One of them is no time.
+    /// A value is no time.
     pub fn of(
         [from, to, every]: [&Option<String>; 3],
         at: &[String],
@@ -35,7 +47,7 @@ impl AskedTimes {
         Ok(AskedTimes { from, to, every, at })
     }
 
-    /// With what the file's analysis says: first time, last time and step (s).
+    /// Completes the times by those of the text's analysis: first time, last time and step (s).
     ///
     /// # Errors
     /// The step is not positive.
@@ -49,10 +61,10 @@ impl AskedTimes {
         Ok(AskedTimes { from, to, every, at: self.at.clone() })
     }
 
-    /// The times of their own, if there are any, else those of the interval.
+    /// Returns the single times if there are any, else those of the interval.
     ///
     /// # Errors
-    /// It is not said which times to compute, or they cannot be computed.
+    /// The times are not given, or cannot be computed.
     pub fn times(&self) -> Result<Times, Box<Diagnostic>> {
         match self.listed()? {
             Some(times) => Ok(times),
@@ -60,10 +72,10 @@ impl AskedTimes {
         }
     }
 
-    /// All times of the analysis, or where it is not said which these are, those of their own.
+    /// Returns all times of the interval if it is given, else the single times.
     ///
     /// # Errors
-    /// As [`AskedTimes::times`].
+    /// See [`AskedTimes::times`].
     pub fn whole(&self) -> Result<Times, Box<Diagnostic>> {
         let is_known = self.from.is_some() && self.to.is_some() && self.every.is_some();
         match self.listed()? {
@@ -72,7 +84,7 @@ impl AskedTimes {
         }
     }
 
-    /// The times of their own, if there are any.
+    /// Returns the single times, if there are any.
     ///
     /// # Errors
     /// One of them is before the first time.
@@ -87,10 +99,10 @@ impl AskedTimes {
         Ok(Some(Times::listed(from, self.at.clone()).within_analysis_to(self.to)))
     }
 
-    /// All times of the analysis.
+    /// Returns all times of the interval.
     ///
     /// # Errors
-    /// It is not said from when to when and how often, or the times cannot be computed.
+    /// The interval is not given, or its times cannot be computed.
     pub fn grid(&self) -> Result<Times, Box<Diagnostic>> {
         let (Some(from), Some(to), Some(every)) = (self.from, self.to, self.every) else {
             let said = Diagnostic::new(Code::E0705, "it is not said which times to compute").help(

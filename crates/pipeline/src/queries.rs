@@ -1,45 +1,56 @@
-//! What an editor asks of a mechanism that was checked, or compiled, one declaration at a time.
+//! Queries of editors about one declaration of a mechanism that was checked or compiled.
 
-use super::lowered::lowered;
-use super::{Assembly, Checked, Compiled};
+use crate::lowering::lowered;
+use crate::{Assembly, Checked, Compiled};
 use mechc_expr::Symbol;
+use mechc_ir::ConstraintSystem;
 use mechc_lang::check::{self, Known, NameKind};
 use mechc_lang::model::Dimension;
 use mechc_syntax::ast::{self, Feature, FeatureKind, Item, ItemKind, Mechanism, MechanismName};
 use mechc_text::source::Span;
+use std::sync::OnceLock;
+
+/// Caches what the first query of an editor computes.
+#[derive(Debug, Default)]
+pub(crate) struct QueryCache {
+    /// Facts about its declarations.
+    pub known: OnceLock<Known>,
+    /// Its equations; `None` inside if it has errors.
+    pub lowered: OnceLock<Option<ConstraintSystem>>,
+}
 
 /// A declaration that a path of names leads to, through parts and bodies.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Declaration {
-    /// What it declares.
+    /// Kind of the declaration.
     pub kind: NameKind,
-    /// All of it, in the text that holds it.
+    /// Span of the whole declaration, in the text that holds it.
     pub span: Span,
-    /// The text of its `///` lines.
+    /// Text of its `///` lines.
     pub docs: Vec<String>,
 }
 
-/// What may be said of a mechanism where it is a part.
+/// The interface of a mechanism that is used as a part.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Interface {
-    /// Its name.
+    /// Name of the mechanism.
     pub name: String,
-    /// The text of its `///` lines.
+    /// Text of its `///` lines.
     pub docs: Vec<String>,
     /// Its params and inputs, each with its formula as it is written.
     pub bindings: Vec<(String, String)>,
 }
 
 impl Checked {
-    /// What its declarations bring, and the values of its params, as far as the text tells, whatever is wrong with it.
+    /// Returns facts about its declarations and the values of its params, as far as the text gives them, even if it has errors.
     #[must_use]
     pub fn known(&self) -> &Known {
-        self.asked.known.get_or_init(|| {
-            self.tree().map(|tree| check::known(tree, &self.surroundings, self.sources())).unwrap_or_default()
+        self.query_cache.known.get_or_init(|| {
+            self.tree().map(|tree| check::known(tree, &self.check_options, self.sources())).unwrap_or_default()
         })
     }
 
-    /// The declaration of a path: `crank`, `crank.pin`, `front.crank.pin`; without the numbers of what is repeated.
+    /// Returns the declaration of a path without indices of copies: `crank`, `crank.pin`, `front.crank.pin`.
     #[must_use]
     pub fn declared(&self, path: &[&str]) -> Option<Declaration> {
         let mut tree = self.tree()?;
@@ -52,14 +63,14 @@ impl Checked {
                 }
                 (ItemKind::Part(part), _) => tree = self.mechanism(&part.mechanism)?,
                 (ItemKind::Body { features, .. } | ItemKind::Ground { features }, [feature]) => {
-                    return features.iter().find(|known| known.name.text == **feature).map(of_feature);
+                    return features.iter().find(|known| known.name.text == **feature).map(feature_declaration);
                 }
                 _ => return None,
             }
         }
     }
 
-    /// What may be said of a mechanism that its text may have for a part, by its name with the prefix before it.
+    /// Returns the interface of a mechanism that its text may use as a part, by its name and prefix.
     #[must_use]
     pub fn interface(&self, prefix: Option<&str>, name: &str) -> Option<Interface> {
         let here = self.tree()?.name.span;
@@ -74,22 +85,22 @@ impl Checked {
         Some(Interface { name: tree.name.text.clone(), docs: tree.docs.clone(), bindings: bindings.collect() })
     }
 
-    /// The equations of a joint, constraint or driver with their right sides, be the mechanism determined or not; nothing where it is not
-    /// sound.
+    /// Returns the equations of a joint, constraint or driver with their right sides, even if the mechanism is not determined; `None` if it has
+    /// errors.
     #[must_use]
     pub fn equations_of(&self, name: &str) -> Option<String> {
-        let lowered = self.asked.lowered.get_or_init(|| self.model.as_ref().map(|model| lowered(model)));
+        let lowered = self.query_cache.lowered.get_or_init(|| self.model.as_ref().map(|model| lowered(model)));
         lowered.as_ref()?.equations_of(name)
     }
 
-    /// The first two derivatives of a `fn` by its argument, as formulas; nothing where it cannot be read.
+    /// Returns the first two derivatives of a `fn` by its argument, as formulas; `None` if it cannot be read.
     #[must_use]
     pub fn slopes_of(&self, function: &str) -> Option<[String; 2]> {
-        check::slopes(self.tree()?, function, &self.surroundings, self.sources())
+        check::slopes(self.tree()?, function, &self.check_options, self.sources())
     }
 
-    /// The value (SI) and dimension of a param of a part, `front.reach`; where the number of a copy is not told, of the first one. Nothing
-    /// where the mechanism is not sound, or where the param follows from others.
+    /// Returns the value (SI) and dimension of a param of a part, `front.reach`; without an index, of the first copy. `None` if the mechanism has
+    /// errors, or the param follows from others.
     #[must_use]
     pub fn param_in_part(&self, path: &str) -> Option<(f64, Dimension)> {
         let params = || self.model().into_iter().flat_map(|model| &model.params);
@@ -98,21 +109,20 @@ impl Checked {
         Some((param.value, param.dimension))
     }
 
-    pub(super) fn mechanism(&self, name: &MechanismName) -> Option<&Mechanism> {
+    pub(crate) fn mechanism(&self, name: &MechanismName) -> Option<&Mechanism> {
         let found = self.library.find(name.prefix.as_ref(), &name.name, self.sources()).ok()?;
         Some(self.library.tree(found))
     }
 }
 
 impl Compiled {
-    /// The equations of a joint, constraint or driver with their right sides.
+    /// Returns the equations of a joint, constraint or driver with their right sides.
     #[must_use]
     pub fn equations_of(&self, name: &str) -> Option<String> {
         self.system().equations_of(name)
     }
 
-    /// The name of a body, joint, constraint, driver, measure or result, or, where there are copies of it and the name has no number, of
-    /// the first of these.
+    /// Returns the full name of a body, joint, constraint, driver, measure or result; a name without an index is that of the first copy.
     #[must_use]
     pub fn first_copy(&self, name: &str) -> Option<String> {
         let system = self.system();
@@ -128,7 +138,7 @@ impl Compiled {
         names().find(|known| *known == name).or_else(|| names().find(|known| is_copy(known, name))).cloned()
     }
 
-    /// The named points that a joint, constraint or driver takes hold at.
+    /// Returns the named points that a joint, constraint or driver connects.
     #[must_use]
     pub fn points_of(&self, name: &str) -> Vec<String> {
         let system = self.system();
@@ -137,7 +147,7 @@ impl Compiled {
         points.iter().filter_map(|&point| system.point_name(point)).collect()
     }
 
-    /// The value of an input by the text at a time (s), and its SI unit.
+    /// Returns the value of an input at a time (s), and its SI unit.
     #[must_use]
     pub fn input_at(&self, name: &str, t: f64) -> Option<(f64, String)> {
         let system = self.system();
@@ -150,7 +160,7 @@ impl Compiled {
         Some((value, input.unit.clone()))
     }
 
-    /// Where a point is in the ground's frame (m), in an assembled position: `crank.pin`, `ground.O`.
+    /// Returns the position of a point, as `crank.pin` or `ground.O`, in the ground's frame (m).
     #[must_use]
     pub fn place_of(&self, point: &str, assembly: &Assembly) -> Option<[f64; 2]> {
         let system = self.system();
@@ -165,7 +175,7 @@ impl Compiled {
     }
 }
 
-/// Whether a name is another one with the numbers of a copy.
+/// Returns whether `known` is `name` with indices of copies.
 fn is_copy(known: &str, name: &str) -> bool {
     let mut parts = known.split('[');
     let mut rest = name;
@@ -178,7 +188,7 @@ fn is_copy(known: &str, name: &str) -> bool {
     rest.is_empty()
 }
 
-pub(super) fn item_named<'t>(tree: &'t Mechanism, name: &str) -> Option<&'t Item> {
+pub(crate) fn item_named<'t>(tree: &'t Mechanism, name: &str) -> Option<&'t Item> {
     tree.items.iter().find(|item| match &item.kind {
         ItemKind::Ground { .. } => name == "ground",
         _ => check::name_of(item).is_some_and(|own| own.text == name),
@@ -189,7 +199,7 @@ fn declaration(item: &Item) -> Declaration {
     Declaration { kind: NameKind::of(item), span: item.span, docs: item.docs.clone() }
 }
 
-fn of_feature(feature: &Feature) -> Declaration {
+fn feature_declaration(feature: &Feature) -> Declaration {
     let kind = match feature.kind {
         FeatureKind::Point { .. } => NameKind::Point,
         FeatureKind::AxisAlong { .. } | FeatureKind::AxisTo { .. } => NameKind::Axis,

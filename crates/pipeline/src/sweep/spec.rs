@@ -1,8 +1,10 @@
-//! Which variants a sweep computes: what `--vary` and `--sample` say, read.
+//! Specifications of sweeps: reads `--vary` and `--sample`, and lists the variants.
 
-use super::checked::VARY;
-use super::varied::{Found, Reader, is_of_angles, refuse_twice, si_unit, spaceless, unusable, written};
-use super::{Checked, Choice};
+use crate::checked::VARY;
+use crate::option_reader::{
+    OptionReader, SourcedResult, is_of_angles, refuse_duplicates, si_unit, spaceless, unusable, written,
+};
+use crate::{Checked, Choice};
 use mechc_engine::sweep::{Levels, MOST_OF_SOBOL, Method, Points, Sampling, Varying};
 use mechc_lang::check::{self, Column, Setting};
 use mechc_lang::model::Dimension;
@@ -13,70 +15,74 @@ use mechc_text::world::{self, World};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// What is to vary, as options say it.
+/// The options that specify a sweep.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct VaryOptions {
     /// `NAME=A..B:N`, `NAME=A,B,C`, `@FILE.csv`, and with a sample `NAME=A..B`.
     pub params: Vec<String>,
-    /// So many points within the ranges without a number of values.
+    /// Number of sample points within the ranges that have no number of values.
     pub sample: Option<u64>,
-    /// How these are spread.
+    /// The distribution of the sample.
     pub method: Option<Method>,
-    /// Which of the samples of its kind it is.
+    /// Selects one of the samples of its method.
     pub seed: Option<u64>,
 }
 
-/// The variants of a mechanism: which of its params vary, and what they are in each.
+/// The variants of a sweep: the params that vary, and their values in each variant.
 #[derive(Clone, Debug)]
 pub struct Variants {
     points: Points,
-    /// By param: the SI unit of its values, as a formula has it; empty for a pure number.
+    /// For each param, the SI unit of its values as a formula has it; empty for a pure number.
     units: Vec<String>,
-    /// By param: one of that unit.
+    /// For each param, the formula of one of its unit.
     ones: Vec<ast::Expr>,
-    /// With the texts of the options, and of the files that they name.
+    /// The texts of the mechanism, of the options, and of the files that these name.
     sources: Sources,
-    named: Vec<PathBuf>,
-    /// The numbers of the params that decide how often something is there, once somebody has asked.
-    pub(super) deciding: OnceLock<Vec<usize>>,
+    named_files: Vec<PathBuf>,
+    /// Indices of the params that decide counts, found at the first use.
+    pub(crate) count_params: OnceLock<Vec<usize>>,
 }
 
 impl Variants {
-    /// Of points, and by param the SI unit of its values, empty for a pure number; with the texts of the mechanism, and the option that says
-    /// what varies.
-    pub(super) fn of(points: Points, units: Vec<String>, mut sources: Sources, option: &str) -> Found<Variants> {
+    /// Makes variants of points. `units` holds for each param the SI unit of its values, empty for a pure number; `option` is named in messages.
+    pub(crate) fn new(
+        points: Points,
+        units: Vec<String>,
+        mut sources: Sources,
+        option: &str,
+    ) -> SourcedResult<Variants> {
         let mut ones = Vec::with_capacity(units.len());
         for (name, unit) in points.params().iter().zip(&units) {
             let file = sources.add_option(format!("{option} {name}"), written(1.0, unit));
             ones.push(syntax::parse_expression(&sources, file).map_err(|why| (sources.clone(), why))?);
         }
-        Ok(Variants { points, units, ones, sources, named: Vec::new(), deciding: OnceLock::new() })
+        Ok(Variants { points, units, ones, sources, named_files: Vec::new(), count_params: OnceLock::new() })
     }
 
-    /// The values of their params.
+    /// Returns the values of the params.
     #[must_use]
     pub fn points(&self) -> &Points {
         &self.points
     }
 
-    /// By param that varies: the SI unit of its values; `1` for a pure number.
+    /// Returns the SI unit of each param that varies; `1` for a pure number.
     pub fn units(&self) -> impl Iterator<Item = &str> {
         self.units.iter().map(|unit| if unit.is_empty() { "1" } else { unit.as_str() })
     }
 
-    /// The texts that were read, with those that were known before.
+    /// Returns the texts of the mechanism, of the options, and of the files that these name.
     #[must_use]
     pub fn sources(&self) -> &Sources {
         &self.sources
     }
 
-    /// The files that list variants.
+    /// Returns the files that list variants.
     #[must_use]
     pub fn named_files(&self) -> &[PathBuf] {
-        &self.named
+        &self.named_files
     }
 
-    /// What sets the params of a variant, as `--set` takes it: `rod=0.12 m`. It gives the same values, to the bit.
+    /// Returns the settings of a variant, as `--set` takes them: `rod=0.12 m`. They give the same values, to the bit.
     #[must_use]
     pub fn settings(&self, variant: u64) -> Vec<String> {
         let set = |((name, unit), value): ((&String, &String), f64)| format!("{name}={}", written(value, unit));
@@ -84,8 +90,8 @@ impl Variants {
         names.zip(self.values(variant)).map(set).collect()
     }
 
-    /// The same, read.
-    pub(super) fn read_settings(&self, values: &[f64]) -> impl Iterator<Item = Setting> {
+    /// Returns the settings of given values as formulas.
+    pub(crate) fn read_settings(&self, values: &[f64]) -> impl Iterator<Item = Setting> {
         let set = |((name, one), &value): ((&String, &ast::Expr), &f64)| {
             let number = ast::Expr { kind: ast::ExprKind::Literal { value, unit: None }, span: one.span };
             let kind = ast::ExprKind::Product(Box::new(number), vec![(ast::Factor::Times, one.clone())]);
@@ -94,8 +100,8 @@ impl Variants {
         self.points.params().iter().zip(&self.ones).zip(values).map(set)
     }
 
-    /// The values of a variant's params (SI).
-    pub(super) fn values(&self, variant: u64) -> Vec<f64> {
+    /// Returns the values of a variant's params (SI).
+    pub(crate) fn values(&self, variant: u64) -> Vec<f64> {
         let mut values = vec![0.0; self.points.params().len()];
         self.points.values(variant, &mut values);
         values
@@ -103,29 +109,31 @@ impl Variants {
 }
 
 impl Checked {
-    /// The variants that are asked for, of a mechanism that is sound; `choice` is what it was checked with.
+    /// Reads the variants of a sound mechanism; `choice` is what it was checked with.
     ///
     /// # Errors
-    /// Something cannot vary so; with the texts that the diagnostics speak of.
+    /// A param cannot vary as specified; with the texts that the diagnostics point into.
     pub fn variants(
         &self,
         vary: &VaryOptions,
         choice: &Choice,
         world: &dyn World,
     ) -> Result<Variants, (Sources, Diagnostics)> {
-        let own = |why: Box<Diagnostic>| (self.sources().clone(), Diagnostics::from(*why));
-        let asked = vary.params.iter().map(|text| Asked::of(text)).collect::<Result<Vec<_>, _>>().map_err(own)?;
-        refuse_without_counterpart(vary, &asked).map_err(own)?;
-        // whether it gets there is seen of each variant, and what is asked for beside the text stands in it already
+        let with_sources = |why: Box<Diagnostic>| (self.sources().clone(), Diagnostics::from(*why));
+        let arguments = vary.params.iter().map(|text| VaryArgument::parse(text)).collect::<Result<Vec<_>, _>>();
+        let arguments = arguments.map_err(with_sources)?;
+        refuse_without_counterpart(vary, &arguments).map_err(with_sources)?;
+        // each variant reports for itself whether it reaches its values; results that options add are in the tree already
         let choice = Choice { lead: false, results: Vec::new(), until: None, ..choice.clone() };
-        let reader = Reader { parsed: &self.parsed, own: self, choice: &choice, world, option: VARY };
-        let mut listing = Listing { reader, sources: self.sources().clone(), params: Vec::new(), named: Vec::new() };
+        let reader = OptionReader { parsed: &self.parsed, checked: self, choice: &choice, world, option: VARY };
+        let mut builder =
+            SpecBuilder { reader, sources: self.sources().clone(), params: Vec::new(), named_files: Vec::new() };
         let mut axes = Vec::new();
         let mut ranges: Option<(usize, Vec<usize>, Vec<[f64; 2]>)> = None;
-        for asked in &asked {
-            match listing.read(asked)? {
-                Read::Varying(axis) => axes.push(axis),
-                Read::Range(param, ends) => {
+        for argument in &arguments {
+            match builder.read(argument)? {
+                ParsedArgument::Axis(axis) => axes.push(axis),
+                ParsedArgument::Range(param, ends) => {
                     let (_, params, all) = ranges.get_or_insert_with(|| (axes.len(), Vec::new(), Vec::new()));
                     params.push(param);
                     all.push(ends);
@@ -136,19 +144,19 @@ impl Checked {
             let sample = Sampling::of(ends, count, vary.method.unwrap_or_default(), vary.seed);
             axes.insert(at, Varying { params, values: Levels::Sampled(Box::new(sample)) });
         }
-        let names: Vec<String> = listing.params.iter().map(|param| param.name.clone()).collect();
-        refuse_twice(names.iter(), &choice).map_err(own)?;
+        let names: Vec<String> = builder.params.iter().map(|param| param.name.clone()).collect();
+        refuse_duplicates(names.iter(), &choice).map_err(with_sources)?;
         let too_many = || {
             let why = unusable("there are more variants than can be counted".to_owned());
-            own(Box::new(why.help("ask for fewer values")))
+            with_sources(Box::new(why.help("ask for fewer values")))
         };
         let points = Points::new(names, axes).ok_or_else(too_many)?;
-        listing.variants(points)
+        builder.variants(points)
     }
 }
 
-/// One `--vary` in its parts.
-enum Asked {
+/// A `--vary` argument.
+enum VaryArgument {
     /// `NAME=A..B:N`
     Even { name: String, ends: [String; 2], count: u64 },
     /// `NAME=A..B`
@@ -159,17 +167,17 @@ enum Asked {
     File(PathBuf),
 }
 
-impl Asked {
-    fn of(text: &str) -> Result<Asked, Box<Diagnostic>> {
+impl VaryArgument {
+    fn parse(text: &str) -> Result<VaryArgument, Box<Diagnostic>> {
         if let Some(file) = text.trim().strip_prefix('@') {
-            return Ok(Asked::File(PathBuf::from(file.trim())));
+            return Ok(VaryArgument::File(PathBuf::from(file.trim())));
         }
         let named = text.split_once('=').map(|(name, rest)| (spaceless(name), rest.trim()));
         let Some((name, rest)) = named.filter(|(name, rest)| !name.is_empty() && !rest.is_empty()) else {
-            return refused(format!("`{VARY} {text}` does not say what varies"), FORMS);
+            return refuse(format!("`{VARY} {text}` does not say what varies"), VARY_HELP);
         };
         let Some((first, last)) = rest.split_once("..") else {
-            return Ok(Asked::List { name, values: between_commas(rest) });
+            return Ok(VaryArgument::List { name, values: split_at_commas(rest) });
         };
         let (last, count) = match last.rsplit_once(':') {
             None => (last, None),
@@ -177,15 +185,15 @@ impl Asked {
         };
         let ends = [first, last].map(|end| end.trim().to_owned());
         if ends.iter().any(String::is_empty) {
-            return refused(format!("`{VARY} {text}` does not say from where to where"), FORMS);
+            return refuse(format!("`{VARY} {text}` does not say from where to where"), VARY_HELP);
         }
         match count {
-            None => Ok(Asked::Range { name, ends }),
+            None => Ok(VaryArgument::Range { name, ends }),
             Some(count) => match count.parse() {
-                Ok(count) if count > 0 => Ok(Asked::Even { name, ends, count }),
+                Ok(count) if count > 0 => Ok(VaryArgument::Even { name, ends, count }),
                 _ => {
                     let [first, last] = &ends;
-                    refused(
+                    refuse(
                         format!("`{count}` is no number of values for `{name}`"),
                         &format!("a whole number from 1 on is wanted, as in `{VARY} {name}={first}..{last}:50`"),
                     )
@@ -195,11 +203,11 @@ impl Asked {
     }
 }
 
-const FORMS: &str = "write `--vary rod=100mm..200mm:50` for so many values, both ends included, `--vary speed=60rpm,90rpm` for a list,\n\
+const VARY_HELP: &str = "write `--vary rod=100mm..200mm:50` for so many values, both ends included, `--vary speed=60rpm,90rpm` for a list,\n\
                      `--vary @variants.csv` for a table, or `--vary rod=100mm..200mm` with `--sample 1000`";
 
-/// What stands between commas that are in no parentheses.
-fn between_commas(text: &str) -> Vec<String> {
+/// Splits at commas outside parentheses.
+fn split_at_commas(text: &str) -> Vec<String> {
     let mut depth = 0_u32;
     let is_between = |c: char| {
         match c {
@@ -212,94 +220,94 @@ fn between_commas(text: &str) -> Vec<String> {
     text.split(is_between).map(|part| part.trim().to_owned()).collect()
 }
 
-/// Ranges without a number of values and samples need each other.
-fn refuse_without_counterpart(vary: &VaryOptions, asked: &[Asked]) -> Result<(), Box<Diagnostic>> {
-    let range = asked.iter().find_map(|asked| match asked {
-        Asked::Range { name, ends: [first, last] } => Some((name, first, last)),
+/// Refuses ranges without a number of values if there is no sample, and the reverse.
+fn refuse_without_counterpart(vary: &VaryOptions, arguments: &[VaryArgument]) -> Result<(), Box<Diagnostic>> {
+    let range = arguments.iter().find_map(|argument| match argument {
+        VaryArgument::Range { name, ends: [first, last] } => Some((name, first, last)),
         _ => None,
     });
-    let even = asked.iter().find_map(|asked| match asked {
-        Asked::Even { name, .. } => Some(name),
+    let even = arguments.iter().find_map(|argument| match argument {
+        VaryArgument::Even { name, .. } => Some(name),
         _ => None,
     });
-    let ranges = asked.iter().filter(|asked| matches!(asked, Asked::Range { .. })).count();
+    let ranges = arguments.iter().filter(|argument| matches!(argument, VaryArgument::Range { .. })).count();
     match (range, even, vary.sample) {
-        (Some((name, ..)), Some(even), _) => refused(
+        (Some((name, ..)), Some(even), _) => refuse(
             format!("`{even}` has a number of values, and `{name}` has none"),
             "give all ranges a number of values, as in `--vary NAME=A..B:50`, or none, with `--sample N` for all of them together",
         ),
-        (Some((name, first, last)), None, None) => refused(
+        (Some((name, first, last)), None, None) => refuse(
             format!("it is not said how many values `{name}` has"),
             &format!(
                 "write `{VARY} {name}={first}..{last}:50` for 50, evenly, or add `--sample 1000` for a sample of all ranges"
             ),
         ),
-        (None, _, Some(_)) => refused(
+        (None, _, Some(_)) => refuse(
             "there is no range to take a sample of".to_owned(),
             "`--sample` is for ranges without a number of values: `--vary rod=100mm..200mm`",
         ),
-        (Some(_), None, Some(0)) => refused("a sample has one variant at least".to_owned(), "as in `--sample 1000`"),
-        (Some(_), None, Some(_)) if ranges > MOST_OF_SOBOL && vary.method != Some(Method::Random) => refused(
+        (Some(_), None, Some(0)) => refuse("a sample has one variant at least".to_owned(), "as in `--sample 1000`"),
+        (Some(_), None, Some(_)) if ranges > MOST_OF_SOBOL && vary.method != Some(Method::Random) => refuse(
             format!("Sobol's sequence is known here for {MOST_OF_SOBOL} params, and {ranges} are to vary"),
             "add `--method random`",
         ),
         (None, _, None) if vary.method.is_some() || vary.seed.is_some() => {
             let option = if vary.method.is_some() { "--method" } else { "--seed" };
-            let said = format!("`{option}` says how a sample is taken, and there is none");
-            refused(said, "add `--sample N`, or leave it out")
+            let message = format!("`{option}` says how a sample is taken, and there is none");
+            refuse(message, "add `--sample N`, or leave it out")
         }
         _ => Ok(()),
     }
 }
 
-fn refused<T>(message: String, help: &str) -> Result<T, Box<Diagnostic>> {
+fn refuse<T>(message: String, help: &str) -> Result<T, Box<Diagnostic>> {
     Err(Box::new(unusable(message).help(help)))
 }
 
 /// A param that varies.
-struct Param {
+struct VaryingParam {
     name: String,
-    /// The SI unit of its values; empty for a pure number.
+    /// SI unit of its values; empty for a pure number.
     unit: String,
 }
 
-/// What one `--vary` says.
-enum Read {
-    Varying(Varying),
-    /// A range that is to be sampled: of which param, first and last (SI).
+/// A `--vary` argument with values.
+enum ParsedArgument {
+    Axis(Varying),
+    /// A range to sample: index of the param, first and last value (SI).
     Range(usize, [f64; 2]),
 }
 
-/// What varies, as far as it is read.
-struct Listing<'r> {
-    reader: Reader<'r>,
+/// Collects what varies, argument by argument.
+struct SpecBuilder<'r> {
+    reader: OptionReader<'r>,
     sources: Sources,
-    params: Vec<Param>,
-    named: Vec<PathBuf>,
+    params: Vec<VaryingParam>,
+    named_files: Vec<PathBuf>,
 }
 
-impl Listing<'_> {
-    fn read(&mut self, asked: &Asked) -> Found<Read> {
-        Ok(match asked {
-            Asked::Even { name, ends, count } => {
+impl SpecBuilder<'_> {
+    fn read(&mut self, argument: &VaryArgument) -> SourcedResult<ParsedArgument> {
+        Ok(match argument {
+            VaryArgument::Even { name, ends, count } => {
                 let (param, values) = self.param(name, ends)?;
                 let values = Levels::Even { ends: [values[0], values[1]], count: *count };
-                Read::Varying(Varying { params: vec![param], values })
+                ParsedArgument::Axis(Varying { params: vec![param], values })
             }
-            Asked::Range { name, ends } => {
+            VaryArgument::Range { name, ends } => {
                 let (param, values) = self.param(name, ends)?;
-                Read::Range(param, [values[0], values[1]])
+                ParsedArgument::Range(param, [values[0], values[1]])
             }
-            Asked::List { name, values } => {
+            VaryArgument::List { name, values } => {
                 let (param, values) = self.param(name, values)?;
-                Read::Varying(Varying { params: vec![param], values: Levels::Listed(values) })
+                ParsedArgument::Axis(Varying { params: vec![param], values: Levels::Listed(values) })
             }
-            Asked::File(path) => Read::Varying(self.file(path)?),
+            VaryArgument::File(path) => ParsedArgument::Axis(self.file(path)?),
         })
     }
 
-    /// A param with formulas that it takes, each of which it could be set to: its number, and their values (SI).
-    fn param(&mut self, name: &str, formulas: &[String]) -> Found<(usize, Vec<f64>)> {
+    /// Evaluates formulas for a param, each of which it must accept; returns its index and their values (SI).
+    fn param(&mut self, name: &str, formulas: &[String]) -> SourcedResult<(usize, Vec<f64>)> {
         let (mut values, mut dimension) = (Vec::with_capacity(formulas.len()), None);
         for formula in formulas {
             let (_, value, found) = self.reader.number(name, formula)?;
@@ -315,39 +323,39 @@ impl Listing<'_> {
         Ok((self.add(name, unit), values))
     }
 
-    /// The SI unit that a param has in the text, for zeros, which say none.
+    /// Returns the SI unit that a param has in the text, for zeros, which have no unit of their own.
     fn unit_of_zeros(&self, name: &str) -> String {
-        let known = self.reader.own.settable_params().into_iter().find(|param| param.name == name);
-        let unit = known.map(|param| param.unit).unwrap_or_default();
-        // a point may be one of plain numbers
-        let is_its = self.reader.with(name, &format!("0 * {}", written(1.0, &unit))).is_ok();
-        if is_its { unit } else { String::new() }
+        let param_info = self.reader.checked.settable_params().into_iter().find(|param| param.name == name);
+        let unit = param_info.map(|param| param.unit).unwrap_or_default();
+        // a point may have plain numbers as coordinates
+        let is_accepted = self.reader.with(name, &format!("0 * {}", written(1.0, &unit))).is_ok();
+        if is_accepted { unit } else { String::new() }
     }
 
     fn add(&mut self, name: &str, unit: String) -> usize {
-        self.params.push(Param { name: name.to_owned(), unit });
+        self.params.push(VaryingParam { name: name.to_owned(), unit });
         self.params.len() - 1
     }
 
-    /// The variants that a table lists: a column for each param.
-    fn file(&mut self, path: &Path) -> Found<Varying> {
-        self.named.push(path.to_owned());
+    /// Reads the variants that a table lists, a column for each param.
+    fn file(&mut self, path: &Path) -> SourcedResult<Varying> {
+        self.named_files.push(path.to_owned());
         let file = world::rows_given(self.reader.world, path, &mut self.sources);
         let file = file.map_err(|why| (self.sources.clone(), (*why).into()))?;
         let columns = check::variants(self.sources.get(file), file).map_err(|faults| {
-            let mut said = Diagnostics::default();
-            said.extend(faults);
-            (self.sources.clone(), said)
+            let mut diagnostics = Diagnostics::default();
+            diagnostics.extend(faults);
+            (self.sources.clone(), diagnostics)
         })?;
         let mut params = Vec::with_capacity(columns.len());
         for Column { name, span, dimension, is_of_angles, values } in &columns {
-            let telling = values.iter().copied().find(|value| *value != 0.0);
-            let unit = match (dimension, telling) {
+            let nonzero = values.iter().copied().find(|value| *value != 0.0);
+            let unit = match (dimension, nonzero) {
                 (None, None) => self.unit_of_zeros(name),
                 (dimension, _) => si_unit(dimension.unwrap_or(Dimension::PURE), *is_of_angles),
             };
-            let tried = written(telling.unwrap_or(0.0), &unit);
-            self.reader.with(name, &tried).map_err(|why| self.of_column(*span, why))?;
+            let sample = written(nonzero.unwrap_or(0.0), &unit);
+            self.reader.with(name, &sample).map_err(|why| self.at_header(*span, why))?;
             params.push(self.add(name, unit));
         }
         let rows = columns.first().map_or(0, |column| column.values.len());
@@ -355,12 +363,12 @@ impl Listing<'_> {
         Ok(Varying { params, values: Levels::Listed(values) })
     }
 
-    /// What is wrong with a column, said at its header: the value that was tried stands in no text that a user has.
-    fn of_column(&self, header: Span, (mut sources, said): (Sources, Diagnostics)) -> (Sources, Diagnostics) {
+    /// Moves diagnostics of a column to its header: the value that was tried is in no text that a user has.
+    fn at_header(&self, header: Span, (mut sources, diagnostics): (Sources, Diagnostics)) -> (Sources, Diagnostics) {
         let table = self.sources.get(header.file);
         let file = sources.add(table.name.clone(), table.text.clone());
-        let mut moved = Diagnostics::default();
-        for mut one in said.iter().cloned() {
+        let mut relabeled = Diagnostics::default();
+        for mut one in diagnostics.iter().cloned() {
             if let Some(label) = one.labels.first_mut() {
                 label.span = Span { file, ..header };
             }
@@ -368,13 +376,14 @@ impl Listing<'_> {
             if self.sources.text(header).ends_with(')') {
                 one.help = vec!["a unit stands in brackets behind the name: `rod [mm]`".to_owned()];
             }
-            moved.push(one);
+            relabeled.push(one);
         }
-        (sources, moved)
+        (sources, relabeled)
     }
 
-    fn variants(self, points: Points) -> Found<Variants> {
+    fn variants(self, points: Points) -> SourcedResult<Variants> {
         let units = self.params.into_iter().map(|param| param.unit).collect();
-        Variants::of(points, units, self.sources, VARY).map(|variants| Variants { named: self.named, ..variants })
+        Variants::new(points, units, self.sources, VARY)
+            .map(|variants| Variants { named_files: self.named_files, ..variants })
     }
 }

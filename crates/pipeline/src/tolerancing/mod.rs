@@ -2,10 +2,13 @@
 //!
 //! All of it is that of variants of a sweep, the nominal one among them.
 
-use super::checked::TOL;
-use super::tolerance::{Affected, Tolerance, Verified};
-use super::varied::{Found, Reader, is_of_angles, number_and_unit, si_unit, spaceless, unusable};
-use super::{AskedTimes, Checked, Choice, Compiled, RunOptions, SweepOptions, Variants};
+mod deviation;
+
+pub use deviation::{Affected, Deviation, Shown, Tolerance, Verified};
+
+use crate::checked::TOL;
+use crate::option_reader::{OptionReader, SourcedResult, is_of_angles, number_and_unit, si_unit, spaceless, unusable};
+use crate::{AskedTimes, Checked, Choice, Compiled, RunOptions, SweepOptions, Variants};
 use mechc_engine::sweep::{Levels, Method, Points, Sampling, Status, Swept, Varying};
 use mechc_expr::{Binary, Dependence, ExprId, Node, Unary};
 use mechc_ir::Measure;
@@ -16,7 +19,7 @@ use mechc_text::world::World;
 use std::collections::BTreeSet;
 
 /// All corners are run of so many params; of more, those that are worst by the derivatives, and a sample.
-const MOST_CORNERS: usize = 12;
+const MAX_CORNER_PARAMS: usize = 12;
 const SAMPLE: u64 = 10_000;
 
 /// A mechanism whose params may be off, with what it was chosen by.
@@ -34,20 +37,20 @@ impl Checked {
     /// Something cannot be off so; with the texts that the diagnostics speak of.
     pub fn tolerancing<'c>(
         &'c self,
-        asked: &[String],
+        arguments: &[String],
         choice: &'c Choice,
         world: &'c dyn World,
-    ) -> Found<Tolerancing<'c>> {
-        let own = |why: Diagnostic| (self.sources().clone(), Diagnostics::from(why));
+    ) -> SourcedResult<Tolerancing<'c>> {
+        let with_sources = |why: Diagnostic| (self.sources().clone(), Diagnostics::from(why));
         let plain = Choice { lead: false, results: Vec::new(), ..choice.clone() };
-        let reader = Reader { parsed: &self.parsed, own: self, choice: &plain, world, option: TOL };
+        let reader = OptionReader { parsed: &self.parsed, checked: self, choice: &plain, world, option: TOL };
         let mut tolerances: Vec<Tolerance> = Vec::new();
-        for text in asked {
-            let asked = Asked::of(text).map_err(|why| own(*why))?;
-            for tolerance in asked.tolerances(&reader)? {
+        for text in arguments {
+            let argument = ToleranceArgument::parse(text).map_err(|why| with_sources(*why))?;
+            for tolerance in argument.tolerances(&reader)? {
                 if tolerances.iter().any(|known| known.name == tolerance.name) {
                     let why = unusable(format!("`{}` has two tolerances", tolerance.name));
-                    return Err(own(why.help("say one of them")));
+                    return Err(with_sources(why.help("say one of them")));
                 }
                 tolerances.push(tolerance);
             }
@@ -56,27 +59,29 @@ impl Checked {
     }
 
     /// Params of a name with their values (SI), as symbols of the model; those of all copies where the name has no number.
-    fn opened(&self, name: &str) -> Vec<(String, f64, Dimension)> {
-        self.with_open(vec![name.to_owned()]).and_then(|opened| opened.model.clone()).map_or(Vec::new(), |model| {
-            model.led.iter().map(|led| (led.declared.name.clone(), led.line[0], led.dimension)).collect()
-        })
+    fn symbolic_params(&self, name: &str) -> Vec<(String, f64, Dimension)> {
+        self.with_symbolic_params(vec![name.to_owned()])
+            .and_then(|symbolic| symbolic.model.clone())
+            .map_or(Vec::new(), |model| {
+                model.led.iter().map(|led| (led.declared.name.clone(), led.line[0], led.dimension)).collect()
+            })
     }
 }
 
 /// One `--tol` in its parts.
-struct Asked {
+struct ToleranceArgument {
     name: String,
     /// How far it may be below and above, or both where it is one.
     ends: Vec<String>,
 }
 
-const FORMS: &str =
+const TOL_HELP: &str =
     "write `--tol rod=0.05mm` for ±0.05 mm, or `--tol rod=-0.1mm..0mm` for what it may be below and above";
 
-impl Asked {
-    fn of(text: &str) -> Result<Asked, Box<Diagnostic>> {
+impl ToleranceArgument {
+    fn parse(text: &str) -> Result<ToleranceArgument, Box<Diagnostic>> {
         let named = text.split_once('=').map(|(name, rest)| (spaceless(name), rest.trim()));
-        let refused = |said: &str| Box::new(unusable(format!("`{TOL} {text}` {said}")).help(FORMS));
+        let refused = |problem: &str| Box::new(unusable(format!("`{TOL} {text}` {problem}")).help(TOL_HELP));
         let Some((name, rest)) = named.filter(|(name, _)| !name.is_empty()) else {
             return Err(refused("does not say what may be off, and how far"));
         };
@@ -89,11 +94,11 @@ impl Asked {
         if ends.iter().any(String::is_empty) {
             return Err(refused("does not say how far it may be off"));
         }
-        Ok(Asked { name, ends })
+        Ok(ToleranceArgument { name, ends })
     }
 
-    fn tolerances(&self, reader: &Reader<'_>) -> Found<Vec<Tolerance>> {
-        let own = |why: Diagnostic| (reader.own.sources().clone(), Diagnostics::from(why));
+    fn tolerances(&self, reader: &OptionReader<'_>) -> SourcedResult<Vec<Tolerance>> {
+        let with_sources = |why: Diagnostic| (reader.checked.sources().clone(), Diagnostics::from(why));
         let mut values = Vec::with_capacity(2);
         for end in &self.ends {
             values.push(reader.number(&self.name, end)?.1);
@@ -101,20 +106,20 @@ impl Asked {
         let range = match values[..] {
             [one] if one < 0.0 => {
                 let why = unusable(format!("the tolerance of `{}` is negative: `{}`", self.name, self.ends[0]));
-                return Err(own(why.help(FORMS)));
+                return Err(with_sources(why.help(TOL_HELP)));
             }
             [low, high] if low > high => {
                 let [low, high] = [&self.ends[0], &self.ends[1]];
                 let why = unusable(format!("the tolerance of `{}` goes from `{low}` down to `{high}`", self.name));
-                return Err(own(why.help(FORMS)));
+                return Err(with_sources(why.help(TOL_HELP)));
             }
             [low, high] => [low, high],
             _ => [-values[0], values[0]],
         };
-        let params = reader.own.opened(&self.name);
+        let params = reader.checked.symbolic_params(&self.name);
         if params.is_empty() {
-            let said = format!("`{}` decides what is repeated, and cannot be a little off", self.name);
-            return Err(own(unusable(said).help("give tolerances to lengths, angles and other numbers")));
+            let message = format!("`{}` decides what is repeated, and cannot be a little off", self.name);
+            return Err(with_sources(unusable(message).help("give tolerances to lengths, angles and other numbers")));
         }
         let is_angle = self.ends.iter().any(|end| is_of_angles(end));
         let unit_of = |dimension| match si_unit(dimension, is_angle) {
@@ -130,7 +135,7 @@ impl Asked {
     }
 
     /// The unit of what is said, where that is numbers of one, and how much of SI it is.
-    fn unit(&self, reader: &Reader<'_>) -> Option<(String, f64)> {
+    fn unit(&self, reader: &OptionReader<'_>) -> Option<(String, f64)> {
         let of =
             |end: &String| number_and_unit(end).filter(|(value, _)| *value != 0.0).map(|(_, unit)| unit.to_owned());
         let unit = self.ends.iter().find_map(of).filter(|unit| !unit.is_empty())?;
@@ -151,40 +156,40 @@ impl Tolerancing<'_> {
     ///
     /// # Errors
     /// The mechanism with its own params does not run, or there is nothing that could be off; with the texts that the diagnostics speak of.
-    pub fn affected(&self, compiled: &Compiled, options: &SweepOptions) -> Found<Vec<Affected>> {
+    pub fn affected(&self, compiled: &Compiled, options: &SweepOptions) -> SourcedResult<Vec<Affected>> {
         let slopes = Some([options.times.from.is_none(), options.times.to.is_none()]);
         let by = self.tolerances.iter().map(|of| of.name.clone()).collect();
         // results that are asked for beside the text stand in it already
         let choice = Choice { by, slopes, lead: true, results: Vec::new(), ..self.choice.clone() };
-        let mut means = if self.tolerances.is_empty() { Means::default() } else { Means::of(compiled) };
+        let mut means = if self.tolerances.is_empty() { JumpMeans::default() } else { JumpMeans::of(compiled) };
         let mut checked = self.checked.parsed.check(&Choice { results: means.texts(), ..choice.clone() }, self.world);
         if !checked.is_sound() {
-            means = Means::default();
+            means = JumpMeans::default();
             checked = self.checked.parsed.check(&choice, self.world);
         }
-        let refused = |said: &Diagnostics| (checked.sources().clone(), said.clone());
+        let refused = |diagnostics: &Diagnostics| (checked.sources().clone(), diagnostics.clone());
         if !checked.is_sound() {
             return Err(refused(checked.diagnostics()));
         }
-        let (with_slopes, said) = checked.compile(options.redundant, &options.cancel);
-        let with_slopes = with_slopes.ok_or_else(|| refused(&said))?;
-        let asked = self.asked_of(&with_slopes, means);
-        if asked.measures.is_empty() && asked.results.is_empty() {
+        let (with_slopes, diagnostics) = checked.compile(options.redundant, &options.cancel);
+        let with_slopes = with_slopes.ok_or_else(|| refused(&diagnostics))?;
+        let outputs = self.tolerated_outputs(&with_slopes, means);
+        if outputs.measures.is_empty() && outputs.results.is_empty() {
             let why = unusable("there is no measure and no result that could be off".to_owned())
                 .help("add one to the file, or a result with `--result 'stroke = max(x(P)) - min(x(P))'`");
             return Err(refused(&why.into()));
         }
         let nominal = Levels::Listed(self.tolerances.iter().map(|of| of.nominal).collect());
         let variants = self.variants(&checked, vec![Varying { params: self.all(), values: nominal }])?;
-        let columns = (!asked.measures.is_empty()).then(|| asked.columns());
+        let columns = (!outputs.measures.is_empty()).then(|| outputs.columns());
         let options = SweepOptions { columns, jobs: Some(1), ..options.clone() };
         let sweep = checked.sweep(&with_slopes, &variants, &options, |swept| swept);
         let swept: Option<Swept> = sweep.map_err(|why| refused(&(*why).into()))?.next();
         let Some(swept) = swept else { return Err(refused(&Diagnostics::default())) };
         if !swept.statuses[0].is_complete() {
-            return Err((self.checked.sources().clone(), why_not(compiled, &options)));
+            return Err((self.checked.sources().clone(), nominal_failure(compiled, &options)));
         }
-        Ok(asked.affected(&swept, &self.tolerances))
+        Ok(outputs.affected(&swept, &self.tolerances))
     }
 
     /// By measure or result: the largest nominal value of its SI unit among all of them, and among what may be off.
@@ -203,16 +208,16 @@ impl Tolerancing<'_> {
         (0..self.tolerances.len()).collect()
     }
 
-    fn variants(&self, of: &Checked, axes: Vec<Varying>) -> Found<Variants> {
+    fn variants(&self, of: &Checked, axes: Vec<Varying>) -> SourcedResult<Variants> {
         let names = self.tolerances.iter().map(|of| of.name.clone()).collect();
         let units = self.tolerances.iter().map(|of| if of.si == "1" { String::new() } else { of.si.clone() }).collect();
         let too_many = || (of.sources().clone(), unusable("there are too many corners".to_owned()).into());
         let points = Points::new(names, axes).ok_or_else(too_many)?;
-        Variants::of(points, units, of.sources().clone(), TOL)
+        Variants::new(points, units, of.sources().clone(), TOL)
     }
 
     /// The columns and results that can be off, of what is compiled with their derivatives.
-    fn asked_of(&self, compiled: &Compiled, means: Means) -> AskedOf {
+    fn tolerated_outputs(&self, compiled: &Compiled, means: JumpMeans) -> ToleratedOutputs {
         let (columns, units) = (compiled.columns(), compiled.units());
         let place = |name: &str| columns.iter().position(|column| column == name);
         let by = |name: &str| -> Vec<Option<usize>> {
@@ -221,18 +226,18 @@ impl Tolerancing<'_> {
         let measures = compiled.system().measures().iter().filter_map(|measure| {
             let column = place(&measure.name)?;
             let (name, si) = (measure.name.clone(), measure.units.si.clone());
-            Some(AskedMeasure { by: by(&name), name, column, unit: units[column].clone(), si })
+            Some(MeasureColumns { by: by(&name), name, column, unit: units[column].clone(), si })
         });
         let results = compiled.results().into_iter().zip(compiled.results_of_variants());
         let results = results.map(|((name, unit), (_, si))| (name, unit, si)).collect::<Vec<_>>();
-        let own = results.len() / (self.tolerances.len() + 1) - means.of.len();
-        AskedOf { measures: measures.collect(), results: results[..own].to_vec(), means }
+        let nominal_count = results.len() / (self.tolerances.len() + 1) - means.of.len();
+        ToleratedOutputs { measures: measures.collect(), results: results[..nominal_count].to_vec(), means }
     }
 
     /// The variants that verify what derivatives say, with how many of them are corners of all.
     fn corners(&self, affected: &[Affected]) -> (Vec<Vec<Varying>>, bool) {
         let ends: Vec<[f64; 2]> = self.tolerances.iter().map(Tolerance::ends).collect();
-        if self.tolerances.len() <= MOST_CORNERS {
+        if self.tolerances.len() <= MAX_CORNER_PARAMS {
             let axis = |(param, ends): (usize, &[f64; 2])| {
                 let values = if ends[0] < ends[1] { ends.to_vec() } else { vec![ends[0]] };
                 Varying { params: vec![param], values: Levels::Listed(values) }
@@ -261,7 +266,7 @@ impl Tolerancing<'_> {
     pub fn count(&self, affected: &[Affected]) -> u64 {
         let variants: u64 =
             self.corners(affected).0.iter().map(|axes| axes.iter().map(Varying::count).product::<u64>()).sum();
-        variants * Sought::of(affected).sweeps(&SweepOptions::default(), &[]).len() as u64
+        variants * CornerSearch::of(affected).sweeps(&SweepOptions::default(), &[]).len() as u64
     }
 
     /// Runs it with params that are off, and tells of so many variants that are done. It is compiled as `compiled`.
@@ -274,27 +279,27 @@ impl Tolerancing<'_> {
         affected: &[Affected],
         options: &SweepOptions,
         mut tick: impl FnMut(u64),
-    ) -> Found<Verified> {
+    ) -> SourcedResult<Verified> {
         let (all, are_all_corners) = self.corners(affected);
-        let mut sought = Sought::of(affected);
+        let mut search = CornerSearch::of(affected);
         for (group, axes) in all.into_iter().enumerate() {
             let variants = self.variants(self.checked, axes)?;
-            sought.variants += variants.points().count();
-            for asked in sought.sweeps(options, &compiled.columns()) {
-                let sweep = self.checked.sweep(compiled, &variants, &asked, |swept| swept);
+            search.variants += variants.points().count();
+            for outputs in search.sweeps(options, &compiled.columns()) {
+                let sweep = self.checked.sweep(compiled, &variants, &outputs, |swept| swept);
                 let sweep = sweep.map_err(|why| (self.checked.sources().clone(), Diagnostics::from(*why)))?;
                 for swept in sweep {
-                    sought.take(&swept, asked.columns.is_some(), (group, &variants));
+                    search.take(&swept, outputs.columns.is_some(), (group, &variants));
                     tick(swept.len() as u64);
                 }
             }
         }
-        Ok(sought.verified(are_all_corners, self.largest(affected)))
+        Ok(search.verified(are_all_corners, self.largest(affected)))
     }
 }
 
 /// Why it does not run with its own params.
-fn why_not(compiled: &Compiled, options: &SweepOptions) -> Diagnostics {
+fn nominal_failure(compiled: &Compiled, options: &SweepOptions) -> Diagnostics {
     let times = options.times.over(compiled.analysis()).and_then(|times| times.times());
     let times = match times {
         Ok(times) => times,
@@ -302,38 +307,38 @@ fn why_not(compiled: &Compiled, options: &SweepOptions) -> Diagnostics {
     };
     let SweepOptions { tolerance, pass_bifurcations, ref cancel, .. } = *options;
     let options = RunOptions { tolerance, pass_bifurcations, cancel: cancel.clone(), ..RunOptions::default() };
-    let (run, mut said) = compiled.run(&times, &options);
+    let (run, mut diagnostics) = compiled.run(&times, &options);
     if let Some(Err(why)) = run.and_then(|mut run| run.find(Result::is_err)) {
-        said.push(*why);
+        diagnostics.push(*why);
     }
-    if !said.has_errors() {
-        said.push(unusable("no way leads to what is set along the branch".to_owned()).help("leave `--set` out"));
+    if !diagnostics.has_errors() {
+        diagnostics.push(unusable("no way leads to what is set along the branch".to_owned()).help("leave `--set` out"));
     }
-    said
+    diagnostics
 }
 
 /// The columns and results that can be off.
-struct AskedOf {
-    measures: Vec<AskedMeasure>,
+struct ToleratedOutputs {
+    measures: Vec<MeasureColumns>,
     results: Vec<(String, ColumnUnit, String)>,
-    means: Means,
+    means: JumpMeans,
 }
 
 /// Means of measures that may jump, as further results behind all others: where a jump goes with a param, a measure has derivatives at all
 /// times but that one, of which they say nothing, while its mean has none.
 #[derive(Default)]
-struct Means {
+struct JumpMeans {
     /// Their measures.
     of: Vec<String>,
 }
 
-impl Means {
-    fn of(compiled: &Compiled) -> Means {
+impl JumpMeans {
+    fn of(compiled: &Compiled) -> JumpMeans {
         let system = compiled.system();
         let of_equations: Vec<ExprId> = system.rows().iter().map(|row| row.phi).collect();
         let may_break = |roots: &[ExprId]| {
             let graph = system.graph();
-            graph.reachable(roots).into_iter().any(|id| breaks(graph.node(id)))
+            graph.reachable(roots).into_iter().any(|id| may_jump(graph.node(id)))
         };
         let equations_bend = may_break(&of_equations);
         // velocities and places do not jump where equations bend
@@ -342,7 +347,7 @@ impl Means {
             let is_driven = dependence.highest_order() >= Some(2) || dependence.on(Dependence::FORCES);
             may_break(&[measure.value]) || (is_driven && (equations_bend || dependence.on(Dependence::FORCES)))
         };
-        Means { of: system.measures().iter().filter(jumps).map(|measure| measure.name.clone()).collect() }
+        JumpMeans { of: system.measures().iter().filter(jumps).map(|measure| measure.name.clone()).collect() }
     }
 
     fn texts(&self) -> Vec<String> {
@@ -351,14 +356,14 @@ impl Means {
 }
 
 /// Whether the value of a node may jump.
-fn breaks(node: Node) -> bool {
+fn may_jump(node: Node) -> bool {
     matches!(
         node,
         Node::Compare(..) | Node::Binary(Binary::Atan2 | Binary::Mod, ..) | Node::Unary(Unary::Floor | Unary::Sign, _)
     )
 }
 
-struct AskedMeasure {
+struct MeasureColumns {
     name: String,
     column: usize,
     /// By tolerance: the column of its derivative, if it has one.
@@ -375,23 +380,25 @@ struct Rows<'s> {
     slopes: Vec<Option<&'s [f64]>>,
 }
 
-impl AskedOf {
+impl ToleratedOutputs {
     /// The columns of time, and of each measure with its derivatives.
     fn columns(&self) -> Vec<usize> {
-        let of =
-            |measure: &AskedMeasure| [measure.column].into_iter().chain(measure.by.iter().copied().flatten()).collect();
+        let of = |measure: &MeasureColumns| {
+            [measure.column].into_iter().chain(measure.by.iter().copied().flatten()).collect()
+        };
         [0].into_iter().chain(self.measures.iter().flat_map(|measure| -> Vec<usize> { of(measure) })).collect()
     }
 
     /// What there is of the nominal variant.
     fn affected(self, swept: &Swept, tolerances: &[Tolerance]) -> Vec<Affected> {
         let (mut columns, mut all) = (swept.columns.iter(), Vec::new());
-        let (own, count) = (self.results.len(), tolerances.len());
+        let (nominal_count, count) = (self.results.len(), tolerances.len());
         let number = |k: usize| Some(swept.results[k][0]).filter(|value| value.is_finite());
-        let all_results = own + self.means.of.len();
-        let jumps = |measure: &AskedMeasure| -> Vec<bool> {
-            let mean = self.means.of.iter().position(|of| *of == measure.name).filter(|k| number(own + k).is_some());
-            let slope = |k: usize, j: usize| number(all_results + (own + k) * count + j);
+        let all_results = nominal_count + self.means.of.len();
+        let jumps = |measure: &MeasureColumns| -> Vec<bool> {
+            let mean =
+                self.means.of.iter().position(|of| *of == measure.name).filter(|k| number(nominal_count + k).is_some());
+            let slope = |k: usize, j: usize| number(all_results + (nominal_count + k) * count + j);
             (0..count).map(|j| mean.is_some_and(|k| slope(k, j).is_none())).collect()
         };
         if let Some(times) = columns.next() {
@@ -422,7 +429,7 @@ impl AskedOf {
 }
 
 /// A measure behind its widest jump, with no derivatives by those that the jump goes with.
-fn where_it_jumps(measure: AskedMeasure, rows: &Rows<'_>, jumps: &[bool]) -> Affected {
+fn where_it_jumps(measure: MeasureColumns, rows: &Rows<'_>, jumps: &[bool]) -> Affected {
     let Rows { times, values, slopes } = rows;
     let change = |row: &usize| (values[*row] - values[*row - 1]).abs();
     let widest = (1..times.len()).filter(|row| change(row).is_finite()).max_by(|a, b| change(a).total_cmp(&change(b)));
@@ -441,7 +448,7 @@ fn where_it_jumps(measure: AskedMeasure, rows: &Rows<'_>, jumps: &[bool]) -> Aff
 }
 
 /// A measure at the time at which the worst case of all tolerances is the largest; at the first time where no derivative is known.
-fn where_it_is_worst(measure: AskedMeasure, rows: &Rows<'_>, tolerances: &[Tolerance]) -> Affected {
+fn where_it_is_worst(measure: MeasureColumns, rows: &Rows<'_>, tolerances: &[Tolerance]) -> Affected {
     let Rows { times, values, slopes } = rows;
     let rows: Vec<usize> = (0..times.len()).filter(|&row| values[row].is_finite()).collect();
     let (mut worst, mut unknown) = (None, 0);
@@ -477,7 +484,7 @@ fn size<'t>(slopes: impl Iterator<Item = (f64, &'t Tolerance)>) -> f64 {
 }
 
 /// What is found of measures and results while variants are run.
-struct Sought<'a> {
+struct CornerSearch<'a> {
     affected: &'a [Affected],
     /// The times (s) at which measures are looked at, rising, each once.
     times: Vec<f64>,
@@ -490,13 +497,13 @@ struct Sought<'a> {
     first_lost: Option<(Vec<String>, &'static str)>,
 }
 
-impl Sought<'_> {
-    fn of(affected: &[Affected]) -> Sought<'_> {
+impl CornerSearch<'_> {
+    fn of(affected: &[Affected]) -> CornerSearch<'_> {
         let mut times: Vec<f64> = affected.iter().filter_map(|of| of.at).collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
         let (found, missing) = (vec![None; affected.len()], vec![None; affected.len()]);
-        Sought { affected, times, found, missing, variants: 0, lost: BTreeSet::new(), first_lost: None }
+        CornerSearch { affected, times, found, missing, variants: 0, lost: BTreeSet::new(), first_lost: None }
     }
 
     /// The sweeps that it takes: one for measures, at their times, and one for results.
@@ -536,18 +543,18 @@ impl Sought<'_> {
         for (column, (k, at)) in measures.enumerate().collect::<Vec<_>>() {
             let row = self.times.iter().position(|time| time.total_cmp(&at).is_eq());
             let value = row.and_then(|row| swept.columns.get(column)?.get(first_row + row).copied());
-            self.note(k, value.unwrap_or(f64::NAN), &set);
+            self.record(k, value.unwrap_or(f64::NAN), &set);
         }
     }
 
     fn take_results(&mut self, swept: &Swept, variant: usize, set: impl Fn() -> Vec<String>) {
         let results: Vec<usize> = (0..self.affected.len()).filter(|&k| self.affected[k].at.is_none()).collect();
         for (result, k) in results.into_iter().enumerate() {
-            self.note(k, swept.results[result][variant], &set);
+            self.record(k, swept.results[result][variant], &set);
         }
     }
 
-    fn note(&mut self, k: usize, value: f64, set: impl Fn() -> Vec<String>) {
+    fn record(&mut self, k: usize, value: f64, set: impl Fn() -> Vec<String>) {
         let off = value - self.affected[k].nominal;
         if off.is_finite() {
             let [low, high] = self.found[k].unwrap_or([off; 2]);

@@ -1,9 +1,9 @@
 //! What there is to see of a mechanism: its scene, its motion as a table, its texts. The one door to those who draw.
 
-use super::lowered::lowered;
-use super::options::RunOptions;
-use super::run::Run;
-use super::{Checked, Compiled};
+use crate::lowering::lowered;
+use crate::options::RunOptions;
+use crate::run::Run;
+use crate::{Checked, Compiled};
 use mechc_draw::scene::{Declaration, Faults, Joints, Length, Motion, Pose, Scene, drawn_poses};
 use mechc_engine::analysis::{self, FreeMotion, Horizon, Times};
 use mechc_ir::layout::{self, Column, ColumnKind, ColumnUnit};
@@ -145,7 +145,7 @@ impl Checked {
     }
 
     /// What there is to draw of a motion that was seen; nothing where it is not sound.
-    pub(super) fn drawn_anew(&self, seen: &Seen) -> Option<Scene> {
+    pub(crate) fn drawn_anew(&self, seen: &Seen) -> Option<Scene> {
         let model = self.model()?;
         Some(self.with_places(Scene::of(model, &seen.motion), seen))
     }
@@ -344,9 +344,9 @@ fn named<'d>(scene: &Scene, said: impl Iterator<Item = &'d Diagnostic>) -> Vec<u
             error.data.get("redundant").and_then(|names| names.as_array()).filter(|names| !names.is_empty());
         match redundant {
             Some(names) => {
-                let is_one = |name: &str| names.iter().any(|one| one.as_str() == Some(name));
+                let is_angle = |name: &str| names.iter().any(|one| one.as_str() == Some(name));
                 let all = scene.declarations.iter().enumerate();
-                named.extend(all.filter(|(_, one)| is_one(&one.name)).map(|(number, _)| number));
+                named.extend(all.filter(|(_, one)| is_angle(&one.name)).map(|(number, _)| number));
             }
             None => error.labels.iter().for_each(|label| named.extend(innermost(scene, label.span, error))),
         }
@@ -364,11 +364,11 @@ fn innermost(scene: &Scene, place: Span, told: &Diagnostic) -> Vec<usize> {
     let Some(least) = around().map(|(_, one)| size(one.span)).min() else { return Vec::new() };
     let copies: Vec<usize> = around().filter(|(_, one)| size(one.span) == least).map(|(number, _)| number).collect();
     let texts = || std::iter::once(&told.message).chain(&told.notes).chain(told.labels.iter().map(|label| &label.text));
-    let is_told = |number: &usize| {
+    let has_given_inputs = |number: &usize| {
         let name = format!("`{}`", scene.declarations[*number].name);
         texts().any(|text| text.contains(&name))
     };
-    let told: Vec<usize> = copies.iter().copied().filter(is_told).collect();
+    let told: Vec<usize> = copies.iter().copied().filter(has_given_inputs).collect();
     if told.is_empty() { copies } else { told }
 }
 

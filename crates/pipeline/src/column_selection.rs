@@ -1,15 +1,15 @@
-//! Columns of rows, by patterns of their names.
+//! Selection of columns by patterns of their names.
 
-use super::Compiled;
+use crate::Compiled;
 use mechc_text::diag::{Code, Diagnostic, nearest};
 use wildmatch::WildMatch;
 
 impl Compiled {
-    /// The numbers of the columns that any of some patterns fits, in which `*` stands for anything and `?` for one character; the first
-    /// column, the time, is always among them. All columns where there is no pattern.
+    /// Returns the indices of the columns that match any pattern, in which `*` matches any text and `?` one character; the first column, the time,
+    /// is always included. Returns all columns if there is no pattern.
     ///
     /// # Errors
-    /// No column fits one of them.
+    /// No column matches one of them.
     pub fn chosen_columns(&self, patterns: &[String]) -> Result<Vec<usize>, Box<Diagnostic>> {
         chosen(patterns, &self.columns())
     }
@@ -48,7 +48,7 @@ fn chosen(patterns: &[String], columns: &[String]) -> Result<Vec<usize>, Box<Dia
     Ok((0..columns.len()).filter(|&k| is_chosen[k]).collect())
 }
 
-/// Whether a pattern ends as columns do that hold what joints exert and drivers supply.
+/// Returns whether a pattern ends as the columns of reactions and efforts do.
 fn is_of_forces(pattern: &str) -> bool {
     [".fx", ".fy", ".torque", ".effort"].iter().any(|ending| pattern.trim().ends_with(ending))
 }

@@ -1,6 +1,6 @@
-//! A compiled mechanism as code for others.
+//! Emission of a compiled mechanism as code: collects what `mechc_emit` writes.
 
-use super::{Compiled, RunOptions};
+use crate::{Compiled, RunOptions};
 use mechc_emit::{self as emit, CrateFile, EmittedMotion, Following, LARGEST_STRAIGHT, Reference, TranslationUnit};
 use mechc_engine::analysis::{self, Horizon, Solving, Times};
 use mechc_engine::solver::BlockTables;
@@ -10,29 +10,29 @@ use mechc_ir::program::Program;
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Code, Diagnostic, Diagnostics};
 
-/// Rows and numbers at most that a crate is tested against.
+/// Limits of the rows and numbers that a crate is tested against.
 const MOST_ROWS: usize = 20;
 const MOST_NUMBERS: usize = 20_000;
 
-/// What Rust code is to hold.
+/// Options of emitted Rust code.
 #[derive(Clone, Debug)]
 pub struct RustOptions {
-    /// The name of the file, for the header.
+    /// Name of the file, for the header.
     pub file: String,
-    /// Whether it assembles the mechanism and follows its motion, beside evaluating the equations.
+    /// Whether the code assembles the mechanism and follows its motion, in addition to evaluating the equations.
     pub with_motion: bool,
-    /// Whether it gives the derivatives of the coordinates by the parameters too.
+    /// Whether the code computes derivatives of the coordinates by the params.
     pub with_sensitivities: bool,
-    /// How many variants or times are solved at once, beside one alone.
+    /// Number of variants or times that are solved at once, in addition to single ones.
     pub lanes: Option<usize>,
-    /// Whether a crate has a header and functions for C too.
+    /// Whether a crate has a header and functions for C.
     pub for_c: bool,
-    /// Beyond so many operations they are written as tables instead of lines.
+    /// Operations beyond this number are written as tables instead of lines.
     pub largest_straight: usize,
 }
 
 impl RustOptions {
-    /// All of one mechanism, from a file.
+    /// Returns the options of code with a motion and nothing else.
     #[must_use]
     pub fn of(file: impl Into<String>) -> RustOptions {
         let (with_motion, with_sensitivities, for_c) = (true, false, false);
@@ -42,14 +42,14 @@ impl RustOptions {
 }
 
 impl Compiled {
-    /// A Rust module; with what is to be said of it. Nothing where the start cannot be assembled, or it would be too large.
+    /// Emits a Rust module; returns diagnostics, too. `None` if the start cannot be assembled, or the module would be too large.
     #[must_use]
     pub fn rust(&self, options: &RustOptions) -> (Option<String>, Diagnostics) {
         self.emitted(options, |_, unit, _| Ok(emit::rust(unit)))
     }
 
-    /// The files of a crate of a name around that module, which holds itself against the rows of the file's analysis, or of the
-    /// first second. Where the motion stops on its way, what is said tells why.
+    /// Emits a crate of a name around that module. Its test compares it with the rows of the text's analysis, or of the first second. Reports why the
+    /// motion stops, if it does.
     #[must_use]
     pub fn package(&self, name: &str, options: &RustOptions) -> (Option<Vec<CrateFile>>, Diagnostics) {
         self.emitted(options, |compiled, unit, said| {
@@ -58,7 +58,7 @@ impl Compiled {
         })
     }
 
-    /// What is made of a unit; with what is to be said of it.
+    /// Makes code from a translation unit; returns diagnostics, too.
     fn emitted<T>(
         &self,
         options: &RustOptions,
@@ -88,10 +88,10 @@ impl Compiled {
         }
     }
 
-    /// Whether it can be written as code.
+    /// Returns whether the mechanism can be emitted.
     ///
     /// # Errors
-    /// A measure holds how a force changes with an input or parameter, which only `run` computes.
+    /// A measure holds the derivative of a force by an input or param, which only `run` computes.
     fn has_no_varied_forces(&self) -> Result<(), Box<Diagnostic>> {
         let system = self.system();
         let is_it = |id| system.graph().dependence(id).on(Dependence::VARIED_MULTIPLIERS);
@@ -103,7 +103,7 @@ impl Compiled {
         Err(Box::new(diagnostic.help("leave the measure out here; `mechc run` computes it")))
     }
 
-    /// The mechanism with its inputs as signals, where it has any and is to be solved.
+    /// Returns the mechanism with inputs as signals, if it has any and its motion is emitted.
     fn signals_for_code(&self, options: &RustOptions) -> Result<Option<Signals>, Diagnostics> {
         if !options.with_motion {
             return Ok(None);
@@ -126,7 +126,7 @@ impl Compiled {
         let following = match signals {
             None => None,
             Some(Signals { compiled, given: program }) => {
-                // of the assembly all is said already
+                // the diagnostics of the assembly are in `said` already
                 let begin = motion.as_ref().map(|motion| motion.q.as_slice());
                 let motion = Some(compiled.motion(program, begin, options, &mut Diagnostics::default())?);
                 let system = compiled.system();
@@ -153,8 +153,8 @@ impl Compiled {
         Ok(unit)
     }
 
-    /// What it takes to follow the motion from the start of the file's analysis, or from 0 s, by the operations of a program;
-    /// where it begins, if that is known.
+    /// Returns what code needs to follow the motion by the operations of a program, from the start of the text's analysis or from 0 s. `begin`
+    /// holds the start, if it is known.
     fn motion(
         &self,
         program: &Program,
@@ -191,11 +191,11 @@ impl Compiled {
         })
     }
 
-    /// The motion over the file's analysis, or over the first second where it has none.
+    /// Returns the motion over the text's analysis, or over the first second.
     fn reference(&self, said: &mut Diagnostics) -> Result<Reference, Box<Diagnostic>> {
         let [from, to, every] = self.analysis().unwrap_or([0.0, 1.0, 0.1]);
         let times = Times::grid(from, to, every).unwrap_or_else(|| Times::listed(from, vec![from]));
-        // without an analysis the last time is left out: only that of an analysis belongs to what was before an edge
+        // without an analysis the last time is omitted, as its row belongs to the motion after an edge
         let count = if self.analysis().is_some() { times.len() } else { times.len() - 1 };
         let (run, remarks) = self.run(&times, &RunOptions::default());
         let Some(mut run) = run else {
@@ -205,7 +205,7 @@ impl Compiled {
         let reactions = RowLayout::new(self.system()).reactions();
         columns.drain(reactions.clone());
         let wanted = (MOST_NUMBERS / columns.len()).clamp(2, MOST_ROWS) as u64;
-        // spread evenly, the first and the last among them
+        // spread evenly, the first and the last included
         let is_wanted = |k: u64| k == 0 || k * (wanted - 1) / (count - 1) > (k - 1) * (wanted - 1) / (count - 1);
         let (mut rows, mut last, mut number) = (Vec::new(), Vec::new(), 0);
         let (mut stopped, mut why) = (None, None);
@@ -234,10 +234,10 @@ impl Compiled {
     }
 }
 
-/// A mechanism with its inputs as signals.
+/// A mechanism with inputs as signals.
 struct Signals {
     compiled: Compiled,
-    /// Its program without the operations that say what they are by the text.
+    /// The program without operations that evaluate the inputs.
     given: Program,
 }
 

@@ -1,37 +1,37 @@
-//! A mechanism without those of its outputs that are wrong: what is measured and told has no part in how it moves.
+//! Removal of faulty outputs: measures, traces and results with errors do not affect the motion, which editors can still show.
 
-use super::{Checked, Choice};
+use crate::{Checked, Choice};
 use mechc_syntax::ast::{Item, ItemKind};
 use mechc_text::diag::Diagnostic;
 use mechc_text::source::Span;
 use mechc_text::world::World;
 use std::collections::BTreeSet;
 
-/// Outputs of outputs of outputs: nobody nests them deeper while something is wrong with them.
+/// Outputs may name outputs; so many rounds remove what depends on those that were removed.
 const MOST_ROUNDS: usize = 4;
 
 impl Checked {
-    /// Whether all that is known to be wrong with its text is in measures, traces, results and the analysis; in any of its mechanisms.
+    /// Returns whether all errors in its text, in any mechanism, are in measures, traces, results and the analysis.
     #[must_use]
     pub fn is_sound_but_for_outputs(&self) -> bool {
         self.wrong_outputs().is_some()
     }
 
-    /// The same without the outputs that are wrong, nor those that need them; every place is where it was. Nothing where anything else is
-    /// wrong, or nothing at all.
+    /// Returns the mechanism without faulty outputs and those that depend on them; all spans stay as they are. `None` if there are other errors, or
+    /// none.
     #[must_use]
     pub fn without_wrong_outputs(&self, world: &dyn World) -> Option<Checked> {
-        let number = self.number?;
+        let index = self.index?;
         let (mut checked, mut wrong) = (self.clone(), self.wrong_outputs()?);
         for _ in 0..MOST_ROUNDS {
             let text = &checked.sources().get(checked.file()).text;
             let parsed = checked.parsed.edited(&blanked(text, &wrong));
-            // where a brace was blanked with it, what follows is another text
+            // if a brace was blanked, the rest of the text reads differently
             if parsed.mechanisms().len() != checked.parsed.mechanisms().len() {
                 return None;
             }
             checked =
-                Checked::of_number(&parsed, &super::used::read(&parsed, world), number, &Choice::default(), world);
+                Checked::from_index(&parsed, &crate::imports::read(&parsed, world), index, &Choice::default(), world);
             if checked.is_sound() {
                 return Some(checked);
             }
@@ -40,20 +40,20 @@ impl Checked {
         None
     }
 
-    /// The places of the outputs that are wrong; nothing where anything else is, or nothing at all.
+    /// Returns the spans of the faulty outputs; `None` if there are other errors, or none.
     fn wrong_outputs(&self) -> Option<BTreeSet<Span>> {
         let errors = self.diagnostics().iter().filter(|said| said.is_error());
         let places: Option<BTreeSet<Span>> = errors.map(|error| self.output_of(error)).collect();
         places.filter(|places| !places.is_empty())
     }
 
-    /// The output that an error speaks of.
+    /// Returns the span of the output that an error is in.
     fn output_of(&self, error: &Diagnostic) -> Option<Span> {
         let place = error.labels.first().map(|label| label.span).filter(|span| span.file == self.file())?;
         let mut items = self.parsed.tree().mechanisms.iter().flat_map(|mechanism| &mechanism.items);
         let is_broken = |item: &&Item| matches!(item.kind, ItemKind::Broken { .. }) && item.span.start <= place.start;
         let holds = |item: &&Item| item.span.start <= place.start && place.end <= item.span.end;
-        // what is missing at the end of a declaration is told at what comes next
+        // the parser reports what is missing at the end of a declaration where the next one begins
         let is_of_syntax = self.parsed.faults().iter().any(|fault| fault == error);
         let item = if is_of_syntax { items.rfind(is_broken) } else { items.find(holds) }?;
         self.is_output(item).then_some(item.span)
@@ -64,12 +64,12 @@ impl Checked {
             ItemKind::Measure { .. } | ItemKind::Trace { .. } | ItemKind::Result { .. } | ItemKind::Analysis { .. } => {
                 true
             }
-            // by its first word
+            // a broken declaration is classified by its first word
             ItemKind::Broken { .. } => {
                 let text = self.sources().text(item.span);
                 let is =
                     |word: &&str| text.strip_prefix(*word).is_some_and(|rest| rest.starts_with(char::is_whitespace));
-                // a brace may be that of another declaration
+                // a brace may belong to another declaration
                 ["measure", "trace", "result", "analysis"].iter().any(is) && !text.contains(['{', '}'])
             }
             _ => false,
@@ -77,7 +77,7 @@ impl Checked {
     }
 }
 
-/// A text with spaces in some stretches, byte for byte.
+/// Replaces spans of a text by spaces, byte for byte.
 fn blanked(text: &str, stretches: &BTreeSet<Span>) -> String {
     let (mut blanked, mut end) = (String::with_capacity(text.len()), 0);
     for stretch in stretches {
@@ -101,7 +101,7 @@ mod tests {
     MORE
 }";
 
-    /// What is left of a text: nothing, or the text.
+    /// Returns the text that remains after the part that all cases share.
     fn left(more: &str) -> Option<String> {
         let text = DISC.replace("MORE", more);
         let world = Memory::default();
@@ -118,7 +118,7 @@ mod tests {
         assert_eq!(left("measure half = 2 *").as_deref().map(str::trim), Some("}"));
         assert_eq!(left("measure a = 2 *\n    measure b = t").as_deref().map(str::trim), Some("measure b = t\n}"));
         assert_eq!(left("trace p = wheel.Q").as_deref().map(str::trim), Some("}"));
-        // what is nowhere declared any more
+        // a result whose measure was removed
         assert_eq!(left("measure a = 1 mm + 1 s\n    result b = max(a)").as_deref().map(str::trim), Some("}"));
     }
 

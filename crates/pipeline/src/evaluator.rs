@@ -1,10 +1,10 @@
-//! A mechanism that is compiled once for all values of some of its inputs and params: for who asks again and again, as an optimiser or a
-//! controller does. What it gives depends on what it is asked alone, not on what it was asked before.
+//! Evaluates a mechanism for many values of some inputs and params, as optimisers and controllers need it; it is compiled once. A result
+//! depends on its query alone, not on queries before it.
 
-use super::beside::{Aim, Aimed, Beside};
-use super::over::{FromOwn, Reached};
-use super::varied::unusable;
-use super::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Variants};
+use crate::batch::{BatchEvaluator, Query, QueryResult};
+use crate::continuation::{Continuation, Outcome};
+use crate::option_reader::unusable;
+use crate::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Variants};
 use mechc_engine::analysis::{Answers, Asked, Times};
 use mechc_engine::sweep::{LANES, Levels, Points, Varying};
 use mechc_lang::check::{SetInputs, Surroundings};
@@ -13,20 +13,20 @@ use mechc_text::diag::{Code, Diagnostic, Diagnostics, readable};
 use mechc_text::source::Sources;
 use std::sync::Arc;
 
-/// What is to be adjusted, and how it is followed then.
+/// Options of an evaluator.
 #[derive(Clone, Debug)]
 pub struct Adjusting {
-    /// Inputs, by their names.
+    /// Names of the inputs that queries set.
     pub inputs: Vec<String>,
-    /// Whether inputs may have accelerations; else they have none, whatever is asked, and places may be looked at side by side.
+    /// Whether inputs may have accelerations; if not, accelerations of queries are ignored, and points can be evaluated in lanes.
     pub bend: bool,
-    /// Params, by their names.
+    /// Names of the params that queries set.
     pub params: Vec<String>,
-    /// What becomes of equations that follow from others.
+    /// The treatment of redundant equations.
     pub redundant: Redundant,
-    /// As a run has it.
+    /// See [`RunOptions::tolerance`].
     pub tolerance: f64,
-    /// As a run has it.
+    /// See [`RunOptions::pass_bifurcations`].
     pub pass_bifurcations: bool,
 }
 
@@ -38,29 +38,29 @@ impl Default for Adjusting {
     }
 }
 
-/// What an input is at a moment (SI).
+/// The motion of an input at a time (SI).
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct InputMotion {
-    /// Its value.
+    /// Value.
     pub value: f64,
-    /// By time.
+    /// First time derivative.
     pub rate: f64,
-    /// By time, twice.
+    /// Second time derivative.
     pub acceleration: f64,
 }
 
-/// A place that is asked for.
+/// A point to evaluate.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct AskedPlace {
-    /// When (s); at the first time of the analysis where nothing is said.
+    /// Time (s); `None` for the first time of the analysis.
     pub t: Option<f64>,
-    /// What inputs are there, at that time.
+    /// Motions of the inputs at that time.
     pub inputs: Vec<InputMotion>,
-    /// What params are there (SI).
+    /// Values of the params (SI).
     pub params: Vec<f64>,
 }
 
-/// A mechanism whose inputs and params can be adjusted.
+/// A mechanism that can be evaluated for many values of its inputs and params.
 ///
 /// ```
 /// use mechc::{Adjusting, AskedTimes, Cancel, Choice, Memory, Parsed, InputMotion};
@@ -87,73 +87,73 @@ pub struct Adjustable(Arc<Shared>);
 struct Shared {
     checked: Checked,
     compiled: Compiled,
-    from_own: FromOwn,
-    /// Its own values of all params of the model (SI).
-    own: Vec<f64>,
-    /// By input: the first of its params.
+    continuation: Continuation,
+    /// Nominal values of all params of the model (SI).
+    nominal: Vec<f64>,
+    /// For each input, the index of the first of its params.
     inputs: Vec<usize>,
-    /// The params, where there are any.
+    /// The params that queries set, if there are any.
     params: Option<Variants>,
     adjusting: Adjusting,
-    /// How many columns it has.
+    /// Number of columns.
     columns: usize,
-    /// What places share that are looked at side by side.
-    beside: Beside,
+    /// Evaluates points in lanes.
+    batch: BatchEvaluator,
 }
 
-/// What the last params lead to, if that was asked for just before: these, and the values of all.
-type Before = Option<(Vec<f64>, Values)>;
+/// The last params of a query, with the values of all params that they lead to.
+type LastParams = Option<(Vec<f64>, Values)>;
 
 impl Checked {
-    /// The same with inputs and params that can be adjusted; it is sound.
+    /// Makes an evaluator of a sound mechanism.
     ///
     /// # Errors
-    /// There is none of such a name, or it is not determined; with the texts that the diagnostics speak of.
+    /// An input or param does not exist, or the mechanism is not determined; with the texts that the diagnostics point into.
     pub fn adjustable(&self, adjusting: &Adjusting, cancel: &Cancel) -> Result<Adjustable, (Sources, Diagnostics)> {
-        let own = |why: Diagnostic| (self.sources().clone(), Diagnostics::from(why));
+        let with_sources = |why: Diagnostic| (self.sources().clone(), Diagnostics::from(why));
         let t = self.model().and_then(|model| model.analysis).map_or(0.0, |analysis| analysis.from);
         let set_inputs = SetInputs { t, names: adjusting.inputs.clone(), bend: adjusting.bend };
         let open = adjusting.params.clone();
-        let surroundings = Surroundings { set_inputs: Some(set_inputs), open, ..(*self.surroundings).clone() };
-        let Some(number) = self.number else { return Err((self.sources().clone(), self.diagnostics().clone())) };
+        let check_options = Surroundings { set_inputs: Some(set_inputs), open, ..(*self.check_options).clone() };
+        let Some(index) = self.index else { return Err((self.sources().clone(), self.diagnostics().clone())) };
         let checked =
-            Checked::in_surroundings(self.parsed.clone(), number, surroundings, false, Diagnostics::default());
-        let refused = |said: &Diagnostics| (checked.sources().clone(), said.clone());
-        let (compiled, said) = checked.compile(adjusting.redundant, cancel);
+            Checked::with_check_options(self.parsed.clone(), index, check_options, false, Diagnostics::default());
+        let refused = |diagnostics: &Diagnostics| (checked.sources().clone(), diagnostics.clone());
+        let (compiled, diagnostics) = checked.compile(adjusting.redundant, cancel);
         let Some((compiled, model)) = compiled.zip(checked.model()) else {
-            return Err(refused(if checked.is_sound() { &said } else { checked.diagnostics() }));
+            return Err(refused(if checked.is_sound() { &diagnostics } else { checked.diagnostics() }));
         };
         let first_param = |name: &String| {
             let is_it = |led: &&mechc_lang::model::Led| led.declared.name == *name;
             model.led.iter().find(is_it).and_then(|led| led.param).map(|k| k as usize)
         };
         let unknown = |name: &String, what: &str| {
-            let said = format!("there is no {what} `{name}` that could be adjusted");
-            own(Diagnostic::new(Code::E0703, said))
+            let message = format!("there is no {what} `{name}` that could be adjusted");
+            with_sources(Diagnostic::new(Code::E0703, message))
         };
         let inputs = adjusting.inputs.iter().map(|name| first_param(name).ok_or_else(|| unknown(name, "input")));
         let inputs = inputs.collect::<Result<Vec<usize>, _>>()?;
         if let Some(name) = adjusting.params.iter().find(|name| first_param(name).is_none()) {
             return Err(if self.settable_params().iter().any(|of| of.name == *name) {
-                let said = format!(
+                let message = format!(
                     "`{name}` decides what is repeated, and nothing leads from one number of bodies to another"
                 );
-                own(unusable(said).help("set it when the mechanism is loaded"))
+                with_sources(unusable(message).help("set it when the mechanism is loaded"))
             } else {
                 unknown(name, "param")
             });
         }
-        let own = model.params.iter().map(|param| param.value).collect();
-        let beside = Beside::of(model.led.iter().filter_map(|led| led.param).collect());
+        let nominal = model.params.iter().map(|param| param.value).collect();
+        let batch = BatchEvaluator::new(model.led.iter().filter_map(|led| led.param).collect());
         let params = self.params_to_adjust(&adjusting.params)?;
         let (led, redundant) = (checked.clone(), adjusting.redundant);
-        let from_own = FromOwn::new(move |options| led.stands(redundant, options));
+        let continuation = Continuation::new(move |options| led.nominal(redundant, options));
         let (adjusting, columns) = (adjusting.clone(), compiled.columns().len());
-        let shared = Shared { checked, compiled, from_own, own, inputs, params, adjusting, columns, beside };
+        let shared = Shared { checked, compiled, continuation, nominal, inputs, params, adjusting, columns, batch };
         Ok(Adjustable(Arc::new(shared)))
     }
 
-    /// The params of some names, each of which takes a number in SI.
+    /// Returns the params of the given names, each of which takes a number in SI.
     fn params_to_adjust(&self, names: &[String]) -> Result<Option<Variants>, (Sources, Diagnostics)> {
         if names.is_empty() {
             return Ok(None);
@@ -162,27 +162,26 @@ impl Checked {
         let of = |name: &String| known.iter().find(|of| of.name == *name);
         let values: Vec<f64> = names.iter().filter_map(|name| Some(of(name)?.value)).collect();
         let units = names.iter().map(|name| of(name).map_or(String::new(), |of| of.unit.clone())).collect();
-        let own = Varying { params: (0..names.len()).collect(), values: Levels::Listed(values) };
-        let Some(points) = Points::new(names.to_vec(), vec![own]) else { return Ok(None) };
-        Variants::of(points, units, self.sources().clone(), "--set").map(Some)
+        let nominal = Varying { params: (0..names.len()).collect(), values: Levels::Listed(values) };
+        let Some(points) = Points::new(names.to_vec(), vec![nominal]) else { return Ok(None) };
+        Variants::new(points, units, self.sources().clone(), "--set").map(Some)
     }
 }
 
 impl Adjustable {
-    /// What it is compiled to: its columns, their units, the names of its results.
+    /// Returns the compiled mechanism: its columns, their units, the names of its results.
     #[must_use]
     pub fn compiled(&self) -> &Compiled {
         &self.0.compiled
     }
 
-    /// Follows it at the times that are asked for, as options of a run ask, with its inputs set at the first of them, and its params (SI)
-    /// over those of its text, to which it is led along the branch. Each row goes to `row`, in SI and the order of its columns. Gives the
-    /// results, as [`super::Run::results`] does.
+    /// Follows the motion at the requested times, with inputs set at the first of them and params (SI) to which the mechanism is continued along its
+    /// branch. `row` receives each row, in SI and the order of the columns. Returns the results, as [`crate::Run::results`] does.
     ///
-    /// Values are in the order in which they were asked for.
+    /// Inputs and params are in the order of the evaluator's options.
     ///
     /// # Errors
-    /// Why it does not get there, or cannot go on: no way leads there (E0612), for instance.
+    /// No path leads to the values (E0612), or the motion stops.
     pub fn follow(
         &self,
         inputs: &[InputMotion],
@@ -192,13 +191,12 @@ impl Adjustable {
         row: impl FnMut(&[f64]),
     ) -> Result<Answers, Box<Diagnostic>> {
         let (values, analysis) = self.0.values(params)?;
-        let aim = self.0.aim(values, times.over(analysis)?.times()?, inputs);
-        self.0.follow(&aim, cancel, row)
+        let query = self.0.query(values, times.over(analysis)?.times()?, inputs);
+        self.0.follow(&query, cancel, row)
     }
 
-    /// Where it is at each of so many places, which `ask` writes: the row of each, in SI and the order of its columns, goes to `found` in
-    /// their order, with the bits that [`Adjustable::follow`] gives it alone; or why it does not get there. Places of which nothing is in
-    /// doubt are looked at side by side. It ends when it is cancelled.
+    /// Evaluates `count` points, which `ask` writes. `found` receives the row of each in their order, in SI and the order of the columns, with the
+    /// bits that [`Adjustable::follow`] gives; or why a point cannot be reached. Cancelling ends it.
     pub fn at_each(
         &self,
         count: usize,
@@ -206,32 +204,32 @@ impl Adjustable {
         cancel: &Cancel,
         mut found: impl FnMut(Result<&[f64], Box<Diagnostic>>),
     ) {
-        let (mut place, mut before, mut row) = (AskedPlace::default(), None, Vec::new());
+        let (mut place, mut last, mut row) = (AskedPlace::default(), None, Vec::new());
         let (shared, options) = (&*self.0, self.0.options(cancel));
         for first in (0..count).step_by(LANES) {
-            let mut aim = |number| {
-                ask(number, &mut place);
-                shared.aim_at(&place, &mut before)
+            let mut query = |index| {
+                ask(index, &mut place);
+                shared.query_at(&place, &mut last)
             };
-            let aims: Vec<Aimed> = (first..count.min(first + LANES)).map(&mut aim).collect();
-            let side = shared.beside.follow(&aims, (&shared.from_own, shared.columns), &options);
-            for (lane, aim) in aims.into_iter().enumerate() {
-                let is_known = side.as_ref().is_some_and(|side| side.write_row(lane, &mut row));
-                let alone = |aim: Aim| if is_known { Ok(()) } else { shared.last_row(&aim, cancel, &mut row) };
-                let is_there = aim.and_then(alone);
+            let queries: Vec<QueryResult> = (first..count.min(first + LANES)).map(&mut query).collect();
+            let lanes = shared.batch.follow(&queries, &shared.continuation, shared.columns, &options);
+            for (lane, query) in queries.into_iter().enumerate() {
+                let is_in_batch = lanes.as_ref().is_some_and(|lanes| lanes.write_row(lane, &mut row));
+                let alone = |query: Query| if is_in_batch { Ok(()) } else { shared.last_row(&query, cancel, &mut row) };
+                let outcome = query.and_then(alone);
                 if cancel.is_cancelled() {
                     return;
                 }
-                found(is_there.map(|()| &row[..shared.columns]));
+                found(outcome.map(|()| &row[..shared.columns]));
             }
-            if let Some(side) = side {
-                shared.beside.give_back(side);
+            if let Some(lanes) = lanes {
+                shared.batch.give_back(lanes);
             }
         }
     }
 }
 
-/// Of all params (SI), and first time, last time and step of the analysis (s), if there is one.
+/// The values of all params (SI), and first time, last time and step of the analysis (s), if there is one.
 type Values = (Vec<f64>, Option<[f64; 3]>);
 
 impl Shared {
@@ -240,56 +238,56 @@ impl Shared {
         RunOptions { tolerance, pass_bifurcations, cancel: cancel.clone(), ..RunOptions::default() }
     }
 
-    /// What inputs make of values, set at the first of some times.
-    fn aim(&self, mut values: Vec<f64>, times: Times, inputs: &[InputMotion]) -> Aim {
+    /// Returns a query with inputs that are set at the first of its times.
+    fn query(&self, mut values: Vec<f64>, times: Times, inputs: &[InputMotion]) -> Query {
         for (&first, &InputMotion { value, rate, acceleration }) in self.inputs.iter().zip(inputs) {
             let of_input = [value, times.from(), rate, acceleration];
             let count = if self.adjusting.bend { 4 } else { 3 };
             values[first..first + count].copy_from_slice(&of_input[..count]);
         }
-        Aim { values, times }
+        Query { values, times }
     }
 
-    /// What a place asks for.
-    fn aim_at(&self, place: &AskedPlace, before: &mut Before) -> Aimed {
+    /// Returns the query of a point.
+    fn query_at(&self, place: &AskedPlace, last: &mut LastParams) -> QueryResult {
         let is_it =
             |params: &[f64]| params.iter().map(|of| of.to_bits()).eq(place.params.iter().map(|of| of.to_bits()));
-        let known = match before.take().filter(|(params, _)| is_it(params)) {
+        let known = match last.take().filter(|(params, _)| is_it(params)) {
             Some(known) => known,
             None => (place.params.clone(), self.values(&place.params)?),
         };
-        let (values, analysis) = &before.insert(known).1;
+        let (values, analysis) = &last.insert(known).1;
         let at = place.t.unwrap_or_else(|| analysis.map_or(0.0, |[from, ..]| from));
         if let Some([from, ..]) = analysis.filter(|[from, ..]| place.inputs.is_empty() && at < *from) {
-            let said =
+            let message =
                 format!("`t` is {} s, before the first time of the analysis at {} s", readable(at), readable(from));
             let help = "the motion begins there: ask for later times";
-            return Err(Box::new(Diagnostic::new(Code::E0706, said).help(help)));
+            return Err(Box::new(Diagnostic::new(Code::E0706, message).help(help)));
         }
-        // inputs are what they are at that time, and not before
+        // inputs have their values at that time only
         let from = (!place.inputs.is_empty()).then_some(at);
         let times = AskedTimes { from, at: vec![at], ..AskedTimes::default() }.over(*analysis)?.times()?;
-        Ok(self.aim(values.clone(), times, &place.inputs))
+        Ok(self.query(values.clone(), times, &place.inputs))
     }
 
-    /// Of several rows the last one, which is that of the time.
-    fn last_row(&self, aim: &Aim, cancel: &Cancel, row: &mut Vec<f64>) -> Result<(), Box<Diagnostic>> {
+    /// Writes the last row that is followed, which is that of the time.
+    fn last_row(&self, query: &Query, cancel: &Cancel, row: &mut Vec<f64>) -> Result<(), Box<Diagnostic>> {
         row.resize(self.columns, f64::NAN);
         let keep = |found: &[f64]| {
             row.clear();
             row.extend_from_slice(found);
         };
-        self.follow(aim, cancel, keep).map(|_| ())
+        self.follow(query, cancel, keep).map(|_| ())
     }
 
-    fn follow(&self, aim: &Aim, cancel: &Cancel, mut row: impl FnMut(&[f64])) -> Result<Answers, Box<Diagnostic>> {
-        let (options, Aim { values, times }) = (self.options(cancel), aim);
-        let mut started = match self.from_own.lead_values(values, times, &options) {
-            Reached::There(started) => *started?,
-            Reached::Refused(said) => return Err(first_error(said)),
-            Reached::Nowhere(why) => return Err(lost(why)),
+    fn follow(&self, query: &Query, cancel: &Cancel, mut row: impl FnMut(&[f64])) -> Result<Answers, Box<Diagnostic>> {
+        let (options, Query { values, times }) = (self.options(cancel), query);
+        let mut started = match self.continuation.start_values(values, times, &options) {
+            Outcome::AtTarget(started) => *started?,
+            Outcome::Refused(diagnostics) => return Err(first_error(diagnostics)),
+            Outcome::NoPath(why) => return Err(lost(why)),
         };
-        // what a run tells of its start looks at the same factors
+        // a run asks for the conditioning, which decides the factors that are used; the bits must be the same
         let _ = started.conditioning();
         let has_results = !self.compiled.system().results().outcomes.is_empty();
         let interval = times.interval().filter(|_| has_results);
@@ -304,17 +302,17 @@ impl Shared {
         Ok(asked.and_then(Asked::answer).unwrap_or_default())
     }
 
-    /// The values of all params of the model, with its own inputs, and first time, last time and step of its analysis (s).
+    /// Returns the values of all params of the model (SI), inputs at their nominal values, and first time, last time and step of the analysis (s).
     fn values(&self, params: &[f64]) -> Result<Values, Box<Diagnostic>> {
-        let Some(variants) = &self.params else { return Ok((self.own.clone(), self.compiled.analysis())) };
-        let (model, said) = self.checked.model_led_to(variants.read_settings(params), variants.sources());
-        let model = model.ok_or_else(|| first_error(said))?;
+        let Some(variants) = &self.params else { return Ok((self.nominal.clone(), self.compiled.analysis())) };
+        let (model, diagnostics) = self.checked.model_with(variants.read_settings(params), variants.sources());
+        let model = model.ok_or_else(|| first_error(diagnostics))?;
         let analysis = model.analysis.map(|of| [of.from, of.to, of.every]);
         Ok((model.params.iter().map(|param| param.value).collect(), analysis))
     }
 }
 
-/// That no way leads there. Nothing else is tried then.
+/// Reports that no path leads to the values; nothing else is tried.
 fn lost(why: Option<Box<Diagnostic>>) -> Box<Diagnostic> {
     match why {
         Some(why) => Box::new(Diagnostic { notes: Vec::new(), ..*why }),
@@ -325,9 +323,9 @@ fn lost(why: Option<Box<Diagnostic>>) -> Box<Diagnostic> {
     }
 }
 
-/// The first error of what is said; there is one where something could not be made.
-fn first_error(said: Diagnostics) -> Box<Diagnostic> {
-    let error = said.into_iter().find(Diagnostic::is_error);
-    // what was cancelled says nothing, and nobody looks at it
+/// Returns the first error; where something could not be made, there is one.
+fn first_error(diagnostics: Diagnostics) -> Box<Diagnostic> {
+    let error = diagnostics.into_iter().find(Diagnostic::is_error);
+    // cancelled work has no error, and its diagnostic is never shown
     Box::new(error.unwrap_or_else(|| Diagnostic::new(Code::E0601, "it was not made")))
 }

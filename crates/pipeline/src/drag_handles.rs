@@ -1,39 +1,39 @@
-//! Bodies that a hand can turn: those whose angle a driver says.
+//! Drag handles: bodies whose angle a driver sets, which a user can turn in a picture.
 
-use super::Compiled;
-use super::knobs::at_time;
+use crate::Compiled;
+use crate::controls::at_time;
 use mechc_expr::{ExprId, Symbol};
 use mechc_ir::{BodyId, ConstraintSystem, Declaration, Input};
 
-/// An angle that changes less with its input [rad per SI unit of the input] cannot be led by it.
+/// An input that changes an angle less than this [rad per SI unit of the input] cannot turn it.
 const LEAST_RATE: f64 = 1e-9;
 
-/// A body that a driver turns by its angle alone.
+/// A body whose angle alone a driver sets.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Crank {
-    /// Its number among the bodies.
+    /// Index among the bodies.
     pub body: usize,
-    /// Around which of its points, where it is joined to the ground (m).
+    /// The point at which it is joined to the ground (m).
     pub pivot: [f64; 2],
-    /// The input that its driver speaks of; nothing where time alone turns it.
+    /// The input of its driver; `None` if time alone turns it.
     pub input: Option<Led>,
 }
 
-/// An input that leads an angle.
+/// An input that turns a body.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Led {
-    /// Its path.
+    /// Path of the input.
     pub name: String,
-    /// How the body's angle changes with it at the first time [rad per SI unit of the input]: finite, and not 0.
+    /// Derivative of the angle by the input at the first time [rad per SI unit of the input]: finite, and not 0.
     pub rate: f64,
 }
 
 impl Compiled {
-    /// The bodies that can be turned by hand, by what turns them at a time (s).
+    /// Returns the bodies that can be turned by hand, at a time (s).
     #[must_use]
     pub fn cranks(&self, t: f64) -> Vec<Crank> {
         let system = self.system();
-        // the equations of the text hold inputs as what they are by time
+        // the equations of the text have formulas of time in place of inputs
         let signals = self.with_signals();
         let system = signals.as_ref().unwrap_or(system);
         let turned = Turned { own: self.system(), system, t };
@@ -43,14 +43,14 @@ impl Compiled {
 
 /// A mechanism whose inputs are signals, at a time (s).
 struct Turned<'s> {
-    /// The same with inputs that are formulas of time.
+    /// The mechanism whose inputs are formulas of time.
     own: &'s ConstraintSystem,
     system: &'s ConstraintSystem,
     t: f64,
 }
 
 impl Turned<'_> {
-    /// The body that a driver's row turns.
+    /// Returns the body that the driver of a row turns.
     fn crank(&self, row: usize) -> Option<Crank> {
         let system = self.system;
         let [(column, by_angle)] = system.phi_q().row(row) else { return None };
@@ -65,17 +65,17 @@ impl Turned<'_> {
             .peekable();
         let is_led = led.peek().is_some();
         let input = led.flatten().next();
-        // one that an input turns, but not now, is not turned by time either
+        // a body that an input turns, but not at this time, is not turned by time either
         (phi == *column as usize && is_led == input.is_some()).then_some(Crank { body: body.index(), pivot, input })
     }
 
-    /// An input by which an angle changes, of an equation with `−Φ_u` and `Φ_φ`.
+    /// Returns the input if it changes the angle, by `−Φ_u` and `Φ_φ`.
     fn led(&self, slope: ExprId, by_angle: ExprId, input: &Input) -> Option<Led> {
         let rate = self.value(slope) / self.value(by_angle);
         (rate.is_finite() && rate.abs() > LEAST_RATE).then(|| Led { name: input.name.clone(), rate })
     }
 
-    /// A formula at that time, where estimates have everything.
+    /// Evaluates a formula at that time, with estimates as coordinates.
     fn value(&self, formula: ExprId) -> f64 {
         let Turned { own, system, t } = self;
         system.graph().value(formula, |symbol| match symbol {
@@ -100,7 +100,7 @@ impl Turned<'_> {
     }
 }
 
-/// Where a joint holds a body to the ground.
+/// Returns the point at which a joint connects a body to the ground.
 fn pivot(system: &ConstraintSystem, joint: &Declaration, body: BodyId) -> Option<[f64; 2]> {
     let [one, other] = joint.points.as_slice() else { return None };
     let on_body = match [one, other].map(|point| system.points()[*point].body) {
@@ -118,7 +118,7 @@ mod tests {
     use mechc_text::cancel::Cancel;
     use mechc_text::world::Memory;
 
-    /// What turns a disc whose driver says something of `axle`, or of `back`, which is written the other way round.
+    /// Returns the inputs that turn a disc whose driver names `axle`, or `back`, whose points are in reverse order.
     fn led(driver: &str) -> Vec<Option<Led>> {
         let text = format!(
             "mechanism disc {{
@@ -156,7 +156,7 @@ mod tests {
             assert!((led.rate - rate).abs() < 1e-9 * rate.abs(), "{driver}: {}", led.rate);
         }
         assert_eq!(led("rotation(axle) = 1 rev/s * t"), [None]);
-        // at the first time nothing is turned by it
+        // the input does not turn the disc at the first time
         assert_eq!(led("rotation(axle) = 1 rev/s * t * (turn - 60 deg)"), []);
         assert_eq!(led("rotation(axle) = (turn - 60 deg)^2"), []);
     }

@@ -1,39 +1,39 @@
-//! What of a mechanism can be set from outside, in SI: its params, and its inputs.
+//! Params and inputs that options can set, with their SI values.
 
-use super::formula::Formula;
-use super::varied::{is_of_angles, si_unit};
-use super::{Checked, Compiled};
+use crate::formula::Formula;
+use crate::option_reader::{is_of_angles, si_unit};
+use crate::{Checked, Compiled};
 use mechc_lang::check::{self, Amount};
 use mechc_lang::model::Dimension;
 use mechc_syntax::{self as syntax, ast::ItemKind};
 use mechc_text::diag::Diagnostics;
 use mechc_text::source::Sources;
 
-/// A param or an input, as an option sets it.
+/// A param or an input that an option can set.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Settable {
-    /// Its path: `crank_length`, `A.x`, `leg[1].la`.
+    /// Path: `crank_length`, `A.x`, `leg[1].la`.
     pub name: String,
-    /// The SI unit of its values, as a formula has it; empty for a pure number.
+    /// SI unit of its values, as a formula has it; empty for a pure number.
     pub unit: String,
-    /// What it is by the text (SI); of an input, at the first time of the analysis.
+    /// Value (SI) by the text; that of an input is at the first time of the analysis.
     pub value: f64,
-    /// What values of it must be.
-    pub(super) dimension: Dimension,
+    /// Dimension of its values.
+    pub(crate) dimension: Dimension,
 }
 
 impl Settable {
-    /// The value of a formula for it (SI), which an option gives under this name.
+    /// Evaluates a formula (SI) that an option gives; messages call it `what` and the name of the param.
     ///
     /// # Errors
-    /// It is no formula of numbers and units, or not of what it is for.
+    /// The text is no formula of numbers and units, or has another dimension.
     pub fn read(&self, option: &str, what: &str, text: &str, sources: &mut Sources) -> Result<f64, Diagnostics> {
         let file = sources.add_option(option, text);
         let formula = syntax::parse_expression(sources, file)?;
         check::amount(&formula, &format!("{what} `{}`", self.name), self.dimension, sources)
     }
 
-    /// Its derivative by time of some order, as something to be set.
+    /// Returns its time derivative of an order, as something to be set.
     #[must_use]
     pub fn by_time(&self, order: u32) -> Settable {
         let per = if order == 1 { "s".to_owned() } else { format!("s^{order}") };
@@ -43,7 +43,7 @@ impl Settable {
 }
 
 impl Checked {
-    /// Its params, in the order of the text, then those of its parts; nothing where it is not sound.
+    /// Returns the params, in the order of the text, then those of parts; empty if the mechanism has errors.
     #[must_use]
     pub fn settable_params(&self) -> Vec<Settable> {
         let (Some(tree), Some(model)) = (self.tree(), self.model()) else { return Vec::new() };
@@ -70,7 +70,7 @@ impl Checked {
         for param in &model.params {
             let name = &param.declared.name;
             match found[..own].iter_mut().find(|known| known.name == *name) {
-                // what the model holds is what is computed with
+                // the value in the model is the one that is computed with
                 Some(known) => known.value = param.value,
                 None if name.contains('.') => {
                     let unit = si_unit(param.dimension, false);
@@ -82,7 +82,7 @@ impl Checked {
         found
     }
 
-    /// The inputs of what it was compiled to.
+    /// Returns the inputs of the compiled mechanism.
     #[must_use]
     pub fn settable_inputs(&self, compiled: &Compiled) -> Vec<Settable> {
         let first = compiled.analysis().map_or(0.0, |[from, ..]| from);
@@ -95,7 +95,7 @@ impl Checked {
     }
 }
 
-/// Of what dimension values of a unit are; of a pure number where there is none.
+/// Returns the dimension of a unit; that of a pure number if there is none.
 fn dimension_of(unit: &str) -> Dimension {
     let one = if unit.starts_with('/') { format!("1{unit}") } else { format!("1 {unit}") };
     let formula = Formula::of(&one, &mut Sources::default());

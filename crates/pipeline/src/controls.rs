@@ -1,9 +1,9 @@
 //! What of a mechanism can be turned by hand: its params, and its inputs.
 
-use super::angles::Angles;
-use super::known::item_named;
-use super::varied::{is_of_angles, number_and_unit, si_unit, written};
-use super::{Checked, Compiled, Formula};
+use crate::angles::Angles;
+use crate::option_reader::{is_of_angles, number_and_unit, si_unit, written};
+use crate::queries::item_named;
+use crate::{Checked, Compiled, Formula};
 use mechc_engine::sweep::rounded;
 use mechc_expr::{ExprId, Symbol};
 use mechc_ir::{ConstraintSystem, Input};
@@ -171,7 +171,7 @@ impl Checked {
     fn is_set(&self, name: &str) -> bool {
         let is_it =
             |path: &str| path == name || name.strip_prefix(path).is_some_and(|axis| [".x", ".y"].contains(&axis));
-        self.surroundings.settings.iter().any(|setting| is_it(&setting.path))
+        self.check_options.settings.iter().any(|setting| is_it(&setting.path))
     }
 }
 
@@ -280,7 +280,7 @@ impl Checked {
     #[must_use]
     pub fn jogs(&self, compiled: &Compiled, times: &[f64]) -> Vec<Jog> {
         let system = compiled.system();
-        let angles = Angles::of(self.library(), self.sources());
+        let angles = Angles::new(self.library(), self.sources());
         let formula = |span: Span| {
             let items =
                 self.library().files().iter().flat_map(|file| &file.read.tree.mechanisms).flat_map(|m| &m.items);
@@ -336,7 +336,7 @@ impl Compiled {
 }
 
 /// The value of a formula of time.
-pub(super) fn at_time(system: &ConstraintSystem, formula: ExprId, t: f64) -> f64 {
+pub(crate) fn at_time(system: &ConstraintSystem, formula: ExprId, t: f64) -> f64 {
     system.graph().value(formula, |symbol| match symbol {
         Symbol::Param(k) => system.params()[k as usize].value,
         Symbol::Time => t,

@@ -1,41 +1,41 @@
-//! Where a mechanism is drawn, before anything is assembled: by the poses as they are written.
+//! Initial poses: where a mechanism is drawn before it is assembled, by the poses in its text.
 
-use super::Checked;
+use crate::Checked;
 use mechc_expr::{ExprId, Symbol};
 use mechc_lang::model::{Frame, Joint, JointKind, Mechanism, Placement, Point};
 
-/// A mechanism as it is drawn.
+/// A mechanism in its initial pose.
 pub struct Drawn {
-    /// Points that have a name.
+    /// Named points.
     pub points: Vec<DrawnPoint>,
-    /// Joints that one number tells the position of.
+    /// Joints whose position is one number.
     pub joints: Vec<DrawnJoint>,
-    /// Bodies by their names, with the angle (rad).
+    /// Name of each body, with its angle (rad).
     pub angles: Vec<(String, f64)>,
 }
 
 /// A point of a body or of the ground.
 pub struct DrawnPoint {
-    /// What it is fixed to, by its path.
+    /// Path of the body.
     pub body: String,
-    /// Its own name.
+    /// Name of the point.
     pub name: String,
-    /// Its place (m).
+    /// Position (m).
     pub at: [f64; 2],
 }
 
 /// A joint whose position is one number.
 pub struct DrawnJoint {
-    /// Its path.
+    /// Path of the joint.
     pub name: String,
-    /// What of it is that number: `rotation`, `displacement`.
+    /// The quantity: `rotation` or `displacement`.
     pub quantity: &'static str,
-    /// In SI.
+    /// Value (SI).
     pub value: f64,
 }
 
 impl Checked {
-    /// Where its bodies are drawn; nothing where it is not sound. A number that is not known before the motion is NaN.
+    /// Returns the initial pose; `None` if the mechanism has errors. A number that is unknown before the motion is NaN.
     #[must_use]
     pub fn drawn(&self) -> Option<Drawn> {
         Some(drawn(self.model()?))

@@ -1,4 +1,4 @@
-//! Model files of another program as `.mech` text.
+//! Import of models of another program as `.mech` texts.
 
 use mechc_lang::check::{self, Surroundings};
 use mechc_syntax::import;
@@ -6,8 +6,8 @@ use mechc_syntax::{self as syntax, ast};
 use mechc_text::diag::{Code, Diagnostics};
 use mechc_text::source::{FileId, Sources};
 
-/// A model file of the course's planar engine, with the times of a settings file if there is one, as a text; with what is to be said of
-/// it. Nothing where something of it cannot be said in the language.
+/// Imports a model file of the course's planar engine, with the times of its settings file if there is one. Returns the text with diagnostics;
+/// `None` if the language cannot express a part of the model.
 #[must_use]
 pub fn imported(model: FileId, settings: Option<FileId>, sources: &Sources) -> (Option<String>, Diagnostics) {
     let (file, mut said) = import::import(model, settings, sources);
@@ -17,8 +17,8 @@ pub fn imported(model: FileId, settings: Option<FileId>, sources: &Sources) -> (
     (file.filter(|_| !said.has_errors()).map(|file| syntax::format(&file)), said)
 }
 
-/// Formulas that have no value, which only the checker can tell; the tree's places are those of the model file, so that
-/// it points there. Whatever else it may say of the mechanism is for `mechc check` to say.
+/// Returns the errors of formulas that have no value, which only the checker finds; spans of the tree point into the model file. All other
+/// errors of the mechanism are left to `mechc check`.
 fn without_value(file: &ast::File, sources: &Sources) -> Diagnostics {
     let mut found = Diagnostics::default();
     for mechanism in &file.mechanisms {

@@ -1,0 +1,145 @@
+//! Continuation of one mechanism from its nominal params to others: what all its variants share, and the path of one of them.
+
+use super::messages::{ContinuationTarget, passed_bifurcation, stopped_path};
+use super::nominal::Nominal;
+use crate::lowering::lower_on_path;
+use crate::options::RunOptions;
+use mechc_engine::analysis::{self, Horizon, LeadOptions, Started, Times};
+use mechc_engine::sweep::{Arrived, Base, Lost, Whole};
+use mechc_ir::ConstraintSystem;
+use mechc_ir::program::Program;
+use mechc_lang::lower::Clock;
+use mechc_lang::model;
+use mechc_text::cancel::Cancel;
+use mechc_text::diag::{Diagnostic, Diagnostics};
+use std::sync::{Arc, OnceLock};
+
+/// The start that a continuation reaches, or why the mechanism cannot start at its target; `None` if no path leads there. With diagnostics
+/// of the path.
+pub(super) type ContinuedStart = (Option<Result<Started, Box<Diagnostic>>>, Diagnostics);
+
+/// What a continuation to given values of params comes to.
+pub(crate) enum Outcome {
+    /// The path reaches its target; the mechanism starts there, or cannot.
+    AtTarget(Result<Box<Started>, Box<Diagnostic>>),
+    /// Results refuse the times, before any path is followed.
+    Refused(Diagnostics),
+    /// No path reaches the target; with the reason, if a path began.
+    NoPath(Option<Box<Diagnostic>>),
+}
+
+/// What all continuations of one mechanism share.
+pub(super) struct ContinuationContext {
+    pub nominal: Nominal,
+    /// Nominal values of all params (SI).
+    pub values: Vec<f64>,
+    pub options: LeadOptions,
+    /// One for variants that begin at the nominal first time, and one for those whose time moves along the path.
+    bases: [OnceLock<Option<Base>>; 2],
+}
+
+impl ContinuationContext {
+    pub fn new(nominal: Nominal, options: &RunOptions) -> ContinuationContext {
+        let RunOptions { tolerance, pass_bifurcations, ref cancel, .. } = *options;
+        let options = LeadOptions { tolerance, pass_bifurcations, t: nominal.t, cancel: cancel.clone() };
+        let (values, bases) = (nominal.whole.0.system().values_of_params(), [OnceLock::new(), OnceLock::new()]);
+        ContinuationContext { nominal, values, options, bases }
+    }
+
+    /// Returns whether the options that decide its paths are the given ones.
+    pub fn has_options(&self, options: &RunOptions) -> bool {
+        self.options.tolerance.to_bits() == options.tolerance.to_bits()
+            && self.options.pass_bifurcations == options.pass_bifurcations
+    }
+
+    /// Continues to the param values of a system of the same text.
+    pub fn start_system(&self, system: &ConstraintSystem, horizon: Horizon, cancel: &Cancel) -> ContinuedStart {
+        let mut diagnostics = Diagnostics::default();
+        let values = system.values_of_params();
+        let Some(base) = self.base(&values, horizon.from, cancel) else { return (None, diagnostics) };
+        let (times, targets) = ([self.options.t, self.end_time(horizon.from)], || self.targets(system, &values));
+        match base.alone(base.variant(&values), horizon, cancel) {
+            Ok(Arrived { started, passed, said }) => {
+                diagnostics.extend(self.nominal.started.far_estimates_at(self.nominal.t));
+                let remark = |(part, what): &_| passed_bifurcation(None, &targets(), times, *part, what);
+                diagnostics.extend(passed.iter().map(remark));
+                diagnostics.extend(said);
+                (Some(Ok(started)), diagnostics)
+            }
+            Err(Lost::There(why)) => (Some(Err(why)), diagnostics),
+            Err(Lost::OnItsWay(..)) if cancel.is_cancelled() => (None, diagnostics),
+            Err(Lost::OnItsWay(part, why)) => {
+                let span = self.nominal.model.declared.span;
+                diagnostics.push(stopped_path(None, &targets(), times, span, part, &why));
+                (None, diagnostics)
+            }
+        }
+    }
+
+    /// Continues to values of all params (SI); a path that reaches them leaves no diagnostics.
+    pub fn start_values(&self, values: &[f64], times: &Times, cancel: &Cancel) -> Outcome {
+        let Some(base) = self.base(values, times.from(), cancel) else { return Outcome::NoPath(None) };
+        let variant = base.variant(values);
+        let refused = times.interval().map(|interval| analysis::refused_results(variant.system(), interval));
+        if let Some(refused) = refused.filter(Diagnostics::has_errors) {
+            return Outcome::Refused(refused);
+        }
+        match base.alone(Arc::clone(&variant), Horizon::of(times), cancel) {
+            Ok(arrived) => Outcome::AtTarget(Ok(Box::new(arrived.started))),
+            Err(Lost::There(why)) => Outcome::AtTarget(Err(why)),
+            Err(Lost::OnItsWay(..)) if cancel.is_cancelled() => Outcome::NoPath(None),
+            Err(Lost::OnItsWay(part, why)) => {
+                let targets = self.targets(variant.system(), values);
+                let (ends, span) = ([self.options.t, self.end_time(times.from())], self.nominal.model.declared.span);
+                Outcome::NoPath(Some(Box::new(stopped_path(None, &targets, ends, span, part, &why))))
+            }
+        }
+    }
+
+    /// Returns the time (s) at the end of the path of a variant that begins at `from`.
+    fn end_time(&self, from: f64) -> f64 {
+        if self.nominal.sets_inputs { from } else { self.options.t }
+    }
+
+    /// Returns the params with the intervals of their values, for messages.
+    fn targets(&self, system: &ConstraintSystem, values: &[f64]) -> Vec<ContinuationTarget> {
+        let with_line = |param: &model::Led| {
+            let k = param.param? as usize;
+            Some(model::Led {
+                line: [self.values[k], values[k]],
+                dimension: system.params()[k].dimension,
+                ..param.clone()
+            })
+        };
+        let params: Vec<model::Led> = self.nominal.model.led.iter().filter_map(with_line).collect();
+        ContinuationTarget::from_params(&params, &self.nominal.angles)
+    }
+
+    /// Returns what variants share that begin at `from` (s); `None` if the number of values differs.
+    pub fn base(&self, values: &[f64], from: f64, cancel: &Cancel) -> Option<&Base> {
+        // inputs that are set have their values at `from` only, so time has to move along the path
+        let time_moves = self.nominal.sets_inputs && from.to_bits() != self.options.t.to_bits();
+        let slot = &self.bases[usize::from(time_moves)];
+        if slot.get().is_none() {
+            let base = self.new_base(time_moves, cancel);
+            // the outcome of cancelled work must not be kept
+            if cancel.is_cancelled() {
+                return None;
+            }
+            let _ = slot.set(base);
+        }
+        slot.get()?.as_ref().filter(|_| values.len() == self.values.len())
+    }
+
+    fn new_base(&self, time_moves: bool, cancel: &Cancel) -> Option<Base> {
+        let clock = if time_moves { Clock::Goes } else { Clock::Still(self.options.t) };
+        let system = lower_on_path(&self.nominal.model, clock);
+        let leave_out = self.nominal.leave_out_redundant;
+        let (determined, _) = analysis::determine(system, leave_out, Horizon::of_analysis(None)).ok()?;
+        let program = Arc::new(Program::new(determined.system()));
+        let on_path: Whole = (Arc::new(determined), program);
+        let params = self.nominal.model.led.iter().filter_map(|param| param.param).collect();
+        let options = LeadOptions { cancel: cancel.clone(), ..self.options.clone() };
+        Base::new(self.nominal.whole.clone(), &self.nominal.started, on_path, (params, time_moves), options).ok()
+    }
+}
