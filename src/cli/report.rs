@@ -3,7 +3,7 @@
 use super::arguments::{MessageFormat, Messages, When};
 use super::failure::{Failure, exit_code};
 use super::spared::Spared;
-use mechc_text::diag::{Code, Color, Diagnostics, Fix, Format, render, render_made, visible};
+use mechc_text::diag::{Color, Diagnostics, Fix, Format, render, render_made, visible};
 use mechc_text::source::{FileId, Sources};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
@@ -69,8 +69,8 @@ impl Reporter {
             None => Err(said.into()),
             Some(made) => {
                 self.print(&said);
-                // a start that was not led has been made another way
-                if said.iter().any(|said| said.code == Code::E0612) {
+                // no path led to the values that are set, and the start was made from the estimates alone
+                if said.has_errors() {
                     self.exit.set(exit_code(&said, &self.sources));
                 }
                 Ok(made)

@@ -363,7 +363,7 @@ fn operations(path: &Path, text: &str, choice: &Choice) -> usize {
     let (determined, program) = compile(path, text, choice).expect("it is determined").inside();
     let started =
         analysis::start(determined, program, Horizon::of_analysis(None), mechc::TOLERANCE, &Cancel::default());
-    started.unwrap_or_else(|why| panic!("{}", why.message)).solver().expect("operations").instructions().len()
+    started.unwrap_or_else(|stop| panic!("{stop:?}")).solver().expect("operations").instructions().len()
 }
 
 /// One name costs at most as much as a row without it: it is solved for with the factors that there are.

@@ -5,7 +5,7 @@ use super::shelf::Shelf;
 use mechc_engine::analysis::Times;
 use mechc_pipeline::{Checked, Choice, Compiled, Crank, Jog, Knob, Parsed, Redundant, RunOptions, Seen, Stand};
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::{Code, Color, Diagnostic, Diagnostics, Format, render};
+use mechc_text::diag::{Code, Color, Diagnostics, Format, render};
 use mechc_text::source::Sources;
 use serde_json::{Value, json};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -187,11 +187,11 @@ impl Solver<'_> {
         let (mut told, mut part) = (None, 1.0);
         for shortened in std::iter::once(1.0).chain(BEFORE_A_DEAD_POINT) {
             let gone = part * if part < 1.0 { shortened } else { 1.0 };
-            let (row, said, sources) = self.row_with(solved, set, (&stand, &inputs, gone), cancel);
+            let RowAttempt { row, said, sources, stopped_path: stop } =
+                self.row_with(solved, set, (&stand, &inputs, gone), cancel);
             if cancel.is_cancelled() {
                 return None;
             }
-            let stop = said.iter().find(|said| said.code == Code::E0612).and_then(part_of);
             match (row, stop) {
                 (Some(row), None) => {
                     let reached: Vec<Value> = inputs.iter().map(|moved| json!([moved.name, moved.at(gone)])).collect();
@@ -225,8 +225,8 @@ impl Solver<'_> {
         set: &[(String, String)],
         (stand, inputs, gone): (&Stand, &[Moved], f64),
         cancel: &Cancel,
-    ) -> (Option<Vec<f64>>, Diagnostics, Sources) {
-        let Ok(parsed) = self.parsed else { return (None, Diagnostics::default(), Sources::default()) };
+    ) -> RowAttempt {
+        let Ok(parsed) = self.parsed else { return RowAttempt::default() };
         let mut choice = self.choice(solved, set);
         let is_moved = |told: &String| {
             told.split_once('=').is_some_and(|(name, _)| inputs.iter().any(|moved| moved.name == name.trim()))
@@ -239,9 +239,11 @@ impl Solver<'_> {
         let (compiled, more) = checked.compile(self.redundant, cancel);
         said.extend(more);
         let times = Times::listed(stand.t, vec![stand.t]);
+        let mut stopped_path = None;
         let run = compiled.and_then(|compiled| {
-            let (run, more) = compiled.run(&times, &self.options(Some(stand.clone()), cancel));
-            said.extend(more);
+            let (run, report) = compiled.run_with_report(&times, &self.options(Some(stand.clone()), cancel));
+            said.extend(report.diagnostics);
+            stopped_path = report.stopped_path;
             run
         });
         let row = run.and_then(|mut run| match run.next()? {
@@ -251,8 +253,18 @@ impl Solver<'_> {
                 None
             }
         });
-        (row, said, sources)
+        RowAttempt { row, said, sources, stopped_path }
     }
+}
+
+/// The row at inputs that are moved by hand, if they get there.
+#[derive(Default)]
+struct RowAttempt {
+    row: Option<Vec<f64>>,
+    said: Diagnostics,
+    sources: Sources,
+    /// The fraction of the inputs' path, from 0 to 1, at which it stopped.
+    stopped_path: Option<f64>,
 }
 
 /// An input on its way, by hand.
@@ -283,11 +295,6 @@ impl Moved {
             None => format!("{name}={value} {}", self.unit),
         }
     }
-}
-
-/// The part of a way that was gone.
-fn part_of(said: &Diagnostic) -> Option<f64> {
-    said.data.get("part").and_then(Value::as_f64)
 }
 
 /// What stopped a way, without what came of trying something else.

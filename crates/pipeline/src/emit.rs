@@ -164,11 +164,13 @@ impl Compiled {
     ) -> Result<EmittedMotion, Box<Diagnostic>> {
         let horizon = Horizon::of_analysis(self.analysis());
         let mut started = if let Some(q) = begin {
-            self.unassembled(horizon, &RunOptions::default()).assemble_at(q, Solving::New)?
+            self.unassembled(horizon, &RunOptions::default())
+                .assemble_at(q, Solving::New)
+                .map_err(|stop| Box::new(self.explain_start(&stop, horizon)))?
         } else {
-            let (started, remarks) = self.start(horizon, &RunOptions::default());
-            said.extend(remarks);
-            started?
+            let (started, report) = self.start(horizon, &RunOptions::default());
+            said.extend(report.diagnostics);
+            started.map_err(|stop| Box::new(self.explain_start(&stop, horizon)))?
         };
         said.extend(started.remarks());
         let mut solver_of =

@@ -283,7 +283,8 @@ impl Shared {
     fn follow(&self, query: &Query, cancel: &Cancel, mut row: impl FnMut(&[f64])) -> Result<Answers, Box<Diagnostic>> {
         let (options, Query { values, times }) = (self.options(cancel), query);
         let mut started = match self.continuation.start_values(values, times, &options) {
-            Outcome::AtTarget(started) => *started?,
+            Outcome::Started(started) => *started,
+            Outcome::CannotStart(stop, variant) => return Err(Box::new(stop.explain(variant.system()))),
             Outcome::Refused(diagnostics) => return Err(first_error(diagnostics)),
             Outcome::NoPath(why) => return Err(lost(why)),
         };
@@ -297,7 +298,10 @@ impl Shared {
             motion.pass_bifurcations();
         }
         while let Some(found) = motion.next_row() {
-            row(found?);
+            match found {
+                Ok(found) => row(found),
+                Err(stop) => return Err(Box::new(stop.explain(motion.system()))),
+            }
         }
         Ok(asked.and_then(Asked::answer).unwrap_or_default())
     }

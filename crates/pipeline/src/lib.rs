@@ -55,7 +55,7 @@ pub use parameters::Settable;
 pub use parsed::Parsed;
 pub use queries::{Declaration, Interface};
 pub use refinement::CurveTolerance;
-pub use run::{Assembly, Run};
+pub use run::{Assembly, Run, StartReport};
 pub use slider_range::Varied;
 pub use sweep::{Sweep, SweepOptions, Variants, VaryOptions};
 pub use times::{AskedTimes, seconds};

@@ -1,13 +1,14 @@
 //! The last stage: a motion in progress, row by row. Knows where a mechanism starts; the steps are the engine's.
 
 use crate::Compiled;
-use crate::continuation::{CompiledSystem, ContinuationOrigin, InitialGuess};
+use crate::continuation::{CompiledSystem, ContinuationOrigin, ContinuedStart, InitialGuess};
 use crate::options::{RunOptions, Stand};
 use crate::part_backtrace::PartBacktrace;
-use mechc_engine::analysis::{self, Answers, Asked, Follower, Horizon, Solving, Started, Times, Unassembled};
+use mechc_engine::analysis::{self, Answers, Asked, Follower, Horizon, Solving, Started, Stop, Times, Unassembled};
 use mechc_ir::layout::{ColumnUnit, RowLayout};
+use mechc_ir::structure::Determined;
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::{Code, Diagnostic, Diagnostics, readable};
+use mechc_text::diag::{Diagnostic, Diagnostics, readable};
 use std::sync::Arc;
 
 /// The position in which a mechanism was assembled.
@@ -46,17 +47,30 @@ pub struct Assembly {
 /// ```
 pub struct Run {
     motion: Follower,
+    determined: Arc<Determined>,
     columns: Arc<[String]>,
     units: Arc<[ColumnUnit]>,
     assembly: Assembly,
     times: Times,
     cancel: Cancel,
     has_ended: bool,
-    has_stopped: bool,
+    stopped_at: Option<f64>,
     /// What results are computed from; `None` if there are none.
     asked: Option<Asked>,
     results: usize,
     part_backtrace: PartBacktrace,
+}
+
+/// What a start has to report.
+#[derive(Clone, Debug, Default)]
+pub struct StartReport {
+    /// Diagnostics of the start.
+    pub diagnostics: Diagnostics,
+    /// Why the mechanism does not start.
+    pub stop: Option<Box<Stop>>,
+    /// The fraction, from 0 to 1, at which a path to the values that are set or given stopped: the mechanism is assembled from the estimates
+    /// of the text alone (E0612).
+    pub stopped_path: Option<f64>,
 }
 
 impl Compiled {
@@ -67,7 +81,14 @@ impl Compiled {
     /// (E0612), and the mechanism was assembled from the estimates of the text alone.
     #[must_use]
     pub fn run(&self, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
-        Run::of(self, times, options)
+        let (run, report) = self.run_with_report(times, options);
+        (run, report.diagnostics)
+    }
+
+    /// Assembles the mechanism as [`Compiled::run`] does, and reports on the start as data.
+    #[must_use]
+    pub fn run_with_report(&self, times: &Times, options: &RunOptions) -> (Option<Run>, StartReport) {
+        Run::new(self, times, options)
     }
 
     /// Returns the position at a time (s) at which [`Compiled::run`] would begin, with diagnostics of the start. Takes less time than a run.
@@ -90,15 +111,16 @@ impl Compiled {
     #[must_use]
     pub fn assembled(&self, t: f64, options: &RunOptions) -> (Option<Assembly>, Diagnostics) {
         let horizon = Horizon::of_analysis(self.analysis()).beginning(t);
-        let (started, mut diagnostics) = self.started(horizon, options, Solving::With(None));
+        let (started, report) = self.started(horizon, options, Solving::With(None));
+        let mut diagnostics = report.diagnostics;
         match started {
             _ if options.cancel.is_cancelled() => (None, Diagnostics::default()),
             Ok(mut started) => {
                 diagnostics.extend(self.part_backtrace().annotate_all(started.remarks()));
                 (Some(assembly(self, &mut started, t)), diagnostics)
             }
-            Err(why) => {
-                diagnostics.push(self.part_backtrace().annotate(*why));
+            Err(stop) => {
+                diagnostics.push(self.explain_start(&stop, horizon));
                 (None, diagnostics)
             }
         }
@@ -126,11 +148,7 @@ impl Compiled {
 
     /// Assembles the mechanism at the first time of a horizon, from the estimates of the text or from the end of a continuation; returns the
     /// diagnostics of that, too.
-    pub(crate) fn start(
-        &self,
-        horizon: Horizon,
-        options: &RunOptions,
-    ) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
+    pub(crate) fn start(&self, horizon: Horizon, options: &RunOptions) -> (Result<Started, Box<Stop>>, StartReport) {
         self.started(horizon, options, Solving::New)
     }
 
@@ -139,15 +157,15 @@ impl Compiled {
         horizon: Horizon,
         options: &RunOptions,
         solving: Solving,
-    ) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
-        let (beginning, mut diagnostics) = self.initial_guess(horizon, options);
+    ) -> (Result<Started, Box<Stop>>, StartReport) {
+        let (beginning, mut report) = self.initial_guess(horizon, options);
         let started = match beginning {
-            StartStage::Started(started) => return (*started, diagnostics),
+            StartStage::Started(started) => return (*started, report),
             StartStage::At(InitialGuess::Position(q), at) => self.unassembled(at, options).assemble_at(&q, solving),
             StartStage::At(InitialGuess::Estimates(drawn), at) => {
                 let whole = self.unassembled(at, options);
                 // if no path leads to what is given or set, the estimates alone are tried
-                let started = if diagnostics.has_errors() {
+                let started = if report.stopped_path.is_some() {
                     whole.close(drawn.as_deref(), solving)
                 } else {
                     analysis::start_from(&whole, drawn.as_deref(), solving)
@@ -157,19 +175,19 @@ impl Compiled {
                     Some(_) => started.moved_from(&whole.kinematics(None).estimates()),
                     None => started,
                 });
-                started.map_err(|why| self.with_analysis_proposed(why, horizon)).and_then(|started| {
+                started.and_then(|started| {
                     if at.from.total_cmp(&horizon.from).is_eq() {
                         return Ok(started);
                     }
                     let whole = self.unassembled(horizon, options);
-                    diagnostics.extend(started.far_estimates_at(at.from));
+                    report.diagnostics.extend(started.far_estimates_at(at.from));
                     let (started, passed) = analysis::follow_to(&whole, (started, at.from))?;
-                    diagnostics.extend(passed);
+                    report.diagnostics.extend(passed.iter().map(|warning| warning.explain(self.system())));
                     Ok(started)
                 })
             }
         };
-        (started, diagnostics)
+        (started, report)
     }
 
     /// Returns the coordinates [m, rad] that come nearest to being assembled at a time (s), for a mechanism that cannot be assembled there.
@@ -196,71 +214,80 @@ impl Compiled {
     }
 
     /// Returns the start, as far as continuations decide it, with their diagnostics: to params that are set, to given inputs, and of parts.
-    fn initial_guess(&self, horizon: Horizon, options: &RunOptions) -> (StartStage, Diagnostics) {
+    fn initial_guess(&self, horizon: Horizon, options: &RunOptions) -> (StartStage, StartReport) {
         let has_given_inputs = self.start_solver().is_some_and(|(start_solver, _)| start_solver.has_given_inputs);
         let stand = options.stand.as_ref().filter(|_| has_given_inputs);
-        let (origin, mut diagnostics) = match (stand, self.continuation()) {
+        let (origin, mut report) = match (stand, self.continuation()) {
             // a configuration that is handed in was reached with the params that are set
-            (Some(stand), _) => (ContinuationOrigin::Configuration(stand.t, stand.q.clone()), Diagnostics::default()),
-            (None, None) => (ContinuationOrigin::Nominal(self.first_time()), Diagnostics::default()),
-            (None, Some(continuation)) => match continuation.start_system(self.system(), horizon, options) {
-                (Some(Ok(started)), diagnostics) if has_given_inputs => {
-                    (ContinuationOrigin::Configuration(horizon.from, started.q().to_vec()), diagnostics)
+            (Some(stand), _) => (ContinuationOrigin::Configuration(stand.t, stand.q.clone()), StartReport::default()),
+            (None, None) => (ContinuationOrigin::Nominal(self.first_time()), StartReport::default()),
+            (None, Some(continuation)) => {
+                let continued = continuation.start_system(self.system(), horizon, options);
+                let ContinuedStart { started, diagnostics, stopped_path } = continued;
+                let report = StartReport { diagnostics, stop: None, stopped_path };
+                match started {
+                    Some(Ok(started)) if has_given_inputs => {
+                        (ContinuationOrigin::Configuration(horizon.from, started.q().to_vec()), report)
+                    }
+                    Some(started) => return (StartStage::Started(Box::new(started)), report),
+                    None => (ContinuationOrigin::Estimates, report),
                 }
-                (Some(started), diagnostics) => return (StartStage::Started(Box::new(started)), diagnostics),
-                (None, diagnostics) => (ContinuationOrigin::Estimates, diagnostics),
-            },
+            }
         };
         // given inputs may have no value at the first time of the text's analysis
         let is_there = has_given_inputs || self.first_time().total_cmp(&horizon.from).is_eq();
         let at = if is_there { horizon } else { Horizon::of_analysis(self.analysis()).beginning(self.first_time()) };
         let Some((start_solver, leave_out)) = self.start_solver() else {
-            return (StartStage::At(InitialGuess::Estimates(None), at), diagnostics);
+            return (StartStage::At(InitialGuess::Estimates(None), at), report);
         };
         let system = CompiledSystem { determined: Arc::clone(self.determined()), program: Arc::clone(self.program()) };
-        let (guess, more) = start_solver.initial_guess(&system, at, &origin, leave_out, options);
-        diagnostics.extend(more);
-        (StartStage::At(guess, at), diagnostics)
+        let (guess, more, stopped_path) = start_solver.initial_guess(&system, at, &origin, leave_out, options);
+        report.diagnostics.extend(more);
+        report.stopped_path = report.stopped_path.or(stopped_path);
+        (StartStage::At(guess, at), report)
     }
 
-    /// Adds a fix to an error of the start if the text has no analysis and no values at 0 s.
-    fn with_analysis_proposed(&self, why: Box<Diagnostic>, horizon: Horizon) -> Box<Diagnostic> {
-        let has_no_value = matches!(why.code, Code::E0605 | Code::E0606 | Code::E0608);
-        if self.analysis().is_some() || horizon.from.total_cmp(&0.0).is_eq() || !has_no_value {
-            return why;
+    /// Describes why the mechanism does not start at the first time of a horizon; proposes an analysis if the text has none, and no values
+    /// at 0 s.
+    pub(crate) fn explain_start(&self, stop: &Stop, horizon: Horizon) -> Diagnostic {
+        let diagnostic = self.part_backtrace().annotate(stop.explain(self.system()));
+        if self.analysis().is_some() || horizon.from.total_cmp(&0.0).is_eq() || !stop.is_without_value() {
+            return diagnostic;
         }
         let [from, to] = [horizon.from, horizon.from + horizon.span].map(readable);
         let mend = format!(
             "without an analysis the motion begins at 0 s;\nadd `analysis from {from} s to {to} s every 10 ms` to the file"
         );
-        Box::new(why.help(mend))
+        diagnostic.help(mend)
     }
 }
 
 /// A start, as far as continuations decide it.
 enum StartStage {
     /// Assembled, or why that fails.
-    Started(Box<Result<Started, Box<Diagnostic>>>),
+    Started(Box<Result<Started, Box<Stop>>>),
     /// To be assembled from a guess, at the first time of a horizon.
     At(InitialGuess, Horizon),
 }
 
 impl Run {
-    fn of(compiled: &Compiled, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
+    fn new(compiled: &Compiled, times: &Times, options: &RunOptions) -> (Option<Run>, StartReport) {
         let refused = times.interval().map(|interval| analysis::refused_results(compiled.system(), interval));
         if let Some(refused) = refused.filter(Diagnostics::has_errors) {
-            return (None, refused);
+            return (None, StartReport { diagnostics: refused, ..StartReport::default() });
         }
-        let (started, mut diagnostics) = compiled.start(Horizon::of(times), options);
+        let horizon = Horizon::of(times);
+        let (started, mut report) = compiled.start(horizon, options);
         let mut started = match started {
-            _ if options.cancel.is_cancelled() => return (None, Diagnostics::default()),
+            _ if options.cancel.is_cancelled() => return (None, StartReport::default()),
             Ok(started) => started,
-            Err(why) => {
-                diagnostics.push(compiled.part_backtrace().annotate(*why));
-                return (None, diagnostics);
+            Err(stop) => {
+                report.diagnostics.push(compiled.explain_start(&stop, horizon));
+                report.stop = Some(stop);
+                return (None, report);
             }
         };
-        diagnostics.extend(compiled.part_backtrace().annotate_all(started.remarks()));
+        report.diagnostics.extend(compiled.part_backtrace().annotate_all(started.remarks()));
         started.use_vectors(options.vectors);
         let assembly = assembly(compiled, &mut started, times.from());
         let results = compiled.system().results().outcomes.len();
@@ -273,6 +300,7 @@ impl Run {
         let (columns, units) = (compiled.columns().into(), compiled.units().into());
         let (times, cancel) = (times.clone(), options.cancel.clone());
         let run = Run {
+            determined: Arc::clone(compiled.determined()),
             motion,
             columns,
             units,
@@ -280,12 +308,12 @@ impl Run {
             times,
             cancel,
             has_ended: false,
-            has_stopped: false,
+            stopped_at: None,
             asked,
             results,
             part_backtrace: compiled.part_backtrace().clone(),
         };
-        (Some(run), diagnostics)
+        (Some(run), report)
     }
 
     /// Returns the names of the columns.
@@ -306,6 +334,12 @@ impl Run {
         &self.assembly
     }
 
+    /// Returns the time (s) at which the motion stopped; `None` if it goes on or has come to its end.
+    #[must_use]
+    pub fn stopped_at(&self) -> Option<f64> {
+        self.stopped_at
+    }
+
     /// Returns the output times.
     #[must_use]
     pub fn times(&self) -> &Times {
@@ -320,17 +354,24 @@ impl Run {
         if self.has_ended || self.cancel.is_cancelled() {
             return None;
         }
-        let row = self.motion.next_row();
-        self.has_ended = !matches!(row, Some(Ok(_)));
-        self.has_stopped |= matches!(row, Some(Err(_)));
-        row.map(|row| row.map_err(|why| Box::new(self.part_backtrace.annotate(*why))))
+        match self.motion.next_row() {
+            Some(Ok(row)) => Some(Ok(row)),
+            None => {
+                self.has_ended = true;
+                None
+            }
+            Some(Err(stop)) => {
+                (self.has_ended, self.stopped_at) = (true, Some(stop.t));
+                Some(Err(Box::new(self.part_backtrace.annotate(stop.explain(self.determined.system())))))
+            }
+        }
     }
 
     /// Returns the results, in the order of [`Compiled::results`]. `None` if only some times were requested or the work is cancelled; results have
     /// no values if the motion has stopped. The first call follows the motion once more, later ones return `None`.
     pub fn results(&mut self) -> Option<Answers> {
         let asked = self.asked.take()?;
-        if self.has_stopped {
+        if self.stopped_at.is_some() {
             let count = self.results;
             return Some(Answers { values: vec![None; count], digits: vec![0; count], ..Answers::default() });
         }
@@ -354,7 +395,10 @@ impl Run {
 
     /// Returns the warnings and notes of the rows so far, and forgets them.
     pub fn take_remarks(&mut self) -> Diagnostics {
-        self.part_backtrace.annotate_all(self.motion.take_remarks())
+        let warnings = self.motion.take_warnings();
+        let mut diagnostics = Diagnostics::default();
+        diagnostics.extend(warnings.iter().map(|warning| warning.explain(self.determined.system())));
+        self.part_backtrace.annotate_all(diagnostics)
     }
 }
 

@@ -5,9 +5,9 @@ use crate::options::RunOptions;
 use crate::run::Run;
 use crate::{Checked, Compiled};
 use mechc_draw::scene::{Declaration, Faults, Joints, Length, Motion, Pose, Scene, drawn_poses};
-use mechc_engine::analysis::{self, FreeMotion, Horizon, Times};
+use mechc_engine::analysis::{self, FreeMotion, Horizon, Link, LinkOf, Stop, StopCause, Times};
 use mechc_ir::layout::{self, Column, ColumnKind, ColumnUnit};
-use mechc_ir::{BodyId, ConstraintSystem};
+use mechc_ir::{BodyId, ConstraintSystem, DeclarationId};
 use mechc_lang::check::{self, Library};
 use mechc_lang::model::Mechanism;
 use mechc_syntax::ast;
@@ -183,7 +183,11 @@ impl Checked {
             Vec::new()
         };
         let free = free.iter().map(of_frames).collect();
-        let lengths = if joints == Joints::Open { lengths(&scene, said) } else { Vec::new() };
+        let open = compiled.filter(|_| joints == Joints::Open).and_then(|compiled| {
+            let horizon = Horizon::of_analysis(compiled.analysis()).beginning(t);
+            compiled.start(horizon, options).0.err()
+        });
+        let lengths = open.map_or_else(Vec::new, |stop| lengths(&scene, &stop, system));
         let mut named = named(&scene, said.iter());
         // a length of the ground is a line of its own, and a declaration of its own is named
         let bodies = lengths.iter().filter_map(|length| length.frame.filter(|frame| *frame > 0));
@@ -313,26 +317,31 @@ fn show_stop(scene: &mut Scene, model: &Mechanism, motion: &Motion, stopped: Opt
     }
 }
 
-/// The lengths that errors blame.
-fn lengths(scene: &Scene, said: &Diagnostics) -> Vec<Length> {
-    let blamed = said.iter().filter_map(|said| said.data.get("lengths")?.as_array()).flatten();
-    blamed.filter_map(|length| blamed_length(scene, length)).collect()
+/// Returns the lengths that are too short or too long for a loop to close.
+fn lengths(scene: &Scene, stop: &Stop, system: &ConstraintSystem) -> Vec<Length> {
+    match &stop.cause {
+        StopCause::OpenLoop(open) if !open.is_unreachable(system) => {
+            open.links.iter().filter_map(|link| faulty_length(scene, link, system)).collect()
+        }
+        _ => Vec::new(),
+    }
 }
 
-fn blamed_length(scene: &Scene, told: &serde_json::Value) -> Option<Length> {
-    let text = |key: &str| told[key].as_str();
-    let declared = |name: &str| {
-        let is_meant = |one: &Declaration| matches!(one.kind, "joint" | "constraint" | "driver") && one.name == name;
-        scene.declarations.iter().position(is_meant)
+fn faulty_length(scene: &Scene, link: &Link, system: &ConstraintSystem) -> Option<Length> {
+    let declaration = |id: DeclarationId| {
+        let name = &system.declarations()[id].name;
+        let is_it = |one: &Declaration| matches!(one.kind, "joint" | "constraint" | "driver") && one.name == *name;
+        scene.declarations.iter().position(is_it)
     };
-    let of = text("of")?;
-    let said = format!("{}: {}", analysis::length_in_words(told["length"].as_f64()?), text("is")?);
-    if let (Some(from), Some(to)) = (text("from"), text("to")) {
-        let frame = scene.frames.iter().position(|declaration| scene.declarations[*declaration].name == of)?;
-        Some(Length { frame: Some(frame), ends: [declared(from)?, declared(to)?], text: said })
-    } else {
-        let declaration = declared(of)?;
-        Some(Length { frame: None, ends: [declaration; 2], text: said })
+    let fault = if link.too_short { "too short" } else { "too long" };
+    let text = format!("{}: {fault}", analysis::length_in_words(link.length));
+    match link.of {
+        LinkOf::Body(body, [from, to]) => {
+            let name = body.map_or("ground", |body| &system.bodies()[body].name);
+            let frame = scene.frames.iter().position(|declaration| scene.declarations[*declaration].name == name)?;
+            Some(Length { frame: Some(frame), ends: [declaration(from)?, declaration(to)?], text })
+        }
+        LinkOf::Declaration(id) => Some(Length { frame: None, ends: [declaration(id)?; 2], text }),
     }
 }
 
@@ -340,13 +349,12 @@ fn blamed_length(scene: &Scene, told: &serde_json::Value) -> Option<Length> {
 fn named<'d>(scene: &Scene, said: impl Iterator<Item = &'d Diagnostic>) -> Vec<usize> {
     let mut named: Vec<usize> = Vec::new();
     for error in said.filter(|said| said.is_error()) {
-        let redundant =
-            error.data.get("redundant").and_then(|names| names.as_array()).filter(|names| !names.is_empty());
+        let redundant = Some(&error.redundant).filter(|names| !names.is_empty());
         match redundant {
             Some(names) => {
-                let is_angle = |name: &str| names.iter().any(|one| one.as_str() == Some(name));
+                let is_redundant = |name: &String| names.contains(name);
                 let all = scene.declarations.iter().enumerate();
-                named.extend(all.filter(|(_, one)| is_angle(&one.name)).map(|(number, _)| number));
+                named.extend(all.filter(|(_, one)| is_redundant(&one.name)).map(|(number, _)| number));
             }
             None => error.labels.iter().for_each(|label| named.extend(innermost(scene, label.span, error))),
         }

@@ -26,7 +26,10 @@ mod state;
 
 pub use assemble::{Moved, Request, Solving, Started, Unassembled, with_parts};
 pub use explain::errors::length as length_in_words;
-pub use explain::{FreeMotion, SingularPosition, Stop, StopCause, Warning, WarningCause, determine, free_motions};
+pub use explain::{
+    FreeMotion, Link, LinkOf, OpenLoop, SingularPosition, Stop, StopCause, Warning, WarningCause, determine,
+    free_motions,
+};
 pub use follow::{Follower, LeadOptions, Way, before_ways, follow_to, lead, lead_again, start, start_from};
 pub use mechc_ir::tolerances::TOLERANCE;
 pub use results::course;

@@ -3,10 +3,10 @@
 
 use crate::analysis::{self, Horizon, LeadOptions, Solving, Started, Stop, Unassembled, Warning};
 use crate::solver::Solver;
+use mechc_ir::ConstraintSystem;
 use mechc_ir::program::Program;
 use mechc_ir::structure::Determined;
 use mechc_text::cancel::Cancel;
-use mechc_text::diag::Diagnostic;
 use std::sync::Arc;
 
 /// A determined system with its operations.
@@ -105,16 +105,10 @@ impl ContinuationBase {
         self.is_smooth && !self.time_varies && params.iter().all(|param| self.continued_params.contains(param))
     }
 
-    /// Describes a stop on a path, which `ContinuationError::OnPath` holds, in words.
+    /// Returns the equations along a path, whose stops and warnings speak of them.
     #[must_use]
-    pub fn explain(&self, stop: &Stop) -> Diagnostic {
-        stop.explain(self.path_system.0.system())
-    }
-
-    /// Describes a bifurcation on a path in words.
-    #[must_use]
-    pub fn explain_warning(&self, warning: &Warning) -> Diagnostic {
-        warning.explain(self.path_system.0.system())
+    pub fn path_system(&self) -> &ConstraintSystem {
+        self.path_system.0.system()
     }
 
     /// Returns the system with other parameters (SI, all of them).

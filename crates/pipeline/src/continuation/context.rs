@@ -4,24 +4,34 @@ use super::messages::{ContinuationTarget, passed_bifurcation, stopped_path};
 use super::nominal::Nominal;
 use crate::lowering::lower_on_path;
 use crate::options::RunOptions;
-use mechc_engine::analysis::{self, Horizon, LeadOptions, Started, Times};
+use mechc_engine::analysis::{self, Horizon, LeadOptions, Started, Stop, Times, Warning};
 use mechc_engine::sweep::{Arrived, Base, Lost, Whole};
 use mechc_ir::ConstraintSystem;
 use mechc_ir::program::Program;
+use mechc_ir::structure::Determined;
 use mechc_lang::lower::Clock;
 use mechc_lang::model;
 use mechc_text::cancel::Cancel;
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use std::sync::{Arc, OnceLock};
 
-/// The start that a continuation reaches, or why the mechanism cannot start at its target; `None` if no path leads there. With diagnostics
-/// of the path.
-pub(super) type ContinuedStart = (Option<Result<Started, Box<Diagnostic>>>, Diagnostics);
+/// The start that a continuation reaches.
+#[derive(Default)]
+pub(crate) struct ContinuedStart {
+    /// The start, or why the mechanism cannot start at its target; `None` if no path leads there.
+    pub started: Option<Result<Started, Box<Stop>>>,
+    /// Diagnostics of the path.
+    pub diagnostics: Diagnostics,
+    /// The fraction of the path, from 0 to 1, at which it stopped.
+    pub stopped_path: Option<f64>,
+}
 
 /// What a continuation to given values of params comes to.
 pub(crate) enum Outcome {
-    /// The path reaches its target; the mechanism starts there, or cannot.
-    AtTarget(Result<Box<Started>, Box<Diagnostic>>),
+    /// The path reaches its target, where the mechanism starts.
+    Started(Box<Started>),
+    /// The path reaches its target, where the mechanism of these equations cannot start.
+    CannotStart(Box<Stop>, Arc<Determined>),
     /// Results refuse the times, before any path is followed.
     Refused(Diagnostics),
     /// No path reaches the target; with the reason, if a path began.
@@ -56,22 +66,24 @@ impl ContinuationContext {
     pub fn start_system(&self, system: &ConstraintSystem, horizon: Horizon, cancel: &Cancel) -> ContinuedStart {
         let mut diagnostics = Diagnostics::default();
         let values = system.values_of_params();
-        let Some(base) = self.base(&values, horizon.from, cancel) else { return (None, diagnostics) };
+        let Some(base) = self.base(&values, horizon.from, cancel) else { return ContinuedStart::default() };
         let (times, targets) = ([self.options.t, self.end_time(horizon.from)], || self.targets(system, &values));
         match base.alone(base.variant(&values), horizon, cancel) {
-            Ok(Arrived { started, passed, said }) => {
+            Ok(Arrived { started, passed, passed_before_start }) => {
                 diagnostics.extend(self.nominal.started.far_estimates_at(self.nominal.t));
-                let remark = |(part, what): &_| passed_bifurcation(None, &targets(), times, *part, what);
-                diagnostics.extend(passed.iter().map(remark));
-                diagnostics.extend(said);
-                (Some(Ok(started)), diagnostics)
+                let path_system = base.path_system();
+                let report =
+                    |warning: &Warning| passed_bifurcation(None, &targets(), times, warning.t, (warning, path_system));
+                diagnostics.extend(passed.iter().map(report));
+                diagnostics.extend(passed_before_start.iter().map(|warning| warning.explain(system)));
+                ContinuedStart { started: Some(Ok(started)), diagnostics, stopped_path: None }
             }
-            Err(Lost::There(why)) => (Some(Err(why)), diagnostics),
-            Err(Lost::OnItsWay(..)) if cancel.is_cancelled() => (None, diagnostics),
-            Err(Lost::OnItsWay(part, why)) => {
+            Err(Lost::AtTarget(stop)) => ContinuedStart { started: Some(Err(stop)), ..ContinuedStart::default() },
+            Err(Lost::OnPath(_)) if cancel.is_cancelled() => ContinuedStart::default(),
+            Err(Lost::OnPath(stop)) => {
                 let span = self.nominal.model.declared.span;
-                diagnostics.push(stopped_path(None, &targets(), times, span, part, &why));
-                (None, diagnostics)
+                diagnostics.push(stopped_path(None, &targets(), times, span, stop.t, (&stop, base.path_system())));
+                ContinuedStart { started: None, diagnostics, stopped_path: Some(stop.t) }
             }
         }
     }
@@ -85,13 +97,20 @@ impl ContinuationContext {
             return Outcome::Refused(refused);
         }
         match base.alone(Arc::clone(&variant), Horizon::of(times), cancel) {
-            Ok(arrived) => Outcome::AtTarget(Ok(Box::new(arrived.started))),
-            Err(Lost::There(why)) => Outcome::AtTarget(Err(why)),
-            Err(Lost::OnItsWay(..)) if cancel.is_cancelled() => Outcome::NoPath(None),
-            Err(Lost::OnItsWay(part, why)) => {
+            Ok(arrived) => Outcome::Started(Box::new(arrived.started)),
+            Err(Lost::AtTarget(stop)) => Outcome::CannotStart(stop, variant),
+            Err(Lost::OnPath(_)) if cancel.is_cancelled() => Outcome::NoPath(None),
+            Err(Lost::OnPath(stop)) => {
                 let targets = self.targets(variant.system(), values);
                 let (ends, span) = ([self.options.t, self.end_time(times.from())], self.nominal.model.declared.span);
-                Outcome::NoPath(Some(Box::new(stopped_path(None, &targets, ends, span, part, &why))))
+                Outcome::NoPath(Some(Box::new(stopped_path(
+                    None,
+                    &targets,
+                    ends,
+                    span,
+                    stop.t,
+                    (&stop, base.path_system()),
+                ))))
             }
         }
     }

@@ -1,7 +1,8 @@
 //! Messages of continuations: a path that does not reach its target (E0612), and a bifurcation that a path passes (W0602).
 
 use crate::angles::Angles;
-use mechc_ir::PartStart;
+use mechc_engine::analysis::{Stop, Warning};
+use mechc_ir::{ConstraintSystem, PartStart};
 use mechc_lang::model::Led;
 use mechc_text::diag::{Code, Diagnostic, readable};
 use mechc_text::source::Span;
@@ -40,17 +41,18 @@ impl ContinuationTarget {
     }
 }
 
-/// Reports a path that stops at a fraction of it from 0 to 1, and why; the path of a part, or of the whole if `part` is `None`.
-/// `times` holds the times (s) at both ends.
+/// Reports a path that stops at a fraction of it from 0 to 1, and why, by the equations along the path; the path of a part, or of the whole
+/// if `part` is `None`. `times` holds the times (s) at both ends.
 pub(crate) fn stopped_path(
     part: Option<&PartStart>,
     targets: &[ContinuationTarget],
     times: [f64; 2],
     mechanism_span: Span,
     fraction: f64,
-    why: &Diagnostic,
+    (stop, system): (&Stop, &ConstraintSystem),
 ) -> Diagnostic {
-    let what = if why.code == Code::E0602 { "a dead point" } else { why.code.title() };
+    let why = stop.explain(system);
+    let what = if stop.is_dead_point() { "a dead point" } else { why.code.title() };
     let location =
         targets.first().map(|input| format!(" at `{}` = {}", input.param.declared.name, input.value_at(fraction)));
     let location = location.unwrap_or_default();
@@ -100,8 +102,9 @@ pub(crate) fn passed_bifurcation(
     targets: &[ContinuationTarget],
     times: [f64; 2],
     fraction: f64,
-    what: &Diagnostic,
+    (warning, system): (&Warning, &ConstraintSystem),
 ) -> Diagnostic {
+    let what = warning.explain(system);
     let location =
         targets.first().map(|input| format!(" at `{}` = {}", input.param.declared.name, input.value_at(fraction)));
     let path = match part {

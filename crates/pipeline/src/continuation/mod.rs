@@ -9,6 +9,6 @@ mod nominal;
 mod shared_paths;
 mod starts;
 
-pub(crate) use context::Outcome;
+pub(crate) use context::{ContinuedStart, Outcome};
 pub(crate) use nominal::Continuation;
 pub(crate) use starts::{CompiledSystem, ContinuationOrigin, InitialGuess, StartSolver};

@@ -6,7 +6,7 @@ use super::shared_paths::{PartTarget, SharedPath, shared_paths};
 use crate::angles::Angles;
 use crate::lowering::lowered;
 use crate::options::RunOptions;
-use mechc_engine::analysis::{self, Horizon, LeadOptions, Request, Solving, Unassembled};
+use mechc_engine::analysis::{self, Horizon, LeadOptions, Request, Solving, Unassembled, Warning};
 use mechc_expr::Symbol;
 use mechc_ir::program::Program;
 use mechc_ir::structure::Determined;
@@ -67,7 +67,8 @@ impl CompiledSystem {
 }
 
 impl StartSolver {
-    /// Returns what the mechanism is assembled from at the first time of a horizon, with diagnostics of the continuations.
+    /// Returns what the mechanism is assembled from at the first time of a horizon, with diagnostics of the continuations and the
+    /// fraction of the first path that stopped.
     pub fn initial_guess(
         &self,
         system: &CompiledSystem,
@@ -75,7 +76,7 @@ impl StartSolver {
         origin: &ContinuationOrigin,
         leave_out_redundant: bool,
         options: &RunOptions,
-    ) -> (InitialGuess, Diagnostics) {
+    ) -> (InitialGuess, Diagnostics, Option<f64>) {
         let RunOptions { tolerance, pass_bifurcations, ref cancel, .. } = *options;
         let (t, configuration) = match origin {
             ContinuationOrigin::Nominal(t) => (*t, None),
@@ -92,6 +93,7 @@ impl StartSolver {
             standalone: FxHashMap::default(),
             continued: FxHashMap::default(),
             diagnostics: Diagnostics::default(),
+            stopped_path: None,
         };
         let position = if self.has_given_inputs && !matches!(origin, ContinuationOrigin::Estimates) {
             search.continue_to_given_inputs(&self.read.tree.mechanisms[self.index], horizon.from)
@@ -106,7 +108,7 @@ impl StartSolver {
             },
             InitialGuess::Position,
         );
-        (guess, search.diagnostics)
+        (guess, search.diagnostics, search.stopped_path)
     }
 }
 
@@ -183,6 +185,8 @@ struct StartSearch<'s> {
     /// Coordinates [m, rad] at the targets that were reached.
     continued: FxHashMap<TargetKey, Vec<f64>>,
     diagnostics: Diagnostics,
+    /// The fraction of the first path that stopped.
+    stopped_path: Option<f64>,
 }
 
 impl<'s> StartSearch<'s> {
@@ -218,14 +222,19 @@ impl<'s> StartSearch<'s> {
         let path = analysis::lead(&system.determined, &system.program, from.as_deref(), &[1.0], self.options).ok()?;
         match path.stopped {
             None => {
-                self.diagnostics.extend(path.remarks);
-                let remark = |(part, what): &_| passed_bifurcation(None, &self.targets(&inputs), times, *part, what);
-                let passed: Vec<Diagnostic> = path.passed.iter().map(remark).collect();
+                self.diagnostics.extend(path.warnings);
+                let report = |warning: &Warning| {
+                    let along = (warning, system.determined.system());
+                    passed_bifurcation(None, &self.targets(&inputs), times, warning.t, along)
+                };
+                let passed: Vec<Diagnostic> = path.passed.iter().map(report).collect();
                 self.diagnostics.extend(passed);
             }
             Some(_) if self.options.cancel.is_cancelled() => {}
-            Some((part, why)) => {
-                self.diagnostics.push(stopped_path(None, &self.targets(&inputs), times, span, part, &why));
+            Some(stop) => {
+                let along = (&*stop, system.determined.system());
+                self.diagnostics.push(stopped_path(None, &self.targets(&inputs), times, span, stop.t, along));
+                self.stopped_path.get_or_insert(stop.t);
             }
         }
         path.reached.into_iter().next()
@@ -351,16 +360,17 @@ impl<'s> StartSearch<'s> {
                     (Some(q), _) => {
                         self.continued.insert(target.clone(), q.clone());
                         let inputs = shortened(&inputs, *end);
-                        let before = path.passed.iter().filter(|(fraction, _)| fraction <= end);
-                        diagnostics.extend(before.map(|(fraction, what)| {
-                            let inputs = self.targets(&inputs);
-                            (part, passed_bifurcation(Some(start), &inputs, times, fraction / end, what))
+                        let before = path.passed.iter().filter(|warning| warning.t <= *end);
+                        diagnostics.extend(before.map(|warning| {
+                            let (inputs, along) = (self.targets(&inputs), (warning, system.determined.system()));
+                            (part, passed_bifurcation(Some(start), &inputs, times, warning.t / end, along))
                         }));
                     }
-                    (None, Some((fraction, why))) if !self.options.cancel.is_cancelled() => {
+                    (None, Some(stop)) if !self.options.cancel.is_cancelled() => {
                         let inputs = self.targets(&shortened(&inputs, *end));
-                        let stopped = stopped_path(Some(start), &inputs, times, span, fraction / end, why);
-                        diagnostics.push((part, stopped));
+                        let (fraction, along) = (stop.t / end, (&**stop, system.determined.system()));
+                        diagnostics.push((part, stopped_path(Some(start), &inputs, times, span, fraction, along)));
+                        self.stopped_path.get_or_insert(fraction);
                     }
                     (None, _) => {}
                 }

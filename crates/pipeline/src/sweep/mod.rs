@@ -11,8 +11,9 @@ pub use spec::{Variants, VaryOptions};
 use crate::batch::{BatchLanes, BatchPlan, Requested};
 use crate::continuation::Outcome;
 use crate::{AskedTimes, Checked, Compiled, Redundant, RunOptions, Vectors};
-use mechc_engine::analysis::{Answers, Asked, Started, Times};
+use mechc_engine::analysis::{Answers, Asked, Started, Stop, Times};
 use mechc_engine::sweep::{LANES, OneVariant, PART, Spare, Status, Swept, Team};
+use mechc_ir::ConstraintSystem;
 use mechc_lang::check::UNTIL;
 use mechc_parallel::{Crew, usual_jobs};
 use mechc_text::cancel::Cancel;
@@ -412,7 +413,7 @@ impl SweepContext {
         let model = model?;
         let times = self.options.times.over(model.analysis.map(|of| [of.from, of.to, of.every])).ok()?.times().ok()?;
         let values: Vec<f64> = model.params.iter().map(|param| param.value).collect();
-        let Outcome::AtTarget(Ok(mut started)) = group.continuation.start_values(&values, &times, &options) else {
+        let Outcome::Started(mut started) = group.continuation.start_values(&values, &times, &options) else {
             return None;
         };
         let query = self.result_query(&mut started, &times, &options);
@@ -482,14 +483,14 @@ impl SweepContext {
             digits: 0,
             rows: Vec::new(),
         };
-        if let Err(why) = self.run(params, &mut variant) {
-            variant.status = Status::Stopped(why.code);
-            variant.stopped = why.data.get("t").and_then(serde_json::Value::as_f64).unwrap_or(f64::NAN);
+        if let Err(VariantStop { code, t }) = self.run(params, &mut variant) {
+            variant.status = Status::Stopped(code);
+            variant.stopped = t.unwrap_or(f64::NAN);
         }
         variant
     }
 
-    fn run(&self, params: &[f64], variant: &mut OneVariant) -> Result<(), Box<Diagnostic>> {
+    fn run(&self, params: &[f64], variant: &mut OneVariant) -> Result<(), VariantStop> {
         let options = self.run_options();
         if self.checked.has_given_inputs() {
             return self.run_by_all_stages(params, variant);
@@ -501,8 +502,9 @@ impl SweepContext {
         let times = self.options.times.over(model.analysis.map(|of| [of.from, of.to, of.every]))?.times()?;
         let values: Vec<f64> = model.params.iter().map(|param| param.value).collect();
         match group.continuation.start_values(&values, &times, &options) {
-            Outcome::AtTarget(started) => self.follow(*started?, &times, &options, &group.outputs, variant),
-            Outcome::Refused(diagnostics) => Err(first_error(&diagnostics)),
+            Outcome::Started(started) => self.follow(*started, &times, &options, &group.outputs, variant),
+            Outcome::CannotStart(stop, system) => Err(VariantStop::new(&stop, system.system())),
+            Outcome::Refused(diagnostics) => Err(first_error(&diagnostics).into()),
             Outcome::NoPath(_) => {
                 variant.status = Status::Reassembled;
                 self.run_by_all_stages(params, variant)
@@ -518,7 +520,7 @@ impl SweepContext {
         options: &RunOptions,
         outputs: &OutputMapping,
         variant: &mut OneVariant,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), VariantStop> {
         let mut query = self.result_query(&mut started, times, options);
         // if no rows are wanted, it only matters whether all of them exist
         let early = query.take_if(|_| self.options.columns.is_none()).and_then(Asked::answer);
@@ -528,7 +530,10 @@ impl SweepContext {
                 motion.pass_bifurcations();
             }
             while let Some(row) = motion.next_row() {
-                self.push_row(row?, outputs, variant);
+                match row {
+                    Ok(row) => self.push_row(row, outputs, variant),
+                    Err(stop) => return Err(VariantStop::new(&stop, motion.system())),
+                }
             }
         }
         let answers = early.or_else(|| query.and_then(Asked::answer)).unwrap_or_default();
@@ -537,11 +542,11 @@ impl SweepContext {
     }
 
     /// Checks, compiles and runs a variant anew; only the nominal mechanism that it is continued from is shared.
-    fn run_by_all_stages(&self, params: &[f64], variant: &mut OneVariant) -> Result<(), Box<Diagnostic>> {
+    fn run_by_all_stages(&self, params: &[f64], variant: &mut OneVariant) -> Result<(), VariantStop> {
         let options = self.run_options();
         let checked = self.checked.continued_to(self.variants.read_settings(params), self.variants.sources());
         if !checked.is_sound() {
-            return Err(first_error(checked.diagnostics()));
+            return Err(first_error(checked.diagnostics()).into());
         }
         let (compiled, diagnostics) = checked.compile(self.options.redundant, &options.cancel);
         let group = self.groups.group_of(params, &self.checked, &self.variants);
@@ -549,13 +554,19 @@ impl SweepContext {
         let compiled = compiled.with_continuation(Some(Arc::clone(&group.continuation)));
         let outputs = self.groups.outputs_of(&compiled);
         let times = self.options.times.over(compiled.analysis())?.times()?;
-        let (run, diagnostics) = compiled.run(&times, &options);
-        let mut run = run.ok_or_else(|| first_error(&diagnostics))?;
-        if diagnostics.iter().any(|diagnostic| diagnostic.code == Code::E0612) {
+        let (run, report) = compiled.run_with_report(&times, &options);
+        let Some(mut run) = run else {
+            let t = report.stop.map(|stop| stop.t);
+            return Err(VariantStop { t, ..first_error(&report.diagnostics).into() });
+        };
+        if report.stopped_path.is_some() {
             variant.status = Status::Reassembled;
         }
         while let Some(row) = run.next_row() {
-            self.push_row(row?, &outputs, variant);
+            match row {
+                Ok(row) => self.push_row(row, &outputs, variant),
+                Err(why) => return Err(VariantStop { code: why.code, t: run.stopped_at() }),
+            }
         }
         set_results(&run.results().unwrap_or_default(), &outputs, variant);
         Ok(())
@@ -574,6 +585,25 @@ impl SweepContext {
                 variant.rows.extend(columns.iter().map(|column| column.map_or(f64::NAN, |column| row[column])));
             }
         }
+    }
+}
+
+/// Why a variant is not computed to its end.
+struct VariantStop {
+    code: Code,
+    /// Time (s), if its motion stops.
+    t: Option<f64>,
+}
+
+impl VariantStop {
+    fn new(stop: &Stop, system: &ConstraintSystem) -> VariantStop {
+        VariantStop { code: stop.explain(system).code, t: Some(stop.t) }
+    }
+}
+
+impl From<Box<Diagnostic>> for VariantStop {
+    fn from(diagnostic: Box<Diagnostic>) -> VariantStop {
+        VariantStop { code: diagnostic.code, t: None }
     }
 }
 

@@ -63,6 +63,8 @@ pub struct Diagnostic {
     pub fixes: Vec<Fix>,
     /// What could be driven to mend it, each the left side of a driver's equation: `rotation(main)`.
     pub drives: Vec<String>,
+    /// Names of the declarations that are redundant, which pictures mark; empty if the labels show all that is at fault.
+    pub redundant: Vec<String>,
     /// The numbers of the message, for other programs.
     pub data: Map<String, Value>,
 }
@@ -79,6 +81,7 @@ impl Diagnostic {
             help: Vec::new(),
             fixes: Vec::new(),
             drives: Vec::new(),
+            redundant: Vec::new(),
             data: Map::new(),
         }
     }
@@ -180,6 +183,13 @@ impl Diagnostic {
     pub fn datum(mut self, name: &str, value: impl Into<Value>) -> Diagnostic {
         self.data.insert(name.to_owned(), value.into());
         self
+    }
+
+    /// Names the declarations that are redundant, also for other programs.
+    #[must_use]
+    pub fn redundant(mut self, names: Vec<String>) -> Diagnostic {
+        self.redundant.clone_from(&names);
+        self.datum("redundant", names)
     }
 
     /// How grave it is.

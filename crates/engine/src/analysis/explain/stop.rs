@@ -184,25 +184,22 @@ impl Stop {
         StopCause::BeforeStart { from, is_backward: false, stop: self }.at_of_inner()
     }
 
-    /// Returns the innermost cause.
-    #[must_use]
-    pub fn root_cause(&self) -> &StopCause {
-        match &self.cause {
-            StopCause::BeforeStart { stop, .. } => stop.root_cause(),
-            cause => cause,
-        }
-    }
-
     /// True if a velocity or position jumps there.
     #[must_use]
     pub fn is_jump(&self) -> bool {
-        matches!(self.root_cause(), StopCause::PositionJump { .. } | StopCause::VelocityJump { .. })
+        matches!(self.cause, StopCause::PositionJump { .. } | StopCause::VelocityJump { .. })
+    }
+
+    /// True if a driver cannot move on.
+    #[must_use]
+    pub fn is_dead_point(&self) -> bool {
+        matches!(self.cause, StopCause::LockUp { .. } | StopCause::RestInDeadPoint { .. })
     }
 
     /// True if a formula has no value there.
     #[must_use]
     pub fn is_without_value(&self) -> bool {
-        matches!(self.root_cause(), StopCause::NotFinite { .. } | StopCause::Condition { .. } | StopCause::Load { .. })
+        matches!(self.cause, StopCause::NotFinite { .. } | StopCause::Condition { .. } | StopCause::Load { .. })
     }
 
     /// Describes the stop of a system in words.

@@ -218,6 +218,6 @@ pub fn singular_start(
     .datum("coordinates", system.coordinates().len())
     .datum("equations", system.rows().len())
     .datum("ndof", system.ndof())
-    .datum("redundant", names(joints.iter().map(|&k| &system.declarations()[k].name)))
+    .redundant(names(joints.iter().map(|&k| &system.declarations()[k].name)))
     .datum("free", names(columns.iter().map(|&k| &system.coordinates()[k].name)))
 }

@@ -22,6 +22,7 @@ use crate::analysis::assemble::Started;
 use crate::analysis::explain::{Stop, Warning, singular};
 use crate::analysis::state::{Fault, Kinematics, State, Times, Trust, behind_start};
 use crate::solver::Solver;
+use mechc_ir::ConstraintSystem;
 use mechc_ir::tolerances::UNTOLD_SPAN;
 use mechc_ir::tolerances::steps::march::{FEWEST_STEPS_NEAR, MOST_STEPS};
 pub use segments::Stretch;
@@ -433,6 +434,12 @@ impl Follower {
     #[must_use]
     pub fn was_clear_here(&self) -> bool {
         self.crossing.was_clear_at(self.step.t())
+    }
+
+    /// Returns the equations of the motion, whose stops and warnings speak of them.
+    #[must_use]
+    pub fn system(&self) -> &ConstraintSystem {
+        self.kinematics.system()
     }
 
     /// Where the motion is.
