@@ -3,7 +3,7 @@
 //! Piecewise functions are differentiated by branch: at a switch the derivative is that of the branch which counts
 //! there.
 
-use super::vary::VariedTables;
+use super::table_derivatives::VariedTables;
 use super::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, Unary};
 use rustc_hash::{FxBuildHasher, FxHashMap};
 

@@ -12,14 +12,14 @@ pub mod math;
 mod motion;
 mod print;
 mod table;
+mod table_derivatives;
 mod tidy;
-mod vary;
 
 pub use evaluate::{binary_value, compare, unary_value};
 pub use motion::MotionLaw;
 pub use print::{Printer, number};
 pub use table::{Table, TableId, piece};
-pub use vary::VARIED_TABLE;
+pub use table_derivatives::VARIED_TABLE;
 
 use indexmap::IndexSet;
 use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};

@@ -22,48 +22,47 @@
 //!
 //! [`ConstraintSystem::validate`] looks at these and more.
 
-mod declared;
-mod door;
-mod equations_of;
+mod accessors;
+mod builder;
+mod check_slopes;
+mod declarations;
+mod domain_boundaries;
 mod features;
 mod forces;
 mod homotopy;
 mod ids;
 pub mod layout;
+mod monitors;
 mod print;
 pub mod program;
 mod results;
 mod right_sides;
-mod rims;
 mod rows;
 mod scopes;
-mod signals;
 mod sparse;
 pub mod structure;
 pub mod tolerances;
 mod validate;
 mod variations;
-mod watched;
-mod written;
 
-pub use declared::{
+pub use builder::Written;
+pub use check_slopes::CheckSlopes;
+pub use declarations::{
     Body, Coordinate, CoordinateKind, Declaration, DeclarationKind, Input, Measure, Owner, Param, Units,
 };
+pub use domain_boundaries::Rim;
 pub use features::{Axis, Circle, Point};
 pub use forces::{Forces, LoadForce, Mechanics, Press, Reaction};
 pub use homotopy::Homotopy;
 pub use ids::{AxisId, BodyId, CircleId, DeclarationId, IdVec, PointId};
 pub use mechc_text::vocabulary::JointKind;
+pub use monitors::{Check, Condition, ConditionKind, Fit, OpenContact, PartStart, Watch, WatchKind};
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use right_sides::{RightSide, With};
-pub use rims::Rim;
 pub use rows::{Row, RowUnit};
 pub use scopes::{AskingPart, LEAF_ORDERS, Leaf, Scope, leaf};
-pub use signals::CheckSlopes;
 pub use sparse::SparseRows;
 pub use variations::{Appended, Variable, Variation, Variations};
-pub use watched::{Check, Condition, ConditionKind, Fit, OpenContact, PartStart, Watch, WatchKind};
-pub use written::Written;
 
 use mechc_expr::{Dependence, ExprId, Graph, Symbol, TIME_SIGNAL};
 use mechc_text::source::Span;

@@ -1,8 +1,8 @@
 //! What is said of a text that does not follow the grammar.
 
+use super::fixits::{Fault, Mend};
+use super::foreign_syntax::{Intended, Intent};
 use super::grammar::Rule;
-use super::intended::{Intended, Intent};
-use super::mends::{Fault, Mend};
 use super::tokens::tokens;
 use mechc_text::diag::{Applies, Code, Diagnostic, Edit, Fix};
 use mechc_text::source::{FileId, Source, Span};

@@ -20,8 +20,8 @@ mod groups;
 mod layout;
 mod lexemes;
 mod rows;
+mod tree_printer;
 mod words;
-mod written;
 
 use super::ast::File;
 use super::parse::{ParsedText, parse};
@@ -39,7 +39,7 @@ fn width(text: &str) -> usize {
 /// A tree as text. It ends with a line end, and is empty if the tree is.
 #[must_use]
 pub fn format(file: &File) -> String {
-    let text = written::written(file);
+    let text = tree_printer::print(file);
     let mut sources = Sources::default();
     let written = sources.add("written", text);
     let parsed = parse(&sources, written);

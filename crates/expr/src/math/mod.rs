@@ -5,27 +5,27 @@
 //! elsewhere (`clippy.toml`). Angles are in radians. Beside them stand what several crates do with numbers alone: curves between the
 //! ends of a step, searches in an interval, linear equations in blocks.
 
-mod ahead;
 mod curve;
 #[cfg(test)]
 mod curve_tests;
 #[cfg(test)]
 mod grid_tests;
+mod hermite_weights;
 mod search;
 #[cfg(test)]
 mod search_tests;
-mod sin_cos_of_each;
+mod sin_cos_lanes;
 mod vectors;
 
-pub use ahead::{weigh, weigh_slopes};
 pub use curve::{
     about, along, between, cubic, farthest, integral_of_quintic, parabola, predicted, quintic, value_and_slopes,
 };
+pub use hermite_weights::{weigh, weigh_slopes};
 pub use mechc_runtime::neighbours::bisect;
 pub use mechc_runtime::sine_and_cosine::{A_MILLION, sin_cos};
 pub use mechc_runtime::{blocks, grid, hermite, neighbours};
 pub use search::{GOLDEN, GoldenSection, Halving, boundary, close_in, median};
-pub use sin_cos_of_each::sin_cos_of_each;
+pub use sin_cos_lanes::sin_cos_of_each;
 pub use vectors::{Vectors, WIDE, to_next_line};
 
 /// The largest power of two that is not above a positive number.

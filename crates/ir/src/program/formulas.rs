@@ -1,7 +1,7 @@
 //! Formulas of the motion that are evaluated beside the equations.
 
 use super::compile::Layout;
-use super::enclose::behind;
+use super::interval_eval::behind;
 use super::{Op, Outputs, Program, Register, Stage};
 use mechc_expr::{ExprId, Graph};
 use rustc_hash::FxHashMap;

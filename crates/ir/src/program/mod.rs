@@ -15,21 +15,21 @@ pub mod codes;
 /// The text of the file, for emitted code that carries it along.
 pub const CODES: &str = include_str!("codes.rs");
 mod compile;
-mod enclose;
 mod evaluate;
 mod formulas;
+mod interval_eval;
 mod lanes;
 mod op;
-mod ranges;
-mod signals;
+mod range_bounds;
 mod tables;
+mod time_terms;
 
-pub use enclose::Enclosure;
 pub use evaluate::{Frozen, Registers, truth};
+pub use interval_eval::Enclosure;
 pub use lanes::{LaneMachine, LaneValues};
 pub use op::{Few, Machine, Op};
-pub use ranges::{Hold, Range, Ranges};
-pub use signals::Signal;
+pub use range_bounds::{Hold, Range, Ranges};
+pub use time_terms::Signal;
 
 use crate::With;
 use rustc_hash::FxHashSet;

@@ -3,8 +3,8 @@
 //! Works on the pattern alone and assembles nothing. What comes out is a [`Determined`] system, whose equations are
 //! matched to coordinates and ordered in blocks: each block can be solved when those before it are.
 
-mod alone;
 mod count;
+mod coupled_parts;
 mod errors;
 mod matching;
 mod order;

@@ -1,6 +1,6 @@
 //! Results of the whole motion.
 
-/// Ranges of formulas (`crates/ir/src/program/ranges.rs`).
+/// Ranges of formulas (`crates/ir/src/program/range_bounds.rs`).
 pub mod ranges {
     /// The argument of a function that is resolved changes by no more than this: its series goes on with the first few terms (rad, or
     /// none).
@@ -17,7 +17,7 @@ pub mod ranges {
     pub const HIGH_POWER: u32 = 8;
 }
 
-/// Formulas in intervals (`crates/ir/src/program/enclose.rs`).
+/// Formulas in intervals (`crates/ir/src/program/interval_eval.rs`).
 pub mod enclose {
     /// Over more pieces of a table than this nothing is said of its columns.
     pub const MOST_PIECES: f64 = 64.0;

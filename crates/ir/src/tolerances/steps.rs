@@ -54,7 +54,7 @@ pub mod times {
     pub const MOST: f64 = 9e15;
 }
 
-/// What functions are between in an interval (`crates/ir/src/program/enclose.rs`).
+/// What functions are between in an interval (`crates/ir/src/program/interval_eval.rs`).
 pub mod enclosures {
     /// So near to a pole (rad) a tangent may be on either side of it.
     pub const BESIDE_A_POLE: f64 = 1e-9;
@@ -72,7 +72,7 @@ pub mod signals {
     pub const NUDGE: f64 = 1e-6;
 }
 
-/// Values that time alone decides, in a row (`crates/ir/src/program/signals.rs`).
+/// Values that time alone decides, in a row (`crates/ir/src/program/time_terms.rs`).
 pub mod signals_in_a_row {
     /// An equation that takes more signals is told of these only.
     pub const MOST_IN_A_ROW: usize = 8;

@@ -4,7 +4,7 @@
 //! may be taken, and says whether the formula may jump among them. A caller that knows on which side of its threshold a switch
 //! stays can hold it there.
 
-use super::enclose::{Interval, behind, enclose};
+use super::interval_eval::{Interval, behind, enclose};
 use super::{Op, Program, Register, Registers, Stage};
 use crate::tolerances::results::ranges::{HIGH_POWER, VANISHES, WIDEST, WIDEST_POWER, WIDEST_RATIO, WIDEST_VALUE};
 use mechc_expr::{Binary, Unary};
@@ -324,7 +324,7 @@ fn within_domain(op: Op, v: &[Interval]) -> Option<(Register, Interval)> {
         let (base, power) = (v[a as usize], v[b as usize]);
         let is_partly = base.low < 0.0 && base.high >= 0.0 && power.low > 0.0 && power.low.fract() != 0.0;
         let base = Interval { low: 0.0, ..base };
-        return is_partly.then(|| (to, super::enclose::of_two(function, base, power)));
+        return is_partly.then(|| (to, super::interval_eval::of_two(function, base, power)));
     }
     let Op::Unary { function, to, a } = op else { return None };
     let [least, most] = match function {
@@ -334,7 +334,8 @@ fn within_domain(op: Op, v: &[Interval]) -> Option<(Register, Interval)> {
     };
     let Interval { low, high } = v[a as usize];
     let is_partly = (low < least || high > most) && low <= most && high >= least;
-    is_partly.then(|| (to, super::enclose::of_one(function, Interval { low: low.max(least), high: high.min(most) })))
+    is_partly
+        .then(|| (to, super::interval_eval::of_one(function, Interval { low: low.max(least), high: high.min(most) })))
 }
 
 /// Whether the value of a function that has no switch may jump: over the cut of `atan2`, or a pole of `tan`.
@@ -345,7 +346,7 @@ fn may_jump(op: Op, v: &[Interval]) -> bool {
             x.low <= 0.0 && y.low <= 0.0 && y.high >= 0.0
         }
         Op::Unary { function: Unary::Tan, a, .. } => {
-            let tangent = super::enclose::of_one(Unary::Tan, v[a as usize]);
+            let tangent = super::interval_eval::of_one(Unary::Tan, v[a as usize]);
             tangent.high - tangent.low == f64::INFINITY
         }
         _ => false,

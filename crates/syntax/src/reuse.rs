@@ -6,7 +6,7 @@
 
 use super::ast::{Feature, FeatureKind, File, Item, ItemKind};
 use super::build::Head;
-use super::moved::Move;
+use super::shift_spans::Move;
 use mechc_text::source::FileId;
 use std::ops::Range;
 

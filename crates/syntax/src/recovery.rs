@@ -9,8 +9,8 @@ use super::ast::{Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Us
 use super::build::{Built, Head, Piece, Reader, docs_above, normalized};
 use super::errors;
 use super::grammar::Rule;
-use super::known::Known;
-use super::outline::Outline;
+use super::reuse::Known;
+use super::sync_points::Outline;
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use mechc_text::source::{FileId, Source, Span};
 use mechc_text::vocabulary::{KindOfName, another_name};

@@ -9,7 +9,7 @@ use crate::ast::{
 };
 
 /// Reads back as the same tree, apart from places and from parentheses that change nothing.
-pub(super) fn written(file: &File) -> String {
+pub(super) fn print(file: &File) -> String {
     let uses: String = file.uses.iter().map(|used| documentation(&used.docs) + &use_file(used)).collect();
     let blocks: Vec<String> =
         Some(uses).filter(|uses| !uses.is_empty()).into_iter().chain(file.mechanisms.iter().map(mechanism)).collect();

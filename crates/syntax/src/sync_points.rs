@@ -1,6 +1,6 @@
 //! Where declarations begin, as far as words and braces tell: from there reading goes on after a fault.
 
-use super::intended::hyphenated_at;
+use super::foreign_syntax::hyphenated_at;
 use super::tokens::{Token, tokens};
 use mechc_text::diag::nearest;
 use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym, is_before_a_name, is_ground};
