@@ -1,4 +1,4 @@
-//! What a system is made of: the equations as they are written, of which nothing is derived.
+//! The parts that a constraint system is built from: the equations as lowering writes them, before anything is derived.
 
 use super::{
     AskingPart, Body, BodyId, CheckSlopes, Condition, ConstraintSystem, Coordinate, Declaration, DeclarationId, Fit,
@@ -8,22 +8,22 @@ use mechc_expr::{ExprId, Graph, Symbol};
 use mechc_text::source::Span;
 use rustc_hash::FxHashMap;
 
-/// Equations with all that is said of them.
+/// Equations with their metadata, from which [`ConstraintSystem::of`] derives the system.
 #[derive(Debug)]
 pub struct Written {
     /// The mechanism's name.
     pub name: String,
-    /// The place of that name.
+    /// Span of the name.
     pub span: Span,
     /// Every expression.
     pub graph: Graph,
     /// The parameters, by the number of their symbol.
     pub params: Vec<Param>,
-    /// Whether the equations hold inputs, and time, as signals rather than by their formulas.
+    /// True if the equations contain inputs and time as signals rather than by their formulas.
     pub has_signals: bool,
-    /// The bodies, each with three coordinates; those of the joints come after them.
+    /// The bodies, with three coordinates each; the coordinates of joints follow them in `coordinates`.
     pub bodies: IdVec<BodyId, Body>,
-    /// Their points and the ground's: the equations know of none, but what is said of them does.
+    /// Points of the bodies and the ground. No equation refers to them; messages and pictures do.
     pub points: IdVec<PointId, Point>,
     /// The generalized coordinates, by their number.
     pub coordinates: Vec<Coordinate>,
@@ -31,33 +31,33 @@ pub struct Written {
     pub declarations: IdVec<DeclarationId, Declaration>,
     /// The entries of `Φ`.
     pub rows: Vec<Row>,
-    /// What holds the motion, where somebody asks for it.
+    /// Multipliers and reactions, if the model requests forces.
     pub forces: Option<Forces>,
-    /// Derivatives by inputs and parameters, where there are any.
+    /// Derivatives with respect to inputs and parameters, if any are requested.
     pub variations: Option<Box<Variations>>,
-    /// What is tabulated beside the coordinates.
+    /// Quantities that are tabulated in addition to the coordinates.
     pub measures: Vec<Measure>,
-    /// Formulas that must stay positive.
+    /// Formulas that must stay positive along the motion.
     pub conditions: Vec<Condition>,
-    /// What tells one branch of a gear or contact from another.
+    /// Quantities whose signs distinguish the branches of gears and contacts.
     pub watches: Vec<Watch>,
-    /// Contacts that begin where nobody said; none once that is searched for.
+    /// Contacts whose start has no estimate; empty once the start has been searched for.
     pub open_contacts: Vec<OpenContact>,
-    /// Distances that gears and racks are made for, but do not hold themselves.
+    /// Center distances that gears and racks require but do not enforce.
     pub fits: Vec<Fit>,
-    /// The parts of the mechanism, as far as their start asks for it.
+    /// Sub-mechanisms with what is needed to assemble them separately.
     pub parts: Vec<PartStart>,
-    /// Parts whose texts ask for derivatives by their own equations.
+    /// Parts that request derivatives by their own equations.
     pub asking_parts: Vec<AskingPart>,
     /// Characteristic length L (m): the size of the largest body.
     pub length: f64,
-    /// The file's analysis: first time, last time, step (s).
+    /// The analysis of the file: first time, last time, step (s).
     pub analysis: Option<[f64; 3]>,
 }
 
 impl ConstraintSystem {
-    /// The system of these equations, with `Φ_q`, `ν`, `γ`, the jerk's right side where that is wanted, the right sides of the
-    /// derivatives by inputs and parameters, and the rims. It has no inputs, features and results yet.
+    /// Derives a system from equations: `Φ_q`, `ν`, `γ`, with `with_jerk` the right side of the jerk equation, the right sides of the
+    /// variations, and the domain boundaries. Inputs, features and results are added later.
     #[must_use]
     pub fn of(written: Written, with_jerk: bool) -> ConstraintSystem {
         let mut system = ConstraintSystem {
@@ -101,7 +101,7 @@ impl ConstraintSystem {
 }
 
 impl Written {
-    /// Puts other expressions in the place of symbols, in all that holds on a motion: rows, conditions and watches.
+    /// Replaces symbols by other expressions in all formulas that hold along the motion: rows, conditions and monitors.
     pub fn substitute(&mut self, mut expression: impl FnMut(&mut Graph, Symbol) -> ExprId) {
         let (before, mut known) = (self.graph.clone(), FxHashMap::default());
         let Written { graph, rows, conditions, watches, .. } = self;

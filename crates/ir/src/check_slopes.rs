@@ -1,31 +1,31 @@
-//! Inputs as signals: what their place in the equations asks for beside what a system of time alone has.
+//! Slopes of the redundant equations that are checked instead of solved, and measures of systems with input signals.
 
 use super::right_sides::slopes_by;
 use super::{ConstraintSystem, Measure, With};
 use mechc_expr::{ExprId, Graph, Symbol};
 
-/// Nobody gives more of a signal than its value, rate and acceleration.
+/// Highest time derivative that is given for a signal.
 const HIGHEST: u8 = 2;
 
-/// How equations that were left out change with the coordinates, with each signal and with each parameter. What is varied in a way in which
-/// one would cease to hold has no derivative: the mechanism cannot be assembled beside where it is.
+/// Slopes of the left-out equations with respect to coordinates, inputs and parameters. A variation along which one of them would cease to
+/// hold does not exist, since the mechanism cannot be assembled nearby.
 #[derive(Clone, Debug, Default)]
 pub struct CheckSlopes {
-    /// The check and the coordinate of each slope that does not vanish.
+    /// Check and coordinate of each slope that does not vanish identically.
     pub pattern: Vec<(u32, u32)>,
-    /// These slopes.
+    /// Slopes with respect to coordinates, in the order of `pattern`.
     pub by_q: Vec<ExprId>,
-    /// With inputs and parameters: a slope for each check.
+    /// Slopes with respect to inputs and parameters, one for each check.
     pub with: Vec<(With, Vec<ExprId>)>,
 }
 
 impl CheckSlopes {
-    /// By input, in their order.
+    /// Returns the slopes with respect to each input, in order.
     pub fn by_inputs(&self) -> impl Iterator<Item = &[ExprId]> {
         self.with.iter().filter(|(with, _)| matches!(with, With::Input(_))).map(|(_, slopes)| slopes.as_slice())
     }
 
-    /// By parameter, in their order.
+    /// Returns the slopes with respect to each parameter, in order.
     pub fn by_params(&self) -> impl Iterator<Item = &[ExprId]> {
         self.with.iter().filter(|(with, _)| matches!(with, With::Param(_))).map(|(_, slopes)| slopes.as_slice())
     }

@@ -1,4 +1,4 @@
-//! What a system is of, each thing with its name and its place in the text.
+//! The declared things of a system, each with its name and source span.
 
 use super::{AxisId, BodyId, CircleId, DeclarationId, JointKind, PointId};
 use mechc_expr::{ExprId, Symbol, TIME_SIGNAL};
@@ -10,61 +10,61 @@ use mechc_text::vocabulary::Dimension;
 pub struct Param {
     /// Its name.
     pub name: String,
-    /// How many bytes of it are the path of its part, the last dot too; 0 of one of the mechanism's own.
+    /// Length in bytes of the part's path in `name`, with the last dot; 0 for a parameter of the mechanism itself.
     pub part: usize,
     /// Its value in SI.
     pub value: f64,
-    /// Of its value; that of a plain number is pure, whatever it stands for.
+    /// Dimension of the value; that of a plain number is pure.
     pub dimension: Dimension,
-    /// The name's place.
+    /// Span of the name.
     pub span: Span,
 }
 
 impl Param {
-    /// Its SI unit: `m`, `1/s`, or `1` for a pure number.
+    /// Returns the SI unit: `m`, `1/s`, or `1` for a pure number.
     #[must_use]
     pub fn unit(&self) -> String {
         self.dimension.unit()
     }
 }
 
-/// A signal that comes from outside.
+/// An input signal.
 #[derive(Clone, Debug)]
 pub struct Input {
     /// Its name.
     pub name: String,
-    /// The number of its signal's symbol.
+    /// Number of its signal symbol.
     pub index: u32,
-    /// Its SI unit: `m`, `1/s`, or `1` for a pure number.
+    /// SI unit: `m`, `1/s`, or `1` for a pure number.
     pub unit: String,
-    /// The name's place.
+    /// Span of the name.
     pub span: Span,
-    /// By the text: its value, rate and acceleration, as formulas of time.
+    /// Default value, rate and acceleration from the text, as formulas of time.
     pub formulas: [ExprId; 3],
 }
 
 impl Input {
-    /// The symbol of its value.
+    /// Returns the symbol of its value.
     #[must_use]
     pub fn symbol(&self) -> Symbol {
         Symbol::Signal { index: self.index, order: 0 }
     }
 
-    /// Whether it is time, which is one where formulas hold it beside inputs.
+    /// Returns whether this is time, which is an input where formulas contain it beside input signals.
     #[must_use]
     pub fn is_time(&self) -> bool {
         self.index == TIME_SIGNAL
     }
 }
 
-/// A body with its place in the text.
+/// A body with its source span.
 #[derive(Clone, Debug)]
 pub struct Body {
     /// Its name.
     pub name: String,
-    /// The name's place.
+    /// Span of the name.
     pub span: Span,
-    /// Where its pose is written, if it is.
+    /// Span of its pose, if the text gives one.
     pub pose_span: Option<Span>,
     /// Its coordinates: x, y, phi.
     pub pose: [usize; 3],
@@ -73,16 +73,16 @@ pub struct Body {
 /// What a coordinate measures.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum CoordinateKind {
-    /// In metres.
+    /// A length in metres.
     Length,
-    /// In radians.
+    /// An angle in radians.
     Angle,
-    /// A pure number: the argument of a curve at a contact, or the angle on a circle that serves as one.
+    /// A pure number: the curve parameter of a contact, or the angle on a circle that serves as one.
     Argument,
 }
 
 impl CoordinateKind {
-    /// The SI unit; none for a pure number.
+    /// Returns the SI unit; empty for a pure number.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
@@ -93,7 +93,7 @@ impl CoordinateKind {
     }
 }
 
-/// Whose a coordinate is.
+/// The owner of a coordinate.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Owner {
     /// A body.
@@ -105,19 +105,19 @@ pub enum Owner {
 /// A generalized coordinate.
 #[derive(Clone, Debug)]
 pub struct Coordinate {
-    /// `crank.phi`
+    /// Name, such as `crank.phi`.
     pub name: String,
-    /// Whose it is.
+    /// The body or joint that it belongs to.
     pub owner: Owner,
     /// What it measures.
     pub kind: CoordinateKind,
-    /// Where assembly starts; holds parameters only.
+    /// Starting value for assembly; a formula of parameters alone.
     pub estimate: ExprId,
-    /// What a change of it is judged against: the size of its body (m), or 1 (rad).
+    /// Scale of its changes: the size of its body (m), or 1 (rad).
     pub scale: f64,
 }
 
-/// What kind of declaration wrote a row.
+/// Kinds of declarations that write rows.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum DeclarationKind {
     /// A joint.
@@ -129,7 +129,7 @@ pub enum DeclarationKind {
 }
 
 impl DeclarationKind {
-    /// `joint`, `constraint` or `driver`.
+    /// Returns `joint`, `constraint` or `driver`.
     #[must_use]
     pub fn noun(self) -> &'static str {
         match self {
@@ -145,67 +145,67 @@ impl DeclarationKind {
 pub struct Declaration {
     /// Its name.
     pub name: String,
-    /// The name's place.
+    /// Span of the name.
     pub span: Span,
-    /// Which kind.
+    /// Its kind.
     pub kind: DeclarationKind,
-    /// How many rows it wrote.
+    /// Number of rows that it wrote.
     pub rows: usize,
-    /// Where it takes hold: one point for each of its two bodies where there is one.
+    /// The points that a joint connects, one for each of its two bodies, if it has such points.
     pub points: Vec<PointId>,
-    /// All points that its equations speak of.
+    /// All points that its equations refer to.
     pub features: Vec<PointId>,
     /// The axes that it joins.
     pub axes: Vec<AxisId>,
     /// The circles that it joins.
     pub circles: Vec<CircleId>,
-    /// Where a joint takes hold (m), in the ground's frame, as a formula of the coordinates: at its second point, the point of its second
-    /// axis, the centre of its second circle, or the contact.
+    /// Location of a joint (m) in the frame of the ground, as formulas of the coordinates: its second point, the point of its second axis,
+    /// the center of its second circle, or the contact.
     pub at: Option<[ExprId; 2]>,
-    /// Where the two sides of an equation are written.
+    /// Span of both sides of the equation.
     pub written: Option<Span>,
-    /// Whether formulas speak of this joint: of its rotation or displacement.
+    /// True if formulas refer to the rotation or displacement of this joint.
     pub is_spoken_of: bool,
 }
 
-/// A number to tabulate, with the time derivatives that can be had.
+/// A number to tabulate, with its time derivatives.
 #[derive(Clone, Debug)]
 pub struct Measure {
     /// Its name.
     pub name: String,
     /// Its value.
     pub value: ExprId,
-    /// Its first time derivative, if that needs no fourth derivative of `q`.
+    /// First time derivative, unless it would need a fourth derivative of `q`.
     pub first: Option<ExprId>,
-    /// Its second time derivative, likewise.
+    /// Second time derivative, unless it would need a fourth derivative of `q`.
     pub second: Option<ExprId>,
-    /// The name's place.
+    /// Span of the name.
     pub span: Span,
-    /// In what it is printed.
+    /// Units for printing.
     pub units: Units,
 }
 
 impl Measure {
-    /// Its value (order 0), first or second time derivative, if that can be had.
+    /// Returns its value (order 0), or its first or second time derivative if available.
     #[must_use]
     pub fn derivative(&self, order: usize) -> Option<ExprId> {
         [Some(self.value), self.first, self.second][order]
     }
 
-    /// Whether it has a value (0), a first time derivative (1), a second one (2).
+    /// Returns whether the derivative of an order (0 to 2) is available.
     #[must_use]
     pub fn has(&self, order: usize) -> bool {
         self.derivative(order).is_some()
     }
 }
 
-/// The units of a measure and of its derivatives.
+/// Units of a measure and its derivatives.
 #[derive(Clone, Debug)]
 pub struct Units {
     /// The SI unit of its value: `m`, `rad/s`, or `1` for a pure number.
     pub si: String,
-    /// Those in which it, its first and its second time derivative are printed.
+    /// Units in which the value and its first and second time derivatives are printed.
     pub printed: [String; 3],
-    /// What SI is divided by, multiplied with and divided by to be in these.
+    /// Factors `[a, b, c]` from SI to the printed units: `value / a * b / c`.
     pub scale: [f64; 3],
 }

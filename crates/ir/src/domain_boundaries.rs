@@ -1,27 +1,27 @@
-//! Rims: where a formula comes to the end of what one of its functions takes, as a root that comes to zero.
+//! Boundaries of the domains of functions in the equations, such as the zero of a radicand, each as an event function.
 
 use super::{ConstraintSystem, DeclarationId};
 use mechc_expr::{Binary, ExprId, Graph, Node, Unary};
 use rustc_hash::FxHashMap;
 
-/// A quantity at whose zero a formula of the equations may have an edge.
+/// A boundary of the domain of a function in the equations, at which a formula may end or have an edge.
 #[derive(Clone, Debug)]
 pub struct Rim {
-    /// The quantity: the radicand of a root, `1 − a²` of an arc sine, a denominator.
+    /// Event function, zero at the boundary: the radicand of a root, `1 − a²` for an arc sine, a denominator.
     pub gauge: ExprId,
-    /// Its time derivative along the motion: where the gauge only touches zero, this one changes its sign.
+    /// Time derivative of `gauge` along the motion; it changes sign where `gauge` only touches zero.
     pub slope: ExprId,
-    /// The declarations whose equations hold the formula, in order.
+    /// Declarations whose equations contain the formula, ascending.
     pub declarations: Vec<DeclarationId>,
 }
 
 impl ConstraintSystem {
-    /// Finds the rims of all equations.
+    /// Finds the domain boundaries of all equations.
     pub(super) fn find_rims(&mut self) {
         let mut gauges: FxHashMap<ExprId, ExprId> = FxHashMap::default();
         let nodes: Vec<(ExprId, Node)> = self.graph.nodes().collect();
         for (id, node) in nodes {
-            // what depends on parameters alone has no edge in time
+            // formulas of parameters alone have no edge in time
             if self.graph.dependence(id).is_constant() {
                 continue;
             }
@@ -33,14 +33,14 @@ impl ConstraintSystem {
         if gauges.is_empty() {
             return;
         }
-        let mut known: FxHashMap<ExprId, usize> = FxHashMap::default();
+        let mut index_of: FxHashMap<ExprId, usize> = FxHashMap::default();
         for row in 0..self.rows.len() {
             let declaration = self.rows[row].declaration;
             for id in self.graph.reachable(&[self.rows[row].phi]) {
                 let Some(&gauge) = gauges.get(&id) else {
                     continue;
                 };
-                let index = *known.entry(gauge).or_insert_with(|| {
+                let index = *index_of.entry(gauge).or_insert_with(|| {
                     let slope = Self::time_derivatives(&mut self.graph, &[gauge], 1)[0];
                     self.rims.push(Rim { gauge, slope, declarations: Vec::new() });
                     self.rims.len() - 1
@@ -54,7 +54,7 @@ impl ConstraintSystem {
     }
 }
 
-/// The quantity whose zero is the end of what a node's function takes, or a pole of it.
+/// Returns the quantity whose zero is the end of the domain of a node's function, or a pole of it.
 fn gauge(graph: &mut Graph, id: ExprId, node: Node) -> Option<ExprId> {
     let gauge = match node {
         Node::Unary(Unary::Sqrt | Unary::Ln | Unary::Log10, a) | Node::Binary(Binary::Pow, a, _) => a,
@@ -64,14 +64,14 @@ fn gauge(graph: &mut Graph, id: ExprId, node: Node) -> Option<ExprId> {
             let (one, square) = (graph.constant(1.0), graph.power(a, 2));
             graph.sub(one, square)
         }
-        // cos², without a cosine of its own
+        // cos², computed from the tangent
         Node::Unary(Unary::Tan, _) => {
             let (one, square) = (graph.constant(1.0), graph.power(id, 2));
             let steepness = graph.add(one, square);
             graph.div(one, steepness)
         }
         Node::Binary(Binary::Hypot, a, b) => square_of_hypot(graph, a, b),
-        // zero on the cut, where the angle goes over to another turn, and at the origin
+        // zero on the branch cut, where the angle jumps by a turn, and at the origin
         Node::Binary(Binary::Atan2, y, x) => {
             let distance = graph.binary(Binary::Hypot, x, y);
             graph.add(x, distance)
@@ -82,7 +82,7 @@ fn gauge(graph: &mut Graph, id: ExprId, node: Node) -> Option<ExprId> {
     (!graph.dependence(gauge).is_constant()).then_some(gauge)
 }
 
-/// A quantity with the same zeros that is smooth there: no factor, no root.
+/// Returns a quantity with the same zeros that is smooth there: without constant factors and roots.
 fn smoothed(graph: &mut Graph, mut gauge: ExprId) -> ExprId {
     loop {
         gauge = match graph.node(gauge) {

@@ -1,118 +1,119 @@
-//! What is looked at beside the equations: what must hold where they are solved, and where a solution begins.
+//! Quantities that are monitored beside the solved equations: conditions, redundant equations, branch monitors, and the starts of contacts
+//! and parts.
 
 use super::{BodyId, DeclarationId, RowUnit};
 use mechc_expr::{ExprId, TableId};
 use mechc_text::source::Span;
 use std::ops::Range;
 
-/// A formula that must be above zero.
+/// A formula that must stay above zero.
 #[derive(Clone, Debug)]
 pub struct Condition {
     /// The formula.
     pub positive: ExprId,
-    /// What it is about.
+    /// Reason for the condition.
     pub kind: ConditionKind,
-    /// The formula's place.
+    /// Span of the formula.
     pub span: Span,
-    /// The declaration that asks for it.
+    /// Name of the declaration that requires it.
     pub owner: String,
 }
 
-/// What a condition is about.
+/// Reasons for a condition.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ConditionKind {
-    /// A prescribed distance.
+    /// A prescribed distance must be positive.
     Distance,
-    /// The interval of a motion function.
+    /// The interval of a motion function must not be empty.
     Interval,
-    /// The range of a table.
+    /// The argument of a table must be within its range.
     Range(TableId),
-    /// The times of the samples of an input.
+    /// Time must be within the samples of an input.
     Samples(TableId),
 }
 
-/// An equation that follows from the others.
+/// A redundant equation, which is checked instead of solved.
 #[derive(Clone, Debug)]
 pub struct Check {
     /// The entry of `Φ`.
     pub phi: ExprId,
-    /// What that is measured in.
+    /// Unit of `phi`.
     pub unit: RowUnit,
     /// The declaration that wrote it.
     pub declaration: DeclarationId,
-    /// Its norm in the scaled `Φ_q` at the start.
+    /// Norm of its row in the scaled `Φ_q` at the estimates.
     pub scale: f64,
 }
 
-/// A quantity that keeps its sign along a branch of the motion, and only there.
+/// A quantity that keeps its sign along one branch of the motion, and changes it on another.
 #[derive(Clone, Debug)]
 pub struct Watch {
     /// The quantity.
     pub value: ExprId,
-    /// What it is.
+    /// Meaning of the quantity.
     pub kind: WatchKind,
-    /// What it is judged against.
+    /// Scale for the value.
     pub scale: f64,
-    /// The joint's declaration.
+    /// Declaration of the joint.
     pub declaration: DeclarationId,
 }
 
-/// What a [`Watch`] looks at.
+/// Meanings of a monitored quantity.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum WatchKind {
-    /// The way from centre to centre along the line of centres; it must be positive.
+    /// Directed distance of the centers along the line of centers; it must stay positive.
     LineOfCenters,
-    /// One tangent at a contact along the other; zero where a tangent vanishes.
+    /// Component of one tangent at a contact along the other; zero where a tangent vanishes.
     Tangents,
-    /// The relative curvature at a contact; zero where the contact is singular.
+    /// Relative curvature at a contact; zero where the contact is singular.
     Curvature,
 }
 
-/// A distance in the assembled start, and what it should be.
+/// A center distance at the assembled start, and its nominal value.
 #[derive(Clone, Debug)]
 pub struct Fit {
-    /// As it is (m).
+    /// Actual distance (m).
     pub distance: ExprId,
-    /// As the radii have it (m).
+    /// Nominal distance from the radii (m).
     pub wanted: ExprId,
-    /// The larger radius (m).
+    /// Larger radius (m).
     pub radius: ExprId,
-    /// The joint's declaration.
+    /// Declaration of the joint.
     pub declaration: DeclarationId,
 }
 
-/// A contact with arguments that no curve gives an estimate of.
+/// A contact whose curve arguments have no estimate.
 #[derive(Clone, Debug)]
 pub struct OpenContact {
-    /// The joint's declaration.
+    /// Declaration of the joint.
     pub declaration: DeclarationId,
-    /// These arguments, by the numbers of their coordinates.
+    /// Coordinate numbers of these arguments.
     pub arguments: Vec<u32>,
-    /// What must be positive for its curves to have a point.
+    /// Formulas that must be positive for its curves to have a point.
     pub conditions: Vec<ExprId>,
 }
 
-/// What the start of a part needs: it is assembled alone, led to what its inputs are, and carried to where its mount is.
+/// Everything needed to start a part: it is assembled alone, its inputs are continued to their bound values, and it is moved to its mount.
 #[derive(Clone, Debug)]
 pub struct PartStart {
     /// Its name.
     pub name: String,
-    /// Where that stands.
+    /// Span of the name.
     pub span: Span,
-    /// The name of its mechanism, in the text of that.
+    /// Span of the mechanism's name in the source of the part.
     pub text: Span,
-    /// What its params are that are bound (SI), by their names there; a coordinate of a point has its own.
+    /// Bound parameters by their names in the part (SI); each coordinate of a point is listed separately.
     pub params: Vec<(String, ExprId)>,
-    /// What its inputs are (SI), over the coordinates and time.
+    /// Bound inputs (SI), as formulas of coordinates and time.
     pub inputs: Vec<(String, ExprId)>,
-    /// Where its ground is: x (m), y (m), phi (rad).
+    /// Pose of its ground: x (m), y (m), phi (rad).
     pub mount: [ExprId; 3],
-    /// Whether its text is mirrored.
+    /// True if the part is mirrored.
     pub is_mirrored: bool,
     /// Its bodies.
     pub bodies: Vec<BodyId>,
-    /// The coordinates of these.
+    /// The coordinates of these bodies.
     pub poses: Range<usize>,
-    /// The coordinates that its joints bring along.
+    /// The coordinates that its joints add.
     pub own: Range<usize>,
 }

@@ -1,10 +1,10 @@
-//! The constraint system as readable text.
+//! The constraint system as readable text, for `Display` and messages.
 
 use super::{ConditionKind, ConstraintSystem, DeclarationKind, ReductionKind, WatchKind};
 use mechc_expr::{ExprId, Printer, Symbol, number};
 
 impl ConstraintSystem {
-    /// A symbol as the result tables name it: `crank.phi`, `crank.phi.d`.
+    /// Returns the name of a symbol as in result tables: `crank.phi`, `crank.phi.d`.
     #[must_use]
     pub fn symbol_name(&self, symbol: Symbol) -> String {
         match symbol {
@@ -19,7 +19,7 @@ impl ConstraintSystem {
                 if order == 0 { name.clone() } else { format!("{name}.{}", "d".repeat(order as usize)) }
             }
             Symbol::Named(k) => format!("reduction_{}", k + 1),
-            // it is nothing, and may be varied
+            // it is zero, and may be varied
             Symbol::Shift(_) => "0".to_owned(),
             Symbol::Varied { index, order, variation } => {
                 let of = self.symbol_name(Symbol::Coordinate { index, order });
@@ -32,7 +32,7 @@ impl ConstraintSystem {
         }
     }
 
-    /// A row by the declaration that wrote it: `big`, or `big 2` where it wrote several.
+    /// Returns the name of a row by its declaration: `big`, or `big 2` if the declaration wrote several rows.
     #[must_use]
     pub fn row_name(&self, row: usize) -> String {
         let declaration = self.rows[row].declaration;
@@ -69,7 +69,7 @@ impl ConstraintSystem {
     }
 }
 
-/// Every coordinate, every row of `Φ` with the declaration that wrote it, the entries of `Φ_q`, `ν`, `γ`, the measures.
+/// Prints the coordinates, the rows of `Φ` with their declarations, the entries of `Φ_q`, `ν`, `γ`, the measures and the results.
 impl std::fmt::Display for ConstraintSystem {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut printer = Printer::new(&self.graph, |symbol| self.symbol_name(symbol)).for_readers();
@@ -161,7 +161,7 @@ impl ConstraintSystem {
     ) -> impl Iterator<Item = (String, String)> + 's {
         self.results.reductions.iter().enumerate().map(|(k, reduction)| {
             let of = text(reduction.of);
-            let said = match reduction.kind {
+            let reduced = match reduction.kind {
                 ReductionKind::Extreme { largest, when } => {
                     let which = if largest { "largest" } else { "least" };
                     if when { format!("the time of the {which} {of}") } else { format!("the {which} {of}") }
@@ -174,8 +174,8 @@ impl ConstraintSystem {
             };
             let bounds = ["from", "to"].into_iter().zip(reduction.window);
             let bounds = bounds.filter_map(|(word, bound)| bound.map(|bound| format!(" {word} t = {} s", text(bound))));
-            let said = said + &bounds.collect::<String>();
-            (self.symbol_name(Symbol::Named(k as u32)), said)
+            let reduced = reduced + &bounds.collect::<String>();
+            (self.symbol_name(Symbol::Named(k as u32)), reduced)
         })
     }
 
@@ -207,7 +207,7 @@ impl ConstraintSystem {
 }
 
 impl ConstraintSystem {
-    /// All that is printed, so that what it shares can be named.
+    /// Returns all printed formulas, so that shared subexpressions can be named.
     fn printed(&self) -> Vec<ExprId> {
         let mut roots: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
         roots.extend(self.coordinates.iter().map(|coordinate| coordinate.estimate));
@@ -222,14 +222,14 @@ impl ConstraintSystem {
         roots
     }
 
-    /// A letter for the names of shared parts that no parameter begins with.
+    /// Returns a prefix for the names of shared subexpressions that no parameter name begins with.
     pub(super) fn prefix_of_shared(&self) -> &'static str {
         let free = |prefix: &&str| !self.params.iter().any(|param| param.name.starts_with(*prefix));
         ["k", "e", "u", "w"].into_iter().find(free).unwrap_or("shared_")
     }
 }
 
-/// A title, and lines of two columns; nothing where there are none.
+/// Writes a title and lines of two columns; nothing if there are no lines.
 fn section(
     f: &mut std::fmt::Formatter<'_>,
     title: &str,

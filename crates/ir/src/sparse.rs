@@ -1,4 +1,4 @@
-//! A matrix that has few entries.
+//! Sparse matrices of expressions.
 
 use mechc_expr::ExprId;
 use std::ops::Range;
@@ -11,7 +11,7 @@ pub struct SparseRows {
 }
 
 impl SparseRows {
-    /// One without rows.
+    /// Creates a matrix without rows.
     #[must_use]
     pub fn new() -> SparseRows {
         SparseRows { starts: vec![0], entries: Vec::new() }

@@ -1,7 +1,7 @@
-//! Proof that nothing happens within a stretch of time: a program's operations, run on intervals.
+//! Interval evaluation: proves that nothing happens within a stretch of time, by running a program's operations on intervals.
 //!
-//! An enclosure holds every value that an operation takes while time, and where wanted the coordinates, go through their
-//! intervals; it may hold more, and the narrower the intervals, the less more it holds.
+//! An enclosure holds every value of an operation while time, and optionally the coordinates, vary in their intervals. It may be wider than
+//! these values; the excess vanishes with the width of the intervals.
 
 use super::{Column, Machine, Op, Program, Register, Registers, Stage};
 use crate::tolerances::results::enclose::MOST_PIECES;
@@ -9,7 +9,7 @@ use crate::tolerances::steps::enclosures::BESIDE_A_POLE;
 use mechc_expr::{Binary, Comparison, Unary, binary_value, compare, piece, unary_value};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// From a lowest to a highest value.
+/// A closed interval.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Interval {
     pub(super) low: f64,
@@ -19,41 +19,41 @@ pub(super) struct Interval {
 pub(super) const WHOLE: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY };
 const UNDECIDED: Interval = Interval { low: 0.0, high: 1.0 };
 
-/// What must not happen: a switch that changes, a condition that fails, a watched quantity that changes its sign.
+/// Enclosures of switches, conditions and monitors, to prove that no switch changes, no condition fails and no monitor changes its sign.
 #[derive(Clone, Debug)]
 pub struct Enclosure {
-    /// The operations behind all that, in order.
+    /// Operations that these depend on, in order.
     operations: Vec<Op>,
-    /// Results of the switches that must keep them.
+    /// Results of switches that must not change.
     switches: Vec<Register>,
-    /// What must stay above zero.
+    /// Registers that must stay above zero.
     conditions: Vec<Register>,
-    /// What must keep its sign.
+    /// Registers that must keep their sign.
     watches: Vec<Register>,
-    /// First of the coordinates; none where time alone goes on.
+    /// First coordinate; `None` if time alone varies.
     coordinates: Option<Register>,
     time: Register,
     values: Vec<Interval>,
 }
 
 impl Enclosure {
-    /// For what depends on time alone; the prologue must have been run. Allocates nothing later.
+    /// Creates the enclosure of what depends on time alone; the prologue must have been run. Later calls do not allocate.
     #[must_use]
     pub fn of_time(program: &Program, registers: &Registers) -> Enclosure {
         Enclosure::new(program, registers, true)
     }
 
-    /// For what depends on the motion.
+    /// Creates the enclosure of what depends on the motion.
     #[must_use]
     pub fn of_motion(program: &Program, registers: &Registers) -> Enclosure {
         Enclosure::new(program, registers, false)
     }
 
-    /// For the ranges of some registers that time alone decides.
+    /// Creates the enclosure of registers that depend on time alone.
     #[must_use]
     pub fn of_registers(program: &Program, registers: &Registers, roots: &[Register]) -> Enclosure {
         Enclosure {
-            operations: behind(program, roots, &[Stage::Time]),
+            operations: backward_slice(program, roots, &[Stage::Time]),
             switches: Vec::new(),
             conditions: Vec::new(),
             watches: Vec::new(),
@@ -63,14 +63,14 @@ impl Enclosure {
         }
     }
 
-    /// For the ranges of rims, those that time alone decides or all others.
+    /// Creates the enclosure of domain boundaries: those that depend on time alone, or all others.
     #[must_use]
     pub fn of_rims(program: &Program, registers: &Registers, on_time: bool) -> Enclosure {
         let rims = program.outputs.rims.iter().filter(|rim| rim.on_time == on_time);
         let roots: Vec<Register> = rims.flat_map(|rim| [rim.gauge, rim.slope]).collect();
         let stages: &[Stage] =
             if on_time { &[Stage::Rims, Stage::Time] } else { &[Stage::Rims, Stage::Position, Stage::Time] };
-        Enclosure { operations: behind(program, &roots, stages), ..Enclosure::of_registers(program, registers, &[]) }
+        Enclosure { operations: backward_slice(program, &roots, stages), ..Enclosure::of_registers(program, registers, &[]) }
     }
 
     fn new(program: &Program, registers: &Registers, on_time: bool) -> Enclosure {
@@ -87,30 +87,30 @@ impl Enclosure {
         let (conditions, watches) = (of(&program.outputs.conditions), of(&program.outputs.watches));
         let roots: Vec<Register> = switches.iter().chain(&conditions).chain(&watches).copied().collect();
         Enclosure {
-            operations: behind(program, &roots, if on_time { &[Stage::Time] } else { &[Stage::Position, Stage::Time] }),
+            operations: backward_slice(program, &roots, if on_time { &[Stage::Time] } else { &[Stage::Position, Stage::Time] }),
             switches,
             conditions,
             watches,
             coordinates: (!on_time).then_some(program.inputs.coordinates[0]),
             time: program.inputs.time,
-            // what is computed is written anew each time
+            // computed registers are overwritten in each run
             values: (0..program.registers()).map(|k| point(registers.get(k as u32))).collect(),
         }
     }
 
-    /// Whether there is nothing to prove.
+    /// Returns whether there is nothing to prove.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.switches.is_empty() && self.conditions.is_empty() && self.watches.is_empty()
     }
 
-    /// Whether all conditions hold, by their values.
+    /// Returns whether all conditions hold for the given register values.
     pub fn conditions_hold(&self, value: impl Fn(Register) -> f64) -> bool {
         self.conditions.iter().all(|&register| value(register) > 0.0)
     }
 
-    /// Whether nothing happens from one time (s) to another, the coordinates staying in their intervals (middle and
-    /// reach). What is frozen or watched is what `registers` have now; a switch that `may_change` is passed over.
+    /// Returns whether nothing happens between two times (s), while coordinates stay in their intervals (center and radius). Frozen
+    /// switches and signs of monitors are those in `registers`; a switch for which `may_change` returns true is ignored.
     pub fn is_steady(
         &mut self,
         program: &Program,
@@ -133,12 +133,12 @@ impl Enclosure {
         self.conditions.iter().all(|&register| v[register as usize].low > 0.0) && self.watches.iter().all(has_sign)
     }
 
-    /// Encloses from one time (s) to another, what is frozen being what `registers` have now.
+    /// Encloses all values between two times (s), with switches frozen as in `registers`.
     pub fn enclose(&mut self, program: &Program, registers: &Registers, times: [f64; 2]) {
         self.run(program, registers, times, |_| true);
     }
 
-    /// Lets a run of registers be anywhere in their intervals (middle and reach).
+    /// Sets intervals (center and radius) for a run of registers.
     pub fn set_all(&mut self, first: Register, boxes: &[[f64; 2]]) {
         for (k, [middle, reach]) in boxes.iter().enumerate() {
             self.values[first as usize + k] =
@@ -146,14 +146,14 @@ impl Enclosure {
         }
     }
 
-    /// What a register was enclosed in: from the lowest to the highest value.
+    /// Returns the enclosure `[low, high]` of a register.
     #[must_use]
     pub fn range(&self, register: Register) -> [f64; 2] {
         let Interval { low, high } = self.values[register as usize];
         [low, high]
     }
 
-    /// Runs the operations; false as soon as a switch may change that must not.
+    /// Runs the operations; returns false as soon as a switch may change that must not.
     fn run(
         &mut self,
         program: &Program,
@@ -180,8 +180,8 @@ impl Enclosure {
     }
 }
 
-/// The operations behind some registers, of some stages, the last one first.
-pub(super) fn behind(program: &Program, roots: &[Register], stages: &[Stage]) -> Vec<Op> {
+/// Returns the operations of some stages that registers depend on, in order of evaluation. `stages` starts with the last one.
+pub(super) fn backward_slice(program: &Program, roots: &[Register], stages: &[Stage]) -> Vec<Op> {
     let mut needed = vec![false; program.registers()];
     for &root in roots {
         needed[root as usize] = true;
@@ -199,17 +199,17 @@ pub(super) fn behind(program: &Program, roots: &[Register], stages: &[Stage]) ->
     operations
 }
 
-/// Encloses the results of an operation.
+/// Encloses the result of an operation.
 pub(super) fn enclose(program: &Program, op: Op, v: &mut [Interval]) {
     match op {
-        // a register has but one value at a time
+        // equal operands are correlated, which interval arithmetic ignores
         Op::Mul { to, a, b } if a == b => v[to as usize] = square(v[a as usize]),
         Op::Compare { comparison, to, a, b } if a == b => v[to as usize] = point(compare(comparison, 0.0, 0.0)),
         _ => op.run(&mut Intervals { program, v }),
     }
 }
 
-/// Registers that hold intervals.
+/// Machine on registers that hold intervals.
 struct Intervals<'i> {
     program: &'i Program,
     v: &'i mut [Interval],
@@ -255,22 +255,22 @@ impl Machine for Intervals<'_> {
     }
 
     fn sin_cos(&mut self, a: Interval) -> [Interval; 2] {
-        waves(a)
+        sin_cos_range(a)
     }
 
     fn unary(&mut self, function: Unary, a: Interval) -> Interval {
-        of_one(function, a)
+        unary_range(function, a)
     }
 
     fn binary(&mut self, function: Binary, a: Interval, b: Interval) -> Interval {
-        of_two(function, a, b)
+        binary_range(function, a, b)
     }
 
     fn compare(&mut self, comparison: Comparison, a: Interval, b: Interval) -> Interval {
-        compared(comparison, a, b)
+        comparison_range(comparison, a, b)
     }
 
-    // switches are points once they have been looked at
+    // switches that have been examined are points
 
     fn and(&mut self, a: Interval, b: Interval) -> Interval {
         exact(a.low.min(b.low), a.high.min(b.high))
@@ -305,11 +305,11 @@ impl Machine for Intervals<'_> {
 
     fn pick(&mut self, table: u32, column: Column, piece: Interval) -> Interval {
         let (first, last) = (piece.low, piece.high);
-        // several pieces where the argument goes over a knot: all between
+        // several pieces if the argument crosses a knot: all of them
         if first.total_cmp(&last).is_eq() {
-            picked(self.program, table, column, first, self.v)
+            column_entry(self.program, table, column, first, self.v)
         } else {
-            picked_of_all(self.program, table, column, [first, last], self.v)
+            column_hull(self.program, table, column, [first, last], self.v)
         }
     }
 }
@@ -318,22 +318,22 @@ fn point(value: f64) -> Interval {
     if value.is_nan() { WHOLE } else { Interval { low: value + 0.0, high: value + 0.0 } }
 }
 
-/// Ends that are known exactly.
+/// Creates an interval with exact ends.
 fn exact(low: f64, high: f64) -> Interval {
     if low.is_nan() || high.is_nan() { WHOLE } else { Interval { low: low + 0.0, high: high + 0.0 } }
 }
 
-/// All of both.
+/// Returns the smallest interval that contains both.
 pub(super) fn hull(a: Interval, b: Interval) -> Interval {
     Interval { low: a.low.min(b.low), high: a.high.max(b.high) }
 }
 
-/// Rounding may have gone either way.
+/// Widens an interval by one rounding on either side.
 fn wider(low: f64, high: f64) -> Interval {
     if low.is_nan() || high.is_nan() { WHOLE } else { Interval { low: low.next_down(), high: high.next_up() } }
 }
 
-/// What follows from some operands: of points one number, as the program has it, and not what it may be off.
+/// Widens a result for rounding, unless the operands are points: then the program computes this very number.
 fn rounded<const N: usize>(of: [Interval; N], low: f64, high: f64) -> Interval {
     let is_point = |of: &Interval| of.low.total_cmp(&of.high).is_eq();
     if of.iter().all(is_point) && low.is_finite() && low.total_cmp(&high).is_eq() {
@@ -343,8 +343,8 @@ fn rounded<const N: usize>(of: [Interval; N], low: f64, high: f64) -> Interval {
     }
 }
 
-/// The sine and the cosine: each changes by no more than its argument, nor by more than its slope in the middle and half the square tell.
-fn waves(a: Interval) -> [Interval; 2] {
+/// Encloses sine and cosine, by the Lipschitz constant 1 and by the slope in the middle with half the squared radius.
+fn sin_cos_range(a: Interval) -> [Interval; 2] {
     let middle = 0.5 * a.low + 0.5 * a.high;
     let reach = (a.high - middle).max(middle - a.low).next_up();
     let values = [Unary::Sin, Unary::Cos].map(|function| unary_value(function, middle));
@@ -358,14 +358,14 @@ fn waves(a: Interval) -> [Interval; 2] {
     })
 }
 
-/// Never below zero.
+/// Encloses a square, which is never negative.
 fn square(a: Interval) -> Interval {
-    let a = of_one(Unary::Abs, a);
+    let a = unary_range(Unary::Abs, a);
     let squared = rounded([a], a.low * a.low, a.high * a.high);
     Interval { low: squared.low.max(0.0), high: squared.high }
 }
 
-/// Of a function that is monotone in each operand: its values at the corners hold all others between them.
+/// Encloses a function that is monotone in each operand by its values at the corners.
 fn corners(a: Interval, b: Interval, f: impl Fn(f64, f64) -> f64) -> Interval {
     let all = [f(a.low, b.low), f(a.low, b.high), f(a.high, b.low), f(a.high, b.high)];
     if all.iter().any(|x| x.is_nan()) {
@@ -379,12 +379,12 @@ fn quotient(a: Interval, b: Interval) -> Interval {
     if b.low <= 0.0 && b.high >= 0.0 { WHOLE } else { corners(a, b, |x, y| x / y) }
 }
 
-pub(super) fn of_one(function: Unary, a: Interval) -> Interval {
+pub(super) fn unary_range(function: Unary, a: Interval) -> Interval {
     let (low, high) = (unary_value(function, a.low), unary_value(function, a.high));
     match function {
-        Unary::Sin => waves(a)[0],
-        Unary::Cos => waves(a)[1],
-        // exact, and they never fall
+        Unary::Sin => sin_cos_range(a)[0],
+        Unary::Cos => sin_cos_range(a)[1],
+        // exact and monotone
         Unary::Sign | Unary::Floor if !low.is_nan() && !high.is_nan() => Interval { low: low + 0.0, high: high + 0.0 },
         Unary::Acos => loose(high, low),
         Unary::Abs if a.low >= 0.0 => a,
@@ -393,24 +393,24 @@ pub(super) fn of_one(function: Unary, a: Interval) -> Interval {
         Unary::Cosh if a.low < 0.0 && a.high > 0.0 => loose(1.0, low.max(high)),
         Unary::Cosh => loose(low.min(high), low.max(high)),
         Unary::Tan => {
-            // the poles are known as well as the argument is
+            // the poles are as uncertain as the argument
             let slack = BESIDE_A_POLE + 4.0 * f64::EPSILON * a.low.abs().max(a.high.abs());
             let branch = |x: f64| mechc_expr::math::floor((x + FRAC_PI_2) / PI);
             let one_branch = branch(a.low - slack).to_bits() == branch(a.high + slack).to_bits();
             if one_branch && low <= high { loose(low, high) } else { WHOLE }
         }
-        // all others rise
+        // all other functions are increasing
         _ => loose(low, high),
     }
 }
 
-pub(super) fn of_two(function: Binary, a: Interval, b: Interval) -> Interval {
+pub(super) fn binary_range(function: Binary, a: Interval, b: Interval) -> Interval {
     let value = |x: f64, y: f64| binary_value(function, x, y);
     let loosened = |i: Interval| loose(i.low, i.high);
     match function {
-        // of a whole power what is below zero has one too
+        // a whole power of a negative number exists
         Binary::Pow if a.low < 0.0 && b.low.total_cmp(&b.high).is_eq() && b.low.fract() == 0.0 => {
-            let size = of_one(Unary::Abs, a);
+            let size = unary_range(Unary::Abs, a);
             let powers = [size.low, size.high].map(|x| value(x, b.low));
             match b.low % 2.0 {
                 _ if size.low == 0.0 && b.low < 0.0 => WHOLE,
@@ -420,23 +420,23 @@ pub(super) fn of_two(function: Binary, a: Interval, b: Interval) -> Interval {
             }
         }
         Binary::Min | Binary::Max => Interval { low: value(a.low, b.low), high: value(a.high, b.high) },
-        Binary::Hypot => loosened(corners(of_one(Unary::Abs, a), of_one(Unary::Abs, b), value)),
+        Binary::Hypot => loosened(corners(unary_range(Unary::Abs, a), unary_range(Unary::Abs, b), value)),
         Binary::Pow if a.low > 0.0 || (a.low >= 0.0 && b.low > 0.0) => loosened(corners(a, b, value)),
-        // beside the line where it jumps it rises or falls with each operand alone
+        // away from its cut it is monotone in each operand
         Binary::Atan2 if b.low > 0.0 || a.low > 0.0 || a.high < 0.0 => loosened(corners(a, b, value)),
         Binary::Atan2 => Interval { low: -PI, high: PI },
-        // the last is laid out as other operations
+        // `mod` is compiled to other operations
         Binary::Pow | Binary::Mod => WHOLE,
     }
 }
 
-/// As [`wider`], by the few units in the last place that an elementary function may be off.
+/// Widens an interval by the few units in the last place that an elementary function may be off.
 fn loose(low: f64, high: f64) -> Interval {
     let slack = |x: f64| 4.0 * f64::EPSILON * x.abs() + f64::MIN_POSITIVE;
     wider(low - slack(low), high + slack(high))
 }
 
-fn compared(comparison: Comparison, a: Interval, b: Interval) -> Interval {
+fn comparison_range(comparison: Comparison, a: Interval, b: Interval) -> Interval {
     let (surely, never) = match comparison {
         Comparison::Less => (a.high < b.low, a.low >= b.high),
         Comparison::LessEqual => (a.high <= b.low, a.low > b.high),
@@ -449,28 +449,28 @@ fn compared(comparison: Comparison, a: Interval, b: Interval) -> Interval {
     }
 }
 
-fn picked(program: &Program, table: u32, column: Column, piece: f64, v: &[Interval]) -> Interval {
+fn column_entry(program: &Program, table: u32, column: Column, piece: f64, v: &[Interval]) -> Interval {
     let range = program.tables()[table as usize].column(column);
     if piece.is_nan() || piece < 0.0 {
         return WHOLE;
     }
-    // pieces are small whole numbers
+    // pieces are small nonnegative integers
     #[allow(clippy::cast_sign_loss)]
     let at = range.start + piece as u32;
     v[at.min(range.end - 1) as usize]
 }
 
-/// The same of all pieces from one to another.
-fn picked_of_all(program: &Program, table: u32, column: Column, [first, last]: [f64; 2], v: &[Interval]) -> Interval {
+/// Encloses the column entries of all pieces from `first` to `last`.
+fn column_hull(program: &Program, table: u32, column: Column, [first, last]: [f64; 2], v: &[Interval]) -> Interval {
     let count = last - first;
     if count.is_nan() || count > MOST_PIECES {
         return WHOLE;
     }
-    let mut all = picked(program, table, column, first, v);
+    let mut all = column_entry(program, table, column, first, v);
     let mut piece = first;
     while piece < last {
         piece += 1.0;
-        all = hull(all, picked(program, table, column, piece, v));
+        all = hull(all, column_entry(program, table, column, piece, v));
     }
     all
 }

@@ -4,7 +4,7 @@
 //! may be taken, and says whether the formula may jump among them. A caller that knows on which side of its threshold a switch
 //! stays can hold it there.
 
-use super::interval_eval::{Interval, behind, enclose};
+use super::interval_eval::{Interval, backward_slice, enclose};
 use super::{Op, Program, Register, Registers, Stage};
 use crate::tolerances::results::ranges::{HIGH_POWER, VANISHES, WIDEST, WIDEST_POWER, WIDEST_RATIO, WIDEST_VALUE};
 use mechc_expr::{Binary, Unary};
@@ -36,65 +36,65 @@ pub enum Hold {
 }
 
 impl Hold {
-    fn of(self, found: Interval) -> Interval {
+    fn restrict(self, interval: Interval) -> Interval {
         match self {
             Hold::At(value) => Interval { low: value, high: value },
-            Hold::Above => Interval { low: found.low.max(f64::MIN_POSITIVE), high: found.high.max(f64::MIN_POSITIVE) },
+            Hold::Above => Interval { low: interval.low.max(f64::MIN_POSITIVE), high: interval.high.max(f64::MIN_POSITIVE) },
             Hold::Below => {
-                Interval { low: found.low.min(-f64::MIN_POSITIVE), high: found.high.min(-f64::MIN_POSITIVE) }
+                Interval { low: interval.low.min(-f64::MIN_POSITIVE), high: interval.high.min(-f64::MIN_POSITIVE) }
             }
         }
     }
 }
 
-/// Findings about an operation, as bits.
-mod found {
+/// Properties of an operation on the current intervals, as bits.
+mod flags {
     pub const SWITCHES: u8 = 1;
     pub const IS_UNRESOLVED: u8 = 2;
     pub const CROSSES_KNOTS: u8 = 4;
 }
 
-/// An operation with what has to be looked at behind it.
+/// An operation with the registers that are examined after it.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     op: Op,
-    /// Where the operation leaves a result that changes in jumps.
+    /// Result that changes in jumps.
     switched: Option<Register>,
-    /// Whether that result is the piece of a table, or the period of a periodic one.
+    /// True if `switched` is the piece of a table, or the period of a periodic one.
     is_of_table: bool,
-    /// Where the operation leaves a value that is bounded whatever its arguments are.
+    /// Result that is bounded for any arguments.
     bounded: Option<Register>,
-    /// Where the operation leaves the third derivative of a table.
+    /// Third derivative of a table.
     third: Option<Register>,
-    /// Where the operation leaves a value that may be as good as nothing all over but in a narrow peak: an exponential, or a high power.
+    /// Result that may be negligible except in a narrow peak: of an exponential or a high power.
     peak: Option<Register>,
 }
 
-/// Working memory for the ranges of some formulas.
+/// Working memory for the ranges of several formulas.
 #[derive(Clone, Debug)]
 pub struct Ranges {
-    /// The operations behind all formulas, and what was found out about each.
+    /// Operations that the formulas depend on, with their properties.
     steps: Vec<Step>,
     found: Vec<u8>,
-    /// By formula: the operations that those before it do not run, and all that it depends on.
-    own: Vec<Vec<u32>>,
-    all: Vec<Vec<u32>>,
+    /// By formula: the operations that earlier formulas do not run, and all operations that it depends on.
+    additional: Vec<Vec<u32>>,
+    dependencies: Vec<Vec<u32>>,
     roots: Vec<Register>,
-    /// How many formulas have been asked for since something was set.
-    current: usize,
-    /// Whether switches stay as the registers have them.
+    /// Number of formulas that have been evaluated since an input was set.
+    evaluated: usize,
+    /// True if switches keep the results that the registers hold.
     is_frozen: bool,
     values: Vec<Interval>,
-    /// Restrictions by register, and the registers that have one.
+    /// Restrictions by register, and the restricted registers.
     holds: Vec<Option<Hold>>,
     held: Vec<Register>,
-    /// By register: whether the formula that was asked for last depends on it.
+    /// By register: true if the formula of the last [`Ranges::find_live`] depends on it.
     is_live: Vec<bool>,
     time: Register,
 }
 
 impl Ranges {
-    /// For formulas that a stage leaves in some registers; the prologue must have been run.
+    /// Creates the memory for formulas that a stage leaves in `roots`; the prologue must have been run.
     #[must_use]
     pub fn new(program: &Program, registers: &Registers, roots: &[Register], stage: Stage, is_frozen: bool) -> Ranges {
         let of_tables = |list: fn(&super::TableLayout) -> &Vec<Register>| -> Vec<Register> {
@@ -109,13 +109,13 @@ impl Ranges {
             let third = op.writes().iter().copied().find(|to| thirds.contains(to));
             Step { op, switched, is_of_table, bounded: bounded(op), third, peak }
         };
-        let operations = behind(program, roots, &[stage]);
+        let operations = backward_slice(program, roots, &[stage]);
         let mut number_of = vec![u32::MAX; program.registers()];
         for (number, op) in operations.iter().enumerate() {
             op.writes().iter().for_each(|&to| number_of[to as usize] = number as u32);
         }
-        let mut is_known = vec![false; operations.len()];
-        let (mut own, mut all) = (Vec::new(), Vec::new());
+        let mut is_assigned = vec![false; operations.len()];
+        let (mut additional, mut dependencies) = (Vec::new(), Vec::new());
         for root in roots {
             let mut needed: Vec<u32> = Vec::new();
             let mut is_needed = vec![false; operations.len()];
@@ -128,20 +128,20 @@ impl Ranges {
                 }
             }
             needed.sort_unstable();
-            own.push(needed.iter().copied().filter(|&number| !is_known[number as usize]).collect());
+            additional.push(needed.iter().copied().filter(|&number| !is_assigned[number as usize]).collect());
             for &number in &needed {
-                is_known[number as usize] = true;
+                is_assigned[number as usize] = true;
             }
-            all.push(needed);
+            dependencies.push(needed);
         }
         let point = |value: f64| Interval { low: value, high: value };
         Ranges {
             steps: operations.iter().map(step).collect(),
             found: vec![0; operations.len()],
-            own,
-            all,
+            additional,
+            dependencies,
             roots: roots.to_vec(),
-            current: 0,
+            evaluated: 0,
             is_frozen,
             values: (0..program.registers()).map(|k| point(registers.get(k as u32))).collect(),
             holds: vec![None; program.registers()],
@@ -159,62 +159,62 @@ impl Ranges {
     /// Sets the interval of an input.
     pub fn set(&mut self, register: Register, [low, high]: [f64; 2]) {
         self.values[register as usize] = Interval { low, high };
-        self.current = 0;
+        self.evaluated = 0;
     }
 
-    /// Restricts a register from now on.
+    /// Restricts a register until [`Ranges::release`].
     pub fn hold(&mut self, register: Register, hold: Hold) {
         let at = register as usize;
-        // an input is not computed
-        self.values[at] = hold.of(self.values[at]);
+        // an input is not computed, so it is restricted at once
+        self.values[at] = hold.restrict(self.values[at]);
         if self.holds[at].replace(hold).is_none() {
             self.held.push(register);
         }
-        self.current = 0;
+        self.evaluated = 0;
     }
 
-    /// Lifts all restrictions; inputs have to be set anew.
+    /// Lifts all restrictions; inputs have to be set again.
     pub fn release(&mut self) {
         for register in self.held.drain(..) {
             self.holds[register as usize] = None;
         }
-        self.current = 0;
+        self.evaluated = 0;
     }
 
-    /// Finds the ranges of all formulas.
+    /// Evaluates the ranges of all formulas.
     pub fn run_all(&mut self, program: &Program, registers: &Registers) {
         self.run_up_to(program, registers, self.roots.len());
     }
 
     fn run_up_to(&mut self, program: &Program, registers: &Registers, count: usize) {
-        while self.current < count {
-            self.run(program, registers, self.current);
-            self.current += 1;
+        while self.evaluated < count {
+            self.run(program, registers, self.evaluated);
+            self.evaluated += 1;
         }
     }
 
-    /// The range of a formula.
+    /// Returns the range of formula `k`.
     pub fn range(&mut self, program: &Program, registers: &Registers, k: usize) -> Range {
         self.run_up_to(program, registers, k + 1);
-        let found = self.all[k].iter().fold(0, |found, &number| found | self.found[number as usize]);
+        let found = self.dependencies[k].iter().fold(0, |found, &number| found | self.found[number as usize]);
         let Interval { low, high } = self.values[self.roots[k] as usize];
         Range {
             low,
             high,
-            may_switch: found & found::SWITCHES != 0,
+            may_switch: found & flags::SWITCHES != 0,
             is_resolved: found == 0,
-            crosses_knots: found & found::CROSSES_KNOTS != 0,
+            crosses_knots: found & flags::CROSSES_KNOTS != 0,
         }
     }
 
-    /// Runs the operations of a formula that those before it have not run.
+    /// Runs the operations of a formula that earlier formulas have not run.
     fn run(&mut self, program: &Program, registers: &Registers, k: usize) {
         let v = &mut self.values;
-        for &number in &self.own[k] {
+        for &number in &self.additional[k] {
             let Step { op, switched, is_of_table, bounded, third, peak } = self.steps[number as usize];
-            let mut found = if is_resolved_in((op, peak), v) { 0 } else { found::IS_UNRESOLVED };
+            let mut found = if is_resolved_in(op, peak, v) { 0 } else { flags::IS_UNRESOLVED };
             if may_jump(op, v) {
-                found |= found::SWITCHES;
+                found |= flags::SWITCHES;
             }
             enclose(program, op, v);
             if let Some((to, value)) = within_domain(op, v) {
@@ -229,39 +229,39 @@ impl Ranges {
             if !self.held.is_empty() {
                 for &to in op.writes().iter() {
                     if let Some(hold) = self.holds[to as usize] {
-                        v[to as usize] = hold.of(v[to as usize]);
+                        v[to as usize] = hold.restrict(v[to as usize]);
                     }
                 }
             }
             let changes = |to: Register| v[to as usize].low.total_cmp(&v[to as usize].high).is_ne();
             if switched.is_some_and(changes) {
-                // a spline goes on over its knots
-                found |= if is_of_table { found::CROSSES_KNOTS } else { found::SWITCHES };
+                // a spline continues across its knots
+                found |= if is_of_table { flags::CROSSES_KNOTS } else { flags::SWITCHES };
             }
             if third.is_some_and(changes) {
-                found |= found::SWITCHES;
+                found |= flags::SWITCHES;
             }
             if let Op::Binary { function: Binary::Pow, to, .. } = op
                 && v[to as usize].high > WIDEST_POWER * v[to as usize].low
             {
-                found |= found::IS_UNRESOLVED;
+                found |= flags::IS_UNRESOLVED;
             }
             if peak.is_some_and(|to| v[to as usize].high <= VANISHES) {
-                // however it changes, it is nothing
-                found &= !found::IS_UNRESOLVED;
+                // however it changes, it is negligible
+                found &= !flags::IS_UNRESOLVED;
             }
             if bounded.is_some_and(|to| v[to as usize].high - v[to as usize].low > WIDEST_VALUE) {
-                found |= found::IS_UNRESOLVED;
+                found |= flags::IS_UNRESOLVED;
             }
             self.found[number as usize] = found;
         }
     }
 
-    /// Finds out what a formula depends on where it is known which branches are taken; its range must have been asked for.
+    /// Finds the registers that a formula depends on under the decided branches; its range must have been evaluated.
     pub fn find_live(&mut self, program: &Program, k: usize) {
         self.is_live.fill(false);
         self.is_live[self.roots[k] as usize] = true;
-        for &number in self.all[k].iter().rev() {
+        for &number in self.dependencies[k].iter().rev() {
             let op = self.steps[number as usize].op;
             if !op.writes().iter().any(|&to| self.is_live[to as usize]) {
                 continue;
@@ -271,7 +271,7 @@ impl Ranges {
                 low.total_cmp(&high).is_eq()
             };
             match op {
-                // a condition that is decided depends on nothing
+                // a decided condition depends on nothing
                 Op::And { to, .. } | Op::Or { to, .. } | Op::Not { to, .. } if is_decided(to) => {}
                 Op::Select { condition, a, b, .. } if is_decided(condition) => {
                     let taken = if self.values[condition as usize].low == 0.0 { b } else { a };
@@ -282,13 +282,13 @@ impl Ranges {
         }
     }
 
-    /// Whether the formula depends on a register, as [`Ranges::find_live`] has found out.
+    /// Returns whether the formula depends on a register, as found by [`Ranges::find_live`].
     #[must_use]
     pub fn is_live(&self, register: Register) -> bool {
         self.is_live[register as usize]
     }
 
-    /// The interval of a register, in order, as the formulas that were asked for have left it.
+    /// Returns the interval `[low, high]` of a register after the last evaluation.
     #[must_use]
     pub fn interval(&self, register: Register) -> [f64; 2] {
         let Interval { low, high } = self.values[register as usize];
@@ -296,7 +296,7 @@ impl Ranges {
     }
 }
 
-/// The result of an operation whose value is bounded, so that it is resolved where it changes little, however its argument does.
+/// Returns the result of an operation with bounded values, which is resolved if it changes little, whatever its argument does.
 fn bounded(op: Op) -> Option<Register> {
     match op {
         Op::Unary { function: Unary::Tanh | Unary::Asin | Unary::Acos, to, .. }
@@ -305,7 +305,7 @@ fn bounded(op: Op) -> Option<Register> {
     }
 }
 
-/// The result of an operation that peaks: of an exponential, a power, or a square of squares, by the degree of what is squared.
+/// Returns the result of an operation that may peak: an exponential, a power, or a repeated square, by the degree of the factor.
 fn peak(op: Op, degrees: &mut [u32]) -> Option<Register> {
     match op {
         Op::Unary { function: Unary::Exp, to, .. } | Op::Binary { function: Binary::Pow, to, .. } => Some(to),
@@ -318,13 +318,13 @@ fn peak(op: Op, degrees: &mut [u32]) -> Option<Register> {
     }
 }
 
-/// What a function is where its argument is in its domain, if it is partly so: elsewhere it has no value. It is left in a register.
+/// Returns the range of a function over the part of its argument that is in its domain, with its register, if only a part is.
 fn within_domain(op: Op, v: &[Interval]) -> Option<(Register, Interval)> {
     if let Op::Binary { function: function @ Binary::Pow, to, a, b } = op {
         let (base, power) = (v[a as usize], v[b as usize]);
         let is_partly = base.low < 0.0 && base.high >= 0.0 && power.low > 0.0 && power.low.fract() != 0.0;
         let base = Interval { low: 0.0, ..base };
-        return is_partly.then(|| (to, super::interval_eval::of_two(function, base, power)));
+        return is_partly.then(|| (to, super::interval_eval::binary_range(function, base, power)));
     }
     let Op::Unary { function, to, a } = op else { return None };
     let [least, most] = match function {
@@ -335,10 +335,10 @@ fn within_domain(op: Op, v: &[Interval]) -> Option<(Register, Interval)> {
     let Interval { low, high } = v[a as usize];
     let is_partly = (low < least || high > most) && low <= most && high >= least;
     is_partly
-        .then(|| (to, super::interval_eval::of_one(function, Interval { low: low.max(least), high: high.min(most) })))
+        .then(|| (to, super::interval_eval::unary_range(function, Interval { low: low.max(least), high: high.min(most) })))
 }
 
-/// Whether the value of a function that has no switch may jump: over the cut of `atan2`, or a pole of `tan`.
+/// Returns whether a function without a switch may jump: across the cut of `atan2`, or at a pole of `tan`.
 fn may_jump(op: Op, v: &[Interval]) -> bool {
     match op {
         Op::Binary { function: Binary::Atan2, a: y, b: x, .. } => {
@@ -346,15 +346,15 @@ fn may_jump(op: Op, v: &[Interval]) -> bool {
             x.low <= 0.0 && y.low <= 0.0 && y.high >= 0.0
         }
         Op::Unary { function: Unary::Tan, a, .. } => {
-            let tangent = super::interval_eval::of_one(Unary::Tan, v[a as usize]);
+            let tangent = super::interval_eval::unary_range(Unary::Tan, v[a as usize]);
             tangent.high - tangent.low == f64::INFINITY
         }
         _ => false,
     }
 }
 
-/// Whether the argument of an operation changes so little that a few terms of its series tell all.
-fn is_resolved_in((op, peak): (Op, Option<Register>), v: &[Interval]) -> bool {
+/// Returns whether the argument of an operation changes so little that a few terms of its series describe the result.
+fn is_resolved_in(op: Op, peak: Option<Register>, v: &[Interval]) -> bool {
     let width = |register: Register| v[register as usize].high - v[register as usize].low;
     let ratio = |register: Register| {
         let Interval { low, high } = v[register as usize];

@@ -1,61 +1,61 @@
-//! Signals: what the equations of a position take from time alone, as the right side of a driver.
+//! Time-dependent terms of the position equations, such as the right side of a driver.
 
 use super::{Op, Program, Register, Stage};
 use crate::tolerances::steps::signals_in_a_row::MOST_IN_A_ROW;
 
-/// A value that time alone decides, and the equations it enters.
+/// A value that depends on time alone, with the equations that contain it.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Signal {
-    /// Where it stands.
+    /// Register of the value.
     pub register: Register,
     /// Rows of `Φ`.
     pub rows: Vec<usize>,
-    /// Equations that were left out, and are checked.
+    /// Indices of left-out equations, which are checked.
     pub checks: Vec<usize>,
 }
 
 impl Program {
-    /// The signals that are more than a straight line over time.
+    /// Returns the time-dependent values of the equations that are not linear in time.
     #[must_use]
     pub fn signals(&self) -> Vec<Signal> {
-        let is_bent = self.bent();
+        let is_nonlinear = self.nonlinear_in_time();
         let mut signals: Vec<Signal> = Vec::new();
         let mut signal_of: Vec<Option<usize>> = vec![None; self.registers()];
-        // by register of the position: the signals behind it
-        let mut behind: Vec<Vec<usize>> = vec![Vec::new(); self.registers()];
+        // by register of the position stage: the signals that it depends on
+        let mut signals_behind: Vec<Vec<usize>> = vec![Vec::new(); self.registers()];
         for &op in self.stage(Stage::Position) {
-            let mut found: Vec<usize> = Vec::new();
+            let mut indices: Vec<usize> = Vec::new();
             for register in self.reads(op) {
-                if is_bent[register as usize] {
+                if is_nonlinear[register as usize] {
                     let index = *signal_of[register as usize].get_or_insert_with(|| {
                         signals.push(Signal { register, rows: Vec::new(), checks: Vec::new() });
                         signals.len() - 1
                     });
-                    found.push(index);
+                    indices.push(index);
                 }
-                found.extend_from_slice(&behind[register as usize]);
+                indices.extend_from_slice(&signals_behind[register as usize]);
             }
-            found.sort_unstable();
-            found.dedup();
-            found.truncate(MOST_IN_A_ROW);
+            indices.sort_unstable();
+            indices.dedup();
+            indices.truncate(MOST_IN_A_ROW);
             for register in op.writes() {
-                behind[register as usize].clone_from(&found);
+                signals_behind[register as usize].clone_from(&indices);
             }
         }
         for (row, &phi) in self.outputs.phi.iter().enumerate() {
-            behind[phi as usize].iter().for_each(|&index| signals[index].rows.push(row));
+            signals_behind[phi as usize].iter().for_each(|&index| signals[index].rows.push(row));
         }
         for (check, &phi) in self.outputs.checks.iter().enumerate() {
-            behind[phi as usize].iter().for_each(|&index| signals[index].checks.push(check));
+            signals_behind[phi as usize].iter().for_each(|&index| signals[index].checks.push(check));
         }
         signals.retain(|signal| !signal.rows.is_empty() || !signal.checks.is_empty());
         signals
     }
 
-    /// Which registers depend on time alone, and not as a straight line.
-    fn bent(&self) -> Vec<bool> {
-        const STRAIGHT: u32 = 1;
-        // the degree in time
+    /// Returns for each register whether it depends on time alone, and not linearly.
+    fn nonlinear_in_time(&self) -> Vec<bool> {
+        const LINEAR: u32 = 1;
+        // polynomial degree in time; `u32::MAX` for no polynomial
         let mut degree: Vec<u32> = vec![0; self.registers()];
         degree[self.inputs.time as usize] = 1;
         for &op in self.stage(Stage::Time) {
@@ -72,6 +72,6 @@ impl Program {
                 degree[register as usize] = result;
             }
         }
-        degree.iter().map(|&degree| degree > STRAIGHT).collect()
+        degree.iter().map(|&degree| degree > LINEAR).collect()
     }
 }
