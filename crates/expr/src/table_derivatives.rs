@@ -1,26 +1,26 @@
-//! Derivatives by what formulas are made of: by parameters, which tables are made of too.
+//! Derivatives of formulas through the cells of tables, for directions in which parameters vary.
 
 use super::table::{Table, TableId};
 use super::{Dependence, ExprId, Graph, Symbol, Unary};
 use rustc_hash::FxHashMap;
 
-/// What the name of a table's derivative by what its cells hold ends in, which no other table's does.
+/// Suffix for the name of a table's derivative with respect to its cells; no other name ends so.
 pub const VARIED_TABLE: &str = " varied";
 
-/// The derivatives of tables by what their cells hold, along one direction.
+/// Derivatives of tables with respect to their cells, along one direction.
 pub(super) type VariedTables = FxHashMap<TableId, VariedTable>;
 
-/// The derivative of a table by what its cells hold.
+/// Derivative of a table with respect to its cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct VariedTable {
-    /// At a fixed argument within the table's range; none where nothing of the table changes.
+    /// Derivative at a fixed argument within the table's range; `None` if no cell varies.
     table: Option<TableId>,
-    /// How the period changes, if the table repeats and it does.
+    /// Derivative of the period, if the table repeats and the period varies.
     period: Option<ExprId>,
 }
 
 impl Graph {
-    /// As [`Graph::derivatives`] along a direction in which parameters change: the numbers that tables are made of change with them.
+    /// As [`Graph::derivatives`], along a direction in which parameters vary: the cells of tables vary with them.
     pub fn variations(
         &mut self,
         roots: &[ExprId],
@@ -29,10 +29,12 @@ impl Graph {
         self.along(roots, &mut direction, &mut Some(VariedTables::default()))
     }
 
-    /// How a table, or its derivative of an order, changes at an argument with what its cells hold; `None` where it does not.
+    /// Returns the derivative of a table, or of its derivative of an order, through its cells at an argument; `None` if it vanishes.
     pub(super) fn derivative_by_cells(
         &mut self,
-        (table, order, x): (TableId, u8, ExprId),
+        table: TableId,
+        order: u8,
+        x: ExprId,
         direction: &mut impl FnMut(&mut Graph, Symbol) -> Option<ExprId>,
         varied: &mut Option<VariedTables>,
     ) -> Option<ExprId> {
@@ -43,8 +45,8 @@ impl Graph {
         let by_period = period.filter(|_| order < 3).map(|period| {
             // f(x) = P(x − n L): n stays, L changes
             let (first, last) = self.ends(table);
-            let (way, length) = (self.sub(x, first), self.sub(last, first));
-            let turns = self.div(way, length);
+            let (offset, length) = (self.sub(x, first), self.sub(last, first));
+            let turns = self.div(offset, length);
             let whole = self.unary(Unary::Floor, turns);
             let moved = self.mul(whole, period);
             let slope = self.table(table, order + 1, x);
@@ -62,24 +64,24 @@ impl Graph {
         (knots[0], knots[knots.len() - 1])
     }
 
-    /// With `f = c₀ + d (c₁ + d (c₂ + d c₃))`, `d = x − k`, along a direction `′`:
-    /// `f′ = (c₀′ − k′c₁) + d ((c₁′ − 2k′c₂) + d ((c₂′ − 3k′c₃) + d c₃′))`.
+    /// Returns the derivative of a table along a direction `′`. With `f = c₀ + d (c₁ + d (c₂ + d c₃))` and `d = x − k` it is `f′ = (c₀′ −
+    /// k′c₁) + d ((c₁′ − 2k′c₂) + d ((c₂′ − 3k′c₃) + d c₃′))`.
     fn varied_table(
         &mut self,
         table: TableId,
         direction: &mut impl FnMut(&mut Graph, Symbol) -> Option<ExprId>,
     ) -> VariedTable {
-        let nothing = VariedTable { table: None, period: None };
+        let unchanged = VariedTable { table: None, period: None };
         let of = self.tables[table.index()].clone();
         if !of.dependence.on(Dependence::PARAMS) {
-            return nothing;
+            return unchanged;
         }
         let mut changed = |graph: &mut Graph, cells: &[ExprId]| graph.along(cells, direction, &mut None);
         let knots = changed(self, &of.knots);
         let [c0, c1, c2, c3] = [0, 1, 2, 3].map(|order: usize| changed(self, &of.coefficients[order]));
         let values = changed(self, &of.values);
         if [&knots, &c0, &c1, &c2, &c3].into_iter().flatten().all(|&cell| self.is_zero(cell)) {
-            return nothing;
+            return unchanged;
         }
         let mut moved = |change: &[ExprId], power: f64, slopes: &[ExprId]| -> Vec<ExprId> {
             let cells = change.iter().zip(&knots).zip(slopes);
@@ -103,18 +105,18 @@ impl Graph {
             coefficients,
             ..of
         };
-        VariedTable { table: Some(self.known_or_added(derived)), period }
+        VariedTable { table: Some(self.find_or_add(derived)), period }
     }
 
-    /// The same table is the same, whoever asks for it.
-    fn known_or_added(&mut self, table: Table) -> TableId {
-        let is_same = |known: &Table| {
-            known.derived_from == table.derived_from
-                && known.name == table.name
-                && known.coefficients == table.coefficients
+    /// Returns the id of a table, which is added unless the graph contains it.
+    fn find_or_add(&mut self, table: Table) -> TableId {
+        let is_same = |other: &Table| {
+            other.derived_from == table.derived_from
+                && other.name == table.name
+                && other.coefficients == table.coefficients
         };
         match self.tables.iter().position(is_same) {
-            Some(at) => TableId(at as u32),
+            Some(index) => TableId(index as u32),
             None => self.add_table(table),
         }
     }

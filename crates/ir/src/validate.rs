@@ -110,7 +110,8 @@ impl ConstraintSystem {
         });
         for (k, Row { declaration, unit, .. }) in self.rows.iter().enumerate() {
             ensure(unit.dimension.is_finite(), || format!("a unit of row {k} that is none"))?;
-            let matches_kind = expected_units[*declaration].as_mut().is_none_or(|units| units.any(|expected| expected == unit));
+            let matches_kind =
+                expected_units[*declaration].as_mut().is_none_or(|units| units.any(|expected| expected == unit));
             ensure(matches_kind, || format!("row {k} is in {unit}"))?;
         }
         Ok(())

@@ -225,7 +225,8 @@ impl Variations {
             return;
         }
         let system_orders = with_rates(graph, phi);
-        let scope_orders: Vec<[Vec<ExprId>; 3]> = self.scopes.iter().map(|scope| with_rates(graph, &scope.phi)).collect();
+        let scope_orders: Vec<[Vec<ExprId>; 3]> =
+            self.scopes.iter().map(|scope| with_rates(graph, &scope.phi)).collect();
         let mut first_derivatives: FxHashMap<(u32, usize), Vec<ExprId>> = FxHashMap::default();
         for number in first_open..self.list.len() {
             let (first, second) = self.list[number].by;
@@ -236,8 +237,9 @@ impl Variations {
                     None => self.along(graph, roots, first, &|symbol| is_coordinate(symbol, top)),
                     Some(second) => {
                         let inner = self.number(first, None);
-                        let roots =
-                            first_derivatives.entry((first, order)).or_insert_with(|| self.derivatives(graph, roots, first));
+                        let roots = first_derivatives
+                            .entry((first, order))
+                            .or_insert_with(|| self.derivatives(graph, roots, first));
                         let roots = std::mem::take(roots);
                         let is_solved_for = |symbol| match symbol {
                             Symbol::Varied { order, variation, .. } => order == top && variation == inner,

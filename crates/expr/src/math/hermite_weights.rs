@@ -1,29 +1,29 @@
-//! What is known of a motion at several times, led on to another one.
+//! Weights of Hermite interpolation, to extrapolate a motion that is known at several times.
 
-/// How much value, slope and second derivative at each of some times (s), which all differ, weigh at another time: on the curve of least degree
-/// through all of them (C. Hermite, Sur la formule d'interpolation de Lagrange, 1878).
+/// Computes the weights of value, slope and second derivative at distinct times (s) for the value at time `t`, on the polynomial of least
+/// degree through all of them (C. Hermite, Sur la formule d'interpolation de Lagrange, 1878).
 ///
-/// With `d` the time since a node, and `L` its Lagrange polynomial, of which `s` and `r` are the first and the second derivative there, they weigh
-/// `L³ (1 − 3 s d + (6 s² − 3/2 r) d²)`, `L³ (d − 3 s d²)` and `L³ d² / 2`.
+/// With `d` the time since a node, and `s` and `r` the first and second derivative of its Lagrange polynomial `L` at the node, the weights
+/// are `L³ (1 − 3 s d + (6 s² − 3/2 r) d²)`, `L³ (d − 3 s d²)` and `L³ d² / 2`.
 pub fn weigh(nodes: &[f64], t: f64, weights: &mut [[f64; 3]]) {
     for (k, (&node, weights)) in nodes.iter().zip(weights).enumerate() {
-        let (d, [lagrange, s, r]) = (t - node, of_lagrange(nodes, k, t));
+        let (d, [lagrange, s, r]) = (t - node, lagrange_polynomial(nodes, k, t));
         let (cube, bend) = (lagrange * lagrange * lagrange, 6.0 * s * s - 1.5 * r);
         *weights = [cube * (1.0 + d * (d * bend - 3.0 * s)), cube * d * (1.0 - 3.0 * s * d), 0.5 * cube * d * d];
     }
 }
 
-/// The same where second derivatives are not known: value and slope weigh `L² (1 − 2 s d)` and `L² d`.
+/// Computes the weights without second derivatives: `L² (1 − 2 s d)` for the value, `L² d` for the slope and 0; see [`weigh`].
 pub fn weigh_slopes(nodes: &[f64], t: f64, weights: &mut [[f64; 3]]) {
     for (k, (&node, weights)) in nodes.iter().zip(weights).enumerate() {
-        let (d, [lagrange, s, _]) = (t - node, of_lagrange(nodes, k, t));
+        let (d, [lagrange, s, _]) = (t - node, lagrange_polynomial(nodes, k, t));
         let square = lagrange * lagrange;
         *weights = [square * (1.0 - 2.0 * s * d), square * d, 0.0];
     }
 }
 
-/// The Lagrange polynomial of a node at a time, and its first and second derivative at the node.
-fn of_lagrange(nodes: &[f64], k: usize, t: f64) -> [f64; 3] {
+/// Returns the Lagrange polynomial of a node at time `t`, and its first and second derivative at the node.
+fn lagrange_polynomial(nodes: &[f64], k: usize, t: f64) -> [f64; 3] {
     let (mut lagrange, mut s, mut squares) = (1.0, 0.0, 0.0);
     for (_, &other) in nodes.iter().enumerate().filter(|&(other, _)| other != k) {
         let per = 1.0 / (nodes[k] - other);
@@ -38,7 +38,7 @@ fn of_lagrange(nodes: &[f64], k: usize, t: f64) -> [f64; 3] {
 mod tests {
     use super::{weigh, weigh_slopes};
 
-    /// A polynomial of some degree, with its derivatives.
+    /// Returns a polynomial of some degree with its first and second derivative.
     fn polynomial(degree: u32, t: f64) -> [f64; 3] {
         let [mut value, mut slope, mut half_bend] = [0.0; 3];
         for k in (0..=degree).rev() {
@@ -50,28 +50,28 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_that_the_nodes_fix_is_led_on_as_it_is() {
+    fn polynomials_are_extrapolated_exactly() {
         for (nodes, t) in
             [(&[0.3][..], 0.7), (&[0.0, -0.4], 0.3), (&[0.1, -0.2, -0.45], 0.32), (&[0.0, -1.0, 0.5], -0.7)]
         {
             let mut weights = [[0.0; 3]; 3];
             weigh(nodes, t, &mut weights);
-            leads_to_its_polynomial(nodes, t, 3, &weights);
+            check_polynomial(nodes, t, 3, &weights);
         }
         for (nodes, t) in [(&[0.3][..], 0.7), (&[0.0, -0.4], 0.3), (&[0.1, -0.2, -0.3, -0.45], 0.22)] {
             let mut weights = [[0.0; 3]; 4];
             weigh_slopes(nodes, t, &mut weights);
-            leads_to_its_polynomial(nodes, t, 2, &weights);
+            check_polynomial(nodes, t, 2, &weights);
         }
     }
 
-    /// Of the largest degree that so many numbers at each node fix.
-    fn leads_to_its_polynomial(nodes: &[f64], t: f64, known: u32, weights: &[[f64; 3]]) {
-        let degree = known * nodes.len() as u32 - 1;
+    /// Checks that the weights reproduce a polynomial of the largest degree that the data at the nodes determine.
+    fn check_polynomial(nodes: &[f64], t: f64, data_per_node: u32, weights: &[[f64; 3]]) {
+        let degree = data_per_node * nodes.len() as u32 - 1;
         let at_nodes = nodes.iter().map(|&node| polynomial(degree, node));
-        let led_on: f64 =
+        let extrapolated: f64 =
             at_nodes.zip(weights).map(|(of, by)| of.into_iter().zip(by).map(|(x, w)| x * w).sum::<f64>()).sum();
-        let there = polynomial(degree, t)[0];
-        assert!((led_on - there).abs() <= 1e-12 * there.abs().max(1.0), "{nodes:?}: {led_on} and {there}");
+        let exact = polynomial(degree, t)[0];
+        assert!((extrapolated - exact).abs() <= 1e-12 * exact.abs().max(1.0), "{nodes:?}: {extrapolated} and {exact}");
     }
 }

@@ -3,13 +3,13 @@
 use mechc_runtime::sine_and_cosine::{A_MILLION, sin_cos};
 use mechc_runtime::without_branches::sin_cos_below_a_million;
 
-/// Sine and cosine of several angles (rad): the same bits as of each alone.
+/// Returns the sines and cosines of several angles (rad), with the same bits as for each alone.
 #[must_use]
 #[inline(always)]
-#[allow(clippy::inline_always)] // it becomes part of loops that are compiled for several kinds of processors
+#[allow(clippy::inline_always)] // it is inlined into loops that are compiled for several kinds of processors
 pub fn sin_cos_of_each<const W: usize>(angles: &[f64; W]) -> ([f64; W], [f64; W]) {
     let (mut sines, mut cosines) = ([0.0; W], [0.0; W]);
-    // all of them are compared at once
+    // one comparison for all lanes
     if angles.iter().fold(true, |all, angle| all & (angle.abs() < A_MILLION)) {
         for k in 0..W {
             (sines[k], cosines[k]) = sin_cos_below_a_million(angles[k]);
@@ -27,7 +27,7 @@ mod tests {
     use super::{sin_cos, sin_cos_of_each};
 
     #[test]
-    fn many_at_once_have_the_bits_of_each_alone() {
+    fn lanes_have_the_bits_of_single_angles() {
         let mut angle = -9.7e5;
         while angle < 1.1e6 {
             let angles: [f64; 8] = std::array::from_fn(|k| angle + 0.7 * k as f64);

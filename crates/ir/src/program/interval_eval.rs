@@ -70,7 +70,10 @@ impl Enclosure {
         let roots: Vec<Register> = rims.flat_map(|rim| [rim.gauge, rim.slope]).collect();
         let stages: &[Stage] =
             if on_time { &[Stage::Rims, Stage::Time] } else { &[Stage::Rims, Stage::Position, Stage::Time] };
-        Enclosure { operations: backward_slice(program, &roots, stages), ..Enclosure::of_registers(program, registers, &[]) }
+        Enclosure {
+            operations: backward_slice(program, &roots, stages),
+            ..Enclosure::of_registers(program, registers, &[])
+        }
     }
 
     fn new(program: &Program, registers: &Registers, on_time: bool) -> Enclosure {
@@ -87,7 +90,11 @@ impl Enclosure {
         let (conditions, watches) = (of(&program.outputs.conditions), of(&program.outputs.watches));
         let roots: Vec<Register> = switches.iter().chain(&conditions).chain(&watches).copied().collect();
         Enclosure {
-            operations: backward_slice(program, &roots, if on_time { &[Stage::Time] } else { &[Stage::Position, Stage::Time] }),
+            operations: backward_slice(
+                program,
+                &roots,
+                if on_time { &[Stage::Time] } else { &[Stage::Position, Stage::Time] },
+            ),
             switches,
             conditions,
             watches,

@@ -312,14 +312,18 @@ impl Op {
             Op::DifferenceOfProducts { to, a, b, c, d } => {
                 apply!(to = |a, b, c, d| m.difference_of_products([a, b], [c, d]));
             }
-            Op::SumOfProductsTimes { to, a, b, c, d, e } => apply!(to = |a, b, c, d, e| {
-                let sum = m.sum_of_products([a, b], [c, d]);
-                m.mul(sum, e)
-            }),
-            Op::DifferenceOfProductsTimes { to, a, b, c, d, e } => apply!(to = |a, b, c, d, e| {
-                let difference = m.difference_of_products([a, b], [c, d]);
-                m.mul(difference, e)
-            }),
+            Op::SumOfProductsTimes { to, a, b, c, d, e } => apply!(
+                to = |a, b, c, d, e| {
+                    let sum = m.sum_of_products([a, b], [c, d]);
+                    m.mul(sum, e)
+                }
+            ),
+            Op::DifferenceOfProductsTimes { to, a, b, c, d, e } => apply!(
+                to = |a, b, c, d, e| {
+                    let difference = m.difference_of_products([a, b], [c, d]);
+                    m.mul(difference, e)
+                }
+            ),
             Op::Turn { to_sin, to_cos, sin, cos, half, delta } => {
                 for part in 0..m.parts() {
                     m.go_to(part);

@@ -39,7 +39,9 @@ impl Hold {
     fn restrict(self, interval: Interval) -> Interval {
         match self {
             Hold::At(value) => Interval { low: value, high: value },
-            Hold::Above => Interval { low: interval.low.max(f64::MIN_POSITIVE), high: interval.high.max(f64::MIN_POSITIVE) },
+            Hold::Above => {
+                Interval { low: interval.low.max(f64::MIN_POSITIVE), high: interval.high.max(f64::MIN_POSITIVE) }
+            }
             Hold::Below => {
                 Interval { low: interval.low.min(-f64::MIN_POSITIVE), high: interval.high.min(-f64::MIN_POSITIVE) }
             }
@@ -334,8 +336,9 @@ fn within_domain(op: Op, v: &[Interval]) -> Option<(Register, Interval)> {
     };
     let Interval { low, high } = v[a as usize];
     let is_partly = (low < least || high > most) && low <= most && high >= least;
-    is_partly
-        .then(|| (to, super::interval_eval::unary_range(function, Interval { low: low.max(least), high: high.min(most) })))
+    is_partly.then(|| {
+        (to, super::interval_eval::unary_range(function, Interval { low: low.max(least), high: high.min(most) }))
+    })
 }
 
 /// Returns whether a function without a switch may jump: across the cut of `atan2`, or at a pole of `tan`.

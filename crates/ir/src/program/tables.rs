@@ -1,6 +1,6 @@
 //! Layout of tables: columns in runs of registers, entered by the piece that contains an argument.
 
-use super::compile::{Layout, TablePlacement, TablePiece};
+use super::compile::{Layout, TablePiece, TablePlacement};
 use super::{Column, Op, Register, Stage, TableLayout};
 use mechc_expr::{ExprId, TableId, Unary};
 

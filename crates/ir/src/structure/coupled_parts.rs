@@ -45,7 +45,8 @@ impl Determined {
         let scope = self.system.scopes().iter().find(|scope| scope.name == part.name);
         let mut pattern = SparseRows::new();
         for (k, &row) in rows.iter().enumerate() {
-            let entries = scope.map_or_else(|| self.system.phi_q().row(row as usize), |scope| scope.phi_q.row(k)).iter();
+            let entries =
+                scope.map_or_else(|| self.system.phi_q().row(row as usize), |scope| scope.phi_q.row(k)).iter();
             let position = |column: &u32| part.columns.binary_search(column).ok();
             pattern.push(entries.filter_map(|&(column, slope)| Some((position(&column)? as u32, slope))));
         }
