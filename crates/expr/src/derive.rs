@@ -22,7 +22,7 @@ impl Graph {
         self.along(roots, &mut direction, &mut None)
     }
 
-    /// As [`Graph::derivatives`]; with `varied` also through the cells of tables, whose derivatives are cached there.
+    /// Returns the derivatives as [`Graph::derivatives`] does; with `varied` also through the cells of tables, whose derivatives it caches.
     pub(super) fn along(
         &mut self,
         roots: &[ExprId],

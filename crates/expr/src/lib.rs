@@ -352,7 +352,7 @@ impl Graph {
         index.map(|index| ExprId(index as u32))
     }
 
-    /// As [`Graph::reachable`], with the cells of all reachable tables.
+    /// Returns the nodes of [`Graph::reachable`] and those in the cells of reachable tables, children before parents.
     #[must_use]
     pub fn reachable_with_tables(&self, roots: &[ExprId]) -> Vec<ExprId> {
         let list = self.reachable(roots);

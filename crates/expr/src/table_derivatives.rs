@@ -20,7 +20,7 @@ pub(super) struct VariedTable {
 }
 
 impl Graph {
-    /// As [`Graph::derivatives`], along a direction in which parameters vary: the cells of tables vary with them.
+    /// Returns the derivatives of the roots along a direction in which parameters vary, and the cells of tables with them.
     pub fn variations(
         &mut self,
         roots: &[ExprId],

@@ -32,7 +32,7 @@ impl CheckSlopes {
 }
 
 impl ConstraintSystem {
-    /// The slopes of equations that were left out, where coordinates are differentiated by signals or parameters.
+    /// Derives the slopes of the left-out equations, if coordinates are differentiated with respect to inputs or parameters.
     pub(super) fn derive_checks(&mut self) {
         let with = self.slopes();
         if self.checks.is_empty() || with.is_empty() {
@@ -57,31 +57,31 @@ impl ConstraintSystem {
         self.check_slopes = slopes;
     }
 
-    /// Gives measures the derivatives that those of another system of the same text have; what would need more of a signal than its
-    /// acceleration has no value.
+    /// Gives each measure the derivatives that the corresponding one of another system of the same text has. Those that would need more than
+    /// the acceleration of a signal are not finite.
     pub fn align_measures(&mut self, others: &[Measure]) {
-        let none = nothing(&mut self.graph);
+        let undefined = non_finite(&mut self.graph);
         for (measure, other) in self.measures.iter_mut().zip(others) {
             let mut needs_more = false;
-            let mut known = |id: Option<ExprId>| {
+            let mut available = |id: Option<ExprId>| {
                 needs_more |= id.is_none_or(|id| self.graph.symbols(id).into_iter().any(is_beyond));
-                id.filter(|_| !needs_more).unwrap_or(none)
+                id.filter(|_| !needs_more).unwrap_or(undefined)
             };
-            measure.value = known(Some(measure.value));
-            let [first, second] = [known(measure.first), known(measure.second)];
+            measure.value = available(Some(measure.value));
+            let [first, second] = [available(measure.first), available(measure.second)];
             measure.first = other.first.map(|_| first);
             measure.second = other.second.map(|_| second);
         }
     }
 }
 
-/// Whether a symbol is of more than the accelerations of signals.
+/// Returns whether a symbol is a higher derivative than signals are given with.
 fn is_beyond(symbol: Symbol) -> bool {
     matches!(symbol, Symbol::Signal { order, .. } | Symbol::Coordinate { order, .. } if order > HIGHEST)
 }
 
-/// What is never finite.
-fn nothing(graph: &mut Graph) -> ExprId {
+/// Returns a formula that is never finite.
+fn non_finite(graph: &mut Graph) -> ExprId {
     let (one, zero) = (graph.constant(1.0), graph.constant(0.0));
     graph.div(one, zero)
 }

@@ -50,7 +50,7 @@ impl Input {
         Symbol::Signal { index: self.index, order: 0 }
     }
 
-    /// Returns whether this is time, which is an input where formulas contain it beside input signals.
+    /// Returns whether this is time, which is an input where formulas contain input signals.
     #[must_use]
     pub fn is_time(&self) -> bool {
         self.index == TIME_SIGNAL
@@ -70,7 +70,7 @@ pub struct Body {
     pub pose: [usize; 3],
 }
 
-/// What a coordinate measures.
+/// Kinds of coordinates.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum CoordinateKind {
     /// A length in metres.
@@ -109,7 +109,7 @@ pub struct Coordinate {
     pub name: String,
     /// The body or joint that it belongs to.
     pub owner: Owner,
-    /// What it measures.
+    /// Its kind.
     pub kind: CoordinateKind,
     /// Starting value for assembly; a formula of parameters alone.
     pub estimate: ExprId,

@@ -32,7 +32,7 @@ pub struct LoadForce {
     pub span: Span,
     /// Force or torque in SI.
     pub force: ExprId,
-    /// For a load along a distance: by how much the distance exceeds the length below which it has no direction (m).
+    /// Amount by which the distance of a load along a distance exceeds the length below which it has no direction (m).
     pub excess: Option<ExprId>,
     /// Conditions under which the formula has a value.
     pub conditions: Vec<Condition>,

@@ -1,4 +1,4 @@
-//! Quantities that are monitored beside the solved equations: conditions, redundant equations, branch monitors, and the starts of contacts
+//! Quantities that are monitored in addition to the solved equations: conditions, redundant equations, branch monitors, and the starts of contacts
 //! and parts.
 
 use super::{BodyId, DeclarationId, RowUnit};

@@ -22,7 +22,7 @@ pub struct Leaf {
     pub scope: u32,
     /// Its binding and the time derivatives of it, as formulas that may contain leaves.
     pub over_leaves: [ExprId; LEAF_ORDERS],
-    /// The same formulas with all leaves replaced.
+    /// Binding and time derivatives with all leaves replaced.
     pub plain: [ExprId; LEAF_ORDERS],
 }
 

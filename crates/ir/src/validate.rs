@@ -418,7 +418,7 @@ mod tests {
             let force = s.graph.symbol(Symbol::Multiplier(0));
             s.watches.push(Watch { value: force, kind: WatchKind::Tangents, scale: 1.0, declaration: 0.into() });
         });
-        assert_eq!(fault, "Multiplier(0) is of nothing", "nobody asks for forces");
+        assert_eq!(fault, "Multiplier(0) is of nothing", "no forces are requested");
     }
 
     #[test]

@@ -120,7 +120,7 @@ impl Variations {
         self.variables[variable as usize].scope
     }
 
-    /// As [`Variations::derivatives`], with some symbols held constant.
+    /// Returns the derivatives as [`Variations::derivatives`] does, with some symbols held constant.
     fn along(
         &mut self,
         graph: &mut Graph,

@@ -279,7 +279,7 @@ pub mod truth {
         if condition == 0.0 { b } else { a }
     }
 
-    /// As [`select`], but NaN if either operand is NaN.
+    /// Returns the result of [`select`], or NaN if either operand is NaN.
     #[must_use]
     pub fn either(condition: f64, a: f64, b: f64) -> f64 {
         if a.is_nan() || b.is_nan() { f64::NAN } else { select(condition, a, b) }

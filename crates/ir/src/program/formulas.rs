@@ -15,7 +15,7 @@ impl Program {
         (program, registers)
     }
 
-    /// As [`Program::of_formulas`]; also returns the node of each register that the formulas depend on.
+    /// Compiles formulas as [`Program::of_formulas`] does; also returns the node of each register that the formulas depend on.
     #[must_use]
     pub fn of_formulas_and_nodes(
         graph: &Graph,

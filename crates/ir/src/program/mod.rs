@@ -119,7 +119,7 @@ pub struct TableLayout {
     pub knots: Register,
     /// First register of each coefficient column.
     pub coefficients: [Register; 4],
-    /// For a periodic table: registers of the number of whole periods that its arguments lie beyond its range.
+    /// Registers of the number of whole periods that arguments of a periodic table lie beyond its range.
     pub periods: Vec<Register>,
     /// Registers of its third derivatives, which jump at the knots.
     pub thirds: Vec<Register>,
@@ -221,7 +221,7 @@ pub struct Outputs {
     pub variations: Vec<[Vec<Register>; 3]>,
     /// Right sides of the varied multipliers of each variation; empty where it has none.
     pub varied_forces: Vec<Vec<Register>>,
-    /// For each scope, the entries of its matrix, row by row.
+    /// Entries of the matrix of each scope, row by row.
     pub scopes: Vec<Vec<Register>>,
     /// Derivative columns.
     pub appended: Vec<Register>,
@@ -243,7 +243,7 @@ pub struct Outputs {
     pub watches: Vec<Register>,
     /// Domain boundaries.
     pub rims: Vec<PlacedRim>,
-    /// For each row, the terms of its sum, which scale its rounding.
+    /// Terms of the sum of each row, which scale its rounding.
     pub terms: Vec<Vec<Register>>,
 }
 

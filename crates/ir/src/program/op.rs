@@ -451,7 +451,7 @@ impl Op {
         }
     }
 
-    /// Returns its opcode, and what the operation needs beside registers: its function, or its table column. In bytecode the opcode is
+    /// Returns its opcode, and what the operation needs in addition to registers: its function, or its table column. In bytecode the opcode is
     /// followed by the registers written, those read, and this number.
     #[must_use]
     pub fn code(self) -> (u32, Option<u32>) {

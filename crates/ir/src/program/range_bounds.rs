@@ -16,11 +16,11 @@ pub struct Range {
     pub low: f64,
     /// Upper bound of the values.
     pub high: f64,
-    /// Whether the formula may jump, or take another branch.
+    /// True if the formula may jump or take another branch.
     pub may_switch: bool,
-    /// Whether every function in the formula changes so little that its values at both ends and its derivatives there describe it.
+    /// True if every function in the formula changes so little that its values at both ends and its derivatives there describe it.
     pub is_resolved: bool,
-    /// Whether a table in the formula may go on from one piece to the next.
+    /// True if a table in the formula may cross from one piece to the next.
     pub crosses_knots: bool,
 }
 
