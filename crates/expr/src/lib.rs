@@ -354,7 +354,7 @@ impl Graph {
 
     /// Returns the nodes of [`Graph::reachable`] and those in the cells of reachable tables, children before parents.
     #[must_use]
-    pub fn reachable_with_tables(&self, roots: &[ExprId]) -> Vec<ExprId> {
+    pub(crate) fn reachable_with_tables(&self, roots: &[ExprId]) -> Vec<ExprId> {
         let list = self.reachable(roots);
         let mut tables: Vec<TableId> = list
             .iter()

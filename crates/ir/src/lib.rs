@@ -169,7 +169,7 @@ impl ConstraintSystem {
 
     /// Returns the position of a signal among the inputs; time is the last.
     #[must_use]
-    pub fn signal_place(&self, index: u32) -> usize {
+    pub(crate) fn signal_position(&self, index: u32) -> usize {
         if index == TIME_SIGNAL { self.inputs.len().saturating_sub(1) } else { index as usize }
     }
 

@@ -11,7 +11,7 @@ impl ConstraintSystem {
             Symbol::Param(k) => self.params[k as usize].name.clone(),
             Symbol::Time => "t".to_owned(),
             Symbol::Signal { index, order } => {
-                let name = self.inputs.get(self.signal_place(index)).map_or("t", |input| &input.name);
+                let name = self.inputs.get(self.signal_position(index)).map_or("t", |input| &input.name);
                 if order == 0 { name.to_owned() } else { format!("{name}.{}", "d".repeat(order as usize)) }
             }
             Symbol::Coordinate { index, order } => {

@@ -341,7 +341,7 @@ impl ConstraintSystem {
 
     /// Returns the name of a varied quantity: `crank.x` gives `crank.x.by.turn`.
     #[must_use]
-    pub fn variation_name(&self, of: &str, variation: u32) -> String {
+    pub(crate) fn variation_name(&self, of: &str, variation: u32) -> String {
         let Some(variations) = &self.variations else { return of.to_owned() };
         let (first, second) = variations.list[variation as usize].by;
         let names = std::iter::once(first).chain(second).map(|by| &variations.variables[by as usize].name);

@@ -46,7 +46,7 @@ pub(super) struct Piece<'a> {
 }
 
 /// Why a piece cannot be read.
-pub(super) enum Refused {
+pub(super) enum PieceError {
     /// It does not follow the grammar.
     ByGrammar(Box<pest::error::Error<Rule>>),
     /// It means nothing all the same.
@@ -59,21 +59,21 @@ impl Piece<'_> {
         &self,
         rule: Rule,
         make: impl FnOnce(&Reader<'_>, Pair<'_, Rule>) -> Built<T>,
-    ) -> Result<T, Refused> {
+    ) -> Result<T, PieceError> {
         let text = &self.source.text[self.range.clone()];
         let reader = Reader { source: self.source, file: self.file, base: self.range.start };
-        depth::measure(text, self.file, self.range.start).map_err(Refused::Else)?;
-        let pairs = Grammar::parse(rule, text).map_err(|error| Refused::ByGrammar(Box::new(error)))?;
-        let pair = pairs.into_iter().next().ok_or_else(|| Refused::Else(reader.truncated()))?;
-        make(&reader, pair).map_err(Refused::Else)
+        depth::measure(text, self.file, self.range.start).map_err(PieceError::Else)?;
+        let pairs = Grammar::parse(rule, text).map_err(|error| PieceError::ByGrammar(Box::new(error)))?;
+        let pair = pairs.into_iter().next().ok_or_else(|| PieceError::Else(reader.truncated()))?;
+        make(&reader, pair).map_err(PieceError::Else)
     }
 
     /// What is to be said of a piece that was refused; with a look at what was meant, if that is wanted.
-    pub fn fault(&self, refused: Refused, with_mend: bool) -> Box<Diagnostic> {
+    pub fn fault(&self, refused: PieceError, with_fix_it: bool) -> Box<Diagnostic> {
         match refused {
-            Refused::Else(fault) => fault,
-            Refused::ByGrammar(error) => {
-                Box::new(errors::from_pest(&error, self.source, self.file, self.range.start, with_mend))
+            PieceError::Else(fault) => fault,
+            PieceError::ByGrammar(error) => {
+                Box::new(errors::from_pest(&error, self.source, self.file, self.range.start, with_fix_it))
             }
         }
     }
@@ -208,7 +208,7 @@ impl Reader<'_> {
     /// Features, up to what ends them.
     pub(super) fn features<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>) -> Built<Vec<Feature>> {
         let features = pairs.filter(|pair| !matches!(pair.as_rule(), Rule::close | Rule::EOI));
-        exactly(features.map(|pair| self.feature(pair)))
+        collect_exact(features.map(|pair| self.feature(pair)))
     }
 
     /// A declaration of the mechanism that has no block.
@@ -493,7 +493,7 @@ impl Reader<'_> {
 
     /// The formulas of a list, without its commas and brackets.
     pub(super) fn list<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>, depth: usize) -> Built<Vec<Expr>> {
-        exactly(pairs.filter(|pair| pair.as_rule() == Rule::expr).map(|pair| formula::build(self, pair, depth)))
+        collect_exact(pairs.filter(|pair| pair.as_rule() == Rule::expr).map(|pair| formula::build(self, pair, depth)))
     }
 
     fn next_name<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Name> {
@@ -522,7 +522,7 @@ impl Reader<'_> {
 
 /// Some of what was built, without room for more: most lists are of one or two, and of those a large text has many. It is moved, since an
 /// allocator that is asked to make a block smaller may keep it as large.
-fn exactly<T>(built: impl Iterator<Item = Built<T>>) -> Built<Vec<T>> {
+fn collect_exact<T>(built: impl Iterator<Item = Built<T>>) -> Built<Vec<T>> {
     let mut all = built.collect::<Built<Vec<T>>>()?;
     let mut exact = Vec::with_capacity(all.len());
     exact.append(&mut all);

@@ -1,7 +1,7 @@
 //! What is said of a text that does not follow the grammar.
 
-use super::fixits::{Fault, Mend};
-use super::foreign_syntax::{Intended, Intent};
+use super::fixits::{Fault, FixIt};
+use super::foreign_syntax::{Correction, ForeignDeclaration};
 use super::grammar::Rule;
 use super::tokens::tokens;
 use mechc_text::diag::{Applies, Code, Diagnostic, Edit, Fix};
@@ -66,16 +66,18 @@ pub fn chained_comparison(span: Span, middle: Span, text: &str) -> Diagnostic {
 }
 
 /// A declaration that ends too early.
-fn incomplete(what: &str, end: Span, wanted: &str) -> Diagnostic {
-    misplaced(end, &format!("{what} is not complete: expected {wanted}"), &format!("{wanted} goes behind this"))
+fn incomplete(what: &str, end: Span, expected: &str) -> Diagnostic {
+    misplaced(end, &format!("{what} is not complete: expected {expected}"), &format!("{expected} goes behind this"))
 }
 
 /// With what was meant.
-fn with_intended(diagnostic: Diagnostic, intended: Intended) -> Diagnostic {
-    match intended {
-        Intended::Words(words) => diagnostic.help(words),
-        Intended::Change(fix) => diagnostic.fix(fix),
-        Intended::Incomplete { what, end, wanted, mend } => with_intended(incomplete(&what, end, wanted), *mend),
+fn with_correction(diagnostic: Diagnostic, correction: Correction) -> Diagnostic {
+    match correction {
+        Correction::Words(words) => diagnostic.help(words),
+        Correction::Change(fix) => diagnostic.fix(fix),
+        Correction::Incomplete { what, end, expected, correction } => {
+            with_correction(incomplete(&what, end, expected), *correction)
+        }
     }
 }
 
@@ -120,12 +122,12 @@ pub fn long_name(span: Span, longest: usize) -> Diagnostic {
 /// A syntax error as the parser found it in the piece of a text that begins at a byte, in human words.
 ///
 /// To see what was meant takes a look at all of the text before it.
-pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize, with_mend: bool) -> Diagnostic {
+pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize, with_fix_it: bool) -> Diagnostic {
     let text = source.text.as_str();
     let offset = match error.location {
         pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => base + at,
     };
-    if with_mend && let Some(other) = comparison_for_equation(error, text, offset, file) {
+    if with_fix_it && let Some(other) = comparison_for_equation(error, text, offset, file) {
         return other;
     }
     let found = found_at(text, offset);
@@ -142,10 +144,15 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
         }
         None => unexpected(text, file, found.clone(), &expected, end),
     };
-    if !with_mend {
+    if !with_fix_it {
         return diagnostic;
     }
-    mended(diagnostic, &Fault { text, file, at: found.start, found: &text[found], expected: rules }, source, &expected)
+    with_suggestions(
+        diagnostic,
+        &Fault { text, file, at: found.start, found: &text[found], expected: rules },
+        source,
+        &expected,
+    )
 }
 
 /// What the parser would have liked.
@@ -188,25 +195,25 @@ fn unexpected(text: &str, file: FileId, found: Range<usize>, expected: &str, end
 }
 
 /// With what was meant, as far as the words around the fault tell.
-fn mended(diagnostic: Diagnostic, fault: &Fault<'_>, source: &Source, expected: &str) -> Diagnostic {
+fn with_suggestions(diagnostic: Diagnostic, fault: &Fault<'_>, source: &Source, expected: &str) -> Diagnostic {
     let diagnostic = match fault.reason() {
         Some((at, text)) => diagnostic.also(Span { file: fault.file, start: at as u32, end: at as u32 + 1 }, text),
         None => diagnostic,
     };
-    let intent = Intent::new(fault.text, fault.file, fault.at, fault.found, fault.expected);
-    if let Some(intended) = intent.mend() {
-        return with_intended(diagnostic, intended);
+    let foreign = ForeignDeclaration::new(fault.text, fault.file, fault.at, fault.found, fault.expected);
+    if let Some(correction) = foreign.correction() {
+        return with_correction(diagnostic, correction);
     }
     // of an option's value the declaration is not there
     if source.is_option && fault.found == "," && source.name.starts_with("--") {
         let option = source.name.split(' ').next().unwrap_or_default();
         return diagnostic.help(format!("give `{option}` once for each"));
     }
-    match fault.mend(expected) {
-        Some(Mend::Words(words)) => diagnostic.help(words),
-        Some(Mend::Fix(fix)) => diagnostic.fix(fix),
-        None => match intent.written() {
-            Some(form) => with_intended(diagnostic, form),
+    match fault.fix_it(expected) {
+        Some(FixIt::Words(words)) => diagnostic.help(words),
+        Some(FixIt::Fix(fix)) => diagnostic.fix(fix),
+        None => match foreign.form_as_words() {
+            Some(form) => with_correction(diagnostic, form),
             None => diagnostic,
         },
     }

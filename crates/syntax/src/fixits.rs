@@ -28,16 +28,16 @@ pub(super) struct Fault<'a> {
 }
 
 /// What to write instead.
-pub(super) enum Mend {
+pub(super) enum FixIt {
     /// In words alone.
     Words(String),
     /// As a change of the text.
     Fix(Fix),
 }
 
-impl Mend {
-    fn words(text: &str) -> Mend {
-        Mend::Words(text.to_owned())
+impl FixIt {
+    fn words(text: &str) -> FixIt {
+        FixIt::Words(text.to_owned())
     }
 }
 
@@ -63,8 +63,8 @@ impl Fault<'_> {
         Span { file: self.file, start: range.start as u32, end: range.end as u32 }
     }
 
-    fn replaced(&self, range: Range<usize>, by: &str, words: &str, applies: Applies) -> Mend {
-        Mend::Fix(Fix::replace(self.span(range), by, words, applies))
+    fn replaced(&self, range: Range<usize>, by: &str, words: &str, applies: Applies) -> FixIt {
+        FixIt::Fix(Fix::replace(self.span(range), by, words, applies))
     }
 
     /// The word that ends before the fault.
@@ -92,23 +92,23 @@ impl Fault<'_> {
     }
 
     /// What to write instead of what was expected.
-    pub fn mend(&self, expected: &str) -> Option<Mend> {
-        let of_words = || self.of_a_keyword().or_else(|| self.of_a_word());
-        let missing = || self.closing().or_else(|| self.separator(expected)).map(Mend::Fix);
-        self.of_a_use()
-            .or_else(|| self.of_a_mount())
-            .or_else(|| self.of_a_window())
-            .or_else(|| self.of_a_character())
-            .or_else(of_words)
+    pub fn fix_it(&self, expected: &str) -> Option<FixIt> {
+        let from_words = || self.misplaced_keyword().or_else(|| self.misspelled_word());
+        let missing = || self.closing().or_else(|| self.separator(expected)).map(FixIt::Fix);
+        self.file_use()
+            .or_else(|| self.mount_order())
+            .or_else(|| self.reduction_window())
+            .or_else(|| self.foreign_character())
+            .or_else(from_words)
             .or_else(missing)
     }
 
-    fn of_a_keyword(&self) -> Option<Mend> {
+    fn misplaced_keyword(&self) -> Option<FixIt> {
         if !is_declaration(self.found) {
             return None;
         }
         if self.expects(Rule::name) {
-            return Some(Mend::Words(format!("`{}` is a keyword and cannot be a name", self.found)));
+            return Some(FixIt::Words(format!("`{}` is a keyword and cannot be a name", self.found)));
         }
         if !self.ends_a_body() {
             return None;
@@ -116,23 +116,23 @@ impl Fault<'_> {
         let words = "the `}` of the body or ground before it is missing";
         match self.brace_before() {
             Some(edit) => {
-                Some(Mend::Fix(Fix { message: words.to_owned(), edits: vec![edit], applies: Applies::Always }))
+                Some(FixIt::Fix(Fix { message: words.to_owned(), edits: vec![edit], applies: Applies::Always }))
             }
-            None => Some(Mend::words(words)),
+            None => Some(FixIt::words(words)),
         }
     }
 
-    fn of_a_word(&self) -> Option<Mend> {
+    fn misspelled_word(&self) -> Option<FixIt> {
         if is_declaration(self.found) || self.found.is_empty() {
             return None;
         }
         if self.found == "if" && self.expects(Rule::number) {
-            return Some(Mend::words("inside an operator an `if` needs parentheses"));
+            return Some(FixIt::words("inside an operator an `if` needs parentheses"));
         }
         let connecting = self.connecting_words();
         if connecting == ["every"] && self.found.starts_with(|c: char| c.is_ascii_digit()) {
             let words = "`every` is how far one time is from the next: of 100 steps each is `every (B - A) / 100`";
-            return Some(Mend::words(words));
+            return Some(FixIt::words(words));
         }
         // who writes one means it, though not here
         let is_a_keyword = Keyword::named(self.found).is_some();
@@ -140,19 +140,19 @@ impl Fault<'_> {
         // `1 evry 0.1`: the word before was taken for a unit
         let end = self.before().len();
         let word_before = end - self.word_before().len()..end;
-        let meant = nearest(self.found, connecting.iter().copied())
+        let suggestion = nearest(self.found, connecting.iter().copied())
             .map(|word| (self.here(), word))
             .or_else(|| nearest(self.word_before(), connecting.iter().copied()).map(|word| (word_before, word)))
             .or_else(|| nearest(self.found, declarations).filter(|_| !is_a_keyword).map(|word| (self.here(), word)));
-        if let Some((place, word)) = meant {
-            return Some(Mend::Fix(Fix::meant(self.span(place), word)));
+        if let Some((place, word)) = suggestion {
+            return Some(FixIt::Fix(Fix::meant(self.span(place), word)));
         }
         let other = Synonym::of(Place::Declaration, self.found).filter(|synonym| self.begins(synonym.means));
         if let Some(synonym) = other {
             if let ([only], true) = (synonym.means, synonym.is_same) {
-                return Some(Mend::Fix(Fix::meant(self.span(self.here()), only)));
+                return Some(FixIt::Fix(Fix::meant(self.span(self.here()), only)));
             }
-            return Some(Mend::Words(synonym.say(&[])));
+            return Some(FixIt::Words(synonym.say(&[])));
         }
         // what joins the parts of a declaration is no factor
         let joins = Keyword::named(self.found).is_some_and(|keyword| keyword.role == Role::Separator);
@@ -160,33 +160,33 @@ impl Fault<'_> {
         if !self.expects(Rule::infix) || !starts_operand || self.is_on_new_line() || !connecting.is_empty() {
             return None;
         }
-        if let Some(factor) = self.of_a_number_before_a_call() {
+        if let Some(factor) = self.number_before_call() {
             return Some(factor);
         }
         if is_one_argument_function(self.word_before()) {
             return Some(self.argument());
         }
         if let Some(synonym) = Synonym::of(Place::Call, self.word_before()) {
-            return Some(Mend::Words(synonym.say(&[self.found])));
+            return Some(FixIt::Words(synonym.say(&[self.found])));
         }
         // within parentheses it may as well be a comma
         let is_listed = self.expects(Rule::comma) && self.opened().last().is_some_and(|(_, token)| *token == "(");
         if is_listed {
-            return Some(Mend::words("a `,` is missing, or an operator: a product is written with `*`"));
+            return Some(FixIt::words("a `,` is missing, or an operator: a product is written with `*`"));
         }
-        Some(self.of_a_number_before_a_factor().unwrap_or_else(|| {
+        Some(self.number_before_factor().unwrap_or_else(|| {
             self.replaced(self.at..self.at, "* ", "a product is written with `*`", Applies::Probably)
         }))
     }
 
     /// `2 pi t`, whose `pi` was taken for a unit: both products are mended at once.
-    fn of_a_number_before_a_factor(&self) -> Option<Mend> {
+    fn number_before_factor(&self) -> Option<FixIt> {
         let (number, start) = self.number_before_the_word()?;
         let (factor, found) = (self.word_before(), self.found);
         let is_factor = factor.starts_with(char::is_alphabetic) && Unit::named(factor).is_none();
         is_factor.then(|| {
             let insert = |at| Edit { span: self.span(at..at), text: "* ".to_owned() };
-            Mend::Fix(Fix {
+            FixIt::Fix(Fix {
                 message: format!("a product is written with `*`: `{number} * {factor} * {found}`"),
                 edits: vec![insert(start), insert(self.at)],
                 applies: Applies::Probably,
@@ -195,7 +195,7 @@ impl Fault<'_> {
     }
 
     /// `3 sin(t)`, whose function was taken for a unit.
-    fn of_a_number_before_a_call(&self) -> Option<Mend> {
+    fn number_before_call(&self) -> Option<FixIt> {
         let (number, start) = self.number_before_the_word()?;
         let words = format!("a product is written with `*`: `{number} * {}(…)`", self.word_before());
         (self.found == "(").then(|| self.replaced(start..start, "* ", &words, Applies::Probably))
@@ -209,7 +209,7 @@ impl Fault<'_> {
     }
 
     /// `sin x`, a function whose argument stands behind it.
-    fn argument(&self) -> Mend {
+    fn argument(&self) -> FixIt {
         let behind = self.behind();
         let mut rest = behind;
         let is_unit = next_token(&mut rest).is_some_and(|token| Unit::named(token).is_some());
@@ -219,10 +219,10 @@ impl Fault<'_> {
         let words = format!("what a function is of stands in parentheses: `{}({argument})`", self.word_before());
         // it goes on: a call, a member, the rest of a number
         if self.found == "(" || behind.trim_start().starts_with(['(', '.']) {
-            return Mend::Words(words);
+            return FixIt::Words(words);
         }
         let text = format!("({argument})");
-        Mend::Fix(Fix::replace(self.span(self.before().len()..end), text, words, Applies::Probably))
+        FixIt::Fix(Fix::replace(self.span(self.before().len()..end), text, words, Applies::Probably))
     }
 
     /// Whether a declaration could begin here by one of these keywords.

@@ -17,7 +17,7 @@ use mechc_text::vocabulary::{Dimension, Keyword, Place, QuantityWord, Role, Syno
 use std::ops::Range;
 
 /// A fault in a declaration, with the words of the declaration before it.
-pub(super) struct Intent<'a> {
+pub(super) struct ForeignDeclaration<'a> {
     text: &'a str,
     file: FileId,
     at: usize,
@@ -31,7 +31,7 @@ pub(super) struct Intent<'a> {
 }
 
 /// What to say, and the change of the text, where there is one.
-pub(super) enum Intended {
+pub(super) enum Correction {
     Words(String),
     Change(Fix),
     /// Something ends before what is wanted behind it: told there, and not where the next thing begins.
@@ -39,14 +39,14 @@ pub(super) enum Intended {
         what: String,
         /// The last word or character that it has.
         end: Span,
-        wanted: &'static str,
-        mend: Box<Intended>,
+        expected: &'static str,
+        correction: Box<Correction>,
     },
 }
 
-impl<'a> Intent<'a> {
+impl<'a> ForeignDeclaration<'a> {
     /// Of a word or character at a byte, in the place of what was expected.
-    pub fn new(text: &'a str, file: FileId, at: usize, found: &'a str, expected: &'a [Rule]) -> Intent<'a> {
+    pub fn new(text: &'a str, file: FileId, at: usize, found: &'a str, expected: &'a [Rule]) -> ForeignDeclaration<'a> {
         let all = tokens(&text[..at]);
         let opens = |word: &str| Keyword::named(word).is_some_and(|keyword| keyword.role == Role::Opener);
         let word = |k: usize| all.get(k).map_or("", |token| token.text);
@@ -75,48 +75,57 @@ impl<'a> Intent<'a> {
         let is_here = |token: &Token<'_>| token.start == at || token.text != "}" && !begins_declaration(text, *token);
         let in_text = |token: Token<'a>| Token { start: at + token.start, ..token };
         let rest = tokens(line).into_iter().map(in_text).take_while(is_here).collect();
-        Intent { text, file, at, found, expected, before: all[start.min(all.len())..].to_vec(), rest, bodies }
+        ForeignDeclaration {
+            text,
+            file,
+            at,
+            found,
+            expected,
+            before: all[start.min(all.len())..].to_vec(),
+            rest,
+            bodies,
+        }
     }
 
     /// What was meant.
-    pub fn mend(&self) -> Option<Intended> {
-        if let Some(intended) = self.of_no_keyword() {
-            return Some(intended);
+    pub fn correction(&self) -> Option<Correction> {
+        if let Some(correction) = self.missing_keyword() {
+            return Some(correction);
         }
         let (keyword, last) = (self.before.first()?.text, self.before.last()?);
-        if let Some(half) = self.of_half_a_declaration(keyword, last) {
+        if let Some(half) = self.incomplete_declaration(keyword, last) {
             return Some(half);
         }
         if self.text[last.end()..self.at].contains('\n') {
             return None;
         }
-        self.of_forces(keyword, last)
-            .or_else(|| self.of_a_size(keyword))
-            .or_else(|| self.of_a_type(keyword))
-            .or_else(|| self.of_a_head(keyword, last))
-            .or_else(|| self.of_bare_arguments(keyword, last))
-            .or_else(|| self.of_the_ground())
-            .or_else(|| self.of_an_axis_with_a_comma(keyword))
-            .or_else(|| self.of_rows_without_parentheses(keyword))
-            .or_else(|| self.of_no_joint(keyword))
-            .or_else(|| self.of_a_pose(keyword, last))
-            .or_else(|| self.of_a_diameter())
-            .or_else(|| self.of_a_list(keyword))
-            .or_else(|| self.of_several_values(keyword))
-            .or_else(|| self.of_a_coordinate(last))
-            .or_else(|| self.of_an_arrow(last))
-            .or_else(|| self.of_single_quotes())
-            .or_else(|| self.of_a_unit_behind_a_pair(last))
-            .or_else(|| self.of_a_unit_in_brackets(last))
-            .or_else(|| self.of_a_pair(keyword, last))
-            .or_else(|| self.of_a_feature(last))
-            .or_else(|| self.of_a_unit_behind(keyword, last))
-            .or_else(|| self.of_an_equation(keyword))
+        self.force_declaration(keyword, last)
+            .or_else(|| self.array_size(keyword))
+            .or_else(|| self.type_annotation(keyword))
+            .or_else(|| self.declaration_head(keyword, last))
+            .or_else(|| self.bare_arguments(keyword, last))
+            .or_else(|| self.ground_feature())
+            .or_else(|| self.axis_with_comma(keyword))
+            .or_else(|| self.rows_without_parentheses(keyword))
+            .or_else(|| self.missing_joint_kind(keyword))
+            .or_else(|| self.pose_without_at(keyword, last))
+            .or_else(|| self.diameter())
+            .or_else(|| self.declaration_list(keyword))
+            .or_else(|| self.several_values(keyword))
+            .or_else(|| self.point_coordinate(last))
+            .or_else(|| self.arrow(last))
+            .or_else(|| self.single_quotes())
+            .or_else(|| self.unit_behind_pair(last))
+            .or_else(|| self.unit_in_brackets(last))
+            .or_else(|| self.pair_without_parentheses(keyword, last))
+            .or_else(|| self.feature_without_dot(last))
+            .or_else(|| self.trailing_unit(keyword, last))
+            .or_else(|| self.equation(keyword))
     }
 
     /// How the declaration is written, where nothing else is known.
-    pub fn written(&self) -> Option<Intended> {
-        self.form().map(Intended::Words)
+    pub fn form_as_words(&self) -> Option<Correction> {
+        self.form().map(Correction::Words)
     }
 
     fn expects(&self, rule: Rule) -> bool {
@@ -138,8 +147,8 @@ impl<'a> Intent<'a> {
         Edit { span, text: text.to_owned() }
     }
 
-    fn change(message: String, edits: Vec<Edit>) -> Intended {
-        Intended::Change(Fix { message, edits, applies: Applies::Probably })
+    fn change(message: String, edits: Vec<Edit>) -> Correction {
+        Correction::Change(Fix { message, edits, applies: Applies::Probably })
     }
 
     /// Where what stands here ends.
@@ -148,19 +157,19 @@ impl<'a> Intent<'a> {
     }
 
     /// `50 [mm]`
-    fn of_a_unit_in_brackets(&self, last: &Token<'_>) -> Option<Intended> {
+    fn unit_in_brackets(&self, last: &Token<'_>) -> Option<Correction> {
         let (unit, _) = self.text[self.at..].strip_prefix('[')?.split_once(']')?;
         let is_unit = unit.split(['/', '*', '^']).next().is_some_and(|unit| Unit::named(unit.trim()).is_some());
         let is_number = last.text.starts_with(|c: char| c.is_ascii_digit());
         (is_unit && is_number).then(|| {
             let unit_only = self.edit(self.at..self.at + unit.len() + 2, unit.trim());
             let message = format!("a unit follows its number without brackets: `{} {}`", last.text, unit.trim());
-            Intent::change(message, vec![unit_only])
+            ForeignDeclaration::change(message, vec![unit_only])
         })
     }
 
     /// `point A = r, 0`, `at 0, 0, 0`, `along 30 deg`
-    fn of_a_pair(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+    fn pair_without_parentheses(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         let (what, opening) = match keyword {
             "point" => ("a point is a pair", "="),
             "body" => ("a pose is two lengths and an angle", "at"),
@@ -179,28 +188,31 @@ impl<'a> Intent<'a> {
         }
         Some(if is_list {
             let edits = vec![self.edit(start..start, "("), self.edit(end..end, ")")];
-            Intent::change(format!("{what} in parentheses: `({written})`"), edits)
+            ForeignDeclaration::change(format!("{what} in parentheses: `({written})`"), edits)
         } else {
             // of a place given by its distance and angle only the angle counts
             let polar = written.strip_prefix("polar(").and_then(|rest| rest.strip_suffix(')'));
             let angle = polar.and_then(|rest| between_commas(rest).get(1).copied()).unwrap_or(written).trim();
             let pair = format!("(cos({angle}), sin({angle}))");
-            Intent::change(format!("{what}; that of an angle is `{pair}`"), vec![self.edit(start..end, &pair)])
+            ForeignDeclaration::change(
+                format!("{what}; that of an angle is `{pair}`"),
+                vec![self.edit(start..end, &pair)],
+            )
         })
     }
 
     /// `crank A`
-    fn of_a_feature(&self, last: &Token<'_>) -> Option<Intended> {
+    fn feature_without_dot(&self, last: &Token<'_>) -> Option<Correction> {
         let is_owner = last.text == "ground" || self.bodies.contains(&last.text);
         let is_in_formula = self.before.iter().any(|token| token.text == "(") && self.before.len() > 2;
         (self.is_word() && is_owner && is_in_formula).then(|| {
             let message = format!("what belongs to a body is written `{}.{}`", last.text, self.found);
-            Intent::change(message, vec![self.edit(last.end()..self.at, ".")])
+            ForeignDeclaration::change(message, vec![self.edit(last.end()..self.at, ".")])
         })
     }
 
     /// `angle(rod) as deg`, `displacement(guide) mm`
-    fn of_a_unit_behind(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+    fn trailing_unit(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         let is_number = last.text.starts_with(|c: char| c.is_ascii_digit());
         // `2 pi t` is a product with the time
         if !self.expects(Rule::infix) || is_number && self.found != "in" || self.found == "t" {
@@ -208,19 +220,19 @@ impl<'a> Intent<'a> {
         }
         let named = |k: usize| {
             let word = self.rest.get(k)?.text;
-            let meant = || Synonym::of(Place::Unit, word).and_then(|synonym| synonym.means.first().copied());
-            Unit::named(word).map(|unit| unit.word.name).or_else(meant)
+            let synonym = || Synonym::of(Place::Unit, word).and_then(|synonym| synonym.means.first().copied());
+            Unit::named(word).map(|unit| unit.word.name).or_else(synonym)
         };
         let is_joined = ["in", "as"].contains(&self.found) && named(1).is_some();
         if is_number {
             let unit = named(1)?;
             let message = format!("a unit follows its number without `in`: `{} {unit}`", last.text);
-            return Some(Intent::change(message, vec![self.edit(self.at..self.rest.get(1)?.start, "")]));
+            return Some(ForeignDeclaration::change(message, vec![self.edit(self.at..self.rest.get(1)?.start, "")]));
         }
         let from = usize::from(is_joined);
         let unit = named(from)?;
         if !is_joined && Unit::named(last.text).is_some() {
-            return Some(self.of_units_side_by_side(last).unwrap_or_else(|| Intent::both_ways(unit)));
+            return Some(self.adjacent_units(last).unwrap_or_else(|| ForeignDeclaration::both_ways(unit)));
         }
         let behind: Vec<&str> = self.rest[from + 1..].iter().map(|token| token.text).collect();
         let is_power = |word: &str| word.parse::<u32>().is_ok() || ["/", "*", "^", "-"].contains(&word);
@@ -232,17 +244,17 @@ impl<'a> Intent<'a> {
             let unit = unit.to_owned() + &behind.concat();
             let words = format!("the unit in which it is printed stands behind `in`: `in {unit}`");
             let end = if behind.is_empty() { self.rest[from].end() } else { self.end() };
-            return Some(Intent::change(words, vec![self.edit(self.at..end, &format!("in {unit}"))]));
+            return Some(ForeignDeclaration::change(words, vec![self.edit(self.at..end, &format!("in {unit}"))]));
         }
         let unit = match behind[..] {
             ["/", "s"] => format!("({unit}/s)"),
             _ => unit.to_owned(),
         };
-        Some(Intent::both_ways(&unit))
+        Some(ForeignDeclaration::both_ways(&unit))
     }
 
     /// `3 N m`
-    fn of_units_side_by_side(&self, last: &Token<'_>) -> Option<Intended> {
+    fn adjacent_units(&self, last: &Token<'_>) -> Option<Correction> {
         let [.., number, _] = self.before.as_slice() else { return None };
         let is_number = number.text.starts_with(|c: char| c.is_ascii_digit());
         // an angle is no factor of a unit
@@ -253,17 +265,17 @@ impl<'a> Intent<'a> {
         };
         let unit = format!("{}*{}{power}", last.text, self.found);
         let message = format!("a product of units is written with `*`: `{} {unit}`", number.text);
-        Some(Intent::change(message, vec![self.edit(last.end()..self.at, "*")]))
+        Some(ForeignDeclaration::change(message, vec![self.edit(last.end()..self.at, "*")]))
     }
 
-    fn both_ways(unit: &str) -> Intended {
-        Intended::Words(format!(
+    fn both_ways(unit: &str) -> Correction {
+        Correction::Words(format!(
             "a unit follows a number only: `… * 1 {unit}` gives it to a pure number, `… / 1 {unit}` takes it away"
         ))
     }
 
     /// `rotation(main) speed 600 rpm`
-    fn of_an_equation(&self, keyword: &str) -> Option<Intended> {
+    fn equation(&self, keyword: &str) -> Option<Correction> {
         let is_equation = ["driver", "constraint"].contains(&keyword);
         if !is_equation || !self.is_word() || !self.expects(Rule::equals) {
             return None;
@@ -275,9 +287,9 @@ impl<'a> Intent<'a> {
         Some(if keyword == "driver" && is_rate(self.rest.get(1..).unwrap_or_default()) {
             let edits =
                 vec![self.edit(self.at..self.at + self.found.len(), "="), self.edit(self.end()..self.end(), " * t")];
-            Intent::change(format!("a driver is an equation: `{left} = {value} * t`"), edits)
+            ForeignDeclaration::change(format!("a driver is an equation: `{left} = {value} * t`"), edits)
         } else {
-            Intended::Words(format!("a {keyword} is an equation: `{left} = …`"))
+            Correction::Words(format!("a {keyword} is an equation: `{left} = …`"))
         })
     }
 }

@@ -21,7 +21,7 @@ const FEWEST: usize = 64;
 const MOST_JOBS: usize = 4;
 
 /// The tree of a large text; nothing of a small one, nor where more than a mechanism is in it, or a piece does not follow the grammar.
-pub(super) fn in_pieces(source: &Source, file: FileId) -> Option<File> {
+pub(super) fn parse_parallel(source: &Source, file: FileId) -> Option<File> {
     if source.text.len() < FEWEST * PIECE {
         return None;
     }
@@ -218,7 +218,7 @@ impl Cuts {
 
 #[cfg(test)]
 mod tests {
-    use super::{CutKind, Cuts, in_pieces};
+    use super::{CutKind, Cuts, parse_parallel};
     use crate::build::Piece;
     use crate::grammar::Rule;
     use mechc_text::source::Sources;
@@ -245,7 +245,7 @@ mod tests {
         let file = sources.add("long.mech", text);
         let source = sources.get(file);
         let whole = Piece { source, file, range: 0..text.len() };
-        [in_pieces(source, file), whole.read(Rule::file, |reader, pair| reader.file(pair)).ok()]
+        [parse_parallel(source, file), whole.read(Rule::file, |reader, pair| reader.file(pair)).ok()]
     }
 
     #[test]

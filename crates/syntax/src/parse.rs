@@ -8,9 +8,9 @@ use super::build::Piece;
 use super::depth::STACK;
 use super::errors;
 use super::grammar::Rule;
-use super::parallel::in_pieces;
+use super::parallel::parse_parallel;
 use super::recovery::by_declarations;
-use super::reuse::Known;
+use super::reuse::PreviousTree;
 use super::trivia::{self, Trivia};
 use mechc_text::diag::Diagnostics;
 use mechc_text::source::{FileId, Sources};
@@ -34,7 +34,7 @@ pub fn parse(sources: &Sources, file: FileId) -> ParsedText {
     // once for the whole text: a stack of its own takes longer than most declarations
     let (tree, faults) = stacker::maybe_grow(STACK, STACK, || {
         let at_once = || whole.read(Rule::file, |reader, pair| reader.file(pair)).ok();
-        let read = in_pieces(source, file).or_else(at_once);
+        let read = parse_parallel(source, file).or_else(at_once);
         read.map_or_else(|| by_declarations(source, file, None), |tree| (tree, Diagnostics::default()))
     });
     with_all(sources, file, tree, faults)
@@ -45,7 +45,7 @@ pub fn parse(sources: &Sources, file: FileId) -> ParsedText {
 pub fn reread(old: &ParsedText, old_text: &str, sources: &Sources, file: FileId) -> ParsedText {
     let source = sources.get(file);
     let (tree, faults) = stacker::maybe_grow(STACK, STACK, || {
-        by_declarations(source, file, Some(Known::of(&old.tree, [old_text, &source.text], file)))
+        by_declarations(source, file, Some(PreviousTree::new(&old.tree, [old_text, &source.text], file)))
     });
     with_all(sources, file, tree, faults)
 }

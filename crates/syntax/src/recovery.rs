@@ -1,7 +1,7 @@
 //! A text that may have faults, read declaration by declaration: a fault spoils the one it stands in, and no other.
 //!
 //! The grammar says what a declaration is; where it begins, and where its block ends, is seen beforehand from words and braces
-//! ([`Outline`]).
+//! ([`SyncPoints`]).
 
 #![allow(clippy::redundant_closure_for_method_calls)] // a method of one reader is not general enough for all
 
@@ -9,8 +9,8 @@ use super::ast::{Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Us
 use super::build::{Built, Head, Piece, Reader, docs_above, normalized};
 use super::errors;
 use super::grammar::Rule;
-use super::reuse::Known;
-use super::sync_points::Outline;
+use super::reuse::PreviousTree;
+use super::sync_points::SyncPoints;
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use mechc_text::source::{FileId, Source, Span};
 use mechc_text::vocabulary::{KindOfName, another_name};
@@ -20,74 +20,78 @@ use std::convert::Infallible;
 use std::ops::Range;
 
 /// How many faults of a text are worth a look for what was meant.
-const MOST_MENDS: usize = 100;
+const MOST_SUGGESTIONS: usize = 100;
 
 /// The tree of a text that may have faults, with those; what is known of it is not read again.
-pub(super) fn by_declarations(source: &Source, file: FileId, known: Option<Known<'_>>) -> (File, Diagnostics) {
-    let mut reading = Reading {
+pub(super) fn by_declarations(
+    source: &Source,
+    file: FileId,
+    previous: Option<PreviousTree<'_>>,
+) -> (File, Diagnostics) {
+    let mut reading = Recovery {
         source,
         file,
-        outline: Outline::new(&source.text),
-        known,
+        sync: SyncPoints::new(&source.text),
+        previous,
         at: 0,
         faults: Diagnostics::default(),
         bad_names: FxHashSet::default(),
-        has_told_the_end: false,
-        last_told: None,
+        has_reported_end: false,
+        last_reported: None,
     };
     let tree = reading.file();
     (tree, reading.faults)
 }
 
 /// A text on its way to a tree.
-struct Reading<'a> {
+struct Recovery<'a> {
     source: &'a Source,
     file: FileId,
-    outline: Outline<'a>,
+    sync: SyncPoints<'a>,
     /// What need not be read again.
-    known: Option<Known<'a>>,
+    previous: Option<PreviousTree<'a>>,
     /// The token that is to be read next.
     at: usize,
     faults: Diagnostics,
     /// Keywords that were taken for names: every use of them is a fault, and none of its own.
     bad_names: FxHashSet<&'a str>,
     /// That the text ends too early is said once, not for each block that is open.
-    has_told_the_end: bool,
+    has_reported_end: bool,
     /// The byte at which the last fault was.
-    last_told: Option<usize>,
+    last_reported: Option<usize>,
 }
 
-impl Reading<'_> {
+impl Recovery<'_> {
     fn file(&mut self) -> File {
         let (mut uses, mut mechanisms): (Vec<UsedFile>, Vec<Mechanism>) = (Vec::new(), Vec::new());
         let mut is_outside_told = false;
-        while !self.outline.is_behind_the_last(self.at) {
-            if self.outline.begins_use(self.at) {
+        while !self.sync.is_behind_the_last(self.at) {
+            if self.sync.begins_use(self.at) {
                 if !mechanisms.is_empty() {
-                    self.tell(Box::new(errors::late_use(self.span(self.outline.range(self.at)))));
+                    self.report(Box::new(errors::late_use(self.span(self.sync.range(self.at)))));
                 }
                 let used = self.used_file();
                 uses.push(used);
                 continue;
             }
-            if self.outline.word(self.at) == "mechanism"
-                || self.outline.block_behind(self.at).is_some_and(|k| k == self.at + 2)
+            if self.sync.word(self.at) == "mechanism"
+                || self.sync.block_behind(self.at).is_some_and(|k| k == self.at + 2)
             {
                 mechanisms.extend(self.mechanism());
                 continue;
             }
             // the declarations behind a brace too many are told once
             if !std::mem::replace(&mut is_outside_told, true) {
-                let wanted = if mechanisms.is_empty() { Rule::mechanism } else { Rule::mechanism_or_end };
-                let fault = self.fault_of(wanted);
-                self.tell(fault);
+                let expected = if mechanisms.is_empty() { Rule::mechanism } else { Rule::mechanism_or_end };
+                let fault = self.fault_of(expected);
+                self.report(fault);
             }
             match mechanisms.last_mut() {
-                Some(last) if self.outline.word(self.at) != "}" => {
+                Some(last) if self.sync.word(self.at) != "}" => {
                     let end = self.items(&mut last.items, true);
                     last.span = last.span.to(end);
                 }
-                _ => self.at = (self.at + 1).max(self.outline.resumption(self.at)),
+                _ => self.at = (self.at + 1).max(self.sync.sync_token(self.at)),
             }
         }
         File { uses, mechanisms }
@@ -96,37 +100,37 @@ impl Reading<'_> {
     /// `use "FILE.mech" as PREFIX`; one at fault keeps what can be read of it.
     fn used_file(&mut self) -> UsedFile {
         let first = self.at;
-        let (start, next) = (self.outline.start(first), self.outline.end_of_use(first));
+        let (start, next) = (self.sync.start(first), self.sync.end_of_use(first));
         let make = |reader: &Reader<'_>, pair: Pair<'_, Rule>| reader.use_file(reader.only(pair)?);
-        let read = self.piece(start..self.outline.start(next)).read(Rule::only_use, make).or_else(|_| {
-            let last = if self.outline.string_behind(next).is_some() { next + 1 } else { next };
-            let piece = self.piece(start..self.outline.end(last));
-            piece.read(Rule::use_and_next, make).map_err(|refused| piece.fault(refused, self.sees_mends()))
+        let read = self.piece(start..self.sync.start(next)).read(Rule::only_use, make).or_else(|_| {
+            let last = if self.sync.string_behind(next).is_some() { next + 1 } else { next };
+            let piece = self.piece(start..self.sync.end(last));
+            piece.read(Rule::use_and_next, make).map_err(|refused| piece.fault(refused, self.may_suggest()))
         });
         let fault = match read {
             Ok(used) => {
-                self.at = self.outline.index_at(used.span.end as usize);
+                self.at = self.sync.index_at(used.span.end as usize);
                 return used;
             }
             Err(fault) => fault,
         };
-        self.tell(fault);
+        self.report(fault);
         self.at = next;
         // one that is not closed may hold anything
         let is_closed = |text: &str| text.len() > 1 && text.ends_with('"');
-        let path = self.outline.string_behind(first).filter(|token| is_closed(token.text));
+        let path = self.sync.string_behind(first).filter(|token| is_closed(token.text));
         let path = path.map(|token| Name {
             text: token.text.trim_matches('"').to_owned(),
             span: self.span(token.start..token.end()),
         });
-        let span = self.span(start..self.outline.end_before(next));
+        let span = self.span(start..self.sync.end_before(next));
         UsedFile { docs: docs_above(&self.source.text, start), span, path, prefix: None, is_broken: true }
     }
 
     /// `mechanism NAME { … }`, if it is more than a word.
     fn mechanism(&mut self) -> Option<Mechanism> {
-        let (first, start) = (self.at, self.outline.start(self.at));
-        let brace = self.outline.block_behind(first);
+        let (first, start) = (self.at, self.sync.start(self.at));
+        let brace = self.sync.block_behind(first);
         let head = self.head(Rule::mechanism_head, brace, |reader, pair| reader.head(pair));
         let mut has_brace = true;
         let name = match head {
@@ -134,14 +138,13 @@ impl Reading<'_> {
             Err(fault) => {
                 // who leaves out the brace that opens leaves out the one that closes as well
                 has_brace = brace.is_some();
-                let is_head =
-                    self.outline.begins_declaration(first + 2) && fault_at(&fault) == self.outline.start(first + 2);
-                self.tell(fault);
+                let is_head = self.sync.begins_declaration(first + 2) && fault_at(&fault) == self.sync.start(first + 2);
+                self.report(fault);
                 match brace {
                     Some(brace) => self.at = brace + 1,
                     None if is_head => self.at = first + 2,
                     None => {
-                        self.at = self.outline.resumption(first).max(first + 1);
+                        self.at = self.sync.sync_token(first).max(first + 1);
                         return None;
                     }
                 }
@@ -159,19 +162,19 @@ impl Reading<'_> {
     /// The declarations up to the brace that closes their mechanism; gives the place of that brace.
     fn items(&mut self, items: &mut Vec<Item>, must_close: bool) -> Span {
         loop {
-            match self.outline.word(self.at) {
+            match self.sync.word(self.at) {
                 "}" => {
                     self.at += 1;
-                    return self.span(self.outline.start(self.at - 1)..self.outline.end(self.at - 1));
+                    return self.span(self.sync.start(self.at - 1)..self.sync.end(self.at - 1));
                 }
-                "ground" if self.outline.begins_declaration(self.at) => self.block(items, Rule::ground_head),
+                "ground" if self.sync.begins_declaration(self.at) => self.block(items, Rule::ground_head),
                 "body" => self.block(items, Rule::body_head),
-                _ if self.outline.is_ground_by_another_name(self.at) => self.block(items, Rule::ground_head),
+                _ if self.sync.is_ground_by_another_name(self.at) => self.block(items, Rule::ground_head),
                 "" | "mechanism" if self.ends_the_mechanism() => {
                     if must_close {
-                        self.tell_the_end(Rule::item_or_close);
+                        self.report_end(Rule::item_or_close);
                     }
-                    let end = self.outline.end_before(self.at);
+                    let end = self.sync.end_before(self.at);
                     return self.span(end..end);
                 }
                 _ => {
@@ -183,33 +186,33 @@ impl Reading<'_> {
     }
 
     fn ends_the_mechanism(&self) -> bool {
-        self.outline.is_behind_the_last(self.at) || self.outline.begins_declaration(self.at)
+        self.sync.is_behind_the_last(self.at) || self.sync.begins_declaration(self.at)
     }
 
     /// A body or the ground; what was meant for the mechanism and stands in its block comes behind it.
     fn block(&mut self, items: &mut Vec<Item>, rule: Rule) {
         let first = self.at;
-        let start = self.outline.start(first);
-        let brace = self.outline.block_behind(first);
+        let start = self.sync.start(first);
+        let brace = self.sync.block_behind(first);
         let head = if rule == Rule::ground_head {
             self.head(rule, brace, |_, _| Ok(None))
-        } else if let Some(known) = self.known_head(brace) {
-            Ok(Some(known))
+        } else if let Some(reused) = self.reused_head(brace) {
+            Ok(Some(reused))
         } else {
             self.head(rule, brace, |reader, pair| reader.head(pair).map(Some))
         };
         if let Err(fault) = &head {
-            let is_brace_missing = fault_at(fault) == self.outline.start(self.outline.resumption(first));
+            let is_brace_missing = fault_at(fault) == self.sync.start(self.sync.sync_token(first));
             let fault = fault.clone();
-            self.tell(fault);
+            self.report(fault);
             match brace {
                 Some(brace) => self.at = brace + 1,
                 // features stand where the brace should
-                None if is_brace_missing && self.outline.is_feature(self.outline.resumption(first)) => {
-                    self.at = self.outline.resumption(first);
+                None if is_brace_missing && self.sync.is_feature(self.sync.sync_token(first)) => {
+                    self.at = self.sync.sync_token(first);
                 }
                 None => {
-                    self.at = self.outline.resumption(first).max(first + 1);
+                    self.at = self.sync.sync_token(first).max(first + 1);
                     items.push(self.broken(first));
                     return;
                 }
@@ -218,16 +221,16 @@ impl Reading<'_> {
         let behind_head = self.at;
         let mut misplaced = Vec::new();
         let features = self.features(&mut misplaced);
-        let span = self.span(start..self.outline.end_before(self.at));
+        let span = self.span(start..self.sync.end_before(self.at));
         // a body whose head is at fault is a body all the same, if it has a name
         let of_body = |Head { name, ranges, pose }| (ItemKind::Body { name, pose, features: Vec::new() }, ranges);
         let ground = (ItemKind::Ground { features: Vec::new() }, Vec::new());
         let (mut kind, ranges) = match head {
             Ok(Some(head)) => of_body(head),
             Ok(None) => ground,
-            Err(_) if rule == Rule::ground_head || self.outline.word(first + 1) == "ground" => ground,
+            Err(_) if rule == Rule::ground_head || self.sync.word(first + 1) == "ground" => ground,
             // how many of it there are to be is not known, so nothing can be said of what takes one of them
-            Err(_) if self.outline.word(first + 2) == "[" => {
+            Err(_) if self.sync.word(first + 2) == "[" => {
                 (ItemKind::Broken { names: self.names_of(first, behind_head) }, Vec::new())
             }
             Err(_) => match self.names_of(first, behind_head).pop() {
@@ -235,8 +238,8 @@ impl Reading<'_> {
                 None => (ItemKind::Broken { names: Vec::new() }, Vec::new()),
             },
         };
-        if let ItemKind::Body { features: own, .. } | ItemKind::Ground { features: own } = &mut kind {
-            *own = features;
+        if let ItemKind::Body { features: parsed, .. } | ItemKind::Ground { features: parsed } = &mut kind {
+            *parsed = features;
         }
         items.push(Item { docs: docs_above(&self.source.text, start), span, ranges, kind });
         items.append(&mut misplaced);
@@ -246,25 +249,25 @@ impl Reading<'_> {
     fn features(&mut self, misplaced: &mut Vec<Item>) -> Vec<Feature> {
         let mut features = Vec::new();
         loop {
-            match self.outline.word(self.at) {
+            match self.sync.word(self.at) {
                 "}" => {
                     self.at += 1;
                     return features;
                 }
-                "" if self.outline.is_behind_the_last(self.at) => {
-                    self.tell_the_end(Rule::feature_or_close);
+                "" if self.sync.is_behind_the_last(self.at) => {
+                    self.report_end(Rule::feature_or_close);
                     return features;
                 }
-                _ if self.outline.begins_large_declaration(self.at) => {
+                _ if self.sync.begins_large_declaration(self.at) => {
                     // as many braces are closed as are open here: none is missing
-                    let is_misplaced = self.outline.braces_from(self.at) <= -2;
+                    let is_misplaced = self.sync.braces_from(self.at) <= -2;
                     let fault = self.fault_of(Rule::feature_or_close);
                     if !is_misplaced {
-                        self.tell(fault);
+                        self.report(fault);
                         return features;
                     }
-                    let word = self.outline.word(self.at);
-                    self.tell(Box::new(errors::misplaced_in_body(*fault, word)));
+                    let word = self.sync.word(self.at);
+                    self.report(Box::new(errors::misplaced_in_body(*fault, word)));
                     match word {
                         "ground" => self.block(misplaced, Rule::ground_head),
                         "body" => self.block(misplaced, Rule::body_head),
@@ -285,12 +288,12 @@ impl Reading<'_> {
     /// A declaration of the mechanism that has no block, or what stands in its place.
     fn plain_item(&mut self) -> Item {
         let first = self.at;
-        let read = if !self.outline.begins_large_declaration(first) {
+        let read = if !self.sync.begins_large_declaration(first) {
             let fault = self.fault_of(Rule::item_or_close);
-            let is_feature = self.outline.is_feature(first);
-            Err(if is_feature { errors::feature_in_mechanism(fault, self.outline.word(first)) } else { fault })
-        } else if let Some(known) = self.known_item() {
-            Ok(known)
+            let is_feature = self.sync.is_feature(first);
+            Err(if is_feature { errors::feature_in_mechanism(fault, self.sync.word(first)) } else { fault })
+        } else if let Some(reused) = self.reused_item() {
+            Ok(reused)
         } else {
             self.declaration([Rule::only_item, Rule::item_and_next], |reader, pair| {
                 reader.plain_item(reader.only(pair)?)
@@ -298,9 +301,9 @@ impl Reading<'_> {
         };
         match read {
             Ok(item) => {
-                self.at = self.outline.index_at(item.span.end as usize);
+                self.at = self.sync.index_at(item.span.end as usize);
                 // a name with hyphens, which has been told, is no difference
-                if self.outline.uses_hyphenated(first, self.at) { self.broken(first) } else { item }
+                if self.sync.uses_hyphenated(first, self.at) { self.broken(first) } else { item }
             }
             Err(fault) => {
                 self.skip(fault);
@@ -311,10 +314,10 @@ impl Reading<'_> {
 
     fn feature(&mut self) -> Feature {
         let first = self.at;
-        let read = if !self.outline.is_feature(first) {
+        let read = if !self.sync.is_feature(first) {
             Err(self.fault_of(Rule::feature_or_close))
-        } else if let Some(known) = self.known_feature() {
-            Ok(known)
+        } else if let Some(reused) = self.reused_feature() {
+            Ok(reused)
         } else {
             self.declaration([Rule::only_feature, Rule::feature_and_next], |reader, pair| {
                 reader.feature(reader.only(pair)?)
@@ -322,13 +325,13 @@ impl Reading<'_> {
         };
         match read {
             Ok(feature) => {
-                self.at = self.outline.index_at(feature.span.end as usize);
-                let is_spoilt = self.outline.uses_hyphenated(first, self.at);
+                self.at = self.sync.index_at(feature.span.end as usize);
+                let is_spoilt = self.sync.uses_hyphenated(first, self.at);
                 if is_spoilt { Feature { kind: FeatureKind::Broken, ..feature } } else { feature }
             }
             Err(fault) => {
                 self.skip(fault);
-                let span = self.span(self.outline.start(first)..self.outline.end_before(self.at));
+                let span = self.span(self.sync.start(first)..self.sync.end_before(self.at));
                 let nameless = Name { text: String::new(), span };
                 let name = self.names_of(first, self.at).pop().unwrap_or(nameless);
                 Feature {
@@ -342,33 +345,33 @@ impl Reading<'_> {
     }
 
     /// The declaration without a block that begins here, if it is known.
-    fn known_item(&self) -> Option<Item> {
+    fn reused_item(&self) -> Option<Item> {
         let (stretch, next) = self.plain();
-        let mut item = self.known.as_ref()?.item(&stretch)?;
+        let mut item = self.previous.as_ref()?.item(&stretch)?;
         item.docs = docs_above(&self.source.text, stretch.start);
-        (self.outline.index_at(item.span.end as usize) == next).then_some(item)
+        (self.sync.index_at(item.span.end as usize) == next).then_some(item)
     }
 
     /// The feature that begins here, if it is known.
-    fn known_feature(&self) -> Option<Feature> {
+    fn reused_feature(&self) -> Option<Feature> {
         let (stretch, next) = self.plain();
-        let mut feature = self.known.as_ref()?.feature(&stretch)?;
+        let mut feature = self.previous.as_ref()?.feature(&stretch)?;
         feature.docs = docs_above(&self.source.text, stretch.start);
-        (self.outline.index_at(feature.span.end as usize) == next).then_some(feature)
+        (self.sync.index_at(feature.span.end as usize) == next).then_some(feature)
     }
 
     /// From here to where the next declaration begins, and the token there.
     fn plain(&self) -> (Range<usize>, usize) {
-        let next = self.outline.end_of_plain(self.at);
-        (self.outline.start(self.at)..self.outline.start(next), next)
+        let next = self.sync.end_of_plain(self.at);
+        (self.sync.start(self.at)..self.sync.start(next), next)
     }
 
     /// The head of the body that begins here, up to its brace, if it is known.
-    fn known_head(&mut self, brace: Option<usize>) -> Option<Head> {
+    fn reused_head(&mut self, brace: Option<usize>) -> Option<Head> {
         let brace = brace?;
-        let known = self.known.as_ref()?.head(&(self.outline.start(self.at)..self.outline.end(brace)))?;
+        let head = self.previous.as_ref()?.head(&(self.sync.start(self.at)..self.sync.end(brace)))?;
         self.at = brace + 1;
-        Some(known)
+        Some(head)
     }
 
     /// Reads the declaration that begins here, up to where the next one does; what is wrong with it is told as it is seen from what
@@ -380,19 +383,19 @@ impl Reading<'_> {
     ) -> Built<T> {
         let (Range { start, end }, next) = self.plain();
         let read = self.piece(start..end).read(alone, &make).or_else(|_| {
-            let piece = self.piece(start..self.outline.end(next));
-            piece.read(with_next, &make).map_err(|refused| piece.fault(refused, self.sees_mends()))
+            let piece = self.piece(start..self.sync.end(next));
+            piece.read(with_next, &make).map_err(|refused| piece.fault(refused, self.may_suggest()))
         });
         // a misspelt keyword is the fault of the declaration behind it
         read.or_else(|fault| {
-            let next = self.outline.start(self.outline.resumption(self.at));
+            let next = self.sync.start(self.sync.sync_token(self.at));
             if fault_at(&fault) != next {
                 return Err(fault);
             }
             let piece = self.piece(start..next);
             piece.read(alone, &make).map_err(|refused| {
-                let own = piece.fault(refused, false);
-                if fault_at(&own) < piece.range.end && own.code != fault.code { own } else { fault }
+                let local = piece.fault(refused, false);
+                if fault_at(&local) < piece.range.end && local.code != fault.code { local } else { fault }
             })
         })
     }
@@ -401,16 +404,16 @@ impl Reading<'_> {
         Piece { source: self.source, file: self.file, range }
     }
 
-    fn sees_mends(&self) -> bool {
-        self.faults.len() < MOST_MENDS
+    fn may_suggest(&self) -> bool {
+        self.faults.len() < MOST_SUGGESTIONS
     }
 
     /// Goes on behind a fault: at the next declaration, or where the block around it is closed.
     fn skip(&mut self, fault: Box<Diagnostic>) {
-        let found = self.outline.index_at(fault_at(&fault));
-        let next = self.outline.resumption(self.at);
-        self.at = if found > next { self.outline.resumption(found) } else { next }.max(self.at + 1);
-        self.tell(fault);
+        let found = self.sync.index_at(fault_at(&fault));
+        let next = self.sync.sync_token(self.at);
+        self.at = if found > next { self.sync.sync_token(found) } else { next }.max(self.at + 1);
+        self.report(fault);
     }
 
     /// The head of a block, from its keyword to its brace.
@@ -421,61 +424,61 @@ impl Reading<'_> {
         make: impl FnOnce(&Reader<'_>, Pair<'_, Rule>) -> Built<T>,
     ) -> Built<T> {
         let piece = self.head_piece(brace);
-        let head = piece.read(rule, make).map_err(|refused| piece.fault(refused, self.sees_mends()))?;
+        let head = piece.read(rule, make).map_err(|refused| piece.fault(refused, self.may_suggest()))?;
         self.at = brace.map_or(self.at, |brace| brace + 1);
         Ok(head)
     }
 
     /// From here to behind a brace; where there is none, to behind the word that stands in its place.
     fn head_piece(&self, brace: Option<usize>) -> Piece<'_> {
-        let last = brace.unwrap_or_else(|| self.outline.resumption(self.at));
-        self.piece(self.outline.start(self.at)..self.outline.end(last))
+        let last = brace.unwrap_or_else(|| self.sync.sync_token(self.at));
+        self.piece(self.sync.start(self.at)..self.sync.end(last))
     }
 
     /// What is wrong with the word that stands here, where a rule was to begin.
     fn fault_of(&self, rule: Rule) -> Box<Diagnostic> {
-        let piece = self.piece(self.outline.start(self.at)..self.outline.end(self.at));
+        let piece = self.piece(self.sync.start(self.at)..self.sync.end(self.at));
         let refused = piece.read(rule, |reader, _| Err::<Infallible, _>(reader.truncated()));
         match refused {
-            Err(refused) => piece.fault(refused, self.sees_mends()),
+            Err(refused) => piece.fault(refused, self.may_suggest()),
         }
     }
 
-    fn tell_the_end(&mut self, rule: Rule) {
-        if !std::mem::replace(&mut self.has_told_the_end, true) {
+    fn report_end(&mut self, rule: Rule) {
+        if !std::mem::replace(&mut self.has_reported_end, true) {
             let fault = self.fault_of(rule);
-            self.tell(fault);
+            self.report(fault);
         }
     }
 
-    fn tell(&mut self, mut fault: Box<Diagnostic>) {
+    fn report(&mut self, mut fault: Box<Diagnostic>) {
         let at = fault_at(&fault);
-        if let Some(("ground", "body")) = self.outline.word_as_name(at) {
-            let body = self.outline.start(self.outline.index_at(at) - 1);
+        if let Some(("ground", "body")) = self.sync.word_as_name(at) {
+            let body = self.sync.start(self.sync.index_at(at) - 1);
             *fault = errors::ground_as_body(*fault, self.span(body..at));
-        } else if let Some((word, keyword)) = self.outline.word_as_name(at) {
-            let is_free = |name: &str| !self.outline.has_word(name);
+        } else if let Some((word, keyword)) = self.sync.word_as_name(at) {
+            let is_free = |name: &str| !self.sync.has_word(name);
             let instead =
-                if self.sees_mends() { another_name(word, KindOfName::behind(keyword), is_free) } else { None };
+                if self.may_suggest() { another_name(word, KindOfName::behind(keyword), is_free) } else { None };
             *fault = errors::keyword_as_name(*fault, word, instead);
         }
         // a word that ends one declaration and begins none is met twice
-        let is_told = self.last_told.replace(at) == Some(at);
-        if !is_told && !self.outline.uses_bad_name(at, &self.bad_names) {
+        let is_reported = self.last_reported.replace(at) == Some(at);
+        if !is_reported && !self.sync.uses_bad_name(at, &self.bad_names) {
             self.faults.push(*fault);
         }
-        self.bad_names.extend(self.outline.word_as_name(at).map(|(word, _)| word));
+        self.bad_names.extend(self.sync.word_as_name(at).map(|(word, _)| word));
     }
 
     /// What was read from a token up to here, as broken.
     fn broken(&self, first: usize) -> Item {
-        let span = self.span(self.outline.start(first)..self.outline.end_before(self.at));
+        let span = self.span(self.sync.start(first)..self.sync.end_before(self.at));
         let docs = docs_above(&self.source.text, span.start as usize);
         Item { docs, span, ranges: Vec::new(), kind: ItemKind::Broken { names: self.names_of(first, self.at) } }
     }
 
     fn names_of(&self, first: usize, end: usize) -> Vec<Name> {
-        self.outline
+        self.sync
             .names_of(first, end)
             .map(|token| Name { text: normalized(token.text), span: self.span(token.start..token.end()) })
             .collect()

@@ -6,12 +6,12 @@
 
 use super::ast::{Feature, FeatureKind, File, Item, ItemKind};
 use super::build::Head;
-use super::shift_spans::Move;
+use super::shift_spans::Shift;
 use mechc_text::source::FileId;
 use std::ops::Range;
 
 /// What was read before, by place.
-pub(super) struct Known<'a> {
+pub(super) struct PreviousTree<'a> {
     file: FileId,
     /// How many bytes are the same from the beginning on.
     before: usize,
@@ -29,9 +29,9 @@ enum Node<'a> {
     Feature(&'a Feature),
 }
 
-impl<'a> Known<'a> {
+impl<'a> PreviousTree<'a> {
     /// What was read of a text that has become another one.
-    pub fn of(old: &'a File, [old_text, text]: [&str; 2], file: FileId) -> Known<'a> {
+    pub fn new(old: &'a File, [old_text, text]: [&str; 2], file: FileId) -> PreviousTree<'a> {
         let (before, same) = ends_in_common(old_text.as_bytes(), text.as_bytes());
         let mut nodes = Vec::new();
         for item in old.mechanisms.iter().flat_map(|mechanism| &mechanism.items) {
@@ -43,7 +43,7 @@ impl<'a> Known<'a> {
         // nearly all are in order
         nodes.sort_by_key(|(start, _)| *start);
         let grown = (text.len() as u32).wrapping_sub(old_text.len() as u32);
-        Known { file, before, behind: text.len() - same, grown, nodes }
+        PreviousTree { file, before, behind: text.len() - same, grown, nodes }
     }
 
     /// The declaration without a block that was read of a stretch that has not changed. Whether the stretch is still all of it is for the
@@ -84,7 +84,7 @@ impl<'a> Known<'a> {
     }
 
     /// What began where a stretch did that has not changed, and where it stands now.
-    fn node(&self, stretch: &Range<usize>) -> Option<(Node<'a>, Move)> {
+    fn node(&self, stretch: &Range<usize>) -> Option<(Node<'a>, Shift)> {
         let by = match () {
             () if stretch.end <= self.before => 0,
             () if stretch.start >= self.behind => self.grown,
@@ -92,7 +92,7 @@ impl<'a> Known<'a> {
         };
         let start = (stretch.start as u32).wrapping_sub(by);
         let at = self.nodes.binary_search_by_key(&start, |(start, _)| *start).ok()?;
-        Some((self.nodes[at].1, Move { file: self.file, by }))
+        Some((self.nodes[at].1, Shift { file: self.file, by }))
     }
 }
 

@@ -9,13 +9,13 @@ use mechc_text::source::{FileId, Span};
 
 /// From the places of one text to those of another one.
 #[derive(Clone, Copy)]
-pub(super) struct Move {
+pub(super) struct Shift {
     pub file: FileId,
     /// How many bytes more are before it now, modulo 2^32, where there may be less.
     pub by: u32,
 }
 
-impl Move {
+impl Shift {
     fn span(self, span: &mut Span) {
         let at = |byte: u32| byte.wrapping_add(self.by);
         *span = Span { file: self.file, start: at(span.start), end: at(span.end) };
@@ -167,12 +167,13 @@ impl Move {
     }
 
     fn part(self, part: &mut Part) {
-        let Part { name, mechanism: MechanismName { prefix, name: own }, bindings, on, at, mirrored, call_span } = part;
+        let Part { name, mechanism: MechanismName { prefix, name: local }, bindings, on, at, mirrored, call_span } =
+            part;
         self.name(name);
         if let Some(prefix) = prefix {
             self.name(prefix);
         }
-        self.name(own);
+        self.name(local);
         for Binding { name, coordinate, value, span } in bindings {
             self.defined(name, value);
             if let Some(coordinate) = coordinate {

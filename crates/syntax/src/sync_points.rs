@@ -8,7 +8,7 @@ use rustc_hash::FxHashSet;
 use std::ops::Range;
 
 /// The words of a text with what they may be the beginning of.
-pub(super) struct Outline<'a> {
+pub(super) struct SyncPoints<'a> {
     text: &'a str,
     tokens: Vec<Token<'a>>,
     /// By token: where it stands, if it is a keyword.
@@ -22,8 +22,8 @@ pub(super) struct Outline<'a> {
 /// How many tokens the head of a block has at most, as far as it matters: `body NAME at (x, y, phi) {` with formulas.
 const LONGEST_HEAD: usize = 100;
 
-impl<'a> Outline<'a> {
-    pub fn new(text: &'a str) -> Outline<'a> {
+impl<'a> SyncPoints<'a> {
+    pub fn new(text: &'a str) -> SyncPoints<'a> {
         let tokens = tokens(text);
         let role = |token: &Token<'_>| Keyword::named(token.text).map(|keyword| keyword.role);
         let mut roles: Vec<Option<Role>> = tokens.iter().map(role).collect();
@@ -41,7 +41,7 @@ impl<'a> Outline<'a> {
         }
         let declared = tokens.iter().zip(&names).filter(|(_, is_name)| **is_name);
         let hyphenated = declared.filter_map(|(token, _)| hyphenated_at(text, token.start)).collect();
-        Outline { text, tokens, roles, names, hyphenated }
+        SyncPoints { text, tokens, roles, names, hyphenated }
     }
 
     fn role(&self, k: usize) -> Option<Role> {
@@ -124,7 +124,7 @@ impl<'a> Outline<'a> {
 
     /// The token at which reading goes on after a fault in the declaration that begins at a token: where the next one begins, or
     /// the block around it is closed. What stands in braces in between goes with it.
-    pub fn resumption(&self, k: usize) -> usize {
+    pub fn sync_token(&self, k: usize) -> usize {
         let mut depth = 0_usize;
         for next in k..self.tokens.len() {
             match self.word(next) {

@@ -24,7 +24,7 @@ pub use mechc_runtime::neighbours::bisect;
 pub use mechc_runtime::sine_and_cosine::{A_MILLION, sin_cos};
 pub use mechc_runtime::{blocks, grid, hermite, neighbours};
 pub use search::{GOLDEN, GoldenSection, Halving, boundary, close_in, median};
-pub use sin_cos_lanes::sin_cos_of_each;
+pub use sin_cos_lanes::sin_cos_lanes;
 pub use vectors::{Vectors, WIDE, to_next_line};
 
 /// Returns the largest power of two that is not above a positive number.

@@ -1,7 +1,7 @@
 //! Compilation of a constraint system to operations.
 
 use super::{
-    Inputs, Op, Outputs, PlacedCheckSlopes, PlacedRim, PlacedSide, Program, Register, STAGES, Stage, Switch,
+    CheckSlopeRegisters, Inputs, Op, Outputs, PlacedRim, PlacedSide, Program, Register, STAGES, Stage, Switch,
     TableLayout,
 };
 use crate::{self as ir, ConstraintSystem, RightSide, With};
@@ -48,7 +48,7 @@ impl Program {
         outputs.forces = layout.place(Stage::Forces, system.needed_forces().iter().copied());
         let mut varied = |list: &[ExprId]| layout.place(Stage::Variation, list.iter().copied());
         let slopes = system.check_slopes();
-        outputs.check_slopes = PlacedCheckSlopes {
+        outputs.check_slopes = CheckSlopeRegisters {
             coordinates: varied(&slopes.by_q),
             inputs: slopes.by_inputs().map(&mut varied).collect(),
             params: slopes.by_params().map(&mut varied).collect(),

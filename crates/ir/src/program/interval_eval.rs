@@ -4,8 +4,8 @@
 //! these values; the excess vanishes with the width of the intervals.
 
 use super::{Column, Machine, Op, Program, Register, Registers, Stage};
-use crate::tolerances::results::enclose::MOST_PIECES;
-use crate::tolerances::steps::enclosures::BESIDE_A_POLE;
+use crate::tolerances::results::interval_eval::MOST_PIECES;
+use crate::tolerances::steps::interval_eval::POLE_MARGIN;
 use mechc_expr::{Binary, Comparison, Unary, binary_value, compare, piece, unary_value};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -401,7 +401,7 @@ pub(super) fn unary_range(function: Unary, a: Interval) -> Interval {
         Unary::Cosh => loose(low.min(high), low.max(high)),
         Unary::Tan => {
             // the poles are as uncertain as the argument
-            let slack = BESIDE_A_POLE + 4.0 * f64::EPSILON * a.low.abs().max(a.high.abs());
+            let slack = POLE_MARGIN + 4.0 * f64::EPSILON * a.low.abs().max(a.high.abs());
             let branch = |x: f64| mechc_expr::math::floor((x + FRAC_PI_2) / PI);
             let one_branch = branch(a.low - slack).to_bits() == branch(a.high + slack).to_bits();
             if one_branch && low <= high { loose(low, high) } else { WHOLE }

@@ -155,7 +155,7 @@ impl<const W: usize, const P: usize, const ALL: bool> Machine for LaneMachine<'_
 
     #[inline(always)]
     fn sin_cos(&mut self, a: [f64; P]) -> [[f64; P]; 2] {
-        math::sin_cos_of_each(&a).into()
+        math::sin_cos_lanes(&a).into()
     }
 
     /// Evaluates one part if all lanes are equal: variants in a batch share the time.

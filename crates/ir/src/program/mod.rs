@@ -164,7 +164,7 @@ pub struct Inputs {
 
 /// Registers of the slopes of left-out equations.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct PlacedCheckSlopes {
+pub struct CheckSlopeRegisters {
     /// Slopes with respect to coordinates, in the order of [`crate::CheckSlopes::pattern`].
     pub coordinates: Vec<Register>,
     /// Slopes with respect to each input, one entry per check.
@@ -238,7 +238,7 @@ pub struct Outputs {
     /// Entries of `Φ` that are checked instead of solved.
     pub checks: Vec<Register>,
     /// Slopes of the checks.
-    pub check_slopes: PlacedCheckSlopes,
+    pub check_slopes: CheckSlopeRegisters,
     /// Quantities that keep their signs along a branch.
     pub watches: Vec<Register>,
     /// Domain boundaries.

@@ -6,7 +6,9 @@
 
 use super::interval_eval::{Interval, backward_slice, enclose};
 use super::{Op, Program, Register, Registers, Stage};
-use crate::tolerances::results::ranges::{HIGH_POWER, VANISHES, WIDEST, WIDEST_POWER, WIDEST_RATIO, WIDEST_VALUE};
+use crate::tolerances::results::range_bounds::{
+    HIGH_POWER, VANISHES, WIDEST, WIDEST_POWER, WIDEST_RATIO, WIDEST_VALUE,
+};
 use mechc_expr::{Binary, Unary};
 
 /// An interval that holds all values of a formula.

@@ -1,7 +1,7 @@
 //! Time-dependent terms of the position equations, such as the right side of a driver.
 
 use super::{Op, Program, Register, Stage};
-use crate::tolerances::steps::signals_in_a_row::MOST_IN_A_ROW;
+use crate::tolerances::steps::time_terms::MOST_PER_ROW;
 
 /// A value that depends on time alone, with the equations that contain it.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -37,7 +37,7 @@ impl Program {
             }
             indices.sort_unstable();
             indices.dedup();
-            indices.truncate(MOST_IN_A_ROW);
+            indices.truncate(MOST_PER_ROW);
             for register in op.writes() {
                 signals_behind[register as usize].clone_from(&indices);
             }

@@ -1,7 +1,7 @@
 //! Results of the whole motion.
 
 /// Ranges of formulas (`crates/ir/src/program/range_bounds.rs`).
-pub mod ranges {
+pub mod range_bounds {
     /// Largest change of the argument of a resolved function (rad or a pure number): its series converges with the first few terms.
     pub const WIDEST: f64 = 1.0;
     /// Largest change of a resolved bounded function.
@@ -17,7 +17,7 @@ pub mod ranges {
 }
 
 /// Interval evaluation of formulas (`crates/ir/src/program/interval_eval.rs`).
-pub mod enclose {
+pub mod interval_eval {
     /// Maximum number of table pieces that a range covers; beyond it nothing is known of the columns.
     pub const MOST_PIECES: f64 = 64.0;
 }

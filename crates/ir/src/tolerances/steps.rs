@@ -55,9 +55,9 @@ pub mod times {
 }
 
 /// Enclosures of functions (`crates/ir/src/program/interval_eval.rs`).
-pub mod enclosures {
+pub mod interval_eval {
     /// Distance from a pole (rad) within which a tangent may be on either side of it.
-    pub const BESIDE_A_POLE: f64 = 1e-9;
+    pub const POLE_MARGIN: f64 = 1e-9;
 }
 
 /// Signals: values that depend on time alone (`crates/engine/src/analysis/follow/edges/signals.rs`).
@@ -73,9 +73,9 @@ pub mod signals {
 }
 
 /// Time-dependent terms of an equation (`crates/ir/src/program/time_terms.rs`).
-pub mod signals_in_a_row {
+pub mod time_terms {
     /// Maximum number of these terms that are tracked per equation.
-    pub const MOST_IN_A_ROW: usize = 8;
+    pub const MOST_PER_ROW: usize = 8;
 }
 
 /// Determinants that touch zero (`crates/engine/src/analysis/follow/step/touch.rs`).

@@ -1,6 +1,6 @@
 //! Characters that other languages, keyboards and calculators use, and this one does not.
 
-use super::{Fault, Mend};
+use super::{Fault, FixIt};
 use crate::grammar::Rule;
 use crate::tokens::tokens;
 use mechc_text::diag::{Applies, Edit, Fix};
@@ -19,15 +19,15 @@ const WRITTEN: &[(&str, &str, &str)] = &[
 const OPERAND: [Rule; 5] = [Rule::expr, Rule::prefix, Rule::literal, Rule::number, Rule::call];
 
 impl Fault<'_> {
-    pub(super) fn of_a_character(&self) -> Option<Mend> {
+    pub(super) fn foreign_character(&self) -> Option<FixIt> {
         // where a name goes on it is no operator
         let has_operator = self.expects(Rule::infix) || OPERAND.iter().any(|rule| self.expects(*rule));
         let written = WRITTEN.iter().find(|(written, ..)| *written == self.found);
         if let Some((_, text, words)) = written.filter(|_| has_operator) {
-            return Some(Mend::Fix(self.everywhere_on_the_line(text, words)));
+            return Some(FixIt::Fix(self.everywhere_on_the_line(text, words)));
         }
-        if let Some(mend) = self.of_another_language() {
-            return Some(mend);
+        if let Some(fix_it) = self.foreign_operator() {
+            return Some(fix_it);
         }
         let (before, behind) = (self.before(), self.behind());
         let around = self.opened().last().map_or("", |(_, token)| *token);
@@ -38,34 +38,34 @@ impl Fault<'_> {
             "==" if self.expects(Rule::equals) => {
                 self.replaced(self.here(), "=", "an equation is written with one `=`", Applies::Always)
             }
-            "=" if self.text[..self.at].ends_with(':') => return self.of_colon_and_equals(),
+            "=" if self.text[..self.at].ends_with(':') => return self.colon_equals(),
             "=" if self.expects(Rule::kw_then) => {
                 self.replaced(self.here(), "==", "a comparison is written `==`", Applies::Always)
             }
             "+" if OPERAND.iter().any(|rule| self.expects(*rule)) => self.left_out("a positive number needs no sign"),
-            ";" => self.of_a_semicolon(around),
+            ";" => self.semicolon(around),
             "*" if self.text[..self.at].ends_with('*') => {
                 self.replaced(self.at - 1..self.at + 1, "^", "a power is written with `^`", Applies::Always)
             }
-            "*" if self.text[..self.at].ends_with('/') => self.of_a_comment(self.at - 1),
-            "/" if behind.starts_with('*') => self.of_a_comment(self.at),
-            "#" => self.of_a_number_sign(),
-            "%" => Mend::words("a comment begins with `//`; a remainder is `mod(a, b)`"),
-            "√" => Mend::words("a square root is written `sqrt(a)`"),
-            "|" => Mend::words("an absolute value is written `abs(a)`"),
-            "°" => self.of_degrees(),
+            "*" if self.text[..self.at].ends_with('/') => self.block_comment(self.at - 1),
+            "/" if behind.starts_with('*') => self.block_comment(self.at),
+            "#" => self.number_sign(),
+            "%" => FixIt::words("a comment begins with `//`; a remainder is `mod(a, b)`"),
+            "√" => FixIt::words("a square root is written `sqrt(a)`"),
+            "|" => FixIt::words("an absolute value is written `abs(a)`"),
+            "°" => self.degree_sign(),
             "²" | "³" if self.expects(Rule::equals) && !self.expects(Rule::infix) => {
-                Mend::words("a name is made of letters, digits and `_`")
+                FixIt::words("a name is made of letters, digits and `_`")
             }
-            "²" if behind.trim_start().starts_with('(') => Mend::words("the square of a function is `f(x)^2`"),
+            "²" if behind.trim_start().starts_with('(') => FixIt::words("the square of a function is `f(x)^2`"),
             "²" => self.replaced(self.here(), "^2", "a square is written `^2`", Applies::Always),
             "³" => self.replaced(self.here(), "^3", "a cube is written `^3`", Applies::Always),
             "\"" if behind.lines().next().is_some_and(|line| line.contains('"')) => {
-                Mend::words("text in quotes is the file of a `table` or a `use`, and stands nowhere else")
+                FixIt::words("text in quotes is the file of a `table` or a `use`, and stands nowhere else")
             }
-            "\"" => Mend::words("a string ends on the line where it begins"),
-            "," if self.is_head_of_fn() => Mend::words("a `fn` has one argument: what else it needs can be a `param`"),
-            "," | "." => return self.of_a_decimal(),
+            "\"" => FixIt::words("a string ends on the line where it begins"),
+            "," if self.is_head_of_fn() => FixIt::words("a `fn` has one argument: what else it needs can be a `param`"),
+            "," | "." => return self.decimal_separator(),
             "(" if around == "[" && before.ends_with(')') => {
                 let end = before.len();
                 self.replaced(end..end, ",", "rows are separated by commas: `(1, 2), (3, 4)`", Applies::Always)
@@ -75,7 +75,7 @@ impl Fault<'_> {
     }
 
     /// How programming languages join conditions, choose and differentiate.
-    fn of_another_language(&self) -> Option<Mend> {
+    fn foreign_operator(&self) -> Option<FixIt> {
         let (has_operator, is_operand) = (self.expects(Rule::infix), OPERAND.iter().any(|rule| self.expects(*rule)));
         let behind = self.behind();
         let is_double = behind.starts_with(self.found);
@@ -88,14 +88,14 @@ impl Fault<'_> {
         };
         Some(match self.found {
             "&" if has_operator && is_double => joined("and", "conditions are joined with `and`"),
-            "&" if has_operator => Mend::words("conditions are joined with `and`"),
+            "&" if has_operator => FixIt::words("conditions are joined with `and`"),
             "|" if has_operator && is_double => joined("or", "conditions are joined with `or`"),
             "!" if is_operand => {
                 self.replaced(self.here(), "not ", "a condition is denied with `not`", Applies::Always)
             }
-            "?" if has_operator => Mend::words("a choice is written `if CONDITION then A else B`"),
+            "?" if has_operator => FixIt::words("a choice is written `if CONDITION then A else B`"),
             "." if has_operator && behind.starts_with('d') && self.before().ends_with(')') => {
-                Mend::words("a time derivative is written `der(…)`, in a measure; `der(der(…))` is the second")
+                FixIt::words("a time derivative is written `der(…)`, in a measure; `der(der(…))` is the second")
             }
             _ => return None,
         })
@@ -111,7 +111,7 @@ impl Fault<'_> {
         Fix { message: words.to_owned(), edits, applies: Applies::Always }
     }
 
-    pub(super) fn left_out(&self, words: &str) -> Mend {
+    pub(super) fn left_out(&self, words: &str) -> FixIt {
         let Range { start, end } = self.here();
         let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
         let joins = self.text[..start].ends_with(is_word) && self.text[end..].starts_with(is_word);
@@ -119,7 +119,7 @@ impl Fault<'_> {
     }
 
     /// `driver d := …`
-    fn of_colon_and_equals(&self) -> Option<Mend> {
+    fn colon_equals(&self) -> Option<FixIt> {
         let line = self.behind().lines().next().unwrap_or_default();
         let is_sure = !self.expects(Rule::prefix) || line.contains('=');
         let words = "a `:` alone stands behind the name";
@@ -128,7 +128,7 @@ impl Fault<'_> {
     }
 
     /// `# a comment`, and what is none: `a#1`.
-    fn of_a_number_sign(&self) -> Mend {
+    fn number_sign(&self) -> FixIt {
         let words = "a comment begins with `//`";
         let marks = self.found.len() + self.behind().len() - self.behind().trim_start_matches('#').len();
         let range = self.at..self.at + marks;
@@ -142,32 +142,32 @@ impl Fault<'_> {
             _ if opens_a_block && is_apart => self.replaced(range, "//", words, Applies::Probably),
             (true, ..) | (_, true, true) => self.replaced(range, "//", words, Applies::Always),
             (_, false, true) => self.replaced(range, " //", words, Applies::Probably),
-            _ => Mend::words("a name is made of letters, digits and `_`; a comment begins with `//`"),
+            _ => FixIt::words("a name is made of letters, digits and `_`; a comment begins with `//`"),
         }
     }
 
     /// `/* … */`
-    fn of_a_comment(&self, start: usize) -> Mend {
+    fn block_comment(&self, start: usize) -> FixIt {
         let words = "a comment begins with `//` and ends with its line".to_owned();
-        let Some(length) = self.text[start + 2..].find("*/") else { return Mend::Words(words) };
+        let Some(length) = self.text[start + 2..].find("*/") else { return FixIt::Words(words) };
         let end = start + 2 + length + 2;
         if !self.text[end..].lines().next().unwrap_or_default().trim().is_empty() {
-            return Mend::Words(words);
+            return FixIt::Words(words);
         }
         let text = line_comments(&self.text[start..end - 2]);
-        Mend::Fix(Fix::replace(self.span(start..end), text, words, Applies::Always))
+        FixIt::Fix(Fix::replace(self.span(start..end), text, words, Applies::Always))
     }
 
     /// `30°`, and `alpha°`, which is a product.
-    fn of_degrees(&self) -> Mend {
+    fn degree_sign(&self) -> FixIt {
         let word = self.word_before();
         let words = format!("degrees are written `{word} deg`");
         if self.behind().starts_with(|c: char| c.is_alphanumeric() || c == '_') {
-            return Mend::Words(words);
+            return FixIt::Words(words);
         }
         if self.behind().trim_start().starts_with('^') {
             let words = format!("degrees are written `deg`; the power of an angle is `({word} deg)^…`");
-            return Mend::Words(words);
+            return FixIt::Words(words);
         }
         if word.parse::<f64>().is_ok() {
             return self.replaced(self.before().len()..self.here().end, " deg", &words, Applies::Always);
@@ -186,7 +186,7 @@ impl Fault<'_> {
     }
 
     /// `0,5` and `2.`
-    fn of_a_decimal(&self) -> Option<Mend> {
+    fn decimal_separator(&self) -> Option<FixIt> {
         let (whole, behind) = (self.word_before(), self.behind());
         let is_number = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
         let digits = &behind[..behind.find(|c: char| !c.is_ascii_digit()).unwrap_or(behind.len())];
@@ -205,7 +205,7 @@ impl Fault<'_> {
             (".", false) => {
                 let words = format!("a digit follows the point: `{whole}.0`");
                 if behind.starts_with(|c: char| c.is_alphanumeric() || c == '_' || c == '.') {
-                    return Some(Mend::Words(words));
+                    return Some(FixIt::Words(words));
                 }
                 Some(self.replaced(self.before().len()..self.here().end, ".0", &words, Applies::Always))
             }

@@ -1,6 +1,6 @@
 //! Where a part stands: its words in another order, or once more.
 
-use super::{Fault, Mend};
+use super::{Fault, FixIt};
 use crate::tokens::{begins_declaration, tokens};
 
 /// What may follow the bindings of a part, in its order.
@@ -8,7 +8,7 @@ const WORDS: [&str; 3] = ["on", "at", "mirrored"];
 
 impl Fault<'_> {
     /// `part leg: jansen_leg() at (0, 0, 0) on chassis`
-    pub(super) fn of_a_mount(&self) -> Option<Mend> {
+    pub(super) fn mount_order(&self) -> Option<FixIt> {
         if !WORDS.contains(&self.found) {
             return None;
         }
@@ -21,7 +21,7 @@ impl Fault<'_> {
         let count = |bracket: &str| inside.iter().filter(|token| token.text == bracket).count();
         let is_behind_bindings = count("(") > 0 && count("(") == count(")");
         (inside[0].text == "part" && is_behind_bindings).then(|| {
-            Mend::words("`on`, `at` and `mirrored` stand in this order, each once: `on BODY at (x, y, phi) mirrored`")
+            FixIt::words("`on`, `at` and `mirrored` stand in this order, each once: `on BODY at (x, y, phi) mirrored`")
         })
     }
 }

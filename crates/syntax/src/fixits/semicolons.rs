@@ -1,6 +1,6 @@
 //! A `;`: behind a declaration, between rows, and where a comma is the decimal point.
 
-use super::{Fault, Mend};
+use super::{Fault, FixIt};
 use crate::grammar::Rule;
 use crate::tokens::{Token, begins_declaration, tokens};
 use mechc_text::diag::{Applies, Edit, Fix};
@@ -10,10 +10,10 @@ const TERMINATOR: &str = "declarations need no terminator; leave the `;` out";
 const PARTS: &str = "what stands in parentheses is separated by commas";
 
 impl Fault<'_> {
-    pub(super) fn of_a_semicolon(&self, around: &str) -> Mend {
+    pub(super) fn semicolon(&self, around: &str) -> FixIt {
         match around {
-            "" | "{" => self.of_a_terminator(),
-            _ if self.is_decimal_comma_beside() => self.of_decimal_commas(),
+            "" | "{" => self.terminator(),
+            _ if self.is_decimal_comma_beside() => self.decimal_commas(),
             "[" => self.replaced(self.here(), ",", ROWS, Applies::Always),
             // closed on its line, it goes on behind the semicolon
             _ if self.expects(Rule::comma) && self.is_closed_on_the_line() => {
@@ -21,12 +21,12 @@ impl Fault<'_> {
                 let is_open = self.list().iter().any(is_decimal);
                 self.replaced(self.here(), ",", PARTS, if is_open { Applies::Probably } else { Applies::Always })
             }
-            _ => self.of_an_open_parenthesis(),
+            _ => self.unclosed_parenthesis(),
         }
     }
 
     /// `param a = 3; param b = 4;`
-    fn of_a_terminator(&self) -> Mend {
+    fn terminator(&self) -> FixIt {
         let behind = self.behind().trim_start_matches([' ', '\t']);
         let gap = self.here().end..self.text.len() - behind.len();
         let word = tokens(behind.lines().next().unwrap_or_default()).first().copied();
@@ -43,7 +43,7 @@ impl Fault<'_> {
     }
 
     /// `weld(a.P; b.Q` at the end of a line
-    fn of_an_open_parenthesis(&self) -> Mend {
+    fn unclosed_parenthesis(&self) -> FixIt {
         let line = self.behind().lines().next().unwrap_or_default();
         let rest = tokens(line);
         let is_complete = self.opened().iter().filter(|(_, token)| *token != "{").count() == 1
@@ -58,9 +58,9 @@ impl Fault<'_> {
                 let edits = [(self.here(), ","), (end..end, ")")]
                     .map(|(range, text)| Edit { span: self.span(range), text: text.to_owned() });
                 let message = format!("{PARTS}; close it with `)`");
-                Mend::Fix(Fix { message, edits: edits.into(), applies: Applies::Probably })
+                FixIt::Fix(Fix { message, edits: edits.into(), applies: Applies::Probably })
             }
-            _ => Mend::words("what stands in parentheses is separated by commas, and they are closed with `)`"),
+            _ => FixIt::words("what stands in parentheses is separated by commas, and they are closed with `)`"),
         }
     }
 
@@ -116,10 +116,10 @@ impl Fault<'_> {
     }
 
     /// `max(1,5; 2)`: both readings are told, and neither is chosen.
-    fn of_decimal_commas(&self) -> Mend {
+    fn decimal_commas(&self) -> FixIt {
         let commas: Option<Vec<usize>> = self.commas_beside_semicolons().into_iter().collect();
         let Some(commas) = commas else {
-            return Mend::words("a list is separated by commas, and decimals are written with a point: `(0.5, 1.5)`");
+            return FixIt::words("a list is separated by commas, and decimals are written with a point: `(0.5, 1.5)`");
         };
         let list = self.list();
         let semicolons = list.iter().filter(|token| token.text == ";").map(|token| (token.start, ","));
@@ -127,6 +127,6 @@ impl Fault<'_> {
         edits.sort_unstable();
         let edits = edits.into_iter().map(|(at, text)| Edit { span: self.span(at..at + 1), text: text.to_owned() });
         let message = "decimals are written with a point, and lists with commas: `(0.5, 1.5)`".to_owned();
-        Mend::Fix(Fix { message, edits: edits.collect(), applies: Applies::Probably })
+        FixIt::Fix(Fix { message, edits: edits.collect(), applies: Applies::Probably })
     }
 }

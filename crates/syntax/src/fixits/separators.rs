@@ -11,18 +11,18 @@ const SEPARATORS: [(&str, &str, &str); 2] = [("`:`", ":", "="), ("`=`", "=", ":"
 impl Fault<'_> {
     /// The `:` or `=` behind a name, where nothing else can stand.
     pub(super) fn separator(&self, expected: &str) -> Option<Fix> {
-        let (_, wanted, other) = SEPARATORS.into_iter().find(|(name, ..)| *name == expected)?;
+        let (_, separator, other) = SEPARATORS.into_iter().find(|(name, ..)| *name == expected)?;
         if self.found == other {
-            return Some(self.other_separator(wanted));
+            return Some(self.other_separator(separator));
         }
         let begins_operand = self.found.starts_with(|c: char| c.is_alphanumeric() || c == '_' || c == '(');
         if self.is_on_new_line() || !begins_operand || self.begins_declaration() {
             return None;
         }
-        let applies = self.is_separated_by(wanted)?;
-        let words = format!("write `{wanted}` before `{}`", self.found);
+        let applies = self.is_separated_by(separator)?;
+        let words = format!("write `{separator}` before `{}`", self.found);
         let place = self.before().len();
-        let (place, text) = match wanted {
+        let (place, text) = match separator {
             ":" => (place, ":"),
             _ if place < self.at => (self.at, "= "),
             _ => (place, " = "),
@@ -31,22 +31,22 @@ impl Fault<'_> {
     }
 
     /// `param a: 3`, `joint j = …`, `param a := 3`
-    fn other_separator(&self, wanted: &str) -> Fix {
+    fn other_separator(&self, separator: &str) -> Fix {
         let is_both = self.found == ":" && self.behind().starts_with('=');
         let end = self.here().end + usize::from(is_both);
         let written = if is_both { ":=" } else { self.found };
-        let words = format!("write `{wanted}` instead of `{written}`");
+        let words = format!("write `{separator}` instead of `{written}`");
         let before = self.before().len();
-        let (start, gap) = match wanted {
+        let (start, gap) = match separator {
             ":" => (before, ""),
             _ => (self.at, if before == self.at { " " } else { "" }),
         };
         let gap_behind = if self.text[end..].starts_with(char::is_whitespace) { "" } else { " " };
-        Fix::replace(self.span(start..end), format!("{gap}{wanted}{gap_behind}"), words, Applies::Always)
+        Fix::replace(self.span(start..end), format!("{gap}{separator}{gap_behind}"), words, Applies::Always)
     }
 
     /// Whether the name ends here and its value begins, and how sure that is; a word too many may stand before it.
-    fn is_separated_by(&self, wanted: &str) -> Option<Applies> {
+    fn is_separated_by(&self, separator: &str) -> Option<Applies> {
         let before = tokens(self.before());
         let [.., keyword, _] = before.as_slice() else { return None };
         let line = self.behind().lines().next().unwrap_or_default();
@@ -57,7 +57,7 @@ impl Fault<'_> {
         let behind = self.behind().trim_start();
         let is_call = behind.starts_with(['(', '{', '[']);
         let is_gap = self.before().len() < self.at;
-        let is_sure = match (wanted, self.found) {
+        let is_sure = match (separator, self.found) {
             (":", word) if is_equation => is_call && QuantityWord::named(word).is_some(),
             (":", word) => is_call && (JointWord::named(word).is_some() || Synonym::of(Place::Joint, word).is_some()),
             (_, "(") => is_gap || keyword.text == "point",

@@ -1,6 +1,6 @@
 //! What was meant where another file is used: a path without quotes, another program's word, a `use` that stands too far down.
 
-use super::{Fault, Mend};
+use super::{Fault, FixIt};
 use crate::grammar::Rule;
 use crate::tokens::tokens;
 use mechc_text::diag::Applies;
@@ -9,23 +9,23 @@ use mechc_text::diag::Applies;
 const OTHER_WORDS: [&str; 4] = ["import", "include", "require", "from"];
 
 impl Fault<'_> {
-    pub(super) fn of_a_use(&self) -> Option<Mend> {
+    pub(super) fn file_use(&self) -> Option<FixIt> {
         let is_at_the_next = self.found.is_empty() || self.is_on_new_line();
         let is_prefix = self.expects(Rule::use_prefix) || self.expects(Rule::name);
         // comments may stand between
         let last = || tokens(&self.text[..self.at]).last().map(|token| token.text);
         if is_prefix && is_at_the_next && last() == Some("as") {
-            return Some(Mend::words("a name stands behind `as`: `use \"FILE.mech\" as legs`"));
+            return Some(FixIt::words("a name stands behind `as`: `use \"FILE.mech\" as legs`"));
         }
         let is_before_a_string = self.behind().trim_start_matches([' ', '\t']).starts_with('"');
         if self.expects(Rule::string) && self.word_before() == "use" {
-            return self.of_an_unquoted_path();
+            return self.unquoted_path();
         }
         if !is_before_a_string {
             return None;
         }
         if self.found == "use" && !self.expects(Rule::use_prefix) {
-            return Some(Mend::words("a `use` stands at the top of the file, above the first `mechanism`"));
+            return Some(FixIt::words("a `use` stands at the top of the file, above the first `mechanism`"));
         }
         let is_top = self.expects(Rule::kw_use) || self.expects(Rule::kw_mechanism);
         (is_top && OTHER_WORDS.contains(&self.found))
@@ -33,7 +33,7 @@ impl Fault<'_> {
     }
 
     /// `use leg.mech`
-    fn of_an_unquoted_path(&self) -> Option<Mend> {
+    fn unquoted_path(&self) -> Option<FixIt> {
         if self.found.is_empty() || self.is_on_new_line() || self.found == "\"" {
             return None;
         }

@@ -1,13 +1,13 @@
 //! Windows of reductions that are written otherwise than `max(e, from A to B)`.
 
-use super::{Fault, Mend};
+use super::{Fault, FixIt};
 use crate::grammar::Rule;
 use crate::tokens::{Token, tokens};
 use mechc_text::diag::{Applies, Fix};
 use mechc_text::vocabulary::ReductionWord;
 
 impl<'a> Fault<'a> {
-    pub(super) fn of_a_window(&self) -> Option<Mend> {
+    pub(super) fn reduction_window(&self) -> Option<FixIt> {
         let last = self.last_argument()?;
         let word = |k: usize| last.get(k).map_or("", |token| token.text);
         let is_window = |word: &str| matches!(word, "from" | "to");
@@ -16,9 +16,9 @@ impl<'a> Fault<'a> {
             if self.found == "to" {
                 let comma = self.before().len() - 1..self.before().len();
                 let words = "no comma stands in a window: `from A to B`";
-                return Some(Mend::Fix(Fix::replace(self.span(comma), "", words, Applies::Always)));
+                return Some(FixIt::Fix(Fix::replace(self.span(comma), "", words, Applies::Always)));
             }
-            return self.expects(Rule::right).then(|| Mend::words("a window stands behind all arguments"));
+            return self.expects(Rule::right).then(|| FixIt::words("a window stands behind all arguments"));
         }
         if !self.expects(Rule::infix) || !self.expects(Rule::comma) {
             return None;
@@ -29,10 +29,10 @@ impl<'a> Fault<'a> {
             return Some(self.replaced(bracket..bracket, " ", words, Applies::Always));
         }
         if is_window(word(0)) && is_window(self.found) {
-            return Some(Mend::words("a time that begins with a sign stands in parentheses: `from (-1 s)`"));
+            return Some(FixIt::words("a time that begins with a sign stands in parentheses: `from (-1 s)`"));
         }
         if is_window(word(0)) && last.len() == 1 {
-            return Some(Mend::words("a window stands behind a formula: `max(e, from A to B)`"));
+            return Some(FixIt::words("a window stands behind a formula: `max(e, from A to B)`"));
         }
         let end = self.before().len();
         let words = "a window stands behind a comma: `max(e, from A to B)`";

@@ -1,59 +1,62 @@
 //! Masses, gravity and loads: with a name or a sign that they have none of, in another order, on what they do not say.
 
-use super::{Intended, Intent, is_name};
+use super::{Correction, ForeignDeclaration, is_name};
 use crate::grammar::Rule;
 use crate::tokens::Token;
 use mechc_text::vocabulary::{QuantityWord, Unit};
 
-impl Intent<'_> {
-    pub(super) fn of_forces(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+impl ForeignDeclaration<'_> {
+    pub(super) fn force_declaration(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         match keyword {
             "mass" | "gravity" if ["=", ":"].contains(&self.found) && self.before.len() == 1 => {
                 let value = self.rest.get(1)?.start;
                 let written = format!("{keyword} {}", &self.text[value..self.end()]);
                 let edit = self.edit(last.end()..value, " ");
-                Some(Intent::change(format!("it is written without `{}`: `{written}`", self.found), vec![edit]))
+                Some(ForeignDeclaration::change(
+                    format!("it is written without `{}`: `{written}`", self.found),
+                    vec![edit],
+                ))
             }
-            "mass" => self.of_a_mass(),
+            "mass" => self.mass_declaration(),
             // `gravity 0, -9.81 m/s^2`
             "gravity" if self.found == "," && self.is_outside_of_brackets() => {
                 let (start, end) = (self.before.get(1)?.start, self.end());
                 let message = format!("gravity is a pair in parentheses: `gravity ({})`", &self.text[start..end]);
-                Some(Intent::change(message, vec![self.edit(start..start, "("), self.edit(end..end, ")")]))
+                Some(ForeignDeclaration::change(message, vec![self.edit(start..start, "("), self.edit(end..end, ")")]))
             }
-            "load" => self.of_a_load(),
+            "load" => self.load_declaration(),
             _ => None,
         }
     }
 
-    fn of_a_mass(&self) -> Option<Intended> {
+    fn mass_declaration(&self) -> Option<Correction> {
         match (self.found, self.rest.get(1)?) {
             // `mass flywheel: 5 kg`
             (":", value) if self.before.len() == 2 => {
                 let edit = self.edit(self.before[1].start..value.start, "");
-                Some(Intent::change("a mass has no name".to_owned(), vec![edit]))
+                Some(ForeignDeclaration::change("a mass has no name".to_owned(), vec![edit]))
             }
             // `mass 5 kg, inertia 1 kg*m^2`
             (",", next) if ["at", "inertia"].contains(&next.text) => {
                 let message = "what a mass is said of stands behind it without commas".to_owned();
-                Some(Intent::change(message, vec![self.edit(self.at..self.at + 1, "")]))
+                Some(ForeignDeclaration::change(message, vec![self.edit(self.at..self.at + 1, "")]))
             }
-            ("at", _) => self.of_a_place_behind_an_inertia(),
+            ("at", _) => self.position_behind_inertia(),
             // `mass 5 kg (0, 0)`
             ("(", _) if self.expects(Rule::at) => {
                 let message = "the place of a mass stands behind `at`: `mass M at (x, y)`".to_owned();
-                Some(Intent::change(message, vec![self.edit(self.at..self.at, "at ")]))
+                Some(ForeignDeclaration::change(message, vec![self.edit(self.at..self.at, "at ")]))
             }
             (word, _) => {
                 let (_, keyword) = WORDS_OF_MASSES.iter().find(|(words, _)| words.contains(&word))?;
                 let message = format!("was `{keyword}` meant?");
-                Some(Intent::change(message, vec![self.edit(self.at..self.at + word.len(), keyword)]))
+                Some(ForeignDeclaration::change(message, vec![self.edit(self.at..self.at + word.len(), keyword)]))
             }
         }
     }
 
     /// `mass 5 kg inertia 1 kg*m^2 at (0, 0)`
-    fn of_a_place_behind_an_inertia(&self) -> Option<Intended> {
+    fn position_behind_inertia(&self) -> Option<Correction> {
         let inertia = self.before.iter().find(|token| token.text == "inertia")?;
         // a pair, or a point's name
         let end = match self.rest.iter().position(|token| token.text == ")") {
@@ -64,14 +67,14 @@ impl Intent<'_> {
         let inertia_only = self.text[inertia.start..self.at].trim_end();
         let edit = self.edit(inertia.start..end, &format!("{place} {inertia_only}"));
         let message = "the place of a mass stands before its inertia: `mass M at (x, y) inertia I`".to_owned();
-        Some(Intent::change(message, vec![edit]))
+        Some(ForeignDeclaration::change(message, vec![edit]))
     }
 
-    fn of_a_load(&self) -> Option<Intended> {
+    fn load_declaration(&self) -> Option<Correction> {
         // `load: 20 N on x(P)`
         if self.found == ":" && self.before.len() == 1 {
-            let said = &self.text[self.rest.get(1)?.start..self.end()];
-            return Some(Intended::Words(format!("a load needs a name: `load NAME: {said}`")));
+            let load = &self.text[self.rest.get(1)?.start..self.end()];
+            return Some(Correction::Words(format!("a load needs a name: `load NAME: {load}`")));
         }
         let (colon, first) = self.before.iter().zip(self.before.get(1..)?).find(|(token, _)| token.text == ":")?;
         let written = self.text[colon.end()..self.at].trim();
@@ -80,13 +83,13 @@ impl Intent<'_> {
             let value = self.rest.get(1)?.start..self.end();
             let load = format!("{} on {written}", &self.text[value.clone()]);
             let message = format!("a load says how much, and on what it works: `{load}`");
-            return Some(Intent::change(message, vec![self.edit(first.start..value.end, &load)]));
+            return Some(ForeignDeclaration::change(message, vec![self.edit(first.start..value.end, &load)]));
         }
         // `load push: 20 N at arm.tip`
         let is_joined = is_name(self.found) && Unit::named(self.found).is_none() && self.expects(Rule::kw_on);
         (is_joined || self.found == "=").then(|| {
             let on = "what a load works on stands behind `on`: `20 N on x(P)`, `3 N*m on rotation(J)`";
-            Intended::Words(on.to_owned())
+            Correction::Words(on.to_owned())
         })
     }
 }

@@ -1,12 +1,12 @@
 //! `ground` alone, where one of its features is meant.
 
-use super::{Intended, Intent, is_name};
+use super::{Correction, ForeignDeclaration, is_name};
 use crate::tokens::{Token, begins_declaration, tokens};
 use mechc_text::vocabulary::is_feature;
 
-impl Intent<'_> {
+impl ForeignDeclaration<'_> {
     /// `x(ground)`, `ground O`, `ground->O`
-    pub(super) fn of_the_ground(&self) -> Option<Intended> {
+    pub(super) fn ground_feature(&self) -> Option<Correction> {
         let ground = Token { start: self.at, text: self.found };
         if self.found != "ground" || begins_declaration(self.text, ground) {
             return None;
@@ -19,21 +19,21 @@ impl Intent<'_> {
         };
         if let Some((feature, k)) = feature.filter(|(feature, _)| is_name(feature)) {
             let dot = self.edit(ground.end()..self.rest[k].start, ".");
-            return Some(Intent::change(
+            return Some(ForeignDeclaration::change(
                 format!("what belongs to the ground is written `ground.{feature}`"),
                 vec![dot],
             ));
         }
         let features = self.features_of_the_ground();
         Some(match features[..] {
-            [] => Intended::Words("name one of its features: `ground.…`".to_owned()),
+            [] => Correction::Words("name one of its features: `ground.…`".to_owned()),
             [only] => {
                 let edit = self.edit(self.at..ground.end(), &format!("ground.{only}"));
-                Intent::change(format!("name one of its features: `ground.{only}`"), vec![edit])
+                ForeignDeclaration::change(format!("name one of its features: `ground.{only}`"), vec![edit])
             }
             _ => {
                 let names: Vec<String> = features.iter().take(4).map(|name| format!("`ground.{name}`")).collect();
-                Intended::Words(format!("name one of its features: {}", names.join(", ")))
+                Correction::Words(format!("name one of its features: {}", names.join(", ")))
             }
         })
     }

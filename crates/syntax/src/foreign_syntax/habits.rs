@@ -1,14 +1,14 @@
 //! Habits from other languages: the size of an array behind a name, a type, several values of one name.
 
 use super::heads::LONGEST_SHOWN;
-use super::{Intended, Intent, is_name};
+use super::{Correction, ForeignDeclaration, is_name};
 use crate::grammar::Rule;
 use crate::tokens::tokens;
 use mechc_text::vocabulary::{Keyword, Unit};
 
-impl Intent<'_> {
+impl ForeignDeclaration<'_> {
     /// `body arm[3]`, `joint pin[n]: …`, `body cell[2, 3]`
-    pub(super) fn of_a_size(&self, keyword: &str) -> Option<Intended> {
+    pub(super) fn array_size(&self, keyword: &str) -> Option<Correction> {
         let [_, name, bracket, ..] = self.before.as_slice() else { return None };
         if !REPEATED.contains(&keyword) || bracket.text != "[" || !is_name(name.text) {
             return None;
@@ -29,7 +29,7 @@ impl Intent<'_> {
         let ranges = ranges?.join(", ");
         let message =
             format!("what is repeated has an index with its range, from 0 on: `{keyword} {}[{ranges}]`", name.text);
-        Some(Intent::change(message, vec![self.edit(bracket.end()..close.start, &ranges)]))
+        Some(ForeignDeclaration::change(message, vec![self.edit(bracket.end()..close.start, &ranges)]))
     }
 
     /// `3` and `n` count from 0; `1..4` is a range already.
@@ -51,7 +51,7 @@ impl Intent<'_> {
     }
 
     /// `param a: length = 3 mm`, `param a: mm = 3`
-    pub(super) fn of_a_type(&self, keyword: &str) -> Option<Intended> {
+    pub(super) fn type_annotation(&self, keyword: &str) -> Option<Correction> {
         let ([_, name], [colon, kind, equals, value @ ..]) = (self.before.as_slice(), self.rest.as_slice()) else {
             return None;
         };
@@ -63,19 +63,22 @@ impl Intent<'_> {
         let Some(unit) = unit else {
             let shown = if value_text.chars().count() <= LONGEST_SHOWN { value_text } else { "…" };
             let written = format!("{keyword} {} = {shown}", name.text);
-            return Some(Intent::change(format!("a type is not written, its value has one: `{written}`"), edits));
+            return Some(ForeignDeclaration::change(
+                format!("a type is not written, its value has one: `{written}`"),
+                edits,
+            ));
         };
         let unit = unit.word.name;
         let message = format!("a unit stands behind its number: `{keyword} {} = {} {unit}`", name.text, first.text);
         if value.len() > 1 {
-            return Some(Intended::Words("a unit stands behind each number, and not behind the name".to_owned()));
+            return Some(Correction::Words("a unit stands behind each number, and not behind the name".to_owned()));
         }
         edits.push(self.edit(first.end()..first.end(), &format!(" {unit}")));
-        Some(Intent::change(message, edits))
+        Some(ForeignDeclaration::change(message, edits))
     }
 
     /// `trace path = crank.A, rod.B`, `measure h = x(rod.A), y(rod.A)`, `measure d = crank.A, rod.B`
-    pub(super) fn of_several_values(&self, keyword: &str) -> Option<Intended> {
+    pub(super) fn several_values(&self, keyword: &str) -> Option<Correction> {
         let [_, name, equals, ..] = self.before.as_slice() else { return None };
         let what = match keyword {
             "trace" => "a trace is the path of one point",
@@ -90,12 +93,15 @@ impl Intent<'_> {
         if let ("measure", [from, to], true) = (keyword, &values[..], values.iter().all(|value| is_path(value))) {
             let edits =
                 vec![self.edit(self.before[3].start..self.before[3].start, "distance("), self.edit(end..end, ")")];
-            return Some(Intent::change(format!("the distance of two points is `distance({from}, {to})`"), edits));
+            return Some(ForeignDeclaration::change(
+                format!("the distance of two points is `distance({from}, {to})`"),
+                edits,
+            ));
         }
         let names: Vec<String> = (2..=values.len()).map(|k| format!("{}_{k}", name.text)).collect();
         let apart = format!("{what}: each has its own `{keyword}`");
         if names.iter().any(|name| self.is_declared(name)) {
-            return Some(Intended::Words(apart));
+            return Some(Correction::Words(apart));
         }
         let others: Vec<String> =
             names.iter().zip(&values[1..]).map(|(name, value)| format!("{keyword} {name} = {value}")).collect();
@@ -106,7 +112,7 @@ impl Intent<'_> {
         let unit = &self.text[end..self.end()];
         let gap = format!("{unit}{}", self.gap_between_declarations());
         let rest = format!("{gap}{}{unit}", others.join(&gap));
-        Some(Intent::change(message, vec![self.edit(self.at..self.end(), &rest)]))
+        Some(ForeignDeclaration::change(message, vec![self.edit(self.at..self.end(), &rest)]))
     }
 
     /// Formulas with commas between, from the `=` on, and where the last of them ends.

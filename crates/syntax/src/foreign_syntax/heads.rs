@@ -1,24 +1,24 @@
 //! Heads of declarations: names that are missing, are two words or stand behind what they name, arguments that are missing.
 
-use super::{Intended, Intent, hyphenated_at, is_name};
+use super::{Correction, ForeignDeclaration, hyphenated_at, is_name};
 use crate::grammar::Rule;
 use crate::tokens::{Token, tokens};
 use mechc_text::diag::{Applies, Fix};
 use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym, is_called, is_declaration};
 
-impl Intent<'_> {
+impl ForeignDeclaration<'_> {
     /// What was meant by the head of a declaration.
-    pub(super) fn of_a_head(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
-        self.of_a_hyphen(last)
-            .or_else(|| self.of_a_name_behind(keyword, last))
-            .or_else(|| self.of_no_name(keyword, last))
-            .or_else(|| self.of_quotes())
-            .or_else(|| self.of_several_words(keyword))
-            .or_else(|| self.of_no_argument(keyword, last))
+    pub(super) fn declaration_head(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
+        self.hyphenated_name(last)
+            .or_else(|| self.name_behind_kind(keyword, last))
+            .or_else(|| self.missing_name(keyword, last))
+            .or_else(|| self.quoted_name())
+            .or_else(|| self.name_of_several_words(keyword))
+            .or_else(|| self.missing_argument(keyword, last))
     }
 
     /// `small-end`, where a name is declared, with whatever dash.
-    fn of_a_hyphen(&self, last: &Token<'_>) -> Option<Intended> {
+    fn hyphenated_name(&self, last: &Token<'_>) -> Option<Correction> {
         let keyword = self.before.get(self.before.len().checked_sub(2)?)?.text;
         if !self.found.starts_with(is_dash) || !is_declaration(keyword) {
             return None;
@@ -27,7 +27,7 @@ impl Intent<'_> {
         let written = name.replace(is_dash, "_");
         let uses = tokens(self.text).into_iter().filter(|token| hyphenated_at(self.text, token.start) == Some(name));
         let edits = uses.map(|token| self.edit(token.start..token.start + name.len(), &written)).collect();
-        Some(Intent::change(format!("a name has no `{}`: write `{written}`", self.found), edits))
+        Some(ForeignDeclaration::change(format!("a name has no `{}`: write `{written}`", self.found), edits))
     }
 
     /// Whether the name has been read, and what separates it from the rest is missing.
@@ -37,7 +37,7 @@ impl Intent<'_> {
     }
 
     /// `joint revolute j2(…)`
-    fn of_a_name_behind(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+    fn name_behind_kind(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         let is_kind = |word: &str| JointWord::named(word).is_some() || Synonym::of(Place::Joint, word).is_some();
         let is_called = self.rest.get(1).is_some_and(|token| token.text == "(");
         if keyword != "joint" || !self.is_behind_the_name() || JointWord::named(last.text).is_none() {
@@ -49,11 +49,11 @@ impl Intent<'_> {
         let written = format!("{}: {}", self.found, last.text);
         let edit = self.edit(last.start..self.at + self.found.len(), &written);
         let message = format!("the name of a joint stands before its kind: `{written}(…)`");
-        Some(Intended::Change(Fix { message, edits: vec![edit], applies: Applies::Always }))
+        Some(Correction::Change(Fix { message, edits: vec![edit], applies: Applies::Always }))
     }
 
     /// `measure der(x(arm.tip))`, `joint: revolute(…)`, `measure (x(arm.tip))`
-    fn of_no_name(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+    fn missing_name(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         let form = Keyword::named(keyword).filter(|keyword| keyword.role == Role::Declaration)?;
         let form = form.word.forms.first()?;
         if !form.contains("NAME") || keyword == "mechanism" {
@@ -80,11 +80,11 @@ impl Intent<'_> {
             Some(words) if keyword != "body" && keyword != "fn" => format!("{head} {words}"),
             _ => (*form).to_owned(),
         };
-        Some(Intended::Words(format!("a {keyword} needs a name: `{written}`")))
+        Some(Correction::Words(format!("a {keyword} needs a name: `{written}`")))
     }
 
     /// `mechanism "crank rocker" {`
-    fn of_quotes(&self) -> Option<Intended> {
+    fn quoted_name(&self) -> Option<Correction> {
         let string = self.rest.first().filter(|token| token.text.len() > 2 && token.text.ends_with('"'))?;
         let words: Vec<&str> =
             string.text.trim_matches('"').split([' ', '-', '_']).filter(|word| !word.is_empty()).collect();
@@ -94,14 +94,14 @@ impl Intent<'_> {
             return None;
         }
         let edit = self.edit(string.start..string.end(), &name);
-        Some(Intent::change(format!("a name stands without quotes: `{name}`"), vec![edit]))
+        Some(ForeignDeclaration::change(format!("a name stands without quotes: `{name}`"), vec![edit]))
     }
 
     /// `mechanism crank rocker {`, `joint j 1: …`, `ground g {`
-    fn of_several_words(&self, keyword: &str) -> Option<Intended> {
+    fn name_of_several_words(&self, keyword: &str) -> Option<Correction> {
         if keyword == "ground" && self.before.len() == 1 && self.expects(Rule::open) && is_name(self.found) {
             let edit = self.edit(self.before[0].end()..self.at + self.found.len(), "");
-            return Some(Intent::change("the ground has no name: `ground {`".to_owned(), vec![edit]));
+            return Some(ForeignDeclaration::change("the ground has no name: `ground {`".to_owned(), vec![edit]));
         }
         let name = self.before.get(1).filter(|_| self.is_behind_the_name() && !self.expects(Rule::left))?;
         let separators: &[&str] = match keyword {
@@ -124,7 +124,7 @@ impl Intent<'_> {
         // by its first word it is called elsewhere
         if self.is_used_by(name) {
             let message = format!("a name is one word: `{}`", name.text);
-            return Some(Intent::change(message, vec![self.edit(name.end()..last, "")]));
+            return Some(ForeignDeclaration::change(message, vec![self.edit(name.end()..last, "")]));
         }
         let words = std::iter::once(name.text).chain(parts.iter().map(|token| token.text)).filter(|word| *word != ".");
         let written = words.collect::<Vec<_>>().join("_");
@@ -132,7 +132,7 @@ impl Intent<'_> {
             return None;
         }
         let edit = self.edit(name.start..last, &written);
-        Some(Intent::change(format!("a name is one word: write `{written}`"), vec![edit]))
+        Some(ForeignDeclaration::change(format!("a name is one word: write `{written}`"), vec![edit]))
     }
 
     /// Whether a name that is declared here stands elsewhere in the text, and is not declared there.
@@ -145,13 +145,13 @@ impl Intent<'_> {
     }
 
     /// `fn f = 3 * u`, `curve profile u = (…)`, `param f(u) = …`
-    fn of_no_argument(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+    fn missing_argument(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         if !self.is_behind_the_name() {
             return None;
         }
         if keyword == "param" && self.found == "(" && !is_called(last.text) {
             let edit = self.edit(self.before[0].start..self.before[0].end(), "fn");
-            return Some(Intent::change("what has an argument is declared by `fn`".to_owned(), vec![edit]));
+            return Some(ForeignDeclaration::change("what has an argument is declared by `fn`".to_owned(), vec![edit]));
         }
         if !self.expects(Rule::left) {
             return None;
@@ -165,7 +165,7 @@ impl Intent<'_> {
         }
         let edit = self.edit(last.end()..end, &format!("({argument})"));
         let message = format!("its argument stands behind the name: `{keyword} {}({argument}) = …`", last.text);
-        Some(Intent::change(message, vec![edit]))
+        Some(ForeignDeclaration::change(message, vec![edit]))
     }
 }
 

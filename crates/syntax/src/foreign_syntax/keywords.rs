@@ -1,14 +1,14 @@
 //! Declarations without their keyword, or with that of another kind.
 
-use super::{Intended, Intent, holds_quantity, is_name};
+use super::{Correction, ForeignDeclaration, holds_quantity, is_name};
 use crate::grammar::Rule;
 use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym};
 
-impl Intent<'_> {
+impl ForeignDeclaration<'_> {
     /// `a = 30 mm`, `j: revolute(…)`, `revolute j: (…)`, where a declaration begins.
-    pub(super) fn of_no_keyword(&self) -> Option<Intended> {
+    pub(super) fn missing_keyword(&self) -> Option<Correction> {
         if self.found == "inertia" && self.begins_feature() {
-            return Some(Intended::Words("an inertia stands behind its mass: `mass M inertia I`".to_owned()));
+            return Some(Correction::Words("an inertia stands behind its mass: `mass M inertia I`".to_owned()));
         }
         let is_free = |token: &str| is_name(token) && Keyword::named(token).is_none();
         let is_expected = self.begins_large() || self.begins_feature();
@@ -21,26 +21,29 @@ impl Intent<'_> {
                 let end = self.rest[if words[2] == ":" { 3 } else { 2 }].start;
                 let kind = kind_of_joint(kind);
                 let edit = self.edit(self.at..end, &format!("joint {name}: {kind}"));
-                Some(Intent::change(format!("a joint is declared by `joint {name}: {kind}(…)`"), vec![edit]))
+                Some(ForeignDeclaration::change(
+                    format!("a joint is declared by `joint {name}: {kind}(…)`"),
+                    vec![edit],
+                ))
             }
             [kind, "(", ..] if JointWord::named(kind).is_some() => {
-                Some(Intended::Words(format!("a joint is declared by `joint NAME: {kind}(…)`")))
+                Some(Correction::Words(format!("a joint is declared by `joint NAME: {kind}(…)`")))
             }
-            [_, ":" | "=", _, ..] => self.of_a_name_alone(&words),
+            [_, ":" | "=", _, ..] => self.keyword_by_value(&words),
             [name, "{"] | [name, "{", ..] if self.begins_large() => {
                 let edit = self.edit(self.at..self.at, "body ");
-                Some(Intent::change(format!("a body is declared by `body {name} {{`"), vec![edit]))
+                Some(ForeignDeclaration::change(format!("a body is declared by `body {name} {{`"), vec![edit]))
             }
             [_, _] => {
                 let synonym = Synonym::of(Place::Declaration, self.found)?;
-                synonym.means.is_empty().then(|| Intended::Words(synonym.say(&[])))
+                synonym.means.is_empty().then(|| Correction::Words(synonym.say(&[])))
             }
             _ => None,
         }
     }
 
     /// What follows a name tells what it is the name of.
-    fn of_a_name_alone(&self, words: &[&str]) -> Option<Intended> {
+    fn keyword_by_value(&self, words: &[&str]) -> Option<Correction> {
         let [name, separator, first, behind @ ..] = words else { return None };
         let has_value = *separator == "=";
         let keyword = match self.begins_large() {
@@ -55,11 +58,14 @@ impl Intent<'_> {
         };
         let separator = if has_value { " =" } else { ":" };
         let edit = self.edit(self.at..self.at, &format!("{keyword} "));
-        Some(Intent::change(format!("a {keyword} is declared by `{keyword} {name}{separator} …`"), vec![edit]))
+        Some(ForeignDeclaration::change(
+            format!("a {keyword} is declared by `{keyword} {name}{separator} …`"),
+            vec![edit],
+        ))
     }
 
     /// `joint j: (…)`, `joint j: distance(…) = …`
-    pub(super) fn of_no_joint(&self, keyword: &str) -> Option<Intended> {
+    pub(super) fn missing_joint_kind(&self, keyword: &str) -> Option<Correction> {
         let [joint, name, colon, ..] = self.before.as_slice() else { return None };
         if keyword != "joint" || colon.text != ":" {
             return None;
@@ -67,7 +73,7 @@ impl Intent<'_> {
         if self.found == "(" && self.before.len() == 3 {
             let message =
                 format!("a joint has a kind: `joint {}: revolute(…)`; `mechc explain joints` has them all", name.text);
-            return Some(Intended::Words(message));
+            return Some(Correction::Words(message));
         }
         if self.found != "=" || self.before.len() == 3 {
             return None;
@@ -75,7 +81,10 @@ impl Intent<'_> {
         let has_time = self.rest.iter().any(|token| token.text == "t");
         let instead = if has_time { "driver" } else { "constraint" };
         let edit = self.edit(joint.start..joint.end(), instead);
-        Some(Intent::change(format!("an equation is a `{instead}`: `{instead} {}: …`", name.text), vec![edit]))
+        Some(ForeignDeclaration::change(
+            format!("an equation is a `{instead}`: `{instead} {}: …`", name.text),
+            vec![edit],
+        ))
     }
 
     fn begins_large(&self) -> bool {

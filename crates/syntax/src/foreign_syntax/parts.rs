@@ -1,14 +1,14 @@
 //! Parts of a declaration: arguments without parentheses, features that are not complete, rows that are no pairs.
 
-use super::{Intended, Intent, is_name};
+use super::{Correction, ForeignDeclaration, is_name};
 use crate::grammar::Rule;
 use crate::tokens::{Token, begins_declaration};
 use mechc_text::diag::{Applies, Fix};
 use mechc_text::vocabulary::{JointWord, Keyword, QuantityWord, Role};
 
-impl Intent<'_> {
+impl ForeignDeclaration<'_> {
     /// `joint j: revolute A, B`, `rotation j = …`, `x arm.tip`
-    pub(super) fn of_bare_arguments(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+    pub(super) fn bare_arguments(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         let is_kind = keyword == "joint" && last.text == ":" && JointWord::named(self.found).is_some();
         let (called, arguments) =
             if is_kind { (self.rest.first()?, self.rest.get(1..)?) } else { (last, self.rest.as_slice()) };
@@ -21,16 +21,16 @@ impl Intent<'_> {
         let parts: Vec<&Token<'_>> = arguments.iter().take_while(is_part).collect();
         let (Some(first), Some(end)) = (parts.first(), parts.last()) else {
             let form = JointWord::named(called.text)?.word.written();
-            return Some(Intended::Words(format!("what a joint is of stands in parentheses: {form}")));
+            return Some(Correction::Words(format!("what a joint is of stands in parentheses: {form}")));
         };
         let behind = self.text[end.end()..].trim_start();
         let written = format!("{}({})", called.text, &self.text[first.start..end.end()]);
         let message = format!("arguments stand in parentheses: `{written}`");
         if behind.starts_with(['(', '[', '{']) {
-            return Some(Intended::Words(message));
+            return Some(Correction::Words(message));
         }
         let edit = self.edit(called.start..end.end(), &written);
-        Some(Intent::change(message, vec![edit]))
+        Some(ForeignDeclaration::change(message, vec![edit]))
     }
 
     /// `x` and `y` alone may be anything: of them an argument must be a point.
@@ -42,19 +42,22 @@ impl Intent<'_> {
     }
 
     /// `axis way = top, (0, -1)`
-    pub(super) fn of_an_axis_with_a_comma(&self, keyword: &str) -> Option<Intended> {
+    pub(super) fn axis_with_comma(&self, keyword: &str) -> Option<Correction> {
         if keyword != "axis" || self.found != "," || !self.expects(Rule::along) {
             return None;
         }
         let next = self.rest.get(1)?;
         let word = if next.text == "(" { "along" } else { "to" };
         let message = format!("write `{word}` instead of the `,`");
-        Some(Intent::change(message, vec![self.edit(self.before.last()?.end()..next.start, &format!(" {word} "))]))
+        Some(ForeignDeclaration::change(
+            message,
+            vec![self.edit(self.before.last()?.end()..next.start, &format!(" {word} "))],
+        ))
     }
 
     /// `circle c = (0, 0, 6 mm)`, `axis a = (0, 1)`, `load push: 20 N`, after which nothing comes: it is told where it ends.
-    pub(super) fn of_half_a_declaration(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
-        let wanted = match keyword {
+    pub(super) fn incomplete_declaration(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
+        let expected = match keyword {
             "circle" if self.expects(Rule::radius) => "`radius`",
             "axis" if self.expects(Rule::along) => "`along` or `to`",
             "load" if self.expects(Rule::kw_on) => "`on`",
@@ -68,22 +71,22 @@ impl Intent<'_> {
             return None;
         }
         let form = || {
-            Intended::Words(format!(
+            Correction::Words(format!(
                 "it is written {}",
                 Keyword::named(keyword).map_or(String::new(), |k| k.word.written())
             ))
         };
-        let mend = if keyword == "circle" { self.radius_among_coordinates(last) } else { None };
-        Some(Intended::Incomplete {
+        let correction = if keyword == "circle" { self.radius_among_coordinates(last) } else { None };
+        Some(Correction::Incomplete {
             what: format!("{keyword} `{}`", self.before.get(1)?.text),
             end: self.edit(last.start..last.end(), "").span,
-            wanted,
-            mend: Box::new(mend.unwrap_or_else(form)),
+            expected,
+            correction: Box::new(correction.unwrap_or_else(form)),
         })
     }
 
     /// `circle c = (0, 0, 6 mm)`
-    fn radius_among_coordinates(&self, last: &Token<'_>) -> Option<Intended> {
+    fn radius_among_coordinates(&self, last: &Token<'_>) -> Option<Correction> {
         let place = self.before.get(3..)?;
         let commas: Vec<usize> = (0..place.len()).filter(|&k| place[k].text == ",").collect();
         let is_flat = place.iter().filter(|token| token.text == "(").count() == 1;
@@ -92,11 +95,11 @@ impl Intent<'_> {
         let radius = self.text[place.get(comma + 1)?.start..last.start].trim_end();
         let written = format!("{}) radius {radius}", &self.text[start..place[comma - 1].end()]);
         let edit = self.edit(start..last.end(), &written);
-        Some(Intent::change(format!("the radius stands behind the center: `{written}`"), vec![edit]))
+        Some(ForeignDeclaration::change(format!("the radius stands behind the center: `{written}`"), vec![edit]))
     }
 
     /// `body b (0, 0, 0) {`, `body b { at (0, 0, 0) …`
-    pub(super) fn of_a_pose(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+    pub(super) fn pose_without_at(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         let [_, name, ..] = self.before.as_slice() else { return None };
         if keyword != "body" {
             return None;
@@ -104,7 +107,7 @@ impl Intent<'_> {
         if self.found == "(" && self.expects(Rule::at) {
             let edits = vec![self.edit(self.at..self.at, if last.end() < self.at { "at " } else { " at " })];
             let message = "write `at` before `(`".to_owned();
-            return Some(Intended::Change(Fix { message, edits, applies: Applies::Always }));
+            return Some(Correction::Change(Fix { message, edits, applies: Applies::Always }));
         }
         if self.found != "at" || last.text != "{" || self.before.len() != 3 {
             return None;
@@ -112,21 +115,24 @@ impl Intent<'_> {
         let close = self.rest.iter().find(|token| token.text == ")")?;
         let pose = &self.text[self.at..close.end()];
         let edit = self.edit(last.start..close.end(), &format!("{pose} {{"));
-        Some(Intent::change(format!("the pose stands before the `{{`: `body {} {pose} {{`", name.text), vec![edit]))
+        Some(ForeignDeclaration::change(
+            format!("the pose stands before the `{{`: `body {} {pose} {{`", name.text),
+            vec![edit],
+        ))
     }
 
     /// `circle c = P diameter 12 mm`
-    pub(super) fn of_a_diameter(&self) -> Option<Intended> {
+    pub(super) fn diameter(&self) -> Option<Correction> {
         let is_one = ["diameter", "dia", "d", "Ø"].contains(&self.found) && self.expects(Rule::radius);
         let [_, first, ..] = self.rest.as_slice() else { return None };
         let value = is_one.then(|| &self.text[first.start..self.end()])?;
         let edits =
             vec![self.edit(self.at..self.at + self.found.len(), "radius"), self.edit(self.end()..self.end(), " / 2")];
-        Some(Intent::change(format!("a circle has a radius: `radius {value} / 2`"), edits))
+        Some(ForeignDeclaration::change(format!("a circle has a radius: `radius {value} / 2`"), edits))
     }
 
     /// `spline [0 0, 1 1]`
-    pub(super) fn of_rows_without_parentheses(&self, keyword: &str) -> Option<Intended> {
+    pub(super) fn rows_without_parentheses(&self, keyword: &str) -> Option<Correction> {
         let open = self.before.iter().rposition(|token| token.text == "[")?;
         let begins_operand = self.found.starts_with(|c: char| c.is_alphanumeric() || c == '-');
         let has_parentheses = self.before[open..].iter().any(|token| token.text == "(");
@@ -138,11 +144,11 @@ impl Intent<'_> {
         let row: Vec<&str> = all().map(|token| token.text).take_while(|text| *text != "]").collect();
         let is_pair = |row: &[&str]| row.len() == 2 && row.iter().all(|number| number.parse::<f64>().is_ok());
         let close = all().nth(row.len()).filter(|_| row.split(|text| *text == ",").all(is_pair));
-        let Some(close) = close else { return Some(Intended::Words(message.to_owned())) };
+        let Some(close) = close else { return Some(Correction::Words(message.to_owned())) };
         let rows: Vec<String> =
             row.split(|text| *text == ",").map(|pair| format!("({}, {})", pair[0], pair[1])).collect();
         let edit = self.edit(self.before[open].end()..close.start, &rows.join(", "));
-        Some(Intent::change(message.to_owned(), vec![edit]))
+        Some(ForeignDeclaration::change(message.to_owned(), vec![edit]))
     }
 }
 

@@ -1,14 +1,14 @@
 //! What separates declarations and their parts elsewhere, and stands for nothing here.
 
-use super::{Intended, Intent, is_name};
+use super::{Correction, ForeignDeclaration, is_name};
 use crate::grammar::Rule;
 use crate::tokens::{Token, begins_declaration, tokens};
 use mechc_text::diag::{Applies, Fix};
 use mechc_text::vocabulary::{Unit, is_declaration};
 
-impl Intent<'_> {
+impl ForeignDeclaration<'_> {
     /// `param a = 3 mm, b = 4 mm`, `param a = 3 mm,` at the end of its line, `param a = (3 mm))`
-    pub(super) fn of_a_list(&self, keyword: &str) -> Option<Intended> {
+    pub(super) fn declaration_list(&self, keyword: &str) -> Option<Correction> {
         if !is_declaration(keyword)
             || !self.is_outside_of_brackets()
             || !self.expects(Rule::infix) && self.before.last()?.text != ")"
@@ -18,7 +18,7 @@ impl Intent<'_> {
         let next: Vec<&str> = self.rest.iter().skip(1).map(|token| token.text).collect();
         let left_out = |message: &str, applies| {
             let edits = vec![self.edit(self.at..self.at + self.found.len(), "")];
-            Some(Intended::Change(Fix { message: message.to_owned(), edits, applies }))
+            Some(Correction::Change(Fix { message: message.to_owned(), edits, applies }))
         };
         match (self.found, &next[..]) {
             (",", []) => {
@@ -26,7 +26,7 @@ impl Intent<'_> {
             }
             (",", [name, "=" | ":", ..]) if is_name(name) => {
                 let edit = self.edit(self.at..self.rest[1].start, &format!(" {keyword} "));
-                Some(Intent::change(
+                Some(ForeignDeclaration::change(
                     format!("each {keyword} has its own keyword: `{keyword} {name} {} …`", next[1]),
                     vec![edit],
                 ))
@@ -47,7 +47,7 @@ impl Intent<'_> {
     }
 
     /// `point P = (45, 40) mm`
-    pub(super) fn of_a_unit_behind_a_pair(&self, last: &Token<'_>) -> Option<Intended> {
+    pub(super) fn unit_behind_pair(&self, last: &Token<'_>) -> Option<Correction> {
         let unit = Unit::named(self.found)?.word.name;
         let open = self.before.iter().rposition(|token| token.text == "(").filter(|_| last.text == ")")?;
         let inside = &self.before[open + 1..self.before.len() - 1];
@@ -62,11 +62,11 @@ impl Intent<'_> {
             inside.iter().filter(is_number).map(|token| self.edit(token.end()..token.end(), &format!(" {unit}")));
         let edits = units.chain([self.edit(last.end()..self.at + self.found.len(), "")]).collect();
         let first = inside.iter().find(is_number)?.text;
-        Some(Intent::change(format!("each number has its own unit: `({first} {unit}, …)`"), edits))
+        Some(ForeignDeclaration::change(format!("each number has its own unit: `({first} {unit}, …)`"), edits))
     }
 
     /// `'ground.O'`
-    pub(super) fn of_single_quotes(&self) -> Option<Intended> {
+    pub(super) fn single_quotes(&self) -> Option<Correction> {
         let quote = self.found.chars().next().filter(|c| ['\'', '‘', '’', '`', '“', '”'].contains(c))?;
         let line = self.text[self.at + quote.len_utf8()..].lines().next()?;
         let end = line.find(['\'', '’', '`', '”'])?;
@@ -77,20 +77,23 @@ impl Intent<'_> {
         }
         let close = line[end..].chars().next().map_or(1, char::len_utf8);
         let whole = self.at..self.at + quote.len_utf8() + end + close;
-        Some(Intent::change(format!("names stand without quotes: `{inside}`"), vec![self.edit(whole, inside)]))
+        Some(ForeignDeclaration::change(
+            format!("names stand without quotes: `{inside}`"),
+            vec![self.edit(whole, inside)],
+        ))
     }
 
     /// `arm->tip`
-    pub(super) fn of_an_arrow(&self, last: &Token<'_>) -> Option<Intended> {
+    pub(super) fn arrow(&self, last: &Token<'_>) -> Option<Correction> {
         let [.., owner, _] = self.before.as_slice() else { return None };
         let feature = self.rest.get(1).filter(|token| is_name(token.text))?;
         let is_arrow = self.found == ">" && last.text == "-" && last.end() == self.at && is_name(owner.text);
         let message = format!("what belongs to a body is written `{}.{}`", owner.text, feature.text);
-        is_arrow.then(|| Intent::change(message, vec![self.edit(owner.end()..feature.start, ".")]))
+        is_arrow.then(|| ForeignDeclaration::change(message, vec![self.edit(owner.end()..feature.start, ".")]))
     }
 
     /// `arm.tip.x`
-    pub(super) fn of_a_coordinate(&self, last: &Token<'_>) -> Option<Intended> {
+    pub(super) fn point_coordinate(&self, last: &Token<'_>) -> Option<Correction> {
         let [.., owner, dot, _] = self.before.as_slice() else { return None };
         let coordinate = self.rest.get(1).filter(|token| ["x", "y"].contains(&token.text))?;
         if self.found != "." || dot.text != "." || !is_name(owner.text) {
@@ -98,6 +101,6 @@ impl Intent<'_> {
         }
         let written = format!("{}({})", coordinate.text, &self.text[owner.start..last.end()]);
         let edit = self.edit(owner.start..coordinate.end(), &written);
-        Some(Intent::change(format!("a coordinate of a point is written `{written}`"), vec![edit]))
+        Some(ForeignDeclaration::change(format!("a coordinate of a point is written `{written}`"), vec![edit]))
     }
 }

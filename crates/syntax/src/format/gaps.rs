@@ -171,10 +171,10 @@ impl<'a> Formatted<'a> {
         out + &text[at..]
     }
 
-    /// What to change in the rows that are `wanted`, by the bytes that they reach from and to.
-    pub fn edits(&self, text: &str, file: FileId, wanted: impl Fn(Range<usize>) -> bool) -> Vec<Edit> {
+    /// What to change in the rows that `selects` accepts, by the bytes that they reach from and to.
+    pub fn edits(&self, text: &str, file: FileId, selects: impl Fn(Range<usize>) -> bool) -> Vec<Edit> {
         let mut edits = Vec::new();
-        self.each_change(text, wanted, |range, new| {
+        self.each_change(text, selects, |range, new| {
             let span = Span { file, start: range.start as u32, end: range.end as u32 };
             edits.push(Edit { span, text: new.to_owned() });
         });
@@ -185,7 +185,7 @@ impl<'a> Formatted<'a> {
     fn each_change(
         &self,
         text: &str,
-        wanted: impl Fn(Range<usize>) -> bool,
+        selects: impl Fn(Range<usize>) -> bool,
         mut change: impl FnMut(Range<usize>, &str),
     ) {
         let line_end = if text.find('\n').is_some_and(|at| text[..at].ends_with('\r')) { "\r\n" } else { "\n" };
@@ -194,24 +194,24 @@ impl<'a> Formatted<'a> {
         let (mut end, mut comma) = (0, "");
         for row in &self.rows {
             let last = row.behind.unwrap_or(row.lexemes.end - 1);
-            let is_wanted = wanted(self.lexemes[row.lexemes.start].start..self.lexemes[last].end());
+            let is_selected = selects(self.lexemes[row.lexemes.start].start..self.lexemes[last].end());
             for k in row.lexemes.clone().chain(row.behind) {
                 let lexeme = self.lexemes[k];
-                if self.commas[k] == Comma::Dropped && is_wanted {
+                if self.commas[k] == Comma::Dropped && is_selected {
                     continue;
                 }
                 new.clear();
                 new += comma;
-                comma = if self.commas[k] == Comma::Added && is_wanted { "," } else { "" };
+                comma = if self.commas[k] == Comma::Added && is_selected { "," } else { "" };
                 let is_kept = self.write_gap(k, line_end, &mut new);
-                if is_wanted && !is_kept {
+                if is_selected && !is_kept {
                     minimal(text, end..lexeme.start, &new, &mut change);
                 }
                 end = lexeme.end();
             }
         }
         let is_kept = self.rows.last().is_none_or(|row| row.kind == Kind::Kept);
-        if !is_kept && wanted(end..text.len()) {
+        if !is_kept && selects(end..text.len()) {
             minimal(text, end..text.len(), line_end, &mut change);
         }
     }

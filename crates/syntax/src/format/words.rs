@@ -106,7 +106,7 @@ pub(super) fn words(
     range: Range<usize>,
     printed: Option<usize>,
 ) -> Vec<Word> {
-    let mut reading = Reading {
+    let mut reading = Classifier {
         lexemes,
         names,
         range: range.clone(),
@@ -160,7 +160,7 @@ enum Quantity {
     Yes,
 }
 
-struct Reading<'a> {
+struct Classifier<'a> {
     lexemes: &'a [Lexeme<'a>],
     names: &'a FxHashSet<&'a str>,
     range: Range<usize>,
@@ -177,7 +177,7 @@ struct Reading<'a> {
     takes_name: bool,
 }
 
-impl<'a> Reading<'a> {
+impl<'a> Classifier<'a> {
     fn word(&mut self, k: usize) -> Word {
         let class = self.class(k);
         let spaces = self.spaces(k, class);

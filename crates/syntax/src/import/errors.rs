@@ -55,7 +55,7 @@ pub(super) fn not_json(error: &Error<Rule>, text: &str, file: FileId) -> Diagnos
     };
     let shown = if word.is_empty() { "the end of the file".to_owned() } else { format!("`{word}`") };
     fault(span, format!("expected {expected}, found {shown}"), format!("expected {expected}"))
-        .help_if(mend(word, text, start))
+        .help_if(suggestion(word, text, start))
 }
 
 /// A string that does not end, or that holds an escape which is none.
@@ -111,7 +111,7 @@ fn expectation(rules: &[Rule]) -> String {
     if words.is_empty() { last.to_owned() } else { format!("{} or {last}", words.join(", ")) }
 }
 
-fn mend(found: &str, text: &str, at: usize) -> Option<String> {
+fn suggestion(found: &str, text: &str, at: usize) -> Option<String> {
     let before = text.get(..at).unwrap_or("").trim_end();
     let help = if matches!(found, "]" | "}") && before.ends_with(',') {
         "the last `,` is one too many"
@@ -128,9 +128,9 @@ fn mend(found: &str, text: &str, at: usize) -> Option<String> {
 // ---- keys and values
 
 /// A value of the wrong type.
-pub(super) fn wrong_type(key: &str, wanted: &str, found: &Value) -> Diagnostic {
-    let message = format!("`{key}` must be {wanted}, found {}", found.describe());
-    fault(found.span, message, format!("expected {wanted}"))
+pub(super) fn wrong_type(key: &str, expected: &str, found: &Value) -> Diagnostic {
+    let message = format!("`{key}` must be {expected}, found {}", found.describe());
+    fault(found.span, message, format!("expected {expected}"))
 }
 
 /// A key that is not there.
@@ -138,10 +138,10 @@ pub(super) fn missing(what: &str, key: &str, place: Span, help: &str) -> Diagnos
     fault(place, format!("{what} has no `{key}`"), format!("`{key}` is missing")).help(format!("add {help}"))
 }
 
-pub(super) fn unknown_type(name: &str, span: Span, known: &[&str]) -> Diagnostic {
-    let help = match nearest(name, known.iter().copied()) {
+pub(super) fn unknown_type(name: &str, span: Span, types: &[&str]) -> Diagnostic {
+    let help = match nearest(name, types.iter().copied()) {
         Some(near) => format!("was `{near}` meant?"),
-        None => format!("the types are {}", known.join(", ")),
+        None => format!("the types are {}", types.join(", ")),
     };
     fault(span, format!("an unknown type of constraint: `{name}`"), "unknown").help(help)
 }

@@ -14,7 +14,7 @@ pub(super) struct Features {
     axes: Vec<Axis>,
     circles: Vec<Circle>,
     /// Where a point, an axis or a circle is in its list, by its numbers: models may have many.
-    known: FxHashMap<Key, usize>,
+    positions: FxHashMap<Key, usize>,
     used: FxHashSet<String>,
     next: FxHashMap<String, u32>,
 }
@@ -71,7 +71,7 @@ impl Features {
     /// The point at a place, made at its first use.
     pub fn point(&mut self, at: [f64; 2], span: Span, purpose: Purpose) -> usize {
         let count = self.points.len();
-        let position = *self.known.entry(("point", 0, at.map(f64::to_bits))).or_insert(count);
+        let position = *self.positions.entry(("point", 0, at.map(f64::to_bits))).or_insert(count);
         match self.points.get_mut(position) {
             Some(point) => point.purposes.push(purpose),
             None => self.points.push(Point { at, span, purposes: vec![purpose], name: String::new() }),
@@ -86,7 +86,7 @@ impl Features {
             Line::Along(direction) => ("along", origin, direction.map(f64::to_bits)),
             Line::To { numbers, .. } => ("to", origin, numbers.map(f64::to_bits)),
         };
-        let position = *self.known.entry(key).or_insert(count);
+        let position = *self.positions.entry(key).or_insert(count);
         if position == count {
             self.axes.push(Axis { origin, line, span, name: String::new() });
         }
@@ -96,7 +96,7 @@ impl Features {
     /// A circle around one of the points.
     pub fn circle(&mut self, center: usize, radius: f64, span: Span) -> usize {
         let count = self.circles.len();
-        let position = *self.known.entry(("circle", center, [radius.to_bits(), 0])).or_insert(count);
+        let position = *self.positions.entry(("circle", center, [radius.to_bits(), 0])).or_insert(count);
         if position == count {
             self.circles.push(Circle { center, radius, span, name: String::new() });
         }
@@ -106,8 +106,8 @@ impl Features {
     /// Gives every feature its name; after this, none is added.
     pub fn name(&mut self) {
         for k in 0..self.points.len() {
-            let wanted = self.points.get(k).map_or("P".to_owned(), |point| purpose_in_a_word(&point.purposes));
-            let name = self.free(&wanted);
+            let preferred = self.points.get(k).map_or("P".to_owned(), |point| purpose_in_a_word(&point.purposes));
+            let name = self.free(&preferred);
             if let Some(point) = self.points.get_mut(k) {
                 point.name = name;
             }

@@ -32,29 +32,29 @@ const STACK: usize = 16 << 20;
 #[must_use]
 pub fn import(model: FileId, settings: Option<FileId>, sources: &Sources) -> (Option<ast::File>, Diagnostics) {
     stacker::maybe_grow(STACK, STACK, || {
-        let mut said = Diagnostics::default();
+        let mut diagnostics = Diagnostics::default();
         let analysis = settings.and_then(|file| match json::read(file, sources) {
-            Ok(value) => acf::read(&value, &mut said),
+            Ok(value) => acf::read(&value, &mut diagnostics),
             Err(fault) => {
-                said.push(*fault);
+                diagnostics.push(*fault);
                 None
             }
         });
         let mut mechanism = match json::read(model, sources) {
-            Ok(value) => adm::read(&value, &mut said).and_then(|read| {
-                said.extend(adm::left_behind(&value));
-                translate::mechanism(&read, &sources.get(model).name, &mut said)
+            Ok(value) => adm::read(&value, &mut diagnostics).and_then(|read| {
+                diagnostics.extend(adm::left_behind(&value));
+                translate::mechanism(&read, &sources.get(model).name, &mut diagnostics)
             }),
             Err(fault) => {
-                said.push(*fault);
+                diagnostics.push(*fault);
                 None
             }
         };
         if let Some(mechanism) = &mut mechanism {
             mechanism.items.extend(analysis);
         }
-        said.sort_by_place();
-        let mechanisms = mechanism.filter(|_| !said.has_errors()).map(|mechanism| vec![mechanism]);
-        (mechanisms.map(|mechanisms| ast::File { uses: Vec::new(), mechanisms }), said)
+        diagnostics.sort_by_place();
+        let mechanisms = mechanism.filter(|_| !diagnostics.has_errors()).map(|mechanism| vec![mechanism]);
+        (mechanisms.map(|mechanisms| ast::File { uses: Vec::new(), mechanisms }), diagnostics)
     })
 }

@@ -76,8 +76,8 @@ impl<'a> Parser<'a> {
         self.tokens.get(self.at).copied()
     }
 
-    fn sign(&mut self, wanted: &str) -> Option<Token<'a>> {
-        let token = self.peek().filter(|token| matches!(token.kind, TokenKind::Sign(sign) if sign == wanted))?;
+    fn sign(&mut self, expected: &str) -> Option<Token<'a>> {
+        let token = self.peek().filter(|token| matches!(token.kind, TokenKind::Sign(sign) if sign == expected))?;
         self.at += 1;
         Some(token)
     }
