@@ -1,4 +1,4 @@
-//! What was probably meant by a text that does not follow the grammar, as far as the words around the fault tell.
+//! Fix-its for a text that does not follow the grammar, as far as the words around the fault are unambiguous.
 
 mod brackets;
 mod characters;
@@ -17,21 +17,21 @@ use mechc_text::vocabulary::{
 };
 use std::ops::Range;
 
-/// A fault: where it is, and what would have fitted there.
+/// A syntax error: its position, and the rules that were expected there.
 pub(super) struct Fault<'a> {
     pub text: &'a str,
     pub file: FileId,
-    /// The place of the word or character.
+    /// Position of the word or character, in bytes.
     pub at: usize,
     pub found: &'a str,
     pub expected: &'a [Rule],
 }
 
-/// What to write instead.
+/// A suggestion.
 pub(super) enum FixIt {
-    /// In words alone.
+    /// A suggestion in words.
     Words(String),
-    /// As a change of the text.
+    /// A suggestion as an edit.
     Fix(Fix),
 }
 
@@ -54,7 +54,7 @@ impl Fault<'_> {
         &self.text[self.at + self.found.len()..]
     }
 
-    /// Where the word or character stands.
+    /// Returns the range of the word or character.
     fn here(&self) -> Range<usize> {
         self.at..self.at + self.found.len()
     }
@@ -67,7 +67,7 @@ impl Fault<'_> {
         FixIt::Fix(Fix::replace(self.span(range), by, words, applies))
     }
 
-    /// The word that ends before the fault.
+    /// Returns the word that ends before the fault.
     fn word_before(&self) -> &str {
         let before = self.before();
         let start = before.rfind(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.'));
@@ -76,7 +76,7 @@ impl Fault<'_> {
         &before[start..]
     }
 
-    /// Whether a declaration begins here.
+    /// Returns whether a declaration begins at the fault.
     fn begins_declaration(&self) -> bool {
         begins_declaration(self.text, Token { start: self.at, text: self.found })
     }
@@ -85,13 +85,13 @@ impl Fault<'_> {
         self.text[self.before().len()..self.at].contains('\n')
     }
 
-    /// Whether a declaration of the mechanism stands where a body's `}` should.
+    /// Returns whether a declaration of the mechanism stands where a body's `}` is expected.
     fn ends_a_body(&self) -> bool {
         let in_a_body = self.expects(Rule::kw_point) || self.expects(Rule::point);
         in_a_body && is_declaration(self.found) && !is_feature(self.found)
     }
 
-    /// What to write instead of what was expected.
+    /// Returns a suggestion for the fault.
     pub fn fix_it(&self, expected: &str) -> Option<FixIt> {
         let from_words = || self.misplaced_keyword().or_else(|| self.misspelled_word());
         let missing = || self.closing().or_else(|| self.separator(expected)).map(FixIt::Fix);
@@ -179,7 +179,7 @@ impl Fault<'_> {
         }))
     }
 
-    /// `2 pi t`, whose `pi` was taken for a unit: both products are mended at once.
+    /// Suggests `*` for `2 pi t`, whose `pi` was taken for a unit: corrects both products at once.
     fn number_before_factor(&self) -> Option<FixIt> {
         let (number, start) = self.number_before_the_word()?;
         let (factor, found) = (self.word_before(), self.found);
@@ -194,21 +194,21 @@ impl Fault<'_> {
         })
     }
 
-    /// `3 sin(t)`, whose function was taken for a unit.
+    /// Suggests `*` for `3 sin(t)`, whose function was taken for a unit.
     fn number_before_call(&self) -> Option<FixIt> {
         let (number, start) = self.number_before_the_word()?;
         let words = format!("a product is written with `*`: `{number} * {}(…)`", self.word_before());
         (self.found == "(").then(|| self.replaced(start..start, "* ", &words, Applies::Probably))
     }
 
-    /// The number before the word that ends before the fault, and where that word begins.
+    /// Returns the number before the word that ends before the fault, and where that word begins.
     fn number_before_the_word(&self) -> Option<(&str, usize)> {
         let start = self.before().len() - self.word_before().len();
         let number = tokens(&self.text[..start]).last()?.text;
         number.starts_with(|c: char| c.is_ascii_digit()).then_some((number, start))
     }
 
-    /// `sin x`, a function whose argument stands behind it.
+    /// Suggests parentheses for `sin x`.
     fn argument(&self) -> FixIt {
         let behind = self.behind();
         let mut rest = behind;
@@ -225,7 +225,7 @@ impl Fault<'_> {
         FixIt::Fix(Fix::replace(self.span(self.before().len()..end), text, words, Applies::Probably))
     }
 
-    /// Whether a declaration could begin here by one of these keywords.
+    /// Returns whether one of these keywords is expected.
     fn begins(&self, keywords: &[&str]) -> bool {
         let is_one = |rule: &Rule| {
             keywords.iter().any(|word| is_rule_of(*rule, word) || *word == "fn" && *rule == Rule::function)
@@ -233,7 +233,7 @@ impl Fault<'_> {
         self.expected.iter().any(is_one)
     }
 
-    /// The words that would have gone on.
+    /// Returns the words that could continue the declaration.
     fn connecting_words(&self) -> Vec<&'static str> {
         let expected = |word: &&Keyword| self.expected.iter().any(|rule| is_rule_of(*rule, word.word.name));
         // behind any formula of a measure an `in` may stand, but seldom is what is missing
@@ -242,7 +242,7 @@ impl Fault<'_> {
     }
 }
 
-/// Whether a rule of the grammar is that of a word: `to`, or `kw_then`.
+/// Returns whether a rule of the grammar is that of a word: `to`, or `kw_then`.
 fn is_rule_of(rule: Rule, word: &str) -> bool {
     format!("{rule:?}").trim_start_matches("kw_") == word
 }

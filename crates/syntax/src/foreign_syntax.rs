@@ -1,4 +1,4 @@
-//! Declarations as other programs and textbooks write them: what they were meant to be, where their words leave no doubt.
+//! Corrections for declarations as other programs and textbooks write them, where the words are unambiguous.
 
 mod forces;
 mod ground;
@@ -16,28 +16,28 @@ use mechc_text::source::{FileId, Span};
 use mechc_text::vocabulary::{Dimension, Keyword, Place, QuantityWord, Role, Synonym, Unit};
 use std::ops::Range;
 
-/// A fault in a declaration, with the words of the declaration before it.
+/// A declaration with a fault, by its words before and after the fault.
 pub(super) struct ForeignDeclaration<'a> {
     text: &'a str,
     file: FileId,
     at: usize,
     found: &'a str,
     expected: &'a [Rule],
-    /// From the keyword on.
+    /// Words from the keyword to the fault.
     before: Vec<Token<'a>>,
-    /// From the fault to the end of the line, of the block, or to the next declaration.
+    /// Words from the fault to the end of the line or block, or to the next declaration.
     rest: Vec<Token<'a>>,
     bodies: Vec<&'a str>,
 }
 
-/// What to say, and the change of the text, where there is one.
+/// A suggestion in words or as an edit.
 pub(super) enum Correction {
     Words(String),
     Change(Fix),
-    /// Something ends before what is wanted behind it: told there, and not where the next thing begins.
+    /// A declaration that ends too early; reported at its end, and not at the next declaration.
     Incomplete {
         what: String,
-        /// The last word or character that it has.
+        /// Span of the last word or character of the declaration.
         end: Span,
         expected: &'static str,
         correction: Box<Correction>,
@@ -45,7 +45,7 @@ pub(super) enum Correction {
 }
 
 impl<'a> ForeignDeclaration<'a> {
-    /// Of a word or character at a byte, in the place of what was expected.
+    /// Creates the declaration around a word or character at a byte, where other rules were expected.
     pub fn new(text: &'a str, file: FileId, at: usize, found: &'a str, expected: &'a [Rule]) -> ForeignDeclaration<'a> {
         let all = tokens(&text[..at]);
         let opens = |word: &str| Keyword::named(word).is_some_and(|keyword| keyword.role == Role::Opener);
@@ -87,7 +87,7 @@ impl<'a> ForeignDeclaration<'a> {
         }
     }
 
-    /// What was meant.
+    /// Returns the correction for the fault, if one is unambiguous.
     pub fn correction(&self) -> Option<Correction> {
         if let Some(correction) = self.missing_keyword() {
             return Some(correction);
@@ -123,7 +123,7 @@ impl<'a> ForeignDeclaration<'a> {
             .or_else(|| self.equation(keyword))
     }
 
-    /// How the declaration is written, where nothing else is known.
+    /// Returns the form of the declaration in words, if nothing better is known.
     pub fn form_as_words(&self) -> Option<Correction> {
         self.form().map(Correction::Words)
     }
@@ -132,7 +132,7 @@ impl<'a> ForeignDeclaration<'a> {
         self.expected.contains(&rule)
     }
 
-    /// Whether all brackets of the declaration are closed before the fault.
+    /// Returns whether all brackets of the declaration are closed before the fault.
     fn is_outside_of_brackets(&self) -> bool {
         let count = |bracket: [&str; 2]| self.before.iter().filter(|token| bracket.contains(&token.text)).count();
         count(["(", "["]) == count([")", "]"])
@@ -151,7 +151,7 @@ impl<'a> ForeignDeclaration<'a> {
         Correction::Change(Fix { message, edits, applies: Applies::Probably })
     }
 
-    /// Where what stands here ends.
+    /// Returns the end of the words after the fault.
     fn end(&self) -> usize {
         self.rest.last().map_or(self.at, |token| token.end())
     }
@@ -294,7 +294,7 @@ impl<'a> ForeignDeclaration<'a> {
     }
 }
 
-/// A name with hyphens that begins at a byte.
+/// Returns the hyphenated name that begins at a byte.
 pub(super) fn hyphenated_at(text: &str, start: usize) -> Option<&str> {
     let is_part = |c: char| c.is_alphanumeric() || c == '_';
     let rest = &text[start..];
@@ -327,7 +327,7 @@ fn is_rate(words: &[Token<'_>]) -> bool {
     }
 }
 
-/// What stands between the commas of a list, those inside parentheses aside.
+/// Splits a list at its commas outside of parentheses.
 fn between_commas(list: &str) -> Vec<&str> {
     let mut depth = 0_usize;
     let parted = list.split(|c| {

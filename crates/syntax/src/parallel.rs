@@ -1,5 +1,5 @@
-//! A large text that follows the grammar, read in pieces of whole declarations, by several threads: what the parser notes of a piece
-//! fits the caches, and each is forgotten before the next. The tree is that of the whole.
+//! Parallel parsing of a large text without faults, in pieces of whole declarations. The parser's data for a piece fit the caches, and are
+//! dropped before the next piece. The tree is that of the whole text.
 
 #![allow(clippy::redundant_closure_for_method_calls)] // a method itself is of one lifetime alone
 
@@ -13,14 +13,14 @@ use mechc_text::source::{FileId, Source, Span};
 use mechc_text::vocabulary::is_declaration;
 use std::ops::Range;
 
-/// A piece is no smaller than this, in bytes.
+/// Smallest piece, in bytes.
 const PIECE: usize = 1 << 11;
-/// Nor is a text of so few of them read in pieces.
+/// Smallest number of pieces that is parsed in parallel.
 const FEWEST: usize = 64;
-/// So many threads read as fast as memory gives what they need.
+/// Maximum number of threads; more are limited by memory.
 const MOST_JOBS: usize = 4;
 
-/// The tree of a large text; nothing of a small one, nor where more than a mechanism is in it, or a piece does not follow the grammar.
+/// Parses a large text; `None` for a small one, one with anything but a single mechanism, or one with a fault.
 pub(super) fn parse_parallel(source: &Source, file: FileId) -> Option<File> {
     if source.text.len() < FEWEST * PIECE {
         return None;
@@ -53,15 +53,15 @@ pub(super) fn parse_parallel(source: &Source, file: FileId) -> Option<File> {
     })
 }
 
-/// What was read of pieces one behind the other.
+/// Result of adjacent pieces.
 struct Share {
-    /// Of the block that the share before ends in.
+    /// Features of the block that the previous share ends in.
     features: Vec<Feature>,
     items: Vec<Item>,
 }
 
 impl Share {
-    /// Reads a piece, if it follows the grammar.
+    /// Parses a piece; `None` if it has a fault.
     fn read(&mut self, cut: &Cut, piece: &Piece<'_>) -> Option<()> {
         match cut.kind {
             CutKind::Items => {
@@ -80,17 +80,17 @@ impl Share {
         }
     }
 
-    /// Features of the block that is read last.
+    /// Adds features to the last block.
     fn add_features(&mut self, features: Vec<Feature>) {
         self.items.last_mut().and_then(|item| item.kind.features_mut()).unwrap_or(&mut self.features).extend(features);
     }
 }
 
-/// Where one mechanism and its pieces stand in a text, in bytes.
+/// Position of the mechanism and its pieces in a text, in bytes.
 struct Cuts {
     head: Range<usize>,
     pieces: Vec<Cut>,
-    /// Where the brace that closes it ends.
+    /// End of its closing brace.
     end: usize,
 }
 
@@ -98,44 +98,44 @@ struct Cuts {
 struct Cut {
     range: Range<usize>,
     kind: CutKind,
-    /// It holds no more declarations, but for features.
+    /// True if it contains only features from here on.
     most_items: usize,
 }
 
-/// What is in a piece.
+/// Contents of a piece.
 #[derive(Clone, Copy)]
 enum CutKind {
     /// Whole declarations.
     Items,
-    /// The head of a large block up to its brace; the block ends at a byte.
+    /// Head of a large block up to its brace, with the end of the block.
     Block { head: Rule, end: usize },
-    /// Whole features of the block whose head is before.
+    /// Whole features of the block whose head precedes.
     Features,
 }
 
-/// How a text is cut, on the way through its tokens.
+/// State of the cutting, on the way through the tokens.
 struct Cutting {
     pieces: Vec<Cut>,
-    /// Where the next piece begins.
+    /// Start of the next piece.
     from: usize,
-    /// The declarations since.
+    /// Declarations since then.
     items: usize,
-    /// The head of the block that is open, from its keyword to its brace; outside of blocks where one may begin.
+    /// Head of the open block, from its keyword to its brace; outside of blocks where one may begin.
     head: Range<usize>,
     is_ground: bool,
-    /// Its place among the pieces, once it is known to be large.
+    /// Index of the open block among the pieces, if it is large.
     block: Option<usize>,
 }
 
 impl Cutting {
-    /// Ends a piece where one is to begin.
+    /// Ends a piece where the next one begins.
     fn cut(&mut self, kind: CutKind, end: usize, next: usize) {
         // one more than there are words for: `ground` may be a block or not
         self.pieces.push(Cut { range: self.from..end, kind, most_items: std::mem::take(&mut self.items) + 1 });
         self.from = next;
     }
 
-    /// A declaration of the mechanism begins, which may be a block.
+    /// Notes the start of a declaration of the mechanism, which may be a block.
     fn declaration(&mut self, start: usize) {
         if start >= self.from + PIECE {
             self.cut(CutKind::Items, start, start);
@@ -144,7 +144,7 @@ impl Cutting {
         self.head.start = start;
     }
 
-    /// A feature begins: a large block is cut before it.
+    /// Notes the start of a feature: a large block is cut before it.
     fn feature(&mut self, start: usize) {
         let begins = if self.block.is_some() { self.from } else { self.head.end };
         if start < begins + PIECE {
@@ -160,7 +160,7 @@ impl Cutting {
         self.cut(CutKind::Features, start, start);
     }
 
-    /// The block that is open ends with a brace.
+    /// Notes the brace that ends the open block.
     fn block_end(&mut self, brace: Range<usize>) {
         let Some(block) = self.block.take() else { return };
         self.cut(CutKind::Features, brace.start, brace.end);
@@ -171,7 +171,7 @@ impl Cutting {
 }
 
 impl Cuts {
-    /// Cuts a text before words that nothing but a declaration begins with: in the mechanism's own block, and in large ones inside it.
+    /// Cuts a text before words that only begin declarations: in the mechanism, and in large blocks inside it.
     fn of(text: &str) -> Option<Cuts> {
         let mut rest = text;
         if next_token(&mut rest)? != "mechanism" {
@@ -223,7 +223,7 @@ mod tests {
     use crate::grammar::Rule;
     use mechc_text::source::Sources;
 
-    /// A large text, with something in its middle.
+    /// Returns a large text with an insertion in the middle.
     fn text(middle: &str) -> String {
         let mut text =
             "// first of all\n/// A long one.\nmechanism long { // here it begins\n    ground { point O = (0, 0) }\n"
@@ -239,7 +239,7 @@ mod tests {
         text + "    /* no */\n    }\n// behind it\n"
     }
 
-    /// The text read in pieces, and read as a whole.
+    /// Returns the trees of parallel and sequential parsing.
     fn both(text: &str) -> [Option<super::File>; 2] {
         let mut sources = Sources::default();
         let file = sources.add("long.mech", text);
@@ -256,7 +256,7 @@ mod tests {
         assert_eq!(whole.map(|file| file.mechanisms[0].items.len()), Some(8_001));
     }
 
-    /// The same with thousands of features in the ground and in a body.
+    /// Returns a large text with thousands of features in the ground and in a body.
     fn with_large_blocks(middle: &str) -> String {
         let points = |from: usize| {
             (from..from + 2_000)

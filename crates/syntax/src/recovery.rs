@@ -1,4 +1,4 @@
-//! A text that may have faults, read declaration by declaration: a fault spoils the one it stands in, and no other.
+//! Parsing of a text with faults, declaration by declaration: a fault invalidates only its own declaration.
 //!
 //! The grammar says what a declaration is; where it begins, and where its block ends, is seen beforehand from words and braces
 //! ([`SyncPoints`]).
@@ -19,10 +19,10 @@ use rustc_hash::FxHashSet;
 use std::convert::Infallible;
 use std::ops::Range;
 
-/// How many faults of a text are worth a look for what was meant.
+/// Maximum number of faults of a text for which suggestions are searched.
 const MOST_SUGGESTIONS: usize = 100;
 
-/// The tree of a text that may have faults, with those; what is known of it is not read again.
+/// Parses a text with faults; `previous` supplies unchanged declarations.
 pub(super) fn by_declarations(
     source: &Source,
     file: FileId,
@@ -43,21 +43,21 @@ pub(super) fn by_declarations(
     (tree, reading.faults)
 }
 
-/// A text on its way to a tree.
+/// State of the parser between declarations.
 struct Recovery<'a> {
     source: &'a Source,
     file: FileId,
     sync: SyncPoints<'a>,
-    /// What need not be read again.
+    /// Tree before an edit, for unchanged declarations.
     previous: Option<PreviousTree<'a>>,
-    /// The token that is to be read next.
+    /// Index of the next token.
     at: usize,
     faults: Diagnostics,
-    /// Keywords that were taken for names: every use of them is a fault, and none of its own.
+    /// Keywords that were used as names: their uses are not reported again.
     bad_names: FxHashSet<&'a str>,
-    /// That the text ends too early is said once, not for each block that is open.
+    /// True if the missing end of the text has been reported.
     has_reported_end: bool,
-    /// The byte at which the last fault was.
+    /// Position of the last reported fault, in bytes.
     last_reported: Option<usize>,
 }
 
@@ -97,7 +97,7 @@ impl Recovery<'_> {
         File { uses, mechanisms }
     }
 
-    /// `use "FILE.mech" as PREFIX`; one at fault keeps what can be read of it.
+    /// Parses `use "FILE.mech" as PREFIX`; one with a fault keeps the parts that can be read.
     fn used_file(&mut self) -> UsedFile {
         let first = self.at;
         let (start, next) = (self.sync.start(first), self.sync.end_of_use(first));
@@ -127,7 +127,7 @@ impl Recovery<'_> {
         UsedFile { docs: docs_above(&self.source.text, start), span, path, prefix: None, is_broken: true }
     }
 
-    /// `mechanism NAME { … }`, if it is more than a word.
+    /// Parses `mechanism NAME { … }`, if it is more than a word.
     fn mechanism(&mut self) -> Option<Mechanism> {
         let (first, start) = (self.at, self.sync.start(self.at));
         let brace = self.sync.block_behind(first);
@@ -159,7 +159,7 @@ impl Recovery<'_> {
         Some(Mechanism { docs: docs_above(&self.source.text, start), name, span, items })
     }
 
-    /// The declarations up to the brace that closes their mechanism; gives the place of that brace.
+    /// Parses declarations up to the brace that closes the mechanism; returns the span of that brace.
     fn items(&mut self, items: &mut Vec<Item>, must_close: bool) -> Span {
         loop {
             match self.sync.word(self.at) {
@@ -189,7 +189,7 @@ impl Recovery<'_> {
         self.sync.is_behind_the_last(self.at) || self.sync.begins_declaration(self.at)
     }
 
-    /// A body or the ground; what was meant for the mechanism and stands in its block comes behind it.
+    /// Parses a body or the ground. Declarations of the mechanism inside its block are added behind it.
     fn block(&mut self, items: &mut Vec<Item>, rule: Rule) {
         let first = self.at;
         let start = self.sync.start(first);
@@ -245,7 +245,7 @@ impl Recovery<'_> {
         items.append(&mut misplaced);
     }
 
-    /// The features up to the brace that closes their block, or to where it is missing.
+    /// Parses features up to the brace that closes their block, or to where it is missing.
     fn features(&mut self, misplaced: &mut Vec<Item>) -> Vec<Feature> {
         let mut features = Vec::new();
         loop {
@@ -285,7 +285,7 @@ impl Recovery<'_> {
         }
     }
 
-    /// A declaration of the mechanism that has no block, or what stands in its place.
+    /// Parses a declaration without a block, or a fault in its place.
     fn plain_item(&mut self) -> Item {
         let first = self.at;
         let read = if !self.sync.begins_large_declaration(first) {
@@ -344,7 +344,7 @@ impl Recovery<'_> {
         }
     }
 
-    /// The declaration without a block that begins here, if it is known.
+    /// Returns the unchanged declaration without a block that begins here.
     fn reused_item(&self) -> Option<Item> {
         let (stretch, next) = self.plain();
         let mut item = self.previous.as_ref()?.item(&stretch)?;
@@ -352,7 +352,7 @@ impl Recovery<'_> {
         (self.sync.index_at(item.span.end as usize) == next).then_some(item)
     }
 
-    /// The feature that begins here, if it is known.
+    /// Returns the unchanged feature that begins here.
     fn reused_feature(&self) -> Option<Feature> {
         let (stretch, next) = self.plain();
         let mut feature = self.previous.as_ref()?.feature(&stretch)?;
@@ -360,13 +360,13 @@ impl Recovery<'_> {
         (self.sync.index_at(feature.span.end as usize) == next).then_some(feature)
     }
 
-    /// From here to where the next declaration begins, and the token there.
+    /// Returns the range from here to the next declaration, and the token there.
     fn plain(&self) -> (Range<usize>, usize) {
         let next = self.sync.end_of_plain(self.at);
         (self.sync.start(self.at)..self.sync.start(next), next)
     }
 
-    /// The head of the body that begins here, up to its brace, if it is known.
+    /// Returns the unchanged head of the body that begins here, up to its brace.
     fn reused_head(&mut self, brace: Option<usize>) -> Option<Head> {
         let brace = brace?;
         let head = self.previous.as_ref()?.head(&(self.sync.start(self.at)..self.sync.end(brace)))?;
@@ -374,8 +374,7 @@ impl Recovery<'_> {
         Some(head)
     }
 
-    /// Reads the declaration that begins here, up to where the next one does; what is wrong with it is told as it is seen from what
-    /// follows.
+    /// Parses the declaration that begins here, up to the next one. A fault is described with the token behind the declaration in view.
     fn declaration<T>(
         &self,
         [alone, with_next]: [Rule; 2],
@@ -408,7 +407,7 @@ impl Recovery<'_> {
         self.faults.len() < MOST_SUGGESTIONS
     }
 
-    /// Goes on behind a fault: at the next declaration, or where the block around it is closed.
+    /// Resumes behind a fault: at the next declaration, or where the enclosing block ends.
     fn skip(&mut self, fault: Box<Diagnostic>) {
         let found = self.sync.index_at(fault_at(&fault));
         let next = self.sync.sync_token(self.at);
@@ -416,7 +415,7 @@ impl Recovery<'_> {
         self.report(fault);
     }
 
-    /// The head of a block, from its keyword to its brace.
+    /// Parses the head of a block, from its keyword to its brace.
     fn head<T>(
         &mut self,
         rule: Rule,
@@ -429,13 +428,13 @@ impl Recovery<'_> {
         Ok(head)
     }
 
-    /// From here to behind a brace; where there is none, to behind the word that stands in its place.
+    /// Returns the piece from here to behind a brace; without a brace, to behind the word in its place.
     fn head_piece(&self, brace: Option<usize>) -> Piece<'_> {
         let last = brace.unwrap_or_else(|| self.sync.sync_token(self.at));
         self.piece(self.sync.start(self.at)..self.sync.end(last))
     }
 
-    /// What is wrong with the word that stands here, where a rule was to begin.
+    /// Returns the diagnostic for the word here, where a rule was expected.
     fn fault_of(&self, rule: Rule) -> Box<Diagnostic> {
         let piece = self.piece(self.sync.start(self.at)..self.sync.end(self.at));
         let refused = piece.read(rule, |reader, _| Err::<Infallible, _>(reader.truncated()));
@@ -470,7 +469,7 @@ impl Recovery<'_> {
         self.bad_names.extend(self.sync.word_as_name(at).map(|(word, _)| word));
     }
 
-    /// What was read from a token up to here, as broken.
+    /// Returns the tokens from `first` up to here as a broken declaration.
     fn broken(&self, first: usize) -> Item {
         let span = self.span(self.sync.start(first)..self.sync.end_before(self.at));
         let docs = docs_above(&self.source.text, span.start as usize);
@@ -489,7 +488,7 @@ impl Recovery<'_> {
     }
 }
 
-/// The byte at which a fault is.
+/// Returns the position of a fault, in bytes.
 fn fault_at(fault: &Diagnostic) -> usize {
     fault.labels.first().map_or(0, |label| label.span.start as usize)
 }

@@ -1,8 +1,8 @@
-//! What is known of a text from the one before an edit: the declarations that the edit does not touch need not be read again.
+//! Reuse of the tree before an edit: declarations that the edit does not touch are not parsed again.
 //!
-//! A text is read declaration by declaration then, as one with faults is, and whatever decides where a declaration begins and ends is
-//! seen anew. What is taken over is what the grammar makes of words that are the same. A declaration at fault is read again: what is
-//! said of it may depend on any other.
+//! The text is read declaration by declaration, like one with faults, and the boundaries of declarations are found anew. Only the result of
+//! the grammar for unchanged words is reused. A declaration with a fault is always parsed again, since its diagnostic may depend on any
+//! other declaration.
 
 use super::ast::{Feature, FeatureKind, File, Item, ItemKind};
 use super::build::Head;
@@ -10,16 +10,16 @@ use super::shift_spans::Shift;
 use mechc_text::source::FileId;
 use std::ops::Range;
 
-/// What was read before, by place.
+/// The tree before the edit, by position.
 pub(super) struct PreviousTree<'a> {
     file: FileId,
-    /// How many bytes are the same from the beginning on.
+    /// Number of unchanged bytes at the beginning.
     before: usize,
-    /// From this byte on the text is the end of the one before.
+    /// Byte from which on the text is the end of the previous one.
     behind: usize,
-    /// How many bytes it has grown by, modulo 2^32, where it may have shrunk.
+    /// Growth of the text in bytes, modulo 2^32, since it may have shrunk.
     grown: u32,
-    /// By the byte at which they begin in the text before.
+    /// Nodes by their first byte in the previous text.
     nodes: Vec<(u32, Node<'a>)>,
 }
 
@@ -30,7 +30,7 @@ enum Node<'a> {
 }
 
 impl<'a> PreviousTree<'a> {
-    /// What was read of a text that has become another one.
+    /// Creates the tree of a text that has been edited from `old_text` to `text`.
     pub fn new(old: &'a File, [old_text, text]: [&str; 2], file: FileId) -> PreviousTree<'a> {
         let (before, same) = ends_in_common(old_text.as_bytes(), text.as_bytes());
         let mut nodes = Vec::new();
@@ -46,8 +46,7 @@ impl<'a> PreviousTree<'a> {
         PreviousTree { file, before, behind: text.len() - same, grown, nodes }
     }
 
-    /// The declaration without a block that was read of a stretch that has not changed. Whether the stretch is still all of it is for the
-    /// reader to say.
+    /// Returns the declaration without a block of an unchanged range. The caller checks that it still covers the whole range.
     pub fn item(&self, stretch: &Range<usize>) -> Option<Item> {
         let (node, moved) = self.node(stretch)?;
         let Node::Item(item) = node else { return None };
@@ -61,7 +60,7 @@ impl<'a> PreviousTree<'a> {
         (item.span.end as usize <= stretch.end).then_some(item)
     }
 
-    /// The same of a feature.
+    /// Returns the feature of an unchanged range.
     pub fn feature(&self, stretch: &Range<usize>) -> Option<Feature> {
         let (node, moved) = self.node(stretch)?;
         let Node::Feature(feature) = node else { return None };
@@ -73,7 +72,7 @@ impl<'a> PreviousTree<'a> {
         (feature.span.end as usize <= stretch.end).then_some(feature)
     }
 
-    /// The head of the body, from its keyword to its brace, that is a stretch that has not changed.
+    /// Returns the head of a body, from its keyword to its brace, that is an unchanged range.
     pub fn head(&self, stretch: &Range<usize>) -> Option<Head> {
         let (node, moved) = self.node(stretch)?;
         let Node::Item(Item { ranges, kind: ItemKind::Body { name, pose, .. }, .. }) = node else { return None };
@@ -83,7 +82,7 @@ impl<'a> PreviousTree<'a> {
         Some(head)
     }
 
-    /// What began where a stretch did that has not changed, and where it stands now.
+    /// Returns the node that began at the start of an unchanged range, and the shift to its new position.
     fn node(&self, stretch: &Range<usize>) -> Option<(Node<'a>, Shift)> {
         let by = match () {
             () if stretch.end <= self.before => 0,
@@ -96,7 +95,7 @@ impl<'a> PreviousTree<'a> {
     }
 }
 
-/// How many bytes are the same at the beginning of two texts, and how many at their ends beside these.
+/// Returns the numbers of equal bytes at the beginning and at the remaining end of two texts.
 fn ends_in_common(old: &[u8], new: &[u8]) -> (usize, usize) {
     let before = old.iter().zip(new).take_while(|(a, b)| a == b).count();
     let (old, new) = (&old[before..], &new[before..]);
@@ -118,7 +117,7 @@ mod tests {
         "use \"a.mech\" as a\r\nmechanism a-b {\r\n  /// µ 𝛼\r\n  body c-d[k in 0..3] at (0, 0, 𝛼) { point P }\r\n ground { point P }\r\n  param x-y = 3 in\r\n  param z = x-y + 2 // end\r\n  joint body: revolute(c-d[0].P, ground.P)\r\n}",
     ];
 
-    /// What is typed, and what makes the words around it something else.
+    /// Typed texts, some of which change the meaning of the words around them.
     const TYPED: [&str; 28] = [
         "{",
         "}",
@@ -150,7 +149,7 @@ mod tests {
         "if ",
     ];
 
-    /// The next number of a sequence that looks random.
+    /// Returns the next pseudo-random number.
     fn next(state: &mut u64) -> usize {
         *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (*state >> 33) as usize
@@ -160,7 +159,7 @@ mod tests {
         (0..=at.min(text.len())).rev().find(|&at| text.is_char_boundary(at)).expect("0 is one")
     }
 
-    /// A text with a stretch of it gone, or typed to, or with a stretch from elsewhere put in.
+    /// Returns a text with a random edit: a deletion, a typed text, or a copy from elsewhere.
     fn edited(text: &str, state: &mut u64) -> String {
         let start = boundary(text, next(state) % (text.len() + 1));
         let longest = [0, 1, 1, 3, 10, 200][next(state) % 6];

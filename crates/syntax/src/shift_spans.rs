@@ -1,4 +1,4 @@
-//! What was read of a text, where it stands after an edit before it.
+//! Shifts the spans of a tree to where its text stands after an edit before it.
 
 use super::ast::{
     Binding, ColumnName, DrawnPose, Expr, ExprKind, Feature, FeatureKind, IndexRange, Item, ItemKind, MechanismName,
@@ -7,11 +7,11 @@ use super::ast::{
 use super::build::Head;
 use mechc_text::source::{FileId, Span};
 
-/// From the places of one text to those of another one.
+/// A shift of spans from one text to another.
 #[derive(Clone, Copy)]
 pub(super) struct Shift {
     pub file: FileId,
-    /// How many bytes more are before it now, modulo 2^32, where there may be less.
+    /// Number of bytes by which spans move, modulo 2^32, since they may move back.
     pub by: u32,
 }
 
@@ -31,7 +31,7 @@ impl Shift {
         }
     }
 
-    /// A declaration; its documentation has no places.
+    /// Shifts a declaration; its documentation has no spans.
     pub fn item(self, item: &mut Item) {
         self.span(&mut item.span);
         self.ranges(&mut item.ranges);
@@ -97,7 +97,7 @@ impl Shift {
         self.expr(value);
     }
 
-    /// What stands before the brace of a body.
+    /// Shifts the head of a body.
     pub fn head(self, head: &mut Head) {
         self.name(&mut head.name);
         self.ranges(&mut head.ranges);
@@ -120,7 +120,7 @@ impl Shift {
         }
     }
 
-    /// A feature of a body.
+    /// Shifts a feature of a body.
     pub fn feature(self, feature: &mut Feature) {
         self.span(&mut feature.span);
         self.name(&mut feature.name);

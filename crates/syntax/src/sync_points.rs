@@ -1,4 +1,4 @@
-//! Where declarations begin, as far as words and braces tell: from there reading goes on after a fault.
+//! Synchronization points: where declarations begin, judging by words and braces alone. Parsing resumes there after a fault.
 
 use super::foreign_syntax::hyphenated_at;
 use super::tokens::{Token, tokens};
@@ -7,19 +7,19 @@ use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym, is_before
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
-/// The words of a text with what they may be the beginning of.
+/// The tokens of a text with the declarations that they may begin.
 pub(super) struct SyncPoints<'a> {
     text: &'a str,
     tokens: Vec<Token<'a>>,
-    /// By token: where it stands, if it is a keyword.
+    /// By token: its role, if it is a keyword in this position.
     roles: Vec<Option<Role>>,
-    /// By token: whether it stands where the name of the declaration before it does.
+    /// By token: true if it stands where the declaration before it has its name.
     names: Vec<bool>,
-    /// Names with hyphens, where they are declared: every use of them is read as a difference.
+    /// Hyphenated names at their declarations; every use of them parses as a difference.
     hyphenated: FxHashSet<&'a str>,
 }
 
-/// How many tokens the head of a block has at most, as far as it matters: `body NAME at (x, y, phi) {` with formulas.
+/// Maximum number of tokens in the head of a block: `body NAME at (x, y, phi) {` with formulas.
 const LONGEST_HEAD: usize = 100;
 
 impl<'a> SyncPoints<'a> {
@@ -48,57 +48,57 @@ impl<'a> SyncPoints<'a> {
         self.roles.get(k).copied().flatten()
     }
 
-    /// Whether a token is the keyword of a declaration.
+    /// Returns whether a token is the keyword of a declaration.
     fn is_declaration(&self, k: usize) -> bool {
         self.role(k).is_some_and(begins)
     }
 
-    /// Whether a token is the keyword of a feature.
+    /// Returns whether a token is the keyword of a feature.
     pub fn is_feature(&self, k: usize) -> bool {
         matches!(self.role(k), Some(Role::Feature | Role::FeatureOpener))
     }
 
-    /// The number of the first token at or behind a byte.
+    /// Returns the index of the first token at or behind a byte.
     pub fn index_at(&self, byte: usize) -> usize {
         self.tokens.partition_point(|token| token.start < byte)
     }
 
-    /// A token's word; empty behind the last one.
+    /// Returns the word of a token; empty behind the last one.
     pub fn word(&self, k: usize) -> &'a str {
         self.tokens.get(k).map_or("", |token| token.text)
     }
 
-    /// Where a token begins; the end of the text behind the last one.
+    /// Returns where a token begins; the end of the text behind the last one.
     pub fn start(&self, k: usize) -> usize {
         self.tokens.get(k).map_or(self.text.len(), |token| token.start)
     }
 
-    /// Where the text before a token ends, its white space and comments not counted.
+    /// Returns where the text before a token ends, without white space and comments.
     pub fn end_before(&self, k: usize) -> usize {
         k.checked_sub(1).and_then(|k| self.tokens.get(k)).map_or(0, |token| token.end())
     }
 
-    /// One past the end of a token.
+    /// Returns the end of a token.
     pub fn end(&self, k: usize) -> usize {
         self.tokens.get(k).map_or(self.text.len(), |token| token.end())
     }
 
-    /// The bytes of a token.
+    /// Returns the byte range of a token.
     pub fn range(&self, k: usize) -> Range<usize> {
         self.start(k)..self.end(k)
     }
 
-    /// Whether a file is used at a token: its word, which is a name in other places, before a string or at the beginning of a line.
+    /// Returns whether a token begins a `use`: the word, which may also be a name, before a string or at the beginning of a line.
     pub fn begins_use(&self, k: usize) -> bool {
         self.word(k) == "use" && (self.string_behind(k).is_some() || self.is_first_on_its_line(k))
     }
 
-    /// The string right behind a token.
+    /// Returns the string right behind a token.
     pub fn string_behind(&self, k: usize) -> Option<Token<'a>> {
         self.tokens.get(k + 1).copied().filter(|token| token.text.starts_with('"'))
     }
 
-    /// Where what is said of a used file ends: at the next one, at a mechanism, or with its line, unless the next line goes on with it.
+    /// Returns where a `use` ends: at the next one, at a mechanism, or with its line, unless the next line continues it.
     pub fn end_of_use(&self, k: usize) -> usize {
         let goes_on = |next: usize| {
             let is_prefix = self.word(next - 1) == "as" && self.string_behind(next).is_none();
@@ -113,17 +113,17 @@ impl<'a> SyncPoints<'a> {
         k >= self.tokens.len()
     }
 
-    /// Where the declaration that begins at a token ends if it is one without a block: at the next keyword that begins one, or the
-    /// brace that closes the block around it.
+    /// Returns where a declaration without a block ends that begins at a token: at the next keyword that begins one, or at the brace that
+    /// closes the enclosing block.
     ///
-    /// What follows the grammar never goes on behind that.
+    /// A declaration that follows the grammar never continues beyond.
     pub fn end_of_plain(&self, k: usize) -> usize {
         let ends = |k: usize| matches!(self.word(k), "{" | "}") || self.is_keyword(k) && !self.is_inside(k);
         (k + 1..self.tokens.len()).find(|&k| ends(k)).unwrap_or(self.tokens.len())
     }
 
-    /// The token at which reading goes on after a fault in the declaration that begins at a token: where the next one begins, or
-    /// the block around it is closed. What stands in braces in between goes with it.
+    /// Returns the token at which parsing resumes after a fault in the declaration that begins at a token: the next declaration, or the end
+    /// of the enclosing block. Braces in between are skipped.
     pub fn sync_token(&self, k: usize) -> usize {
         let mut depth = 0_usize;
         for next in k..self.tokens.len() {
@@ -138,7 +138,7 @@ impl<'a> SyncPoints<'a> {
         self.tokens.len()
     }
 
-    /// The brace that opens the block of a declaration whose head is at fault, if it has one.
+    /// Returns the brace that opens the block of a declaration whose head has a fault, if it has one.
     pub fn block_behind(&self, k: usize) -> Option<usize> {
         let end = self.tokens.len().min(k + LONGEST_HEAD);
         (k + 1..end)
@@ -146,13 +146,13 @@ impl<'a> SyncPoints<'a> {
             .find(|&next| self.word(next) == "{")
     }
 
-    /// How many more braces are opened than closed from a token on; negative if more are closed.
+    /// Returns how many more braces are opened than closed from a token on; negative if more are closed.
     pub fn braces_from(&self, k: usize) -> isize {
         let weight = |token: &Token<'_>| isize::from(token.text == "{") - isize::from(token.text == "}");
         self.tokens.get(k..).unwrap_or_default().iter().map(weight).sum()
     }
 
-    /// The names that the declaration at a token would have given: the word behind its keyword, or the first of two words.
+    /// Returns the names that the declaration at a token would define: the word behind its keyword, or the first of two words.
     pub fn names_of(&self, k: usize, end: usize) -> impl Iterator<Item = Token<'a>> {
         let is_name = |token: &&Token<'a>| token.text.starts_with(|c: char| c.is_alphabetic() || c == '_');
         // what is no keyword may be a name without one, `r = 3`, or a misspelt keyword before one
@@ -161,17 +161,17 @@ impl<'a> SyncPoints<'a> {
         head.map(|k| self.tokens[k]).filter(move |token| is_name(&token)).map(whole)
     }
 
-    /// Whether a token stands where the name of the declaration before it does.
+    /// Returns whether a token stands where the declaration before it has its name.
     pub fn is_name_of(&self, k: usize) -> bool {
         self.names.get(k).copied().unwrap_or(false)
     }
 
-    /// Whether a token is a keyword that begins a declaration wherever the grammar holds.
+    /// Returns whether a token is a keyword that begins a declaration wherever the grammar holds.
     fn is_keyword(&self, k: usize) -> bool {
         self.is_declaration(k) && self.word(k + 1) != "."
     }
 
-    /// Whether a keyword stands where only a name makes sense: within a line, and not before what its declaration goes on with.
+    /// Returns whether a keyword stands where only a name makes sense: within a line, and not before the continuation of its declaration.
     fn is_inside(&self, k: usize) -> bool {
         let (next, second) = (self.word(k + 1), self.word(k + 2));
         let before = if k > 0 { self.word(k - 1) } else { "" };
@@ -202,7 +202,7 @@ impl<'a> SyncPoints<'a> {
         k == 0 || self.text[before..start].contains('\n')
     }
 
-    /// Whether a declaration begins at a token: by its keyword, or by a word in the place of one.
+    /// Returns whether a declaration begins at a token: by its keyword, or by a word in its place.
     pub fn begins_declaration(&self, k: usize) -> bool {
         // `ground.O` is a point, `joint joint: …` has a name that is none
         if self.word(k + 1) == "." {
@@ -231,13 +231,13 @@ impl<'a> SyncPoints<'a> {
             || self.word(k + 1) == "from"
     }
 
-    /// Whether a block begins at a token with a word that stands for `ground`: `frame {`.
+    /// Returns whether a block begins at a token with a synonym of `ground`: `frame {`.
     pub fn is_ground_by_another_name(&self, k: usize) -> bool {
         let word = self.word(k);
         self.role(k).is_none() && self.word(k + 1) == "{" && (is_ground(word) || nearest(word, ["ground"]).is_some())
     }
 
-    /// Whether a line begins as a declaration does behind its keyword: `r = 3`, `j: revolute(…)`; or with the kind of a joint.
+    /// Returns whether a line begins like a declaration behind its keyword: `r = 3`, `j: revolute(…)`; or with the kind of a joint.
     fn begins_without_keyword(&self, k: usize) -> bool {
         let [next, second] = [self.word(k + 1), self.word(k + 2)];
         let is_joint = JointWord::named(self.word(k)).is_some();
@@ -245,12 +245,12 @@ impl<'a> SyncPoints<'a> {
         self.is_first_on_its_line(k) && (["=", ":", "{"].contains(&next) || is_joint && next == "(" || is_named_joint)
     }
 
-    /// Whether a declaration of the mechanism, rather than of a body, begins at a token.
+    /// Returns whether a declaration of the mechanism, rather than of a body, begins at a token.
     pub fn begins_large_declaration(&self, k: usize) -> bool {
         self.begins_declaration(k) && matches!(self.role(k), Some(Role::Declaration | Role::Opener))
     }
 
-    /// Whether a token is one of the keywords that were taken for names, or stands right behind one.
+    /// Returns whether a token is a keyword that was used as a name, or stands right behind one.
     pub fn uses_bad_name(&self, byte: usize, bad_names: &FxHashSet<&str>) -> bool {
         let k = self.index_at(byte);
         // where it begins a declaration it is no name
@@ -258,25 +258,25 @@ impl<'a> SyncPoints<'a> {
         [k, k.saturating_sub(1)].iter().any(|&k| !self.is_behind_the_last(k) && is_used(k))
     }
 
-    /// The reserved word that stands at a place where a name should, with the keyword of its declaration.
+    /// Returns the reserved word in the position of a name, with the keyword of its declaration.
     pub fn word_as_name(&self, byte: usize) -> Option<(&'a str, &'a str)> {
         let k = self.index_at(byte);
         let is_reserved = matches!(self.role(k), Some(Role::Declaration | Role::Feature | Role::Formula));
         (self.start(k) == byte && is_reserved && self.is_name_of(k)).then(|| (self.word(k), self.word(k - 1)))
     }
 
-    /// The name with hyphens that a token is the first part of.
+    /// Returns the hyphenated name that begins with a token.
     fn hyphenated_name(&self, token: &Token<'a>) -> Option<&'a str> {
         let is_known = |name: &&str| self.hyphenated.contains(name);
         if self.hyphenated.is_empty() { None } else { hyphenated_at(self.text, token.start).filter(is_known) }
     }
 
-    /// Whether a name with hyphens stands among the tokens from one to before another.
+    /// Returns whether a range of tokens contains a hyphenated name.
     pub fn uses_hyphenated(&self, from: usize, to: usize) -> bool {
         self.tokens.get(from..to).unwrap_or_default().iter().any(|token| self.hyphenated_name(token).is_some())
     }
 
-    /// Whether a word stands anywhere in the text.
+    /// Returns whether a word occurs anywhere in the text.
     pub fn has_word(&self, word: &str) -> bool {
         self.tokens.iter().any(|token| token.text == word)
     }
@@ -286,7 +286,7 @@ fn begins(role: Role) -> bool {
     matches!(role, Role::Declaration | Role::Feature) || role.is_opener()
 }
 
-/// Whether a word that may open a declaration does so at a token: a name stands behind it, and that is defined, or the line begins
+/// Returns whether a word that may begin a declaration does so at a token: a name stands behind it with its definition, or the line begins
 /// here.
 fn opens(text: &str, tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
     if !is_before_a_name(tokens[k].text) {
@@ -303,8 +303,8 @@ fn begins_line(text: &str, tokens: &[Token<'_>], k: usize) -> bool {
     text[behind..tokens[k].start].contains('\n')
 }
 
-/// Whether a word before a formula, as `mass` is, opens a declaration at a token: no name stands between the end of one formula and the
-/// beginning of another.
+/// Returns whether a word before a formula, such as `mass`, begins a declaration at a token: no name stands between the end of one formula
+/// and the beginning of another.
 fn opens_with_a_formula(text: &str, tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
     let word = |k: usize| tokens.get(k).map_or("", |token| token.text);
     let begins_with = |text: &str, is: fn(char) -> bool| text.starts_with(is);

@@ -1,11 +1,11 @@
-//! Brackets that are not closed, and where what closes them goes.
+//! Unclosed brackets, and where their closing brackets belong.
 
 use super::Fault;
 use crate::tokens::{Token, begins_declaration, tokens};
 use mechc_text::diag::{Applies, Edit, Fix};
 
 impl<'a> Fault<'a> {
-    /// What was opened before the fault and not closed, innermost last.
+    /// Returns the brackets that are open before the fault, innermost last.
     pub(super) fn opened(&self) -> Vec<(usize, &'a str)> {
         let mut opened: Vec<(usize, &str)> = Vec::new();
         let before = &self.text[..self.at];
@@ -23,12 +23,12 @@ impl<'a> Fault<'a> {
         opened
     }
 
-    /// Whether what stands here cannot belong to what is open.
+    /// Returns whether the word at the fault cannot belong to an open bracket.
     fn ends_what_is_open(&self) -> bool {
         self.found.is_empty() || self.found == "}" || self.found == "{" || self.begins_declaration()
     }
 
-    /// Whether more parentheses and square brackets are closed than opened from here to the next declaration or brace.
+    /// Returns whether more parentheses and square brackets are closed than opened from here to the next declaration or brace.
     fn is_closed_behind(&self) -> bool {
         let rest = &self.text[self.at..];
         let mut depth = 0;
@@ -48,7 +48,7 @@ impl<'a> Fault<'a> {
         false
     }
 
-    /// Another place that explains a fault which shows only behind it, and what to say there.
+    /// Returns the earlier position that causes a fault, with its explanation.
     pub fn reason(&self) -> Option<(usize, &'static str)> {
         let before = self.before();
         match self.opened().last() {
@@ -64,7 +64,7 @@ impl<'a> Fault<'a> {
         }
     }
 
-    /// The brackets that are missing before the fault.
+    /// Returns the brackets that are missing before the fault.
     pub(super) fn closing(&self) -> Option<Fix> {
         // what is closed further on is not what is missing
         if !self.ends_what_is_open() || self.before().ends_with('=') || self.is_closed_behind() {
@@ -100,7 +100,7 @@ impl<'a> Fault<'a> {
         Some(Fix::replace(self.span(end..end), closers.clone(), format!("close it with `{closers}`"), applies))
     }
 
-    /// The braces that are missing at the end of the text.
+    /// Returns the braces that are missing at the end of the text.
     fn braces_at_the_end(&self, opened: &[(usize, &str)]) -> Option<Fix> {
         let line_end = self.line_end();
         let mut text = if self.text.ends_with('\n') { String::new() } else { line_end.to_owned() };
@@ -118,7 +118,7 @@ impl<'a> Fault<'a> {
         Some(Fix::replace(self.span(end..end), text, format!("close it with `{closers}`"), applies))
     }
 
-    /// A brace that closes the innermost block before the declaration that stands here.
+    /// Returns a brace that closes the innermost block before the declaration here.
     pub(super) fn brace_before(&self) -> Option<Edit> {
         let (open, _) = self.opened().into_iter().rfind(|(_, token)| *token == "{")?;
         let end = tokens(&self.text[..self.at]).last().map(|token| token.end())?;
@@ -131,12 +131,12 @@ impl<'a> Fault<'a> {
         Some(Edit { span: self.span(place..place), text })
     }
 
-    /// As the text has them.
+    /// Returns the line end that the text uses.
     pub(super) fn line_end(&self) -> &'static str {
         if self.text.contains("\r\n") { "\r\n" } else { "\n" }
     }
 
-    /// The white space at the beginning of the line that holds a byte.
+    /// Returns the white space at the beginning of the line that contains a byte.
     pub(super) fn indentation(&self, byte: usize) -> &'a str {
         let start = self.text[..byte].rfind('\n').map_or(0, |at| at + 1);
         let line = &self.text[start..];
@@ -144,7 +144,7 @@ impl<'a> Fault<'a> {
     }
 }
 
-/// Whether tokens are words and numbers with commas between: of anything else a part may belong behind the parenthesis.
+/// Returns whether tokens are words and numbers with commas; otherwise a part may belong behind the parenthesis.
 fn is_plain_list(tokens: &[&str]) -> bool {
     tokens.iter().enumerate().all(|(k, token)| {
         let is_sign = *token == "-" && (k == 0 || tokens[k - 1] == ",");

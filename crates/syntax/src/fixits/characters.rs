@@ -1,4 +1,4 @@
-//! Characters that other languages, keyboards and calculators use, and this one does not.
+//! Characters of other languages, keyboards and calculators.
 
 use super::{Fault, FixIt};
 use crate::grammar::Rule;
@@ -6,7 +6,7 @@ use crate::tokens::tokens;
 use mechc_text::diag::{Applies, Edit, Fix};
 use std::ops::Range;
 
-/// Characters that can only mean another one: what to write instead, and what to say.
+/// Unambiguous characters: replacement and message.
 const WRITTEN: &[(&str, &str, &str)] = &[
     ("×", "*", "a product is written with `*`"),
     ("·", "*", "a product is written with `*`"),
@@ -15,7 +15,7 @@ const WRITTEN: &[(&str, &str, &str)] = &[
     ("–", "-", "a minus sign is written `-`"),
 ];
 
-/// Where one of these is expected an operand begins.
+/// Rules that begin an operand.
 const OPERAND: [Rule; 5] = [Rule::expr, Rule::prefix, Rule::literal, Rule::number, Rule::call];
 
 impl Fault<'_> {
@@ -74,7 +74,7 @@ impl Fault<'_> {
         })
     }
 
-    /// How programming languages join conditions, choose and differentiate.
+    /// Suggests the language's form of operators for conditions, selection and derivatives.
     fn foreign_operator(&self) -> Option<FixIt> {
         let (has_operator, is_operand) = (self.expects(Rule::infix), OPERAND.iter().any(|rule| self.expects(*rule)));
         let behind = self.behind();
@@ -101,7 +101,7 @@ impl Fault<'_> {
         })
     }
 
-    /// The same character wherever it stands from here to the end of the line.
+    /// Replaces a character from here to the end of the line.
     fn everywhere_on_the_line(&self, by: &str, words: &str) -> Fix {
         let line = self.text[self.at..].lines().next().unwrap_or_default();
         let same = tokens(line).into_iter().filter(|token| token.text == self.found);
@@ -175,7 +175,7 @@ impl Fault<'_> {
         self.replaced(self.here(), " * deg", "degrees are written `deg`", Applies::Probably)
     }
 
-    /// Whether the number before is all of a param so far.
+    /// Returns whether the number before is all of a param so far.
     fn is_all_of_a_param(&self) -> bool {
         matches!(tokens(self.before()).as_slice(), [.., keyword, _, equals, _] if (keyword.text, equals.text) == ("param", "="))
     }
@@ -214,7 +214,7 @@ impl Fault<'_> {
     }
 }
 
-/// What a comment from `/*` on says, as line comments; one from `/**` on documents what follows.
+/// Returns a comment from `/*` on as line comments; one from `/**` becomes documentation.
 fn line_comments(text: &str) -> String {
     let is_doc = text.starts_with("/**") && !text.starts_with("/***");
     let mark = if is_doc { "///" } else { "//" };

@@ -1,9 +1,9 @@
-//! Where a part stands: its words in another order, or once more.
+//! Placement of a part with its words in another order, or repeated.
 
 use super::{Fault, FixIt};
 use crate::tokens::{begins_declaration, tokens};
 
-/// What may follow the bindings of a part, in its order.
+/// Words behind the bindings of a part, in their order.
 const WORDS: [&str; 3] = ["on", "at", "mirrored"];
 
 impl Fault<'_> {

@@ -1,4 +1,4 @@
-//! A `;`: behind a declaration, between rows, and where a comma is the decimal point.
+//! Semicolons: behind a declaration, between rows, and next to decimal commas.
 
 use super::{Fault, FixIt};
 use crate::grammar::Rule;
@@ -64,7 +64,7 @@ impl Fault<'_> {
         }
     }
 
-    /// Whether the line closes more parentheses behind the fault than it opens.
+    /// Returns whether the line closes more parentheses behind the fault than it opens.
     fn is_closed_on_the_line(&self) -> bool {
         let line = self.behind().lines().next().unwrap_or_default();
         let mut depth = 0;
@@ -74,7 +74,7 @@ impl Fault<'_> {
         })
     }
 
-    /// From where the outermost bracket is opened to the end of the line.
+    /// Returns the tokens from the outermost open bracket to the end of the line.
     fn list(&self) -> Vec<Token<'_>> {
         let opened = self.opened();
         let start = opened.iter().find(|(_, token)| *token != "{").map_or(self.at, |(start, _)| *start);
@@ -83,7 +83,7 @@ impl Fault<'_> {
         tokens.into_iter().map(|token| Token { start: start + token.start, ..token }).collect()
     }
 
-    /// The commas that stand right between digits in a list, in those brackets that hold a `;` too; `None` for one that separates.
+    /// Returns the commas right between digits in brackets with a `;`; `None` for a comma that separates.
     fn commas_beside_semicolons(&self) -> Vec<Option<usize>> {
         let list = self.list();
         let mut open: Vec<(bool, Vec<Option<usize>>)> = vec![(false, Vec::new())];
@@ -102,7 +102,7 @@ impl Fault<'_> {
         found.into_iter().filter(|(has_semicolon, _)| *has_semicolon).flat_map(|(_, commas)| commas).collect()
     }
 
-    /// Whether a comma stands in a number as its decimal point, as far as its neighbours tell.
+    /// Returns whether a comma is a decimal point, judging by its neighbors.
     fn is_between_digits(&self, at: usize) -> bool {
         let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
         let behind = self.text[at + 1..].trim_start_matches(|c: char| c.is_ascii_digit());

@@ -1,15 +1,15 @@
-//! The `:` or `=` behind a name, where it is missing or is the other one.
+//! A missing or wrong `:` or `=` behind a name.
 
 use super::Fault;
 use crate::tokens::tokens;
 use mechc_text::diag::{Applies, Fix};
 use mechc_text::vocabulary::{JointWord, Place, QuantityWord, Synonym, is_called};
 
-/// What separates a name from what it is the name of, and what is written instead.
+/// Separators behind a name, by their description, with the wrong one.
 const SEPARATORS: [(&str, &str, &str); 2] = [("`:`", ":", "="), ("`=`", "=", ":")];
 
 impl Fault<'_> {
-    /// The `:` or `=` behind a name, where nothing else can stand.
+    /// Inserts the `:` or `=` behind a name, where nothing else is possible.
     pub(super) fn separator(&self, expected: &str) -> Option<Fix> {
         let (_, separator, other) = SEPARATORS.into_iter().find(|(name, ..)| *name == expected)?;
         if self.found == other {
@@ -45,7 +45,7 @@ impl Fault<'_> {
         Fix::replace(self.span(start..end), format!("{gap}{separator}{gap_behind}"), words, Applies::Always)
     }
 
-    /// Whether the name ends here and its value begins, and how sure that is; a word too many may stand before it.
+    /// Returns whether the name ends here and its value begins, and how certain that is; a superfluous word may precede it.
     fn is_separated_by(&self, separator: &str) -> Option<Applies> {
         let before = tokens(self.before());
         let [.., keyword, _] = before.as_slice() else { return None };

@@ -1,11 +1,11 @@
-//! What was meant where another file is used: a path without quotes, another program's word, a `use` that stands too far down.
+//! Uses of other files: a path without quotes, a word of another program, a misplaced `use`.
 
 use super::{Fault, FixIt};
 use crate::grammar::Rule;
 use crate::tokens::tokens;
 use mechc_text::diag::Applies;
 
-/// What others write for `use`.
+/// Words of other programs for `use`.
 const OTHER_WORDS: [&str; 4] = ["import", "include", "require", "from"];
 
 impl Fault<'_> {

@@ -1,4 +1,4 @@
-//! Windows of reductions that are written otherwise than `max(e, from A to B)`.
+//! Windows of reductions in other forms than `max(e, from A to B)`.
 
 use super::{Fault, FixIt};
 use crate::grammar::Rule;
@@ -39,7 +39,7 @@ impl<'a> Fault<'a> {
         is_window(self.found).then(|| self.replaced(end..end, ",", words, Applies::Always))
     }
 
-    /// What the innermost call that is open has of its last argument, if it is a reduction; nothing behind a comma.
+    /// Returns the tokens of the last argument of the innermost open call, if it is a reduction; none behind a comma.
     fn last_argument(&self) -> Option<Vec<Token<'a>>> {
         let (open, _) = self.opened().pop().filter(|(_, bracket)| *bracket == "(")?;
         let called = tokens(&self.text[..open]).pop()?;

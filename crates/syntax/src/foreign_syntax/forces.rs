@@ -1,4 +1,4 @@
-//! Masses, gravity and loads: with a name or a sign that they have none of, in another order, on what they do not say.
+//! Masses, gravity and loads with a superfluous name or sign, in another order, or without their target.
 
 use super::{Correction, ForeignDeclaration, is_name};
 use crate::grammar::Rule;
@@ -94,7 +94,7 @@ impl ForeignDeclaration<'_> {
     }
 }
 
-/// What others call the place of a mass and its inertia.
+/// Words of other programs for the centre and inertia of a mass.
 const WORDS_OF_MASSES: [(&[&str], &str); 2] = [
     (&["center", "centre", "com", "cog", "cg", "CG", "COM", "centroid"], "at"),
     (&["I", "J", "Ixx", "Iyy", "Izz", "izz", "IZZ", "moment", "moment_of_inertia"], "inertia"),

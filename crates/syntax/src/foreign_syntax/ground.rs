@@ -1,4 +1,4 @@
-//! `ground` alone, where one of its features is meant.
+//! `ground` in place of one of its features.
 
 use super::{Correction, ForeignDeclaration, is_name};
 use crate::tokens::{Token, begins_declaration, tokens};
@@ -38,7 +38,7 @@ impl ForeignDeclaration<'_> {
         })
     }
 
-    /// Their names, in the order of the text.
+    /// Returns the names of the ground's features, in order.
     fn features_of_the_ground(&self) -> Vec<&str> {
         let all = tokens(self.text);
         let is_head = |pair: &[Token<'_>]| pair[0].text == "ground" && pair[1].text == "{";

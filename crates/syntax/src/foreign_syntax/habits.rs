@@ -1,4 +1,4 @@
-//! Habits from other languages: the size of an array behind a name, a type, several values of one name.
+//! Habits from other languages: array sizes behind a name, types, several values for one name.
 
 use super::heads::LONGEST_SHOWN;
 use super::{Correction, ForeignDeclaration, is_name};
@@ -32,7 +32,7 @@ impl ForeignDeclaration<'_> {
         Some(ForeignDeclaration::change(message, vec![self.edit(bracket.end()..close.start, &ranges)]))
     }
 
-    /// `3` and `n` count from 0; `1..4` is a range already.
+    /// Returns the index range for a size: `3` and `n` count from 0; `1..4` is a range already.
     fn range_of(&self, size: &[&str]) -> Option<String> {
         let first = size.first()?;
         let is_known = first.starts_with(|c: char| c.is_ascii_digit()) || self.is_declared(first);
@@ -44,7 +44,7 @@ impl ForeignDeclaration<'_> {
         }
     }
 
-    /// Whether a declaration anywhere in the text gives this name.
+    /// Returns whether a declaration in the text defines this name.
     fn is_declared(&self, name: &str) -> bool {
         let declares = |word: &str| Keyword::named(word).is_some_and(|keyword| !keyword.is_joining());
         tokens(self.text).windows(2).any(|pair| pair[1].text == name && declares(pair[0].text))
@@ -115,7 +115,7 @@ impl ForeignDeclaration<'_> {
         Some(ForeignDeclaration::change(message, vec![self.edit(self.at..self.end(), &rest)]))
     }
 
-    /// Formulas with commas between, from the `=` on, and where the last of them ends.
+    /// Returns the formulas between commas behind `=`, and where the last one ends.
     fn values_in_a_row(&self) -> Option<(Vec<&str>, usize)> {
         let tokens = self.before[3..].iter().chain(&self.rest).take_while(|token| token.text != "in");
         let (mut values, mut depth, mut start, mut end) = (Vec::new(), 0, None, 0);
@@ -137,7 +137,7 @@ impl ForeignDeclaration<'_> {
         (depth == 0).then_some((values, end))
     }
 
-    /// A new line as far in as this declaration, where it begins one.
+    /// Returns a line end with the indentation of this declaration, if it begins a line.
     fn gap_between_declarations(&self) -> String {
         let start = self.before.first().map_or(self.at, |token| token.start);
         let before = &self.text[..start];
@@ -150,14 +150,14 @@ impl ForeignDeclaration<'_> {
     }
 }
 
-/// Whether a text is what belongs to a body: `crank.A`.
+/// Returns whether a text names a feature of a body: `crank.A`.
 fn is_path(text: &str) -> bool {
     text.contains('.') && is_name(text) && text.chars().all(|c| c.is_alphanumeric() || "._[]".contains(c))
 }
 
-/// What can be declared many times at once.
+/// Declarations that can have index ranges.
 const REPEATED: [&str; 10] =
     ["body", "part", "input", "joint", "constraint", "driver", "load", "measure", "trace", "result"];
 
-/// What an index is mostly called.
+/// Usual names of indices.
 const INDICES: [&str; 5] = ["k", "i", "j", "m", "n"];

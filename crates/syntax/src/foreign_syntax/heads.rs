@@ -1,4 +1,4 @@
-//! Heads of declarations: names that are missing, are two words or stand behind what they name, arguments that are missing.
+//! Heads of declarations: missing, split or misplaced names, and missing arguments.
 
 use super::{Correction, ForeignDeclaration, hyphenated_at, is_name};
 use crate::grammar::Rule;
@@ -7,7 +7,7 @@ use mechc_text::diag::{Applies, Fix};
 use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym, is_called, is_declaration};
 
 impl ForeignDeclaration<'_> {
-    /// What was meant by the head of a declaration.
+    /// Returns a correction of the head of a declaration.
     pub(super) fn declaration_head(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         self.hyphenated_name(last)
             .or_else(|| self.name_behind_kind(keyword, last))
@@ -30,7 +30,7 @@ impl ForeignDeclaration<'_> {
         Some(ForeignDeclaration::change(format!("a name has no `{}`: write `{written}`", self.found), edits))
     }
 
-    /// Whether the name has been read, and what separates it from the rest is missing.
+    /// Returns whether the name has been read and the separator behind it is missing.
     fn is_behind_the_name(&self) -> bool {
         let is_separator = [Rule::equals, Rule::colon, Rule::open, Rule::left].iter().any(|rule| self.expects(*rule));
         self.before.len() == 2 && is_separator
@@ -135,7 +135,7 @@ impl ForeignDeclaration<'_> {
         Some(ForeignDeclaration::change(format!("a name is one word: write `{written}`"), vec![edit]))
     }
 
-    /// Whether a name that is declared here stands elsewhere in the text, and is not declared there.
+    /// Returns whether a name that is declared here occurs elsewhere without a declaration.
     fn is_used_by(&self, name: &Token<'_>) -> bool {
         let all = tokens(self.text);
         let is_other = |k: &usize| all[*k].text == name.text && all[*k].start != name.start;
@@ -169,13 +169,13 @@ impl ForeignDeclaration<'_> {
     }
 }
 
-/// What is longer is not repeated in a message (in characters).
+/// Longest text that a message repeats, in characters.
 pub(super) const LONGEST_SHOWN: usize = 60;
 
-/// What the argument of a function or curve is mostly called.
+/// Usual names of the argument of a function or curve.
 const ARGUMENTS: [&str; 10] = ["u", "v", "w", "x", "phi", "theta", "φ", "θ", "s", "a"];
 
-/// The hyphen, and what editors and keyboards write for it.
+/// Returns whether a character is a hyphen or a dash that editors and keyboards write for it.
 pub(super) fn is_dash(c: char) -> bool {
     ['-', '‐', '‑', '–', '—', '−'].contains(&c)
 }

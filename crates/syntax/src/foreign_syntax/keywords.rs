@@ -1,4 +1,4 @@
-//! Declarations without their keyword, or with that of another kind.
+//! Declarations with a missing or a wrong keyword.
 
 use super::{Correction, ForeignDeclaration, holds_quantity, is_name};
 use crate::grammar::Rule;
@@ -42,7 +42,7 @@ impl ForeignDeclaration<'_> {
         }
     }
 
-    /// What follows a name tells what it is the name of.
+    /// Suggests the keyword of a named value by what follows the name.
     fn keyword_by_value(&self, words: &[&str]) -> Option<Correction> {
         let [name, separator, first, behind @ ..] = words else { return None };
         let has_value = *separator == "=";
@@ -100,7 +100,7 @@ impl ForeignDeclaration<'_> {
         before.ends_with(['{', '}']) || self.text[before.len()..self.at].contains('\n')
     }
 
-    /// The form of the declaration, where a word of it is wanted and something else stands: outside of all brackets.
+    /// Returns the form of the declaration if a word of it is expected outside of all brackets.
     pub(super) fn form(&self) -> Option<String> {
         let keyword = Keyword::named(self.before.first()?.text)
             .filter(|keyword| keyword.begins_declaration() || keyword.role == Role::Opener)?;
@@ -123,7 +123,7 @@ fn is_joint(word: &str) -> bool {
     JointWord::named(word).is_some() || Synonym::of(Place::Joint, word).is_some()
 }
 
-/// As the language calls it.
+/// Returns the language's name for a kind of joint.
 fn kind_of_joint(word: &str) -> &str {
     Synonym::of(Place::Joint, word).and_then(|synonym| synonym.means.first().copied()).unwrap_or(word)
 }

@@ -1,4 +1,4 @@
-//! Parts of a declaration: arguments without parentheses, features that are not complete, rows that are no pairs.
+//! Contents of a declaration: arguments without parentheses, incomplete features, table rows that are not pairs.
 
 use super::{Correction, ForeignDeclaration, is_name};
 use crate::grammar::Rule;
@@ -33,7 +33,7 @@ impl ForeignDeclaration<'_> {
         Some(ForeignDeclaration::change(message, vec![edit]))
     }
 
-    /// `x` and `y` alone may be anything: of them an argument must be a point.
+    /// Returns whether a quantity lacks its parentheses; the argument of `x` and `y` must be a point, since these may be names.
     fn is_quantity_without_parentheses(&self, last: &Token<'_>) -> bool {
         let is_point = self.rest.get(1).is_some_and(|token| token.text == ".");
         let is_in_a_line = !self.text[last.end()..self.at].contains('\n');

@@ -1,4 +1,4 @@
-//! What separates declarations and their parts elsewhere, and stands for nothing here.
+//! Separators of other languages between declarations and inside them.
 
 use super::{Correction, ForeignDeclaration, is_name};
 use crate::grammar::Rule;
@@ -36,7 +36,7 @@ impl ForeignDeclaration<'_> {
         }
     }
 
-    /// What stands before the next declaration or the end of the block means nothing for sure.
+    /// Returns the confidence in removing text before the next declaration or the end of the block.
     fn applies_before_the_next(&self) -> Applies {
         let behind = self.at + self.found.len();
         let next = tokens(&self.text[behind..]).first().copied();
