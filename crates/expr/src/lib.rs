@@ -449,17 +449,17 @@ impl Graph {
 
     /// Copies formulas of another graph into this one, with symbols replaced.
     ///
-    /// `known` maps nodes that have been copied, so that several calls share their work.
+    /// `copied` maps nodes that have been copied, so that several calls share their work.
     pub fn import(
         &mut self,
         from: &Graph,
         roots: &[ExprId],
-        known: &mut FxHashMap<ExprId, ExprId>,
+        copied: &mut FxHashMap<ExprId, ExprId>,
         mut replace: impl FnMut(&mut Graph, Symbol) -> ExprId,
     ) {
         let mut open: Vec<(ExprId, bool)> = roots.iter().map(|&id| (id, false)).collect();
         while let Some((id, children_done)) = open.pop() {
-            if known.contains_key(&id) {
+            if copied.contains_key(&id) {
                 continue;
             }
             let node = from.node(id);
@@ -470,9 +470,9 @@ impl Graph {
             }
             let rebuilt = match node {
                 Node::Symbol(symbol) => replace(self, symbol),
-                _ => self.rebuild(node, |child| known[&child]),
+                _ => self.rebuild(node, |child| copied[&child]),
             };
-            known.insert(id, rebuilt);
+            copied.insert(id, rebuilt);
         }
     }
 

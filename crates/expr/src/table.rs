@@ -119,13 +119,13 @@ impl Graph {
     pub fn import_tables(
         &mut self,
         from: &Graph,
-        known: &mut FxHashMap<ExprId, ExprId>,
+        copied: &mut FxHashMap<ExprId, ExprId>,
         mut replace: impl FnMut(&mut Graph, Symbol) -> ExprId,
     ) {
         for table in &from.tables {
             let cells: Vec<ExprId> = table.cells().chain(table.values.iter().copied()).collect();
-            self.import(from, &cells, known, &mut replace);
-            let rebuilt = |list: &[ExprId]| list.iter().map(|cell| known[cell]).collect::<Vec<ExprId>>();
+            self.import(from, &cells, copied, &mut replace);
+            let rebuilt = |list: &[ExprId]| list.iter().map(|cell| copied[cell]).collect::<Vec<ExprId>>();
             let [c0, c1, c2, c3] = &table.coefficients;
             self.add_table(Table {
                 name: table.name.clone(),

@@ -79,7 +79,7 @@ struct Tidying<'g> {
 #[derive(Default)]
 struct Sum {
     terms: Vec<(f64, ExprId)>,
-    places: FxHashMap<ExprId, usize>,
+    positions: FxHashMap<ExprId, usize>,
     number: f64,
 }
 
@@ -385,11 +385,11 @@ impl Tidying<'_> {
 
 impl Sum {
     fn put(&mut self, c: f64, term: ExprId) {
-        let present = self.places.get(&term).and_then(|&place| self.terms.get_mut(place));
+        let present = self.positions.get(&term).and_then(|&position| self.terms.get_mut(position));
         if let Some((coefficient, _)) = present {
             *coefficient += c;
         } else {
-            self.places.insert(term, self.terms.len());
+            self.positions.insert(term, self.terms.len());
             self.terms.push((c, term));
         }
     }
@@ -397,7 +397,7 @@ impl Sum {
     /// Removes a term and returns it with its coefficient.
     fn take(&mut self, at: usize) -> (f64, ExprId) {
         let taken = self.terms.remove(at);
-        self.places = self.terms.iter().enumerate().map(|(k, &(_, term))| (term, k)).collect();
+        self.positions = self.terms.iter().enumerate().map(|(k, &(_, term))| (term, k)).collect();
         taken
     }
 }
@@ -405,7 +405,7 @@ impl Sum {
 impl Product {
     fn put(&mut self, id: ExprId, exponent: i32) {
         // a factor of the numerator may be zero where one of the denominator is, so they are not cancelled
-        let same = |&&mut (known, e): &&mut (ExprId, i32)| known == id && (e > 0) == (exponent > 0);
+        let same = |&&mut (factor, e): &&mut (ExprId, i32)| factor == id && (e > 0) == (exponent > 0);
         match self.factors.iter_mut().find(same) {
             Some((_, e)) => *e += exponent,
             None => self.factors.push((id, exponent)),

@@ -103,14 +103,14 @@ impl ConstraintSystem {
 impl Written {
     /// Replaces symbols by other expressions in all formulas that hold along the motion: rows, conditions and monitors.
     pub fn substitute(&mut self, mut expression: impl FnMut(&mut Graph, Symbol) -> ExprId) {
-        let (before, mut known) = (self.graph.clone(), FxHashMap::default());
+        let (before, mut copied) = (self.graph.clone(), FxHashMap::default());
         let Written { graph, rows, conditions, watches, .. } = self;
         let rows = rows.iter_mut().map(|row| &mut row.phi);
         let conditions = conditions.iter_mut().map(|condition| &mut condition.positive);
         let watches = watches.iter_mut().map(|watch| &mut watch.value);
         for id in rows.chain(conditions).chain(watches) {
-            graph.import(&before, &[*id], &mut known, &mut expression);
-            *id = known[id];
+            graph.import(&before, &[*id], &mut copied, &mut expression);
+            *id = copied[id];
         }
     }
 }

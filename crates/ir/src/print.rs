@@ -223,7 +223,7 @@ impl ConstraintSystem {
     }
 
     /// Returns a prefix for the names of shared subexpressions that no parameter name begins with.
-    pub(super) fn prefix_of_shared(&self) -> &'static str {
+    fn prefix_of_shared(&self) -> &'static str {
         let free = |prefix: &&str| !self.params.iter().any(|param| param.name.starts_with(*prefix));
         ["k", "e", "u", "w"].into_iter().find(free).unwrap_or("shared_")
     }

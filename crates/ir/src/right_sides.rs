@@ -78,9 +78,9 @@ impl ConstraintSystem {
         self.right_sides.iter().find(|side| side.with == with).map(|side| side.entries.as_slice())
     }
 
-    fn all_with(&self, is_wanted: impl Fn(With) -> bool) -> impl ExactSizeIterator<Item = &[ExprId]> {
-        let found = self.right_sides.iter().filter(|side| is_wanted(side.with)).map(|side| side.entries.as_slice());
-        found.collect::<Vec<&[ExprId]>>().into_iter()
+    fn all_with(&self, is_selected: impl Fn(With) -> bool) -> impl ExactSizeIterator<Item = &[ExprId]> {
+        let entries = self.right_sides.iter().filter(|side| is_selected(side.with)).map(|side| side.entries.as_slice());
+        entries.collect::<Vec<&[ExprId]>>().into_iter()
     }
 
     /// Replaces right sides; all stay in the order of [`With`].

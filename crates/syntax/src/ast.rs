@@ -170,7 +170,7 @@ pub enum ItemKind {
     },
     /// `constraint NAME: EXPR = EXPR` or `driver NAME: EXPR = EXPR`
     Equation {
-        /// Whether it is a constraint or a driver.
+        /// Constraint or driver.
         driver: bool,
         /// Its name.
         name: Name,

@@ -1,7 +1,6 @@
 //! Parsing of a text with faults, declaration by declaration: a fault invalidates only its own declaration.
 //!
-//! The grammar says what a declaration is; where it begins, and where its block ends, is seen beforehand from words and braces
-//! ([`SyncPoints`]).
+//! The grammar defines declarations; their boundaries come from words and braces ([`SyncPoints`]).
 
 #![allow(clippy::redundant_closure_for_method_calls)] // a method of one reader is not general enough for all
 

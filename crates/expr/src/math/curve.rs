@@ -54,13 +54,13 @@ pub fn predicted([q, qd, qdd]: [f64; 3], h: f64) -> f64 {
     q + h * (qd + 0.5 * h * qdd)
 }
 
-/// Returns the coefficients of a curve in powers of `x − place` (Taylor shift).
+/// Returns the coefficients of a curve in powers of `x − center` (Taylor shift).
 #[must_use]
-pub fn about(curve: &[f64; 6], place: f64) -> [f64; 6] {
+pub fn about(curve: &[f64; 6], center: f64) -> [f64; 6] {
     let mut taylor = *curve;
     for order in 0..taylor.len() {
         for j in (order..taylor.len() - 1).rev() {
-            taylor[j] += place * taylor[j + 1];
+            taylor[j] += center * taylor[j + 1];
         }
     }
     taylor

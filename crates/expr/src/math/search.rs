@@ -9,7 +9,7 @@ pub const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Returns where a predicate becomes true between two positions, to the last bit. It is false at `low` and true at `high`.
 #[must_use]
 pub fn boundary(low: f64, high: f64, mut is_beyond: impl FnMut(f64) -> bool) -> f64 {
-    let [low, high] = bisect([low, high], usize::MAX, |place| !is_beyond(place));
+    let [low, high] = bisect([low, high], usize::MAX, |x| !is_beyond(x));
     0.5 * (low + high)
 }
 
@@ -41,10 +41,10 @@ pub fn close_in(
         let secant = from + width * (off / (off + off_behind));
         let is_closing = secant.is_finite() && width <= 0.5 * widths[1];
         let target = if is_closing { secant } else { 0.5 * from + 0.5 * to };
-        let place = if grid > 0.0 { on_grid(target, grid) } else { target }.clamp(first, end);
-        let (is_behind, off_here) = look(place)?;
+        let x = if grid > 0.0 { on_grid(target, grid) } else { target }.clamp(first, end);
+        let (is_behind, off_here) = look(x)?;
         let (end, other) = if is_behind { (&mut behind, &mut before) } else { (&mut before, &mut behind) };
-        *end = [place, off_here];
+        *end = [x, off_here];
         if last.replace(is_behind) == Some(is_behind) {
             // halving the distance of the end that stays moves the next secant towards it
             other[1] *= 0.5;

@@ -62,8 +62,8 @@ pub const WIDE: usize = 8;
 
 /// Returns the number of `f64` from an address to the next cache line. Writing whole cache lines is faster.
 #[must_use]
-pub fn to_next_line(place: *const f64) -> usize {
-    place.align_offset(WIDE * size_of::<f64>()) % WIDE
+pub fn to_next_line(address: *const f64) -> usize {
+    address.align_offset(WIDE * size_of::<f64>()) % WIDE
 }
 
 /// A square block of rows.

@@ -245,8 +245,8 @@ impl RowLayout {
     /// Returns the columns of x, y and phi of a body, and of their first and second time derivatives.
     #[must_use]
     pub fn pose(&self, system: &ConstraintSystem, body: BodyId) -> [[usize; 3]; 3] {
-        let [places, rates, accelerations, _] = self.coordinates;
+        let [positions, rates, accelerations, _] = self.coordinates;
         let pose = system.pose_of(body);
-        [places, rates, accelerations].map(|first| pose.map(|coordinate| first as usize + coordinate))
+        [positions, rates, accelerations].map(|first| pose.map(|coordinate| first as usize + coordinate))
     }
 }

@@ -33,20 +33,20 @@ impl Program {
         let mut layout = Layout::new(system);
         layout.signals(system);
         let mut outputs = Outputs {
-            estimates: layout.place(Stage::Prologue, system.coordinates().iter().map(|c| c.estimate)),
-            phi: layout.place(Stage::Position, system.rows().iter().map(|row| row.phi)),
-            phi_q: layout.place(Stage::Position, system.phi_q().entries().iter().map(|&(_, id)| id)),
-            conditions: layout.place(Stage::Position, system.conditions().iter().map(|c| c.positive)),
-            checks: layout.place(Stage::Position, system.checks().iter().map(|c| c.phi)),
-            watches: layout.place(Stage::Position, system.watches().iter().map(|w| w.value)),
+            estimates: layout.emit_all(Stage::Prologue, system.coordinates().iter().map(|c| c.estimate)),
+            phi: layout.emit_all(Stage::Position, system.rows().iter().map(|row| row.phi)),
+            phi_q: layout.emit_all(Stage::Position, system.phi_q().entries().iter().map(|&(_, id)| id)),
+            conditions: layout.emit_all(Stage::Position, system.conditions().iter().map(|c| c.positive)),
+            checks: layout.emit_all(Stage::Position, system.checks().iter().map(|c| c.phi)),
+            watches: layout.emit_all(Stage::Position, system.watches().iter().map(|w| w.value)),
             ..Outputs::default()
         };
         outputs.terms =
-            system.rows().iter().map(|row| layout.place(Stage::Position, system.graph().terms(row.phi))).collect();
+            system.rows().iter().map(|row| layout.emit_all(Stage::Position, system.graph().terms(row.phi))).collect();
         let (at_position, comparisons) = (layout.register_of.clone(), layout.comparisons.clone());
         outputs.right_sides = layout.right_sides(system);
-        outputs.forces = layout.place(Stage::Forces, system.needed_forces().iter().copied());
-        let mut varied = |list: &[ExprId]| layout.place(Stage::Variation, list.iter().copied());
+        outputs.forces = layout.emit_all(Stage::Forces, system.needed_forces().iter().copied());
+        let mut varied = |list: &[ExprId]| layout.emit_all(Stage::Variation, list.iter().copied());
         let slopes = system.check_slopes();
         outputs.check_slopes = CheckSlopeRegisters {
             coordinates: varied(&slopes.by_q),
@@ -55,18 +55,18 @@ impl Program {
         };
         for scope in system.scopes() {
             let entries = scope.phi_q.entries().iter().map(|&(_, id)| id);
-            outputs.scopes.push(layout.place(Stage::Variation, entries));
+            outputs.scopes.push(layout.emit_all(Stage::Variation, entries));
         }
         for variation in system.variations() {
             let rights = variation.rights.each_ref();
-            outputs.variations.push(rights.map(|rights| layout.place(Stage::Variation, rights.iter().copied())));
-            outputs.varied_forces.push(layout.place(Stage::Variation, variation.forces.iter().copied()));
+            outputs.variations.push(rights.map(|rights| layout.emit_all(Stage::Variation, rights.iter().copied())));
+            outputs.varied_forces.push(layout.emit_all(Stage::Variation, variation.forces.iter().copied()));
         }
-        outputs.reactions = layout.place(Stage::Measures, system.reactions().iter().map(|of| of.value));
-        outputs.measures = layout.place(Stage::Measures, system.measures().iter().map(|m| m.value));
-        outputs.measures_d = layout.place(Stage::Measures, system.measures().iter().filter_map(|m| m.first));
-        outputs.measures_dd = layout.place(Stage::Measures, system.measures().iter().filter_map(|m| m.second));
-        outputs.appended = layout.place(Stage::Measures, system.appended().iter().map(|column| column.value));
+        outputs.reactions = layout.emit_all(Stage::Measures, system.reactions().iter().map(|of| of.value));
+        outputs.measures = layout.emit_all(Stage::Measures, system.measures().iter().map(|m| m.value));
+        outputs.measures_d = layout.emit_all(Stage::Measures, system.measures().iter().filter_map(|m| m.first));
+        outputs.measures_dd = layout.emit_all(Stage::Measures, system.measures().iter().filter_map(|m| m.second));
+        outputs.appended = layout.emit_all(Stage::Measures, system.appended().iter().map(|column| column.value));
         // boundaries are evaluated after time and position alone
         (layout.register_of, layout.comparisons) = (at_position, comparisons);
         outputs.rims = system.rims().iter().map(|rim| layout.rim(rim)).collect();
@@ -159,14 +159,14 @@ impl<'s> Layout<'s> {
         sides.sort_by_key(|(stage, side)| (*stage, side.with));
         let mut placed: Vec<PlacedSide> = Vec::with_capacity(sides.len());
         for (stage, RightSide { with, entries }) in sides {
-            placed.push(PlacedSide { with: *with, entries: self.place(stage, entries.iter().copied()) });
+            placed.push(PlacedSide { with: *with, entries: self.emit_all(stage, entries.iter().copied()) });
         }
         placed.sort_by_key(|side| side.with);
         placed
     }
 
     /// Emits the operations for roots that have no register yet, and returns the registers of all roots.
-    pub fn place(&mut self, stage: Stage, roots: impl IntoIterator<Item = ExprId>) -> Vec<Register> {
+    pub fn emit_all(&mut self, stage: Stage, roots: impl IntoIterator<Item = ExprId>) -> Vec<Register> {
         let roots: Vec<ExprId> = roots.into_iter().collect();
         let mut needed: Vec<ExprId> = Vec::new();
         let mut visited: FxHashSet<ExprId> = FxHashSet::default();
@@ -190,7 +190,7 @@ impl<'s> Layout<'s> {
     /// Emits the default formulas of signals, for callers that do not set signals.
     fn signals(&mut self, system: &ConstraintSystem) {
         for (signal, input) in system.inputs().iter().enumerate().take(self.inputs.count as usize) {
-            let formulas = self.place(Stage::Time, input.formulas);
+            let formulas = self.emit_all(Stage::Time, input.formulas);
             for (order, a) in formulas.into_iter().enumerate() {
                 let to = self.inputs.signal(signal as u32, order as u32);
                 self.operations[Stage::Time as usize].push(Op::Copy { to, a });
@@ -200,25 +200,25 @@ impl<'s> Layout<'s> {
 
     fn rim(&mut self, rim: &ir::Rim) -> PlacedRim {
         let moves = self.graph.dependence(rim.gauge).highest_order().is_some();
-        let terms = self.place(Stage::Rims, self.graph.terms(rim.gauge));
-        let found = self.place(Stage::Rims, [rim.gauge, rim.slope]);
-        PlacedRim { gauge: found[0], slope: found[1], terms, on_time: !moves }
+        let terms = self.emit_all(Stage::Rims, self.graph.terms(rim.gauge));
+        let registers = self.emit_all(Stage::Rims, [rim.gauge, rim.slope]);
+        PlacedRim { gauge: registers[0], slope: registers[1], terms, on_time: !moves }
     }
 
-    /// Returns the stage in which a node is computed when stage `wanted` is the first to need it.
-    fn stage_of(&self, wanted: Stage, id: ExprId) -> Stage {
+    /// Returns the stage in which a node is computed when stage `needed_in` needs it first.
+    fn stage_of(&self, needed_in: Stage, id: ExprId) -> Stage {
         let dependence = self.graph.dependence(id);
         if dependence.is_constant() {
             Stage::Prologue
-        } else if wanted == Stage::Position && !dependence.on(Dependence::coordinates(0)) {
+        } else if needed_in == Stage::Position && !dependence.on(Dependence::coordinates(0)) {
             Stage::Time
         } else {
-            wanted
+            needed_in
         }
     }
 
-    fn emit(&mut self, wanted: Stage, id: ExprId) {
-        let stage = self.stage_of(wanted, id);
+    fn emit(&mut self, needed_in: Stage, id: ExprId) {
+        let stage = self.stage_of(needed_in, id);
         let register = match self.graph.node(id) {
             Node::Const(bits) => self.constant(f64::from_bits(bits)),
             Node::Symbol(symbol) => self.input(symbol),
@@ -304,8 +304,8 @@ impl<'s> Layout<'s> {
 
     fn is_zero(&self, register: Register) -> bool {
         // constants are sorted by register
-        let found = self.constants.binary_search_by_key(&register, |&(register, _)| register);
-        found.is_ok_and(|at| self.constants[at].1 == 0.0)
+        let position = self.constants.binary_search_by_key(&register, |&(register, _)| register);
+        position.is_ok_and(|at| self.constants[at].1 == 0.0)
     }
 
     /// Emits an operation that corresponds to a node of the graph.
@@ -407,11 +407,11 @@ impl<'s> Layout<'s> {
 }
 
 fn pairs(graph: &Graph) -> FxHashSet<ExprId> {
-    let arguments = |wanted: Unary| -> FxHashSet<ExprId> {
+    let arguments = |searched: Unary| -> FxHashSet<ExprId> {
         graph
             .nodes()
             .filter_map(|(_, node)| match node {
-                Node::Unary(function, a) if function == wanted => Some(a),
+                Node::Unary(function, a) if function == searched => Some(a),
                 _ => None,
             })
             .collect()

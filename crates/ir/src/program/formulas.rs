@@ -24,7 +24,7 @@ impl Program {
     ) -> (Program, Vec<Register>, FxHashMap<Register, ExprId>) {
         let [params, coordinates, variations, multipliers] = counts.map(|count| count as u32);
         let mut layout = Layout::of(graph, [params, coordinates, 0, 0, variations, multipliers]);
-        let registers = layout.place(Stage::Measures, roots.iter().copied());
+        let registers = layout.emit_all(Stage::Measures, roots.iter().copied());
         let nodes = graph.reachable(roots).into_iter().map(|id| (layout.register(id), id)).collect();
         (layout.finish(Outputs::default()), registers, nodes)
     }

@@ -83,10 +83,10 @@ impl Enclosure {
                 in_motion[register as usize] = true;
             }
         }
-        let wanted = |register: &Register| in_motion[*register as usize] != on_time;
+        let is_selected = |register: &Register| in_motion[*register as usize] != on_time;
         let switches: Vec<Register> =
             program.switches().iter().filter(|switch| switch.on_time == on_time).map(|switch| switch.to).collect();
-        let of = |list: &[Register]| list.iter().copied().filter(wanted).collect::<Vec<Register>>();
+        let of = |list: &[Register]| list.iter().copied().filter(is_selected).collect::<Vec<Register>>();
         let (conditions, watches) = (of(&program.outputs.conditions), of(&program.outputs.watches));
         let roots: Vec<Register> = switches.iter().chain(&conditions).chain(&watches).copied().collect();
         Enclosure {

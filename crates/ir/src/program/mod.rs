@@ -285,12 +285,12 @@ impl Outputs {
         self.all_with(|with| matches!(with, With::Param(_)))
     }
 
-    fn right_side(&self, wanted: With) -> &[Register] {
-        self.all_with(|with| with == wanted).next().unwrap_or_default()
+    fn right_side(&self, with: With) -> &[Register] {
+        self.all_with(|other| other == with).next().unwrap_or_default()
     }
 
-    fn all_with(&self, is_wanted: impl Fn(With) -> bool) -> impl Iterator<Item = &[Register]> {
-        self.right_sides.iter().filter(move |side| is_wanted(side.with)).map(|side| side.entries.as_slice())
+    fn all_with(&self, is_selected: impl Fn(With) -> bool) -> impl Iterator<Item = &[Register]> {
+        self.right_sides.iter().filter(move |side| is_selected(side.with)).map(|side| side.entries.as_slice())
     }
 
     /// Calls `show` with every register of a result.

@@ -79,7 +79,7 @@ struct Step {
 pub struct Ranges {
     /// Operations that the formulas depend on, with their properties.
     steps: Vec<Step>,
-    found: Vec<u8>,
+    findings: Vec<u8>,
     /// By formula: the operations that earlier formulas do not run, and all operations that it depends on.
     additional: Vec<Vec<u32>>,
     dependencies: Vec<Vec<u32>>,
@@ -141,7 +141,7 @@ impl Ranges {
         let point = |value: f64| Interval { low: value, high: value };
         Ranges {
             steps: operations.iter().map(step).collect(),
-            found: vec![0; operations.len()],
+            findings: vec![0; operations.len()],
             additional,
             dependencies,
             roots: roots.to_vec(),
@@ -200,14 +200,15 @@ impl Ranges {
     /// Returns the range of formula `k`.
     pub fn range(&mut self, program: &Program, registers: &Registers, k: usize) -> Range {
         self.run_up_to(program, registers, k + 1);
-        let found = self.dependencies[k].iter().fold(0, |found, &number| found | self.found[number as usize]);
+        let findings =
+            self.dependencies[k].iter().fold(0, |findings, &number| findings | self.findings[number as usize]);
         let Interval { low, high } = self.values[self.roots[k] as usize];
         Range {
             low,
             high,
-            may_switch: found & flags::SWITCHES != 0,
-            is_resolved: found == 0,
-            crosses_knots: found & flags::CROSSES_KNOTS != 0,
+            may_switch: findings & flags::SWITCHES != 0,
+            is_resolved: findings == 0,
+            crosses_knots: findings & flags::CROSSES_KNOTS != 0,
         }
     }
 
@@ -216,9 +217,9 @@ impl Ranges {
         let v = &mut self.values;
         for &number in &self.additional[k] {
             let Step { op, switched, is_of_table, bounded, third, peak } = self.steps[number as usize];
-            let mut found = if is_resolved_in(op, peak, v) { 0 } else { flags::IS_UNRESOLVED };
+            let mut findings = if is_resolved_in(op, peak, v) { 0 } else { flags::IS_UNRESOLVED };
             if may_jump(op, v) {
-                found |= flags::SWITCHES;
+                findings |= flags::SWITCHES;
             }
             enclose(program, op, v);
             if let Some((to, value)) = within_domain(op, v) {
@@ -240,24 +241,24 @@ impl Ranges {
             let changes = |to: Register| v[to as usize].low.total_cmp(&v[to as usize].high).is_ne();
             if switched.is_some_and(changes) {
                 // a spline continues across its knots
-                found |= if is_of_table { flags::CROSSES_KNOTS } else { flags::SWITCHES };
+                findings |= if is_of_table { flags::CROSSES_KNOTS } else { flags::SWITCHES };
             }
             if third.is_some_and(changes) {
-                found |= flags::SWITCHES;
+                findings |= flags::SWITCHES;
             }
             if let Op::Binary { function: Binary::Pow, to, .. } = op
                 && v[to as usize].high > WIDEST_POWER * v[to as usize].low
             {
-                found |= flags::IS_UNRESOLVED;
+                findings |= flags::IS_UNRESOLVED;
             }
             if peak.is_some_and(|to| v[to as usize].high <= VANISHES) {
                 // however it changes, it is negligible
-                found &= !flags::IS_UNRESOLVED;
+                findings &= !flags::IS_UNRESOLVED;
             }
             if bounded.is_some_and(|to| v[to as usize].high - v[to as usize].low > WIDEST_VALUE) {
-                found |= flags::IS_UNRESOLVED;
+                findings |= flags::IS_UNRESOLVED;
             }
-            self.found[number as usize] = found;
+            self.findings[number as usize] = findings;
         }
     }
 

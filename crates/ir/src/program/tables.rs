@@ -78,7 +78,7 @@ impl Layout<'_> {
 
     /// Lays cells out in consecutive registers and returns the first.
     fn consecutive(&mut self, cells: &[ExprId]) -> Register {
-        let computed = self.place(Stage::Prologue, cells.iter().copied());
+        let computed = self.emit_all(Stage::Prologue, cells.iter().copied());
         let registers: Vec<Register> = cells.iter().map(|_| self.fresh()).collect();
         for ((&cell, &to), a) in cells.iter().zip(&registers).zip(computed) {
             match self.graph.as_const(cell) {

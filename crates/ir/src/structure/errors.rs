@@ -181,7 +181,7 @@ pub fn not_determined_alone(part: &AskingPart, rows: usize, columns: usize) -> D
     let message =
         format!("there is no derivative by the own equations of part `{}`, which is not determined alone", part.name);
     let counts = format!("with its inputs held it has {columns} coordinates and {rows} equations of its own");
-    at_places(Diagnostic::new(Code::E0508, message), part)
+    at_requests(Diagnostic::new(Code::E0508, message), part)
         .note(counts)
         .help(format!("take the derivative where the part is used: `der({}.…, NAME)`", part.name))
         .datum("coordinates", columns)
@@ -194,7 +194,7 @@ pub fn coupled_without_equations(part: &AskingPart) -> Diagnostic {
         "there is no derivative by the own equations of part `{}`, which moves together with what is around it",
         part.name
     );
-    at_places(Diagnostic::new(Code::E0508, message), part)
+    at_requests(Diagnostic::new(Code::E0508, message), part)
         .note("equations were left out, and it cannot be told which of them the part would need alone")
         .help(format!("take the derivative where the part is used: `der({}.…, NAME)`", part.name))
 }
@@ -206,8 +206,8 @@ pub fn force_of_coupled(part: &AskingPart) -> Diagnostic {
         part.name
     );
     let mut diagnostic = Diagnostic::new(Code::E0508, message);
-    if let Some(place) = part.of_force {
-        diagnostic = diagnostic.at(place, "of a force, by the equations of this mechanism alone");
+    if let Some(span) = part.of_force {
+        diagnostic = diagnostic.at(span, "of a force, by the equations of this mechanism alone");
     }
     let help =
         format!("take the derivative where the part is used, by all equations: `der(effort({}.…), NAME)`", part.name);
@@ -215,10 +215,10 @@ pub fn force_of_coupled(part: &AskingPart) -> Diagnostic {
 }
 
 /// Adds the spans where a part requests derivatives, and those where the part is used.
-fn at_places(mut diagnostic: Diagnostic, part: &AskingPart) -> Diagnostic {
-    for (k, place) in part.places.iter().take(LISTED).enumerate() {
+fn at_requests(mut diagnostic: Diagnostic, part: &AskingPart) -> Diagnostic {
+    for (k, span) in part.places.iter().take(LISTED).enumerate() {
         let text = "by the equations of this mechanism alone";
-        diagnostic = if k == 0 { diagnostic.at(*place, text) } else { diagnostic.also(*place, "and here") };
+        diagnostic = if k == 0 { diagnostic.at(*span, text) } else { diagnostic.also(*span, "and here") };
     }
     used_at(diagnostic, part)
 }

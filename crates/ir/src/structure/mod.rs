@@ -163,9 +163,9 @@ fn is_explicit(system: &ConstraintSystem, block: &Block) -> bool {
     let ([row], &[column]) = (block.rows.as_slice(), block.columns.as_slice()) else {
         return false;
     };
-    let own = Symbol::Coordinate { index: column, order: 0 };
+    let variable = Symbol::Coordinate { index: column, order: 0 };
     let slope = system.phi_q().row(*row as usize).iter().find(|&&(used, _)| used == column);
-    slope.is_some_and(|&(_, slope)| !system.graph().symbols(slope).contains(&own))
+    slope.is_some_and(|&(_, slope)| !system.graph().symbols(slope).contains(&variable))
 }
 
 /// The reason why a system is not determined.

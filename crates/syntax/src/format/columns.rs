@@ -59,7 +59,7 @@ impl Cells {
     }
 }
 
-/// Whether bodies on a line each can be brought into columns: they have the same ones, and fit.
+/// Returns whether one-line bodies can be aligned: they have the same columns, and fit.
 fn have_room(rows: &[Row], cells: &[Option<Cells>]) -> bool {
     // the ground has none
     let of_bodies = || cells.iter().flatten().map(|cells| &cells.0).filter(|cells| cells.len() > 1);

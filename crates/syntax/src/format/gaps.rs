@@ -1,4 +1,4 @@
-//! What stands between the lexemes of a formatted text, and how it differs from what stands there now.
+//! Gaps between the lexemes of a formatted text, and the edits that create them.
 
 use super::columns::{self, Cells};
 use super::groups::{Grouped, grouped};
@@ -12,10 +12,10 @@ use mechc_text::source::{FileId, Span};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
-/// What stands before a lexeme.
+/// The text before a lexeme.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Gap {
-    /// What stands there now.
+    /// The present text.
     Kept,
     Spaces(usize),
     /// The end of a line, and blank lines, before a line with an indentation.
@@ -25,7 +25,7 @@ enum Gap {
     },
 }
 
-/// What becomes of a comma behind the last item of a list, or of the place for one.
+/// Change of a comma behind the last item of a list.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Comma {
     Unchanged,
@@ -42,7 +42,7 @@ pub(super) struct Formatted<'a> {
     gaps: Vec<Gap>,
     /// By lexeme.
     commas: Vec<Comma>,
-    /// How often something was looked at.
+    /// Number of examined items.
     pub steps: usize,
 }
 
@@ -171,7 +171,7 @@ impl<'a> Formatted<'a> {
         out + &text[at..]
     }
 
-    /// What to change in the rows that `selects` accepts, by the bytes that they reach from and to.
+    /// Returns the edits in the rows that `selects` accepts by their byte range.
     pub fn edits(&self, text: &str, file: FileId, selects: impl Fn(Range<usize>) -> bool) -> Vec<Edit> {
         let mut edits = Vec::new();
         self.each_change(text, selects, |range, new| {

@@ -188,7 +188,7 @@ fn feature(feature: &Feature) -> String {
     }
 }
 
-/// Where the grammar wants parentheses, whatever stands in them.
+/// Prints an expression in the parentheses that the grammar requires, unless it has them.
 fn pair(e: &Expr) -> String {
     match e.bare().kind {
         ExprKind::Tuple(_) => expression(e),
@@ -196,7 +196,7 @@ fn pair(e: &Expr) -> String {
     }
 }
 
-/// What stands behind a body's `at`.
+/// Prints the pose behind a body's `at`.
 fn placed(pose: &DrawnPose) -> String {
     let parts: Vec<String> = pose.parts().map(expression).collect();
     parts.join(" toward ")

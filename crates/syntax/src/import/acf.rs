@@ -10,7 +10,7 @@ use mechc_text::diag::Diagnostics;
 /// More steps than this are not counted on: each must be a number of its own.
 const MOST_STEPS: f64 = 9e15;
 
-/// How many digits a step may have to be written as a number.
+/// Maximum number of digits of a step that is written as a number.
 const STEP_DIGITS: usize = 6;
 
 /// The analysis that a settings file asks for.

@@ -37,7 +37,7 @@ pub(super) enum Coordinate {
     Y,
 }
 
-/// What a constraint says of its bodies, which are positions in the list.
+/// Kinds of constraints; bodies are positions in the list.
 pub(super) enum Kind {
     Point { coordinate: Coordinate, body: usize, point: Vector<2>, formula: Formula },
     Angle { body: usize, formula: Formula },
@@ -102,7 +102,7 @@ struct Reader<'a> {
     object: &'a Value,
     fields: Fields<'a>,
     place: Span,
-    /// How many bodies there are.
+    /// Number of bodies.
     bodies: usize,
 }
 
@@ -224,7 +224,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Whether two numbers are one and the same.
+/// Returns whether two numbers are equal.
 fn same(a: f64, b: f64) -> bool {
     a.partial_cmp(&b).is_some_and(std::cmp::Ordering::is_eq)
 }

@@ -1,4 +1,4 @@
-//! What is said of a model file that cannot be translated, and of what its translation changed or left behind.
+//! Diagnostics for a model file that cannot be translated, and for what its translation changed or left out.
 
 use super::value::{Rule, Value};
 use crate::DEEPEST;
@@ -25,7 +25,7 @@ pub(super) fn number_not_finite(span: Span) -> Diagnostic {
     fault(span, "this number is not finite", "not finite")
 }
 
-/// What the parser of JSON could not go on with, in human words.
+/// Reports a text that the parser of JSON rejects.
 pub(super) fn not_json(error: &Error<Rule>, text: &str, file: FileId) -> Diagnostic {
     let offset = match error.location {
         InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
@@ -184,7 +184,7 @@ pub(super) fn named(what: &str, new: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::N0702, format!("the {what} without a name is called `{new}`")).at(span, "it has no `name`")
 }
 
-/// What a kinematic model has no place for.
+/// Reports what a kinematic model does not support.
 pub(super) fn left_behind(what: &[String], places: Vec<Span>) -> Diagnostic {
     let listed = match what.split_last() {
         Some((last, [])) => last.clone(),

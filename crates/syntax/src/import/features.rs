@@ -13,16 +13,16 @@ pub(super) struct Features {
     points: Vec<Point>,
     axes: Vec<Axis>,
     circles: Vec<Circle>,
-    /// Where a point, an axis or a circle is in its list, by its numbers: models may have many.
+    /// Positions of points, axes and circles in their lists, by their values: models may have many.
     positions: FxHashMap<Key, usize>,
     used: FxHashSet<String>,
     next: FxHashMap<String, u32>,
 }
 
-/// What makes a feature one and the same: its kind, the position of its point, and the bits of its numbers.
+/// Identity of a feature: its kind, the position of its point, and the bits of its numbers.
 type Key = (&'static str, usize, [u64; 2]);
 
-/// What a point is for.
+/// Purpose of a point.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum Purpose {
     /// A joint with another body, of this name.
@@ -51,7 +51,7 @@ struct Axis {
     name: String,
 }
 
-/// How an axis goes on from its point.
+/// Direction of an axis from its point.
 #[derive(Clone)]
 pub(super) enum Line {
     /// In a direction.
@@ -156,7 +156,7 @@ impl Features {
         self.circles.get(position).map_or("", |circle| &circle.name)
     }
 
-    /// As declarations: points, then what goes through them.
+    /// Returns the declarations: points, then axes and circles.
     pub fn declarations(&self) -> Vec<Feature> {
         let feature = |name: &str, span: Span, kind: FeatureKind| Feature {
             docs: Vec::new(),

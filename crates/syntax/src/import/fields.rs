@@ -9,9 +9,9 @@ use mechc_text::source::Span;
 /// An object whose keys are asked for.
 pub(super) struct Fields<'a> {
     object: &'a Value,
-    /// What it is, for messages: "constraint `rev`".
+    /// Description for messages: "constraint `rev`".
     what: String,
-    /// Where to say that something is missing: a word of it rather than all its lines.
+    /// Span for messages about missing keys: a word of the object rather than all its lines.
     place: Span,
 }
 

@@ -20,7 +20,7 @@ use mechc_text::source::Sources;
 /// A formula of the language, with the places of the MATLAB text that it comes from.
 pub(super) struct Formula {
     pub expression: Expr,
-    /// Whether `t` is in it.
+    /// True if it contains `t`.
     pub uses_time: bool,
 }
 
@@ -57,7 +57,7 @@ fn reads_back(expression: &Expr) -> bool {
     parse_expression(&sources, file).is_ok()
 }
 
-/// How large a formula is.
+/// Size of a formula.
 struct Size {
     parts: usize,
     height: usize,

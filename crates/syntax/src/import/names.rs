@@ -18,11 +18,11 @@ pub(super) struct Names {
 
 /// Something of the model that needs a name.
 pub(super) struct NameRequest<'a> {
-    /// What it is: "body".
+    /// Kind of thing: "body".
     pub what: &'static str,
-    /// What it is called in the model.
+    /// Name in the model.
     pub name: Option<&'a Quoted>,
-    /// Where to say that it has no name.
+    /// Span for the message that it has no name.
     pub place: Span,
 }
 

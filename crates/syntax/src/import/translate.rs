@@ -15,7 +15,7 @@ use mechc_text::diag::Diagnostics;
 use mechc_text::source::Span;
 use std::f64::consts::PI;
 
-/// How long a number may be to stand for the formula that it is the value of.
+/// Longest number that replaces the formula with its value.
 const SHORT: usize = 10;
 
 /// The mechanism that a model describes; `None` where a mistake stands in the way, which has been said.
@@ -79,7 +79,7 @@ struct Translator<'a> {
     bodies: &'a [String],
     /// For each body.
     features: Vec<Features>,
-    /// What is taken in the mechanism's space.
+    /// Names of the mechanism's space.
     names: Names,
 }
 

@@ -71,7 +71,7 @@ const FUNCTIONS: &[(&str, usize, &str)] = &[
     ("uplus", 1, "a"),
 ];
 
-/// Whether a name means something in a formula.
+/// Returns whether a name has a meaning in a formula.
 pub(super) fn is_known(name: &str) -> bool {
     matches!(name, "t" | "pi") || FUNCTIONS.iter().any(|(function, ..)| *function == name)
 }
