@@ -476,8 +476,7 @@ impl Graph {
         }
     }
 
-    /// Rewrites a formula bottom-up. `rule` gets a node and its operation on rewritten operands, and may return a replacement for the
-    /// latter.
+    /// Rewrites a formula bottom-up. `rule` gets a node and its operation on rewritten operands, and may return a replacement for the latter.
     pub fn rewritten(
         &mut self,
         root: ExprId,

@@ -67,8 +67,7 @@ impl Graph {
         &self.tables
     }
 
-    /// Adds the natural or periodic cubic spline through points: at least two, or three if periodic, where the last point repeats the first
-    /// value.
+    /// Adds the natural or periodic cubic spline through points: at least two, or three if periodic, where the last point repeats the first value.
     ///
     /// Source: C. de Boor, *A Practical Guide to Splines*, 1978, chapter IV.
     pub fn spline(&mut self, name: &str, periodic: bool, points: &[[ExprId; 2]]) -> TableId {

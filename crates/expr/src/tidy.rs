@@ -83,8 +83,7 @@ struct Sum {
     number: f64,
 }
 
-/// Factors with their exponents, in the order of their first occurrence, and all numbers as a fraction. Numerator and denominator are kept
-/// apart.
+/// Factors with their exponents, in the order of their first occurrence, and all numbers as a fraction. Numerator and denominator are kept apart.
 struct Product {
     factors: Vec<(ExprId, i32)>,
     above: f64,

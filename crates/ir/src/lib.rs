@@ -275,8 +275,7 @@ impl ConstraintSystem {
         }
     }
 
-    /// Returns the value of a formula of parameters and coordinates at a position `q`. Walks the graph, so it is too slow for the time
-    /// loop.
+    /// Returns the value of a formula of parameters and coordinates at a position `q`. Walks the graph, so it is too slow for the time loop.
     #[must_use]
     pub fn value_at(&self, formula: ExprId, q: &[f64]) -> f64 {
         self.graph.value(formula, |symbol| match symbol {

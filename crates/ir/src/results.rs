@@ -39,8 +39,7 @@ pub struct Reduction {
     pub of: ExprId,
     /// The kind of number.
     pub kind: ReductionKind,
-    /// First and last time (s), as formulas of parameters and other reductions; `None` is the respective end of the analysis. `At` has no
-    /// window.
+    /// First and last time (s), as formulas of parameters and other reductions; `None` is the respective end of the analysis. `At` has no window.
     pub window: [Option<ExprId>; 2],
     /// Span of its first occurrence.
     pub span: Span,
@@ -69,8 +68,7 @@ pub enum ReductionKind {
 }
 
 impl ConstraintSystem {
-    /// Returns the same equations with the variations that results need, and without measures and results; `None` if results need no
-    /// variations.
+    /// Returns the same equations with the variations that results need, and without measures and results; `None` if results need no variations.
     #[must_use]
     pub fn for_variations_of_results(&self) -> Option<ConstraintSystem> {
         let variations = self.results.variations.clone()?;

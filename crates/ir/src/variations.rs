@@ -1,5 +1,4 @@
-//! Derivatives with respect to inputs and parameters at fixed time, along the branch: the *variations* (sensitivities) of `q`, `q̇` and
-//! `q̈`.
+//! Derivatives with respect to inputs and parameters at fixed time, along the branch: the *variations* (sensitivities) of `q`, `q̇` and `q̈`.
 //!
 //! With `F₀ = Φ`, `F₁ = Φ̇`, `F₂ = Φ̈` and `D_p` the total derivative with respect to `p`,
 //!
@@ -56,8 +55,7 @@ pub struct Variation {
     pub by: (u32, Option<u32>),
     /// Index of the scope if the variation follows the equations of one part alone: that of the first variable.
     pub scope: Option<u32>,
-    /// Right sides for `q`, `q̇` and `q̈`, one entry per row of the system or of the scope [unit of the row, per time, per unit of the
-    /// variables].
+    /// Right sides for `q`, `q̇` and `q̈`, one entry per row of the system or of the scope [unit of the row, per time, per unit of the variables].
     pub rights: [Vec<ExprId>; 3],
     /// Right sides of the equations for the multipliers, one entry per coordinate, if forces are requested; else empty [unit of the
     /// coordinate's force per unit of the variables].
@@ -265,8 +263,7 @@ impl Variations {
         }
     }
 
-    /// Returns the right sides for varied multipliers: `D_a (p − Φ_qᵀ λ)` without `λ_a`; for second derivatives `D_b` of the whole, without
-    /// `λ_ab`.
+    /// Returns the right sides for varied multipliers: `D_a (p − Φ_qᵀ λ)` without `λ_a`; for second derivatives `D_b` of the whole, without `λ_ab`.
     fn rights_of_forces(&mut self, graph: &mut Graph, open_forces: &[ExprId], number: usize) -> Vec<ExprId> {
         match self.list[number].by {
             (first, None) => self.along(graph, open_forces, first, &|symbol| matches!(symbol, Symbol::Multiplier(_))),
@@ -416,8 +413,7 @@ impl ConstraintSystem {
         hold
     }
 
-    /// Returns the condition that a left-out equation holds near a position: `|D_p Φ| ≤ ε ‖Φ_q‖ Σ |q_p|`, all scaled; analogously for two
-    /// variables.
+    /// Returns the condition that a left-out equation holds near a position: `|D_p Φ| ≤ ε ‖Φ_q‖ Σ |q_p|`, all scaled; analogously for two variables.
     fn holds_nearby(&mut self, variations: &mut Variations, check: usize, number: u32) -> ExprId {
         let Check { phi, scale, .. } = self.checks[check];
         let (first, second) = variations.list[number as usize].by;

@@ -1,7 +1,7 @@
 //! Diagnostics for a text that does not follow the grammar.
 
 use super::fixits::{Fault, FixIt};
-use super::foreign_syntax::{Correction, ForeignDeclaration};
+use super::foreign_syntax::{Correction, Foreign};
 use super::grammar::Rule;
 use super::tokens::tokens;
 use mechc_text::diag::{Applies, Code, Diagnostic, Edit, Fix};
@@ -200,7 +200,7 @@ fn with_suggestions(diagnostic: Diagnostic, fault: &Fault<'_>, source: &Source, 
         Some((at, text)) => diagnostic.also(Span { file: fault.file, start: at as u32, end: at as u32 + 1 }, text),
         None => diagnostic,
     };
-    let foreign = ForeignDeclaration::new(fault.text, fault.file, fault.at, fault.found, fault.expected);
+    let foreign = Foreign::new(fault.text, fault.file, fault.at, fault.found, fault.expected);
     if let Some(correction) = foreign.correction() {
         return with_correction(diagnostic, correction);
     }

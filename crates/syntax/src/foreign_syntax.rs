@@ -17,7 +17,7 @@ use mechc_text::vocabulary::{Dimension, Keyword, Place, QuantityWord, Role, Syno
 use std::ops::Range;
 
 /// A declaration with a fault, by its words before and after the fault.
-pub(super) struct ForeignDeclaration<'a> {
+pub(super) struct Foreign<'a> {
     text: &'a str,
     file: FileId,
     at: usize,
@@ -44,9 +44,9 @@ pub(super) enum Correction {
     },
 }
 
-impl<'a> ForeignDeclaration<'a> {
+impl<'a> Foreign<'a> {
     /// Creates the declaration around a word or character at a byte, where other rules were expected.
-    pub fn new(text: &'a str, file: FileId, at: usize, found: &'a str, expected: &'a [Rule]) -> ForeignDeclaration<'a> {
+    pub fn new(text: &'a str, file: FileId, at: usize, found: &'a str, expected: &'a [Rule]) -> Foreign<'a> {
         let all = tokens(&text[..at]);
         let opens = |word: &str| Keyword::named(word).is_some_and(|keyword| keyword.role == Role::Opener);
         let word = |k: usize| all.get(k).map_or("", |token| token.text);
@@ -75,16 +75,7 @@ impl<'a> ForeignDeclaration<'a> {
         let is_here = |token: &Token<'_>| token.start == at || token.text != "}" && !begins_declaration(text, *token);
         let in_text = |token: Token<'a>| Token { start: at + token.start, ..token };
         let rest = tokens(line).into_iter().map(in_text).take_while(is_here).collect();
-        ForeignDeclaration {
-            text,
-            file,
-            at,
-            found,
-            expected,
-            before: all[start.min(all.len())..].to_vec(),
-            rest,
-            bodies,
-        }
+        Foreign { text, file, at, found, expected, before: all[start.min(all.len())..].to_vec(), rest, bodies }
     }
 
     /// Returns the correction for the fault, if one is unambiguous.
@@ -164,7 +155,7 @@ impl<'a> ForeignDeclaration<'a> {
         (is_unit && is_number).then(|| {
             let unit_only = self.edit(self.at..self.at + unit.len() + 2, unit.trim());
             let message = format!("a unit follows its number without brackets: `{} {}`", last.text, unit.trim());
-            ForeignDeclaration::change(message, vec![unit_only])
+            Foreign::change(message, vec![unit_only])
         })
     }
 
@@ -188,16 +179,13 @@ impl<'a> ForeignDeclaration<'a> {
         }
         Some(if is_list {
             let edits = vec![self.edit(start..start, "("), self.edit(end..end, ")")];
-            ForeignDeclaration::change(format!("{what} in parentheses: `({written})`"), edits)
+            Foreign::change(format!("{what} in parentheses: `({written})`"), edits)
         } else {
             // of a place given by its distance and angle only the angle counts
             let polar = written.strip_prefix("polar(").and_then(|rest| rest.strip_suffix(')'));
             let angle = polar.and_then(|rest| between_commas(rest).get(1).copied()).unwrap_or(written).trim();
             let pair = format!("(cos({angle}), sin({angle}))");
-            ForeignDeclaration::change(
-                format!("{what}; that of an angle is `{pair}`"),
-                vec![self.edit(start..end, &pair)],
-            )
+            Foreign::change(format!("{what}; that of an angle is `{pair}`"), vec![self.edit(start..end, &pair)])
         })
     }
 
@@ -207,7 +195,7 @@ impl<'a> ForeignDeclaration<'a> {
         let is_in_formula = self.before.iter().any(|token| token.text == "(") && self.before.len() > 2;
         (self.is_word() && is_owner && is_in_formula).then(|| {
             let message = format!("what belongs to a body is written `{}.{}`", last.text, self.found);
-            ForeignDeclaration::change(message, vec![self.edit(last.end()..self.at, ".")])
+            Foreign::change(message, vec![self.edit(last.end()..self.at, ".")])
         })
     }
 
@@ -227,12 +215,12 @@ impl<'a> ForeignDeclaration<'a> {
         if is_number {
             let unit = named(1)?;
             let message = format!("a unit follows its number without `in`: `{} {unit}`", last.text);
-            return Some(ForeignDeclaration::change(message, vec![self.edit(self.at..self.rest.get(1)?.start, "")]));
+            return Some(Foreign::change(message, vec![self.edit(self.at..self.rest.get(1)?.start, "")]));
         }
         let from = usize::from(is_joined);
         let unit = named(from)?;
         if !is_joined && Unit::named(last.text).is_some() {
-            return Some(self.adjacent_units(last).unwrap_or_else(|| ForeignDeclaration::both_ways(unit)));
+            return Some(self.adjacent_units(last).unwrap_or_else(|| Foreign::both_ways(unit)));
         }
         let behind: Vec<&str> = self.rest[from + 1..].iter().map(|token| token.text).collect();
         let is_power = |word: &str| word.parse::<u32>().is_ok() || ["/", "*", "^", "-"].contains(&word);
@@ -244,13 +232,13 @@ impl<'a> ForeignDeclaration<'a> {
             let unit = unit.to_owned() + &behind.concat();
             let words = format!("the unit in which it is printed stands behind `in`: `in {unit}`");
             let end = if behind.is_empty() { self.rest[from].end() } else { self.end() };
-            return Some(ForeignDeclaration::change(words, vec![self.edit(self.at..end, &format!("in {unit}"))]));
+            return Some(Foreign::change(words, vec![self.edit(self.at..end, &format!("in {unit}"))]));
         }
         let unit = match behind[..] {
             ["/", "s"] => format!("({unit}/s)"),
             _ => unit.to_owned(),
         };
-        Some(ForeignDeclaration::both_ways(&unit))
+        Some(Foreign::both_ways(&unit))
     }
 
     /// `3 N m`
@@ -265,7 +253,7 @@ impl<'a> ForeignDeclaration<'a> {
         };
         let unit = format!("{}*{}{power}", last.text, self.found);
         let message = format!("a product of units is written with `*`: `{} {unit}`", number.text);
-        Some(ForeignDeclaration::change(message, vec![self.edit(last.end()..self.at, "*")]))
+        Some(Foreign::change(message, vec![self.edit(last.end()..self.at, "*")]))
     }
 
     fn both_ways(unit: &str) -> Correction {
@@ -287,7 +275,7 @@ impl<'a> ForeignDeclaration<'a> {
         Some(if keyword == "driver" && is_rate(self.rest.get(1..).unwrap_or_default()) {
             let edits =
                 vec![self.edit(self.at..self.at + self.found.len(), "="), self.edit(self.end()..self.end(), " * t")];
-            ForeignDeclaration::change(format!("a driver is an equation: `{left} = {value} * t`"), edits)
+            Foreign::change(format!("a driver is an equation: `{left} = {value} * t`"), edits)
         } else {
             Correction::Words(format!("a {keyword} is an equation: `{left} = …`"))
         })

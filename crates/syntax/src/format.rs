@@ -5,8 +5,7 @@
 //! formatted and the rest stays unchanged.
 //!
 //! ```text
-//! text ──lexemes──▶ rows ──words, columns──▶ groups ──layout──▶ gaps ──▶ edits
-//! tree ────────────▶
+//! text ──lexemes──▶ rows ──words, columns──▶ groups ──layout──▶ gaps ──▶ edits tree ────────────▶
 //! ```
 //!
 //! A tree without text is printed without regard to lines, and then formatted like any text ([`format()`]).

@@ -286,8 +286,7 @@ fn begins(role: Role) -> bool {
     matches!(role, Role::Declaration | Role::Feature) || role.is_opener()
 }
 
-/// Returns whether a word that may begin a declaration does so at a token: a name stands behind it with its definition, or the line begins
-/// here.
+/// Returns whether a word that may begin a declaration does so at a token: a name stands behind it with its definition, or the line begins here.
 fn opens(text: &str, tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
     if !is_before_a_name(tokens[k].text) {
         return opens_with_a_formula(text, tokens, roles, k);

@@ -106,8 +106,7 @@ pub fn may_begin_a_bound(token: &str, is_apart: bool) -> bool {
     }
 }
 
-/// Returns whether a word that may be a name is one between two tokens: a connecting word stands behind an operand, and a keyword not next
-/// to a dot.
+/// Returns whether a word that may be a name is one between two tokens: a connecting word stands behind an operand, and a keyword not next to a dot.
 fn is_name(role: Role, before: &str, behind: &str) -> bool {
     let is_declared = is_declaration(before) && !matches!(before, "analysis" | "ground");
     let is_operand = matches!(before, "(" | "+" | "-" | "*" | "/" | "^" | "<" | ">" | ",") && role != Role::Side;

@@ -3,8 +3,7 @@
 //! A program has one register file and a list of operations per [`Stage`]. Registers live through all stages, so the acceleration reuses
 //! what the position has computed. The graph holds common subexpressions once; sine and cosine of an angle are computed together.
 //!
-//! Each branch of a formula is decided by a [`Switch`], whose result can be frozen while a step is tried, and checked when the step is
-//! done.
+//! Each branch of a formula is decided by a [`Switch`], whose result can be frozen while a step is tried, and checked when the step is done.
 //!
 //! Operations that depend on parameters alone run once, in the prologue; those that depend on time alone run once per time and not once per
 //! iteration.
@@ -351,8 +350,7 @@ pub struct Switch {
 }
 
 impl Program {
-    /// Returns the program with signals as inputs: without the operations that compute them from the text's formulas. Registers keep their
-    /// indices.
+    /// Returns the program with signals as inputs: without the operations that compute them from the text's formulas. Registers keep their indices.
     #[must_use]
     pub fn with_signals_given(&self) -> Program {
         let signals = self.inputs.all_signals();

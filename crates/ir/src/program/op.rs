@@ -92,8 +92,7 @@ pub enum Op {
         d: Register,
         e: Register,
     },
-    /// Sine and cosine of an angle after a small rotation by `delta`, from those before and half of `delta`: three terms of the Taylor
-    /// series.
+    /// Sine and cosine of an angle after a small rotation by `delta`, from those before and half of `delta`: three terms of the Taylor series.
     Turn {
         to_sin: Register,
         to_cos: Register,

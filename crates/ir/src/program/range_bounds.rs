@@ -1,10 +1,9 @@
 //! Ranges of formulas over a stretch of the motion: a program's operations, run on intervals.
 //!
-//! Unlike an [`Enclosure`](super::Enclosure), which proves that no switch changes, a range holds the values of all branches that
-//! may be taken, and says whether the formula may jump among them. A caller that knows on which side of its threshold a switch
-//! stays can hold it there.
+//! Unlike an [`Enclosure`](super::Enclosure), which proves that no switch changes, a range holds the values of all branches that may be taken, and
+//! says whether the formula may jump among them. A caller that knows on which side of its threshold a switch stays can hold it there.
 
-use super::interval_eval::{Interval, backward_slice, enclose};
+use super::interval_eval::{Interval, backward_slice, binary_range, enclose, unary_range};
 use super::{Op, Program, Register, Registers, Stage};
 use crate::tolerances::results::range_bounds::{
     HIGH_POWER, VANISHES, WIDEST, WIDEST_POWER, WIDEST_RATIO, WIDEST_VALUE,
@@ -329,7 +328,7 @@ fn within_domain(op: Op, v: &[Interval]) -> Option<(Register, Interval)> {
         let (base, power) = (v[a as usize], v[b as usize]);
         let is_partly = base.low < 0.0 && base.high >= 0.0 && power.low > 0.0 && power.low.fract() != 0.0;
         let base = Interval { low: 0.0, ..base };
-        return is_partly.then(|| (to, super::interval_eval::binary_range(function, base, power)));
+        return is_partly.then(|| (to, binary_range(function, base, power)));
     }
     let Op::Unary { function, to, a } = op else { return None };
     let [least, most] = match function {
@@ -339,9 +338,7 @@ fn within_domain(op: Op, v: &[Interval]) -> Option<(Register, Interval)> {
     };
     let Interval { low, high } = v[a as usize];
     let is_partly = (low < least || high > most) && low <= most && high >= least;
-    is_partly.then(|| {
-        (to, super::interval_eval::unary_range(function, Interval { low: low.max(least), high: high.min(most) }))
-    })
+    is_partly.then(|| (to, unary_range(function, Interval { low: low.max(least), high: high.min(most) })))
 }
 
 /// Returns whether a function without a switch may jump: across the cut of `atan2`, or at a pole of `tan`.
@@ -352,7 +349,7 @@ fn may_jump(op: Op, v: &[Interval]) -> bool {
             x.low <= 0.0 && y.low <= 0.0 && y.high >= 0.0
         }
         Op::Unary { function: Unary::Tan, a, .. } => {
-            let tangent = super::interval_eval::unary_range(Unary::Tan, v[a as usize]);
+            let tangent = unary_range(Unary::Tan, v[a as usize]);
             tangent.high - tangent.low == f64::INFINITY
         }
         _ => false,

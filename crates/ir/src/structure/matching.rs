@@ -1,10 +1,9 @@
 //! Maximum matching of equations to coordinates, and the blocks that follow from it.
 //!
-//! Rows and columns with a single free partner are matched first, as no other choice is better (R. Karp and M. Sipser, *Maximum matchings
-//! in sparse random graphs*, 1981); for an open chain of bodies that matches everything. The rest grows by augmenting paths, each found by
-//! a depth-first search with a look-ahead (I. S. Duff, *On algorithms for obtaining a maximum transversal*, 1981). The blocks are the
-//! strongly connected components of the matched graph (R. Tarjan, 1972), which come out in an order of solution. Neither algorithm
-//! recurses.
+//! Rows and columns with a single free partner are matched first, as no other choice is better (R. Karp and M. Sipser, *Maximum matchings in sparse
+//! random graphs*, 1981); for an open chain of bodies that matches everything. The rest grows by augmenting paths, each found by a depth-first search
+//! with a look-ahead (I. S. Duff, *On algorithms for obtaining a maximum transversal*, 1981). The blocks are the strongly connected components of the
+//! matched graph (R. Tarjan, 1972), which come out in an order of solution. Neither algorithm recurses.
 
 use super::{Block, Subsystem};
 use crate::SparseRows;

@@ -39,8 +39,7 @@ pub fn steps(determined: &Determined) -> Vec<Step> {
     steps
 }
 
-/// Chooses the next step among groups of blocks: the single-coordinate blocks of one body or joint form a group, and so does every larger
-/// block.
+/// Chooses the next step among groups of blocks: the single-coordinate blocks of one body or joint form a group, and so does every larger block.
 struct Planner {
     /// By block: its group, the blocks that it depends on, and whether it is done.
     group: Vec<usize>,

@@ -46,8 +46,7 @@ pub mod sharing {
     pub const MOST_WORK: usize = 1_000_000_000;
 }
 
-/// Free motions and suggestions to fix them (`crates/engine/src/analysis/explain/freedom.rs`,
-/// `crates/engine/src/analysis/explain/proposals.rs`).
+/// Free motions and suggestions to fix them (`crates/engine/src/analysis/explain/freedom.rs`, `crates/engine/src/analysis/explain/proposals.rs`).
 pub mod freedom {
     /// Largest residual of an assembled position; free motions are only reported at one.
     pub const ASSEMBLED: f64 = 1e-8;

@@ -54,8 +54,7 @@ pub mod variants {
     pub const NEARLY: f64 = 8_192.0;
     /// Largest residual between output times, relative to that of a variant on its own.
     pub const RESIDUAL_OF_STEP: f64 = 1e4;
-    /// A variant closer to a singular position than this leaves the batch: at this distance no row is in doubt, and no step is examined
-    /// inside.
+    /// A variant closer to a singular position than this leaves the batch: at this distance no row is in doubt, and no step is examined inside.
     pub const NEAREST: f64 = 0.04;
     /// Largest first correction, as a part of the distance to a singular position: other branches are farther away.
     pub const PART_OF_DISTANCE: f64 = 0.25;

@@ -23,8 +23,7 @@ pub mod march {
     pub const LARGEST_MOTION: f64 = 0.5;
     /// A step can be longer if its first correction is this many times below the largest one: the error of the predictor grows with h³.
     pub const CALM_CORRECTION: f64 = 12.0;
-    /// A step can be longer if its correction between the ends is this many times below the largest one: the error of the curve grows with
-    /// h⁶.
+    /// A step can be longer if its correction between the ends is this many times below the largest one: the error of the curve grows with h⁶.
     pub const CALM_BETWEEN: f64 = 100.0;
     /// A step that covers this part of the rest is extended to the whole rest.
     pub const CRUMB: f64 = 0.999;

@@ -1,10 +1,10 @@
 //! `ground` in place of one of its features.
 
-use super::{Correction, ForeignDeclaration, is_name};
+use super::{Correction, Foreign, is_name};
 use crate::tokens::{Token, begins_declaration, tokens};
 use mechc_text::vocabulary::is_feature;
 
-impl ForeignDeclaration<'_> {
+impl Foreign<'_> {
     /// `x(ground)`, `ground O`, `ground->O`
     pub(super) fn ground_feature(&self) -> Option<Correction> {
         let ground = Token { start: self.at, text: self.found };
@@ -19,7 +19,7 @@ impl ForeignDeclaration<'_> {
         };
         if let Some((feature, k)) = feature.filter(|(feature, _)| is_name(feature)) {
             let dot = self.edit(ground.end()..self.rest[k].start, ".");
-            return Some(ForeignDeclaration::change(
+            return Some(Foreign::change(
                 format!("what belongs to the ground is written `ground.{feature}`"),
                 vec![dot],
             ));
@@ -29,7 +29,7 @@ impl ForeignDeclaration<'_> {
             [] => Correction::Words("name one of its features: `ground.…`".to_owned()),
             [only] => {
                 let edit = self.edit(self.at..ground.end(), &format!("ground.{only}"));
-                ForeignDeclaration::change(format!("name one of its features: `ground.{only}`"), vec![edit])
+                Foreign::change(format!("name one of its features: `ground.{only}`"), vec![edit])
             }
             _ => {
                 let names: Vec<String> = features.iter().take(4).map(|name| format!("`ground.{name}`")).collect();

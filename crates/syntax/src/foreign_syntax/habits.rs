@@ -1,12 +1,12 @@
 //! Habits from other languages: array sizes behind a name, types, several values for one name.
 
 use super::heads::LONGEST_SHOWN;
-use super::{Correction, ForeignDeclaration, is_name};
+use super::{Correction, Foreign, is_name};
 use crate::grammar::Rule;
 use crate::tokens::tokens;
 use mechc_text::vocabulary::{Keyword, Unit};
 
-impl ForeignDeclaration<'_> {
+impl Foreign<'_> {
     /// `body arm[3]`, `joint pin[n]: …`, `body cell[2, 3]`
     pub(super) fn array_size(&self, keyword: &str) -> Option<Correction> {
         let [_, name, bracket, ..] = self.before.as_slice() else { return None };
@@ -29,7 +29,7 @@ impl ForeignDeclaration<'_> {
         let ranges = ranges?.join(", ");
         let message =
             format!("what is repeated has an index with its range, from 0 on: `{keyword} {}[{ranges}]`", name.text);
-        Some(ForeignDeclaration::change(message, vec![self.edit(bracket.end()..close.start, &ranges)]))
+        Some(Foreign::change(message, vec![self.edit(bracket.end()..close.start, &ranges)]))
     }
 
     /// Returns the index range for a size: `3` and `n` count from 0; `1..4` is a range already.
@@ -63,10 +63,7 @@ impl ForeignDeclaration<'_> {
         let Some(unit) = unit else {
             let shown = if value_text.chars().count() <= LONGEST_SHOWN { value_text } else { "…" };
             let written = format!("{keyword} {} = {shown}", name.text);
-            return Some(ForeignDeclaration::change(
-                format!("a type is not written, its value has one: `{written}`"),
-                edits,
-            ));
+            return Some(Foreign::change(format!("a type is not written, its value has one: `{written}`"), edits));
         };
         let unit = unit.word.name;
         let message = format!("a unit stands behind its number: `{keyword} {} = {} {unit}`", name.text, first.text);
@@ -74,7 +71,7 @@ impl ForeignDeclaration<'_> {
             return Some(Correction::Words("a unit stands behind each number, and not behind the name".to_owned()));
         }
         edits.push(self.edit(first.end()..first.end(), &format!(" {unit}")));
-        Some(ForeignDeclaration::change(message, edits))
+        Some(Foreign::change(message, edits))
     }
 
     /// `trace path = crank.A, rod.B`, `measure h = x(rod.A), y(rod.A)`, `measure d = crank.A, rod.B`
@@ -93,10 +90,7 @@ impl ForeignDeclaration<'_> {
         if let ("measure", [from, to], true) = (keyword, &values[..], values.iter().all(|value| is_path(value))) {
             let edits =
                 vec![self.edit(self.before[3].start..self.before[3].start, "distance("), self.edit(end..end, ")")];
-            return Some(ForeignDeclaration::change(
-                format!("the distance of two points is `distance({from}, {to})`"),
-                edits,
-            ));
+            return Some(Foreign::change(format!("the distance of two points is `distance({from}, {to})`"), edits));
         }
         let names: Vec<String> = (2..=values.len()).map(|k| format!("{}_{k}", name.text)).collect();
         let apart = format!("{what}: each has its own `{keyword}`");
@@ -112,7 +106,7 @@ impl ForeignDeclaration<'_> {
         let unit = &self.text[end..self.end()];
         let gap = format!("{unit}{}", self.gap_between_declarations());
         let rest = format!("{gap}{}{unit}", others.join(&gap));
-        Some(ForeignDeclaration::change(message, vec![self.edit(self.at..self.end(), &rest)]))
+        Some(Foreign::change(message, vec![self.edit(self.at..self.end(), &rest)]))
     }
 
     /// Returns the formulas between commas behind `=`, and where the last one ends.

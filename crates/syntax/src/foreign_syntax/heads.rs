@@ -1,12 +1,12 @@
 //! Heads of declarations: missing, split or misplaced names, and missing arguments.
 
-use super::{Correction, ForeignDeclaration, hyphenated_at, is_name};
+use super::{Correction, Foreign, hyphenated_at, is_name};
 use crate::grammar::Rule;
 use crate::tokens::{Token, tokens};
 use mechc_text::diag::{Applies, Fix};
 use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym, is_called, is_declaration};
 
-impl ForeignDeclaration<'_> {
+impl Foreign<'_> {
     /// Returns a correction of the head of a declaration.
     pub(super) fn declaration_head(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         self.hyphenated_name(last)
@@ -27,7 +27,7 @@ impl ForeignDeclaration<'_> {
         let written = name.replace(is_dash, "_");
         let uses = tokens(self.text).into_iter().filter(|token| hyphenated_at(self.text, token.start) == Some(name));
         let edits = uses.map(|token| self.edit(token.start..token.start + name.len(), &written)).collect();
-        Some(ForeignDeclaration::change(format!("a name has no `{}`: write `{written}`", self.found), edits))
+        Some(Foreign::change(format!("a name has no `{}`: write `{written}`", self.found), edits))
     }
 
     /// Returns whether the name has been read and the separator behind it is missing.
@@ -94,14 +94,14 @@ impl ForeignDeclaration<'_> {
             return None;
         }
         let edit = self.edit(string.start..string.end(), &name);
-        Some(ForeignDeclaration::change(format!("a name stands without quotes: `{name}`"), vec![edit]))
+        Some(Foreign::change(format!("a name stands without quotes: `{name}`"), vec![edit]))
     }
 
     /// `mechanism crank rocker {`, `joint j 1: …`, `ground g {`
     fn name_of_several_words(&self, keyword: &str) -> Option<Correction> {
         if keyword == "ground" && self.before.len() == 1 && self.expects(Rule::open) && is_name(self.found) {
             let edit = self.edit(self.before[0].end()..self.at + self.found.len(), "");
-            return Some(ForeignDeclaration::change("the ground has no name: `ground {`".to_owned(), vec![edit]));
+            return Some(Foreign::change("the ground has no name: `ground {`".to_owned(), vec![edit]));
         }
         let name = self.before.get(1).filter(|_| self.is_behind_the_name() && !self.expects(Rule::left))?;
         let separators: &[&str] = match keyword {
@@ -124,7 +124,7 @@ impl ForeignDeclaration<'_> {
         // by its first word it is called elsewhere
         if self.is_used_by(name) {
             let message = format!("a name is one word: `{}`", name.text);
-            return Some(ForeignDeclaration::change(message, vec![self.edit(name.end()..last, "")]));
+            return Some(Foreign::change(message, vec![self.edit(name.end()..last, "")]));
         }
         let words = std::iter::once(name.text).chain(parts.iter().map(|token| token.text)).filter(|word| *word != ".");
         let written = words.collect::<Vec<_>>().join("_");
@@ -132,7 +132,7 @@ impl ForeignDeclaration<'_> {
             return None;
         }
         let edit = self.edit(name.start..last, &written);
-        Some(ForeignDeclaration::change(format!("a name is one word: write `{written}`"), vec![edit]))
+        Some(Foreign::change(format!("a name is one word: write `{written}`"), vec![edit]))
     }
 
     /// Returns whether a name that is declared here occurs elsewhere without a declaration.
@@ -151,7 +151,7 @@ impl ForeignDeclaration<'_> {
         }
         if keyword == "param" && self.found == "(" && !is_called(last.text) {
             let edit = self.edit(self.before[0].start..self.before[0].end(), "fn");
-            return Some(ForeignDeclaration::change("what has an argument is declared by `fn`".to_owned(), vec![edit]));
+            return Some(Foreign::change("what has an argument is declared by `fn`".to_owned(), vec![edit]));
         }
         if !self.expects(Rule::left) {
             return None;
@@ -165,7 +165,7 @@ impl ForeignDeclaration<'_> {
         }
         let edit = self.edit(last.end()..end, &format!("({argument})"));
         let message = format!("its argument stands behind the name: `{keyword} {}({argument}) = …`", last.text);
-        Some(ForeignDeclaration::change(message, vec![edit]))
+        Some(Foreign::change(message, vec![edit]))
     }
 }
 

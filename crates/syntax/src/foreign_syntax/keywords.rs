@@ -1,10 +1,10 @@
 //! Declarations with a missing or a wrong keyword.
 
-use super::{Correction, ForeignDeclaration, holds_quantity, is_name};
+use super::{Correction, Foreign, holds_quantity, is_name};
 use crate::grammar::Rule;
 use mechc_text::vocabulary::{JointWord, Keyword, Place, Role, Synonym};
 
-impl ForeignDeclaration<'_> {
+impl Foreign<'_> {
     /// `a = 30 mm`, `j: revolute(…)`, `revolute j: (…)`, where a declaration begins.
     pub(super) fn missing_keyword(&self) -> Option<Correction> {
         if self.found == "inertia" && self.begins_feature() {
@@ -21,10 +21,7 @@ impl ForeignDeclaration<'_> {
                 let end = self.rest[if words[2] == ":" { 3 } else { 2 }].start;
                 let kind = kind_of_joint(kind);
                 let edit = self.edit(self.at..end, &format!("joint {name}: {kind}"));
-                Some(ForeignDeclaration::change(
-                    format!("a joint is declared by `joint {name}: {kind}(…)`"),
-                    vec![edit],
-                ))
+                Some(Foreign::change(format!("a joint is declared by `joint {name}: {kind}(…)`"), vec![edit]))
             }
             [kind, "(", ..] if JointWord::named(kind).is_some() => {
                 Some(Correction::Words(format!("a joint is declared by `joint NAME: {kind}(…)`")))
@@ -32,7 +29,7 @@ impl ForeignDeclaration<'_> {
             [_, ":" | "=", _, ..] => self.keyword_by_value(&words),
             [name, "{"] | [name, "{", ..] if self.begins_large() => {
                 let edit = self.edit(self.at..self.at, "body ");
-                Some(ForeignDeclaration::change(format!("a body is declared by `body {name} {{`"), vec![edit]))
+                Some(Foreign::change(format!("a body is declared by `body {name} {{`"), vec![edit]))
             }
             [_, _] => {
                 let synonym = Synonym::of(Place::Declaration, self.found)?;
@@ -58,10 +55,7 @@ impl ForeignDeclaration<'_> {
         };
         let separator = if has_value { " =" } else { ":" };
         let edit = self.edit(self.at..self.at, &format!("{keyword} "));
-        Some(ForeignDeclaration::change(
-            format!("a {keyword} is declared by `{keyword} {name}{separator} …`"),
-            vec![edit],
-        ))
+        Some(Foreign::change(format!("a {keyword} is declared by `{keyword} {name}{separator} …`"), vec![edit]))
     }
 
     /// `joint j: (…)`, `joint j: distance(…) = …`
@@ -81,10 +75,7 @@ impl ForeignDeclaration<'_> {
         let has_time = self.rest.iter().any(|token| token.text == "t");
         let instead = if has_time { "driver" } else { "constraint" };
         let edit = self.edit(joint.start..joint.end(), instead);
-        Some(ForeignDeclaration::change(
-            format!("an equation is a `{instead}`: `{instead} {}: …`", name.text),
-            vec![edit],
-        ))
+        Some(Foreign::change(format!("an equation is a `{instead}`: `{instead} {}: …`", name.text), vec![edit]))
     }
 
     fn begins_large(&self) -> bool {

@@ -1,12 +1,12 @@
 //! Contents of a declaration: arguments without parentheses, incomplete features, table rows that are not pairs.
 
-use super::{Correction, ForeignDeclaration, is_name};
+use super::{Correction, Foreign, is_name};
 use crate::grammar::Rule;
 use crate::tokens::{Token, begins_declaration};
 use mechc_text::diag::{Applies, Fix};
 use mechc_text::vocabulary::{JointWord, Keyword, QuantityWord, Role};
 
-impl ForeignDeclaration<'_> {
+impl Foreign<'_> {
     /// `joint j: revolute A, B`, `rotation j = …`, `x arm.tip`
     pub(super) fn bare_arguments(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         let is_kind = keyword == "joint" && last.text == ":" && JointWord::named(self.found).is_some();
@@ -30,7 +30,7 @@ impl ForeignDeclaration<'_> {
             return Some(Correction::Words(message));
         }
         let edit = self.edit(called.start..end.end(), &written);
-        Some(ForeignDeclaration::change(message, vec![edit]))
+        Some(Foreign::change(message, vec![edit]))
     }
 
     /// Returns whether a quantity lacks its parentheses; the argument of `x` and `y` must be a point, since these may be names.
@@ -49,10 +49,7 @@ impl ForeignDeclaration<'_> {
         let next = self.rest.get(1)?;
         let word = if next.text == "(" { "along" } else { "to" };
         let message = format!("write `{word}` instead of the `,`");
-        Some(ForeignDeclaration::change(
-            message,
-            vec![self.edit(self.before.last()?.end()..next.start, &format!(" {word} "))],
-        ))
+        Some(Foreign::change(message, vec![self.edit(self.before.last()?.end()..next.start, &format!(" {word} "))]))
     }
 
     /// `circle c = (0, 0, 6 mm)`, `axis a = (0, 1)`, `load push: 20 N`, after which nothing comes: it is told where it ends.
@@ -95,7 +92,7 @@ impl ForeignDeclaration<'_> {
         let radius = self.text[place.get(comma + 1)?.start..last.start].trim_end();
         let written = format!("{}) radius {radius}", &self.text[start..place[comma - 1].end()]);
         let edit = self.edit(start..last.end(), &written);
-        Some(ForeignDeclaration::change(format!("the radius stands behind the center: `{written}`"), vec![edit]))
+        Some(Foreign::change(format!("the radius stands behind the center: `{written}`"), vec![edit]))
     }
 
     /// `body b (0, 0, 0) {`, `body b { at (0, 0, 0) …`
@@ -115,10 +112,7 @@ impl ForeignDeclaration<'_> {
         let close = self.rest.iter().find(|token| token.text == ")")?;
         let pose = &self.text[self.at..close.end()];
         let edit = self.edit(last.start..close.end(), &format!("{pose} {{"));
-        Some(ForeignDeclaration::change(
-            format!("the pose stands before the `{{`: `body {} {pose} {{`", name.text),
-            vec![edit],
-        ))
+        Some(Foreign::change(format!("the pose stands before the `{{`: `body {} {pose} {{`", name.text), vec![edit]))
     }
 
     /// `circle c = P diameter 12 mm`
@@ -128,7 +122,7 @@ impl ForeignDeclaration<'_> {
         let value = is_one.then(|| &self.text[first.start..self.end()])?;
         let edits =
             vec![self.edit(self.at..self.at + self.found.len(), "radius"), self.edit(self.end()..self.end(), " / 2")];
-        Some(ForeignDeclaration::change(format!("a circle has a radius: `radius {value} / 2`"), edits))
+        Some(Foreign::change(format!("a circle has a radius: `radius {value} / 2`"), edits))
     }
 
     /// `spline [0 0, 1 1]`
@@ -148,7 +142,7 @@ impl ForeignDeclaration<'_> {
         let rows: Vec<String> =
             row.split(|text| *text == ",").map(|pair| format!("({}, {})", pair[0], pair[1])).collect();
         let edit = self.edit(self.before[open].end()..close.start, &rows.join(", "));
-        Some(ForeignDeclaration::change(message.to_owned(), vec![edit]))
+        Some(Foreign::change(message.to_owned(), vec![edit]))
     }
 }
 

@@ -1,12 +1,12 @@
 //! Separators of other languages between declarations and inside them.
 
-use super::{Correction, ForeignDeclaration, is_name};
+use super::{Correction, Foreign, is_name};
 use crate::grammar::Rule;
 use crate::tokens::{Token, begins_declaration, tokens};
 use mechc_text::diag::{Applies, Fix};
 use mechc_text::vocabulary::{Unit, is_declaration};
 
-impl ForeignDeclaration<'_> {
+impl Foreign<'_> {
     /// `param a = 3 mm, b = 4 mm`, `param a = 3 mm,` at the end of its line, `param a = (3 mm))`
     pub(super) fn declaration_list(&self, keyword: &str) -> Option<Correction> {
         if !is_declaration(keyword)
@@ -26,7 +26,7 @@ impl ForeignDeclaration<'_> {
             }
             (",", [name, "=" | ":", ..]) if is_name(name) => {
                 let edit = self.edit(self.at..self.rest[1].start, &format!(" {keyword} "));
-                Some(ForeignDeclaration::change(
+                Some(Foreign::change(
                     format!("each {keyword} has its own keyword: `{keyword} {name} {} …`", next[1]),
                     vec![edit],
                 ))
@@ -62,7 +62,7 @@ impl ForeignDeclaration<'_> {
             inside.iter().filter(is_number).map(|token| self.edit(token.end()..token.end(), &format!(" {unit}")));
         let edits = units.chain([self.edit(last.end()..self.at + self.found.len(), "")]).collect();
         let first = inside.iter().find(is_number)?.text;
-        Some(ForeignDeclaration::change(format!("each number has its own unit: `({first} {unit}, …)`"), edits))
+        Some(Foreign::change(format!("each number has its own unit: `({first} {unit}, …)`"), edits))
     }
 
     /// `'ground.O'`
@@ -77,10 +77,7 @@ impl ForeignDeclaration<'_> {
         }
         let close = line[end..].chars().next().map_or(1, char::len_utf8);
         let whole = self.at..self.at + quote.len_utf8() + end + close;
-        Some(ForeignDeclaration::change(
-            format!("names stand without quotes: `{inside}`"),
-            vec![self.edit(whole, inside)],
-        ))
+        Some(Foreign::change(format!("names stand without quotes: `{inside}`"), vec![self.edit(whole, inside)]))
     }
 
     /// `arm->tip`
@@ -89,7 +86,7 @@ impl ForeignDeclaration<'_> {
         let feature = self.rest.get(1).filter(|token| is_name(token.text))?;
         let is_arrow = self.found == ">" && last.text == "-" && last.end() == self.at && is_name(owner.text);
         let message = format!("what belongs to a body is written `{}.{}`", owner.text, feature.text);
-        is_arrow.then(|| ForeignDeclaration::change(message, vec![self.edit(owner.end()..feature.start, ".")]))
+        is_arrow.then(|| Foreign::change(message, vec![self.edit(owner.end()..feature.start, ".")]))
     }
 
     /// `arm.tip.x`
@@ -101,6 +98,6 @@ impl ForeignDeclaration<'_> {
         }
         let written = format!("{}({})", coordinate.text, &self.text[owner.start..last.end()]);
         let edit = self.edit(owner.start..coordinate.end(), &written);
-        Some(ForeignDeclaration::change(format!("a coordinate of a point is written `{written}`"), vec![edit]))
+        Some(Foreign::change(format!("a coordinate of a point is written `{written}`"), vec![edit]))
     }
 }

@@ -90,8 +90,7 @@ pub(super) fn align(rows: &[Row], cells: &[Option<Cells>], spaces: &mut [usize])
     }
 }
 
-/// The spaces before the comments behind the rows of a run, by the columns at which the rows end; those of rows of several lines are
-/// none.
+/// The spaces before the comments behind the rows of a run, by the columns at which the rows end; those of rows of several lines are none.
 pub(super) fn before_comments(rows: &[Row], ends: &[Option<usize>]) -> Vec<usize> {
     let commented = rows.iter().zip(ends).filter(|(row, _)| row.behind.is_some());
     let columns = commented.filter_map(|(_, end)| *end).filter(|&end| end <= WIDEST_BEFORE_COMMENT);

@@ -1,5 +1,4 @@
-//! A model file as typed data: bodies and constraints, with everything checked that can be checked without the
-//! language that it goes to.
+//! A model file as typed data: bodies and constraints, with everything checked that can be checked without the language that it goes to.
 
 use super::errors;
 use super::fields::{Fields, Number, Vector, location_of, name_of, objects};

@@ -1,5 +1,4 @@
-//! Keys of JSON objects as what they must be: a number, a vector, a string. What is wrong is said once, with its
-//! place, and the reading goes on.
+//! Keys of JSON objects as what they must be: a number, a vector, a string. What is wrong is said once, with its place, and the reading goes on.
 
 use super::errors;
 use super::value::{Kind, Quoted, Value};

@@ -1,9 +1,8 @@
 //! MATLAB formulas of `t` to formulas of the language.
 //!
-//! All values are real scalars, so that `.*` is `*`, and a transposing `'` does nothing. Where MATLAB groups otherwise
-//! than the language (`2^3^2` is `(2^3)^2`), the tree says what MATLAB means; the parentheses come with its printing.
-//! What has no counterpart is refused with its place. Values are not computed here: that a constant is infinite is for
-//! `check` to find.
+//! All values are real scalars, so that `.*` is `*`, and a transposing `'` does nothing. Where MATLAB groups otherwise than the language (`2^3^2` is
+//! `(2^3)^2`), the tree says what MATLAB means; the parentheses come with its printing. What has no counterpart is refused with its place. Values are
+//! not computed here: that a constant is infinite is for `check` to find.
 
 mod functions;
 mod parser;

@@ -26,8 +26,7 @@ pub(super) struct NameRequest<'a> {
     pub place: Span,
 }
 
-/// Names for all of these, in one space: who has a name of his own keeps it, also from one whose name has to be
-/// changed. Every change is told.
+/// Names for all of these, in one space: who has a name of his own keeps it, also from one whose name has to be changed. Every change is told.
 pub(super) fn assign(requests: &[NameRequest<'_>], diagnostics: &mut Diagnostics) -> (Vec<String>, Names) {
     let mut names = Names::default();
     let kept: Vec<Option<String>> = requests

@@ -237,8 +237,7 @@ fn equation(name: &str, left: Expr, formula: &Formula, unit: fn(f64, Span) -> Ex
     Item { docs: Vec::new(), span, ranges: Vec::new(), kind: ItemKind::Equation { driver, name, left, right } }
 }
 
-/// A coordinate of `2Q − P`, the point as far beyond Q as P is before it: as a number where that is exact, else as a
-/// formula.
+/// A coordinate of `2Q − P`, the point as far beyond Q as P is before it: as a number where that is exact, else as a formula.
 fn beyond(p: f64, q: f64, span: Span) -> Expr {
     let doubled = 2.0 * q;
     let far = doubled - p;
