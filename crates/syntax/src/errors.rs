@@ -185,7 +185,7 @@ fn unexpected(text: &str, file: FileId, found: Range<usize>, expected: &str, end
         }
         Some(_) => format!("`{word}`"),
     };
-    // of one thing it can be said where it goes
+    // a single expected item has a definite position
     let label = if expected.split('`').count() == 3 && expected.starts_with('`') && expected.ends_with('`') {
         format!("{expected} goes here")
     } else {

@@ -79,7 +79,7 @@ impl Recovery<'_> {
                 mechanisms.extend(self.mechanism());
                 continue;
             }
-            // the declarations behind a brace too many are told once
+            // the declarations behind a superfluous brace are reported once
             if !std::mem::replace(&mut is_outside_told, true) {
                 let expected = if mechanisms.is_empty() { Rule::mechanism } else { Rule::mechanism_or_end };
                 let fault = self.fault_of(expected);
@@ -228,7 +228,7 @@ impl Recovery<'_> {
             Ok(Some(head)) => of_body(head),
             Ok(None) => ground,
             Err(_) if rule == Rule::ground_head || self.sync.word(first + 1) == "ground" => ground,
-            // how many of it there are to be is not known, so nothing can be said of what takes one of them
+            // the number of copies is unknown, so their uses cannot be checked
             Err(_) if self.sync.word(first + 2) == "[" => {
                 (ItemKind::Broken { names: self.names_of(first, behind_head) }, Vec::new())
             }
@@ -301,7 +301,7 @@ impl Recovery<'_> {
         match read {
             Ok(item) => {
                 self.at = self.sync.index_at(item.span.end as usize);
-                // a name with hyphens, which has been told, is no difference
+                // a hyphenated name, which has been reported, is no difference
                 if self.sync.uses_hyphenated(first, self.at) { self.broken(first) } else { item }
             }
             Err(fault) => {

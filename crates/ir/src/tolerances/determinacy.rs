@@ -60,7 +60,7 @@ pub mod freedom {
     pub const TAKEN: f64 = 1e-3;
     /// Points that are drawn closer than this, in sizes of the mechanism, may be intended to coincide.
     pub const COINCIDE: f64 = 0.02;
-    /// The same distance for two points that no joint uses.
+    /// Distance within which two points that no joint uses may be intended to coincide, in sizes of the mechanism.
     pub const DANGLING: f64 = 0.15;
     /// Maximum number of reported motions.
     pub const TOLD: usize = 3;

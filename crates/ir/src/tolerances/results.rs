@@ -80,7 +80,7 @@ pub mod guards {
 pub mod extremum {
     /// A cell that can improve the extremum by at most this part of the range is not divided.
     pub const GAP: f64 = 1e-11;
-    /// The same bound for formulas without derivative.
+    /// Bound like `GAP` for formulas without derivative.
     pub const GAP_OF_VALUES: f64 = 1e-9;
     /// Accuracy of a time, as a part of the span.
     pub const CERTAIN: f64 = 1e-13;
@@ -94,7 +94,7 @@ pub mod extremum {
     pub const ITERATIONS: usize = 100;
     /// Largest error of the time of an extremum, as a part of the span, for a formula with a known slope.
     pub const TIMES: f64 = 1e-11;
-    /// The same bound for a formula whose slope is unknown.
+    /// Bound like `TIMES` for a formula whose slope is unknown.
     pub const TIMES_OF_VALUES: f64 = 1e-6;
     /// A value at a threshold differs from the limit of one side if the difference exceeds this part of the range.
     pub const APART: f64 = 1e-6;
@@ -195,7 +195,7 @@ pub mod spectral {
 pub mod loads {
     /// A smooth load may exceed its predicted range between two states by this part of the largest value so far.
     pub const SEEN: f64 = 0.25;
-    /// The same margin for a load of which only its bounds are known.
+    /// Margin for a load of which only its bounds are known, as a part of the largest value so far.
     pub const LITTLE: f64 = 1e-12;
     /// Rounding of a load between states, in multiples of its rounding at states.
     pub const ROUNDINGS: f64 = 4.0;
@@ -228,7 +228,7 @@ pub mod curve {
 pub mod slopes {
     /// A formula has the value of an extremum at its time if it differs by at most this part of its range.
     pub const SAME: f64 = 1e-6;
-    /// The same bound for a formula at rest, as a part of its size.
+    /// Bound like `SAME` for a formula at rest, as a part of its size.
     pub const DIGITS: f64 = 1e-9;
     /// An extremum is flat if its rate would change it over the analysis by at most this part of its range.
     pub const FLAT: f64 = 1e-3;

@@ -74,7 +74,7 @@ pub mod variants {
     pub const ALIKE: f64 = 1e-9;
     /// Relative change of parameters for difference quotients of the mechanism's position.
     pub const BESIDE: f64 = 1e-6;
-    /// How often one variant may shorten the steps of its batch.
+    /// Maximum number of times that one variant may shorten the steps of its batch.
     pub const PATIENCE: u32 = 16;
     /// Number of steps after a rejected one before longer ones are tried.
     pub const CALM_STEPS: u32 = 6;

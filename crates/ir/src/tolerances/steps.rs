@@ -143,7 +143,7 @@ pub mod rims {
     pub const ROUNDING: f64 = 64.0;
     /// An event function is zero if a change of the time by this many units in its last place exceeds its value.
     pub const MOMENT: f64 = 1024.0;
-    /// The same bound for an event function of the motion, as a part of the span: positions are accurate to their tolerance.
+    /// Bound like `MOMENT` for an event function of the motion, as a part of the span: positions are accurate to their tolerance.
     pub const MOMENT_OF_MOTION: f64 = 1e-9;
     /// Distance of the last step from a boundary that ends the motion, in units in the last place of the time.
     pub const LAST_MOMENT: f64 = 16.0;

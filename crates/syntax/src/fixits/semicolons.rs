@@ -115,7 +115,7 @@ impl Fault<'_> {
         self.commas_beside_semicolons().iter().any(Option::is_some)
     }
 
-    /// `max(1,5; 2)`: both readings are told, and neither is chosen.
+    /// Explains both readings of `max(1,5; 2)` and chooses neither.
     fn decimal_commas(&self) -> FixIt {
         let commas: Option<Vec<usize>> = self.commas_beside_semicolons().into_iter().collect();
         let Some(commas) = commas else {

@@ -52,7 +52,7 @@ impl Foreign<'_> {
         Some(Foreign::change(message, vec![self.edit(self.before.last()?.end()..next.start, &format!(" {word} "))]))
     }
 
-    /// `circle c = (0, 0, 6 mm)`, `axis a = (0, 1)`, `load push: 20 N`, after which nothing comes: it is told where it ends.
+    /// `circle c = (0, 0, 6 mm)`, `axis a = (0, 1)`, `load push: 20 N`, at the end of a declaration; reported at that end.
     pub(super) fn incomplete_declaration(&self, keyword: &str, last: &Token<'_>) -> Option<Correction> {
         let expected = match keyword {
             "circle" if self.expects(Rule::radius) => "`radius`",

@@ -39,7 +39,7 @@ pub(super) fn runs(rows: &[Row], are_alike: impl Fn(Kind, Kind) -> bool) -> Vec<
 pub(super) struct Cells(Vec<(usize, usize)>);
 
 impl Cells {
-    /// Gives nothing of a row whose columns cannot be told, because a comment stands in them.
+    /// Returns the cells of a row; none if a comment inside hides its columns.
     pub fn of(words: &[Word], lexemes: &[Lexeme<'_>]) -> Cells {
         let starts = std::iter::once(0).chain((0..words.len()).filter(|&k| words[k].begins_cell));
         let starts: Vec<usize> = starts.collect();

@@ -150,7 +150,7 @@ enum Cells {
     Brace,
 }
 
-/// Whether a number with its unit stands before, to which another unit may be joined: `30 deg/s * t`, but not `a / 30 deg/s`,
+/// State of a number with its unit before the lexeme, to which another unit may be joined: `30 deg/s * t`, but not `a / 30 deg/s`,
 /// which would look like a / (30 deg/s).
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Quantity {
@@ -165,7 +165,7 @@ struct Classifier<'a> {
     names: &'a FxHashSet<&'a str>,
     range: Range<usize>,
     printed: Option<usize>,
-    /// That of the declaration.
+    /// Keyword of the declaration.
     keyword: &'a str,
     brackets: Vec<Bracket>,
     /// The class of the previous lexeme that is no comment.

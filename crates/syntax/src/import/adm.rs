@@ -60,7 +60,7 @@ pub(super) struct RackPinion {
 const TYPES: &[&str] =
     &["AbsoluteX", "AbsoluteY", "AbsoluteAngle", "RevoluteJoint", "TranslationalJoint", "RackPinion"];
 
-/// Reads a model; `None` where it is none at all. Every mistake that is found is said.
+/// Reads a model; `None` if the file is not a model. Reports every mistake that it finds.
 pub(super) fn read<'a>(value: &'a Value, diagnostics: &mut Diagnostics) -> Option<Model<'a>> {
     let Json::Object(members) = &value.kind else {
         let message = format!("a model must be an object, found {}", value.describe());

@@ -172,7 +172,7 @@ pub(super) fn formula_too_large(span: Span) -> Diagnostic {
         .help("functions like `floor` and `round` name their argument twice; nest fewer of them")
 }
 
-// ---- what is told of a translation that succeeded
+// ---- notes on a translation that succeeded
 
 /// A name that could not stay.
 pub(super) fn renamed(what: &str, old: &str, new: &str, span: Span, why: &str) -> Diagnostic {

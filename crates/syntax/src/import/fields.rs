@@ -1,4 +1,4 @@
-//! Keys of JSON objects as what they must be: a number, a vector, a string. What is wrong is said once, with its place, and the reading goes on.
+//! Typed access to keys of JSON objects: numbers, vectors, strings. Each mistake is reported once, with its span, and reading continues.
 
 use super::errors;
 use super::value::{Kind, Quoted, Value};

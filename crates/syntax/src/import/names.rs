@@ -26,7 +26,7 @@ pub(super) struct NameRequest<'a> {
     pub place: Span,
 }
 
-/// Names for all of these, in one space: who has a name of his own keeps it, also from one whose name has to be changed. Every change is told.
+/// Assigns unique names in one namespace. Valid names are kept, and take precedence over changed ones. Reports every change.
 pub(super) fn assign(requests: &[NameRequest<'_>], diagnostics: &mut Diagnostics) -> (Vec<String>, Names) {
     let mut names = Names::default();
     let kept: Vec<Option<String>> = requests
@@ -53,7 +53,7 @@ pub(super) fn assign(requests: &[NameRequest<'_>], diagnostics: &mut Diagnostics
 }
 
 impl Names {
-    /// A name that nobody has: this one, or this one with a number.
+    /// Returns an unused name: this one, or this one with a number.
     pub fn free(&mut self, name: &str) -> String {
         if why_not(name).is_none() && self.used.insert(name.to_owned()) {
             return name.to_owned();

@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 /// Longest number that replaces the formula with its value.
 const SHORT: usize = 10;
 
-/// The mechanism that a model describes; `None` where a mistake stands in the way, which has been said.
+/// Returns the mechanism that a model describes; `None` after a mistake, which has been reported.
 pub(super) fn mechanism(model: &Model<'_>, file: &str, diagnostics: &mut Diagnostics) -> Option<Mechanism> {
     let (stem, origin) = origin(file);
     let name = names::mechanism_name(model.name, model.place, &stem, diagnostics);
