@@ -1,4 +1,4 @@
-//! Bisection, golden section and halving: tests. Those of what is emitted stand apart from it.
+//! Tests of bisection, secants, golden section and halving. They stand apart from code that may be emitted.
 
 use super::neighbours::{bisect, shortly_after};
 use super::search::{GoldenSection, Halving, boundary, close_in};
@@ -83,17 +83,17 @@ fn a_section_keeps_the_least_value() {
 }
 
 #[test]
-fn parts_come_in_their_order_and_no_finer_than_is_meant() {
+fn sections_come_in_order_and_no_finer_than_requested() {
     let mut parts = Halving::<8>::new([0.0, 1.0], 0.2, 100);
-    let mut seen = Vec::new();
+    let mut visited = Vec::new();
     while let Some(part) = parts.next_part() {
         if !parts.halve(part) {
-            seen.push(part);
+            visited.push(part);
         }
     }
     let eighths: Vec<[f64; 2]> = (0..8).map(|k| [f64::from(k) / 8.0, f64::from(k + 1) / 8.0]).collect();
-    assert_eq!(seen, eighths);
+    assert_eq!(visited, eighths);
     let mut parts = Halving::<8>::new([0.0, 1.0], 0.2, 1);
     assert!(parts.next_part().is_some());
-    assert!(!parts.halve([0.0, 1.0]) && parts.next_part().is_none(), "no more are looked at than are meant");
+    assert!(!parts.halve([0.0, 1.0]) && parts.next_part().is_none(), "the number of visits is limited");
 }
