@@ -1,7 +1,7 @@
-//! Work that falls into pieces, done by several threads and handed out in order: pieces by their numbers, pieces that come one
-//! after the other (`relay.rs`), and shares that hold what is borrowed (`shares.rs`).
+//! Ordered parallel computation: results of numbered pieces ([`ParallelMap`]), of pieces that arrive one after the other
+//! ([`OrderedPipeline`]), and of ranges with borrowed data ([`scoped_chunks`]).
 //!
-//! Without the feature `threads` the pieces are done one after the other, when they are asked for; nothing else differs.
+//! Without the feature `threads` the calling thread computes each piece when it is requested; the results are the same.
 
 mod relay;
 mod shares;
@@ -16,14 +16,14 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 #[cfg(feature = "threads")]
 use std::thread;
 
-/// What is made of a piece by its number; nothing where the work is to end. It may have memory of its own.
+/// Computes the result of a piece from its number, or `None` to end the work. It may own state.
 type Work<T> = Box<dyn FnMut(u64) -> Option<T> + Send>;
 
-/// Pieces that are done and not yet handed out are at most so many times the threads: a bound of the memory that they take.
+/// Limit of finished results that are not yet delivered, as a multiple of the number of threads; it bounds the memory that they take.
 #[cfg(feature = "threads")]
 const AHEAD: u64 = 2;
 
-/// How many threads this machine does at once.
+/// Returns the number of threads that this machine runs at once.
 #[must_use]
 pub fn usual_jobs() -> usize {
     #[cfg(feature = "threads")]
@@ -33,18 +33,18 @@ pub fn usual_jobs() -> usize {
     jobs
 }
 
-/// What is made of pieces, in their order.
+/// Iterator over the results of numbered pieces, in their order, which several threads compute ahead.
 pub struct Crew<T> {
     pieces: Range<u64>,
-    /// The work of the thread that asks for them.
+    /// The work of the calling thread.
     own: Work<T>,
     #[cfg(feature = "threads")]
     hands: Option<Hands<T>>,
 }
 
 impl<T: Send + 'static> Crew<T> {
-    /// Work on pieces by so many threads, or fewer where there are fewer pieces, each of which starts it with memory of its own. The one that
-    /// asks for pieces is among them: it works where it would wait for others. The others begin at once.
+    /// Starts work on `pieces` with at most `jobs` threads, the calling thread included: it computes a piece itself where it would wait for
+    /// the others. Each thread calls `start` once for state of its own. The other threads begin at once.
     #[must_use]
     pub fn new<W>(jobs: usize, pieces: Range<u64>, start: impl Fn() -> W + Send + Sync + 'static) -> Crew<T>
     where
@@ -67,7 +67,7 @@ impl<T: Send + 'static> Crew<T> {
 }
 
 impl<T> Crew<T> {
-    /// Nobody begins a piece any more, and nothing is handed out.
+    /// Ends the work: no thread begins another piece, and the iterator returns `None` from now on.
     pub fn end(&mut self) {
         self.pieces = 0..0;
         #[cfg(feature = "threads")]
@@ -88,10 +88,10 @@ impl<T> Crew<T> {
 impl<T> Iterator for Crew<T> {
     type Item = T;
 
-    /// What was made of the next piece; `None` behind the last one, behind the first one of which nothing was made, and behind a panic. One of
-    /// another thread is passed on where its piece would come.
+    /// Returns the result of the next piece; `None` after the last piece, after the first piece without a result, and after a panic. A
+    /// panic of another thread continues here, where the result of its piece would come.
     fn next(&mut self) -> Option<T> {
-        // there are no others unless something is made of this one
+        // an early return or a panic leaves no pieces behind
         let mut pieces = std::mem::take(&mut self.pieces);
         let made = pieces.next().and_then(|piece| self.made(piece));
         if made.is_some() {
@@ -111,24 +111,24 @@ struct Hands<T> {
     threads: Vec<thread::JoinHandle<()>>,
 }
 
-/// What the threads and who asks for the pieces share.
+/// State that the threads and the iterator share.
 #[cfg(feature = "threads")]
 struct Shared<T> {
     state: Mutex<State<T>>,
-    /// A piece was done.
+    /// Signals that a piece is finished.
     done: Condvar,
-    /// A piece was handed out.
+    /// Signals that a result was delivered.
     handed_out: Condvar,
 }
 
 #[cfg(feature = "threads")]
 struct State<T> {
-    /// Those that nobody has begun.
+    /// Pieces that no thread has begun.
     left: Range<u64>,
-    /// None from here on is begun yet.
+    /// First piece that no thread may begin yet.
     bound: u64,
     done: BTreeMap<u64, Option<T>>,
-    /// Nobody waits any more.
+    /// True once no result is needed any more.
     has_ended: bool,
 }
 
@@ -138,12 +138,12 @@ impl<T> State<T> {
         self.left.start >= self.bound
     }
 
-    /// The next piece that nobody has begun, if it is not too far ahead.
+    /// Takes the next piece that no thread has begun, if it is not too far ahead.
     fn begun_next(&mut self) -> Option<u64> {
         if self.has_ended || self.is_far_ahead() { None } else { self.left.next() }
     }
 
-    /// Keeps what was made of a piece; behind one of which nothing was made none is begun.
+    /// Stores the result of a piece. No thread begins a piece after one without a result.
     fn put(&mut self, piece: u64, made: Option<T>) {
         if made.is_none() {
             self.left.end = self.left.end.min(piece);
@@ -154,7 +154,7 @@ impl<T> State<T> {
 
 #[cfg(feature = "threads")]
 impl<T: Send + 'static> Hands<T> {
-    /// All of some threads but the one that asks.
+    /// Starts `jobs - 1` threads; the calling thread is the remaining one.
     fn new<W>(jobs: u64, pieces: &Range<u64>, start: impl Fn() -> W + Send + Sync + 'static) -> Hands<T>
     where
         W: FnMut(u64) -> Option<T>,
@@ -165,7 +165,7 @@ impl<T: Send + 'static> Hands<T> {
         let start = Arc::new(start);
         let spawned = |_| {
             let (shared, start) = (Arc::clone(&shared), Arc::clone(&start));
-            // a system that gives fewer threads has the same done by fewer
+            // if the system refuses a thread, fewer threads do the work
             thread::Builder::new().spawn(move || shared.work(&*start)).ok()
         };
         Hands { threads: (1..jobs).map_while(spawned).collect(), shared }
@@ -178,7 +178,7 @@ impl<T> Shared<T> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Does pieces until there are none, or nobody waits for them.
+    /// Computes pieces until none is left or no result is needed any more.
     fn work<W: FnMut(u64) -> Option<T>>(&self, start: &impl Fn() -> W) {
         let mut work = start();
         while let Some(piece) = self.next_piece() {
@@ -193,7 +193,7 @@ impl<T> Shared<T> {
         waited.unwrap_or_else(PoisonError::into_inner).begun_next()
     }
 
-    /// Does a piece that nobody has begun, on the thread that asks; whether there was one, not too far ahead.
+    /// Computes the next piece that no thread has begun on the calling thread. Returns whether there was one that is not too far ahead.
     fn work_ahead(&self, own: &mut Work<T>) -> bool {
         let Some(piece) = self.state().begun_next() else { return false };
         let made = own(piece);
@@ -201,11 +201,11 @@ impl<T> Shared<T> {
         true
     }
 
-    /// What was made of a piece. As long as it is missing others are done, or that one, if nobody has begun it.
+    /// Returns the result of a piece. While it is missing, the calling thread computes other pieces, or this one if no thread has begun it.
     fn handed_out(&self, piece: u64, own: &mut Work<T>) -> Option<T> {
         let is_missing = |state: &State<T>| !state.done.contains_key(&piece);
         while is_missing(&self.state()) && self.work_ahead(own) {}
-        // until something is handed out there is nothing else to do
+        // nothing else may begin until a result is delivered
         let waited = self.done.wait_while(self.state(), |state| is_missing(state));
         let mut state = waited.unwrap_or_else(PoisonError::into_inner);
         let made = state.done.remove(&piece).flatten();
@@ -221,7 +221,7 @@ impl<T> Shared<T> {
     }
 }
 
-/// A piece that another thread works on. Who waits for it must not wait for one that breaks down: of its piece nothing was made.
+/// A piece that another thread computes. When a panic drops it, it stores `None`, so that the iterator does not wait for ever.
 #[cfg(feature = "threads")]
 struct Begun<'s, T> {
     shared: &'s Shared<T>,
@@ -239,7 +239,7 @@ impl<T> Drop for Begun<'_, T> {
 
 #[cfg(feature = "threads")]
 impl<T> Drop for Hands<T> {
-    /// Waits for the threads, and passes on that one of them has broken down.
+    /// Waits for the threads and continues a panic of one of them.
     fn drop(&mut self) {
         self.shared.end();
         let ended: Vec<thread::Result<()>> = self.threads.drain(..).map(thread::JoinHandle::join).collect();

@@ -1,6 +1,6 @@
-//! Work on pieces that come one after the other, done by several threads and handed back in order.
+//! Ordered pipeline: pieces arrive one after the other, several threads process them, and results return in order of arrival.
 //!
-//! Without the feature `threads` a piece is done when it is given; nothing else differs.
+//! Without the feature `threads` each piece is processed when it is submitted; the results are the same.
 
 use std::sync::Arc;
 #[cfg(feature = "threads")]
@@ -8,20 +8,20 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 #[cfg(feature = "threads")]
 use std::thread;
 
-/// What is made of a piece.
+/// Computes the result of a piece.
 type Work<P, T> = dyn Fn(P) -> T + Send + Sync;
 
-/// Pieces that are under way are at most so many times the threads.
+/// Limit of pieces in flight, as a multiple of the number of threads.
 #[cfg(feature = "threads")]
 const AHEAD: usize = 2;
 
-/// What is made of pieces that are given one after the other.
+/// Processes pieces on several threads and returns the results in order of submission.
 pub struct Relay<P, T> {
     work: Arc<Work<P, T>>,
-    /// They take turns: so what they make comes in order.
+    /// The threads take turns, which keeps the results in order.
     #[cfg(feature = "threads")]
     hands: Vec<Hand<P, T>>,
-    /// How many pieces were given to them, and how many handed back.
+    /// Numbers of pieces that were submitted and of results that were returned.
     #[cfg(feature = "threads")]
     given: usize,
     #[cfg(feature = "threads")]
@@ -29,7 +29,7 @@ pub struct Relay<P, T> {
 }
 
 impl<P: Send + 'static, T: Send + 'static> Relay<P, T> {
-    /// Work on pieces by so many threads; the one that gives them does it if there is one alone.
+    /// Creates a pipeline with `jobs` threads. With one job the calling thread does the work.
     #[must_use]
     pub fn new(jobs: usize, work: impl Fn(P) -> T + Send + Sync + 'static) -> Relay<P, T> {
         let work: Arc<Work<P, T>> = Arc::new(work);
@@ -46,7 +46,7 @@ impl<P: Send + 'static, T: Send + 'static> Relay<P, T> {
         }
     }
 
-    /// Gives a piece; hands back what was made of an earlier one where enough are under way.
+    /// Submits a piece. Returns the oldest result once enough pieces are in flight.
     #[cfg(feature = "threads")]
     pub fn give(&mut self, piece: P) -> Option<T> {
         if self.hands.is_empty() {
@@ -61,14 +61,14 @@ impl<P: Send + 'static, T: Send + 'static> Relay<P, T> {
         made
     }
 
-    /// Gives a piece and hands back what was made of it.
+    /// Submits a piece and returns its result.
     #[cfg(not(feature = "threads"))]
-    #[allow(clippy::unnecessary_wraps)] // with threads there may be nothing yet
+    #[allow(clippy::unnecessary_wraps)] // with threads there may be no result yet
     pub fn give(&mut self, piece: P) -> Option<T> {
         Some((self.work)(piece))
     }
 
-    /// Hands back what was made of the next piece that is under way; nothing if none is.
+    /// Returns the next result of the pieces in flight, or `None` if there are none.
     #[cfg(feature = "threads")]
     pub fn take(&mut self) -> Option<T> {
         if self.taken == self.given {
@@ -83,14 +83,14 @@ impl<P: Send + 'static, T: Send + 'static> Relay<P, T> {
         made
     }
 
-    /// As nothing is under way.
+    /// Returns `None`: no piece is in flight.
     #[cfg(not(feature = "threads"))]
-    #[allow(clippy::unused_self)] // with threads there are some
+    #[allow(clippy::unused_self)] // with threads there are pieces in flight
     pub fn take(&mut self) -> Option<T> {
         None
     }
 
-    /// Passes on that a thread has broken down.
+    /// Continues the panic of a thread.
     #[cfg(feature = "threads")]
     fn break_down(&mut self, hand: usize) {
         let Hand { pieces, thread, .. } = self.hands.swap_remove(hand);
@@ -101,7 +101,7 @@ impl<P: Send + 'static, T: Send + 'static> Relay<P, T> {
     }
 }
 
-/// A thread with what goes to it and what comes from it; it ends when nothing can go to it any more.
+/// A thread with its channels. It ends when its input is closed.
 #[cfg(feature = "threads")]
 struct Hand<P, T> {
     pieces: Sender<P>,
@@ -111,20 +111,20 @@ struct Hand<P, T> {
 
 #[cfg(feature = "threads")]
 impl<P: Send + 'static, T: Send + 'static> Hand<P, T> {
-    /// One more, if the system gives it.
+    /// Starts a thread, or returns `None` if the system refuses one.
     fn new(work: &Arc<Work<P, T>>) -> Option<Hand<P, T>> {
         let ((pieces, given), (ready, made)) = (channel(), channel());
         let work = Arc::clone(work);
         let thread = thread::Builder::new().spawn(move || {
             for piece in given {
-                // nobody waits for what cannot be sent
+                // the receiver is gone: the result is not needed
                 let _ = ready.send(work(piece));
             }
         });
         Some(Hand { pieces, made, thread: thread.ok()? })
     }
 
-    /// Whether it takes a piece.
+    /// Sends a piece to the thread. Returns whether it accepts one.
     fn give(&self, piece: P) -> bool {
         self.pieces.send(piece).is_ok()
     }
@@ -138,7 +138,7 @@ mod tests {
     fn what_is_made_comes_in_order_whatever_it_takes() {
         for jobs in [1, 2, 5] {
             let mut relay = Relay::new(jobs, |piece: u64| {
-                // later pieces are done sooner
+                // later pieces take less time
                 (0..(100 - piece) * 1000).for_each(|k| {
                     std::hint::black_box(k);
                 });

@@ -1,11 +1,11 @@
-//! Work on numbered pieces that holds what is borrowed: each thread does a share of them, and all are waited for.
+//! Work on numbered pieces with borrowed data: each thread takes one range of them, and the call returns when all are done.
 
 use std::ops::Range;
 #[cfg(feature = "threads")]
 use std::thread;
 
-/// What is made of shares of `count` pieces, one behind the other, by as many threads as there are shares; by the one that asks, where
-/// that is one.
+/// Splits `0..count` into at most `jobs` ranges and returns the results of `work` on them, in order. Each range has a thread of its own,
+/// the first one the calling thread.
 pub fn in_shares<T: Send>(jobs: usize, count: usize, work: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
     let jobs = jobs.min(count);
     if jobs < 2 {
@@ -20,7 +20,7 @@ pub fn in_shares<T: Send>(jobs: usize, count: usize, work: impl Fn(Range<usize>)
         let first = work(share(0));
         let others = others.into_iter().zip(1..).map(|(thread, job)| match thread {
             Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
-            // the system gives no more of them
+            // the system refuses another thread
             Err(_) => work(share(job)),
         });
         std::iter::once(first).chain(others).collect()

@@ -1,4 +1,4 @@
-//! All symbols in one picture, for the docs: each alone, with its name.
+//! Catalogue of all symbols in one picture, for the documentation.
 
 use super::drawing::shape;
 use super::plane::{Path, Pose, Vector, around, hull, plus, polar};
@@ -8,19 +8,19 @@ use super::{Anchor, Declaration, Held, Look, Motion, Node, Place, Scene, Shape};
 use mechc_text::source::Span;
 use std::f64::consts::{PI, TAU};
 
-/// From one symbol to the next, in units.
+/// Distance from one symbol to the next (symbol units).
 const CELL: Vector = [8.4, 7.6];
-/// How many stand side by side.
+/// Number of symbols in a row.
 const COLUMNS: usize = 4;
 
-/// A symbol with its name: the shapes of the ground and of two bodies, from below; and a spring's ends, if it is one.
+/// A symbol with its name: shapes by frame (the ground and two bodies), bottom first, and the ends of a spring.
 struct Entry {
     name: &'static str,
     shapes: Vec<(usize, Shape)>,
     spring: Option<[Vector; 2]>,
 }
 
-/// A scene of all symbols, a motion in which it rests, and their names with their places.
+/// Returns a scene of all symbols, a motion in which it rests, and the captions with their positions.
 #[must_use]
 pub fn catalogue(span: Span) -> (Scene, Motion, Vec<(Vector, String)>) {
     let symbols = Symbols { unit: 1.0 };
@@ -152,7 +152,7 @@ fn rack(symbols: Symbols) -> Entry {
     entry("rack and pinion", vec![(1, toothed(&wheel)), (2, row), (1, circle), (2, line), (1, pin)])
 }
 
-/// An egg around a place.
+/// Returns an egg-shaped cam around a position.
 fn egg(at: Vector) -> Shape {
     let radius = |angle: f64| 1.3 + 0.45 * mechc_expr::math::cos(angle - 0.5 * PI);
     let place = |k: u32| {

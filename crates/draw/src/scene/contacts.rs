@@ -1,4 +1,4 @@
-//! Cams and what runs on them.
+//! Cams and their followers.
 
 use super::drawing::{Drawing, Layer, shape};
 use super::features::Features;
@@ -8,9 +8,9 @@ use super::{Anchor, Contact, Look, Shape, Touch};
 use mechc_lang::model::{AxisId, JointKind, PointId, Profile};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// A face goes on so far behind the contact, in units.
+/// Length of a face beyond the contact (symbol units).
 const BEYOND: f64 = 1.0;
-/// What a line may be off from the profile that it shows, in units.
+/// Tolerance of the line that shows a profile (symbol units).
 const OFF: f64 = 0.008;
 
 pub(super) fn point_follower(drawing: &mut Drawing, number: usize, p: PointId, profile: Profile) {
@@ -34,7 +34,7 @@ pub(super) fn cam(drawing: &mut Drawing, number: usize, [k, m]: [Profile; 2]) {
         Profile::Circle(circle) => Some(drawing.features.circle(circle)),
         Profile::Curve(_) => None,
     });
-    // where they touch is fixed to neither: what is the joint's own is the middle of its roller
+    // the contact point is fixed to no frame: a mark in the middle of the roller stands for the joint
     let marked = marks.into_iter().flatten().min_by(|a, b| a.radius.total_cmp(&b.radius));
     let mark = marked.map(|disc| center_mark(disc.center, disc.radius.min(drawing.unit)));
     let frame = marked.map_or(0, |disc| disc.center.frame);
@@ -63,7 +63,7 @@ pub(super) fn flat_follower(drawing: &mut Drawing, number: usize, profile: Profi
     }
 }
 
-/// All contacts of which it is known which side is the cam: a curve on a curve is told by neither.
+/// Returns the contacts whose cam can be told from the follower. A curve on a curve has no cam.
 pub(super) fn contacts(features: &Features, first_joint: usize) -> Vec<Contact> {
     let model = features.model;
     let carrier = |profile: Profile| features.frame(profile.frame(model));
@@ -89,7 +89,7 @@ pub(super) fn contacts(features: &Features, first_joint: usize) -> Vec<Contact> 
     model.joints.iter().enumerate().filter_map(contact).collect()
 }
 
-/// Which of two profiles is the roller: of two discs the smaller one.
+/// Returns which of two profiles is the roller: the smaller one of two circles.
 fn roller(features: &Features, profiles: [Profile; 2]) -> Option<usize> {
     let [k, m] = profiles.map(|profile| match profile {
         Profile::Circle(circle) => features.circle(circle).radius,
@@ -104,14 +104,14 @@ fn rolling(features: &Features, profile: Profile, argument: String) -> Touch {
     Touch::Roller { centre, arms: [minus(ahead, centre), minus(aside, centre)], argument }
 }
 
-/// The arguments that a contact has on its way.
+/// Returns the range of a contact's argument along the motion.
 fn arguments(drawing: &Drawing, number: usize, part: &str) -> Option<[f64; 2]> {
     let values = drawing.own_coordinate(number, part)?;
     let [low, high] = drawing.range(|row| values[row]);
     (low <= high).then_some([low, high])
 }
 
-/// A cam, filled if it is closed and on a body; a line otherwise. Each profile is drawn once.
+/// Draws a profile unless it is drawn already: filled if it is closed and on a body, otherwise as a line.
 fn shown_profile(drawing: &mut Drawing, profile: Profile, used: Option<[f64; 2]>, is_roller: bool) {
     let before = drawing.profiles.len();
     let number = drawing.profile(profile, used);
@@ -151,14 +151,14 @@ fn shown_profile(drawing: &mut Drawing, profile: Profile, used: Option<[f64; 2]>
     drawing.add_fixed(layer, declaration, frame, vec![shape(look, path)]);
 }
 
-/// The centre of a disc, so that it is seen to turn.
+/// Returns a cross in the centre of a disc, which makes its rotation visible.
 fn center_mark(center: Anchor, size: f64) -> Shape {
     let half = 0.35 * size;
     let [x, y] = center.at;
     shape(Look::Pitch, Path::strokes([[[x - half, y], [x + half, y]], [[x, y - half], [x, y + half]]]))
 }
 
-/// A polygon with fewer corners, off from the given one by no more than so much.
+/// Simplifies a polygon with at most `off` between it and the result (Douglas–Peucker algorithm).
 pub(super) fn simplified(places: &[Vector], off: f64) -> Vec<Vector> {
     if places.len() < 3 {
         return places.to_vec();
@@ -179,7 +179,7 @@ pub(super) fn simplified(places: &[Vector], off: f64) -> Vec<Vector> {
     places.iter().zip(is_kept).filter(|(_, is_kept)| *is_kept).map(|(place, _)| *place).collect()
 }
 
-/// How far a place is from a segment.
+/// Returns the distance of a position from a segment.
 fn from_segment(place: Vector, from: Vector, to: Vector) -> f64 {
     let way = minus(to, from);
     let square = dot(way, way);

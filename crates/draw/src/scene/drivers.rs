@@ -1,4 +1,4 @@
-//! What drivers do, as arrows: around a pin that is turned, along what is moved; a driven distance is a cylinder.
+//! Symbols of drivers: an arrow around a pin that is turned or along a moving part, a cylinder for a driven distance.
 
 use super::drawing::{Drawing, Layer};
 use super::plane::{Vector, minus, plus, times};
@@ -8,15 +8,15 @@ use mechc_expr::{ExprId, Symbol};
 use mechc_lang::model::{AxisId, Direction, EquationForm, JointKind, Mechanism, Named, Quantity};
 use std::f64::consts::PI;
 
-/// Where the arrow around a pin begins and ends (rad), and its radius in units.
+/// Start and end of the arrow around a pin (rad), and its radius (symbol units).
 const TURN: [f64; 2] = [0.15 * PI, 0.85 * PI];
 const RADIUS: f64 = 1.75;
-/// Of a straight arrow: where it begins, and where it ends, in units.
+/// Start and end of a straight arrow (symbol units).
 const STRAIGHT: [f64; 2] = [1.1, 3.4];
-/// What goes back by more than this part of its way goes to and fro.
+/// A motion that returns by more than this part of its way goes to and fro.
 const TO_AND_FRO: f64 = 0.02;
 
-/// Which way something goes.
+/// Sense of a motion.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Way {
     Forward,
@@ -49,7 +49,7 @@ pub(super) fn draw(drawing: &mut Drawing) {
     }
 }
 
-/// The first quantity of a formula.
+/// Returns the first kinematic quantity of a formula.
 fn quantity_of(model: &Mechanism, formula: ExprId) -> Option<Quantity> {
     model.graph.symbols_of_all(&[formula]).into_iter().find_map(|symbol| match symbol {
         Symbol::Named(k) => match model.named[k as usize] {
@@ -90,12 +90,12 @@ fn arrow(drawing: &mut Drawing, declaration: usize, quantity: Quantity) {
     }
 }
 
-/// Where what an angle is between is pinned to each other.
+/// Returns the pin between the two frames of an angle.
 pub(super) fn pivot_of(drawing: &Drawing, from: Option<Direction>, to: Direction) -> Anchor {
     pivot(drawing, [from.map_or(0, |from| frame_of(drawing, from)), frame_of(drawing, to)])
 }
 
-/// The frame of a body, or of what an axis is fixed to.
+/// Returns the frame of a direction.
 pub(super) fn frame_of(drawing: &Drawing, direction: Direction) -> usize {
     match direction {
         Direction::Frame(frame) => drawing.features.frame(frame),
@@ -103,7 +103,7 @@ pub(super) fn frame_of(drawing: &Drawing, direction: Direction) -> usize {
     }
 }
 
-/// Where two bodies are pinned to each other; else where the second begins.
+/// Returns the pin between two frames, or the first position of the second frame.
 fn pivot(drawing: &Drawing, frames: [usize; 2]) -> Anchor {
     let model = drawing.features.model;
     let found = model.joints.iter().find_map(|joint| {
@@ -115,7 +115,7 @@ fn pivot(drawing: &Drawing, frames: [usize; 2]) -> Anchor {
     found.unwrap_or_else(|| Anchor { frame: frames[1], at: first() })
 }
 
-/// An arrow around a place, as one frame turns against another.
+/// Adds an arrow around an anchor for the rotation of one frame against another.
 fn turning(drawing: &mut Drawing, declaration: usize, at: Anchor, [first, second]: [usize; 2]) {
     let turned = |row: usize| {
         let poses = drawing.motion.poses(row);
@@ -127,20 +127,20 @@ fn turning(drawing: &mut Drawing, declaration: usize, at: Anchor, [first, second
         Way::Back => (to, from, false),
         Way::Both => (from, to, true),
     };
-    // where several drivers turn about one place, each has a circle of its own
+    // several drivers about one position have concentric arrows
     let taken = drawing.arrows_at(at);
     let radius = RADIUS + 0.8 * taken as f64;
     let shapes = Symbols { unit: drawing.unit }.turning([0.0; 2], radius, from, to, is_double);
     drawing.add(Layer::Arrows, Node { declaration, place: Place::Upright(at), shapes });
 }
 
-/// An arrow beside what slides.
+/// Adds an arrow next to a slider.
 fn sliding(drawing: &mut Drawing, declaration: usize, [a, b]: [AxisId; 2]) {
     let [guide, slider] = [a, b].map(|axis| drawing.features.axis(axis));
     let origin = Anchor { frame: slider.frame, at: slider.at };
     let along = |row: usize| super::dot(guide.along, minus(drawing.seen(origin, guide.frame, row), guide.at));
     let way = way_of(drawing, along);
-    // the side that is not hatched
+    // the side without hatching
     let side =
         if guide.along[0] < -1e-3 || (guide.along[0].abs() <= 1e-3 && guide.along[1] < 0.0) { -1.0 } else { 1.0 };
     let poses = drawing.motion.poses(0);
@@ -159,7 +159,7 @@ fn straight(drawing: &Drawing, from: Vector, along: Vector, way: Way) -> Vec<Sha
     Symbols { unit: drawing.unit }.arrow(place(begin), place(end), way == Way::Both)
 }
 
-/// Which way a number goes along the motion.
+/// Returns the sense in which a number changes along the motion.
 fn way_of(drawing: &Drawing, of: impl Fn(usize) -> f64) -> Way {
     let values: Vec<f64> = drawing.motion.sampled(super::drawing::LOOKED_AT).map(of).collect();
     let steps = values.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| step.is_finite());

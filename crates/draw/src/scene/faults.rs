@@ -1,5 +1,4 @@
-//! What is the matter with a mechanism: motions that nothing holds as arrows, joints that are open with their gaps, rings around what
-//! messages name.
+//! Marks of faults: arrows for free motions, gaps of open joints, and rings around what messages name.
 
 use super::features::{Features, Line};
 use super::lengths::{self, Length};
@@ -9,52 +8,53 @@ use super::{Anchor, Look, Motion, Node, Place, Scene, Shape, whole};
 use mechc_lang::model::{EquationForm, JointKind, Mechanism};
 use std::f64::consts::PI;
 
-/// The halves of an open joint are farther apart than this, in units; and of one that is drawn so.
+/// Distance of the halves of an open joint (symbol units), and of one in the pose as drawn.
 const OPEN: f64 = 0.5;
 const DRAWN_APART: f64 = 4.0;
-/// The radius of a ring around what messages name, and of those around the halves of an open joint, in units.
+/// Radius of a ring around what messages name, and of those around the halves of an open joint (symbol units).
 const RING: f64 = 1.0;
 const HALF_RING: f64 = 0.62;
-/// Bodies turn about a place of theirs that is this near to what they turn about, in units.
+/// Distance from a body's pole within which a position of the body is taken for the pole (symbol units).
 const NEAR: f64 = 1.0;
-/// Arrows whose places are nearer than this go around each other, in units.
+/// Arrows closer than this are concentric (symbol units).
 const SAME_PLACE: f64 = 2.5;
-/// A turn that moves a place this far away, in units, by no more than this part of its way is none.
+/// Distance of the pole (symbol units) from which on a rotation counts as a translation.
 const FAR: f64 = 1e4;
-/// Of a straight arrow: its length, where it begins if something is in its place, and how far it is beside another one, in units.
+/// Length of a straight arrow, its offset along its direction if a symbol is in its place, and its offset from a parallel arrow (symbol
+/// units).
 const STRAIGHT: f64 = 3.4;
 const BEHIND_SYMBOL: f64 = 1.5;
 const BESIDE: f64 = 1.3;
-/// Where the arrow around a place begins and ends (rad), its radius, and that of the next around it, in units.
+/// Start and end of the arrow around a position (rad), its radius, and the step to the next one around it (symbol units).
 const TURN: [f64; 2] = [0.1 * PI, 0.9 * PI];
 const RADIUS: [f64; 2] = [2.1, 0.8];
-/// Motions that are shown at most.
+/// Number of free motions that are shown at most.
 const MOST: usize = 12;
-/// Velocities are the same if they differ by no more than this part.
+/// Relative difference below which velocities are equal.
 const SAME: f64 = 1e-6;
 
-/// What is the matter with a mechanism, as far as it can be drawn.
+/// Faults of a mechanism that can be drawn.
 #[derive(Clone, Debug, Default)]
 pub struct Faults {
-    /// The declarations that messages name.
+    /// Declarations that messages name.
     pub named: Vec<usize>,
-    /// Motions that nothing holds: the frames that move, with their velocities [m, rad], which have a common scale.
+    /// Free motions: for each the moving frames with their velocities [m, rad], in a common scale.
     pub free: Vec<Vec<(usize, Pose)>>,
-    /// What is left open.
+    /// State of the joints.
     pub joints: Joints,
-    /// Lengths that stand in the way.
+    /// Lengths that prevent the assembly.
     pub lengths: Vec<Length>,
 }
 
-/// How joints stand.
+/// State of a mechanism's joints.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Joints {
-    /// All are closed.
+    /// All joints are closed.
     #[default]
     Closed,
-    /// As they are drawn, more or less closed.
+    /// Joints are as drawn, more or less closed.
     Drawn,
-    /// As nearly closed as can be.
+    /// Joints are as nearly closed as possible.
     Open,
 }
 
@@ -86,7 +86,7 @@ pub(super) fn add(scene: &mut Scene, model: &Mechanism, motion: &Motion, faults:
     scene.extent = whole::extent(&scene.nodes, motion, scene.unit);
 }
 
-/// By frame: the places of bodies that joints use; where there is none those that have a name, or the origin.
+/// Returns the positions by frame that joints use; for a frame without any its named points, or its origin.
 fn places(features: &Features, motion: &Motion) -> Vec<Vec<Vector>> {
     let model = features.model;
     let mut places = vec![Vec::new(); motion.frames().max(1)];
@@ -109,12 +109,12 @@ fn places(features: &Features, motion: &Motion) -> Vec<Vec<Vector>> {
     places
 }
 
-/// Marks in the making.
+/// Marks under construction.
 struct Marks<'m> {
     unit: f64,
     features: Features<'m>,
     poses: &'m [Pose],
-    /// The declarations of the first joint and of the first equation.
+    /// Indices of the declarations of the first joint and of the first equation.
     joints: usize,
     equations: usize,
     nodes: Vec<Node>,
@@ -125,7 +125,7 @@ impl Marks<'_> {
         Symbols { unit: self.unit }
     }
 
-    /// Shows which joints are open by more than so many units; gives their declarations.
+    /// Marks the joints that are open by more than `least` symbol units, and returns their declarations.
     fn gaps(&mut self, least: f64) -> Vec<usize> {
         let model = self.features.model;
         let of_joints = model.joints.iter().enumerate().map(|(number, _)| (self.joints + number, self.halves(number)));
@@ -160,7 +160,7 @@ impl Marks<'_> {
         open
     }
 
-    /// The two places that a joint is to bring together; none where it does not do so with places.
+    /// Returns the two positions that a joint brings together, or `None` if it does not join positions.
     fn halves(&self, number: usize) -> Option<[Vector; 2]> {
         let (features, model) = (&self.features, self.features.model);
         let joint = &model.joints[number];
@@ -186,13 +186,13 @@ impl Marks<'_> {
         found.iter().all(|place| super::is_finite(*place)).then_some(found)
     }
 
-    /// Where a massless link of a length ends, and where it should.
+    /// Returns where a massless link of a length ends, and where it should end.
     fn end_of_link(&self, [p, q]: [Anchor; 2], wanted: f64) -> Option<[Vector; 2]> {
         let [from, to] = [p, q].map(|anchor| anchor.placed(self.poses));
         wanted.is_finite().then(|| [plus(from, times(wanted, normal(minus(to, from)))), to])
     }
 
-    /// A place, and the nearest one on a line that is so far to the left of another one.
+    /// Returns a position, and the nearest one on a line at an offset to the left.
     fn beside_line(&self, of: Anchor, line: &Line, offset: f64) -> [Vector; 2] {
         let pose = &self.poses[line.frame];
         let (at, along) = (pose.placed(plus(line.at, times(offset, left(line.along)))), pose.turned(line.along));
@@ -200,7 +200,7 @@ impl Marks<'_> {
         [place, plus(at, times(dot(along, minus(place, at)), along))]
     }
 
-    /// A ring around a joint.
+    /// Adds a ring around a joint.
     fn ring(&mut self, declaration: usize) {
         let model = self.features.model;
         let joint = declaration.checked_sub(self.joints).and_then(|number| model.joints.get(number));
@@ -213,13 +213,13 @@ impl Marks<'_> {
     }
 }
 
-/// Arrows in the making.
+/// Arrows under construction.
 struct Arrows {
-    /// Where there are arrows around a place.
+    /// Positions of arrows that turn.
     taken: Vec<Vector>,
-    /// Where straight ones begin, and which way they go.
+    /// Start and direction of straight arrows.
     straight: Vec<(Vector, Vector)>,
-    /// Places of each frame.
+    /// Positions by frame.
     places: Vec<Vec<Vector>>,
 }
 
@@ -237,13 +237,13 @@ impl Arrows {
         }
     }
 
-    /// The middle of a frame's places, in it.
+    /// Returns the middle of a frame's positions, in the frame.
     fn middle(&self, frame: usize) -> Vector {
         let [low, high] = super::bounds(self.places[frame].iter().copied()).unwrap_or_default();
         times(0.5, plus(low, high))
     }
 
-    /// A body that nothing holds at all turns about its middle as well as about any other place.
+    /// Adds the arrow of an unconstrained body: it turns about its middle as well as about any other position.
     fn add_loose(&mut self, marks: &mut Marks, frame: usize, velocity: Pose) {
         let middle = Anchor { frame, at: self.middle(frame) };
         if velocity.phi.abs() > 0.0 {
@@ -259,7 +259,7 @@ impl Arrows {
         let speed = velocity.velocity(&pose, middle.at);
         let turns = velocity.phi.abs() * FAR * marks.unit > length(speed);
         if turns {
-            // velocities are those of a turn about this place
+            // pole of the velocities
             let pole = pose.located(plus(pose.at, times(1.0 / velocity.phi, left(velocity.at))));
             let places = self.places[frame].iter().copied().chain([middle.at]);
             let nearest = places.min_by(|a, b| distance(*a, pole).total_cmp(&distance(*b, pole)));
@@ -296,7 +296,7 @@ impl Arrows {
     }
 }
 
-/// The arrow of a free motion, which belongs to its body.
+/// Returns the node of a free motion's arrow, which belongs to the body.
 fn free(at: Anchor, mut shapes: Vec<Shape>) -> Node {
     for shape in &mut shapes {
         shape.look = if shape.look == Look::ArrowHead { Look::FreeHead } else { Look::Free };
@@ -304,11 +304,11 @@ fn free(at: Anchor, mut shapes: Vec<Shape>) -> Node {
     Node { declaration: at.frame, place: Place::Upright(at), shapes }
 }
 
-/// What moves as one in a motion is told once.
+/// Returns one frame for each group of frames that move as one.
 fn each_once(motion: &[(usize, Pose)], marks: &Marks) -> Vec<(usize, Pose)> {
     let mut told: Vec<(usize, Pose, Vector)> = Vec::new();
     for &(frame, velocity) in motion.iter().filter(|(frame, _)| *frame < marks.poses.len()) {
-        // of a place of the plane that is the same for all
+        // velocity of the position that coincides with the ground's origin
         let common = velocity.velocity(&marks.poses[frame], marks.poses[frame].located([0.0; 2]));
         let is_same = |other: &(usize, Pose, Vector)| {
             let size = length(common) + velocity.phi.abs() * marks.unit;
@@ -322,7 +322,7 @@ fn each_once(motion: &[(usize, Pose)], marks: &Marks) -> Vec<(usize, Pose)> {
     told.into_iter().map(|(frame, velocity, _)| (frame, velocity)).collect()
 }
 
-/// Whether a frame has three motions of its own.
+/// Returns whether a frame has three free motions of its own.
 fn is_loose(free: &[Vec<(usize, Pose)>], frame: usize) -> bool {
     free.iter().filter(|motion| matches!(motion.as_slice(), [(only, _)] if *only == frame)).count() == 3
 }

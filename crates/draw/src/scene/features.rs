@@ -1,4 +1,4 @@
-//! What the features of a mechanism are in the frames of bodies, in numbers: parts' grounds are folded into what carries them.
+//! Features of a mechanism as numbers in the frames of bodies. The grounds of parts are resolved to the frames that carry them.
 
 use super::plane::{Pose, Vector, minus, plus, unit};
 use super::{Anchor, Sample};
@@ -9,9 +9,9 @@ use mechc_lang::model::{AxisId, CircleId, Frame, Mechanism, Named, PartId, Point
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
     pub frame: usize,
-    /// A point of it (m).
+    /// Point on the line (m).
     pub at: Vector,
-    /// Its direction, of length 1.
+    /// Direction, of length 1.
     pub along: Vector,
 }
 
@@ -19,17 +19,17 @@ pub(super) struct Line {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Disc {
     pub center: Anchor,
-    /// (m)
+    /// Radius (m).
     pub radius: f64,
 }
 
-/// The numbers of a mechanism's constants.
+/// A mechanism with the values of its formulas of parameters.
 pub(super) struct Features<'m> {
     pub model: &'m Mechanism,
     values: Vec<f64>,
 }
 
-/// The argument's change over which a tangent is taken.
+/// Step of the argument for the difference quotient of a tangent.
 const SMALL: f64 = 1e-5;
 
 impl<'m> Features<'m> {
@@ -39,12 +39,12 @@ impl<'m> Features<'m> {
         Features { model, values }
     }
 
-    /// A formula of parameters, in SI.
+    /// Returns the value of a formula of parameters, in SI.
     pub fn value(&self, formula: ExprId) -> f64 {
         self.values[formula.index()]
     }
 
-    /// The number of what carries a frame.
+    /// Returns the index of the frame that carries a frame.
     pub fn frame(&self, frame: Frame) -> usize {
         number(self.model.carrier(frame))
     }
@@ -68,13 +68,13 @@ impl<'m> Features<'m> {
         Disc { center: self.point(circle.center), radius: self.value(circle.radius) }
     }
 
-    /// A place of a frame, in what carries it.
+    /// Converts a position of a frame to the frame that carries it.
     pub fn placed(&self, frame: Frame, place: Vector) -> Anchor {
         let (frame, at) = self.model.in_carrier(&|id| self.value(id), frame, place);
         Anchor { frame: number(frame), at }
     }
 
-    /// Where the frame of a part's text is in what carries the part, and whether it is mirrored there.
+    /// Returns the frame that carries a part, the pose of the part's ground in it, and whether it is mirrored there.
     pub fn text_of(&self, part: Option<PartId>) -> (usize, Pose, bool) {
         let frame = part.map_or(Frame::Ground, Frame::Part);
         let [origin, ahead] = [[0.0, 0.0], [1.0, 0.0]].map(|place| self.placed(frame, place));
@@ -82,7 +82,7 @@ impl<'m> Features<'m> {
         (origin.frame, Pose { at: origin.at, phi }, self.model.is_mirrored(part))
     }
 
-    /// A place on a profile, in what carries it; not finite where its formulas have no value.
+    /// Returns the position on a profile in the frame that carries it; not finite where its formulas have no value.
     pub fn on_profile(&self, profile: Profile, u: f64) -> Anchor {
         match profile {
             Profile::Circle(id) => {
@@ -104,7 +104,7 @@ impl<'m> Features<'m> {
         }
     }
 
-    /// A place on a profile with its tangent.
+    /// Returns the position on a profile with its tangent.
     pub fn sample(&self, profile: Profile, u: f64) -> Sample {
         let [before, at, behind] = [u - SMALL, u, u + SMALL].map(|u| self.on_profile(profile, u).at);
         let tangent = minus(behind, before).map(|way| way / (2.0 * SMALL));
@@ -112,7 +112,7 @@ impl<'m> Features<'m> {
     }
 }
 
-/// The number of a body, or of the ground.
+/// Returns the index of a body, or 0 for the ground.
 fn number(frame: Frame) -> usize {
     match frame {
         Frame::Body(body) => body.index() + 1,
@@ -128,7 +128,7 @@ fn parameter(model: &Mechanism, symbol: Symbol) -> Option<f64> {
     }
 }
 
-/// Where all frames are drawn, by the poses as they are written; the ground first.
+/// Returns the poses of all frames as the text draws them, the ground first.
 #[must_use]
 pub fn drawn_poses(model: &Mechanism) -> Vec<Pose> {
     let mut graph = model.graph.clone();

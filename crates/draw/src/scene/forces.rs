@@ -1,4 +1,4 @@
-//! Forces as arrows: what joints exert, what loads are, weights. What they are at a time stands in columns of the table.
+//! Forces as arrows: reactions of joints, loads and weights. Their values at a time are columns of the table.
 
 use super::drawing::Drawing;
 use super::features::Features;
@@ -8,22 +8,22 @@ use mechc_expr::{ExprId, Node, Symbol};
 use mechc_lang::model::{EquationForm, JointKind, Mechanism, Named, PartId, Profile, Quantity};
 use std::f64::consts::PI;
 
-/// What a force is of.
+/// Origin of a force.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum ForceKind {
-    /// What a joint exerts on the body of its second argument, or what keeps or drives a distance.
+    /// Force of a joint on the body of its second argument, or force that keeps or drives a distance.
     Reaction,
-    /// A load.
+    /// Load.
     Load,
-    /// The weight of a mass.
+    /// Weight of a mass.
     Weight,
 }
 
 impl ForceKind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [ForceKind; 3] = [ForceKind::Reaction, ForceKind::Load, ForceKind::Weight];
 
-    /// A word for it.
+    /// Returns the name of the kind; style sheets use it as a class.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -34,48 +34,48 @@ impl ForceKind {
     }
 }
 
-/// A force that takes hold of a place.
+/// A force with its point of action.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ForceVector {
-    /// Whose it is.
+    /// Index of the declaration.
     pub declaration: usize,
-    /// What it is of.
+    /// Origin.
     pub kind: ForceKind,
-    /// Where it takes hold.
+    /// Point of action.
     pub at: Anchor,
-    /// What it is.
+    /// Value.
     pub value: ForceValue,
 }
 
-/// What a force is, in the directions of the ground (N).
+/// Value of a force in the directions of the ground (N).
 #[derive(Clone, PartialEq, Debug)]
 pub enum ForceValue {
-    /// Always the same.
+    /// Constant.
     Constant(Vector),
     /// Two columns.
     Components([String; 2]),
     /// A column times a direction of a frame.
     Along {
-        /// The column.
+        /// Column.
         column: String,
-        /// The number of the frame.
+        /// Index of the frame.
         frame: usize,
-        /// In the frame, of length 1.
+        /// Direction in the frame, of length 1.
         direction: Vector,
     },
-    /// A column times the direction from one place to another.
+    /// A column times the direction from one position to another.
     Apart {
-        /// The column.
+        /// Column.
         column: String,
-        /// The one.
+        /// First position.
         from: Anchor,
-        /// The other.
+        /// Second position.
         to: Anchor,
     },
 }
 
 impl ForceVector {
-    /// What it is in a row (N); not finite where the table does not tell.
+    /// Returns the value in a row (N); not finite where the table has no value.
     #[must_use]
     pub fn value(&self, motion: &Motion, row: usize) -> Vector {
         let poses = motion.poses(row);
@@ -91,7 +91,7 @@ impl ForceVector {
         }
     }
 
-    /// The columns that tell it.
+    /// Returns the columns that the value depends on.
     fn columns(&self) -> &[String] {
         match &self.value {
             ForceValue::Constant(_) => &[],
@@ -101,7 +101,8 @@ impl ForceVector {
     }
 }
 
-/// All forces that the motion's table tells of, and the weights beside them; none where it tells of none, and of no torques either.
+/// Returns all forces whose columns are in the motion's table, then the weights. Without any such force or torque there are no weights
+/// either.
 pub(super) fn vectors(drawing: &Drawing, has_torques: bool) -> Vec<ForceVector> {
     let (features, first) = (&drawing.features, drawing.first);
     let model = features.model;
@@ -122,7 +123,7 @@ pub(super) fn vectors(drawing: &Drawing, has_torques: bool) -> Vec<ForceVector> 
             EquationForm::Distance(p, q, _) => {
                 found.extend(apart(&of, [p, q].map(|point| features.point(point)), 1.0));
             }
-            // what it supplies works on the left side less the right side
+            // the effort acts on the left side minus the right side
             EquationForm::Equality(left, right) => {
                 for (side, sign) in [(left, 1.0), (right, -1.0)] {
                     let quantity = bare_quantity(model, side);
@@ -142,7 +143,7 @@ pub(super) fn vectors(drawing: &Drawing, has_torques: bool) -> Vec<ForceVector> 
     found
 }
 
-/// The quantity that a side of an equation is, and from the ground of which part it is seen; none of a formula that holds more.
+/// Returns the quantity that a side of an equation consists of, with the part that it refers to; `None` for any other formula.
 pub(super) fn bare_quantity(model: &Mechanism, side: ExprId) -> Option<(Option<PartId>, Quantity)> {
     match model.graph.node(side) {
         Node::Symbol(Symbol::Named(k)) => match model.named[k as usize] {
@@ -153,7 +154,7 @@ pub(super) fn bare_quantity(model: &Mechanism, side: ExprId) -> Option<(Option<P
     }
 }
 
-/// Where a joint's reaction takes hold, as the language has it. What presses a circle passes its centre.
+/// Returns the point of action of a joint's reaction, as the language defines it. A force on a circle passes its centre.
 pub(super) fn place(features: &Features, kind: &JointKind) -> Option<Anchor> {
     let model = features.model;
     Some(match *kind {
@@ -172,10 +173,10 @@ pub(super) fn place(features: &Features, kind: &JointKind) -> Option<Anchor> {
     })
 }
 
-/// Whose a force is, what it is of, and the column that tells it.
+/// Declaration, origin and column of a force.
 type Of = (usize, ForceKind, String);
 
-/// A force that takes two places apart, or draws them together, on each of them.
+/// Returns the two forces that push two positions apart, or pull them together if `sign` is negative.
 fn apart((declaration, kind, column): &Of, ends: [Anchor; 2], sign: f64) -> [ForceVector; 2] {
     let [p, q] = ends;
     [[p, q], [q, p]].map(|[at, other]| ForceVector {
@@ -190,7 +191,7 @@ fn apart((declaration, kind, column): &Of, ends: [Anchor; 2], sign: f64) -> [For
     })
 }
 
-/// The arrows of what works on a length, as its column or against it; a torque has none.
+/// Returns the forces of an effort on a quantity of length; an effort on an angle has none.
 fn of_quantity(features: &Features, of: &Of, (view, on): (Option<PartId>, Quantity), sign: f64) -> Vec<ForceVector> {
     let (declaration, kind, column) = of;
     let along = |at: Anchor, frame: usize, direction: Vector| ForceVector {

@@ -1,7 +1,7 @@
-//! Wheels, rings and racks: one pitch for all that mesh with each other, and teeth that stand in each other's gaps all along the motion.
+//! Gears, ring gears and racks: all members of a train have one pitch, and their teeth mesh along the whole motion.
 //!
-//! A wheel has a whole number of teeth, so a pitch fits all wheels of a train only if their radii are in a ratio of whole numbers. Where no
-//! pitch fits, or loops of wheels cannot be put together, wheels are drawn with their pitch circles alone: teeth would not mesh.
+//! A gear has a whole number of teeth, so a pitch fits a train only if the radii are in a ratio of whole numbers. Where no pitch fits, or a
+//! loop of gears cannot be assembled, only pitch circles are drawn: teeth would not mesh.
 
 use super::drawing::{Drawing, Layer, shape};
 use super::features::{Disc, Line};
@@ -14,31 +14,31 @@ use mechc_expr::math;
 use mechc_lang::model::{AxisId, CircleId, JointKind};
 use std::f64::consts::{PI, TAU};
 
-/// Teeth of the smallest wheel of a train, at least and at most.
+/// Number of teeth of the smallest gear of a train, at least and at most.
 const TEETH: [u32; 2] = [12, 60];
-/// A pitch that is well seen, in units.
+/// Preferred pitch (symbol units).
 const PITCH: f64 = 2.0;
-/// Wheels with more teeth have none.
+/// Gears with more teeth than this are drawn without teeth.
 const MOST_TEETH: f64 = 900.0;
-/// What a tooth may be off from the middle of a gap, in pitches.
+/// Tolerance of a tooth from the middle of its gap (pitches).
 const OFF: f64 = 0.012;
-/// Rows that are looked at to tell it.
+/// Number of rows that are checked for it.
 const LOOKED_AT: usize = 60;
-/// A wheel that is smaller than this, in units, is drawn above bodies.
+/// Gears smaller than this are drawn above bodies (symbol units).
 const SMALL: f64 = 2.0;
 
-/// What teeth are on.
+/// Feature that carries teeth.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Carrier {
     Circle(CircleId),
     Axis(AxisId),
 }
 
-/// Two that mesh.
+/// Two members that mesh.
 #[derive(Clone, Copy, Debug)]
 struct Mesh {
     joint: usize,
-    /// By their places among all that have teeth.
+    /// Indices in [`Trains::all`].
     members: [usize; 2],
     kind: MeshKind,
 }
@@ -50,7 +50,7 @@ enum MeshKind {
     Rack,
 }
 
-/// Something with teeth.
+/// A member with teeth.
 #[derive(Clone, Copy, Debug)]
 struct Toothed {
     carrier: Carrier,
@@ -60,7 +60,7 @@ struct Toothed {
     line: Option<Line>,
 }
 
-/// The teeth of something: of a wheel their number, of a rack none; and where one is, an angle (rad) or a length (m).
+/// Teeth of a member: the number of teeth, 0 for a rack, and the position of one of them, as an angle (rad) or a length (m).
 #[derive(Clone, Copy, Debug, Default)]
 struct Teeth {
     count: u32,
@@ -134,7 +134,7 @@ impl Trains {
         self.all.len() - 1
     }
 
-    /// All that mesh with one of them, directly or by way of others; each but the first behind one that it meshes with.
+    /// Returns the train of a member: all that mesh with it, directly or through others. Each but the first meshes with an earlier one.
     fn connected(&self, first: usize) -> Vec<usize> {
         let (mut found, mut next) = (vec![first], 0);
         while let Some(&member) = found.get(next) {
@@ -149,14 +149,14 @@ impl Trains {
         found
     }
 
-    /// A pitch (m) that fits a train, with the teeth of its members.
+    /// Returns a pitch (m) that fits a train, with the teeth of its members.
     fn fitting(&self, drawing: &Drawing, train: &[usize]) -> Option<(f64, Vec<Teeth>)> {
         let radii = || train.iter().filter_map(|&member| self.all[member].disc.map(|disc| disc.radius));
         let smallest = radii().fold(f64::INFINITY, f64::min);
         let [least, most] = TEETH;
         #[allow(clippy::cast_sign_loss)] // clamped
         let wanted = (TAU * smallest / (PITCH * drawing.unit)).clamp(f64::from(least), 0.75 * f64::from(most)) as u32;
-        // more teeth than are wanted before fewer
+        // more teeth are better than fewer
         (wanted..=most).chain((least..wanted).rev()).find_map(|fewest| {
             let pitch = TAU * smallest / f64::from(fewest);
             if radii().any(|radius| TAU * radius / pitch > MOST_TEETH) {
@@ -167,7 +167,7 @@ impl Trains {
         })
     }
 
-    /// The teeth of a train, each member's in the gaps of the one before at the first moment.
+    /// Returns the teeth of a train, each member meshing with an earlier one in the first row.
     fn phased(&self, drawing: &Drawing, train: &[usize], pitch: f64) -> Vec<Teeth> {
         #[allow(clippy::cast_sign_loss)] // radii are positive, and not large
         let count =
@@ -181,7 +181,7 @@ impl Trains {
             });
             let Some(mesh) = found else { continue };
             let off = self.off(drawing, mesh, train, &teeth, pitch, 0);
-            // what a change of its own phase by one pitch adds
+            // change of the deviation when the own phase changes by one pitch
             let is_second = mesh.members[1] == train[k];
             let sign = match (mesh.kind, is_second) {
                 (MeshKind::External, _) | (MeshKind::Internal, false) => 1.0,
@@ -194,7 +194,7 @@ impl Trains {
         teeth
     }
 
-    /// On which side of a rack its pinion lies: 1 for left, −1 for right.
+    /// Returns on which side of a rack its pinion lies: 1 for the left, −1 for the right.
     fn side(&self, drawing: &Drawing, mesh: &Mesh, row: usize) -> f64 {
         let [wheel, rack] = mesh.members.map(|member| &self.all[member]);
         match (wheel.disc, rack.line) {
@@ -203,7 +203,7 @@ impl Trains {
         }
     }
 
-    /// How far a tooth is from the middle of the gap that it stands in, in pitches, in a row.
+    /// Returns the deviation of a tooth from the middle of its gap in a row (pitches).
     fn off(&self, drawing: &Drawing, mesh: &Mesh, train: &[usize], teeth: &[Teeth], pitch: f64, row: usize) -> f64 {
         let poses = drawing.motion.poses(row);
         let own = |member: usize| {
@@ -241,7 +241,7 @@ impl Trains {
         to_whole(sum - 0.5)
     }
 
-    /// The worst of that of a train, along the motion.
+    /// Returns the largest deviation of a train along the motion.
     fn worst(&self, drawing: &Drawing, train: &[usize], pitch: f64, teeth: &[Teeth]) -> f64 {
         let own = || self.meshes.iter().filter(|mesh| train.contains(&mesh.members[0]));
         let rows = drawing.motion.sampled(LOOKED_AT);
@@ -276,7 +276,7 @@ impl Trains {
         drawing.outlines[line.frame].is_shown = true;
     }
 
-    /// The pitch circles and lines of all joints, each once at least.
+    /// Draws the pitch circles and pitch lines of all joints, each at least once.
     fn pitch_circles(&self, drawing: &mut Drawing) {
         let mut is_drawn = vec![false; self.all.len()];
         for mesh in &self.meshes {
@@ -306,7 +306,7 @@ impl Trains {
     }
 }
 
-/// A wheel or ring; without teeth a disc with a mark, so that it is seen to turn.
+/// Draws a gear or ring gear; without teeth it is a disc with a mark that makes its rotation visible.
 fn wheel(drawing: &mut Drawing, toothed: &Toothed, disc: &Disc, teeth: Option<&Teeth>) {
     let (unit, at, radius) = (drawing.unit, disc.center.at, disc.radius);
     let shapes: Vec<Shape> = match teeth {

@@ -1,4 +1,4 @@
-//! What slides: blocks on their guides, bars in sleeves, pins in slots. Guides are as long as the motion asks for.
+//! Sliders: blocks on guides, bars in sleeves, pins in slots. Guides are as long as the motion requires.
 
 use super::drawing::{DOT, Drawing, Layer, Outline, shape};
 use super::features::Line;
@@ -7,19 +7,19 @@ use super::symbols::{BLOCK, SLEEVE, SLOT, Symbols};
 use super::{Anchor, Look};
 use mechc_lang::model::{AxisId, JointKind, PointId, Profile};
 
-/// A guide goes on so far behind what slides, in units.
+/// Length of a guide beyond the slider (symbol units).
 const BEYOND: f64 = 0.5;
-/// The least way that a guide shows, in units.
+/// Shortest stroke that a guide shows (symbol units).
 const LEAST_WAY: f64 = 1.2;
-/// A sleeve is so far from what the bar in it carries, in units.
+/// Distance of a sleeve from what its bar carries (symbol units).
 const TO_SLEEVE: f64 = 3.2;
 
-/// A place on a line, from its point on.
+/// Returns the position at a coordinate of a line.
 fn on(line: &Line, along: f64) -> Vector {
     plus(line.at, times(along, line.along))
 }
 
-/// A way that is at least as long as a guide shows, with the same middle.
+/// Widens a range about its middle to at least a length.
 fn widened([low, high]: [f64; 2], least: f64) -> [f64; 2] {
     if !(low.is_finite() && high.is_finite()) {
         return [-0.5 * least, 0.5 * least];
@@ -29,7 +29,7 @@ fn widened([low, high]: [f64; 2], least: f64) -> [f64; 2] {
 }
 
 impl Drawing<'_> {
-    /// How far along a line a place goes, at least and at most.
+    /// Returns the range of an anchor's coordinate along a line.
     pub fn range_on(&self, line: &Line, of: Anchor) -> [f64; 2] {
         self.range(|row| dot(line.along, minus(self.seen(of, line.frame, row), line.at)))
     }
@@ -37,7 +37,7 @@ impl Drawing<'_> {
 
 pub(super) fn translational(drawing: &mut Drawing, declaration: usize, [a, b]: [AxisId; 2]) {
     let [first, second] = [a, b].map(|axis| drawing.features.axis(axis));
-    // the ground is the guide, and where there is none the first of the two
+    // the ground is the guide, otherwise the first of the two
     let (guide, slider, axis) = if second.frame == 0 { (second, first, a) } else { (first, second, b) };
     let origin = Anchor { frame: slider.frame, at: slider.at };
     let way = drawing.range_on(&guide, origin);
@@ -48,19 +48,19 @@ pub(super) fn translational(drawing: &mut Drawing, declaration: usize, [a, b]: [
     }
     let pin = drawing.features.model[axis].origin;
     if let Some(point) = drawing.shown(&[pin]).filter(|_| drawing.features.model[pin].name.is_some()) {
-        // what slides is a place that a joint takes hold of, and may have no pin
+        // the slider's point belongs to a joint and may have no pin
         let dot = Path::Circle { at: slider.at, radius: DOT * drawing.unit };
         let dot = super::Shape { path: dot, look: Look::Dot, point: Some(point) };
         drawing.add_fixed(Layer::Blocks, declaration, slider.frame, vec![dot]);
     }
 }
 
-/// A block on the edge of the ground.
+/// Draws a block on the edge of the ground.
 fn on_ground(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line, &Line), way: [f64; 2]) {
     let (unit, symbols) = (drawing.unit, Symbols { unit: drawing.unit });
     let [low, high] = widened(way, LEAST_WAY * unit);
     let beyond = (BLOCK[0] + BEYOND) * unit;
-    // the ground is below what slides, or to its right
+    // the ground is below the slider, or to its right
     let [x, y] = guide.along;
     let is_forward = if x.abs() > 1e-3 { x > 0.0 } else { y > 0.0 };
     let side = if is_forward { 1.0 } else { -1.0 };
@@ -73,7 +73,7 @@ fn on_ground(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line,
     drawing.outlines[slider.frame].is_shown = true;
 }
 
-/// A block on a bar of another body.
+/// Draws a block on a bar of another body.
 fn on_bar(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line, &Line), way: [f64; 2]) {
     let (unit, symbols) = (drawing.unit, Symbols { unit: drawing.unit });
     let [low, high] = widened(way, LEAST_WAY * unit);
@@ -85,16 +85,16 @@ fn on_bar(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line, &L
     drawing.outlines[slider.frame].is_shown = true;
 }
 
-/// What takes up the place where a block would be.
+/// A contact in the place of a block.
 #[derive(Clone, Copy)]
 struct Busy {
-    /// From where the bar is to come out, in the frame of what slides.
+    /// Anchor from which the bar leads away.
     away_from: Option<Anchor>,
-    /// How far what is there reaches (m).
+    /// Extent of the contact (m).
     reach: f64,
 }
 
-/// Whether a contact is where an axis begins that something slides along.
+/// Returns the contact at the origin of a slider's axis, if there is one.
 fn busy(drawing: &Drawing, axis: AxisId) -> Option<Busy> {
     let model = drawing.features.model;
     let slider = drawing.features.axis(axis);
@@ -102,7 +102,7 @@ fn busy(drawing: &Drawing, axis: AxisId) -> Option<Busy> {
     let middle = |profile: Profile| match profile {
         Profile::Circle(circle) => drawing.features.circle(circle).center,
         Profile::Curve(curve) => {
-            // a plate turns about its origin more often than not
+            // a plate usually turns about its origin
             drawing.features.placed(model[curve].frame, [0.0, 0.0])
         }
     };
@@ -124,7 +124,7 @@ fn busy(drawing: &Drawing, axis: AxisId) -> Option<Busy> {
     })
 }
 
-/// A bar of the body that slides, in a sleeve of the other one.
+/// Draws a bar of the sliding body in a sleeve of the other body.
 fn in_sleeve(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line, &Line), way: [f64; 2], busy: Busy) {
     let (unit, symbols) = (drawing.unit, Symbols { unit: drawing.unit });
     let poses = drawing.motion.poses(0);
@@ -156,7 +156,7 @@ fn in_sleeve(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line,
         drawing.add_fixed(Layer::Blocks, declaration, guide.frame, vec![shape(Look::Sleeve, sleeve)]);
         drawing.outlines[guide.frame].places.push(middle);
     }
-    // the bar reaches through the sleeve wherever the body is
+    // the bar reaches through the sleeve in every position
     let long = (far - near) + to_sleeve + (SLEEVE[0] + 0.4) * unit;
     let outward = if is_same { sign } else { -sign };
     let Outline { places, .. } = &mut drawing.outlines[slider.frame];
@@ -167,7 +167,7 @@ fn in_sleeve(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line,
     }
 }
 
-/// A pin in a slot.
+/// Draws a pin in a slot.
 pub(super) fn slot(drawing: &mut Drawing, declaration: usize, (p, axis): (PointId, AxisId), offset: f64) {
     let (unit, symbols) = (drawing.unit, Symbols { unit: drawing.unit });
     let line = drawing.features.axis(axis);
@@ -198,7 +198,7 @@ pub(super) fn slot(drawing: &mut Drawing, declaration: usize, (p, axis): (PointI
     }
 }
 
-/// Which side of a line a place lies on: above zero for its left (m).
+/// Returns the signed distance of a position from a line (m), positive on its left.
 pub(super) fn height(line: &Line, place: Vector) -> f64 {
     cross(line.along, minus(place, line.at))
 }

@@ -1,4 +1,4 @@
-//! What is drawn for each joint, by its kind: each in a file of its own.
+//! Dispatch of joints to their symbols; each kind is drawn in a file of its own.
 
 use super::drawing::Drawing;
 use super::{contacts, guides, pins};

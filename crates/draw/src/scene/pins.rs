@@ -1,4 +1,4 @@
-//! Pins, with what holds them on the ground; welds; links that are no bodies.
+//! Pins with their supports on the ground, welds, and links that are not bodies.
 
 use super::drawing::{Drawing, Layer, shape};
 use super::plane::{Path, Vector, distance, rectangle};
@@ -6,7 +6,7 @@ use super::symbols::{Symbols, THIN_BAR};
 use super::{Anchor, Held, Look, Node, Pin, Place};
 use mechc_lang::model::PointId;
 
-/// Two supports are one if they are no farther apart than this, in units.
+/// Supports closer than this are one support (symbol units).
 const SAME_PLACE: f64 = 0.3;
 
 pub(super) fn revolute(drawing: &mut Drawing, declaration: usize, [p, q]: [PointId; 2]) {
@@ -20,7 +20,7 @@ pub(super) fn revolute(drawing: &mut Drawing, declaration: usize, [p, q]: [Point
     }
 }
 
-/// A pin that moves with one of its bodies, the first of them unless that is the ground.
+/// Adds a pin that moves with the first body, or with the second if the first is the ground.
 fn pin(drawing: &mut Drawing, declaration: usize, points: [PointId; 2], at: Anchor) {
     let other = drawing.features.point(points[1]);
     let at = if at.frame == 0 { other } else { at };
@@ -29,7 +29,7 @@ fn pin(drawing: &mut Drawing, declaration: usize, points: [PointId; 2], at: Anch
     drawing.add_fixed(Layer::Pins, declaration, at.frame, vec![pin]);
 }
 
-/// A pin of one body alone, or on the ground with its support.
+/// Adds a pin of one body; on the ground it has a support.
 pub(super) fn single_pin(drawing: &mut Drawing, declaration: usize, point: PointId) {
     let at = drawing.features.point(point);
     let shown = drawing.shown(&[point]);
@@ -41,7 +41,7 @@ pub(super) fn single_pin(drawing: &mut Drawing, declaration: usize, point: Point
     }
 }
 
-/// What holds a pin on the ground, unless it is there.
+/// Adds the support of a pin on the ground, unless one is near.
 fn foot(drawing: &mut Drawing, declaration: usize, at: Vector) {
     let near = SAME_PLACE * drawing.unit;
     if drawing.feet.iter().any(|known| distance(*known, at) <= near) {
@@ -74,7 +74,7 @@ pub(super) fn massless_link(drawing: &mut Drawing, declaration: usize, [p, q]: [
     single_pin(drawing, declaration, q);
 }
 
-/// A distance that is driven: a cylinder with its rod, between two pins.
+/// Adds the symbol of a driven distance: a cylinder with its rod between two pins.
 pub(super) fn cylinder(drawing: &mut Drawing, declaration: usize, [p, q]: [PointId; 2]) {
     let (from, to) = (drawing.features.point(p), drawing.features.point(q));
     let apart = |row: usize| {
@@ -92,7 +92,7 @@ pub(super) fn cylinder(drawing: &mut Drawing, declaration: usize, [p, q]: [Point
         drawing.add(Layer::Links, Node { declaration, place: Place::Between { from, to, held }, shapes });
     };
     if length + rod < most {
-        // it goes out farther than one rod can reach
+        // the distance is longer than one rod can reach
         node(Held::Stretched, vec![shape(Look::Rod, Path::line([[0.0, 0.0], [1.0, 0.0]]))]);
     }
     node(Held::To, vec![symbols.rod(rod)]);

@@ -1,4 +1,4 @@
-//! How large symbols are: by the extent of the mechanism along its whole motion, and no larger than its links allow.
+//! Size of symbols: it follows the extent of the mechanism along its motion, limited by the lengths of its links.
 
 use super::drawing::Outline;
 use super::features::Features;
@@ -6,16 +6,16 @@ use super::plane::{Vector, bounds, distance};
 use super::{Anchor, Motion};
 use mechc_lang::model::{JointKind, Profile};
 
-/// Symbols are such a part of the mechanism's extent, if its links are long enough.
+/// Size of symbols as a part of the mechanism's extent, if links are long enough.
 const OF_EXTENT: f64 = 1.0 / 46.0;
-/// And such a part of what is short among its links.
+/// Limit of the size as a part of a short link's length.
 const OF_LINKS: f64 = 0.2;
-/// But not less than this part of the extent.
+/// Least size as a part of the extent.
 const LEAST_OF_EXTENT: f64 = 1.0 / 400.0;
-/// So many rows tell the extent.
+/// Number of rows that are sampled for the extent.
 const LOOKED_AT: usize = 60;
 
-/// The size of symbols (m), positive.
+/// Returns the size of symbols (m), which is positive.
 pub(super) fn unit(features: &Features, motion: &Motion, outlines: &[Outline]) -> f64 {
     let places = places(features, outlines);
     let corners = motion.sampled(LOOKED_AT).filter_map(|row| {
@@ -24,14 +24,14 @@ pub(super) fn unit(features: &Features, motion: &Motion, outlines: &[Outline]) -
     });
     let extent = bounds(corners.flatten()).map_or(0.0, |[low, high]| distance(low, high));
     if !(extent.is_finite() && extent > 0.0) {
-        // a point that rests
+        // a single position at rest
         return 1.0;
     }
     let short = short_link(features, outlines).map_or(f64::INFINITY, |length| OF_LINKS * length);
     (OF_EXTENT * extent).min(short.max(LEAST_OF_EXTENT * extent))
 }
 
-/// Places that the picture has to hold.
+/// Returns the positions that a picture has to show.
 fn places(features: &Features, outlines: &[Outline]) -> Vec<Anchor> {
     let model = features.model;
     let held = outlines
@@ -55,7 +55,7 @@ fn places(features: &Features, outlines: &[Outline]) -> Vec<Anchor> {
     places
 }
 
-/// What is short among the distances of what bodies join.
+/// Returns the lower quartile of the links' lengths.
 fn short_link(features: &Features, outlines: &[Outline]) -> Option<f64> {
     let widest = |places: &[Vector]| bounds(places.iter().copied()).map(|[low, high]| distance(low, high));
     let mut lengths: Vec<f64> = outlines.iter().filter_map(|outline| widest(&outline.places)).collect();

@@ -1,4 +1,4 @@
-//! Springs and dampers: loads that depend on the quantity that they work on, or on its rate. Names do not tell them, formulas do.
+//! Springs and dampers: loads that depend on their own quantity or on its rate. The formula decides, not the name.
 
 use super::drawing::{Drawing, Layer, shape};
 use super::plane::{Path, distance, polar};
@@ -8,24 +8,24 @@ use mechc_expr::{ExprId, Symbol};
 use mechc_lang::model::{JointKind, Load, Mechanism, Named, PartId, Quantity};
 use std::f64::consts::TAU;
 
-/// Windings of a spring that is drawn as a zigzag.
+/// Number of coils of a zigzag spring.
 const COILS: u32 = 6;
-/// A spiral: its turns, and its least and greatest radius in units.
+/// Turns of a spiral spring, and its least and greatest radius (symbol units).
 const TURNS: f64 = 2.25;
 const RADII: [f64; 2] = [0.75, 1.5];
-/// Places on a spiral.
+/// Number of intervals of a spiral.
 const PLACES: u32 = 48;
-/// Places that come nearer than this, in units, have nothing drawn between them.
+/// Least distance of the ends of a spring (symbol units); shorter ones are not drawn.
 const SHORTEST: f64 = 1.5;
 
-/// What a load depends on.
+/// Dependencies of a load.
 #[derive(Clone, Copy, Default)]
 struct Depends {
     on_place: bool,
     on_rate: bool,
 }
 
-/// What is drawn of all loads on one quantity.
+/// Symbol of all loads on one quantity.
 struct Element {
     on: Quantity,
     part: Option<PartId>,
@@ -75,7 +75,7 @@ fn draw_element(drawing: &mut Drawing, Element { on, declaration, depends, .. }:
     }
 }
 
-/// A spring, a damper or both side by side, stretched between two places that stay apart.
+/// Adds a spring, a damper or both side by side, stretched between two anchors that stay apart.
 fn between(drawing: &mut Drawing, declaration: usize, [from, to]: [Anchor; 2], depends: Depends) {
     let apart = drawing.range(|row| {
         let poses = drawing.motion.poses(row);
@@ -105,7 +105,7 @@ fn stretched(symbols: Symbols, depends: Depends) -> Vec<Shape> {
     }
 }
 
-/// A spring that is wound up about a place.
+/// Adds a spiral spring about an anchor.
 fn spiral(drawing: &mut Drawing, declaration: usize, at: Anchor) {
     let [least, greatest] = RADII.map(|part| part * drawing.unit);
     let place = |k: u32| {
@@ -116,7 +116,7 @@ fn spiral(drawing: &mut Drawing, declaration: usize, at: Anchor) {
     drawing.add(Layer::Arrows, Node { declaration, place: Place::Upright(at), shapes });
 }
 
-/// What of its own quantity a load's formula holds.
+/// Returns how a load's formula depends on its own quantity.
 fn depends(model: &Mechanism, load: &Load) -> Depends {
     let own = Named::Quantity(load.part, load.on);
     let mut found = Depends::default();

@@ -1,52 +1,52 @@
-//! Teeth: involutes of 25°, a little shorter than those of a gear catalogue, so that wheels of twelve teeth need no undercut.
+//! Teeth: involutes of 25°, a little shorter than standard ones, so that gears with twelve teeth need no undercut.
 
 use super::plane::{Contour, Segment, Vector, left, plus, polar, times};
 use mechc_expr::math;
 use std::f64::consts::{PI, TAU};
 
-/// The pressure angle (rad).
+/// Pressure angle (rad).
 const PRESSURE: f64 = 25.0 * PI / 180.0;
-/// How far teeth reach beyond the pitch circle, and how deep gaps go below it, in modules.
+/// Height of teeth above the pitch circle, and depth of gaps below it (modules).
 pub(super) const ADDENDUM: f64 = 0.8;
 pub(super) const DEDENDUM: f64 = 1.0;
-/// The part of a pitch by which a tooth is thinner than a gap.
+/// Part of a pitch by which a tooth is thinner than a gap.
 const BACKLASH: f64 = 0.03;
-/// Places on a flank.
+/// Points on a flank.
 const ON_FLANK: u32 = 4;
 
-/// A wheel with its teeth.
+/// A gear with its teeth.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Wheel {
     pub at: Vector,
-    /// Of the pitch circle (m).
+    /// Radius of the pitch circle (m).
     pub radius: f64,
     pub teeth: u32,
-    /// The direction of the middle of a tooth in the wheel's frame (rad).
+    /// Direction of the middle of a tooth in the gear's frame (rad).
     pub phase: f64,
 }
 
-/// What reaches from one radius to another for each tooth.
+/// One bump per tooth between two radii: the teeth of a gear, or the gaps of a ring gear.
 struct Bumps {
-    /// The lower and the higher radius (m).
+    /// Inner and outer radius (m).
     radii: [f64; 2],
-    /// On the pitch circle, as a part of half a pitch.
+    /// Thickness on the pitch circle as a part of half a pitch.
     thickness: f64,
-    /// The direction of the middle of one of them (rad).
+    /// Direction of the middle of one bump (rad).
     phase: f64,
 }
 
 impl Wheel {
-    /// The pitch diameter over the number of teeth (m).
+    /// Returns the pitch diameter divided by the number of teeth (m).
     pub fn module(&self) -> f64 {
         2.0 * self.radius / f64::from(self.teeth)
     }
 
-    /// Its teeth, which point outward.
+    /// Returns the outline of the teeth, which point outward.
     pub fn outline(&self) -> Contour {
         self.bumps(&self.teeth_of_wheel())
     }
 
-    /// The inner side of a ring, whose teeth point inward: its gaps are what a wheel's teeth are.
+    /// Returns the inner outline of a ring gear, whose teeth point inward: its gaps have the shape of a gear's teeth.
     pub fn inner_outline(&self) -> Contour {
         self.bumps(&self.gaps_of_ring())
     }
@@ -73,7 +73,7 @@ impl Wheel {
         let half = thickness * PI / (2.0 * f64::from(self.teeth)) + involute(self.radius);
         let from = low.max(base);
         let radius = |k: u32| from + (high - from) * f64::from(k) / f64::from(ON_FLANK - 1);
-        // from the foot to the tip: the radius, and how far from the middle of the tooth
+        // radius and angle from the tooth's middle, from the root to the tip
         let mut flank: Vec<[f64; 2]> = (0..ON_FLANK).map(|k| [radius(k), half - involute(radius(k))]).collect();
         if low < from {
             flank.insert(0, [low, flank[0][1]]);
@@ -92,19 +92,19 @@ impl Wheel {
 /// A straight row of teeth along a line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rack {
-    /// A point of the pitch line (m), and its direction, of length 1.
+    /// Point of the pitch line (m), and its direction, of length 1.
     pub at: Vector,
     pub along: Vector,
-    /// 1 if teeth point to the left, −1 if to the right.
+    /// 1 if the teeth point to the left, −1 if to the right.
     pub side: f64,
-    /// From one tooth to the next (m).
+    /// Distance from one tooth to the next (m).
     pub pitch: f64,
-    /// Where the middle of a tooth is on the line (m).
+    /// Coordinate of the middle of a tooth on the line (m).
     pub phase: f64,
 }
 
 impl Rack {
-    /// Its teeth from one place on the line to another (m), on a bar so thick below them (m).
+    /// Returns the outline of the teeth over a range of the line (m), on a bar of a thickness (m).
     pub fn outline(&self, [from, to]: [f64; 2], bar: f64) -> Contour {
         let module = self.pitch / PI;
         let place = |x: f64, y: f64| plus(plus(self.at, times(x, self.along)), times(self.side * y, left(self.along)));
@@ -143,18 +143,17 @@ fn closed(places: Vec<Vector>) -> Contour {
     Contour { start, segments: places.map(Segment::Line).collect(), is_closed: true }
 }
 
-/// How far along the tangent of a wheel's circle its next tooth is from the place where it meshes, in pitches: the wheel stands at an
-/// angle, and meshes in a direction (rad).
+/// Returns how far a gear at an angle (rad) has its next tooth from where it meshes in a direction (rad), along the pitch circle (pitches).
 pub(super) fn offset(wheel: &Wheel, angle: f64, direction: f64) -> f64 {
     f64::from(wheel.teeth) * (angle + wheel.phase - direction) / TAU
 }
 
-/// The way from a number to the nearest whole one.
+/// Returns the difference of a number from the nearest whole number.
 pub(super) fn to_whole(value: f64) -> f64 {
     value - math::floor(value + 0.5)
 }
 
-/// Whether a place lies within a closed polygon of straight lines.
+/// Returns whether a position lies inside a closed polygon.
 #[cfg(test)]
 pub(super) fn is_inside(place: Vector, corners: &[Vector]) -> bool {
     let mut is_inside = false;
@@ -168,7 +167,7 @@ pub(super) fn is_inside(place: Vector, corners: &[Vector]) -> bool {
     is_inside
 }
 
-/// How deep a place lies within a closed polygon; 0 outside.
+/// Returns the depth of a position inside a closed polygon; 0 outside.
 #[cfg(test)]
 pub(super) fn depth(place: Vector, corners: &[Vector]) -> f64 {
     if !is_inside(place, corners) {
@@ -198,7 +197,7 @@ mod tests {
         for [z, other] in [[12, 12], [12, 40], [17, 23]] {
             let radii = [z, other].map(|z| f64::from(z) * 0.5);
             let wheel = Wheel { at: [0.0; 2], radius: radii[0], teeth: z, phase: 0.0 };
-            // a tooth of one is in a gap of the other
+            // a tooth of one faces a gap of the other
             let facing = Wheel { at: [0.0; 2], radius: radii[1], teeth: other, phase: PI + PI / f64::from(other) };
             for step in 0..40 {
                 let turn = f64::from(step) * 0.02;
@@ -221,7 +220,7 @@ mod tests {
             let turn = f64::from(step) * 0.02;
             let first = corners(wheel.outline(), &Pose { at: [12.0, 0.0], phi: turn });
             let gap = corners(ring.inner_outline(), &Pose { at: [0.0; 2], phi: turn / 3.0 });
-            // what is not inside the gaps is in the ring
+            // points outside the gaps lie in the ring
             let out = first.iter().filter(|p| !is_inside(**p, &gap)).map(|p| {
                 let away = gap.iter().map(|q| super::super::plane::distance(*p, *q)).fold(f64::INFINITY, f64::min);
                 away.min(1.0)

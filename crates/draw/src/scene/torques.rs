@@ -1,33 +1,33 @@
-//! Torques as arcs with heads: what joints hold against turning, loads on angles, and what drives these.
+//! Torques as arcs with heads: reactions of joints, loads on angles and efforts of drivers.
 
 use super::drawing::Drawing;
 use super::{Anchor, ForceKind, Motion, drivers, forces};
 use mechc_lang::model::{EquationForm, JointKind, PartId, Quantity};
 
-/// A torque about a place, on the second of two bodies that turn against each other; on the first where the second is the ground.
+/// A torque about a position, on the second of two bodies that turn against each other, or on the first if the second is the ground.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Torque {
-    /// Whose it is.
+    /// Index of the declaration.
     pub declaration: usize,
-    /// What it is of.
+    /// Origin.
     pub kind: ForceKind,
-    /// About which place.
+    /// Position of the arc.
     pub at: Anchor,
-    /// The column that tells it.
+    /// Column of the value.
     pub column: String,
-    /// 1 where it is counter-clockwise where the column is above zero, else -1.
+    /// Sign of the column: 1 if its positive values are counter-clockwise, −1 if they are clockwise.
     pub sign: f64,
 }
 
 impl Torque {
-    /// What it is in a row (N·m), counter-clockwise; not finite where the table does not tell.
+    /// Returns the value in a row (N·m), counter-clockwise positive; not finite where the table has no value.
     #[must_use]
     pub fn value(&self, motion: &Motion, row: usize) -> f64 {
         self.sign * motion.value(&self.column, row)
     }
 }
 
-/// All torques that the motion's table tells of.
+/// Returns all torques whose columns are in the motion's table.
 pub(super) fn torques(drawing: &Drawing) -> Vec<Torque> {
     let (model, first) = (drawing.features.model, drawing.first);
     let mut found: Vec<Torque> = Vec::new();
@@ -68,7 +68,7 @@ pub(super) fn torques(drawing: &Drawing) -> Vec<Torque> {
     found
 }
 
-/// Where a torque that works on an angle is drawn, and which way round it is there; none where the quantity is no angle of bodies.
+/// Returns the position and the sign of a torque on an angle, or `None` if the quantity is not an angle of bodies.
 fn about(drawing: &Drawing, view: Option<PartId>, quantity: Quantity) -> Option<(Anchor, f64)> {
     let model = drawing.features.model;
     let (at, second) = match quantity {

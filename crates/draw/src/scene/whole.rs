@@ -1,4 +1,4 @@
-//! The whole scene: what can be pointed at, then all symbols, then the extent.
+//! Builder of the whole scene: declarations, then all symbols, then the extent.
 
 use super::drawing::{Drawing, First, Layer, Outline};
 use super::features::Features;
@@ -9,10 +9,10 @@ use super::{
 };
 use mechc_lang::model::{self, Frame, Mechanism, Named, PointId, Quantity};
 
-/// Rows that are looked at for the extent of everything.
+/// Number of rows that are sampled for the extent.
 const LOOKED_AT: usize = 100;
 
-/// With symbols of a size, if one is given (m).
+/// Builds a scene, with symbols of a given size (m) if there is one.
 pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Scene {
     let features = Features::of(model);
     let (declarations, first) = declarations(model);
@@ -67,7 +67,7 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Sc
     }
 }
 
-/// A body that is held in no more than one place shows its other points as well: one of them may be what it is there for.
+/// Adds the named points of bodies that joints hold at one position at most: one of them may be the purpose of the body.
 fn add_idle_points(features: &Features, outlines: &mut [Outline]) {
     let is_one_place = |outline: &Outline| outline.places.windows(2).all(|pair| distance(pair[0], pair[1]) <= 0.0);
     let are_idle: Vec<bool> = outlines.iter().map(is_one_place).collect();
@@ -80,7 +80,7 @@ fn add_idle_points(features: &Features, outlines: &mut [Outline]) {
     }
 }
 
-/// All that can be pointed at: frames first, then points, circles, curves, joints, equations, measures, traces.
+/// Lists all declarations: frames, then points, circles, curves, joints, equations, measures, traces, loads.
 fn declarations(model: &Mechanism) -> (Vec<Declaration>, First) {
     let mut all = vec![Declaration { name: "ground".to_owned(), kind: "ground", span: model.declared.span }];
     let of = |declared: &model::Declared, kind| Declaration { name: declared.name.clone(), kind, span: declared.span };
@@ -109,13 +109,13 @@ fn declarations(model: &Mechanism) -> (Vec<Declaration>, First) {
     (all, first)
 }
 
-/// The declarations of the first joint and of the first equation.
+/// Returns the indices of the declarations of the first joint and of the first equation.
 pub(super) fn first_of_joints_and_equations(model: &Mechanism) -> (usize, usize) {
     let (_, first) = declarations(model);
     (first.joints, first.equations)
 }
 
-/// The points that have a name, and by model point its number among them.
+/// Returns the named points, and for each point of the model its index among them.
 fn points(features: &Features) -> (Vec<Point>, Vec<Option<usize>>) {
     let model = features.model;
     let mut is_pin = vec![false; model.points.len()];
@@ -141,7 +141,7 @@ fn points(features: &Features) -> (Vec<Point>, Vec<Option<usize>>) {
     (points, numbers)
 }
 
-/// The points that show what a body is: where joints and drivers take hold, what is traced and measured, what is heavy.
+/// Returns the points that show the shape of bodies: those of joints and drivers, traces, measures and masses.
 pub(super) fn places_of_bodies(model: &Mechanism) -> Vec<PointId> {
     let mut points: Vec<PointId> = model.joints.iter().flat_map(|joint| joint.kind.points(model)).collect();
     for equation in &model.equations {
@@ -164,13 +164,13 @@ pub(super) fn places_of_bodies(model: &Mechanism) -> Vec<PointId> {
     points
 }
 
-/// The least and greatest coordinates of all nodes along the motion, with some room around them.
+/// Returns the bounding box of all nodes along the motion, with a margin.
 pub(super) fn extent(nodes: &[Node], motion: &Motion, unit: f64) -> [Vector; 2] {
     let margin = [0.5 * unit; 2];
     reach(nodes, motion, unit).map_or([[-unit; 2], [unit; 2]], |[low, high]| [minus(low, margin), plus(high, margin)])
 }
 
-/// The least and greatest coordinates of all nodes along the motion; none where there is nothing.
+/// Returns the bounding box of all nodes along the motion, or `None` if nothing is drawn.
 pub(super) fn reach(nodes: &[Node], motion: &Motion, unit: f64) -> Option<[Vector; 2]> {
     let mut all: Option<[Vector; 2]> = None;
     let places: Vec<Vec<Vector>> =
