@@ -1,7 +1,7 @@
-//! DXF for cutting: traces, lines that contacts run along, pitch circles, and where pins are, in millimetres.
+//! DXF for cutting: traces, profiles, pitch circles and pins, in millimetres.
 //!
-//! The form is that of R12, the oldest that is still read by everything, of which polylines and points are all that is needed. Written
-//! here, for the same input has to give the same bytes: libraries write the time and identities of their own making.
+//! The format is R12, the oldest one that every program reads; it has polylines and points, which is enough. The writer is our own, since
+//! the same input must give the same bytes: libraries write the time and identifiers of their own.
 
 use super::text::number;
 use crate::scene::{
@@ -11,27 +11,27 @@ use crate::scene::{
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-/// What a polyline may be off from the line that it stands for, as it is cut (m).
+/// Tolerance of a polyline as it is cut (m).
 const OFF: f64 = 0.25e-6;
-/// Places that are no farther apart than this part of a line's size are one.
+/// Positions closer than this part of a line's size are one.
 const SAME: f64 = 1e-9;
-/// How often a piece is halved at most, to keep to that.
+/// Limit of halvings of a piece.
 const DEEPEST: u32 = 14;
-/// The same of what is very small, as a part of its size.
+/// Tolerance of a very small line as a part of its size.
 const OFF_OF_SIZE: f64 = 5e-5;
-/// The widest angle of a chord of a circle (rad), however small that is.
+/// Largest angle of a circle's chord (rad), however small the circle is.
 const WIDEST: f64 = 0.02;
-/// Decimals of millimetres; and of a drawing that is no larger than a millimetre.
+/// Decimals of millimetres, and of those of a drawing that is at most a millimetre large.
 const DECIMALS: usize = 6;
 const DECIMALS_OF_SMALL: usize = 9;
-/// Names of layers are no longer.
+/// Length limit of layer names.
 const LONGEST: usize = 31;
 
-/// What is drawn on one layer, that of a declaration.
+/// An entity on the layer of its declaration.
 #[derive(Clone, PartialEq, Debug)]
 struct Entity {
     layer: String,
-    /// In millimetres.
+    /// Positions (mm).
     places: Vec<Vector>,
     kind: Kind,
 }
@@ -43,8 +43,8 @@ enum Kind {
     Closed,
 }
 
-/// What there is to cut, with all frames at a moment, and traces along the motion, those of some points beside those that the text
-/// asks for; `scale` is what a length of 1 becomes. Nothing where there is nothing to draw.
+/// Writes all contours for cutting, with the frames at `poses`, the traces of the scene and those of some named points along the motion,
+/// enlarged by `scale`. Returns `None` if there are none.
 #[must_use]
 pub fn written(
     scene: &Scene,
@@ -53,7 +53,7 @@ pub fn written(
     traces: &[(String, Anchor)],
     scale: f64,
 ) -> Option<String> {
-    // what is cut larger than it is has to be finer
+    // an enlarged cut needs a smaller tolerance
     let off = OFF / scale.max(1.0);
     let mut sheet = Sheet { scene, poses, scale: 1000.0 * scale, off, layers: Vec::new(), entities: Vec::new() };
     sheet.add_profiles();
@@ -72,17 +72,17 @@ pub fn written(
 struct Sheet<'s> {
     scene: &'s Scene,
     poses: &'s [Pose],
-    /// Millimetres in a metre.
+    /// Millimetres per metre.
     scale: f64,
-    /// What a polyline may be off, as it is (m).
+    /// Tolerance of a polyline before it is enlarged (m).
     off: f64,
-    /// The declaration of each layer, and its name.
+    /// Declaration and name of each layer.
     layers: Vec<(usize, String)>,
     entities: Vec<Entity>,
 }
 
 impl Sheet<'_> {
-    /// Places of the ground (m), on the layer of a declaration.
+    /// Adds an entity at positions of the ground (m) on the layer of a declaration.
     fn add(&mut self, declaration: usize, places: &[Vector], kind: Kind) {
         if places.is_empty() || !places.iter().all(|place| is_finite(*place)) {
             return;
@@ -92,7 +92,7 @@ impl Sheet<'_> {
         self.entities.push(Entity { layer, places, kind });
     }
 
-    /// The layer of a declaration: its name, as far as names of layers can be so.
+    /// Returns the layer of a declaration. Its name is the declaration's, as far as DXF allows it, and is unique.
     fn layer(&mut self, declaration: usize) -> String {
         if let Some((_, known)) = self.layers.iter().find(|(known, _)| *known == declaration) {
             return known.clone();
@@ -148,7 +148,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// What a pen draws: closed lines as such, with gaps where it has no place, and a point where it rests.
+    /// Adds the strokes of a pen; a pen at rest gives a point.
     fn add_trace(&mut self, declaration: usize, pen: &Pen, motion: &Motion) {
         let track = motion.track(pen);
         let place = |t: f64| track.at(motion, t)[0];
@@ -179,7 +179,7 @@ impl Sheet<'_> {
             let place = self.poses[point.frame].placed(point.at);
             self.add(point.declaration, &[place], Kind::Point);
         }
-        // a joint may take hold of a place that has no name
+        // a joint may use a point that has no name
         let is_named = |pin: &Pin| {
             let named = scene.points.iter().filter(|point| point.is_pin && point.frame == pin.anchor.frame);
             named.map(|point| distance(point.at, pin.anchor.at)).any(|apart| apart <= SAME * scene.unit)
@@ -189,7 +189,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// The whole file.
+    /// Writes the whole file.
     fn text(&self) -> String {
         let all = self.entities.iter().flat_map(|entity| entity.places.iter().copied());
         let [low, high] = bounds(all).unwrap_or_default();
@@ -228,7 +228,7 @@ impl Entity {
     }
 }
 
-/// A place as a file has it.
+/// Writes a position as group codes.
 fn placed([x, y]: Vector, decimals: usize) -> String {
     let written = |value: f64| {
         let text = number(value, decimals);
@@ -237,7 +237,7 @@ fn placed([x, y]: Vector, decimals: usize) -> String {
     format!("10\n{}\n20\n{}\n30\n0.0\n", written(x), written(y))
 }
 
-/// The places that a line from part 0 to part 1 takes as a polyline, without the first.
+/// Adds the positions of a polyline along a line from part 0 to part 1, without the first one.
 fn flatten(of: &mut dyn FnMut(f64) -> Vector, off: f64, places: &mut Vec<Vector>) {
     let (start, end) = (of(0.0), of(1.0));
     halve(of, [(0.0, start), (1.0, end)], (off, 0), places);
@@ -260,7 +260,7 @@ fn halve(
     halve(of, [at[1], ends[1]], (off, depth + 1), places);
 }
 
-/// How far a place is from a chord.
+/// Returns the distance of a position from a chord.
 fn from_chord(place: Vector, [start, end]: [Vector; 2]) -> f64 {
     let way = minus(end, start);
     let square = way[0] * way[0] + way[1] * way[1];
@@ -269,7 +269,7 @@ fn from_chord(place: Vector, [start, end]: [Vector; 2]) -> f64 {
     distance(along, times(part, way))
 }
 
-/// A path as polylines that may be so much off (m), and which of them are closed.
+/// Converts a path to polylines within a tolerance (m), each with whether it is closed.
 fn polylines(path: &Path, off: f64) -> Vec<(Vec<Vector>, bool)> {
     match path {
         Path::Circle { at, radius } => {
@@ -290,7 +290,7 @@ fn polylines(path: &Path, off: f64) -> Vec<(Vec<Vector>, bool)> {
                     }
                     from = segment.end();
                 }
-                // a closed one says that it is
+                // a closed polyline has a flag instead of its last position
                 if contour.is_closed && places.len() > 1 && distance(contour.start, from) < off {
                     places.pop();
                 }
@@ -300,7 +300,7 @@ fn polylines(path: &Path, off: f64) -> Vec<(Vec<Vector>, bool)> {
     }
 }
 
-/// The places of an arc behind its first, no more than half a circle.
+/// Adds the positions of an arc of at most a semicircle, without the first one.
 fn add_arc(places: &mut Vec<Vector>, [from, to]: [Vector; 2], (radius, is_left): (f64, bool), off: f64) {
     let (half, sign) = (0.5 * distance(from, to), if is_left { 1.0 } else { -1.0 });
     let way = minus(to, from);
@@ -317,7 +317,7 @@ fn add_arc(places: &mut Vec<Vector>, [from, to]: [Vector; 2], (radius, is_left):
     places.push(to);
 }
 
-/// How many chords a turn takes.
+/// Returns the number of chords of an arc.
 fn steps(radius: f64, turn: f64, off: f64) -> u32 {
     let each = (8.0 * off / radius.max(off)).sqrt().min(WIDEST);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // clamped

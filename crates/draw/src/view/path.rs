@@ -1,20 +1,20 @@
-//! Paths as the `d` of SVG.
+//! Paths in the syntax of SVG's `d` attribute.
 
 use super::text::number;
 use crate::scene::{Contour, Path, Segment, Vector};
 
-/// A path as the `d` of an SVG path, whose y axis points down: its coordinates times a scale, with so many decimals.
+/// Writes a path as the `d` of an SVG path, whose y axis points down, with its coordinates times `scale`.
 #[must_use]
 pub fn data(path: &Path, scale: f64, decimals: usize) -> String {
     written(path, &|[x, y]| [scale * x, -scale * y], scale, decimals)
 }
 
-/// The same, with places as a function puts them, which turns over y; `scale` is that of radii.
+/// Writes a path whose positions `placed` converts to the picture, y reversed; `scale` is that of radii.
 pub(super) fn written(path: &Path, placed: &dyn Fn(Vector) -> Vector, scale: f64, decimals: usize) -> String {
     let pair = |place: Vector| {
         let [x, y] = placed(place);
         let y = number(y, decimals);
-        // a minus sign parts numbers well enough
+        // a minus sign separates numbers, too
         format!("{}{}{y}", number(x, decimals), if y.starts_with('-') { "" } else { " " })
     };
     let mut text = String::new();
@@ -36,7 +36,7 @@ fn add(text: &mut String, contour: &Contour, pair: &dyn Fn(Vector) -> String, sc
         match *segment {
             Segment::Line(to) => {
                 let to = pair(to);
-                // behind a place of a line another one needs no letter
+                // the letter of a line is not repeated
                 *text += if !is_line {
                     "L"
                 } else if to.starts_with('-') {

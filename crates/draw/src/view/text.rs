@@ -1,8 +1,8 @@
-//! Numbers and words as marked-up text has them.
+//! Numbers and words in marked-up text.
 
 use std::borrow::Cow;
 
-/// A number with so many decimals at most, and no zero too many.
+/// Formats a number with at most `decimals` decimals, without trailing zeros.
 #[must_use]
 pub fn number(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
@@ -10,7 +10,7 @@ pub fn number(value: f64, decimals: usize) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// A text in which nothing is taken for mark-up, neither between tags nor in an attribute. What no such text may hold is left out.
+/// Escapes a text for use between tags and in attributes, and removes characters that XML forbids.
 #[must_use]
 pub fn escaped(text: &str) -> Cow<'_, str> {
     let is_plain = |c: char| !matches!(c, '&' | '<' | '>' | '"' | '\'') && !is_forbidden(c);
@@ -31,7 +31,7 @@ pub fn escaped(text: &str) -> Cow<'_, str> {
     Cow::Owned(made)
 }
 
-/// The first sentence of a text, and what follows it: it ends at a full stop, but not at that of an initial, as in `D. Stewart`.
+/// Splits a text into its first sentence and the rest. A full stop after an initial, as in `D. Stewart`, ends no sentence.
 #[must_use]
 pub fn first_sentence(text: &str) -> (&str, &str) {
     let text = text.trim();

@@ -1,8 +1,8 @@
-//! Bytes as Base64.
+//! Base64 encoder.
 
 const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// With `=` at its end where it is not a multiple of three bytes.
+/// Encodes bytes as Base64, with `=` as padding (RFC 4648, section 4).
 pub(super) fn written(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for three in bytes.chunks(3) {

@@ -1,4 +1,4 @@
-//! The data of a page as JSON.
+//! Data of a page as JSON.
 
 use super::places::Texts;
 use super::{Column, FORMAT, Page, Variant, columns};
@@ -9,25 +9,25 @@ use mechc_text::source::Source;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
-/// What is as large as a symbol is written with six digits, which are enough for what is drawn.
+/// Size of a symbol in units of the last decimal: six digits are enough for drawing.
 const LEAST_DIGITS: f64 = 1e5;
-/// Nothing is so small that it takes more decimals than this.
+/// Limit of decimals.
 const MOST_DECIMALS: usize = 30;
 
-/// The data, of whose tables every so-manyth row is there, and the last. Nothing in it ends the element that it stands in.
+/// Writes the data with every `every`th row of the tables and the last one. It contains nothing that ends a script element.
 pub(super) fn written(page: &Page, every: usize) -> String {
-    // an element of a script ends at `</script`, and `<!--` begins something else
+    // a script element ends at `</script`, and `<!--` has a meaning of its own
     value(page, every, Tables::Within).to_string().replace('<', "\\u003c")
 }
 
-/// Where the numbers of tables are.
+/// Location of the numbers of tables.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Tables {
     Within,
     Beside,
 }
 
-/// The data; null where there is no variant to show.
+/// Returns the data, or null if the page has no variant to show.
 pub(super) fn value(page: &Page, every: usize, tables: Tables) -> Value {
     let texts = Texts::of(&page.texts);
     let Some(first) = page.first() else { return Value::Null };
@@ -61,7 +61,7 @@ pub(super) fn value(page: &Page, every: usize, tables: Tables) -> Value {
     all
 }
 
-/// A text by the name of its file: where that lies is nobody's business.
+/// Returns a text with the name of its file; the folder is private.
 fn text(source: &Source) -> Value {
     let name = Path::new(&source.name).file_name().map_or(source.name.clone().into(), |name| name.to_string_lossy());
     json!({ "name": name, "text": source.text })
@@ -80,24 +80,24 @@ fn column_of(column: &Column) -> Map<String, Value> {
     object
 }
 
-/// What is said of rows that are not there.
+/// Returns the note that rows were left out, if any were.
 fn thinned(variant: &Variant, every: usize) -> Option<String> {
     let (all, kept) = (variant.all_rows, kept(variant.motion.rows().len(), every).count());
     (kept < all).then(|| format!("This page has {kept} of the {all} rows of the motion, evenly spread."))
 }
 
-/// Every so-manyth row, and the last.
+/// Returns every `every`th row and the last one.
 fn kept(rows: usize, every: usize) -> impl Iterator<Item = usize> {
     let last = rows.checked_sub(1);
     (0..rows).step_by(every).chain(last.filter(move |last| last % every != 0))
 }
 
-/// The columns of a table; none where there are no rows.
+/// Returns the columns of a table; without rows there are none.
 pub(super) fn table(variant: &Variant, every: usize, count: usize) -> Vec<Vec<f64>> {
     let table = variant.motion.rows();
     let rows: Vec<usize> = kept(table.len(), every).collect();
     let of_column = |column: usize| {
-        // what is infinite has no place in a table either
+        // infinite values are stored as NaN
         let finite = |value: f64| if value.is_finite() { value } else { f64::NAN };
         rows.iter().map(|row| finite(table[*row].get(column).copied().unwrap_or(f64::NAN))).collect()
     };
@@ -142,8 +142,8 @@ fn variant_with(
     object
 }
 
-/// What makes one value of another; nothing where they are the same. What is another thing altogether stands in an array of one; of arrays of
-/// one length, and of objects with the same keys, only what differs is there, by its place or key.
+/// Returns what turns one value into another, or `None` if they are equal. A replaced value is an array of one element; for arrays of equal
+/// length and objects with equal keys it holds only the differences, by index or key.
 fn changes(from: &Value, to: &Value) -> Option<Value> {
     if from == to {
         return None;
@@ -181,7 +181,7 @@ fn message(said: &Diagnostic, texts: &Texts) -> Value {
     object
 }
 
-/// What there is to draw, with the places of declarations in the texts.
+/// Returns the scene with the spans of declarations in the texts.
 pub(super) fn scene(scene: &Scene, texts: &Texts) -> Value {
     let decimals = decimals(scene.unit);
     let declarations = scene.declarations.iter().map(|declaration| {
@@ -193,7 +193,7 @@ pub(super) fn scene(scene: &Scene, texts: &Texts) -> Value {
             "name": point.name, "declaration": point.declaration, "frame": point.frame, "at": point.at, "pin": point.is_pin,
         })
     });
-    // where nothing is finite the page makes an extent of its own
+    // without finite values the page computes an extent of its own
     let extent = if scene.extent.iter().flatten().all(|part| part.is_finite()) { scene.extent } else { [[0.0; 2]; 2] };
     let mut all = json!({
         "unit": scene.unit,
@@ -220,9 +220,9 @@ pub(super) fn scene(scene: &Scene, texts: &Texts) -> Value {
     all
 }
 
-/// Decimals of metres that give what is as large as a symbol so many digits.
+/// Returns the decimals of metres that give a symbol's size [`LEAST_DIGITS`] units of the last decimal.
 fn decimals(unit: f64) -> usize {
-    // without logarithms, whose bits are not the same everywhere
+    // no logarithms: their bits differ between platforms
     let (mut decimals, mut size) = (0, unit * (1.0 + f64::EPSILON));
     while size < LEAST_DIGITS && decimals < MOST_DECIMALS {
         size *= 10.0;

@@ -1,17 +1,17 @@
-//! Places in texts as the page counts them: in units of UTF-16, as scripts do.
+//! Offsets in texts in UTF-16 units, as scripts count them.
 
 use mechc_text::source::{FileId, Source, Span};
 
-/// The texts of a page.
+/// Texts of a page.
 pub(super) struct Texts {
     texts: Vec<(FileId, Offsets)>,
 }
 
-/// From bytes to units of UTF-16.
+/// Conversion of byte offsets to UTF-16 offsets.
 enum Offsets {
-    /// They are the same.
+    /// The offsets are equal.
     Same,
-    /// By byte.
+    /// UTF-16 offsets by byte.
     Listed(Vec<u32>),
 }
 
@@ -20,7 +20,7 @@ impl Texts {
         Texts { texts: sources.iter().map(|(id, source)| (*id, Offsets::of(&source.text))).collect() }
     }
 
-    /// Which text, from where to where; nothing where it is none of these texts.
+    /// Returns the index of a span's text, and the span's start and end; `None` for any other text.
     pub fn place(&self, span: Span) -> Option<(usize, u32, u32)> {
         let text = self.texts.iter().position(|(id, _)| *id == span.file)?;
         let offsets = &self.texts[text].1;

@@ -1,16 +1,16 @@
-//! The first moment as SVG within the page, for who has no script: drawn with the page's own style sheet.
+//! First moment of the motion as SVG for readers without scripts, in the style of the page.
 
 use crate::scene::{Motion, Node, Place, Pose, Scene};
 use crate::view::path::written;
 use crate::view::text::number;
 
-/// The longer side (pixels), and decimals of them.
+/// Longer side (px), and decimals of pixels.
 const SIZE: f64 = 800.0;
 const DECIMALS: usize = 1;
-/// Bodies are tinted in turn by so many colours (`page/src/picture/figures.ts`).
+/// Number of tints of bodies (`page/src/picture/figures.ts`).
 const TINTS: usize = 8;
 
-/// Nothing where there is nothing to draw.
+/// Writes the picture, or an empty text if nothing is drawn.
 pub(super) fn still(scene: &Scene, motion: &Motion) -> String {
     let [[left, bottom], [right, top]] = scene.extent;
     let longer = (right - left).max(top - bottom);

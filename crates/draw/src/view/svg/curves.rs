@@ -1,22 +1,22 @@
-//! Traces: smooth curves along the motion, by places and velocities, in as few pieces as they need.
+//! Traces as smooth cubic curves through positions and velocities, with as few pieces as possible.
 
 use super::picture::{PER_METER, Picture};
 use super::style::TRACE_COLORS;
 use crate::scene::{Motion, Pen, Stroke, Track, Vector, bounds, distance, is_finite, minus, plus, times};
 use crate::view::text::{escaped, number};
 
-/// What a curve may be off (px), and the same as a part of the picture's shorter side; where paper is cut, in metres of it.
+/// Tolerance of a curve (px), the same as a part of the picture's shorter side, and for cutting (m of paper).
 const OFF: f64 = 0.03;
 const OFF_OF_SIDE: f64 = 4e-5;
 const OFF_OF_PAPER: f64 = 0.4e-6;
-/// Pieces that one curve goes over at most, and how often one is halved.
+/// Limit of nodes that one curve replaces, and of halvings of a piece.
 const LONGEST: usize = 64;
 const DEEPEST: u32 = 16;
-/// What moves no farther than this (px) rests.
+/// Size below which a trace is at rest (px).
 const AT_REST: f64 = 0.15;
 
 impl Picture<'_> {
-    /// The paths that the text asks for, and those that the picture does.
+    /// Adds the traces of the text and those of the options.
     pub fn add_traces(&mut self, motion: &Motion) {
         let scene = self.scene;
         let mut color = 0;
@@ -44,7 +44,7 @@ impl Picture<'_> {
         self.body += &format!("<path class=\"trace t{number}\" data-name=\"{}\" d=\"{d}\"/>\n", escaped(name));
     }
 
-    /// The path of a pen.
+    /// Writes the path of a pen.
     fn path_of(&self, pen: &Pen, motion: &Motion) -> String {
         let track = motion.track(pen);
         let stretches = motion.strokes(pen);
@@ -70,12 +70,12 @@ impl Picture<'_> {
     }
 }
 
-/// The last decimal of a number.
+/// Returns the value of the last decimal.
 fn number_step(decimals: usize) -> f64 {
     (0..decimals).fold(1.0, |step, _| 0.1 * step)
 }
 
-/// A place of a curve (px) at a time (s), with its velocity (px/s).
+/// A position of a curve (px) at a time (s), with its velocity (px/s).
 #[derive(Clone, Copy, Debug)]
 struct Node {
     t: f64,
@@ -83,13 +83,13 @@ struct Node {
     velocity: Vector,
 }
 
-/// The handles of the cubic from one node to another.
+/// Returns the inner control points of the cubic from one node to another.
 fn handles(from: &Node, to: &Node) -> [Vector; 2] {
     let third = (to.t - from.t) / 3.0;
     [plus(from.at, times(third, from.velocity)), minus(to.at, times(third, to.velocity))]
 }
 
-/// Whether the cubic between two nodes is so near (px) to a third one at its time.
+/// Returns whether the cubic between two nodes is within a tolerance (px) of a third node at its time.
 fn holds([from, to]: [&Node; 2], node: &Node, off: f64) -> bool {
     let [b, c] = handles(from, to);
     let s = (node.t - from.t) / (to.t - from.t);
@@ -101,7 +101,7 @@ fn holds([from, to]: [&Node; 2], node: &Node, off: f64) -> bool {
     distance([mix(0), mix(1)], node.at) <= off
 }
 
-/// The nodes of a piece behind its first: so many that cubics between them are no more off (px) than they may be.
+/// Adds the nodes of a piece, without the first one, such that the cubics between them keep the tolerance (px).
 fn add_nodes(of: &dyn Fn(f64) -> Node, [from, to]: [Node; 2], (off, depth): (f64, u32), nodes: &mut Vec<Node>) {
     let time = |part: f64| from.t + part * (to.t - from.t);
     let is_met = [0.25, 0.5, 0.75].into_iter().all(|part| holds([&from, &to], &of(time(part)), off));
@@ -114,11 +114,11 @@ fn add_nodes(of: &dyn Fn(f64) -> Node, [from, to]: [Node; 2], (off, depth): (f64
     add_nodes(of, [middle, to], (off, depth + 1), nodes);
 }
 
-/// A smooth curve along pieces of time (s), in as few cubics as it takes.
+/// Writes a smooth curve along intervals of time (s) with as few cubics as possible.
 fn curve(pieces: &[[f64; 2]], of: &dyn Fn(f64) -> Node, off: f64, decimals: usize) -> String {
     let pair = |place| pair(place, decimals);
     let Some([begin, _]) = pieces.first() else { return String::new() };
-    // times go on from piece to piece, though the motion may begin anew in between
+    // times continue from piece to piece, though the motion may begin anew between them
     let mut parts: Vec<Vec<Node>> = vec![vec![of(*begin)]];
     for ends @ [from, _] in pieces {
         let is_new = parts.last().and_then(|part| part.last()).is_none_or(|last| (last.t - from).abs() > 0.0);

@@ -1,5 +1,4 @@
-//! The motion as keyframes: each frame that moves has a track, with no more keys than it takes to keep all its places where they belong,
-//! between the keys too.
+//! Motion as keyframes: each moving frame has a track, with as few keys as keep all its positions within a tolerance, between the keys too.
 
 use super::nodes::degrees;
 use super::picture::Picture;
@@ -8,22 +7,22 @@ use crate::scene::{Motion, Node, Place, Pose, Vector, distance, times};
 use crate::view::text::number;
 use rustc_hash::FxHashMap;
 
-/// How long one run takes at first (s).
+/// Duration of one run (s).
 const SECONDS: f64 = 6.0;
-/// What a place may be off (px), the rounding of what is written included.
+/// Tolerance of positions (px), rounding included.
 const OFF: f64 = 0.36;
-/// Rows and moments between them at which places are looked at.
+/// Number of moments at which positions are checked, as far as rows allow.
 const LOOKED_AT: usize = 2400;
-/// Moments from row to row at most.
+/// Limit of moments from row to row.
 const MOST_BETWEEN: usize = 16;
-/// The motion ends as it begins if nothing is farther away than this (px).
+/// Distance of all positions within which the motion ends as it begins (px).
 const CLOSES: f64 = 1.5;
-/// Moments at which labels must not lie on each other.
+/// Number of moments at which labels must not overlap.
 const LABELLED_AT: usize = 48;
 /// Decimals of a percentage of the run.
 const PERCENT: usize = 3;
 
-/// Where a group is, in pixels and degrees, and what it is stretched by along x and y.
+/// Transform of a group: position (px), rotation (degrees) and scale along x and y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Key {
     pub at: Vector,
@@ -31,7 +30,7 @@ pub(super) struct Key {
     pub stretch: Vector,
 }
 
-/// What may be kept out of transforms, as nothing of a group ever needs it.
+/// Parts of a transform that a group needs.
 #[derive(Clone, Copy, Debug)]
 struct Needs {
     turns: bool,
@@ -57,7 +56,7 @@ impl Key {
         }
     }
 
-    /// Puts places of a group where it is.
+    /// Returns the function that applies the transform.
     fn placing(&self) -> impl Fn(Vector) -> Vector + use<> {
         let (sin, cos) = mechc_expr::math::sin_cos(self.turn.to_radians());
         let Key { at, stretch, .. } = *self;
@@ -67,7 +66,7 @@ impl Key {
         }
     }
 
-    /// As it is written.
+    /// Returns the key as it is written.
     fn rounded(&self) -> Key {
         let round = |value: f64, steps: f64| mechc_expr::math::floor(value * steps + 0.5) / steps;
         let [cent, mille] = [100.0, 1000.0];
@@ -79,14 +78,14 @@ impl Key {
     }
 }
 
-/// What moves together, with the place (m) that its transforms are about.
+/// Shapes that move together, with the origin (m) of their transforms.
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Mover {
     place: Place,
     origin: Vector,
 }
 
-/// The moments at which places are looked at: times (s), and the poses of all frames at each.
+/// Moments at which positions are checked: times (s), and the poses of all frames at each.
 struct Moments {
     times: Vec<f64>,
     poses: Vec<Vec<Pose>>,
@@ -112,7 +111,7 @@ impl Moments {
 }
 
 impl Picture<'_> {
-    /// All nodes, moving.
+    /// Adds all nodes, moving.
     pub fn add_motion(&mut self, motion: &Motion) {
         let moments = Moments::of(motion);
         let direction = if self.closes(motion) { "" } else { " alternate" };
@@ -160,7 +159,7 @@ impl Picture<'_> {
         self.rules += "@media (prefers-reduced-motion:reduce){.m{animation:none}}\n";
     }
 
-    /// Whether the mechanism ends as it begins.
+    /// Returns whether the mechanism ends as it begins.
     fn closes(&self, motion: &Motion) -> bool {
         let (first, last) = (motion.poses(0), motion.poses(motion.len() - 1));
         self.scene.nodes.iter().all(|node| {
@@ -173,7 +172,7 @@ impl Picture<'_> {
         })
     }
 
-    /// About which place a node's transforms are: of those that it shows in its frame, the one that moves least.
+    /// Returns the mover of a node. Its origin is the circle centre of its frame that moves least.
     fn mover(&self, node: &Node, motion: &Motion) -> Mover {
         let Place::Fixed(frame) = node.place else { return Mover { place: node.place, origin: [0.0; 2] } };
         let own = self.scene.nodes.iter().filter(|other| other.place == node.place);
@@ -189,7 +188,7 @@ impl Picture<'_> {
         Mover { place: node.place, origin: least.map_or([0.0; 2], |(_, place)| place) }
     }
 
-    /// Where a mover is at a moment.
+    /// Returns the key of a mover at a moment.
     fn key(&self, mover: &Mover, poses: &[Pose]) -> Key {
         let (pose, stretch) = mover.place.pose(poses);
         let at = self.placed(pose.placed(mover.origin));
@@ -197,7 +196,7 @@ impl Picture<'_> {
         Key { at, turn: degrees(pose.phi), stretch: if is_stretched { [stretch * self.scale, 1.0] } else { [1.0; 2] } }
     }
 
-    /// Places that a mover shows, before its transform (px).
+    /// Returns the positions that a mover shows, before its transform (px).
     fn shown_by(&self, mover: &Mover) -> Vec<Vector> {
         let is_stretched = mover.place.is_stretched();
         let own = self.scene.nodes.iter().filter(|node| node.place == mover.place);
@@ -209,40 +208,41 @@ impl Picture<'_> {
             let [x, y] = times(self.scale, [x - mover.origin[0], y - mover.origin[1]]);
             [x, -y]
         });
-        // the corners of the hull tell how far all else is off
+        // the corners of the hull bound the deviation of all others
         crate::scene::hull(&local.collect::<Vec<_>>(), 0.5)
     }
 
-    /// The track of a mover.
+    /// Returns the track of a mover.
     fn track(&self, mover: &Mover, moments: &Moments) -> Track {
         let keys: Vec<Key> = moments.poses.iter().map(|poses| self.key(mover, poses)).collect();
         let is_fixed = matches!(mover.place, Place::Fixed(_));
         Track::of(keys, &self.shown_by(mover), &moments.times, is_fixed)
     }
 
-    /// Adds a track to the style sheet, and gives the attributes of the groups that go on it.
+    /// Adds a track to the style sheet and returns the attributes of the groups that follow it.
     pub(super) fn add_track(&mut self, track: &Track) -> String {
         let first = format!(" transform=\"{}\"", track.first);
         let Some(keyframes) = &track.keyframes else { return first };
         let number = self.tracks;
         self.tracks += 1;
         self.rules += &format!(".m{number}{{animation-name:k{number}}}\n@keyframes k{number}{{{keyframes}}}\n");
-        // where nothing may move, all stay where they begin
+        // a reader who prefers reduced motion sees the first key
         format!("{first} class=\"m m{number}\"")
     }
 }
 
-/// How a group moves.
+/// Animation of a group.
 #[derive(Clone, Debug)]
 pub(super) struct Track {
-    /// None if it stays where it begins.
+    /// Keyframes, or `None` if the group stays where it begins.
     keyframes: Option<String>,
-    /// The attribute that puts it there.
+    /// Transform attribute of the first key.
     first: String,
 }
 
 impl Track {
-    /// One with keys at some times (s), of a group that shows some places; its directions may be those of ways, which jump by a turn.
+    /// Creates a track with keys at some times (s), for a group that shows some positions. Without `has_turns` the angles are directions,
+    /// which may jump by a turn.
     pub(super) fn of(mut keys: Vec<Key>, shown: &[Vector], times: &[f64], has_turns: bool) -> Track {
         if !has_turns {
             unwrap(&mut keys);
@@ -272,7 +272,7 @@ impl Track {
     }
 }
 
-/// The attribute that puts a group where a key is.
+/// Returns the transform attribute of a key.
 fn attribute(key: &Key, needs: Needs) -> String {
     let Key { at: [x, y], turn, stretch } = *key;
     let mut text = format!("translate({} {})", number(x, PIXELS), number(y, PIXELS));
@@ -286,7 +286,7 @@ fn attribute(key: &Key, needs: Needs) -> String {
     text
 }
 
-/// Directions that come from places jump by a turn; here none does.
+/// Removes jumps by a full turn, which directions have.
 fn unwrap(keys: &mut [Key]) {
     for k in 1..keys.len() {
         let turns = mechc_expr::math::floor((keys[k].turn - keys[k - 1].turn) / 360.0 + 0.5);
@@ -294,7 +294,7 @@ fn unwrap(keys: &mut [Key]) {
     }
 }
 
-/// Which moments are keys: so few that all places are where they belong at each other one.
+/// Chooses the moments that become keys: as few as keep all positions within the tolerance at the other moments.
 fn chosen(keys: &[Key], shown: &[Vector], times: &[f64]) -> Vec<usize> {
     let last = keys.len() - 1;
     let wanted: Vec<Vector> = keys.iter().flat_map(|key| shown.iter().copied().map(key.placing())).collect();
@@ -312,7 +312,7 @@ fn chosen(keys: &[Key], shown: &[Vector], times: &[f64]) -> Vec<usize> {
     let (mut chosen, mut from) = (vec![0], 0);
     while from < last {
         let (mut good, mut step) = (from + 1, 1);
-        // as far as it goes by doubling, then by halves
+        // doubling steps, then bisection
         while good < last {
             let next = (good + step).min(last);
             if !held(from, next) {

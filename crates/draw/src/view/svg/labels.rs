@@ -1,85 +1,85 @@
-//! The names of bodies and pins, and what messages say of places, beside what they name: no label lies on another at any moment that is
-//! shown, and on lines and on other bodies only where there is no room beside them. One that might be taken for the name of something else
-//! has a line to what it names. One that finds no place is left out; bodies tell their names as titles too.
+//! Labels of bodies and pins, and texts of messages at positions. Labels never overlap at any shown moment, and cover lines and other
+//! bodies only where there is no other room. A label that could be mistaken for another name has a leader. A label without a position is
+//! left out; bodies have their names as titles, too.
 
 use super::letters::{COLUMN, columns, letters};
 use super::picture::{PIXELS, Picture};
 use crate::scene::{Anchor, Look, Node, Path, Place, Pose, Vector, bounds, distance, dot, hull, minus, plus, times};
 use crate::view::text::{escaped, number};
 
-/// Longer names are cut.
+/// Length limit of names (characters).
 const LONGEST: usize = 32;
-/// More names than this are not looked at.
+/// Limit of labels.
 const MOST: usize = 400;
 
-/// From a pin and from the middle of a body to the label beside it, in sizes of symbols.
+/// Distance of a label from a pin, and from the middle of a body (symbol units).
 const BESIDE_PIN: f64 = 0.42;
 const BESIDE_BODY: f64 = 0.66;
-/// How much of a pin is not to be covered, in sizes of symbols.
+/// Radius around a pin that labels avoid (symbol units).
 const PIN: f64 = 0.34;
-/// Rings of places around what is named: how far away, in half heights of a label, and what that costs.
+/// Rings of candidate positions: their distance in half heights of a label, and its cost.
 const RINGS: [[f64; 2]; 5] = [[0.0, 0.0], [0.5, 0.2], [1.0, 0.5], [2.6, 1.2], [5.0, 1.9]];
-/// What each direction costs more than the one before it.
+/// Cost of each direction over the one before it.
 const NEXT_DIRECTION: f64 = 0.03;
-/// What a label costs that covers a pin; one full of lines; one full of lines that are looked at.
+/// Costs of a label that covers a pin, that is full of lines, and that is full of highlighted lines.
 const ON_PIN: f64 = 1.0;
 const ON_LINES: f64 = 1.0;
 const ON_STRONG_LINES: f64 = 1.5;
-/// What it costs to be taken for the name of something else.
+/// Cost of a label that is mistaken for another name.
 const MISTAKEN: f64 = 0.8;
-/// What is farther away than this, in half heights of a label, has a line to it.
+/// Distance from which on a label has a leader, in half heights of a label.
 const FAR: f64 = 2.5;
-/// The part of a label's width that letters take up at least.
+/// Least part of a label's width that its letters fill.
 const LETTERS: f64 = 0.85;
-/// A line that is so near to a label (px) is on it: names between the two sides of a bar are better beside it.
+/// Distance of a line that counts as covered (px): between the two sides of a bar there is no room for a name.
 const NEAR_LINE: f64 = 3.0;
-/// A label is full of a line that is so many times as long as it is high.
+/// Length of lines that fills a label, in heights of the label.
 const FULL: f64 = 2.0;
-/// How far places on lines are apart (px), and how many of them are looked at, all moments together.
+/// Distance of positions on lines (px), and the limit of positions of all moments together.
 const STEP: f64 = 4.0;
 const MOST_PLACES: usize = 200_000;
 
-/// What is thin or pale, or lies on something that has lines of its own.
+/// Looks without lines: thin, pale, or on a shape that has lines.
 const NO_LINES: [Look; 6] = [Look::Pin, Look::Dot, Look::Hatching, Look::Pitch, Look::Cross, Look::Weld];
-/// Lines that are looked at.
+/// Looks with highlighted lines.
 const STRONG: [Look; 7] =
     [Look::Arrow, Look::ArrowHead, Look::Free, Look::FreeHead, Look::Gap, Look::GapEnd, Look::Named];
 
-/// What is filled, so that a name on it is its own.
+/// Filled looks, which may have their body's name on them.
 const FILLED: [Look; 6] = [Look::Link, Look::Gear, Look::Rack, Look::Cam, Look::Roller, Look::Block];
 
-/// What a label is.
+/// Kind of label.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Kind {
-    /// What a message says.
+    /// Text of a message.
     Remark,
     Body,
     Point,
 }
 
-/// A name in its place.
+/// A label at its position.
 #[derive(Clone, Debug)]
 pub(super) struct Label {
     pub text: String,
-    /// What it names.
+    /// Anchor of what it names.
     pub anchor: Anchor,
-    /// From there to the middle of the text (px).
+    /// Vector from the anchor to the middle of the text (px).
     pub offset: Vector,
-    /// Half the width and the height of its box (px).
+    /// Half the width and half the height of its box (px).
     pub half: Vector,
     kind: Kind,
-    /// Whether a line leads from it to what it names.
+    /// True if a line connects it with its anchor.
     has_leader: bool,
 }
 
 impl Label {
-    /// Its corners, where what it names is there.
+    /// Returns the corners of the box for an anchor at a position (px).
     pub fn bounds(&self, at: Vector) -> [Vector; 2] {
         let middle = plus(at, self.offset);
         [[middle[0] - self.half[0], middle[1] - self.half[1]], [middle[0] + self.half[0], middle[1] + self.half[1]]]
     }
 
-    /// The element that shows it, around its anchor.
+    /// Writes the element of the label, for an anchor at a position (px).
     fn element(&self, at: Vector, size: f64) -> String {
         let [x, y] = plus(at, self.offset);
         let class = match self.kind {
@@ -94,7 +94,7 @@ impl Label {
 }
 
 impl Label {
-    /// Whether it is too far away at one of some moments to be seen to belong to what it names.
+    /// Returns whether the label is too far from what it names at some moment.
     fn is_far(&self, at: &[Vector], field: &Field) -> bool {
         let most = FAR * self.half[1];
         at.iter().zip(&field.moments).any(|(at, obstacles)| {
@@ -109,8 +109,8 @@ impl Label {
         })
     }
 
-    /// For which part of some moments it might be taken for the name of something else: a body's on another one, or nearer to that; a
-    /// point's nearer to another pin.
+    /// Returns the part of the moments at which the label could be mistaken: that of a body lies on another body or nearer to it, that of a
+    /// point nearer to another pin.
     fn mistaken(&self, at: &[Vector], field: &Field) -> f64 {
         let is_mistaken = |at: &Vector, obstacles: &Obstacles| {
             let here @ [low, high] = self.bounds(*at);
@@ -136,7 +136,7 @@ impl Label {
         count as f64 / at.len().max(1) as f64
     }
 
-    /// The line from what it names to the nearest place of its box, if that is not there.
+    /// Writes the line from the anchor to the nearest position of the box, unless the anchor lies in it.
     fn leader(&self, at: Vector) -> String {
         let middle = plus(at, self.offset);
         // letters are narrower than their box
@@ -150,21 +150,21 @@ impl Label {
     }
 }
 
-/// What a body fills, by its corners (px); it is taken to be convex.
+/// Convex hull of a body's filled shapes (px).
 struct Region {
     frame: usize,
     corners: Vec<Vector>,
 }
 
 impl Region {
-    /// How far a box is away from it, 0 if they meet.
+    /// Returns the distance of a box, 0 if they meet.
     fn distance(&self, [low, high]: [Vector; 2]) -> f64 {
         let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
         let sides = |places: &[Vector]| -> Vec<[Vector; 2]> {
             (0..places.len()).map(|k| [places[k], places[(k + 1) % places.len()]]).collect()
         };
         let (own, of_box) = (sides(&self.corners), sides(&corners));
-        // two convex shapes are apart if a side of one has all of the other beyond it
+        // separating axis theorem: one side of two disjoint convex shapes separates them
         let is_apart = |sides: &[[Vector; 2]], others: &[Vector], places: &[Vector]| {
             sides.iter().any(|[from, to]| {
                 let across = crate::scene::left(minus(*to, *from));
@@ -185,7 +185,7 @@ impl Region {
     }
 }
 
-/// How far a place is from a side.
+/// Returns the distance of a position from a side.
 fn from_side(place: Vector, [from, to]: [Vector; 2]) -> f64 {
     let way = minus(to, from);
     let square = dot(way, way);
@@ -193,18 +193,18 @@ fn from_side(place: Vector, [from, to]: [Vector; 2]) -> f64 {
     distance(place, plus(from, times(part, way)))
 }
 
-/// What labels are not to lie on, at one moment (px).
+/// Obstacles for labels at one moment (px).
 #[derive(Default)]
 struct Obstacles {
     pins: Vec<Vector>,
     regions: Vec<Region>,
-    /// Places on lines, evenly spread.
+    /// Positions on lines, evenly spaced.
     lines: Vec<Vector>,
     strong_lines: Vec<Vector>,
 }
 
 impl Obstacles {
-    /// Those in a box.
+    /// Returns the obstacles in a box.
     fn within(&self, [low, high]: [Vector; 2]) -> Obstacles {
         let inside = |places: &[Vector]| -> Vec<Vector> {
             places.iter().copied().filter(|place| is_within(*place, [low, high])).collect()
@@ -231,19 +231,19 @@ fn is_within([x, y]: Vector, [low, high]: [Vector; 2]) -> bool {
     low[0] <= x && x <= high[0] && low[1] <= y && y <= high[1]
 }
 
-/// Obstacles at all moments that are looked at, and how long the line is that a place stands for (px).
+/// Obstacles at all moments, and the length of line that a position stands for (px).
 struct Field {
     moments: Vec<Obstacles>,
     step: f64,
 }
 
 impl Picture<'_> {
-    /// The size of letters (px).
+    /// Returns the size of letters (px).
     pub fn letters(&self) -> f64 {
         letters(self.room())
     }
 
-    /// Writes the labels of a moment.
+    /// Adds the labels of a moment.
     pub fn add_labels(&mut self, poses: &[Pose]) {
         for label in self.labels(&[poses]) {
             let at = self.anchored(&label.anchor, poses);
@@ -251,7 +251,7 @@ impl Picture<'_> {
         }
     }
 
-    /// Writes one, in a group with attributes if there are any.
+    /// Adds a label, in a group if there are attributes.
     pub fn add_label(&mut self, label: &Label, at: Vector, attributes: Option<&str>) {
         self.used.labels = Some(self.letters());
         self.used.has_remarks |= label.kind == Kind::Remark;
@@ -263,7 +263,7 @@ impl Picture<'_> {
         };
     }
 
-    /// The labels with their places, which hold at all of some moments.
+    /// Returns the labels with positions that hold at all moments.
     pub fn labels(&self, moments: &[&[Pose]]) -> Vec<Label> {
         let named = self.named();
         if named.is_empty() {
@@ -276,7 +276,7 @@ impl Picture<'_> {
             let wide = (COLUMN * columns(&text) as f64).max(1.0);
             let half = [0.5 * size * wide + 2.0, 0.6 * size + 1.0];
             let at: Vec<Vector> = moments.iter().map(|poses| self.anchored(&anchor, poses)).collect();
-            // the same name at the same place is that of a pin that bodies share
+            // bodies that share a pin share its name
             let is_told = |(known, places): &(Label, Vec<Vector>)| {
                 known.kind == kind && places.iter().zip(&at).all(|(a, b)| distance(*a, *b) < 1.0)
             };
@@ -304,7 +304,7 @@ impl Picture<'_> {
         found.into_iter().map(|(label, _)| label).collect()
     }
 
-    /// What there is around some places, one for each moment, as far as a label beside them can be.
+    /// Returns the obstacles that a label near some positions, one for each moment, can meet.
     fn near(&self, field: &Field, at: &[Vector], half: Vector, reach: f64) -> Field {
         let farthest = RINGS[RINGS.len() - 1][0] * half[1] + reach + PIN * self.unit() + NEAR_LINE;
         let around = half.map(|half| 2.0 * half + farthest);
@@ -314,7 +314,7 @@ impl Picture<'_> {
         Field { moments: moments.collect(), step: field.step }
     }
 
-    /// What is wrong with a label's place; nothing where it cannot be there.
+    /// Returns the cost of a label's position, or `None` if it is not possible.
     fn cost(&self, label: &Label, at: &[Vector], found: &[(Label, Vec<Vector>)], field: &Field) -> Option<f64> {
         let reach = PIN * self.unit();
         let mut cost = 0.0;
@@ -343,7 +343,7 @@ impl Picture<'_> {
         Some(cost / at.len().max(1) as f64)
     }
 
-    /// What has a label: what messages say, then bodies, then points.
+    /// Returns what has a label: messages, then bodies, then points.
     fn named(&self) -> Vec<(Anchor, String, Kind)> {
         let scene = self.scene;
         let on_ground = |at| Anchor { frame: 0, at };
@@ -362,7 +362,7 @@ impl Picture<'_> {
         named
     }
 
-    /// Bodies with the middles of what is drawn of them first.
+    /// Returns the bodies, each with the middle of its first shapes.
     fn bodies(&self) -> Vec<(Anchor, String, Kind)> {
         let scene = self.scene;
         let mut named = Vec::new();
@@ -376,7 +376,7 @@ impl Picture<'_> {
             let places: Vec<Vector> = node.shapes.iter().flat_map(|shape| shape.path.places()).collect();
             let corners = hull(&places, 1.0 / self.scale);
             if !corners.is_empty() {
-                // on the body, though that be thin and slanting
+                // the middle lies on the body, even on a thin and slanting one
                 let sum = corners.iter().copied().fold([0.0; 2], plus);
                 let at = times(1.0 / corners.len() as f64, sum);
                 named.push((Anchor { frame, at }, cut(self.name(node.declaration)), Kind::Body));
@@ -385,7 +385,7 @@ impl Picture<'_> {
         named
     }
 
-    /// What labels are not to lie on.
+    /// Returns the obstacles for labels.
     fn field(&self, moments: &[&[Pose]]) -> Field {
         let shapes: Vec<Shown> = self.scene.nodes.iter().flat_map(|node| self.shown(node)).collect();
         let filled: Vec<(usize, Vec<Vector>)> = self.scene.nodes.iter().flat_map(|node| self.filled(node)).collect();
@@ -414,7 +414,7 @@ impl Picture<'_> {
         Field { moments: moments.iter().map(at).collect(), step: STEP * every as f64 }
     }
 
-    /// What of a body is filled, by its corners in its frame (m). A ring is not: there is room in it.
+    /// Returns the filled parts of a body by their corners in its frame (m). A ring is not filled: there is room in it.
     fn filled(&self, node: &Node) -> Vec<(usize, Vec<Vector>)> {
         let Place::Fixed(frame) = node.place else { return Vec::new() };
         let is_filled = |path: &Path| !matches!(path, Path::Lines(contours) if contours.len() != 1);
@@ -423,7 +423,7 @@ impl Picture<'_> {
         corners.filter(|(frame, corners)| *frame > 0 && corners.len() > 2).collect()
     }
 
-    /// The pins of a node by their middles, and its lines by places on them.
+    /// Returns the pins of a node by their centres, and its lines by positions on them.
     fn shown(&self, node: &Node) -> Vec<Shown> {
         let is_stretched = node.place.is_stretched();
         let shown = |(path, look): (&Path, Look)| {
@@ -438,14 +438,15 @@ impl Picture<'_> {
     }
 }
 
-/// A pin or a line, by places (m).
+/// A pin or a line by its positions (m).
 struct Shown {
     place: Place,
     look: Look,
     places: Vec<Vector>,
 }
 
-/// Places around what is named, from its middle to that of the text, with what each costs; some things have room for their names inside.
+/// Returns candidate offsets from the middle of what is named to the middle of the text, with their costs. With `has_inside` the middle
+/// itself is the first.
 fn offsets(half: Vector, reach: f64, has_inside: bool) -> impl Iterator<Item = (f64, Vector)> {
     let [x, y] = half;
     let around = RINGS.into_iter().flat_map(move |[farther, cost]| {

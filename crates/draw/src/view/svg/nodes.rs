@@ -1,4 +1,4 @@
-//! Groups for nodes: at a moment, or moving.
+//! Groups of nodes, at a moment or moving.
 
 use super::picture::Picture;
 use super::style::TINTS;
@@ -7,7 +7,7 @@ use crate::view::path::written;
 use crate::view::text::{escaped, number};
 
 impl Picture<'_> {
-    /// A moment; with ids and the ground if it is the one that stands out. The ground, which all share, is above the pale ones.
+    /// Adds a moment. The one that stands out has ids and the ground, which is above the pale moments.
     pub fn add_moment(&mut self, moments: &Motion, row: usize, stands_out: bool) {
         let t = number(moments.times[row], 9);
         if stands_out {
@@ -35,7 +35,7 @@ impl Picture<'_> {
         self.add_group(node, [0.0; 2], &transform, with_ids);
     }
 
-    /// The attribute that puts what is drawn around a frame's origin in its place.
+    /// Returns the transform that places shapes around a frame's origin at a pose.
     pub fn transform(&self, pose: &Pose) -> String {
         let [x, y] = self.placed(pose.at);
         let turn = number(degrees(pose.phi), self.degrees);
@@ -43,7 +43,7 @@ impl Picture<'_> {
         format!("translate({} {}){turn}", number(x, self.pixels), number(y, self.pixels))
     }
 
-    /// A node's shapes in a group, which is where `attributes` say; `origin` (m) is where the group's own origin is among them.
+    /// Adds the shapes of a node as a group with `attributes`; `origin` is the group's origin in the coordinates of the shapes (m).
     pub fn add_group(&mut self, node: &Node, origin: Vector, attributes: &str, with_id: bool) {
         let scene = self.scene;
         let Some(declaration) = scene.declarations.get(node.declaration) else { return };
@@ -85,7 +85,7 @@ impl Picture<'_> {
         }
         let attributes = match attributes.split_once(" class=\"") {
             _ if classes.is_empty() => attributes.to_owned(),
-            // classes of a motion stand with those of the body
+            // the classes of the animation follow those of the body
             Some((before, behind)) => format!(" class=\"{} {behind}{before}", classes.join(" ")),
             None => format!(" class=\"{}\"{attributes}", classes.join(" ")),
         };
@@ -132,7 +132,7 @@ impl Picture<'_> {
     }
 }
 
-/// An angle (rad) as a picture has it, whose y axis points down.
+/// Converts an angle (rad) to degrees in a picture, whose y axis points down.
 pub(super) fn degrees(angle: f64) -> f64 {
     -angle.to_degrees()
 }

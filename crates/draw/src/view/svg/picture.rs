@@ -1,4 +1,4 @@
-//! A picture in the making: the way from metres to pixels, and the file around all that is drawn.
+//! Picture under construction: conversion of metres to pixels, and the file around all shapes.
 
 use super::said::Lines;
 use super::style::{self, Used};
@@ -7,64 +7,64 @@ use crate::scene::{Anchor, Motion, Pen, Pose, Scene, Vector, bounds, distance, i
 use crate::view::text::{escaped, number};
 use std::fmt::Write;
 
-/// Pixels around what is drawn, and around it with the labels beside it.
+/// Margin without and with labels (px).
 const MARGIN: f64 = 14.0;
 const LABELLED_MARGIN: f64 = 34.0;
-/// The same where forces are drawn, whose arrows go beyond what they take hold of.
+/// Margin with forces, whose arrows reach beyond their points of action (px).
 const MARGIN_OF_FORCES: f64 = 90.0;
-/// How wide and how high a picture is at least and at most, unless its size is said.
+/// Least and greatest width and height, unless the size is given (px).
 const WIDTHS: [f64; 2] = [320.0, 800.0];
 const HEIGHTS: [f64; 2] = [220.0, 760.0];
-/// How wide one with a message below it is at least.
+/// Least width with a message below (px).
 const WIDTH_WITH_MESSAGE: f64 = 480.0;
-/// A trace that is larger than so many times all else that is drawn runs away; as near as this part of that size it is shown.
+/// A trace larger than so many times everything else runs away; it is shown as far as this part of that size.
 const AWAY: f64 = 20.0;
 const AROUND: f64 = 0.35;
-/// Symbols are no larger than this (px), unless the size of the picture is said.
+/// Greatest symbol unit, unless the size is given (px).
 const LARGEST_UNIT: f64 = 30.0;
 
-/// Pixels in a metre of paper, and millimetres of paper in a pixel.
+/// Pixels per metre of paper, and millimetres of paper per pixel.
 pub(super) const PER_METER: f64 = 96.0 / 0.0254;
 const MILLIMETERS: f64 = 25.4 / 96.0;
 /// Decimals of pixels, and of degrees.
 pub(super) const PIXELS: usize = 2;
 pub(super) const DEGREES: usize = 3;
-/// As many of degrees as a number can tell.
+/// Number of significant digits of degrees.
 const DIGITS: usize = 17;
-/// Decimals of pixels where paper is cut: 1e-4 px are 0.03 µm.
+/// Decimals of pixels for cutting: 1e-4 px are 0.03 µm of paper.
 const PIXELS_TO_CUT: usize = 4;
 
 pub(super) struct Picture<'s> {
     pub scene: &'s Scene,
     pub options: &'s Options,
     pub size: [f64; 2],
-    /// Around what is drawn (px).
+    /// Margin (px).
     pub margin: f64,
-    /// What is said below it.
+    /// Messages below the picture.
     pub said: Lines,
-    /// Pixels in a metre.
+    /// Pixels per metre.
     pub scale: f64,
-    /// Decimals of pixels and of degrees: of what is cut, as many as are a thirtieth of a micrometre of paper.
+    /// Decimals of pixels and of degrees. For cutting they resolve a thirtieth of a micrometre of paper.
     pub pixels: usize,
     pub degrees: usize,
-    /// Which place (m) is in the middle.
+    /// Position in the middle (m).
     middle: Vector,
     pub used: Used,
     pub rules: String,
     pub body: String,
-    /// How many tracks there are.
+    /// Number of tracks.
     pub tracks: usize,
     pub ids: rustc_hash::FxHashSet<String>,
 }
 
-/// Decimals of degrees by which what is as large as a picture (px) is turned to the last decimal of its pixels.
+/// Returns the decimals of degrees that rotate a shape of the picture's size (px) exactly to the last decimal of its pixels.
 fn degrees_to_cut([width, height]: [f64; 2]) -> usize {
     let mut decimals = DEGREES;
     let mut off = (width * width + height * height).sqrt().to_radians();
     for _ in 0..DEGREES {
         off *= 0.1;
     }
-    // what is farther away than a number tells of degrees, turns as it may
+    // shapes farther away than the digits of a number resolve are not exact
     while off > 1e-4 && decimals < DIGITS {
         off *= 0.1;
         decimals += 1;
@@ -130,33 +130,33 @@ impl<'s> Picture<'s> {
         }
     }
 
-    /// How much of it (px) what is drawn has, above what is said.
+    /// Returns the size of the picture above the messages (px).
     pub fn room(&self) -> [f64; 2] {
         [self.size[0], self.size[1] - self.said.height]
     }
 
-    /// Where a place is in the picture.
+    /// Converts a position (m) to the picture (px).
     pub fn placed(&self, [x, y]: Vector) -> Vector {
         let [width, height] = self.room();
         [0.5 * width + self.scale * (x - self.middle[0]), 0.5 * height - self.scale * (y - self.middle[1])]
     }
 
-    /// Pixels of the size of symbols.
+    /// Returns the symbol unit (px).
     pub fn unit(&self) -> f64 {
         self.scale * self.scene.unit
     }
 
-    /// Where an anchor is in the picture at a moment.
+    /// Converts an anchor to the picture (px) at some poses.
     pub fn anchored(&self, anchor: &Anchor, poses: &[Pose]) -> Vector {
         self.placed(anchor.placed(poses))
     }
 
-    /// The name of a declaration.
+    /// Returns the name of a declaration.
     pub fn name(&self, declaration: usize) -> &'s str {
         self.scene.declarations.get(declaration).map_or("", |declaration| &declaration.name)
     }
 
-    /// An id for a name, which no other group has.
+    /// Returns a new id for a name.
     pub fn id(&mut self, name: &str) -> String {
         let word = |c: char| if c.is_alphanumeric() || matches!(c, '_' | '-' | '.') { c } else { '_' };
         let mut id: String = name.chars().map(word).collect();
@@ -174,12 +174,12 @@ impl<'s> Picture<'s> {
         format!("<text class=\"caption\" x=\"{x}\" y=\"{y}\">{}</text>\n", escaped(text))
     }
 
-    /// The whole file.
+    /// Writes the whole file.
     pub fn finish(mut self) -> String {
-        // pixels, or millimetres of paper in each
+        // size of a pixel in units of the file: pixels, or millimetres of paper
         let (each, word) = if self.options.scale.is_some() { (MILLIMETERS, "mm") } else { (1.0, "") };
         let [width, height] = self.size.map(|side| number(each * side, 2));
-        // how many of them are in a metre, and where the ground's origin is: x to the right, y up
+        // position of the ground's origin, for programs that measure the picture: x to the right, y up
         let origin = self.placed([0.0; 2]).map(|part| each * part);
         let mut file = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}{word}\" height=\"{height}{word}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
@@ -213,8 +213,8 @@ impl<'s> Picture<'s> {
     }
 }
 
-/// What has to be in the picture: the mechanism along its motion and at the moments that are shown, and all traces; of those that run
-/// away what is near to all else.
+/// Returns the bounding box of the picture: the mechanism along its motion and at the shown moments, and all traces; of those that run away
+/// only the part near everything else.
 fn framed(scene: &Scene, motion: &Motion, moments: &Motion, options: &Options) -> [Vector; 2] {
     let shown = scene.reach(moments).into_iter().flatten();
     let mut all = bounds(scene.extent.into_iter().chain(shown)).unwrap_or(scene.extent);

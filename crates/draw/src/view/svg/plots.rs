@@ -1,4 +1,4 @@
-//! Columns over time, one plot below the other, with one time axis.
+//! Plots of columns over time, one below the other, with a common time axis.
 
 use super::style::{self, TRACE_COLORS};
 use super::{Options, Theme};
@@ -6,39 +6,39 @@ use crate::scene::{Scene, Vector, distance, dot, minus, plus, times};
 use crate::view::text::{escaped, number};
 use std::fmt::Write;
 
-/// A column of the table, in the unit in which it is printed.
+/// A column of the table, in its printed unit.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Plot<'p> {
-    /// Its name.
+    /// Name.
     pub name: &'p str,
-    /// Its unit; `1` for a pure number.
+    /// Unit; `1` for a pure number.
     pub unit: &'p str,
-    /// Its values by row; where there is none, they are not finite.
+    /// Values by row; a missing one is not finite.
     pub values: Vec<f64>,
 }
 
-/// How wide a file is, and how high a plot in it, unless its size is said (px).
+/// Width of a file and height of a plot, unless the size is given (px).
 const WIDTH: f64 = 800.0;
 const HEIGHT: f64 = 150.0;
-/// Around the plots: to the left, above each, to the right, and below the last (px).
+/// Space to the left, above each plot, to the right and below the last one (px).
 const LEFT: f64 = 78.0;
 const ABOVE: f64 = 34.0;
 const RIGHT: f64 = 22.0;
 const BELOW: f64 = 46.0;
-/// Letters (px).
+/// Size of letters (px).
 const LETTERS: f64 = 14.0;
-/// What a curve may be off from the rows that it does not name (px).
+/// Tolerance of a curve at rows that it skips (px).
 const OFF: f64 = 0.1;
-/// What changes by less than this, in its unit or as a part of itself, does not change.
+/// Change in its unit, or relative to itself, below which a value is constant.
 const AT_REST: f64 = 1e-12;
 
-/// What is beyond this many times the range that a column is mostly in runs to infinity, and is shown so far beyond that range; it is in
-/// that range but for this part of the time below it, and above it.
+/// Values beyond this many times the usual range of a column run to infinity and are shown this far beyond the range. The usual range
+/// leaves out this part of the time below it, and above it.
 const FAR: f64 = 40.0;
 const BEYOND: f64 = 0.5;
 const MOSTLY: f64 = 0.08;
 
-/// All of some columns over time (s).
+/// Writes plots of some columns over the times `rows` (s).
 #[must_use]
 pub fn plots(scene: &Scene, rows: &[f64], plots: &[Plot], options: &Options) -> String {
     let count = plots.len().max(1) as f64;
@@ -68,7 +68,7 @@ pub fn plots(scene: &Scene, rows: &[f64], plots: &[Plot], options: &Options) -> 
     )
 }
 
-/// One plot, whose frame begins so far down and is so wide and high (px).
+/// Adds a plot with the top, the width and the height of its frame (px).
 fn add_plot(body: &mut String, (k, plot): (usize, &Plot), rows: &[f64], time: &Axis, [top, wide, high]: [f64; 3]) {
     let [low_end, high_end] = shown(rows, &plot.values);
     let values = Axis::of([low_end, high_end].into_iter(), (high / 28.0).max(2.0), 0.05);
@@ -113,9 +113,9 @@ fn add_plot(body: &mut String, (k, plot): (usize, &Plot), rows: &[f64], time: &A
     );
 }
 
-/// The least and the greatest value that a plot shows, by values at times: all but what runs to infinity.
+/// Returns the least and the greatest value that a plot shows, which exclude what runs to infinity.
 fn shown(rows: &[f64], values: &[f64]) -> [f64; 2] {
-    // each value counts for the time around it
+    // each value has the weight of the time around it
     let time = |k: usize| {
         let (before, behind) = (rows[k.saturating_sub(1)], rows[(k + 1).min(rows.len() - 1)]);
         0.5 * (behind - before)
@@ -125,7 +125,7 @@ fn shown(rows: &[f64], values: &[f64]) -> [f64; 2] {
     weighed.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (Some(least), Some(greatest)) = (weighed.first(), weighed.last()) else { return [f64::NAN; 2] };
     let (least, greatest) = (least.0, greatest.0);
-    // what goes to infinity is broken there
+    // only a broken column runs to infinity
     if weighed.len() == values.len() {
         return [least, greatest];
     }
@@ -147,7 +147,7 @@ fn shown(rows: &[f64], values: &[f64]) -> [f64; 2] {
     ]
 }
 
-/// The parts of a line (px) that are not above or below its plot.
+/// Returns the parts of a line (px) between the top and the bottom of its plot.
 fn clipped(places: &[Vector], [top, bottom]: [f64; 2]) -> Vec<Vec<Vector>> {
     let mut parts: Vec<Vec<Vector>> = Vec::new();
     let is_in = |[_, y]: Vector| top <= y && y <= bottom;
@@ -177,7 +177,7 @@ fn clipped(places: &[Vector], [top, bottom]: [f64; 2]) -> Vec<Vec<Vector>> {
     parts
 }
 
-/// A line through places (px), without those that it passes anyway; a dot for a single one.
+/// Writes a line through positions (px), simplified, or a dot for a single one.
 fn stretch(places: &[Vector]) -> String {
     let (Some(first), last) = (places.first(), places.len().saturating_sub(1)) else { return String::new() };
     let pair = |[x, y]: Vector| format!("{} {}", number(x, 2), number(y, 2));
@@ -200,7 +200,7 @@ fn stretch(places: &[Vector]) -> String {
     format!("M{}", kept.join("L"))
 }
 
-/// How far a place is from the line between two others.
+/// Returns the distance of a position from the segment between two others.
 fn distance_to_line(place: Vector, [from, to]: [Vector; 2]) -> f64 {
     let way = minus(to, from);
     let square = dot(way, way);
@@ -208,7 +208,7 @@ fn distance_to_line(place: Vector, [from, to]: [Vector; 2]) -> f64 {
     distance(place, plus(from, times(part, way)))
 }
 
-/// What an axis goes over, and the step between its marks: so many units of a power of ten.
+/// An axis with its range, and the step between its ticks: `units` times a power of ten.
 struct Axis {
     low: f64,
     high: f64,
@@ -217,7 +217,7 @@ struct Axis {
 }
 
 impl Axis {
-    /// Over all values that there are, with a part of that around them, and no more marks than these.
+    /// Creates an axis over all finite values, with a margin as a part of their range and at most a number of ticks.
     fn of(values: impl Iterator<Item = f64>, marks: f64, around: f64) -> Axis {
         let finite = values.filter(|value| value.is_finite());
         let [low, high] =
@@ -237,12 +237,12 @@ impl Axis {
         Axis { low, high, units, power }
     }
 
-    /// How far along the axis a value is.
+    /// Returns the position of a value along the axis, from 0 to 1.
     fn part(&self, value: f64) -> f64 {
         (value - self.low) / (self.high - self.low)
     }
 
-    /// How far along the axis each mark is, with its number.
+    /// Returns the position of each tick along the axis, with its number.
     fn ticks(&self) -> Vec<(f64, String)> {
         let step: f64 = power_of_ten(self.units, self.power);
         let slack = 1e-9;
@@ -270,7 +270,7 @@ impl Axis {
     }
 }
 
-/// The least of 1, 2, 5 times a power of ten that is no less than a positive number.
+/// Returns the least of 1, 2, 5 times a power of ten that is at least a positive number.
 fn step(least: f64) -> (i64, i32) {
     let text = format!("{least:e}");
     let (digits, power) = text.split_once('e').unwrap_or(("1", "0"));
@@ -283,7 +283,7 @@ fn step(least: f64) -> (i64, i32) {
     }
 }
 
-/// The number nearest to so many units of a power of ten.
+/// Returns the number nearest to `units` times a power of ten.
 fn power_of_ten(units: i64, power: i32) -> f64 {
     format!("{units}e{power}").parse().unwrap_or(f64::NAN)
 }

@@ -1,32 +1,33 @@
-//! What is wrong with a mechanism, in lines below it.
+//! Messages in lines below a picture.
 
 use super::letters::{COLUMN, columns, letters};
 use crate::view::text::{escaped, number};
 use std::fmt::Write;
 
-/// From line to line, and what is free above the first and below the last of them, in sizes of letters.
+/// Distance of lines, and space above and below them, in sizes of letters.
 const LINE: f64 = 1.35;
 const AROUND: f64 = 0.6;
-/// What lines take of a picture whose size is given at most.
+/// Greatest part of the height of a picture with a given size.
 const MOST: f64 = 0.4;
-/// Lines have room for so many columns at least.
+/// Least width of a line in columns.
 const NARROWEST: f64 = 8.0;
 
 /// Decimals of pixels.
 const DECIMALS: usize = 2;
 
-/// Messages in lines.
+/// Messages broken into lines.
 #[derive(Default)]
 pub(super) struct Lines {
     rows: Vec<String>,
-    /// The size of letters (px).
+    /// Size of letters (px).
     letters: f64,
-    /// How high they are together (px), with what is free around them.
+    /// Height of all lines with the space around them (px).
     pub height: f64,
 }
 
 impl Lines {
-    /// Of messages below a picture of a size (px), within margins; if they are to stand in it, as many as it has room for.
+    /// Breaks messages into lines below a picture of a size (px) with margins. With `within` only as many remain as the picture has room
+    /// for.
     pub fn of(said: &[String], size: [f64; 2], margin: f64, within: bool) -> Lines {
         let letters = letters(size);
         let width = ((size[0] - 2.0 * margin) / (COLUMN * letters)).max(NARROWEST);
@@ -45,7 +46,7 @@ impl Lines {
         Lines { rows: lines, letters, height }
     }
 
-    /// As they stand at the bottom of a picture of a size (px), within margins.
+    /// Writes the lines at the bottom of a picture of a size (px) with margins.
     pub fn written(&self, size: [f64; 2], margin: f64) -> String {
         let top = size[1] - self.height + AROUND * self.letters;
         let mut text = String::new();
@@ -56,13 +57,13 @@ impl Lines {
         text
     }
 
-    /// The size of their letters (px), if there are any.
+    /// Returns the size of letters (px), or `None` without messages.
     pub fn letters(&self) -> Option<f64> {
         (!self.rows.is_empty()).then_some(self.letters)
     }
 }
 
-/// A text in lines of so many columns at most, but for words that are longer.
+/// Breaks a text into lines of at most `width` columns; longer words stay whole.
 fn wrapped(text: &str, width: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in unbroken(text) {
@@ -77,7 +78,7 @@ fn wrapped(text: &str, width: f64) -> Vec<String> {
     lines
 }
 
-/// The words of a text; a number and its unit are one, and so are the two sides of `=`.
+/// Splits a text into words. A number and its unit are one word, and so are the two sides of `=`.
 fn unbroken(text: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -92,7 +93,7 @@ fn unbroken(text: &str) -> Vec<String> {
     words
 }
 
-/// Whether a word is the unit of the number behind which it stands.
+/// Returns whether a word is the unit of the number before it.
 fn is_unit_of(number: &str, word: &str) -> bool {
     let number = number.rsplit([' ', '(']).next().unwrap_or(number);
     let is_number = number.parse::<f64>().is_ok() && number.ends_with(|c: char| c.is_ascii_digit());

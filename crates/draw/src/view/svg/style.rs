@@ -1,53 +1,53 @@
-//! The style sheet: how everything looks, in light and in dark. Colours are written out, for not every renderer knows variables.
+//! Style sheet in light and in dark. Colours are written out, since not every renderer supports variables.
 
 use super::Theme;
 use crate::scene::Look;
 use crate::view::text::number;
 use std::collections::BTreeSet;
 
-/// How many tints of bodies there are.
+/// Number of tints of bodies.
 pub(super) const TINTS: usize = 8;
-/// How many colours of traces there are.
+/// Number of colours of traces.
 pub(super) const TRACE_COLORS: usize = 4;
 
-/// What a picture holds, for which there have to be rules.
+/// Contents of a picture that need rules.
 #[derive(Default)]
 #[allow(clippy::struct_excessive_bools)] // each has rules of its own
 pub(super) struct Used {
     pub looks: BTreeSet<Look>,
     pub tints: BTreeSet<usize>,
     pub traces: BTreeSet<usize>,
-    /// The size of letters (px), if there are any.
+    /// Size of letters (px), if there are any.
     pub labels: Option<f64>,
     pub has_ghosts: bool,
-    /// Whether something that is filled is on the ground.
+    /// True if a filled shape is on the ground.
     pub is_ground_filled: bool,
     pub vectors: BTreeSet<&'static str>,
-    /// Whether a message names something.
+    /// True if a message names a declaration.
     pub is_named: bool,
-    /// Whether a message says something of a place.
+    /// True if a message has a position.
     pub has_remarks: bool,
-    /// Whether a line leads from a name to what it names.
+    /// True if a label has a leader.
     pub has_leaders: bool,
-    /// The size of letters of what is said below (px), if anything is.
+    /// Size of letters of the messages below (px), if there are any.
     pub said: Option<f64>,
 }
 
-/// Colours.
+/// Colours of a theme.
 struct Palette {
     paper: &'static str,
     ink: &'static str,
-    /// Of what is there, but is not looked at.
+    /// Colour of secondary lines.
     quiet: &'static str,
-    /// Of what is a part of the ground.
+    /// Fill of parts of the ground.
     ground: &'static str,
-    /// Of what a driver does.
+    /// Colour of drivers.
     driven: &'static str,
     tints: [&'static str; TINTS],
     traces: [&'static str; TRACE_COLORS],
-    /// Of what nothing holds.
+    /// Colour of free motions.
     free: &'static str,
-    /// Of what a message names.
+    /// Colour of what a message names.
     wrong: &'static str,
     velocity: &'static str,
     acceleration: &'static str,
@@ -90,13 +90,13 @@ const DARK: Palette = Palette {
     weight: "#a9b6c2",
 };
 
-/// The rules for all that is used; `unit` is the size of symbols in pixels.
+/// Returns the rules for everything that is used; `unit` is the symbol unit (px).
 pub(super) fn sheet(used: &Used, theme: Theme, unit: f64) -> String {
     let strong = (0.1 * unit).clamp(0.5, 2.0);
     themed(shapes(used, strong), theme, |palette| colors(used, palette))
 }
 
-/// The rules for plots, with so many colours of curves and letters so large (px).
+/// Returns the rules for plots, with a number of curves and a size of letters (px).
 pub(super) fn plot_sheet(curves: usize, theme: Theme, letters: f64) -> String {
     let colors = |palette: &Palette| {
         let &Palette { paper, ink, quiet, .. } = palette;
@@ -116,7 +116,7 @@ pub(super) fn plot_sheet(curves: usize, theme: Theme, letters: f64) -> String {
     themed(shared, theme, colors)
 }
 
-/// A sheet with the colours of a theme.
+/// Appends the colours of a theme to a sheet.
 fn themed(mut sheet: String, theme: Theme, colors: impl Fn(&Palette) -> String) -> String {
     match theme {
         Theme::Light => sheet += &colors(&LIGHT),
@@ -129,7 +129,7 @@ fn themed(mut sheet: String, theme: Theme, colors: impl Fn(&Palette) -> String) 
     sheet
 }
 
-/// Widths and dashes, which both themes share.
+/// Returns widths and dashes, which both themes share.
 fn shapes(used: &Used, strong: f64) -> String {
     let width = |part: f64| number(part * strong, 2);
     let mut rules = format!("path,circle{{stroke-width:{};stroke-linecap:round;stroke-linejoin:round}}\n", width(1.0));
@@ -178,7 +178,7 @@ fn shapes(used: &Used, strong: f64) -> String {
         rules += &format!(".said{{font:{}px system-ui,sans-serif;text-anchor:start;stroke:none}}\n", number(size, 1));
     }
     if !used.vectors.is_empty() {
-        // accelerations, which are drawn above, leave velocities seen where both go the same way
+        // a velocity stays visible below an acceleration of the same direction
         rules += &format!(
             ".vector{{stroke-width:{};vector-effect:non-scaling-stroke}}\n.velocity{{stroke-width:{}}}\n",
             width(0.9),
@@ -198,7 +198,7 @@ fn colors(used: &Used, palette: &Palette) -> String {
             rules += &format!("{}{{{rule}}}\n", words.join(","));
         }
     };
-    // what is filled with its body's tint has it from its group
+    // the tint of a body comes from its group
     group(&[Look::Link, Look::Cam, Look::Gear, Look::Rack], &format!("stroke:{ink};fill-opacity:.82"));
     group(&[Look::Block], &format!("stroke:{ink}"));
     group(&[Look::Pin, Look::Roller, Look::Slot, Look::Sleeve, Look::Support], &format!("fill:{paper};stroke:{ink}"));

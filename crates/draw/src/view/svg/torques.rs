@@ -1,4 +1,4 @@
-//! Torques as arcs with heads about where they take hold, all to one scale.
+//! Torques as arcs with heads about their positions, in one scale.
 
 use super::keyframes::{Key, Track};
 use super::picture::{PIXELS, Picture};
@@ -7,23 +7,23 @@ use crate::scene::{ForceKind, Motion, Torque, Vector, plus, polar, times};
 use crate::view::text::{escaped, number};
 use std::f64::consts::PI;
 
-/// The largest radius, as a part of the longest arrow of a velocity.
+/// Largest radius as a part of the longest velocity arrow.
 const LARGEST: f64 = 0.6;
-/// What has a smaller radius (px) is not drawn.
+/// Radius below which an arc is not drawn (px).
 const LEAST: f64 = 1.5;
-/// Where an arc begins and where its head does (rad), counter-clockwise.
+/// Start of the arc and of its head (rad), counter-clockwise.
 const TURN: [f64; 2] = [-0.75 * PI, 0.7 * PI];
-/// The head: its length and half its width, as parts of the radius.
+/// Length and half the width of the head, as parts of the radius.
 const HEAD: [f64; 2] = [0.36, 0.16];
-/// The radius of the legend's arcs (px).
+/// Radius of the legend's arcs (px).
 const LEGEND_RADIUS: f64 = 7.0;
-/// From this torque on it is told in kilonewton metres (N·m).
+/// Torque from which on the legend has kilonewton metres (N·m).
 const KILO: f64 = 1e4;
-/// Decimals of an arc of radius 1.
+/// Decimals of an arc with radius 1.
 const DECIMALS: usize = 4;
 
 impl Picture<'_> {
-    /// At the last of some moments; the legend begins so many lines above the last.
+    /// Adds the torques of the last moment. Their legend begins at a line, counted from the bottom.
     pub(super) fn add_torques(&mut self, moments: &Motion, motion: &Motion, line: f64) {
         let Some(scale) = self.scaled_torques([moments, motion], line) else { return };
         let (scene, row) = (self.scene, moments.len() - 1);
@@ -37,7 +37,7 @@ impl Picture<'_> {
         }
     }
 
-    /// At all times: an arc is stretched, and turned over where its torque is clockwise.
+    /// Adds the torques of the whole motion: an arc is stretched, and mirrored while its torque is clockwise.
     pub(super) fn add_moving_torques(&mut self, motion: &Motion, line: f64) {
         let Some(scale) = self.scaled_torques([motion, motion], line) else { return };
         let scene = self.scene;
@@ -57,13 +57,14 @@ impl Picture<'_> {
         }
     }
 
-    /// The middle of an arc, and its radius (px), below zero where it goes clockwise; none where the table does not tell the torque.
+    /// Returns the centre of an arc and its radius (px), negative if it is clockwise and 0 if the table has no value.
     fn arc(&self, torque: &Torque, motion: &Motion, row: usize, scale: f64) -> (Vector, f64) {
         let radius = scale * torque.value(motion, row);
         (self.placed(torque.at.placed(motion.poses(row))), if radius.is_finite() { radius } else { 0.0 })
     }
 
-    /// Pixels of a newton metre, by the largest torque of two motions, which the legend tells of each kind. Nothing where there are none.
+    /// Returns the pixels per newton metre, from the largest torque of two motions, and adds the legend. Returns `None` if all torques are
+    /// zero.
     fn scaled_torques(&mut self, motions: [&Motion; 2], mut line: f64) -> Option<f64> {
         let scene = self.scene;
         let largest = |kind: ForceKind| {
@@ -95,10 +96,10 @@ fn path(kind: ForceKind, name: &str, d: &str) -> String {
     format!("<path class=\"vector {}\" data-name=\"{name}\" d=\"{d}\"/>\n", kind.word())
 }
 
-/// An arc with its head, clockwise where the radius is below zero. It goes back on itself, so that nothing is between it and its chord.
+/// Writes an arc with its head, clockwise for a negative radius. It returns along itself, so that the fill covers only the head.
 fn arc(at: Vector, radius: f64, decimals: usize) -> String {
     let size = radius.abs();
-    // up is down here
+    // y points down here
     let place = |by: f64, angle: f64| {
         let [x, y] = polar(by, angle);
         plus(at, times(size, [x * radius.signum(), -y]))

@@ -6,30 +6,30 @@ use super::picture::Picture;
 use crate::scene::{Anchor, Motion, Pen, Point, Scene, Vector, direction, distance, length, minus, plus, times};
 use crate::view::text::{escaped, number};
 
-/// How long the longest arrow of a kind is, as a part of the picture's shorter side.
+/// Length of the longest arrow of a kind as a part of the picture's shorter side.
 const LONGEST: f64 = 0.2;
-/// What is shorter than this (px) is not drawn.
+/// Length below which an arrow is not drawn (px).
 const LEAST: f64 = 2.0;
-/// The head of an arrow: its length and half its width (px), at most.
+/// Length and half the width of a full head (px).
 const HEAD: [f64; 2] = [9.0, 3.4];
-/// From this length on (px) an arrow has a whole head.
+/// Length from which on an arrow has a full head (px).
 const FULL_HEAD_AT: f64 = 18.0;
-/// Where the legend begins, and how long its arrows are (px).
+/// Left edge of the legend, and length of its arrows (px).
 pub(super) const LEGEND: f64 = 12.0;
 const LEGEND_ARROW: f64 = 26.0;
 
-/// Rows that are looked at for the longest arrow.
+/// Number of rows that are sampled for the longest arrow.
 pub(super) const LOOKED_AT: usize = 200;
-/// What is slower than this part of the fastest point is at rest.
+/// Points slower than this part of the fastest one are at rest.
 const AT_REST: f64 = 1e-9;
 
-/// What is drawn as arrows: its word, and what it is of a point in a row.
+/// Kind of arrows: its name, and its vector for a point in a row.
 type Kind = (&'static str, fn(&Motion, usize, &Point) -> Vector);
 
 const KINDS: [Kind; 2] = [("velocity", velocity), ("acceleration", acceleration)];
 
 impl Picture<'_> {
-    /// At the last of some moments; arrows are to scale with the longest of the whole motion.
+    /// Adds the arrows of the last moment, in the scale of the whole motion.
     pub fn add_vectors(&mut self, moments: &Motion, motion: &Motion) {
         let row = moments.len() - 1;
         let points = self.apart(self.moving([moments, motion]), moments);
@@ -43,7 +43,7 @@ impl Picture<'_> {
         }
     }
 
-    /// At all times: the line and the head of each arrow are on tracks of their own.
+    /// Adds the arrows of the whole motion. The line and the head of each arrow have separate tracks.
     pub fn add_moving_vectors(&mut self, motion: &Motion) {
         let points = self.apart(self.moving([motion, motion]), motion);
         for (word, of) in KINDS {
@@ -60,7 +60,7 @@ impl Picture<'_> {
         }
     }
 
-    /// An arrow at some times (s), by where it begins and its way: its line and its head are on tracks of their own.
+    /// Adds an arrow with its starts and vectors (px) at some times (s). Its line and its head have separate tracks.
     pub(super) fn add_moving_vector(&mut self, word: &'static str, name: &str, ways: &[[Vector; 2]], times: &[f64]) {
         if ways.iter().all(|[_, way]| length(*way) < LEAST) {
             return;
@@ -82,7 +82,7 @@ impl Picture<'_> {
         }
     }
 
-    /// Pixels of one unit, by the longest arrow of two motions, which a legend tells; nothing where all are at rest.
+    /// Returns the pixels per unit, from the longest arrow of two motions, and adds the legend. Returns `None` if all points are at rest.
     fn scaled(&mut self, points: &[Point], motions: [&Motion; 2], (word, of): Kind) -> Option<f64> {
         let longest = points.iter().map(|point| greatest(of, point, motions)).fold(0.0, f64::max);
         if longest <= 0.0 {
@@ -93,24 +93,24 @@ impl Picture<'_> {
         Some(self.longest_arrow() / longest)
     }
 
-    /// How long the longest arrow is (px).
+    /// Returns the length of the longest arrow (px).
     pub(super) fn longest_arrow(&self) -> f64 {
         LONGEST * self.room()[0].min(self.room()[1])
     }
 
-    /// Tells how much the longest arrow of a kind is, so many lines above the last.
+    /// Adds the legend of a kind of arrows, with its largest value, at a line counted from the bottom.
     pub(super) fn add_legend(&mut self, word: &'static str, longest: f64, unit: &str, line: f64) {
         let y = self.legend_line(line) - 0.35 * self.letters();
         self.add_vector(word, word, [LEGEND, y], [LEGEND_ARROW, 0.0]);
         self.add_legend_text(word, longest, unit, line);
     }
 
-    /// Where a line of the legend stands (px).
+    /// Returns the baseline of a line of the legend (px).
     pub(super) fn legend_line(&self, line: f64) -> f64 {
         self.room()[1] - (0.6 + 1.3 * line) * self.letters()
     }
 
-    /// The words of a line of the legend.
+    /// Adds the text of a line of the legend.
     pub(super) fn add_legend_text(&mut self, words: &str, longest: f64, unit: &str, line: f64) {
         self.used.labels = Some(self.letters());
         self.body += &format!(
@@ -121,12 +121,12 @@ impl Picture<'_> {
         );
     }
 
-    /// The points that have arrows.
+    /// Returns the points that have arrows.
     fn moving(&self, motions: [&Motion; 2]) -> Vec<Point> {
         moving(self.scene, &self.options.traces, motions)
     }
 
-    /// Of points that bodies share all along the motion one.
+    /// Keeps one of the points that coincide along the whole motion.
     fn apart(&self, points: Vec<Point>, motion: &Motion) -> Vec<Point> {
         let rows: Vec<usize> = motion.sampled(3).collect();
         let mut taken: Vec<Vec<Vector>> = Vec::new();
@@ -165,14 +165,13 @@ impl Picture<'_> {
     }
 }
 
-/// Whether any point of a moving mechanism has arrows, points whose paths are asked for among them.
+/// Returns whether any point of a moving mechanism has arrows, the points of `traces` included.
 #[must_use]
 pub fn has_vectors(scene: &Scene, traces: &[(String, Anchor)], motion: &Motion) -> bool {
     !moving(scene, traces, [motion, motion]).is_empty()
 }
 
-/// The points that have arrows: pins and traced points that move; of a body that has none of these its other points that have a name and
-/// move.
+/// Returns the points that have arrows: pins and traced points that move, and for a body without these its other named points that move.
 fn moving(scene: &Scene, traces: &[(String, Anchor)], motions: [&Motion; 2]) -> Vec<Point> {
     let pens = scene.traces.iter().filter_map(|trace| match trace.pen {
         Pen::Point(anchor) => Some((scene.declarations.get(trace.declaration)?.name.clone(), anchor)),
@@ -200,14 +199,14 @@ fn moving(scene: &Scene, traces: &[(String, Anchor)], motions: [&Motion; 2]) -> 
     moving.iter().filter(is_chosen).map(|(point, _)| point.clone()).collect()
 }
 
-/// The length of a point's longest arrow of a kind.
+/// Returns the length of a point's longest vector of a kind.
 fn greatest(of: fn(&Motion, usize, &Point) -> Vector, point: &Point, motions: [&Motion; 2]) -> f64 {
     let rows = motions.into_iter().flat_map(|motion| motion.sampled(LOOKED_AT).map(move |row| (motion, row)));
     let ways = rows.map(|(motion, row)| length(of(motion, row, point)));
     ways.filter(|way| way.is_finite()).fold(0.0, f64::max)
 }
 
-/// A number with three digits that count.
+/// Formats a number with three significant digits.
 fn three_digits(value: f64) -> String {
     match value {
         _ if !(1e-3..1e6).contains(&value) => format!("{value:.2e}"),
