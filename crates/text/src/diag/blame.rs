@@ -1,34 +1,34 @@
-//! Who is to mend something: whoever wrote the text, whoever called the program, nobody but the mechanism.
+//! Responsibility for an error: the author of the text, the caller of the program, or the mechanism.
 
 use super::{Code, Diagnostics};
 use crate::source::Sources;
 
-/// What kind of thing went wrong.
+/// Category of the first error, which decides the exit status.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Blame {
     /// The text has errors.
     Input,
-    /// Something was asked for that cannot be.
+    /// The request is impossible.
     Usage,
-    /// The analysis could not be completed.
+    /// The analysis failed.
     Analysis,
-    /// A file that was named from outside could not be read or written.
+    /// A file from the command line could not be read or written.
     Files,
 }
 
 impl Blame {
-    /// By the first error of what is said; nothing where there is none.
+    /// Returns the category of the first error, or `None` without errors.
     #[must_use]
     pub fn of(diagnostics: &Diagnostics, sources: &Sources) -> Option<Blame> {
         let first = diagnostics.iter().find(|d| d.is_error())?;
-        // what is wrong with an option is wrong usage, whatever it is, unless it is only wrong at some time
+        // any fault in an option is a usage error, unless it shows only at some time of the motion
         let on_the_way = (Code::E0601..=Code::E0612).contains(&first.code);
         if !on_the_way && first.labels.first().is_some_and(|label| sources.get(label.span.file).is_option) {
             return Some(Blame::Usage);
         }
         Some(match first.code {
             _ if on_the_way => Blame::Analysis,
-            // a file that a text names is a part of the text
+            // a file that a text names is part of the text
             Code::E0701 if !first.labels.is_empty() => Blame::Input,
             Code::E0701 | Code::E0702 => Blame::Files,
             Code::E0703 | Code::E0704 | Code::E0705 | Code::E0706 | Code::E0708 => Blame::Usage,

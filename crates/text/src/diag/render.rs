@@ -1,6 +1,6 @@
-//! Diagnostics as text: for people through `codespan-reporting`, as one line each, or as JSON.
+//! Diagnostics as text: for readers through `codespan-reporting`, as one line each, or as JSON.
 //!
-//! The only file that knows the rendering library.
+//! No other file uses the rendering library.
 
 use super::{Diagnostic, Edit, Fix, Label, Severity};
 use crate::source::{FileId, Source, Sources, Span, is_control};
@@ -11,22 +11,22 @@ use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// A line longer than this is not shown with its marker: it would flood the terminal.
+/// Length limit of a line that is shown with labels (bytes): a longer one would flood the terminal.
 const LONGEST_LINE: usize = 500;
 
-/// How diagnostics are written.
+/// Output format of diagnostics.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Format {
-    /// With the lines they speak of.
+    /// With source lines.
     #[default]
     Human,
-    /// A line each: `file:line:column: error[E0201]: message`.
+    /// One line each: `file:line:column: error[E0201]: message`.
     Short,
-    /// A JSON object a line.
+    /// One JSON object per line.
     Json,
 }
 
-/// Whether the human format uses terminal colours.
+/// Use of terminal colours in the human format.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Color {
     /// Plain text.
@@ -36,7 +36,7 @@ pub enum Color {
     Always,
 }
 
-/// One diagnostic as text, line ends included.
+/// Renders a diagnostic with its line ends.
 #[must_use]
 pub fn render(diagnostic: &Diagnostic, sources: &Sources, format: Format, color: Color) -> String {
     match format {
@@ -47,7 +47,7 @@ pub fn render(diagnostic: &Diagnostic, sources: &Sources, format: Format, color:
     }
 }
 
-/// A text with pictures in the place of control characters, `␛` for the one that begins commands to a terminal.
+/// Replaces control characters by visible ones, for example the escape character by `␛`.
 #[must_use]
 pub fn visible(text: &str) -> Cow<'_, str> {
     if !text.contains(is_control) {
@@ -62,25 +62,25 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.replace("\r\n", "\n").chars().map(picture).collect())
 }
 
-/// A text that is shown beside marks: with others of as many bytes in the place of control characters.
+/// Replaces control characters by others of the same number of bytes, which keeps offsets of labels valid.
 fn in_place(text: &str) -> Cow<'_, str> {
     if !text.contains(is_control) {
         return Cow::Borrowed(text);
     }
     let other = |c: char| match c.len_utf8() {
-        // the line ends behind it
+        // the carriage return of a line end is handled below
         _ if !is_control(c) || c == '\r' => c,
         1 => '?',
         2 => '¿',
         _ => char::REPLACEMENT_CHARACTER,
     };
     let shown: String = text.chars().map(other).collect();
-    // one that no end of line follows goes back to the line's begin
+    // a carriage return without a line feed would overwrite its line
     let lines: Vec<&str> = shown.split("\r\n").collect();
     Cow::Owned(lines.into_iter().map(|line| line.replace('\r', "?")).collect::<Vec<_>>().join("\r\n"))
 }
 
-/// What is said, without control characters.
+/// Replaces the control characters in all texts of a diagnostic.
 fn harmless(diagnostic: &Diagnostic) -> Cow<'_, Diagnostic> {
     let texts = || {
         let labels = diagnostic.labels.iter().map(|label| &label.text);
@@ -97,7 +97,7 @@ fn harmless(diagnostic: &Diagnostic) -> Cow<'_, Diagnostic> {
     Cow::Owned(shown)
 }
 
-/// JSON in which no control character stands as it is.
+/// Escapes control characters in JSON.
 fn escaped(json: String) -> String {
     if !json.contains(is_control) {
         return json;
@@ -106,7 +106,7 @@ fn escaped(json: String) -> String {
     json.chars().map(escape).collect()
 }
 
-/// A fix that was made, as a line of text: ``file:line:column: message: `**` → `^` ``.
+/// Renders a fix that was applied, as one line: ``file:line:column: message: `**` → `^` ``.
 #[must_use]
 pub fn render_made(fix: &Fix, sources: &Sources, format: Format) -> String {
     if format == Format::Json {
@@ -117,7 +117,7 @@ pub fn render_made(fix: &Fix, sources: &Sources, format: Format) -> String {
     format!("{place}{}: {}\n", visible(&fix.message), visible(&edits.join(", ")))
 }
 
-/// How much of a text that was changed is shown (in characters).
+/// Length limit of the changed text that is shown (characters).
 const LONGEST_EDIT: usize = 30;
 
 fn edit_in_words(edit: &Edit, sources: &Sources) -> String {
@@ -136,7 +136,7 @@ fn edit_in_words(edit: &Edit, sources: &Sources) -> String {
 }
 
 impl Severity {
-    /// In a word.
+    /// Returns the severity in a word.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
@@ -168,7 +168,7 @@ fn human(diagnostic: &Diagnostic, sources: &Sources, color: Color) -> String {
     }
     match term::emit_to_write_style(&mut out, &config, sources, &rich) {
         Ok(()) => String::from_utf8_lossy(out.as_slice()).into_owned(),
-        // the text has no such place: say the rest
+        // the span is not in the text: render everything else
         Err(_) => without_lines(diagnostic, sources),
     }
 }
@@ -183,7 +183,7 @@ fn rich_label(label: &Label) -> rich::Label<FileId> {
     rich.with_message(&label.text)
 }
 
-/// `word: text`, further lines of the text indented below its first.
+/// Formats `word: text`, with further lines of the text indented below the first.
 fn aligned(word: &str, text: &str) -> String {
     let indent = format!("\n{}", " ".repeat(word.len() + 2));
     format!("{word}: {}", text.replace('\n', &indent))

@@ -1,32 +1,32 @@
-//! Names that one would choose where the name is a word of the language.
+//! Suggestions of free names in place of names that are words of the language.
 
 use super::{Dimension, is_called, is_taken};
 
-/// What a name is to be the name of.
+/// Kind of what a name is for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum KindOfName {
-    /// A body.
+    /// Body.
     Body,
-    /// A joint.
+    /// Joint.
     Joint,
-    /// A driver or constraint.
+    /// Driver or constraint.
     Equation,
-    /// A point, axis, circle or curve.
+    /// Point, axis, circle or curve.
     Feature,
-    /// A parameter or measure.
+    /// Parameter or measure.
     Value,
-    /// A parameter that is a mass.
+    /// Parameter with the dimension of a mass.
     Mass,
-    /// A parameter that is a time.
+    /// Parameter with the dimension of a time.
     Time,
-    /// A function or table.
+    /// Function or table.
     Function,
-    /// The argument of a function or curve.
+    /// Argument of a function or curve.
     Argument,
 }
 
 impl KindOfName {
-    /// What the keyword before a name makes it the name of.
+    /// Returns the kind of the name after a keyword.
     #[must_use]
     pub fn behind(keyword: &str) -> KindOfName {
         match keyword {
@@ -39,7 +39,7 @@ impl KindOfName {
         }
     }
 
-    /// Of a parameter whose value has the dimension of its first unit.
+    /// Returns the kind of a parameter's name, from the dimension of its first unit.
     #[must_use]
     pub fn of_value(dimension: Option<Dimension>) -> KindOfName {
         match dimension {
@@ -49,7 +49,7 @@ impl KindOfName {
         }
     }
 
-    /// Names that say nothing but that.
+    /// Returns general names for the kind.
     fn names(self) -> &'static [&'static str] {
         match self {
             KindOfName::Body => &["arm", "slide", "link", "lever", "plate"],
@@ -65,7 +65,7 @@ impl KindOfName {
     }
 }
 
-/// Words of the language, with what else such a thing may be called: as a body, as a joint or equation, as a feature or value.
+/// Substitutes for words of the language: as the name of a body, of a joint or equation, and of a feature or value.
 const OTHERS: &[(&str, [&str; 3])] = &[
     // ---- units and constants
     ("s", ["slide", "guide", "stroke"]),
@@ -106,14 +106,14 @@ const OTHERS: &[(&str, [&str; 3])] = &[
     ("displacement", ["arm", "hinge", "travel"]),
 ];
 
-/// A free name for what cannot have the name of a word of the language.
+/// Returns a free name in place of a word of the language.
 pub fn another_name(word: &str, kind: KindOfName, is_free: impl Fn(&str) -> bool) -> Option<&'static str> {
     let own = OTHERS.iter().find(|(other, _)| *other == word).and_then(|(_, names)| match kind {
         KindOfName::Body => Some(names[0]),
         KindOfName::Joint | KindOfName::Equation => Some(names[1]),
         KindOfName::Feature | KindOfName::Value | KindOfName::Function => Some(names[2]),
         KindOfName::Argument => Some("u"),
-        // what else the word is the name of is mostly a length
+        // the substitutes for values are mostly lengths
         KindOfName::Mass | KindOfName::Time => None,
     });
     own.into_iter()

@@ -1,4 +1,4 @@
-//! The pages of `mechc explain`: one for each word, and one for each kind of words.
+//! Pages of `mechc explain`: one for each word, and an overview of each kind of words.
 
 use super::functions::OF_MOTIONS;
 use super::joints::NOTATION;
@@ -7,14 +7,14 @@ use super::{
     Role, Synonym, UNITS, Unit, Word, topic, words,
 };
 
-/// Lines of prose are not longer (in characters).
+/// Length limit of lines of prose (characters).
 const WIDTH: usize = 100;
 
-/// The kinds of words that have a page, by their names.
+/// Names of the overviews.
 pub const OVERVIEWS: &[&str] =
     &["functions", "motions", "quantities", "reductions", "joints", "units", "keywords", "constants"];
 
-/// The page of a word, of a kind of words, or of what is more than a word; where a name stands for several words, their pages one behind the other.
+/// Returns the page of an overview, a topic or a word. A name of several words has all their pages, one after the other.
 #[must_use]
 pub fn page(name: &str) -> Option<String> {
     let pages = || words().filter(|word| word.name == name).map(of_word).collect::<Vec<String>>();
@@ -39,7 +39,7 @@ impl Category {
 }
 
 impl Word {
-    /// The text of a mechanism that shows it.
+    /// Returns the text of a mechanism that shows the word.
     #[must_use]
     pub fn example(&self) -> String {
         let mut used = "";
@@ -92,7 +92,7 @@ fn noun(word: &Word) -> &'static str {
     }
 }
 
-/// The paragraphs below the meaning.
+/// Returns the paragraphs after the meaning.
 fn details(word: &Word) -> Vec<String> {
     let mut details = Vec::new();
     if let Some(joint) = JointWord::named(word.name).filter(|_| word.category == Category::Joint) {
@@ -130,7 +130,7 @@ fn details(word: &Word) -> Vec<String> {
     details
 }
 
-/// `2 equations, and 1 coordinate of its own: theta, the direction of the line of centres`
+/// Describes the equations of a joint: `2 equations, and 1 coordinate of its own: theta, the direction of the line of centres`.
 fn equations(joint: &JointWord) -> String {
     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     let mut text = count(joint.equations, "equation");
@@ -141,7 +141,7 @@ fn equations(joint: &JointWord) -> String {
     text + "."
 }
 
-/// One of a unit in SI: `0.001 m`.
+/// Returns the value of one unit in SI: `0.001 m`.
 fn in_si(unit: &Unit) -> String {
     let value = unit.to_si(1.0, 1);
     match unit.dimension.unit().as_str() {
@@ -151,7 +151,7 @@ fn in_si(unit: &Unit) -> String {
     }
 }
 
-// ---- kinds of words
+// ---- overviews
 
 fn overview(name: &str) -> Option<String> {
     let of_category = |wanted: Category| words().filter(move |word| word.category == wanted).collect::<Vec<_>>();
@@ -227,7 +227,7 @@ fn keywords() -> String {
     text
 }
 
-/// Two columns, indented as code is.
+/// Formats two columns, indented as code.
 fn columns(rows: &[[String; 2]]) -> String {
     let width = rows.iter().map(|[first, _]| first.chars().count()).max().unwrap_or(0);
     rows.iter().fold(String::new(), |text, [first, second]| {
@@ -238,16 +238,16 @@ fn columns(rows: &[[String; 2]]) -> String {
 
 // ---- prose
 
-/// With a capital and a full stop.
+/// Adds a capital letter and a full stop.
 fn sentence(text: &str) -> String {
     let mut letters = text.chars();
-    // a letter alone is a name
+    // a single letter is a name
     let is_name = text.split(' ').next().is_some_and(|word| word.chars().count() == 1 && word != "a");
     let first = letters.next().map(|c| if is_name { c.to_string() } else { c.to_uppercase().collect() });
     format!("{}{}.", first.unwrap_or_default(), letters.as_str())
 }
 
-/// A paragraph behind a blank line, in lines that are not too long; code is not torn apart.
+/// Formats a paragraph after a blank line, in lines of limited length that do not break code.
 fn paragraph(text: &str) -> String {
     let mut lines = vec![String::new()];
     let mut in_code = false;

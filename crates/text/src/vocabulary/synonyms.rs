@@ -1,51 +1,50 @@
-//! What others call it: words of other programs and of textbooks, with how the language says the same.
+//! Synonyms: words of other programs and of textbooks, with their equivalents in the language.
 
-/// Words of others that mean one thing.
+/// Foreign words with one meaning.
 #[derive(Debug)]
 pub struct Synonym {
-    /// Where they would stand.
+    /// Position in a text.
     pub place: Place,
-    /// The words, in small letters.
+    /// Words in lower case.
     pub names: &'static [&'static str],
-    /// The words of the language that it is said with.
+    /// Equivalent words of the language.
     pub means: &'static [&'static str],
-    /// Whether it is the same as that word, and does not take a formula of it.
+    /// True if the word is an exact equivalent, without a formula around it.
     pub is_same: bool,
-    /// How to say it. `{0 a}` stands for the first argument as it was written, or for `a` where there is none; `{0 (a)}` is the
-    /// same as an operand, with parentheses where it needs them, `{0 deg}` as a number of degrees, and `{2 ?}` as one more
-    /// argument, if it is there.
+    /// Message with the equivalent. `{0 a}` is the first argument as written, or `a` if there is none; `{0 (a)}` is the argument as an
+    /// operand, with parentheses where necessary, `{0 deg}` a number of degrees, and `{2 ?}` one more argument, if it exists.
     say: &'static str,
 }
 
-/// Where a word stands.
+/// Position of a word in a text.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Place {
-    /// At the beginning of a declaration.
+    /// Beginning of a declaration.
     Declaration,
-    /// As the kind of a joint.
+    /// Kind of a joint.
     Joint,
     /// Called in a formula.
     Call,
-    /// Behind a number.
+    /// After a number.
     Unit,
-    /// Alone, for a number.
+    /// Number in a formula.
     Number,
 }
 
-/// Whether others call the ground by a word.
+/// Returns whether a foreign word means the ground.
 #[must_use]
 pub fn is_ground(word: &str) -> bool {
     Synonym::of(Place::Declaration, word).is_some_and(|synonym| synonym.means == ["ground"])
 }
 
 impl Synonym {
-    /// What a word means in a place, whatever its capitals; `prismatic_joint` is `prismatic`.
+    /// Returns the synonym for a word in a position, in upper or lower case; `prismatic_joint` is `prismatic`.
     #[must_use]
     pub fn of(place: Place, word: &str) -> Option<&'static Synonym> {
         Synonym::all_of(word).find(|synonym| synonym.place == place)
     }
 
-    /// What a word means, in any place.
+    /// Returns the synonyms for a word in any position.
     pub fn all_of(word: &str) -> impl Iterator<Item = &'static Synonym> {
         let word = word.to_lowercase();
         SYNONYMS.iter().filter(move |synonym| {
@@ -57,7 +56,7 @@ impl Synonym {
         })
     }
 
-    /// The words of others that are the same as a word of the language.
+    /// Returns the foreign words that are exact equivalents of a word of the language.
     pub fn names_for(word: &str) -> impl Iterator<Item = &'static str> {
         SYNONYMS
             .iter()
@@ -66,10 +65,10 @@ impl Synonym {
             .copied()
     }
 
-    /// How to say it of some arguments, as they were written.
+    /// Returns the message for arguments as written.
     #[must_use]
     pub fn say(&self, arguments: &[&str]) -> String {
-        // what is long would hide what is said
+        // long arguments would hide the message
         let is_short = arguments.iter().all(|text| text.chars().count() <= LONGEST_ARGUMENT && !text.contains('\n'));
         let arguments = if is_short { arguments } else { &[] };
         let mut text = String::new();
@@ -84,7 +83,7 @@ impl Synonym {
     }
 }
 
-/// Longer arguments are not repeated (in characters).
+/// Length limit of arguments that a message repeats (characters).
 const LONGEST_ARGUMENT: usize = 30;
 
 fn filled(hole: &str, arguments: &[&str]) -> String {
@@ -116,13 +115,13 @@ const fn synonym(
 }
 
 impl Synonym {
-    /// What takes a formula, or more than one word.
+    /// Marks a synonym that needs a formula or more than one word.
     const fn takes_a_formula(self) -> Synonym {
         Synonym { is_same: false, ..self }
     }
 }
 
-/// In a place where formulas call.
+/// Creates a synonym for a call in a formula.
 const fn call(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
     synonym(Place::Call, names, means, say)
 }
@@ -143,7 +142,7 @@ const fn declaration(names: &'static [&'static str], means: &'static [&'static s
     synonym(Place::Declaration, names, means, say)
 }
 
-/// All of them.
+/// All synonyms.
 pub static SYNONYMS: &[Synonym] = &[
     // ---- joints
     joint(
