@@ -85,8 +85,8 @@ pub struct Source {
 impl Source {
     fn new(name: String, text: String, is_option: bool) -> Source {
         let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
-        let goes_back = || text.match_indices('\r').any(|(at, _)| !text[at + 1..].starts_with('\n'));
-        let has_controls = text.contains(|c: char| is_control(c) && c != '\r') || goes_back();
+        let has_lone_returns = || text.match_indices('\r').any(|(at, _)| !text[at + 1..].starts_with('\n'));
+        let has_controls = text.contains(|c: char| is_control(c) && c != '\r') || has_lone_returns();
         Source { name, text, is_option, has_controls, line_starts }
     }
 
@@ -114,10 +114,10 @@ impl Source {
             return self.text.len() as u32;
         };
         let text = self.text[range.clone()].trim_end_matches(['\n', '\r']);
-        let mut passed = 0;
+        let mut width = 0;
         let inside = text.char_indices().find(|&(_, c)| {
-            passed += encoding.width(c);
-            passed > column
+            width += encoding.width(c);
+            width > column
         });
         (range.start + inside.map_or(text.len(), |(at, _)| at)) as u32
     }

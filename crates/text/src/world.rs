@@ -139,8 +139,8 @@ pub fn rows_given(world: &dyn World, path: &Path, sources: &mut Sources) -> Resu
 
 /// Replaces carriage returns that end lines alone, as some loggers and spreadsheets write them, by line feeds. Offsets stay the same.
 fn with_line_feeds(bytes: &[u8]) -> Vec<u8> {
-    let is_alone = |at: usize| bytes[at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
-    (0..bytes.len()).map(|at| if is_alone(at) { b'\n' } else { bytes[at] }).collect()
+    let is_lone = |at: usize| bytes[at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
+    (0..bytes.len()).map(|at| if is_lone(at) { b'\n' } else { bytes[at] }).collect()
 }
 
 /// Adds bytes to the sources as a text with a name.

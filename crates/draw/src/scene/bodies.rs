@@ -6,7 +6,7 @@ use super::plane::{Path, Vector, around, distance, hull, plus};
 use super::symbols::{BAR, SLOTTED_BAR, Symbols};
 
 /// Positions of a body closer than this are one (symbol units).
-const NEAR: f64 = 0.02;
+const SAME_POSITION: f64 = 0.02;
 /// Length of a body with a single position (symbol units).
 const STUB: f64 = 1.6;
 
@@ -19,12 +19,12 @@ fn is_covered(outline: &Outline, corners: &[Vector]) -> bool {
 }
 
 /// Makes sure that a body which other shapes show has a node of its own.
-fn show(drawing: &mut Drawing, frame: usize) {
+fn add_missing_node(drawing: &mut Drawing, frame: usize) {
     if drawing.has_node(frame) || drawing.declare_block(frame) {
         return;
     }
-    let places = &drawing.outlines[frame].places;
-    let at = places.first().copied().unwrap_or([0.0; 2]);
+    let positions = &drawing.outlines[frame].positions;
+    let at = positions.first().copied().unwrap_or([0.0; 2]);
     let dot = Path::Circle { at, radius: DOT * drawing.unit };
     drawing.add_fixed(Layer::Bodies, frame, frame, vec![shape(Look::Dot, dot)]);
 }
@@ -32,10 +32,10 @@ fn show(drawing: &mut Drawing, frame: usize) {
 pub(super) fn draw(drawing: &mut Drawing) {
     for frame in 1..drawing.outlines.len() {
         let outline = &drawing.outlines[frame];
-        let corners = hull(&outline.places, NEAR * drawing.unit);
+        let corners = hull(&outline.positions, SAME_POSITION * drawing.unit);
         let shapes = match corners.as_slice() {
             [] | [_] if outline.is_shown => {
-                show(drawing, frame);
+                add_missing_node(drawing, frame);
                 continue;
             }
             corners if !corners.is_empty() && is_covered(outline, corners) => continue,

@@ -30,7 +30,7 @@ pub(super) struct Features<'m> {
 }
 
 /// Step of the argument for the difference quotient of a tangent.
-const SMALL: f64 = 1e-5;
+const STEP: f64 = 1e-5;
 
 impl<'m> Features<'m> {
     pub fn of(model: &'m Mechanism) -> Features<'m> {
@@ -46,12 +46,12 @@ impl<'m> Features<'m> {
 
     /// Returns the index of the frame that carries a frame.
     pub fn frame(&self, frame: Frame) -> usize {
-        number(self.model.carrier(frame))
+        frame_index(self.model.carrier(frame))
     }
 
     pub fn point(&self, id: PointId) -> Anchor {
         let point = &self.model[id];
-        self.placed(point.frame, point.at.map(|part| self.value(part)))
+        self.resolve(point.frame, point.at.map(|part| self.value(part)))
     }
 
     pub fn axis(&self, id: AxisId) -> Line {
@@ -59,7 +59,7 @@ impl<'m> Features<'m> {
         let origin = &self.model[axis.origin];
         let start = origin.at.map(|part| self.value(part));
         let end = plus(start, axis.direction.map(|part| self.value(part)));
-        let (from, to) = (self.placed(axis.frame, start), self.placed(axis.frame, end));
+        let (from, to) = (self.resolve(axis.frame, start), self.resolve(axis.frame, end));
         Line { frame: from.frame, at: from.at, along: unit(minus(to.at, from.at)) }
     }
 
@@ -69,15 +69,15 @@ impl<'m> Features<'m> {
     }
 
     /// Converts a position of a frame to the frame that carries it.
-    pub fn placed(&self, frame: Frame, place: Vector) -> Anchor {
-        let (frame, at) = self.model.in_carrier(&|id| self.value(id), frame, place);
-        Anchor { frame: number(frame), at }
+    pub fn resolve(&self, frame: Frame, position: Vector) -> Anchor {
+        let (frame, at) = self.model.in_carrier(&|id| self.value(id), frame, position);
+        Anchor { frame: frame_index(frame), at }
     }
 
     /// Returns the frame that carries a part, the pose of the part's ground in it, and whether it is mirrored there.
-    pub fn text_of(&self, part: Option<PartId>) -> (usize, Pose, bool) {
+    pub fn part_frame(&self, part: Option<PartId>) -> (usize, Pose, bool) {
         let frame = part.map_or(Frame::Ground, Frame::Part);
-        let [origin, ahead] = [[0.0, 0.0], [1.0, 0.0]].map(|place| self.placed(frame, place));
+        let [origin, ahead] = [[0.0, 0.0], [1.0, 0.0]].map(|position| self.resolve(frame, position));
         let phi = super::plane::direction(minus(ahead.at, origin.at));
         (origin.frame, Pose { at: origin.at, phi }, self.model.is_mirrored(part))
     }
@@ -88,32 +88,32 @@ impl<'m> Features<'m> {
             Profile::Circle(id) => {
                 let circle = &self.model[id];
                 let center = self.model[circle.center].at.map(|part| self.value(part));
-                self.placed(circle.frame, plus(center, super::plane::polar(self.value(circle.radius), u)))
+                self.resolve(circle.frame, plus(center, super::plane::polar(self.value(circle.radius), u)))
             }
             Profile::Curve(id) => {
                 let curve = &self.model[id];
                 let argument = |k: u32| self.model.named[k as usize] == Named::Argument;
-                let place = curve.at.map(|part| {
+                let position = curve.at.map(|part| {
                     self.model.graph.value(part, |symbol| match symbol {
                         Symbol::Named(k) if argument(k) => u,
                         other => parameter(self.model, other).unwrap_or(f64::NAN),
                     })
                 });
-                self.placed(curve.frame, place)
+                self.resolve(curve.frame, position)
             }
         }
     }
 
     /// Returns the position on a profile with its tangent.
     pub fn sample(&self, profile: Profile, u: f64) -> Sample {
-        let [before, at, behind] = [u - SMALL, u, u + SMALL].map(|u| self.on_profile(profile, u).at);
-        let tangent = minus(behind, before).map(|way| way / (2.0 * SMALL));
+        let [before, at, after] = [u - STEP, u, u + STEP].map(|u| self.on_profile(profile, u).at);
+        let tangent = minus(after, before).map(|difference| difference / (2.0 * STEP));
         Sample { u, at, tangent }
     }
 }
 
 /// Returns the index of a body, or 0 for the ground.
-fn number(frame: Frame) -> usize {
+fn frame_index(frame: Frame) -> usize {
     match frame {
         Frame::Body(body) => body.index() + 1,
         Frame::Ground | Frame::Part(_) => 0,
@@ -137,6 +137,6 @@ pub fn drawn_poses(model: &Mechanism) -> Vec<Pose> {
     let mut values = Vec::new();
     graph.extend_values(&mut values, |symbol| parameter(model, symbol).unwrap_or(0.0));
     let value = |id: ExprId| values[id.index()];
-    let pose = |place: &mechc_lang::model::Placement| Pose { at: place.at.map(value), phi: value(place.phi) };
+    let pose = |position: &mechc_lang::model::Placement| Pose { at: position.at.map(value), phi: value(position.phi) };
     std::iter::once(Pose::default()).chain(bodies.iter().map(pose)).collect()
 }

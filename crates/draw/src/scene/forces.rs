@@ -83,10 +83,10 @@ impl ForceVector {
         match &self.value {
             ForceValue::Constant(force) => *force,
             ForceValue::Components(columns) => columns.each_ref().map(value),
-            ForceValue::Along { column, frame, direction } => times(value(column), poses[*frame].turned(*direction)),
+            ForceValue::Along { column, frame, direction } => times(value(column), poses[*frame].rotate(*direction)),
             ForceValue::Apart { column, from, to } => {
-                let way = minus(to.placed(poses), from.placed(poses));
-                times(value(column) / length(way), way)
+                let vector = minus(to.position(poses), from.position(poses));
+                times(value(column) / length(vector), vector)
             }
         }
     }
@@ -106,11 +106,11 @@ impl ForceVector {
 pub(super) fn vectors(drawing: &Drawing, has_torques: bool) -> Vec<ForceVector> {
     let (features, first) = (&drawing.features, drawing.first);
     let model = features.model;
-    let mut found: Vec<ForceVector> = Vec::new();
+    let mut forces: Vec<ForceVector> = Vec::new();
     for (number, joint) in model.joints.iter().enumerate() {
         let name = &joint.declared.name;
         let columns = [format!("{name}.fx"), format!("{name}.fy")];
-        found.extend(place(features, &joint.kind).map(|at| ForceVector {
+        forces.extend(point_of_action(features, &joint.kind).map(|at| ForceVector {
             declaration: first.joints + number,
             kind: ForceKind::Reaction,
             at,
@@ -121,26 +121,26 @@ pub(super) fn vectors(drawing: &Drawing, has_torques: bool) -> Vec<ForceVector> 
         let of = (first.equations + number, ForceKind::Reaction, format!("{}.effort", equation.declared.name));
         match equation.form {
             EquationForm::Distance(p, q, _) => {
-                found.extend(apart(&of, [p, q].map(|point| features.point(point)), 1.0));
+                forces.extend(push_apart(&of, [p, q].map(|point| features.point(point)), 1.0));
             }
             // the effort acts on the left side minus the right side
             EquationForm::Equality(left, right) => {
                 for (side, sign) in [(left, 1.0), (right, -1.0)] {
                     let quantity = bare_quantity(model, side);
-                    found.extend(quantity.into_iter().flat_map(|on| of_quantity(features, &of, on, sign)));
+                    forces.extend(quantity.into_iter().flat_map(|on| quantity_forces(features, &of, on, sign)));
                 }
             }
         }
     }
     for (number, load) in model.loads.iter().enumerate() {
         let of = (first.loads + number, ForceKind::Load, format!("{}.load", load.declared.name));
-        found.extend(of_quantity(features, &of, (load.part, load.on), 1.0));
+        forces.extend(quantity_forces(features, &of, (load.part, load.on), 1.0));
     }
-    found.retain(|force| force.columns().iter().all(|column| drawing.motion.column(column).is_some()));
-    if !found.is_empty() || has_torques {
-        found.extend(weights(features));
+    forces.retain(|force| force.columns().iter().all(|column| drawing.motion.column(column).is_some()));
+    if !forces.is_empty() || has_torques {
+        forces.extend(weights(features));
     }
-    found
+    forces
 }
 
 /// Returns the quantity that a side of an equation consists of, with the part that it refers to; `None` for any other formula.
@@ -155,7 +155,7 @@ pub(super) fn bare_quantity(model: &Mechanism, side: ExprId) -> Option<(Option<P
 }
 
 /// Returns the point of action of a joint's reaction, as the language defines it. A force on a circle passes its centre.
-pub(super) fn place(features: &Features, kind: &JointKind) -> Option<Anchor> {
+pub(super) fn point_of_action(features: &Features, kind: &JointKind) -> Option<Anchor> {
     let model = features.model;
     Some(match *kind {
         JointKind::Revolute(_, q) | JointKind::Weld(_, q, _) | JointKind::RevoluteRevolute(_, q, _) => {
@@ -177,7 +177,7 @@ pub(super) fn place(features: &Features, kind: &JointKind) -> Option<Anchor> {
 type Of = (usize, ForceKind, String);
 
 /// Returns the two forces that push two positions apart, or pull them together if `sign` is negative.
-fn apart((declaration, kind, column): &Of, ends: [Anchor; 2], sign: f64) -> [ForceVector; 2] {
+fn push_apart((declaration, kind, column): &Of, ends: [Anchor; 2], sign: f64) -> [ForceVector; 2] {
     let [p, q] = ends;
     [[p, q], [q, p]].map(|[at, other]| ForceVector {
         declaration: *declaration,
@@ -192,7 +192,12 @@ fn apart((declaration, kind, column): &Of, ends: [Anchor; 2], sign: f64) -> [For
 }
 
 /// Returns the forces of an effort on a quantity of length; an effort on an angle has none.
-fn of_quantity(features: &Features, of: &Of, (view, on): (Option<PartId>, Quantity), sign: f64) -> Vec<ForceVector> {
+fn quantity_forces(
+    features: &Features,
+    of: &Of,
+    (view, on): (Option<PartId>, Quantity),
+    sign: f64,
+) -> Vec<ForceVector> {
     let (declaration, kind, column) = of;
     let along = |at: Anchor, frame: usize, direction: Vector| ForceVector {
         declaration: *declaration,
@@ -202,7 +207,7 @@ fn of_quantity(features: &Features, of: &Of, (view, on): (Option<PartId>, Quanti
     };
     match on {
         Quantity::X(from, to) | Quantity::Y(from, to) => {
-            let (frame, pose, is_mirrored) = features.text_of(view);
+            let (frame, pose, is_mirrored) = features.part_frame(view);
             let direction = match on {
                 Quantity::X(..) => polar(1.0, pose.phi),
                 _ if is_mirrored => polar(1.0, pose.phi - 0.5 * PI),
@@ -211,7 +216,7 @@ fn of_quantity(features: &Features, of: &Of, (view, on): (Option<PartId>, Quanti
             let from = from.map(|point| along(features.point(point), frame, times(-1.0, direction)));
             from.into_iter().chain([along(features.point(to), frame, direction)]).collect()
         }
-        Quantity::Distance(p, q) => apart(of, [p, q].map(|point| features.point(point)), sign).into(),
+        Quantity::Distance(p, q) => push_apart(of, [p, q].map(|point| features.point(point)), sign).into(),
         Quantity::Displacement(_, a, b) => {
             let (guide, slider) = (features.axis(a), features.axis(b));
             vec![along(Anchor { frame: slider.frame, at: slider.at }, guide.frame, guide.along)]

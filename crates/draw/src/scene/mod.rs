@@ -10,17 +10,18 @@
 //! ```
 
 mod bodies;
+mod builder;
 mod catalogue;
 mod contacts;
 mod drawing;
 mod drivers;
-mod faults;
+mod fault_marks;
 mod features;
 mod forces;
 mod gears;
 mod guides;
 mod joints;
-mod lengths;
+mod length_marks;
 mod motion;
 mod pins;
 mod plane;
@@ -30,13 +31,12 @@ mod symbols;
 mod teeth;
 mod torques;
 mod track;
-mod whole;
 
 pub use catalogue::catalogue;
-pub use faults::{Faults, Joints};
+pub use fault_marks::{Faults, Joints};
 pub use features::drawn_poses;
 pub use forces::{ForceKind, ForceValue, ForceVector};
-pub use lengths::Length;
+pub use length_marks::Length;
 pub use motion::{Gaps, Motion, Track};
 pub use plane::{
     Contour, Path, Pose, Segment, Vector, bounds, cross, direction, distance, dot, hull, is_finite, left, length,
@@ -49,7 +49,7 @@ use mechc_lang::model::Mechanism;
 use mechc_text::source::Span;
 
 /// Pins of one body closer than this are one pin (symbol units).
-const SAME_PLACE: f64 = 1e-6;
+const SAME_PIN: f64 = 1e-6;
 
 /// Everything that is drawn of a mechanism.
 #[derive(Clone, Debug)]
@@ -94,41 +94,41 @@ impl Scene {
     /// Builds the scene of a mechanism and its motion, which has at least one row.
     #[must_use]
     pub fn of(model: &Mechanism, motion: &Motion) -> Scene {
-        whole::scene(model, motion, None)
+        builder::build(model, motion, None)
     }
 
     /// Builds the scene with symbols of size `unit` (m) instead of one that fits the motion.
     #[must_use]
     pub fn with_symbols(model: &Mechanism, motion: &Motion, unit: f64) -> Scene {
-        whole::scene(model, motion, Some(unit))
+        builder::build(model, motion, Some(unit))
     }
 
     /// Adds the marks of faults, at the first row of the motion.
     pub fn show_faults(&mut self, model: &Mechanism, motion: &Motion, faults: &Faults) {
-        faults::add(self, model, motion, faults);
+        fault_marks::add(self, model, motion, faults);
     }
 
     /// Returns the scene of one body in its own frame, with everything that is fixed to it, and the motion that draws it.
     #[must_use]
-    pub fn alone(&self, frame: usize) -> (Scene, Motion) {
-        let mut numbers = vec![None; self.points.len()];
+    pub fn of_body(&self, frame: usize) -> (Scene, Motion) {
+        let mut indices = vec![None; self.points.len()];
         let mut points = Vec::new();
         for (number, point) in self.points.iter().enumerate().filter(|(_, point)| point.frame == frame) {
-            numbers[number] = Some(points.len());
+            indices[number] = Some(points.len());
             points.push(point.clone());
         }
         let mut nodes: Vec<Node> =
-            self.nodes.iter().filter(|node| node.place == Place::Fixed(frame)).cloned().collect();
+            self.nodes.iter().filter(|node| node.attachment == Attachment::Fixed(frame)).cloned().collect();
         for shape in nodes.iter_mut().flat_map(|node| &mut node.shapes) {
-            shape.point = shape.point.and_then(|number| numbers[number]);
+            shape.point = shape.point.and_then(|number| indices[number]);
         }
         let pins: Vec<Pin> = self.pins.iter().filter(|pin| pin.anchor.frame == frame).cloned().collect();
         for pin in &pins {
             self.add_pin(&mut nodes, pin, &points);
         }
-        let places = nodes.iter().flat_map(|node| &node.shapes).flat_map(|shape| shape.path.places());
+        let positions = nodes.iter().flat_map(|node| &node.shapes).flat_map(|shape| shape.path.positions());
         let margin = [0.5 * self.unit; 2];
-        let extent = bounds(places).map_or(self.extent, |[low, high]| [minus(low, margin), plus(high, margin)]);
+        let extent = bounds(positions).map_or(self.extent, |[low, high]| [minus(low, margin), plus(high, margin)]);
         let profiles = self.profiles.iter().filter(|profile| profile.frame == frame).cloned().collect();
         let pitch_lines = self.pitch_lines.iter().filter(|line| line.frame == frame).cloned().collect();
         let (traces, contacts, forces, torques) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -154,23 +154,23 @@ impl Scene {
     /// Adds a pin that is drawn with another body, unless the body has one at this position.
     fn add_pin(&self, nodes: &mut Vec<Node>, pin: &Pin, points: &[Point]) {
         let Anchor { frame, at } = pin.anchor;
-        let is_here = |other: Vector| distance(other, at) <= SAME_PLACE * self.unit;
-        let is_there = |shape: &Shape| match shape.path {
-            Path::Circle { at, .. } => shape.look == Look::Pin && is_here(at),
+        let is_at = |other: Vector| distance(other, at) <= SAME_PIN * self.unit;
+        let is_same_pin = |shape: &Shape| match shape.path {
+            Path::Circle { at, .. } => shape.look == Look::Pin && is_at(at),
             Path::Lines(_) => false,
         };
-        if nodes.iter().flat_map(|node| &node.shapes).any(is_there) {
+        if nodes.iter().flat_map(|node| &node.shapes).any(is_same_pin) {
             return;
         }
-        let point = points.iter().position(|point| is_here(point.at));
+        let point = points.iter().position(|point| is_at(point.at));
         let shape = symbols::Symbols { unit: self.unit }.pin(at, point);
-        nodes.push(Node { declaration: pin.declaration, place: Place::Fixed(frame), shapes: vec![shape] });
+        nodes.push(Node { declaration: pin.declaration, attachment: Attachment::Fixed(frame), shapes: vec![shape] });
     }
 
     /// Returns the bounding box of everything at the rows of a motion (m), or `None` if nothing is drawn.
     #[must_use]
     pub fn reach(&self, moments: &Motion) -> Option<[Vector; 2]> {
-        whole::reach(&self.nodes, moments, self.unit)
+        builder::reach(&self.nodes, moments, self.unit)
     }
 
     /// Removes the marks and highlights of messages.
@@ -243,8 +243,8 @@ pub struct Anchor {
 impl Anchor {
     /// Returns the position in the ground's frame (m) at some poses.
     #[must_use]
-    pub fn placed(&self, poses: &[Pose]) -> Vector {
-        poses[self.frame].placed(self.at)
+    pub fn position(&self, poses: &[Pose]) -> Vector {
+        poses[self.frame].transform(self.at)
     }
 }
 
@@ -254,14 +254,14 @@ pub struct Node {
     /// Index of the declaration.
     pub declaration: usize,
     /// Placement of the shapes.
-    pub place: Place,
+    pub attachment: Attachment,
     /// Shapes in drawing order, the bottom one first.
     pub shapes: Vec<Shape>,
 }
 
 /// Placement of shapes: what they move with.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Place {
+pub enum Attachment {
     /// In the coordinates of a frame.
     Fixed(usize),
     /// In the ground's directions, around an anchor.
@@ -273,39 +273,39 @@ pub enum Place {
         /// Anchor where x ends.
         to: Anchor,
         /// Which end holds the shapes when the distance changes.
-        held: Held,
+        alignment: Alignment,
     },
 }
 
 /// End that holds shapes between two anchors.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Held {
+pub enum Alignment {
     /// Their origin is the first anchor.
-    From,
+    Start,
     /// Their origin is the second anchor.
-    To,
+    End,
     /// They are stretched: x = 1 is the second anchor, y keeps its size (m).
-    Stretched,
+    Stretch,
 }
 
-impl Place {
+impl Attachment {
     /// Returns whether x runs from 0 to 1 between two anchors.
     #[must_use]
     pub fn is_stretched(&self) -> bool {
-        matches!(self, Place::Between { held: Held::Stretched, .. })
+        matches!(self, Attachment::Between { alignment: Alignment::Stretch, .. })
     }
 
     /// Returns the pose of the shapes at some poses of all frames, and the scale of their x coordinate.
     #[must_use]
     pub fn pose(&self, poses: &[Pose]) -> (Pose, f64) {
         match self {
-            Place::Fixed(frame) => (poses[*frame], 1.0),
-            Place::Upright(anchor) => (Pose { at: anchor.placed(poses), phi: 0.0 }, 1.0),
-            Place::Between { from, to, held } => {
-                let (start, end) = (from.placed(poses), to.placed(poses));
-                let way = minus(end, start);
-                let pose = Pose { at: if *held == Held::To { end } else { start }, phi: direction(way) };
-                (pose, if *held == Held::Stretched { length(way) } else { 1.0 })
+            Attachment::Fixed(frame) => (poses[*frame], 1.0),
+            Attachment::Upright(anchor) => (Pose { at: anchor.position(poses), phi: 0.0 }, 1.0),
+            Attachment::Between { from, to, alignment } => {
+                let (start, end) = (from.position(poses), to.position(poses));
+                let axis = minus(end, start);
+                let pose = Pose { at: if *alignment == Alignment::End { end } else { start }, phi: direction(axis) };
+                (pose, if *alignment == Alignment::Stretch { length(axis) } else { 1.0 })
             }
         }
     }
@@ -560,7 +560,7 @@ impl Sample {
         let (h, rest) = (other.u - self.u, 1.0 - part);
         let ends =
             plus(times(rest * rest * (1.0 + 2.0 * part), self.at), times(part * part * (1.0 + 2.0 * rest), other.at));
-        let ways = plus(times(rest, self.tangent), times(-part, other.tangent));
-        plus(ends, times(h * part * rest, ways))
+        let tangents = plus(times(rest, self.tangent), times(-part, other.tangent));
+        plus(ends, times(h * part * rest, tangents))
     }
 }

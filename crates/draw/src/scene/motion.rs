@@ -64,9 +64,9 @@ impl Gaps {
 
     /// Returns whether a position lies on the way to infinity.
     #[must_use]
-    pub fn is_far(&self, place: Vector) -> bool {
+    pub fn is_far(&self, position: Vector) -> bool {
         let (middle, far) = self.reach;
-        distance(place, middle) > far
+        distance(position, middle) > far
     }
 }
 

@@ -18,34 +18,34 @@ pub struct Pose {
 impl Pose {
     /// Converts a vector of the frame to the ground's frame.
     #[must_use]
-    pub fn turned(&self, [x, y]: Vector) -> Vector {
+    pub fn rotate(&self, [x, y]: Vector) -> Vector {
         let (sin, cos) = math::sin_cos(self.phi);
         [x * cos - y * sin, x * sin + y * cos]
     }
 
     /// Converts a position of the frame to the ground's frame.
     #[must_use]
-    pub fn placed(&self, local: Vector) -> Vector {
-        plus(self.at, self.turned(local))
+    pub fn transform(&self, local: Vector) -> Vector {
+        plus(self.at, self.rotate(local))
     }
 
     /// Converts a vector of the ground's frame to this frame.
     #[must_use]
-    pub fn seen(&self, [x, y]: Vector) -> Vector {
+    pub fn inverse_rotate(&self, [x, y]: Vector) -> Vector {
         let (sin, cos) = math::sin_cos(self.phi);
         [x * cos + y * sin, y * cos - x * sin]
     }
 
     /// Converts a position of the ground's frame to this frame.
     #[must_use]
-    pub fn located(&self, global: Vector) -> Vector {
-        self.seen(minus(global, self.at))
+    pub fn inverse_transform(&self, global: Vector) -> Vector {
+        self.inverse_rotate(minus(global, self.at))
     }
 
     /// Returns the velocity of a point of the frame [m/s], where `self` is the frame's rate [m/s, rad/s] and `pose` its pose.
     #[must_use]
     pub fn velocity(&self, pose: &Pose, local: Vector) -> Vector {
-        let arm = pose.turned(local);
+        let arm = pose.rotate(local);
         plus(self.at, times(self.phi, left(arm)))
     }
 
@@ -53,7 +53,7 @@ impl Pose {
     /// pose.
     #[must_use]
     pub fn acceleration(&self, rate: &Pose, pose: &Pose, local: Vector) -> Vector {
-        let arm = pose.turned(local);
+        let arm = pose.rotate(local);
         plus(self.velocity(pose, local), times(-rate.phi * rate.phi, arm))
     }
 }
@@ -134,9 +134,9 @@ pub fn is_finite(a: Vector) -> bool {
 
 /// Returns the lower and upper corner of the bounding box of all finite positions, or `None` if there are none.
 #[must_use]
-pub fn bounds(places: impl IntoIterator<Item = Vector>) -> Option<[Vector; 2]> {
-    places.into_iter().filter(|place| is_finite(*place)).fold(None, |found: Option<[Vector; 2]>, [x, y]| {
-        let [low, high] = found.unwrap_or([[x, y]; 2]);
+pub fn bounds(positions: impl IntoIterator<Item = Vector>) -> Option<[Vector; 2]> {
+    positions.into_iter().filter(|position| is_finite(*position)).fold(None, |corners: Option<[Vector; 2]>, [x, y]| {
+        let [low, high] = corners.unwrap_or([[x, y]; 2]);
         Some([[low[0].min(x), low[1].min(y)], [high[0].max(x), high[1].max(y)]])
     })
 }
@@ -195,14 +195,14 @@ pub enum Path {
 impl Path {
     /// Creates an open polyline; without positions the path is empty.
     #[must_use]
-    pub fn line(places: impl IntoIterator<Item = Vector>) -> Path {
-        Path::Lines(Contour::of(places, false).into_iter().collect())
+    pub fn line(positions: impl IntoIterator<Item = Vector>) -> Path {
+        Path::Lines(Contour::of(positions, false).into_iter().collect())
     }
 
     /// Creates a closed polygon; without positions the path is empty.
     #[must_use]
-    pub fn polygon(places: impl IntoIterator<Item = Vector>) -> Path {
-        Path::Lines(Contour::of(places, true).into_iter().collect())
+    pub fn polygon(positions: impl IntoIterator<Item = Vector>) -> Path {
+        Path::Lines(Contour::of(positions, true).into_iter().collect())
     }
 
     /// Creates separate straight lines.
@@ -217,14 +217,14 @@ impl Path {
     #[must_use]
     pub fn arc(at: Vector, radius: f64, from: f64, to: f64) -> Path {
         let middle = 0.5 * (from + to);
-        let place = |angle| plus(at, polar(radius, angle));
-        let arc = |angle| Segment::Arc { to: place(angle), radius, is_left: to > from };
-        Path::Lines(vec![Contour { start: place(from), segments: vec![arc(middle), arc(to)], is_closed: false }])
+        let position = |angle| plus(at, polar(radius, angle));
+        let arc = |angle| Segment::Arc { to: position(angle), radius, is_left: to > from };
+        Path::Lines(vec![Contour { start: position(from), segments: vec![arc(middle), arc(to)], is_closed: false }])
     }
 
     /// Returns positions whose hull contains the path, apart from bulges of arcs.
     #[must_use]
-    pub fn places(&self) -> Vec<Vector> {
+    pub fn positions(&self) -> Vec<Vector> {
         match self {
             Path::Circle { at, radius } => {
                 (0..8).map(|k| plus(*at, polar(*radius, f64::from(k) * TAU / 8.0))).collect()
@@ -239,105 +239,105 @@ impl Path {
     /// Returns positions along the path, at most a step (m) apart.
     #[must_use]
     pub fn sampled(&self, step: f64) -> Vec<Vector> {
-        let mut found = Vec::new();
+        let mut samples = Vec::new();
         match self {
-            Path::Circle { at, radius } => add_arc(&mut found, *at, *radius, [0.0, TAU], step),
-            Path::Lines(contours) => contours.iter().for_each(|contour| contour.add_samples(&mut found, step)),
+            Path::Circle { at, radius } => add_arc(&mut samples, *at, *radius, [0.0, TAU], step),
+            Path::Lines(contours) => contours.iter().for_each(|contour| contour.add_samples(&mut samples, step)),
         }
-        found
+        samples
     }
 
     /// Returns the path in the ground's frame, for a path in the frame with this pose.
     #[must_use]
-    pub fn moved(&self, pose: &Pose) -> Path {
+    pub fn transform(&self, pose: &Pose) -> Path {
         match self {
-            Path::Circle { at, radius } => Path::Circle { at: pose.placed(*at), radius: *radius },
-            Path::Lines(contours) => Path::Lines(contours.iter().map(|one| one.moved(pose)).collect()),
+            Path::Circle { at, radius } => Path::Circle { at: pose.transform(*at), radius: *radius },
+            Path::Lines(contours) => Path::Lines(contours.iter().map(|one| one.transform(pose)).collect()),
         }
     }
 }
 
 impl Contour {
-    fn of(places: impl IntoIterator<Item = Vector>, is_closed: bool) -> Option<Contour> {
-        let mut places = places.into_iter();
-        let start = places.next()?;
-        Some(Contour { start, segments: places.map(Segment::Line).collect(), is_closed })
+    fn of(positions: impl IntoIterator<Item = Vector>, is_closed: bool) -> Option<Contour> {
+        let mut positions = positions.into_iter();
+        let start = positions.next()?;
+        Some(Contour { start, segments: positions.map(Segment::Line).collect(), is_closed })
     }
 
-    fn add_samples(&self, found: &mut Vec<Vector>, step: f64) {
+    fn add_samples(&self, samples: &mut Vec<Vector>, step: f64) {
         let mut from = self.start;
         let closing = self.is_closed.then_some(Segment::Line(self.start));
         for segment in self.segments.iter().copied().chain(closing) {
-            let way = minus(segment.end(), from);
+            let chord = minus(segment.end(), from);
             match segment {
                 Segment::Line(_) => {
-                    let count = pieces(length(way), step);
-                    found.extend((0..=count).map(|k| plus(from, times(f64::from(k) / f64::from(count), way))));
+                    let count = interval_count(length(chord), step);
+                    samples.extend((0..=count).map(|k| plus(from, times(f64::from(k) / f64::from(count), chord))));
                 }
                 Segment::Arc { to, radius, is_left } => {
-                    let half = 0.5 * length(way);
+                    let half = 0.5 * length(chord);
                     let away = (radius * radius - half * half).max(0.0).sqrt() * if is_left { 1.0 } else { -1.0 };
-                    let center = plus(plus(from, times(0.5, way)), times(away, left(unit(way))));
-                    let [begin, end] = [from, to].map(|place| direction(minus(place, center)));
+                    let center = plus(plus(from, times(0.5, chord)), times(away, left(unit(chord))));
+                    let [begin, end] = [from, to].map(|position| direction(minus(position, center)));
                     // at most a semicircle, either way
                     let turn = if is_left { end - begin } else { begin - end };
                     let turn = turn - TAU * math::floor(turn / TAU);
-                    add_arc(found, center, radius, [begin, begin + if is_left { turn } else { -turn }], step);
+                    add_arc(samples, center, radius, [begin, begin + if is_left { turn } else { -turn }], step);
                 }
             }
             from = segment.end();
         }
     }
 
-    fn moved(&self, pose: &Pose) -> Contour {
+    fn transform(&self, pose: &Pose) -> Contour {
         let segment = |segment: &Segment| match *segment {
-            Segment::Line(to) => Segment::Line(pose.placed(to)),
-            Segment::Arc { to, radius, is_left } => Segment::Arc { to: pose.placed(to), radius, is_left },
+            Segment::Line(to) => Segment::Line(pose.transform(to)),
+            Segment::Arc { to, radius, is_left } => Segment::Arc { to: pose.transform(to), radius, is_left },
         };
-        Contour { start: pose.placed(self.start), segments: self.segments.iter().map(segment).collect(), ..*self }
+        Contour { start: pose.transform(self.start), segments: self.segments.iter().map(segment).collect(), ..*self }
     }
 }
 
 /// Adds positions on a circle between two directions (rad).
-fn add_arc(found: &mut Vec<Vector>, at: Vector, radius: f64, [from, to]: [f64; 2], step: f64) {
-    let count = pieces(radius * (to - from).abs(), step);
+fn add_arc(samples: &mut Vec<Vector>, at: Vector, radius: f64, [from, to]: [f64; 2], step: f64) {
+    let count = interval_count(radius * (to - from).abs(), step);
     let angle = |k: u32| from + (to - from) * f64::from(k) / f64::from(count);
-    found.extend((0..=count).map(|k| plus(at, polar(radius, angle(k)))));
+    samples.extend((0..=count).map(|k| plus(at, polar(radius, angle(k)))));
 }
 
 /// Returns the number of intervals of a length, each at most a step long.
-fn pieces(way: f64, step: f64) -> u32 {
+fn interval_count(chord: f64, step: f64) -> u32 {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // between 1 and 1000
-    let count = (way / step).clamp(0.0, 999.0) as u32;
+    let count = (chord / step).clamp(0.0, 999.0) as u32;
     count + 1
 }
 
 /// Returns the corners of the convex hull, counter-clockwise. Positions closer than `near` (m) count once.
 #[must_use]
-pub fn hull(places: &[Vector], near: f64) -> Vec<Vector> {
-    let mut sorted: Vec<Vector> = places.iter().copied().filter(|place| is_finite(*place)).collect();
+pub fn hull(positions: &[Vector], near: f64) -> Vec<Vector> {
+    let mut sorted: Vec<Vector> = positions.iter().copied().filter(|position| is_finite(*position)).collect();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let mut distinct: Vec<Vector> = Vec::with_capacity(sorted.len());
-    for place in sorted {
-        let is_known = distinct.iter().rev().take_while(|known| place[0] - known[0] <= near);
-        if !is_known.into_iter().any(|known| distance(*known, place) <= near) {
-            distinct.push(place);
+    for position in sorted {
+        let near_in_x = distinct.iter().rev().take_while(|other| position[0] - other[0] <= near);
+        if !near_in_x.into_iter().any(|other| distance(*other, position) <= near) {
+            distinct.push(position);
         }
     }
     if distinct.len() < 3 {
         return distinct;
     }
-    let half = |places: &mut dyn Iterator<Item = Vector>| {
+    let half = |positions: &mut dyn Iterator<Item = Vector>| {
         let mut chain: Vec<Vector> = Vec::new();
-        for place in places {
+        for position in positions {
             while let [.., a, b] = chain[..] {
-                let width = distance(a, place).max(near);
-                if cross(minus(b, a), minus(place, a)) > near * width {
+                let width = distance(a, position).max(near);
+                if cross(minus(b, a), minus(position, a)) > near * width {
                     break;
                 }
                 chain.pop();
             }
-            chain.push(place);
+            chain.push(position);
         }
         chain.pop();
         chain
@@ -363,16 +363,16 @@ pub fn around(corners: &[Vector], reach: f64) -> Path {
             let mut segments = Vec::with_capacity(3 * count);
             for k in 0..count {
                 let corner = corners[(k + 1) % count];
-                let (before, behind) = (outward(k), outward((k + 1) % count));
+                let (before, after) = (outward(k), outward((k + 1) % count));
                 segments.push(Segment::Line(plus(corner, before)));
-                let turn = direction(behind) - direction(before);
+                let turn = direction(after) - direction(before);
                 let turn = turn - TAU * math::floor(turn / TAU);
                 if turn > FRAC_PI_2 * 1.9 {
                     // a semicircle could be drawn on either side
                     let middle = plus(corner, polar(reach, direction(before) + 0.5 * turn.min(PI)));
                     segments.push(Segment::Arc { to: middle, radius: reach, is_left: true });
                 }
-                segments.push(Segment::Arc { to: plus(corner, behind), radius: reach, is_left: true });
+                segments.push(Segment::Arc { to: plus(corner, after), radius: reach, is_left: true });
             }
             Path::Lines(vec![Contour { start, segments, is_closed: true }])
         }
@@ -402,15 +402,15 @@ mod tests {
     #[test]
     fn what_lies_around_a_polygon_keeps_its_distance() {
         for corners in [vec![[0.0, 0.0], [3.0, 0.0]], vec![[0.0, 0.0], [4.0, 0.0], [1.0, 2.0]]] {
-            for place in around(&corners, 0.5).places() {
+            for position in around(&corners, 0.5).positions() {
                 let nearest = |k: usize| {
                     let (a, b) = (corners[k], corners[(k + 1) % corners.len()]);
-                    let way = minus(b, a);
-                    let part = (dot(minus(place, a), way) / dot(way, way)).clamp(0.0, 1.0);
-                    distance(place, plus(a, times(part, way)))
+                    let chord = minus(b, a);
+                    let part = (dot(minus(position, a), chord) / dot(chord, chord)).clamp(0.0, 1.0);
+                    distance(position, plus(a, times(part, chord)))
                 };
                 let least = (0..corners.len()).map(nearest).fold(f64::INFINITY, f64::min);
-                assert!((least - 0.5).abs() < 1e-12, "{place:?} is {least} away");
+                assert!((least - 0.5).abs() < 1e-12, "{position:?} is {least} away");
             }
         }
     }
@@ -428,7 +428,7 @@ mod tests {
         for to in [-2.0, 2.0] {
             let arc = Path::arc([1.0, 1.0], 2.0, 0.3, 0.3 + to);
             let inner = [1.0, 1.0];
-            assert!(arc.sampled(0.1).iter().all(|place| (distance(*place, inner) - 2.0).abs() < 1e-12));
+            assert!(arc.sampled(0.1).iter().all(|position| (distance(*position, inner) - 2.0).abs() < 1e-12));
         }
     }
 
@@ -437,9 +437,9 @@ mod tests {
         let at = |t: f64| Pose { at: [t * t, 3.0 * t], phi: 0.5 * t * t };
         let (rate, acceleration) = (Pose { at: [2.0, 3.0], phi: 1.0 }, Pose { at: [2.0, 0.0], phi: 1.0 });
         let (local, h) = ([0.3, -0.2], 1e-4);
-        let [before, now, behind] = [1.0 - h, 1.0, 1.0 + h].map(|t| at(t).placed(local));
-        let slope = times(0.5 / h, minus(behind, before));
-        let bend = times(1.0 / (h * h), minus(plus(before, behind), times(2.0, now)));
+        let [before, now, after] = [1.0 - h, 1.0, 1.0 + h].map(|t| at(t).transform(local));
+        let slope = times(0.5 / h, minus(after, before));
+        let bend = times(1.0 / (h * h), minus(plus(before, after), times(2.0, now)));
         assert!(distance(slope, rate.velocity(&at(1.0), local)) < 1e-6);
         assert!(distance(bend, acceleration.acceleration(&rate, &at(1.0), local)) < 1e-5);
     }

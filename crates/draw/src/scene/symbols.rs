@@ -53,8 +53,8 @@ impl Symbols {
     /// Returns hatching along a line, to its right.
     pub fn hatching(self, from: Vector, to: Vector) -> Shape {
         let [depth, spacing] = HATCHING.map(|part| part * self.unit);
-        let way = minus(to, from);
-        let (along, length) = (normal(way), super::plane::length(way));
+        let vector = minus(to, from);
+        let (along, length) = (normal(vector), super::plane::length(vector));
         let back = minus(times(-depth, left(along)), times(0.7 * depth, along));
         let count = mechc_expr::math::floor((length - 0.7 * depth) / spacing).clamp(1.0, 400.0);
         let step = (length - 0.7 * depth) / count;
@@ -99,7 +99,7 @@ impl Symbols {
     }
 
     /// Returns an arrow on an arc around a centre between two directions (rad).
-    pub fn turning(self, at: Vector, radius: f64, from: f64, to: f64, is_double: bool) -> Vec<Shape> {
+    pub fn arc_arrow(self, at: Vector, radius: f64, from: f64, to: f64, is_double: bool) -> Vec<Shape> {
         let radius = radius * self.unit;
         let sign = if to > from { 1.0 } else { -1.0 };
         // the straight head leans inward by half the angle that it covers
@@ -137,35 +137,36 @@ impl Symbols {
 
     /// Returns a spring from 0 to 1 along x, which is stretched between its ends.
     pub fn spring(self, coils: u32) -> Shape {
-        self.spring_beside(coils, 0.0, [0.0, 1.0])
+        self.spring_at(coils, 0.0, [0.0, 1.0])
     }
 
     /// Returns a spring over a range of x from 0 to 1, offset to the left (m).
-    pub fn spring_beside(self, coils: u32, aside: f64, [from, to]: [f64; 2]) -> Shape {
+    pub fn spring_at(self, coils: u32, offset: f64, [from, to]: [f64; 2]) -> Shape {
         let half = 0.6 * self.unit;
         let along = |part: f64| from + part * (to - from);
         let (begin, end) = (along(0.18), along(0.82));
         let step = (end - begin) / f64::from(2 * coils);
         let zigzag = (0..2 * coils).map(|k| {
             let side = if k % 2 == 0 { half } else { -half };
-            [begin + (f64::from(k) + 0.5) * step, aside + side]
+            [begin + (f64::from(k) + 0.5) * step, offset + side]
         });
-        let places = [[from, aside], [begin, aside]].into_iter().chain(zigzag).chain([[end, aside], [to, aside]]);
-        Shape { path: Path::line(places), look: Look::Spring, point: None }
+        let positions =
+            [[from, offset], [begin, offset]].into_iter().chain(zigzag).chain([[end, offset], [to, offset]]);
+        Shape { path: Path::line(positions), look: Look::Spring, point: None }
     }
 
     /// Returns a damper over a range of x from 0 to 1, offset to the left (m), which is stretched between its ends.
-    pub fn damper(self, aside: f64, [from, to]: [f64; 2]) -> Shape {
+    pub fn damper(self, offset: f64, [from, to]: [f64; 2]) -> Shape {
         let half = 0.5 * self.unit;
-        let place = |part: f64, across: f64| [from + part * (to - from), aside + across * half];
+        let position = |part: f64, across: f64| [from + part * (to - from), offset + across * half];
         let (bottom, piston, rim) = (0.36, 0.52, 0.66);
         let strokes = [
-            [place(0.0, 0.0), place(bottom, 0.0)],
-            [place(bottom, -1.0), place(bottom, 1.0)],
-            [place(bottom, -1.0), place(rim, -1.0)],
-            [place(bottom, 1.0), place(rim, 1.0)],
-            [place(piston, -0.75), place(piston, 0.75)],
-            [place(piston, 0.0), place(1.0, 0.0)],
+            [position(0.0, 0.0), position(bottom, 0.0)],
+            [position(bottom, -1.0), position(bottom, 1.0)],
+            [position(bottom, -1.0), position(rim, -1.0)],
+            [position(bottom, 1.0), position(rim, 1.0)],
+            [position(piston, -0.75), position(piston, 0.75)],
+            [position(piston, 0.0), position(1.0, 0.0)],
         ];
         Shape { path: Path::strokes(strokes), look: Look::Spring, point: None }
     }

@@ -12,7 +12,7 @@ pub(super) const DEDENDUM: f64 = 1.0;
 /// Part of a pitch by which a tooth is thinner than a gap.
 const BACKLASH: f64 = 0.03;
 /// Points on a flank.
-const ON_FLANK: u32 = 4;
+const FLANK_POINTS: u32 = 4;
 
 /// A gear with its teeth.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -72,20 +72,20 @@ impl Wheel {
         };
         let half = thickness * PI / (2.0 * f64::from(self.teeth)) + involute(self.radius);
         let from = low.max(base);
-        let radius = |k: u32| from + (high - from) * f64::from(k) / f64::from(ON_FLANK - 1);
+        let radius = |k: u32| from + (high - from) * f64::from(k) / f64::from(FLANK_POINTS - 1);
         // radius and angle from the tooth's middle, from the root to the tip
-        let mut flank: Vec<[f64; 2]> = (0..ON_FLANK).map(|k| [radius(k), half - involute(radius(k))]).collect();
+        let mut flank: Vec<[f64; 2]> = (0..FLANK_POINTS).map(|k| [radius(k), half - involute(radius(k))]).collect();
         if low < from {
             flank.insert(0, [low, flank[0][1]]);
         }
-        let mut places = Vec::with_capacity(2 * flank.len() * self.teeth as usize);
+        let mut positions = Vec::with_capacity(2 * flank.len() * self.teeth as usize);
         for tooth in 0..self.teeth {
             let middle = phase + TAU * f64::from(tooth) / f64::from(self.teeth);
-            let place = |[radius, angle]: [f64; 2]| plus(self.at, polar(radius, angle));
-            places.extend(flank.iter().map(|[radius, off]| place([*radius, middle - off])));
-            places.extend(flank.iter().rev().map(|[radius, off]| place([*radius, middle + off])));
+            let position = |[radius, angle]: [f64; 2]| plus(self.at, polar(radius, angle));
+            positions.extend(flank.iter().map(|[radius, off]| position([*radius, middle - off])));
+            positions.extend(flank.iter().rev().map(|[radius, off]| position([*radius, middle + off])));
         }
-        closed(places)
+        closed_polygon(positions)
     }
 }
 
@@ -107,7 +107,8 @@ impl Rack {
     /// Returns the outline of the teeth over a range of the line (m), on a bar of a thickness (m).
     pub fn outline(&self, [from, to]: [f64; 2], bar: f64) -> Contour {
         let module = self.pitch / PI;
-        let place = |x: f64, y: f64| plus(plus(self.at, times(x, self.along)), times(self.side * y, left(self.along)));
+        let position =
+            |x: f64, y: f64| plus(plus(self.at, times(x, self.along)), times(self.side * y, left(self.along)));
         let slope = math::tan(PRESSURE);
         let half = 0.25 * self.pitch * (1.0 - 2.0 * BACKLASH);
         let flank = [
@@ -119,28 +120,28 @@ impl Rack {
         let count = (last - first).clamp(0.0, 2000.0);
         #[allow(clippy::cast_sign_loss)] // clamped
         let middles = (0..=count as u32).map(|k| self.phase + (first + f64::from(k)) * self.pitch);
-        let mut places = Vec::new();
+        let mut positions = Vec::new();
         let ends = [self.phase + (first - 0.5) * self.pitch, self.phase + (first + count + 0.5) * self.pitch];
         let depth = -(DEDENDUM * module + bar);
-        places.extend([place(ends[0], depth), place(ends[0], flank[0][1])]);
+        positions.extend([position(ends[0], depth), position(ends[0], flank[0][1])]);
         for middle in middles {
             let [[wide, foot], [narrow, tip]] = flank;
-            places.extend([
-                place(middle - wide, foot),
-                place(middle - narrow, tip),
-                place(middle + narrow, tip),
-                place(middle + wide, foot),
+            positions.extend([
+                position(middle - wide, foot),
+                position(middle - narrow, tip),
+                position(middle + narrow, tip),
+                position(middle + wide, foot),
             ]);
         }
-        places.extend([place(ends[1], flank[0][1]), place(ends[1], depth)]);
-        closed(places)
+        positions.extend([position(ends[1], flank[0][1]), position(ends[1], depth)]);
+        closed_polygon(positions)
     }
 }
 
-fn closed(places: Vec<Vector>) -> Contour {
-    let mut places = places.into_iter();
-    let start = places.next().unwrap_or([0.0; 2]);
-    Contour { start, segments: places.map(Segment::Line).collect(), is_closed: true }
+fn closed_polygon(positions: Vec<Vector>) -> Contour {
+    let mut positions = positions.into_iter();
+    let start = positions.next().unwrap_or([0.0; 2]);
+    Contour { start, segments: positions.map(Segment::Line).collect(), is_closed: true }
 }
 
 /// Returns how far a gear at an angle (rad) has its next tooth from where it meshes in a direction (rad), along the pitch circle (pitches).
@@ -149,19 +150,19 @@ pub(super) fn offset(wheel: &Wheel, angle: f64, direction: f64) -> f64 {
 }
 
 /// Returns the difference of a number from the nearest whole number.
-pub(super) fn to_whole(value: f64) -> f64 {
+pub(super) fn to_nearest_integer(value: f64) -> f64 {
     value - math::floor(value + 0.5)
 }
 
 /// Returns whether a position lies inside a closed polygon.
 #[cfg(test)]
-pub(super) fn is_inside(place: Vector, corners: &[Vector]) -> bool {
+pub(super) fn is_inside(position: Vector, corners: &[Vector]) -> bool {
     let mut is_inside = false;
     for (k, b) in corners.iter().enumerate() {
         let a = corners[(k + corners.len() - 1) % corners.len()];
-        if (a[1] > place[1]) != (b[1] > place[1]) {
-            let x = a[0] + (place[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
-            is_inside ^= place[0] < x;
+        if (a[1] > position[1]) != (b[1] > position[1]) {
+            let x = a[0] + (position[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+            is_inside ^= position[0] < x;
         }
     }
     is_inside
@@ -169,16 +170,17 @@ pub(super) fn is_inside(place: Vector, corners: &[Vector]) -> bool {
 
 /// Returns the depth of a position inside a closed polygon; 0 outside.
 #[cfg(test)]
-pub(super) fn depth(place: Vector, corners: &[Vector]) -> f64 {
-    if !is_inside(place, corners) {
+pub(super) fn depth(position: Vector, corners: &[Vector]) -> f64 {
+    if !is_inside(position, corners) {
         return 0.0;
     }
     let edge = |k: usize| {
         let (a, b) = (corners[k], corners[(k + 1) % corners.len()]);
-        let way = super::plane::minus(b, a);
-        let part =
-            (super::plane::dot(super::plane::minus(place, a), way) / super::plane::dot(way, way)).clamp(0.0, 1.0);
-        super::plane::distance(place, plus(a, times(part, way)))
+        let edge_vector = super::plane::minus(b, a);
+        let part = (super::plane::dot(super::plane::minus(position, a), edge_vector)
+            / super::plane::dot(edge_vector, edge_vector))
+        .clamp(0.0, 1.0);
+        super::plane::distance(position, plus(a, times(part, edge_vector)))
     };
     (0..corners.len()).map(edge).fold(f64::INFINITY, f64::min)
 }
@@ -189,7 +191,7 @@ mod tests {
     use crate::scene::plane::{Path, Pose};
 
     fn corners(contour: Contour, pose: &Pose) -> Vec<Vector> {
-        Path::Lines(vec![contour]).moved(pose).places()
+        Path::Lines(vec![contour]).transform(pose).positions()
     }
 
     #[test]

@@ -14,12 +14,12 @@ impl Track {
     pub fn between(&self, motion: &Motion, row: usize, t: f64) -> [Vector; 2] {
         let [pose, rate] = motion.pose_between(self.frame, row, t);
         let Some(columns) = &self.columns else {
-            return [pose.placed(self.pose.at), rate.velocity(&pose, self.pose.at)];
+            return [pose.transform(self.pose.at), rate.velocity(&pose, self.pose.at)];
         };
         let [x, y] = columns.map(|columns| column_between(motion, columns, row, t));
-        let at = self.pose.placed(self.mirrored([x[0], y[0]]));
-        let way = self.pose.turned(self.mirrored([x[1], y[1]]));
-        [pose.placed(at), plus(rate.velocity(&pose, at), pose.turned(way))]
+        let at = self.pose.transform(self.mirrored([x[0], y[0]]));
+        let way = self.pose.rotate(self.mirrored([x[1], y[1]]));
+        [pose.transform(at), plus(rate.velocity(&pose, at), pose.rotate(way))]
     }
 
     /// Returns the position (m) and the velocity (m/s) at any time (s).
@@ -31,9 +31,9 @@ impl Track {
     /// Returns the position in a row (m).
     #[must_use]
     pub fn in_row(&self, motion: &Motion, row: usize) -> Vector {
-        let Some(columns) = &self.columns else { return motion.poses(row)[self.frame].placed(self.pose.at) };
+        let Some(columns) = &self.columns else { return motion.poses(row)[self.frame].transform(self.pose.at) };
         let local = columns.map(|[value, ..]| cell(motion, value, row));
-        motion.poses(row)[self.frame].placed(self.pose.placed(self.mirrored(local)))
+        motion.poses(row)[self.frame].transform(self.pose.transform(self.mirrored(local)))
     }
 
     fn mirrored(&self, [x, y]: Vector) -> Vector {
@@ -139,33 +139,33 @@ impl<'m> DrawnLine<'m> {
 
     /// Returns whether the line passes within a distance (m) of a position.
     #[must_use]
-    pub fn passes(&self, place: Vector, off: f64) -> bool {
-        self.passes_within(0..self.pieces.len(), place, off)
+    pub fn passes(&self, position: Vector, off: f64) -> bool {
+        self.passes_within(0..self.pieces.len(), position, off)
     }
 
     /// Returns whether some pieces of the line pass within a distance (m) of a position.
-    fn passes_within(&self, pieces: Range<usize>, place: Vector, off: f64) -> bool {
+    fn passes_within(&self, pieces: Range<usize>, position: Vector, off: f64) -> bool {
         let mut boxes = vec![(self.boxes.len() - 1, 0)];
         while let Some((level, number)) = boxes.pop() {
             let held = (number << level)..((number + 1) << level);
             let Some([low, high]) = self.boxes[level].get(number) else { continue };
-            let is_near = (0..2).all(|k| place[k] >= low[k] - off && place[k] <= high[k] + off);
+            let is_near = (0..2).all(|k| position[k] >= low[k] - off && position[k] <= high[k] + off);
             if !is_near || held.end <= pieces.start || held.start >= pieces.end {
                 continue;
             }
             match level.checked_sub(1) {
                 Some(below) => boxes.extend([(below, 2 * number), (below, 2 * number + 1)]),
-                None if self.piece_passes(self.pieces[number], place, off) => return true,
+                None if self.piece_passes(self.pieces[number], position, off) => return true,
                 None => {}
             }
         }
         false
     }
 
-    fn piece_passes(&self, ends: [f64; 2], place: Vector, off: f64) -> bool {
+    fn piece_passes(&self, ends: [f64; 2], position: Vector, off: f64) -> bool {
         (0..PARTS).any(|k| {
-            let nearest = self.nearest(place, [part_of(ends, k), part_of(ends, k + 1)], off);
-            distance(self.at(nearest), place) <= off
+            let nearest = self.nearest(position, [part_of(ends, k), part_of(ends, k + 1)], off);
+            distance(self.at(nearest), position) <= off
         })
     }
 
@@ -175,10 +175,10 @@ impl<'m> DrawnLine<'m> {
 
     /// Returns the time at which the line is nearest to a position within a short interval, or one at which it is at most `enough` (m)
     /// away.
-    fn nearest(&self, place: Vector, [mut from, mut to]: [f64; 2], enough: f64) -> f64 {
+    fn nearest(&self, position: Vector, [mut from, mut to]: [f64; 2], enough: f64) -> f64 {
         let look = |t: f64| {
             let [at, velocity] = self.track.at(self.motion, t);
-            let way = minus(at, place);
+            let way = minus(at, position);
             (length(way), dot(velocity, way) < 0.0)
         };
         let [first, last] = [look(from), look(to)];
@@ -335,10 +335,10 @@ impl Retrace<'_, '_> {
         while self.compared < 2 * pieces.len() {
             let t = pieces[self.compared / 2][self.compared % 2];
             let is_known = t.total_cmp(&pieces[(self.compared - 1) / 2][(self.compared - 1) % 2]).is_eq();
-            let is_on = |place: Vector| {
-                self.gaps.is_some_and(|gaps| gaps.is_far(place))
-                    || self.line.passes_within(first..number, place, self.off)
-                    || self.line.piece_passes([pieces[number][0], back], place, self.off)
+            let is_on = |position: Vector| {
+                self.gaps.is_some_and(|gaps| gaps.is_far(position))
+                    || self.line.passes_within(first..number, position, self.off)
+                    || self.line.piece_passes([pieces[number][0], back], position, self.off)
             };
             if !is_known && !is_on(self.line.at(t)) {
                 return false;

@@ -6,5 +6,4 @@ mod path;
 pub mod svg;
 mod text;
 
-pub use path::data;
-pub use text::{escaped, first_sentence, number};
+pub use text::first_sentence;

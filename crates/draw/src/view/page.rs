@@ -4,12 +4,12 @@
 //! The same input gives the same bytes, and no part of a text is interpreted as HTML.
 
 mod base64;
-mod columns;
 mod json;
-mod places;
 mod still;
+mod table_compression;
+mod utf16_offsets;
 
-use super::{escaped, first_sentence};
+use super::text::{escape, first_sentence};
 use crate::scene::{Motion, Scene};
 use mechc_text::diag::Diagnostic;
 use mechc_text::source::{FileId, Source};
@@ -20,7 +20,7 @@ pub const FORMAT: u32 = 1;
 /// Size limit of a page (bytes); a larger one leaves rows out.
 pub const LONGEST: usize = 20_000_000;
 /// Limit of attempts to leave rows out.
-const MOST_THINNINGS: usize = 6;
+const MOST_ATTEMPTS: usize = 6;
 
 /// Placeholder of the page's size in the data. Quotes in texts are escaped, so nothing else matches it.
 const NO_SIZE: &str = "\"bytes\":0";
@@ -102,59 +102,60 @@ impl Page<'_> {
     #[must_use]
     pub fn data(&self) -> (serde_json::Value, Vec<Vec<f64>>) {
         let columns = self.first().map_or_else(Vec::new, |first| json::table(first, 1, self.columns.len()));
-        (json::value(self, 1, json::Tables::Beside), columns)
+        (json::value(self, 1, json::Tables::Separate), columns)
     }
 
     /// Returns the scene and the table's columns, for a page that has everything else.
     #[must_use]
     pub fn picture(&self) -> (serde_json::Value, Vec<Vec<f64>>) {
-        let texts = places::Texts::of(&self.texts);
-        let of_first = |first: &Variant| (json::scene(first.scene, &texts), json::table(first, 1, self.columns.len()));
-        self.first().map_or_else(Default::default, of_first)
+        let texts = utf16_offsets::Texts::new(&self.texts);
+        let picture_of =
+            |first: &Variant| (json::scene(first.scene, &texts), json::table(first, 1, self.columns.len()));
+        self.first().map_or_else(Default::default, picture_of)
     }
 
     /// Returns the variant that the page begins with.
     fn first(&self) -> Option<&Variant<'_>> {
-        let place = self.vary.iter().fold(0, |place, vary| place * vary.values.len() + vary.nearest);
-        self.variants.get(place)
+        let index = self.vary.iter().fold(0, |index, vary| index * vary.values.len() + vary.nearest);
+        self.variants.get(index)
     }
 
     /// Writes the page, and leaves rows out until it has at most `longest` bytes, as far as possible.
     fn at_most(&self, longest: usize) -> String {
         let mut every = 1;
-        let mut html = self.with_every(every);
-        for _ in 0..MOST_THINNINGS {
+        let mut html = self.write_thinned(every);
+        for _ in 0..MOST_ATTEMPTS {
             if html.len() <= longest {
                 break;
             }
             // tables are nearly all of the page; thinned ones compress less well
             every = (every + 1).max(every * html.len() / longest);
-            html = self.with_every(every);
+            html = self.write_thinned(every);
         }
         html
     }
 
-    fn with_every(&self, every: usize) -> String {
+    fn write_thinned(&self, every: usize) -> String {
         let Some(first) = self.first() else { return String::new() };
         let parts = [
             ("version", env!("CARGO_PKG_VERSION").to_owned()),
-            ("title", escaped(&first.scene.name).into_owned()),
+            ("title", escape(&first.scene.name).into_owned()),
             ("docs", docs(&first.scene.docs)),
             ("style", STYLE.to_owned()),
             ("still", still::still(first.scene, first.motion)),
-            ("text", self.texts.first().map_or_else(String::new, |(_, source)| plain(&source.text))),
+            ("text", self.texts.first().map_or_else(String::new, |(_, source)| plain_text(&source.text))),
             ("notices", NOTICES.trim_end().to_owned()),
-            ("data", json::written(self, every)),
+            ("data", json::write(self, every)),
             ("script", SCRIPT.to_owned()),
         ];
-        with_size(&filled(TEMPLATE, &parts))
+        insert_size(&fill(TEMPLATE, &parts))
     }
 }
 
 /// Encodes bytes as Base64.
 #[must_use]
 pub fn base64(bytes: &[u8]) -> String {
-    base64::written(bytes)
+    base64::encode(bytes)
 }
 
 /// Writes a page without data, which requests them from its server.
@@ -168,23 +169,23 @@ pub fn shell() -> String {
         ("notices", NOTICES.trim_end().to_owned()),
         ("script", SCRIPT.to_owned()),
     ];
-    filled(TEMPLATE, &parts)
+    fill(TEMPLATE, &parts)
 }
 
 /// Replaces the placeholder [`NO_SIZE`] by the size of the page, in a fixed width.
-fn with_size(html: &str) -> String {
+fn insert_size(html: &str) -> String {
     let bytes = html.len() + SIZE_DIGITS - 1;
     html.replacen(NO_SIZE, &format!("\"bytes\":{bytes:>SIZE_DIGITS$}"), 1)
 }
 
 /// Replaces the gaps `{{name}}` of a template. Inserted text is not searched for gaps.
-fn filled(template: &str, parts: &[(&str, String)]) -> String {
+fn fill(template: &str, parts: &[(&str, String)]) -> String {
     let mut html = String::with_capacity(template.len() + parts.iter().map(|(_, part)| part.len()).sum::<usize>());
     let mut pieces = template.split("{{");
     html += pieces.next().unwrap_or_default();
     for piece in pieces {
         let (name, rest) = piece.split_once("}}").unwrap_or(("", piece));
-        html += parts.iter().find(|(known, _)| *known == name).map_or("", |(_, part)| part);
+        html += parts.iter().find(|(other, _)| *other == name).map_or("", |(_, part)| part);
         html += rest;
     }
     html
@@ -197,23 +198,23 @@ fn docs(lines: &[String]) -> String {
     if first.is_empty() {
         return String::new();
     }
-    let first = format!("<p>{}</p>", escaped(first));
+    let first = format!("<p>{}</p>", escape(first));
     if rest.is_empty() {
         return format!("<div class=\"docs\">{first}</div>");
     }
     format!(
         "<div class=\"docs\">{first} <details><summary>more</summary><p class=\"rest\">{}</p></details></div>",
-        escaped(rest)
+        escape(rest)
     )
 }
 
-fn plain(text: &str) -> String {
-    format!("<pre class=\"plain\">{}</pre>", escaped(text))
+fn plain_text(text: &str) -> String {
+    format!("<pre class=\"plain\">{}</pre>", escape(text))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Column, Page, Variant, docs, filled};
+    use super::{Column, Page, Variant, docs, fill};
     use crate::scene::{Declaration, Motion, Point, Scene};
     use mechc_text::source::{FileId, Source, Sources, Span};
     use serde_json::Value;
@@ -274,8 +275,8 @@ mod tests {
         let page = Page { texts: vec![(file, source)], columns, vary: vec![], variants: vec![variant] };
         let html = page.at_most(longest);
         assert_eq!(html, page.at_most(longest), "the same input gives the same bytes");
-        let (_, behind) = html.split_once("id=\"mechc\">").expect("the data");
-        let data = serde_json::from_str(behind.split_once("</script>").expect("their end").0).expect("JSON");
+        let (_, after) = html.split_once("id=\"mechc\">").expect("the data");
+        let data = serde_json::from_str(after.split_once("</script>").expect("their end").0).expect("JSON");
         (html, data)
     }
 
@@ -315,7 +316,7 @@ mod tests {
     #[test]
     fn gaps_are_filled_once() {
         let parts = [("a", "{{b}}".to_owned()), ("b", "x".to_owned())];
-        assert_eq!(filled("<{{a}}|{{b}}|{{c}}>", &parts), "<{{b}}|x|>");
+        assert_eq!(fill("<{{a}}|{{b}}|{{c}}>", &parts), "<{{b}}|x|>");
     }
 
     #[test]

@@ -57,8 +57,8 @@ impl Fix {
 
     /// Creates a fix that inserts text after a span.
     #[must_use]
-    pub fn append(behind: Span, text: impl Into<String>, message: impl Into<String>, applies: Applies) -> Fix {
-        Fix::replace(Span { start: behind.end, ..behind }, text, message, applies)
+    pub fn append(after: Span, text: impl Into<String>, message: impl Into<String>, applies: Applies) -> Fix {
+        Fix::replace(Span { start: after.end, ..after }, text, message, applies)
     }
 
     /// Creates the fix "was `NAME` meant?", which replaces a span.
@@ -71,12 +71,12 @@ impl Fix {
 /// Applies fixes to the text of a file. Returns the text and the applied fixes; of overlapping fixes only the first one is applied.
 #[must_use]
 pub fn fixed<'f>(sources: &Sources, file: FileId, fixes: impl IntoIterator<Item = &'f Fix>) -> (String, Vec<&'f Fix>) {
-    let (mut made, mut edits): (Vec<&Fix>, Vec<&Edit>) = (Vec::new(), Vec::new());
+    let (mut applied, mut edits): (Vec<&Fix>, Vec<&Edit>) = (Vec::new(), Vec::new());
     for fix in fixes {
         let is_here = fix.edits.iter().all(|edit| edit.span.file == file);
         let is_free = fix.edits.iter().all(|edit| edits.iter().all(|other| !overlap(edit.span, other.span)));
         if is_here && is_free {
-            made.push(fix);
+            applied.push(fix);
             edits.extend(&fix.edits);
         }
     }
@@ -88,7 +88,7 @@ pub fn fixed<'f>(sources: &Sources, file: FileId, fixes: impl IntoIterator<Item 
         out += &edit.text;
         at = edit.span.end as usize;
     }
-    (out + &text[at..], made)
+    (out + &text[at..], applied)
 }
 
 /// Returns whether two spans share text or a start.
@@ -109,7 +109,7 @@ mod tests {
         let equals = Fix::replace(span(2, 4), "=", "one `=`", Applies::Always);
         let other = Fix::replace(span(3, 6), "", "drop", Applies::Always);
         let end = Fix::replace(span(6, 7), "", "no `;`", Applies::Always);
-        let (text, made) = fixed(&sources, file, [&equals, &other, &end]);
-        assert_eq!((text.as_str(), made.len()), ("a = b c", 2));
+        let (text, applied) = fixed(&sources, file, [&equals, &other, &end]);
+        assert_eq!((text.as_str(), applied.len()), ("a = b c", 2));
     }
 }

@@ -3,19 +3,19 @@
 //! A diagnostic is data: a code of the catalogue, a message, labelled spans, and fixes. Each phase words its own faults; this module only
 //! stores and renders them, and does not depend on the language.
 
-mod blame;
 mod codes;
 mod fix;
 mod nearest;
 mod number;
 mod render;
+mod responsibility;
 
-pub use blame::Blame;
 pub use codes::Code;
 pub use fix::{Applies, Edit, Fix, fixed};
 pub use nearest::nearest;
 pub use number::readable;
 pub use render::{Color, Format, render, render_made, visible};
+pub use responsibility::Blame;
 
 use crate::source::Span;
 use rustc_hash::FxHashSet;
@@ -196,14 +196,14 @@ impl Diagnostic {
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
-    said: FxHashSet<(Code, Option<Span>, String)>,
+    keys: FxHashSet<(Code, Option<Span>, String)>,
 }
 
 impl Diagnostics {
     /// Adds a diagnostic, unless one with the same code, primary span and message exists.
     pub fn push(&mut self, diagnostic: Diagnostic) {
-        let place = diagnostic.labels.first().map(|label| label.span);
-        if self.said.insert((diagnostic.code, place, diagnostic.message.clone())) {
+        let span = diagnostic.labels.first().map(|label| label.span);
+        if self.keys.insert((diagnostic.code, span, diagnostic.message.clone())) {
             self.list.push(diagnostic);
         }
     }
@@ -233,8 +233,8 @@ impl Diagnostics {
 
     /// Keeps only the first diagnostic of each code and primary span: copies of a declaration repeat its faults.
     pub fn tell_once(&mut self) {
-        let mut told: FxHashSet<(Code, Span)> = FxHashSet::default();
-        self.list.retain(|d| d.labels.first().is_none_or(|label| told.insert((d.code, label.span))));
+        let mut keys: FxHashSet<(Code, Span)> = FxHashSet::default();
+        self.list.retain(|d| d.labels.first().is_none_or(|label| keys.insert((d.code, label.span))));
     }
 
     /// Keeps only the first `len` diagnostics.
@@ -244,13 +244,13 @@ impl Diagnostics {
 
     /// Adds the location where a part is used to all diagnostics from index `from` on.
     pub fn in_part_from(&mut self, from: usize, path: &str, used_at: Span) {
-        let told = self.list.split_off(from.min(self.list.len()));
-        self.list.extend(told.into_iter().map(|diagnostic| diagnostic.in_part(path, used_at)));
+        let moved = self.list.split_off(from.min(self.list.len()));
+        self.list.extend(moved.into_iter().map(|diagnostic| diagnostic.in_part(path, used_at)));
     }
 
     /// Sorts the diagnostics by their primary span.
     pub fn sort_by_place(&mut self) {
-        self.list.sort_by_key(|d| d.labels.first().map(|l| l.span));
+        self.list.sort_by_key(|d| d.labels.first().map(|label| label.span));
     }
 }
 

@@ -40,10 +40,10 @@ pub enum Color {
 #[must_use]
 pub fn render(diagnostic: &Diagnostic, sources: &Sources, format: Format, color: Color) -> String {
     match format {
-        Format::Human if fits_a_terminal(diagnostic, sources) => human(&harmless(diagnostic), sources, color),
-        Format::Human => without_lines(&harmless(diagnostic), sources),
-        Format::Short => short(&harmless(diagnostic), sources),
-        Format::Json => format!("{}\n", escaped(as_json(diagnostic, sources).to_string())),
+        Format::Human if has_short_lines(diagnostic, sources) => human(&without_controls(diagnostic), sources, color),
+        Format::Human => without_lines(&without_controls(diagnostic), sources),
+        Format::Short => short(&without_controls(diagnostic), sources),
+        Format::Json => format!("{}\n", escape_controls(as_json(diagnostic, sources).to_string())),
     }
 }
 
@@ -63,7 +63,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
 }
 
 /// Replaces control characters by others of the same number of bytes, which keeps offsets of labels valid.
-fn in_place(text: &str) -> Cow<'_, str> {
+fn mask_controls(text: &str) -> Cow<'_, str> {
     if !text.contains(is_control) {
         return Cow::Borrowed(text);
     }
@@ -81,7 +81,7 @@ fn in_place(text: &str) -> Cow<'_, str> {
 }
 
 /// Replaces the control characters in all texts of a diagnostic.
-fn harmless(diagnostic: &Diagnostic) -> Cow<'_, Diagnostic> {
+fn without_controls(diagnostic: &Diagnostic) -> Cow<'_, Diagnostic> {
     let texts = || {
         let labels = diagnostic.labels.iter().map(|label| &label.text);
         labels.chain(&diagnostic.notes).chain(&diagnostic.help).chain([&diagnostic.message])
@@ -98,7 +98,7 @@ fn harmless(diagnostic: &Diagnostic) -> Cow<'_, Diagnostic> {
 }
 
 /// Escapes control characters in JSON.
-fn escaped(json: String) -> String {
+fn escape_controls(json: String) -> String {
     if !json.contains(is_control) {
         return json;
     }
@@ -110,17 +110,17 @@ fn escaped(json: String) -> String {
 #[must_use]
 pub fn render_made(fix: &Fix, sources: &Sources, format: Format) -> String {
     if format == Format::Json {
-        return format!("{}\n", escaped(json!({ "fixed": fix_as_json(fix, sources) }).to_string()));
+        return format!("{}\n", escape_controls(json!({ "fixed": fix_as_json(fix, sources) }).to_string()));
     }
-    let place = fix.edits.first().map_or(String::new(), |edit| format!("{}: ", place(edit.span, sources)));
-    let edits: Vec<String> = fix.edits.iter().map(|edit| edit_in_words(edit, sources)).collect();
-    format!("{place}{}: {}\n", visible(&fix.message), visible(&edits.join(", ")))
+    let location = fix.edits.first().map_or(String::new(), |edit| format!("{}: ", location(edit.span, sources)));
+    let edits: Vec<String> = fix.edits.iter().map(|edit| describe_edit(edit, sources)).collect();
+    format!("{location}{}: {}\n", visible(&fix.message), visible(&edits.join(", ")))
 }
 
 /// Length limit of the changed text that is shown (characters).
 const LONGEST_EDIT: usize = 30;
 
-fn edit_in_words(edit: &Edit, sources: &Sources) -> String {
+fn describe_edit(edit: &Edit, sources: &Sources) -> String {
     let shown = |text: &str| {
         let text = text.trim();
         let line = text.lines().next().unwrap_or_default();
@@ -189,7 +189,7 @@ fn aligned(word: &str, text: &str) -> String {
     format!("{word}: {}", text.replace('\n', &indent))
 }
 
-fn fits_a_terminal(diagnostic: &Diagnostic, sources: &Sources) -> bool {
+fn has_short_lines(diagnostic: &Diagnostic, sources: &Sources) -> bool {
     diagnostic.labels.iter().all(|label| {
         let source = sources.get(label.span.file);
         let first = source.line_index(label.span.start as usize);
@@ -199,14 +199,15 @@ fn fits_a_terminal(diagnostic: &Diagnostic, sources: &Sources) -> bool {
 }
 
 fn short(diagnostic: &Diagnostic, sources: &Sources) -> String {
-    let place = diagnostic.labels.first().map_or(String::new(), |label| format!("{}: ", place(label.span, sources)));
-    format!("{place}{}[{}]: {}\n", diagnostic.severity().as_str(), diagnostic.code, diagnostic.message)
+    let location =
+        diagnostic.labels.first().map_or(String::new(), |label| format!("{}: ", location(label.span, sources)));
+    format!("{location}{}[{}]: {}\n", diagnostic.severity().as_str(), diagnostic.code, diagnostic.message)
 }
 
 fn without_lines(diagnostic: &Diagnostic, sources: &Sources) -> String {
     let mut text = short(diagnostic, sources);
     for label in diagnostic.labels.iter().filter(|label| !label.text.is_empty()) {
-        text += &format!("  {}: {}\n", place(label.span, sources), label.text);
+        text += &format!("  {}: {}\n", location(label.span, sources), label.text);
     }
     for note in &diagnostic.notes {
         text += &format!("  = {}\n", aligned("note", note));
@@ -217,7 +218,7 @@ fn without_lines(diagnostic: &Diagnostic, sources: &Sources) -> String {
     text + "\n"
 }
 
-fn place(span: Span, sources: &Sources) -> String {
+fn location(span: Span, sources: &Sources) -> String {
     let source = sources.get(span.file);
     let (line, column) = source.position(span.start);
     format!("{}:{line}:{column}", visible(&source.name))
@@ -284,7 +285,7 @@ impl<'a> Files<'a> for Sources {
 
     fn source(&'a self, id: FileId) -> Result<Cow<'a, str>, Error> {
         let source = self.get(id);
-        Ok(if source.has_controls { in_place(&source.text) } else { Cow::Borrowed(&source.text) })
+        Ok(if source.has_controls { mask_controls(&source.text) } else { Cow::Borrowed(&source.text) })
     }
 
     fn line_index(&'a self, id: FileId, byte_index: usize) -> Result<usize, Error> {

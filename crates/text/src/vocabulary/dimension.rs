@@ -13,35 +13,35 @@ pub struct Dimension {
 
 impl Dimension {
     /// Pure number.
-    pub const PURE: Dimension = Dimension::of(0.0, 0.0, 0.0);
+    pub const PURE: Dimension = Dimension::new(0.0, 0.0, 0.0);
     /// Length.
-    pub const LENGTH: Dimension = Dimension::of(1.0, 0.0, 0.0);
+    pub const LENGTH: Dimension = Dimension::new(1.0, 0.0, 0.0);
     /// Area.
-    pub const AREA: Dimension = Dimension::of(2.0, 0.0, 0.0);
+    pub const AREA: Dimension = Dimension::new(2.0, 0.0, 0.0);
     /// Time.
-    pub const TIME: Dimension = Dimension::of(0.0, 1.0, 0.0);
+    pub const TIME: Dimension = Dimension::new(0.0, 1.0, 0.0);
     /// Inverse time.
-    pub const RATE: Dimension = Dimension::of(0.0, -1.0, 0.0);
+    pub const RATE: Dimension = Dimension::new(0.0, -1.0, 0.0);
     /// Speed.
-    pub const SPEED: Dimension = Dimension::of(1.0, -1.0, 0.0);
+    pub const SPEED: Dimension = Dimension::new(1.0, -1.0, 0.0);
     /// Acceleration.
-    pub const ACCELERATION: Dimension = Dimension::of(1.0, -2.0, 0.0);
+    pub const ACCELERATION: Dimension = Dimension::new(1.0, -2.0, 0.0);
     /// Angular acceleration.
-    pub const ANGULAR_ACCELERATION: Dimension = Dimension::of(0.0, -2.0, 0.0);
+    pub const ANGULAR_ACCELERATION: Dimension = Dimension::new(0.0, -2.0, 0.0);
     /// Mass.
-    pub const MASS: Dimension = Dimension::of(0.0, 0.0, 1.0);
+    pub const MASS: Dimension = Dimension::new(0.0, 0.0, 1.0);
     /// Moment of inertia.
-    pub const INERTIA: Dimension = Dimension::of(2.0, 0.0, 1.0);
+    pub const INERTIA: Dimension = Dimension::new(2.0, 0.0, 1.0);
     /// Force.
-    pub const FORCE: Dimension = Dimension::of(1.0, -2.0, 1.0);
+    pub const FORCE: Dimension = Dimension::new(1.0, -2.0, 1.0);
     /// Energy or torque: a torque is an energy per radian, and a radian is the number 1.
-    pub const ENERGY: Dimension = Dimension::of(2.0, -2.0, 1.0);
+    pub const ENERGY: Dimension = Dimension::new(2.0, -2.0, 1.0);
     /// Power.
-    pub const POWER: Dimension = Dimension::of(2.0, -3.0, 1.0);
+    pub const POWER: Dimension = Dimension::new(2.0, -3.0, 1.0);
     /// Pressure.
-    pub const PRESSURE: Dimension = Dimension::of(-1.0, -2.0, 1.0);
+    pub const PRESSURE: Dimension = Dimension::new(-1.0, -2.0, 1.0);
 
-    const fn of(length: f64, time: f64, mass: f64) -> Dimension {
+    const fn new(length: f64, time: f64, mass: f64) -> Dimension {
         Dimension { length, time, mass }
     }
 
@@ -61,7 +61,7 @@ impl Dimension {
     /// Returns the dimension of a product.
     #[must_use]
     pub fn times(self, other: Dimension) -> Dimension {
-        Dimension::of(self.length + other.length, self.time + other.time, self.mass + other.mass)
+        Dimension::new(self.length + other.length, self.time + other.time, self.mass + other.mass)
     }
 
     /// Returns the dimension of a quotient.
@@ -73,7 +73,7 @@ impl Dimension {
     /// Returns the dimension of a power.
     #[must_use]
     pub fn to_the(self, power: f64) -> Dimension {
-        Dimension::of(self.length * power, self.time * power, self.mass * power)
+        Dimension::new(self.length * power, self.time * power, self.mass * power)
     }
 
     /// Returns the dimension in words: `a length`, `a speed`, or else the unit.
@@ -109,8 +109,8 @@ impl Dimension {
             return "W".to_owned();
         }
         let newtons = self.over(Dimension::FORCE.to_the(self.mass));
-        let is_of_force = self.mass.abs() > 1e-9 && self.time.abs() > 1e-9;
-        if is_of_force {
+        let has_force = self.mass.abs() > 1e-9 && self.time.abs() > 1e-9;
+        if has_force {
             product(&[("N", self.mass), ("m", newtons.length), ("s", newtons.time)])
         } else {
             product(&[("kg", self.mass), ("m", self.length), ("s", self.time)])

@@ -106,17 +106,17 @@ const fn motion(
 }
 
 /// Creates a function of points.
-const fn of_points(word: Word) -> Function {
+const fn point_function(word: Word) -> Function {
     Function { word, least: 2, most: 2, group: Group::Points, gives_way: true }
 }
 
 /// Text for all motion functions except `poly`.
-pub const OF_MOTIONS: &str = "With `s = (u − u0)/(u1 − u0)` it is `v0 + (v1 − v0) f(s)`, and flat outside: `v0` before `u0`, `v1` \
+pub const MOTION_NOTES: &str = "With `s = (u − u0)/(u1 − u0)` it is `v0 + (v1 − v0) f(s)`, and flat outside: `v0` before `u0`, `v1` \
                               behind `u1`, which is larger than `u0`. `u`, `u0` and `u1` have one dimension, and `v0` and `v1` \
                               that of the result. `u` may be any formula.";
 
-const OF_AN_ANGLE: &str = "The angle is in radians, or has a unit of its own: `30 deg`. Takes and gives a pure number.";
-const AN_ANGLE: &str = "Takes a pure number and gives an angle in radians.";
+const TAKES_ANGLE: &str = "The angle is in radians, or has a unit of its own: `30 deg`. Takes and gives a pure number.";
+const GIVES_ANGLE: &str = "Takes a pure number and gives an angle in radians.";
 const PURE: &str = "Takes and gives a pure number.";
 
 /// All functions.
@@ -125,35 +125,35 @@ pub static FUNCTIONS: &[Function] = &[
         "sin",
         &["sin(a)"],
         "the sine of an angle",
-        OF_AN_ANGLE,
+        TAKES_ANGLE,
         "driver motor: rotation(main) = 30 deg * sin(2 rad/s * t)",
     ),
     pure(
         "cos",
         &["cos(a)"],
         "the cosine of an angle",
-        OF_AN_ANGLE,
+        TAKES_ANGLE,
         "driver motor: rotation(main) = 30 deg * cos(2 rad/s * t)",
     ),
     pure(
         "tan",
         &["tan(a)"],
         "the tangent of an angle",
-        OF_AN_ANGLE,
+        TAKES_ANGLE,
         "param  slope  = tan(15 deg)\nmeasure height = y(arm.tip) - slope * x(arm.tip)",
     ),
     pure(
         "asin",
         &["asin(a)"],
         "the angle whose sine is a, from −π/2 to π/2",
-        AN_ANGLE,
+        GIVES_ANGLE,
         "measure lean = asin(y(arm.tip) / 200 mm)",
     ),
     pure(
         "acos",
         &["acos(a)"],
         "the angle whose cosine is a, from 0 to π",
-        AN_ANGLE,
+        GIVES_ANGLE,
         "measure lean = acos(x(arm.tip) / 200 mm)",
     ),
     pure(
@@ -291,28 +291,28 @@ pub static FUNCTIONS: &[Function] = &[
         group: Group::Derivative,
         gives_way: false,
     },
-    of_points(word(
+    point_function(word(
         "polar",
         &["polar(r, angle)"],
         "the point at a distance r from the origin, in the direction of an angle",
         "`(r * cos(angle), r * sin(angle))`. Added to a point it leads away from there: `A + polar(20 mm, 30 deg)`.",
         "param handle = polar(40 mm, 30 deg)\nmeasure reach = distance(handle, arm.tip)",
     )),
-    of_points(word(
+    point_function(word(
         "mid",
         &["mid(P, Q)"],
         "the point halfway between two points",
         "`(P + Q) / 2`.",
         "param A = (20 mm, 0)\nparam B = (60 mm, 40 mm)\nmeasure reach = distance(mid(A, B), arm.tip)",
     )),
-    of_points(word(
+    point_function(word(
         "length",
         &["length(P, Q)"],
         "how far two drawn points are from each other",
         "A length, and a constant: P and Q are formulas of points. Of points that move it is `distance(P, Q)`.",
         "param A = (20 mm, 0)\nparam B = (60 mm, 30 mm)\nmeasure beyond = x(arm.tip) - length(A, B)",
     )),
-    of_points(word(
+    point_function(word(
         "direction",
         &["direction(P, Q)"],
         "the angle of the way from one drawn point to another, in (−π, π]",

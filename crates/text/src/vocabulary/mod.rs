@@ -5,10 +5,10 @@
 
 mod constants;
 mod dimension;
+mod free_names;
 mod functions;
 mod joints;
 mod keywords;
-mod other_names;
 mod page;
 mod quantities;
 mod reductions;
@@ -18,10 +18,10 @@ mod units;
 
 pub use constants::{CONSTANTS, Constant, StandsFor};
 pub use dimension::Dimension;
+pub use free_names::{KindOfName, another_name};
 pub use functions::{FUNCTIONS, Function, Group};
 pub use joints::{JOINTS, JointKind, JointWord};
 pub use keywords::{KEYWORDS, Keyword, Role, is_before_a_name, is_declaration, is_feature};
-pub use other_names::{KindOfName, another_name};
 pub use page::{OVERVIEWS, page};
 pub use quantities::{QUANTITIES, QuantityWord};
 pub use reductions::{REDUCTIONS, ReductionWord};

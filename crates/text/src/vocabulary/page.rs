@@ -1,6 +1,6 @@
 //! Pages of `mechc explain`: one for each word, and an overview of each kind of words.
 
-use super::functions::OF_MOTIONS;
+use super::functions::MOTION_NOTES;
 use super::joints::NOTATION;
 use super::{
     Category, Example, FUNCTIONS, Function, JOINTS, JointWord, KEYWORDS, Keyword, QUANTITIES, QuantityWord, REDUCTIONS,
@@ -17,7 +17,7 @@ pub const OVERVIEWS: &[&str] =
 /// Returns the page of an overview, a topic or a word. A name of several words has all their pages, one after the other.
 #[must_use]
 pub fn page(name: &str) -> Option<String> {
-    let pages = || words().filter(|word| word.name == name).map(of_word).collect::<Vec<String>>();
+    let pages = || words().filter(|word| word.name == name).map(word_page).collect::<Vec<String>>();
     overview(name)
         .or_else(|| topic(name).map(str::to_owned))
         .or_else(|| Some(pages()).filter(|pages| !pages.is_empty()).map(|pages| pages.join("\n")))
@@ -42,11 +42,11 @@ impl Word {
     /// Returns the text of a mechanism that shows the word.
     #[must_use]
     pub fn example(&self) -> String {
-        let mut used = "";
+        let mut other_mechanism = "";
         let inside = match self.example {
             Example::Whole(inside) => inside.to_owned(),
             Example::Using(other, inside) => {
-                used = other;
+                other_mechanism = other;
                 inside.to_owned()
             }
             Example::Of(other) => return words().find(|word| word.name == other).map_or(String::new(), Word::example),
@@ -60,11 +60,11 @@ impl Word {
             }
         };
         let lines: Vec<String> = inside.lines().map(|line| format!("    {line}")).collect();
-        format!("mechanism example {{\n{}\n}}\n{used}", lines.join("\n"))
+        format!("mechanism example {{\n{}\n}}\n{other_mechanism}", lines.join("\n"))
     }
 }
 
-fn of_word(word: &'static Word) -> String {
+fn word_page(word: &'static Word) -> String {
     let mut text = format!("# `{}`: {}\n\n", word.name, noun(word));
     for form in word.forms {
         text += &format!("    {form}\n");
@@ -125,7 +125,7 @@ fn details(word: &Word) -> Vec<String> {
         ));
     }
     if Function::named(word.name).is_some_and(|function| function.group == super::Group::Motion) {
-        details.push(OF_MOTIONS.to_owned());
+        details.push(MOTION_NOTES.to_owned());
     }
     details
 }
@@ -135,8 +135,10 @@ fn equations(joint: &JointWord) -> String {
     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     let mut text = count(joint.equations, "equation");
     if !joint.coordinates.is_empty() {
-        let own: Vec<String> = joint.coordinates.iter().map(|(name, what)| format!("`{name}`, {what}")).collect();
-        text += &format!(", and {} of its own: {}", count(joint.coordinates.len(), "coordinate"), own.join("; "));
+        let coordinates: Vec<String> =
+            joint.coordinates.iter().map(|(name, what)| format!("`{name}`, {what}")).collect();
+        text +=
+            &format!(", and {} of its own: {}", count(joint.coordinates.len(), "coordinate"), coordinates.join("; "));
     }
     text + "."
 }
@@ -154,7 +156,7 @@ fn in_si(unit: &Unit) -> String {
 // ---- overviews
 
 fn overview(name: &str) -> Option<String> {
-    let of_category = |wanted: Category| words().filter(move |word| word.category == wanted).collect::<Vec<_>>();
+    let words_of = |category: Category| words().filter(move |word| word.category == category).collect::<Vec<_>>();
     Some(match name {
         "functions" => {
             let functions: Vec<&Word> = FUNCTIONS.iter().filter(|f| !f.is_motion()).map(|f| &f.word).collect();
@@ -162,7 +164,7 @@ fn overview(name: &str) -> Option<String> {
                          `mechc explain motions`; `fn` declares more.";
             list("Functions", intro, &functions)
         }
-        "motions" => list("Motion functions", OF_MOTIONS, &of_category(Category::Motion)),
+        "motions" => list("Motion functions", MOTION_NOTES, &words_of(Category::Motion)),
         "quantities" => {
             let quantities: Vec<&Word> = QUANTITIES.iter().map(|quantity| &quantity.word).collect();
             let intro = "Numbers that depend on where the bodies are. An equation between them is a `constraint`, one with time a \
@@ -184,7 +186,7 @@ fn overview(name: &str) -> Option<String> {
         }
         "units" => units(),
         "keywords" => keywords(),
-        "constants" => list("Constants", "Names that are always there.", &of_category(Category::Constant)),
+        "constants" => list("Constants", "Names that are always there.", &words_of(Category::Constant)),
         _ => return None,
     })
 }

@@ -52,7 +52,7 @@ const fn time(
 }
 
 /// Creates a unit of angle or rate, `factor / denominator` in SI.
-const fn turning(word: Word, factor: f64, denominator: f64, dimension: Dimension) -> Unit {
+const fn angular(word: Word, factor: f64, denominator: f64, dimension: Dimension) -> Unit {
     Unit { word, numerator: 1.0, denominator, factor, dimension, gives_way: false }
 }
 
@@ -128,7 +128,7 @@ pub static UNITS: &[Unit] = &[
     length("km", &["2 km"], "the kilometre", 1e3, 1.0, "measure beyond = x(arm.tip) - 0.001 km"),
     length("in", &["2 in"], "the inch, 25.4 mm", 254.0, 1e4, "measure beyond = x(arm.tip) - 2 in"),
     length("ft", &["3 ft"], "the foot, 12 inches", 3048.0, 1e4, "measure beyond = x(arm.tip) - 0.1 ft"),
-    turning(
+    angular(
         word("rad", &["2 rad"], "the radian, which is the pure number 1", "driver motor: rotation(main) = 2 rad/s * t"),
         1.0,
         1.0,
@@ -136,7 +136,7 @@ pub static UNITS: &[Unit] = &[
     ),
     Unit {
         gives_way: true,
-        ..turning(
+        ..angular(
             word(
                 "mrad",
                 &["5 mrad"],
@@ -148,7 +148,7 @@ pub static UNITS: &[Unit] = &[
             Dimension::PURE,
         )
     },
-    turning(
+    angular(
         word(
             "deg",
             &["30 deg"],
@@ -159,7 +159,7 @@ pub static UNITS: &[Unit] = &[
         180.0,
         Dimension::PURE,
     ),
-    turning(
+    angular(
         word(
             "rev",
             &["0.5 rev"],
@@ -182,7 +182,7 @@ pub static UNITS: &[Unit] = &[
     ),
     Unit {
         gives_way: true,
-        ..turning(
+        ..angular(
             word(
                 "Hz",
                 &["5 Hz"],
@@ -194,7 +194,7 @@ pub static UNITS: &[Unit] = &[
             Dimension::RATE,
         )
     },
-    turning(
+    angular(
         word(
             "rpm",
             &["60 rpm"],
@@ -371,10 +371,10 @@ impl CompoundUnit {
         for (unit, power) in &self.factors {
             let numerator = unit.numerator * unit.factor;
             // a factor that is not an integer is divided first
-            let divides = if numerator.fract() == 0.0 { 2 } else { 0 };
+            let divisor = if numerator.fract() == 0.0 { 2 } else { 0 };
             for _ in 0..power.abs() {
                 if *power > 0 {
-                    scale[divides] *= numerator;
+                    scale[divisor] *= numerator;
                     scale[1] *= unit.denominator;
                 } else {
                     scale[1] *= numerator;

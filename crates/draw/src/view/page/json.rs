@@ -1,9 +1,11 @@
 //! Data of a page as JSON.
 
-use super::places::Texts;
-use super::{Column, FORMAT, Page, Variant, columns};
-use crate::scene::{Anchor, Contact, ForceValue, ForceVector, Held, Node, Pen, Place, Scene, Torque, Touch, Trace};
-use crate::view::path::data;
+use super::utf16_offsets::Texts;
+use super::{Column, FORMAT, Page, Variant, table_compression};
+use crate::scene::{
+    Alignment, Anchor, Attachment, Contact, ForceValue, ForceVector, Node, Pen, Scene, Torque, Touch, Trace,
+};
+use crate::view::path::path_data;
 use mechc_text::diag::Diagnostic;
 use mechc_text::source::Source;
 use serde_json::{Map, Value, json};
@@ -15,30 +17,30 @@ const LEAST_DIGITS: f64 = 1e5;
 const MOST_DECIMALS: usize = 30;
 
 /// Writes the data with every `every`th row of the tables and the last one. It contains nothing that ends a script element.
-pub(super) fn written(page: &Page, every: usize) -> String {
+pub(super) fn write(page: &Page, every: usize) -> String {
     // a script element ends at `</script`, and `<!--` has a meaning of its own
-    value(page, every, Tables::Within).to_string().replace('<', "\\u003c")
+    value(page, every, Tables::Embedded).to_string().replace('<', "\\u003c")
 }
 
 /// Location of the numbers of tables.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Tables {
-    Within,
-    Beside,
+    Embedded,
+    Separate,
 }
 
 /// Returns the data, or null if the page has no variant to show.
 pub(super) fn value(page: &Page, every: usize, tables: Tables) -> Value {
-    let texts = Texts::of(&page.texts);
+    let texts = Texts::new(&page.texts);
     let Some(first) = page.first() else { return Value::Null };
     let scene = scene(first.scene, &texts);
     let variants: Vec<Value> = page
         .variants
         .iter()
         .map(|variant| {
-            let table = if tables == Tables::Within { table(variant, every, page.columns.len()) } else { Vec::new() };
-            let packed = if table.is_empty() { String::new() } else { columns::written(&table) };
-            variant_with(variant, every, &packed, &texts, (first.scene, &scene))
+            let table = if tables == Tables::Embedded { table(variant, every, page.columns.len()) } else { Vec::new() };
+            let packed = if table.is_empty() { String::new() } else { table_compression::compress(&table) };
+            variant_object(variant, every, &packed, &texts, (first.scene, &scene))
         })
         .collect();
     let mut all = json!({
@@ -49,14 +51,14 @@ pub(super) fn value(page: &Page, every: usize, tables: Tables) -> Value {
         "docs": first.scene.docs.join("\n"),
         "texts": page.texts.iter().map(|(_, source)| text(source)).collect::<Vec<_>>(),
         "scene": scene,
-        "columns": page.columns.iter().map(|column| Value::Object(column_of(column))).collect::<Vec<_>>(),
+        "columns": page.columns.iter().map(|column| Value::Object(column_object(column))).collect::<Vec<_>>(),
         "vary": page.vary.iter().map(|vary| {
             json!({ "name": vary.name, "unit": vary.unit, "values": vary.values, "nearest": vary.nearest, "own": vary.own })
         }).collect::<Vec<_>>(),
         "variants": variants,
     });
-    if let (Some(said), Some(object)) = (thinned(first, every), all.as_object_mut()) {
-        object.insert("thinned".to_owned(), said.into());
+    if let (Some(message), Some(object)) = (thinning_note(first, every), all.as_object_mut()) {
+        object.insert("thinned".to_owned(), message.into());
     }
     all
 }
@@ -67,7 +69,7 @@ fn text(source: &Source) -> Value {
     json!({ "name": name, "text": source.text })
 }
 
-fn column_of(column: &Column) -> Map<String, Value> {
+fn column_object(column: &Column) -> Map<String, Value> {
     let mut object = Map::new();
     object.insert("name".to_owned(), column.name.into());
     object.insert("unit".to_owned(), column.unit.into());
@@ -81,13 +83,13 @@ fn column_of(column: &Column) -> Map<String, Value> {
 }
 
 /// Returns the note that rows were left out, if any were.
-fn thinned(variant: &Variant, every: usize) -> Option<String> {
-    let (all, kept) = (variant.all_rows, kept(variant.motion.rows().len(), every).count());
+fn thinning_note(variant: &Variant, every: usize) -> Option<String> {
+    let (all, kept) = (variant.all_rows, kept_rows(variant.motion.rows().len(), every).count());
     (kept < all).then(|| format!("This page has {kept} of the {all} rows of the motion, evenly spread."))
 }
 
 /// Returns every `every`th row and the last one.
-fn kept(rows: usize, every: usize) -> impl Iterator<Item = usize> {
+fn kept_rows(rows: usize, every: usize) -> impl Iterator<Item = usize> {
     let last = rows.checked_sub(1);
     (0..rows).step_by(every).chain(last.filter(move |last| last % every != 0))
 }
@@ -95,16 +97,16 @@ fn kept(rows: usize, every: usize) -> impl Iterator<Item = usize> {
 /// Returns the columns of a table; without rows there are none.
 pub(super) fn table(variant: &Variant, every: usize, count: usize) -> Vec<Vec<f64>> {
     let table = variant.motion.rows();
-    let rows: Vec<usize> = kept(table.len(), every).collect();
-    let of_column = |column: usize| {
+    let rows: Vec<usize> = kept_rows(table.len(), every).collect();
+    let values_of = |column: usize| {
         // infinite values are stored as NaN
         let finite = |value: f64| if value.is_finite() { value } else { f64::NAN };
         rows.iter().map(|row| finite(table[*row].get(column).copied().unwrap_or(f64::NAN))).collect()
     };
-    if rows.is_empty() { Vec::new() } else { (0..count).map(of_column).collect() }
+    if rows.is_empty() { Vec::new() } else { (0..count).map(values_of).collect() }
 }
 
-fn variant_with(
+fn variant_object(
     variant: &Variant,
     every: usize,
     packed: &str,
@@ -112,9 +114,9 @@ fn variant_with(
     (first, shared): (&Scene, &Value),
 ) -> Value {
     let motion = variant.motion;
-    let rows = kept(motion.rows().len(), every).count();
+    let rows = kept_rows(motion.rows().len(), every).count();
     let results = variant.results.iter().map(|(column, value)| {
-        let mut object = column_of(column);
+        let mut object = column_object(column);
         object.insert("value".to_owned(), json!(value));
         Value::Object(object)
     });
@@ -122,7 +124,7 @@ fn variant_with(
         "rows": rows,
         "data": packed,
         "results": results.collect::<Vec<_>>(),
-        "messages": variant.messages.iter().map(|said| message(said, texts)).collect::<Vec<_>>(),
+        "messages": variant.messages.iter().map(|diagnostic| message(diagnostic, texts)).collect::<Vec<_>>(),
         "edges": motion.edges,
     });
     if let Some(object) = object.as_object_mut() {
@@ -134,8 +136,8 @@ fn variant_with(
             object.insert("named".to_owned(), json!(variant.scene.named));
         }
         let is_first = std::ptr::eq(first, variant.scene);
-        let own = if is_first { None } else { changes(shared, &scene(variant.scene, texts)) };
-        if let Some(changes) = own {
+        let scene_changes = if is_first { None } else { changes(shared, &scene(variant.scene, texts)) };
+        if let Some(changes) = scene_changes {
             object.insert("scene".to_owned(), changes);
         }
     }
@@ -151,7 +153,7 @@ fn changes(from: &Value, to: &Value) -> Option<Value> {
     let changed = match (from, to) {
         (Value::Array(from), Value::Array(to)) if from.len() == to.len() => {
             let pairs = from.iter().zip(to).enumerate();
-            pairs.filter_map(|(place, (from, to))| Some((place.to_string(), changes(from, to)?))).collect()
+            pairs.filter_map(|(position, (from, to))| Some((position.to_string(), changes(from, to)?))).collect()
         }
         (Value::Object(from), Value::Object(to)) if from.keys().eq(to.keys()) => {
             let pairs = from.iter().zip(to.values());
@@ -162,20 +164,20 @@ fn changes(from: &Value, to: &Value) -> Option<Value> {
     Some(Value::Object(changed))
 }
 
-fn message(said: &Diagnostic, texts: &Texts) -> Value {
+fn message(message: &Diagnostic, texts: &Texts) -> Value {
     let label = |label: &mechc_text::diag::Label| {
-        let (text, from, to) = texts.place(label.span)?;
+        let (text, from, to) = texts.locate(label.span)?;
         Some(json!({ "text": text, "from": from, "to": to, "says": label.text }))
     };
     let mut object = json!({
-        "severity": said.severity().as_str(),
-        "code": said.code.as_str(),
-        "text": said.message,
-        "labels": said.labels.iter().filter_map(label).collect::<Vec<_>>(),
-        "notes": said.notes,
-        "help": said.help,
+        "severity": message.severity().as_str(),
+        "code": message.code.as_str(),
+        "text": message.message,
+        "labels": message.labels.iter().filter_map(label).collect::<Vec<_>>(),
+        "notes": message.notes,
+        "help": message.help,
     });
-    if let (Some(time), Some(object)) = (said.data.get("t").and_then(Value::as_f64), object.as_object_mut()) {
+    if let (Some(time), Some(object)) = (message.data.get("t").and_then(Value::as_f64), object.as_object_mut()) {
         object.insert("time".to_owned(), time.into());
     }
     object
@@ -185,7 +187,7 @@ fn message(said: &Diagnostic, texts: &Texts) -> Value {
 pub(super) fn scene(scene: &Scene, texts: &Texts) -> Value {
     let decimals = decimals(scene.unit);
     let declarations = scene.declarations.iter().map(|declaration| {
-        let (text, from, to) = texts.place(declaration.span).unwrap_or_default();
+        let (text, from, to) = texts.locate(declaration.span).unwrap_or_default();
         json!([declaration.name, declaration.kind, text, from, to])
     });
     let points = scene.points.iter().map(|point| {
@@ -201,7 +203,7 @@ pub(super) fn scene(scene: &Scene, texts: &Texts) -> Value {
         "declarations": declarations.collect::<Vec<_>>(),
         "frames": scene.frames,
         "points": points.collect::<Vec<_>>(),
-        "nodes": scene.nodes.iter().map(|node| written_node(node, decimals)).collect::<Vec<_>>(),
+        "nodes": scene.nodes.iter().map(|node| node_value(node, decimals)).collect::<Vec<_>>(),
         "traces": scene.traces.iter().map(trace).collect::<Vec<_>>(),
         "profiles": scene.profiles.iter().map(|profile| {
             json!({ "declaration": profile.declaration, "frame": profile.frame })
@@ -231,17 +233,17 @@ fn decimals(unit: f64) -> usize {
     decimals
 }
 
-fn placed(anchor: &Anchor) -> Value {
+fn anchor_value(anchor: &Anchor) -> Value {
     json!([anchor.frame, anchor.at[0], anchor.at[1]])
 }
 
 fn force(force: &ForceVector) -> Value {
-    let mut all = json!({ "declaration": force.declaration, "kind": force.kind.word(), "at": placed(&force.at) });
+    let mut all = json!({ "declaration": force.declaration, "kind": force.kind.word(), "at": anchor_value(&force.at) });
     let (name, value) = match &force.value {
         ForceValue::Constant(force) => ("constant", json!(force)),
         ForceValue::Components(columns) => ("columns", json!(columns)),
         ForceValue::Along { column, frame, direction } => ("along", json!([column, frame, direction])),
-        ForceValue::Apart { column, from, to } => ("apart", json!([column, placed(from), placed(to)])),
+        ForceValue::Apart { column, from, to } => ("apart", json!([column, anchor_value(from), anchor_value(to)])),
     };
     if let Some(object) = all.as_object_mut() {
         object.insert(name.to_owned(), value);
@@ -250,25 +252,27 @@ fn force(force: &ForceVector) -> Value {
 }
 
 fn torque(Torque { declaration, kind, at, column, sign }: &Torque) -> Value {
-    json!({ "declaration": declaration, "kind": kind.word(), "at": placed(at), "column": column, "sign": sign })
+    json!({ "declaration": declaration, "kind": kind.word(), "at": anchor_value(at), "column": column, "sign": sign })
 }
 
-fn written_node(node: &Node, decimals: usize) -> Value {
-    let (name, place) = match &node.place {
-        Place::Fixed(frame) => ("fixed", json!(frame)),
-        Place::Upright(at) => ("upright", placed(at)),
-        Place::Between { from, to, held } => {
-            let held = match held {
-                Held::From => "from",
-                Held::To => "to",
-                Held::Stretched => "stretched",
+fn node_value(node: &Node, decimals: usize) -> Value {
+    let (name, position) = match &node.attachment {
+        Attachment::Fixed(frame) => ("fixed", json!(frame)),
+        Attachment::Upright(at) => ("upright", anchor_value(at)),
+        Attachment::Between { from, to, alignment } => {
+            let alignment = match alignment {
+                Alignment::Start => "from",
+                Alignment::End => "to",
+                Alignment::Stretch => "stretched",
             };
-            ("between", json!([placed(from), placed(to), held]))
+            ("between", json!([anchor_value(from), anchor_value(to), alignment]))
         }
     };
-    let shapes =
-        node.shapes.iter().map(|shape| json!({ "look": shape.look.word(), "d": data(&shape.path, 1.0, decimals) }));
-    json!({ "declaration": node.declaration, name: place, "shapes": shapes.collect::<Vec<_>>() })
+    let shapes = node
+        .shapes
+        .iter()
+        .map(|shape| json!({ "look": shape.look.word(), "d": path_data(&shape.path, 1.0, decimals) }));
+    json!({ "declaration": node.declaration, name: position, "shapes": shapes.collect::<Vec<_>>() })
 }
 
 fn contact(contact: &Contact) -> Value {
@@ -295,7 +299,7 @@ fn trace(trace: &Trace) -> Value {
 
 #[cfg(test)]
 mod tests {
-    use super::{changes, decimals, kept};
+    use super::{changes, decimals, kept_rows};
     use serde_json::json;
 
     #[test]
@@ -310,7 +314,7 @@ mod tests {
 
     #[test]
     fn the_last_row_is_kept() {
-        let kept = |rows, every| kept(rows, every).collect::<Vec<_>>();
+        let kept = |rows, every| kept_rows(rows, every).collect::<Vec<_>>();
         assert_eq!(kept(7, 3), [0, 3, 6]);
         assert_eq!(kept(6, 3), [0, 3, 5]);
         assert_eq!(kept(3, 1), [0, 1, 2]);
@@ -320,8 +324,8 @@ mod tests {
 
     #[test]
     fn shapes_have_six_digits_of_a_symbol() {
-        for (unit, wanted) in [(0.004, 8), (40.0, 4), (4e-8, 13), (1.0, 5)] {
-            assert_eq!(decimals(unit), wanted, "{unit}");
+        for (unit, expected) in [(0.004, 8), (40.0, 4), (4e-8, 13), (1.0, 5)] {
+            assert_eq!(decimals(unit), expected, "{unit}");
         }
     }
 }

@@ -1,8 +1,8 @@
 //! First moment of the motion as SVG for readers without scripts, in the style of the page.
 
-use crate::scene::{Motion, Node, Place, Pose, Scene};
-use crate::view::path::written;
-use crate::view::text::number;
+use crate::scene::{Attachment, Motion, Node, Pose, Scene};
+use crate::view::path::write_path;
+use crate::view::text::format_number;
 
 /// Longer side (px), and decimals of pixels.
 const SIZE: f64 = 800.0;
@@ -18,7 +18,7 @@ pub(super) fn still(scene: &Scene, motion: &Motion) -> String {
         return String::new();
     }
     let scale = SIZE / longer;
-    let [width, height] = [right - left, top - bottom].map(|side| number(scale * side, DECIMALS));
+    let [width, height] = [right - left, top - bottom].map(|side| format_number(scale * side, DECIMALS));
     let mut svg = format!(
         "<svg class=\"still-picture mechanism\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"the mechanism as the motion begins\">"
     );
@@ -33,20 +33,20 @@ fn add(
     svg: &mut String,
     (node, is_named): (&Node, bool),
     poses: &[Pose],
-    placed: &dyn Fn([f64; 2]) -> [f64; 2],
+    convert: &dyn Fn([f64; 2]) -> [f64; 2],
     scale: f64,
 ) {
-    let (pose, stretch) = node.place.pose(poses);
-    let frame = match node.place {
-        Place::Fixed(frame) => frame,
-        Place::Upright(anchor) => anchor.frame,
-        Place::Between { .. } => 0,
+    let (pose, stretch) = node.attachment.pose(poses);
+    let frame = match node.attachment {
+        Attachment::Fixed(frame) => frame,
+        Attachment::Upright(anchor) => anchor.frame,
+        Attachment::Between { .. } => 0,
     };
     let tint = frame.checked_sub(1).map_or("ground".to_owned(), |body| (body % TINTS).to_string());
     let wrong = if is_named { " wrong" } else { "" };
     *svg += &format!("<g class=\"node tint-{tint}{wrong}\">");
     for shape in &node.shapes {
-        let d = written(&shape.path, &|[x, y]| placed(pose.placed([stretch * x, y])), scale, DECIMALS);
+        let d = write_path(&shape.path, &|[x, y]| convert(pose.transform([stretch * x, y])), scale, DECIMALS);
         *svg += &format!("<path class=\"look-{}\" d=\"{d}\"/>", shape.look.word());
     }
     *svg += "</g>";

@@ -3,22 +3,22 @@
 use super::nodes::degrees;
 use super::picture::Picture;
 use super::picture::{DEGREES, PIXELS};
-use crate::scene::{Motion, Node, Place, Pose, Vector, distance, times};
-use crate::view::text::number;
+use crate::scene::{Attachment, Motion, Node, Pose, Vector, distance, times};
+use crate::view::text::format_number;
 use rustc_hash::FxHashMap;
 
 /// Duration of one run (s).
 const SECONDS: f64 = 6.0;
 /// Tolerance of positions (px), rounding included.
-const OFF: f64 = 0.36;
+const TOLERANCE: f64 = 0.36;
 /// Number of moments at which positions are checked, as far as rows allow.
-const LOOKED_AT: usize = 2400;
+const CHECKED_MOMENTS: usize = 2400;
 /// Limit of moments from row to row.
 const MOST_BETWEEN: usize = 16;
 /// Distance of all positions within which the motion ends as it begins (px).
-const CLOSES: f64 = 1.5;
+const CLOSING_DISTANCE: f64 = 1.5;
 /// Number of moments at which labels must not overlap.
-const LABELLED_AT: usize = 48;
+const LABELLED_MOMENTS: usize = 48;
 /// Decimals of a percentage of the run.
 const PERCENT: usize = 3;
 
@@ -32,16 +32,16 @@ pub(super) struct Key {
 
 /// Parts of a transform that a group needs.
 #[derive(Clone, Copy, Debug)]
-struct Needs {
+struct TransformParts {
     turns: bool,
     stretches: bool,
 }
 
-impl Needs {
-    fn of<'k>(keys: impl Iterator<Item = &'k Key>) -> Needs {
-        keys.fold(Needs { turns: false, stretches: false }, |needs, key| Needs {
-            turns: needs.turns || key.rounded().turn != 0.0,
-            stretches: needs.stretches || key.stretch.iter().any(|part| (part - 1.0).abs() > 0.0),
+impl TransformParts {
+    fn new<'k>(keys: impl Iterator<Item = &'k Key>) -> TransformParts {
+        keys.fold(TransformParts { turns: false, stretches: false }, |parts, key| TransformParts {
+            turns: parts.turns || key.rounded().turn != 0.0,
+            stretches: parts.stretches || key.stretch.iter().any(|part| (part - 1.0).abs() > 0.0),
         })
     }
 }
@@ -57,7 +57,7 @@ impl Key {
     }
 
     /// Returns the function that applies the transform.
-    fn placing(&self) -> impl Fn(Vector) -> Vector + use<> {
+    fn apply(&self) -> impl Fn(Vector) -> Vector + use<> {
         let (sin, cos) = mechc_expr::math::sin_cos(self.turn.to_radians());
         let Key { at, stretch, .. } = *self;
         move |[x, y]| {
@@ -81,7 +81,7 @@ impl Key {
 /// Shapes that move together, with the origin (m) of their transforms.
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Mover {
-    place: Place,
+    attachment: Attachment,
     origin: Vector,
 }
 
@@ -92,9 +92,9 @@ struct Moments {
 }
 
 impl Moments {
-    fn of(motion: &Motion) -> Moments {
+    fn new(motion: &Motion) -> Moments {
         let steps = motion.len() - 1;
-        let between = (LOOKED_AT / steps.max(1)).clamp(1, MOST_BETWEEN);
+        let between = (CHECKED_MOMENTS / steps.max(1)).clamp(1, MOST_BETWEEN);
         let mut times = Vec::with_capacity(steps * between + 1);
         for pair in motion.times.windows(2) {
             times.extend((0..between).map(|k| pair[0] + (pair[1] - pair[0]) * k as f64 / between as f64));
@@ -113,31 +113,31 @@ impl Moments {
 impl Picture<'_> {
     /// Adds all nodes, moving.
     pub fn add_motion(&mut self, motion: &Motion) {
-        let moments = Moments::of(motion);
+        let moments = Moments::new(motion);
         let direction = if self.closes(motion) { "" } else { " alternate" };
-        self.rules += &format!(".m{{animation:{}s linear infinite{direction}}}\n", number(SECONDS, 1));
-        let mut known: Vec<(Mover, String)> = Vec::new();
+        self.rules += &format!(".m{{animation:{}s linear infinite{direction}}}\n", format_number(SECONDS, 1));
+        let mut animations: Vec<(Mover, String)> = Vec::new();
         let mut by_frame: FxHashMap<usize, usize> = FxHashMap::default();
         let scene = self.scene;
         for node in &scene.nodes {
-            if node.place == Place::Fixed(0) {
+            if node.attachment == Attachment::Fixed(0) {
                 self.add_group(node, [0.0; 2], "", true);
                 continue;
             }
-            let found = match node.place {
-                Place::Fixed(frame) => by_frame.get(&frame).copied(),
-                _ => known.iter().position(|(mover, _)| mover.place == node.place),
+            let index = match node.attachment {
+                Attachment::Fixed(frame) => by_frame.get(&frame).copied(),
+                _ => animations.iter().position(|(mover, _)| mover.attachment == node.attachment),
             };
-            let number = found.unwrap_or_else(|| {
+            let number = index.unwrap_or_else(|| {
                 let mover = self.mover(node, motion);
-                let track = self.track(&mover, &moments);
-                known.push((mover, self.add_track(&track)));
-                if let Place::Fixed(frame) = node.place {
-                    by_frame.insert(frame, known.len() - 1);
+                let animation = self.animation(&mover, &moments);
+                animations.push((mover, self.add_animation(&animation)));
+                if let Attachment::Fixed(frame) = node.attachment {
+                    by_frame.insert(frame, animations.len() - 1);
                 }
-                known.len() - 1
+                animations.len() - 1
             });
-            let (mover, attributes) = &known[number];
+            let (mover, attributes) = &animations[number];
             self.add_group(node, mover.origin, attributes, true);
         }
         self.add_traces(motion);
@@ -148,11 +148,11 @@ impl Picture<'_> {
             self.add_moving_forces(motion);
         }
         if self.options.labels {
-            let some: Vec<&[Pose]> = motion.sampled(LABELLED_AT).map(|row| motion.poses(row)).collect();
+            let some: Vec<&[Pose]> = motion.sampled(LABELLED_MOMENTS).map(|row| motion.poses(row)).collect();
             for label in self.labels(&some) {
-                let mover = Mover { place: Place::Upright(label.anchor), origin: [0.0; 2] };
-                let track = self.track(&mover, &moments);
-                let attributes = self.add_track(&track);
+                let mover = Mover { attachment: Attachment::Upright(label.anchor), origin: [0.0; 2] };
+                let animation = self.animation(&mover, &moments);
+                let attributes = self.add_animation(&animation);
                 self.add_label(&label, [0.0; 2], Some(&attributes));
             }
         }
@@ -163,45 +163,48 @@ impl Picture<'_> {
     fn closes(&self, motion: &Motion) -> bool {
         let (first, last) = (motion.poses(0), motion.poses(motion.len() - 1));
         self.scene.nodes.iter().all(|node| {
-            let [(from, stretch), (to, other)] = [first, last].map(|poses| node.place.pose(poses));
-            let places = node.shapes.iter().flat_map(|shape| shape.path.places());
-            places.take(64).all(|[x, y]| {
-                let way = distance(from.placed([stretch * x, y]), to.placed([other * x, y]));
-                way * self.scale <= CLOSES
+            let [(from, stretch), (to, other)] = [first, last].map(|poses| node.attachment.pose(poses));
+            let positions = node.shapes.iter().flat_map(|shape| shape.path.positions());
+            positions.take(64).all(|[x, y]| {
+                let distance = distance(from.transform([stretch * x, y]), to.transform([other * x, y]));
+                distance * self.scale <= CLOSING_DISTANCE
             })
         })
     }
 
     /// Returns the mover of a node. Its origin is the circle centre of its frame that moves least.
     fn mover(&self, node: &Node, motion: &Motion) -> Mover {
-        let Place::Fixed(frame) = node.place else { return Mover { place: node.place, origin: [0.0; 2] } };
-        let own = self.scene.nodes.iter().filter(|other| other.place == node.place);
-        let centers = own.flat_map(|other| &other.shapes).filter_map(|shape| match &shape.path {
+        let Attachment::Fixed(frame) = node.attachment else {
+            return Mover { attachment: node.attachment, origin: [0.0; 2] };
+        };
+        let nodes = self.scene.nodes.iter().filter(|other| other.attachment == node.attachment);
+        let centers = nodes.flat_map(|other| &other.shapes).filter_map(|shape| match &shape.path {
             crate::scene::Path::Circle { at, .. } => Some(*at),
             crate::scene::Path::Lines(_) => None,
         });
-        let way = |place: Vector| -> f64 {
-            let path: Vec<Vector> = motion.sampled(100).map(|row| motion.poses(row)[frame].placed(place)).collect();
+        let travel = |position: Vector| -> f64 {
+            let path: Vec<Vector> =
+                motion.sampled(100).map(|row| motion.poses(row)[frame].transform(position)).collect();
             path.windows(2).map(|pair| distance(pair[0], pair[1])).sum()
         };
-        let least = centers.take(12).map(|place| (way(place), place)).min_by(|a, b| a.0.total_cmp(&b.0));
-        Mover { place: node.place, origin: least.map_or([0.0; 2], |(_, place)| place) }
+        let least = centers.take(12).map(|position| (travel(position), position)).min_by(|a, b| a.0.total_cmp(&b.0));
+        Mover { attachment: node.attachment, origin: least.map_or([0.0; 2], |(_, position)| position) }
     }
 
     /// Returns the key of a mover at a moment.
     fn key(&self, mover: &Mover, poses: &[Pose]) -> Key {
-        let (pose, stretch) = mover.place.pose(poses);
-        let at = self.placed(pose.placed(mover.origin));
-        let is_stretched = mover.place.is_stretched();
+        let (pose, stretch) = mover.attachment.pose(poses);
+        let at = self.to_pixels(pose.transform(mover.origin));
+        let is_stretched = mover.attachment.is_stretched();
         Key { at, turn: degrees(pose.phi), stretch: if is_stretched { [stretch * self.scale, 1.0] } else { [1.0; 2] } }
     }
 
     /// Returns the positions that a mover shows, before its transform (px).
-    fn shown_by(&self, mover: &Mover) -> Vec<Vector> {
-        let is_stretched = mover.place.is_stretched();
-        let own = self.scene.nodes.iter().filter(|node| node.place == mover.place);
-        let places = own.flat_map(|node| &node.shapes).flat_map(|shape| shape.path.places());
-        let local = places.map(|[x, y]| {
+    fn shown_positions(&self, mover: &Mover) -> Vec<Vector> {
+        let is_stretched = mover.attachment.is_stretched();
+        let nodes = self.scene.nodes.iter().filter(|node| node.attachment == mover.attachment);
+        let positions = nodes.flat_map(|node| &node.shapes).flat_map(|shape| shape.path.positions());
+        let local = positions.map(|[x, y]| {
             if is_stretched {
                 return [x, -self.scale * y];
             }
@@ -213,16 +216,16 @@ impl Picture<'_> {
     }
 
     /// Returns the track of a mover.
-    fn track(&self, mover: &Mover, moments: &Moments) -> Track {
+    fn animation(&self, mover: &Mover, moments: &Moments) -> Animation {
         let keys: Vec<Key> = moments.poses.iter().map(|poses| self.key(mover, poses)).collect();
-        let is_fixed = matches!(mover.place, Place::Fixed(_));
-        Track::of(keys, &self.shown_by(mover), &moments.times, is_fixed)
+        let is_fixed = matches!(mover.attachment, Attachment::Fixed(_));
+        Animation::new(keys, &self.shown_positions(mover), &moments.times, is_fixed)
     }
 
     /// Adds a track to the style sheet and returns the attributes of the groups that follow it.
-    pub(super) fn add_track(&mut self, track: &Track) -> String {
-        let first = format!(" transform=\"{}\"", track.first);
-        let Some(keyframes) = &track.keyframes else { return first };
+    pub(super) fn add_animation(&mut self, animation: &Animation) -> String {
+        let first = format!(" transform=\"{}\"", animation.first);
+        let Some(keyframes) = &animation.keyframes else { return first };
         let number = self.tracks;
         self.tracks += 1;
         self.rules += &format!(".m{number}{{animation-name:k{number}}}\n@keyframes k{number}{{{keyframes}}}\n");
@@ -233,54 +236,58 @@ impl Picture<'_> {
 
 /// Animation of a group.
 #[derive(Clone, Debug)]
-pub(super) struct Track {
+pub(super) struct Animation {
     /// Keyframes, or `None` if the group stays where it begins.
     keyframes: Option<String>,
     /// Transform attribute of the first key.
     first: String,
 }
 
-impl Track {
+impl Animation {
     /// Creates a track with keys at some times (s), for a group that shows some positions. Without `has_turns` the angles are directions,
     /// which may jump by a turn.
-    pub(super) fn of(mut keys: Vec<Key>, shown: &[Vector], times: &[f64], has_turns: bool) -> Track {
+    pub(super) fn new(mut keys: Vec<Key>, shown: &[Vector], times: &[f64], has_turns: bool) -> Animation {
         if !has_turns {
             unwrap(&mut keys);
         }
-        let needs = Needs::of(keys.iter());
-        let first = attribute(&keys[0], needs);
-        let chosen = chosen(&keys, shown, times);
+        let parts = TransformParts::new(keys.iter());
+        let first = attribute(&keys[0], parts);
+        let chosen = choose_keys(&keys, shown, times);
         if chosen.iter().all(|&k| keys[k].rounded() == keys[0].rounded()) {
-            return Track { keyframes: None, first };
+            return Animation { keyframes: None, first };
         }
         let (begin, end) = (times[0], times[times.len() - 1]);
         let mut text = String::new();
         for &k in &chosen {
             let Key { at: [x, y], turn, stretch } = keys[k];
-            let percent = number(100.0 * (times[k] - begin) / (end - begin), PERCENT);
-            text += &format!("{percent}%{{transform:translate({}px,{}px)", number(x, PIXELS), number(y, PIXELS));
-            if needs.turns {
-                text += &format!(" rotate({}deg)", number(turn, DEGREES));
+            let percent = format_number(100.0 * (times[k] - begin) / (end - begin), PERCENT);
+            text += &format!(
+                "{percent}%{{transform:translate({}px,{}px)",
+                format_number(x, PIXELS),
+                format_number(y, PIXELS)
+            );
+            if parts.turns {
+                text += &format!(" rotate({}deg)", format_number(turn, DEGREES));
             }
-            if needs.stretches {
-                let [x, y] = stretch.map(|part| number(part, PIXELS));
+            if parts.stretches {
+                let [x, y] = stretch.map(|part| format_number(part, PIXELS));
                 text += &format!(" scale({x},{y})");
             }
             text += "}";
         }
-        Track { keyframes: Some(text), first }
+        Animation { keyframes: Some(text), first }
     }
 }
 
 /// Returns the transform attribute of a key.
-fn attribute(key: &Key, needs: Needs) -> String {
+fn attribute(key: &Key, parts: TransformParts) -> String {
     let Key { at: [x, y], turn, stretch } = *key;
-    let mut text = format!("translate({} {})", number(x, PIXELS), number(y, PIXELS));
-    if needs.turns && key.rounded().turn != 0.0 {
-        text += &format!(" rotate({})", number(turn, DEGREES));
+    let mut text = format!("translate({} {})", format_number(x, PIXELS), format_number(y, PIXELS));
+    if parts.turns && key.rounded().turn != 0.0 {
+        text += &format!(" rotate({})", format_number(turn, DEGREES));
     }
-    if needs.stretches {
-        let [x, y] = stretch.map(|part| number(part, PIXELS));
+    if parts.stretches {
+        let [x, y] = stretch.map(|part| format_number(part, PIXELS));
         text += &format!(" scale({x} {y})");
     }
     text
@@ -295,18 +302,19 @@ fn unwrap(keys: &mut [Key]) {
 }
 
 /// Chooses the moments that become keys: as few as keep all positions within the tolerance at the other moments.
-fn chosen(keys: &[Key], shown: &[Vector], times: &[f64]) -> Vec<usize> {
+fn choose_keys(keys: &[Key], shown: &[Vector], times: &[f64]) -> Vec<usize> {
     let last = keys.len() - 1;
-    let wanted: Vec<Vector> = keys.iter().flat_map(|key| shown.iter().copied().map(key.placing())).collect();
-    let held = |from: usize, to: usize| {
+    let expected: Vec<Vector> = keys.iter().flat_map(|key| shown.iter().copied().map(key.apply())).collect();
+    let is_within_tolerance = |from: usize, to: usize| {
         let (a, b) = (keys[from].rounded(), keys[to].rounded());
         let length = times[to] - times[from];
         (from + 1..to).all(|k| {
             let part = if length > 0.0 { (times[k] - times[from]) / length } else { 0.0 };
             let guess = a.between(&b, part);
-            let wanted = wanted[k * shown.len()..].iter();
-            let mut places = shown.iter().copied().map(guess.placing()).zip(wanted);
-            distance(guess.at, keys[k].at) <= OFF && places.all(|(found, wanted)| distance(found, *wanted) <= OFF)
+            let expected = expected[k * shown.len()..].iter();
+            let mut positions = shown.iter().copied().map(guess.apply()).zip(expected);
+            distance(guess.at, keys[k].at) <= TOLERANCE
+                && positions.all(|(index, expected)| distance(index, *expected) <= TOLERANCE)
         })
     };
     let (mut chosen, mut from) = (vec![0], 0);
@@ -315,7 +323,7 @@ fn chosen(keys: &[Key], shown: &[Vector], times: &[f64]) -> Vec<usize> {
         // doubling steps, then bisection
         while good < last {
             let next = (good + step).min(last);
-            if !held(from, next) {
+            if !is_within_tolerance(from, next) {
                 break;
             }
             (good, step) = (next, 2 * step);
@@ -323,7 +331,7 @@ fn chosen(keys: &[Key], shown: &[Vector], times: &[f64]) -> Vec<usize> {
         while step > 1 {
             step /= 2;
             let next = (good + step).min(last);
-            if next > good && held(from, next) {
+            if next > good && is_within_tolerance(from, next) {
                 good = next;
             }
         }

@@ -2,19 +2,21 @@
 //! bodies only where there is no other room. A label that could be mistaken for another name has a leader. A label without a position is
 //! left out; bodies have their names as titles, too.
 
-use super::letters::{COLUMN, columns, letters};
 use super::picture::{PIXELS, Picture};
-use crate::scene::{Anchor, Look, Node, Path, Place, Pose, Vector, bounds, distance, dot, hull, minus, plus, times};
-use crate::view::text::{escaped, number};
+use super::style::{COLUMN_WIDTH, letter_size, text_columns};
+use crate::scene::{
+    Anchor, Attachment, Look, Node, Path, Pose, Vector, bounds, distance, dot, hull, minus, plus, times,
+};
+use crate::view::text::{escape, format_number};
 
 /// Length limit of names (characters).
-const LONGEST: usize = 32;
+const LONGEST_NAME: usize = 32;
 /// Limit of labels.
-const MOST: usize = 400;
+const MOST_LABELS: usize = 400;
 
 /// Distance of a label from a pin, and from the middle of a body (symbol units).
-const BESIDE_PIN: f64 = 0.42;
-const BESIDE_BODY: f64 = 0.66;
+const TO_PIN: f64 = 0.42;
+const TO_BODY: f64 = 0.66;
 /// Radius around a pin that labels avoid (symbol units).
 const PIN: f64 = 0.34;
 /// Rings of candidate positions: their distance in half heights of a label, and its cost.
@@ -24,25 +26,25 @@ const NEXT_DIRECTION: f64 = 0.03;
 /// Costs of a label that covers a pin, that is full of lines, and that is full of highlighted lines.
 const ON_PIN: f64 = 1.0;
 const ON_LINES: f64 = 1.0;
-const ON_STRONG_LINES: f64 = 1.5;
+const ON_HIGHLIGHTED_LINES: f64 = 1.5;
 /// Cost of a label that is mistaken for another name.
-const MISTAKEN: f64 = 0.8;
+const AMBIGUOUS: f64 = 0.8;
 /// Distance from which on a label has a leader, in half heights of a label.
-const FAR: f64 = 2.5;
+const LEADER_DISTANCE: f64 = 2.5;
 /// Least part of a label's width that its letters fill.
-const LETTERS: f64 = 0.85;
+const LETTER_WIDTH: f64 = 0.85;
 /// Distance of a line that counts as covered (px): between the two sides of a bar there is no room for a name.
 const NEAR_LINE: f64 = 3.0;
 /// Length of lines that fills a label, in heights of the label.
-const FULL: f64 = 2.0;
+const FULL_LENGTH: f64 = 2.0;
 /// Distance of positions on lines (px), and the limit of positions of all moments together.
 const STEP: f64 = 4.0;
-const MOST_PLACES: usize = 200_000;
+const MOST_POSITIONS: usize = 200_000;
 
 /// Looks without lines: thin, pale, or on a shape that has lines.
-const NO_LINES: [Look; 6] = [Look::Pin, Look::Dot, Look::Hatching, Look::Pitch, Look::Cross, Look::Weld];
+const LOOKS_WITHOUT_LINES: [Look; 6] = [Look::Pin, Look::Dot, Look::Hatching, Look::Pitch, Look::Cross, Look::Weld];
 /// Looks with highlighted lines.
-const STRONG: [Look; 7] =
+const HIGHLIGHTED: [Look; 7] =
     [Look::Arrow, Look::ArrowHead, Look::Free, Look::FreeHead, Look::Gap, Look::GapEnd, Look::Named];
 
 /// Filled looks, which may have their body's name on them.
@@ -50,7 +52,7 @@ const FILLED: [Look; 6] = [Look::Link, Look::Gear, Look::Rack, Look::Cam, Look::
 
 /// Kind of label.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Kind {
+enum LabelKind {
     /// Text of a message.
     Remark,
     Body,
@@ -67,7 +69,7 @@ pub(super) struct Label {
     pub offset: Vector,
     /// Half the width and half the height of its box (px).
     pub half: Vector,
-    kind: Kind,
+    kind: LabelKind,
     /// True if a line connects it with its anchor.
     has_leader: bool,
 }
@@ -83,56 +85,57 @@ impl Label {
     fn element(&self, at: Vector, size: f64) -> String {
         let [x, y] = plus(at, self.offset);
         let class = match self.kind {
-            Kind::Remark => "remark",
-            Kind::Body => "body-name",
-            Kind::Point => "point-name",
+            LabelKind::Remark => "remark",
+            LabelKind::Body => "body-name",
+            LabelKind::Point => "point-name",
         };
         let leader = if self.has_leader { self.leader(at) } else { String::new() };
-        let (x, y) = (number(x, PIXELS), number(y + 0.35 * size, PIXELS));
-        format!("{leader}<text class=\"{class}\" x=\"{x}\" y=\"{y}\">{}</text>", escaped(&self.text))
+        let (x, y) = (format_number(x, PIXELS), format_number(y + 0.35 * size, PIXELS));
+        format!("{leader}<text class=\"{class}\" x=\"{x}\" y=\"{y}\">{}</text>", escape(&self.text))
     }
 }
 
 impl Label {
     /// Returns whether the label is too far from what it names at some moment.
     fn is_far(&self, at: &[Vector], field: &Field) -> bool {
-        let most = FAR * self.half[1];
+        let most = LEADER_DISTANCE * self.half[1];
         at.iter().zip(&field.moments).any(|(at, obstacles)| {
-            let own = obstacles.regions.iter().filter(|region| region.frame == self.anchor.frame);
+            let regions = obstacles.regions.iter().filter(|region| region.frame == self.anchor.frame);
             let here @ [low, high] = self.bounds(*at);
-            let to_place = distance([0, 1].map(|part| at[part].clamp(low[part], high[part])), *at);
+            let to_position = distance([0, 1].map(|part| at[part].clamp(low[part], high[part])), *at);
             match self.kind {
-                Kind::Remark => false,
-                Kind::Point => to_place > most,
-                Kind::Body => own.map(|region| region.distance(here)).fold(to_place, f64::min) > most,
+                LabelKind::Remark => false,
+                LabelKind::Point => to_position > most,
+                LabelKind::Body => regions.map(|region| region.distance(here)).fold(to_position, f64::min) > most,
             }
         })
     }
 
     /// Returns the part of the moments at which the label could be mistaken: that of a body lies on another body or nearer to it, that of a
     /// point nearer to another pin.
-    fn mistaken(&self, at: &[Vector], field: &Field) -> f64 {
-        let is_mistaken = |at: &Vector, obstacles: &Obstacles| {
+    fn ambiguity(&self, at: &[Vector], field: &Field) -> f64 {
+        let is_ambiguous = |at: &Vector, obstacles: &Obstacles| {
             let here @ [low, high] = self.bounds(*at);
-            let away = |place: &Vector| distance([0, 1].map(|part| place[part].clamp(low[part], high[part])), *place);
+            let away =
+                |position: &Vector| distance([0, 1].map(|part| position[part].clamp(low[part], high[part])), *position);
             match self.kind {
-                Kind::Remark => false,
-                Kind::Point => {
-                    let own = away(at);
-                    obstacles.pins.iter().any(|pin| distance(*pin, *at) > 1.0 && away(pin) < own)
+                LabelKind::Remark => false,
+                LabelKind::Point => {
+                    let to_anchor = away(at);
+                    obstacles.pins.iter().any(|pin| distance(*pin, *at) > 1.0 && away(pin) < to_anchor)
                 }
-                Kind::Body => {
-                    let nearest = |is_own: bool| {
+                LabelKind::Body => {
+                    let nearest = |is_body: bool| {
                         let regions = obstacles.regions.iter();
-                        let regions = regions.filter(|region| (region.frame == self.anchor.frame) == is_own);
+                        let regions = regions.filter(|region| (region.frame == self.anchor.frame) == is_body);
                         regions.map(|region| region.distance(here)).fold(f64::INFINITY, f64::min)
                     };
-                    let (own, other) = (nearest(true).min(away(at)), nearest(false));
-                    other <= 0.0 || other < own
+                    let (own_region, other_region) = (nearest(true).min(away(at)), nearest(false));
+                    other_region <= 0.0 || other_region < own_region
                 }
             }
         };
-        let count = at.iter().zip(&field.moments).filter(|(at, obstacles)| is_mistaken(at, obstacles)).count();
+        let count = at.iter().zip(&field.moments).filter(|(at, obstacles)| is_ambiguous(at, obstacles)).count();
         count as f64 / at.len().max(1) as f64
     }
 
@@ -140,12 +143,12 @@ impl Label {
     fn leader(&self, at: Vector) -> String {
         let middle = plus(at, self.offset);
         // letters are narrower than their box
-        let half = [LETTERS * self.half[0], self.half[1]];
+        let half = [LETTER_WIDTH * self.half[0], self.half[1]];
         let end = [0, 1].map(|part| at[part].clamp(middle[part] - half[part], middle[part] + half[part]));
         if distance(end, at) <= 0.0 {
             return String::new();
         }
-        let [x, y, to_x, to_y] = [at[0], at[1], end[0], end[1]].map(|part| number(part, PIXELS));
+        let [x, y, to_x, to_y] = [at[0], at[1], end[0], end[1]].map(|part| format_number(part, PIXELS));
         format!("<path class=\"leader\" d=\"M{x} {y}L{to_x} {to_y}\"/>")
     }
 }
@@ -160,37 +163,40 @@ impl Region {
     /// Returns the distance of a box, 0 if they meet.
     fn distance(&self, [low, high]: [Vector; 2]) -> f64 {
         let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
-        let sides = |places: &[Vector]| -> Vec<[Vector; 2]> {
-            (0..places.len()).map(|k| [places[k], places[(k + 1) % places.len()]]).collect()
+        let sides = |positions: &[Vector]| -> Vec<[Vector; 2]> {
+            (0..positions.len()).map(|k| [positions[k], positions[(k + 1) % positions.len()]]).collect()
         };
-        let (own, of_box) = (sides(&self.corners), sides(&corners));
+        let (sides_here, box_sides) = (sides(&self.corners), sides(&corners));
         // separating axis theorem: one side of two disjoint convex shapes separates them
-        let is_apart = |sides: &[[Vector; 2]], others: &[Vector], places: &[Vector]| {
+        let is_apart = |sides: &[[Vector; 2]], others: &[Vector], positions: &[Vector]| {
             sides.iter().any(|[from, to]| {
                 let across = crate::scene::left(minus(*to, *from));
-                let height = |place: &Vector| dot(across, minus(*place, *from));
+                let height = |position: &Vector| dot(across, minus(*position, *from));
                 let [least, most] =
-                    places.iter().map(height).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
+                    positions.iter().map(height).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
                         [low.min(height), high.max(height)]
                     });
-                others.iter().all(|place| height(place) > most) || others.iter().all(|place| height(place) < least)
+                others.iter().all(|position| height(position) > most)
+                    || others.iter().all(|position| height(position) < least)
             })
         };
-        if !is_apart(&own, &corners, &self.corners) && !is_apart(&of_box, &self.corners, &corners) {
+        if !is_apart(&sides_here, &corners, &self.corners) && !is_apart(&box_sides, &self.corners, &corners) {
             return 0.0;
         }
-        let to_own = corners.iter().flat_map(|place| own.iter().map(|side| from_side(*place, *side)));
-        let to_box = self.corners.iter().flat_map(|place| of_box.iter().map(|side| from_side(*place, *side)));
-        to_own.chain(to_box).fold(f64::INFINITY, f64::min)
+        let to_region =
+            corners.iter().flat_map(|position| sides_here.iter().map(|side| distance_to_segment(*position, *side)));
+        let to_box =
+            self.corners.iter().flat_map(|position| box_sides.iter().map(|side| distance_to_segment(*position, *side)));
+        to_region.chain(to_box).fold(f64::INFINITY, f64::min)
     }
 }
 
 /// Returns the distance of a position from a side.
-fn from_side(place: Vector, [from, to]: [Vector; 2]) -> f64 {
+fn distance_to_segment(position: Vector, [from, to]: [Vector; 2]) -> f64 {
     let way = minus(to, from);
     let square = dot(way, way);
-    let part = if square > 0.0 { (dot(minus(place, from), way) / square).clamp(0.0, 1.0) } else { 0.0 };
-    distance(place, plus(from, times(part, way)))
+    let part = if square > 0.0 { (dot(minus(position, from), way) / square).clamp(0.0, 1.0) } else { 0.0 };
+    distance(position, plus(from, times(part, way)))
 }
 
 /// Obstacles for labels at one moment (px).
@@ -200,14 +206,14 @@ struct Obstacles {
     regions: Vec<Region>,
     /// Positions on lines, evenly spaced.
     lines: Vec<Vector>,
-    strong_lines: Vec<Vector>,
+    highlighted_lines: Vec<Vector>,
 }
 
 impl Obstacles {
     /// Returns the obstacles in a box.
     fn within(&self, [low, high]: [Vector; 2]) -> Obstacles {
-        let inside = |places: &[Vector]| -> Vec<Vector> {
-            places.iter().copied().filter(|place| is_within(*place, [low, high])).collect()
+        let inside = |positions: &[Vector]| -> Vec<Vector> {
+            positions.iter().copied().filter(|position| is_within(*position, [low, high])).collect()
         };
         let meets = |region: &&Region| {
             bounds(region.corners.iter().copied())
@@ -222,7 +228,7 @@ impl Obstacles {
             pins: inside(&self.pins),
             regions: regions.collect(),
             lines: inside(&self.lines),
-            strong_lines: inside(&self.strong_lines),
+            highlighted_lines: inside(&self.highlighted_lines),
         }
     }
 }
@@ -240,22 +246,22 @@ struct Field {
 impl Picture<'_> {
     /// Returns the size of letters (px).
     pub fn letters(&self) -> f64 {
-        letters(self.room())
+        letter_size(self.drawing_size())
     }
 
     /// Adds the labels of a moment.
     pub fn add_labels(&mut self, poses: &[Pose]) {
         for label in self.labels(&[poses]) {
-            let at = self.anchored(&label.anchor, poses);
+            let at = self.anchor_to_pixels(&label.anchor, poses);
             self.add_label(&label, at, None);
         }
     }
 
     /// Adds a label, in a group if there are attributes.
     pub fn add_label(&mut self, label: &Label, at: Vector, attributes: Option<&str>) {
-        self.used.labels = Some(self.letters());
-        self.used.has_remarks |= label.kind == Kind::Remark;
-        self.used.has_leaders |= label.has_leader;
+        self.styles.labels = Some(self.letters());
+        self.styles.has_remarks |= label.kind == LabelKind::Remark;
+        self.styles.has_leaders |= label.has_leader;
         let size = self.letters();
         self.body += &match attributes {
             None => format!("{}\n", label.element(at, size)),
@@ -265,43 +271,43 @@ impl Picture<'_> {
 
     /// Returns the labels with positions that hold at all moments.
     pub fn labels(&self, moments: &[&[Pose]]) -> Vec<Label> {
-        let named = self.named();
+        let named = self.label_texts();
         if named.is_empty() {
             return Vec::new();
         }
         let size = self.letters();
         let field = self.field(moments);
-        let mut found: Vec<(Label, Vec<Vector>)> = Vec::new();
+        let mut labels: Vec<(Label, Vec<Vector>)> = Vec::new();
         for (anchor, text, kind) in named {
-            let wide = (COLUMN * columns(&text) as f64).max(1.0);
+            let wide = (COLUMN_WIDTH * text_columns(&text) as f64).max(1.0);
             let half = [0.5 * size * wide + 2.0, 0.6 * size + 1.0];
-            let at: Vec<Vector> = moments.iter().map(|poses| self.anchored(&anchor, poses)).collect();
+            let at: Vec<Vector> = moments.iter().map(|poses| self.anchor_to_pixels(&anchor, poses)).collect();
             // bodies that share a pin share its name
-            let is_told = |(known, places): &(Label, Vec<Vector>)| {
-                known.kind == kind && places.iter().zip(&at).all(|(a, b)| distance(*a, *b) < 1.0)
+            let is_labelled = |(label, positions): &(Label, Vec<Vector>)| {
+                label.kind == kind && positions.iter().zip(&at).all(|(a, b)| distance(*a, *b) < 1.0)
             };
-            if kind == Kind::Point && found.iter().any(is_told) {
+            if kind == LabelKind::Point && labels.iter().any(is_labelled) {
                 continue;
             }
-            let beside = if kind == Kind::Point { BESIDE_PIN } else { BESIDE_BODY };
-            let reach = beside * self.unit() + 2.0;
+            let distance_to_label = if kind == LabelKind::Point { TO_PIN } else { TO_BODY };
+            let reach = distance_to_label * self.unit() + 2.0;
             let near = self.near(&field, &at, half, reach);
             let mut best: Option<(f64, Label)> = None;
-            for (own, offset) in offsets(half, reach, kind != Kind::Point) {
+            for (offset_cost, offset) in offsets(half, reach, kind != LabelKind::Point) {
                 let mut label = Label { text: text.clone(), anchor, offset, half, kind, has_leader: false };
-                let Some(cost) = self.cost(&label, &at, &found, &near) else { continue };
-                let mistaken = label.mistaken(&at, &near);
-                label.has_leader = mistaken > 0.0 || label.is_far(&at, &near);
-                let cost = cost + own + MISTAKEN * mistaken;
+                let Some(cost) = self.cost(&label, &at, &labels, &near) else { continue };
+                let ambiguity = label.ambiguity(&at, &near);
+                label.has_leader = ambiguity > 0.0 || label.is_far(&at, &near);
+                let cost = cost + offset_cost + AMBIGUOUS * ambiguity;
                 if best.as_ref().is_none_or(|(least, _)| cost < *least) {
                     best = Some((cost, label));
                 }
             }
             if let Some((_, label)) = best {
-                found.push((label, at));
+                labels.push((label, at));
             }
         }
-        found.into_iter().map(|(label, _)| label).collect()
+        labels.into_iter().map(|(label, _)| label).collect()
     }
 
     /// Returns the obstacles that a label near some positions, one for each moment, can meet.
@@ -315,71 +321,73 @@ impl Picture<'_> {
     }
 
     /// Returns the cost of a label's position, or `None` if it is not possible.
-    fn cost(&self, label: &Label, at: &[Vector], found: &[(Label, Vec<Vector>)], field: &Field) -> Option<f64> {
+    fn cost(&self, label: &Label, at: &[Vector], labels: &[(Label, Vec<Vector>)], field: &Field) -> Option<f64> {
         let reach = PIN * self.unit();
         let mut cost = 0.0;
         for (moment, (at, obstacles)) in at.iter().zip(&field.moments).enumerate() {
             let [low, high] = label.bounds(*at);
-            let [width, height] = self.room();
+            let [width, height] = self.drawing_size();
             if low[0] < 0.0 || low[1] < 0.0 || high[0] > width || high[1] > height {
                 return None;
             }
             let meets = |[other_low, other_high]: [Vector; 2]| {
                 low[0] < other_high[0] && other_low[0] < high[0] && low[1] < other_high[1] && other_low[1] < high[1]
             };
-            if found.iter().any(|(other, places)| meets(other.bounds(places[moment]))) {
+            if labels.iter().any(|(other, positions)| meets(other.bounds(positions[moment]))) {
                 return None;
             }
             let covered =
                 obstacles.pins.iter().filter(|[x, y]| meets([[x - reach, y - reach], [x + reach, y + reach]]));
             let around = [low.map(|part| part - NEAR_LINE), high.map(|part| part + NEAR_LINE)];
-            let full = |places: &[Vector]| {
-                let long = field.step * places.iter().filter(|place| is_within(**place, around)).count() as f64;
-                (long / (FULL * 2.0 * label.half[1])).min(1.0)
+            let full = |positions: &[Vector]| {
+                let long =
+                    field.step * positions.iter().filter(|position| is_within(**position, around)).count() as f64;
+                (long / (FULL_LENGTH * 2.0 * label.half[1])).min(1.0)
             };
             cost += ON_PIN * covered.count() as f64;
-            cost += ON_LINES * full(&obstacles.lines) + ON_STRONG_LINES * full(&obstacles.strong_lines);
+            cost += ON_LINES * full(&obstacles.lines) + ON_HIGHLIGHTED_LINES * full(&obstacles.highlighted_lines);
         }
         Some(cost / at.len().max(1) as f64)
     }
 
     /// Returns what has a label: messages, then bodies, then points.
-    fn named(&self) -> Vec<(Anchor, String, Kind)> {
+    fn label_texts(&self) -> Vec<(Anchor, String, LabelKind)> {
         let scene = self.scene;
         let on_ground = |at| Anchor { frame: 0, at };
-        let remarks = scene.remarks.iter().map(|remark| (on_ground(remark.at), cut(&remark.text), Kind::Remark));
-        let mut named: Vec<(Anchor, String, Kind)> = remarks.collect();
+        let remarks = scene.remarks.iter().map(|remark| (on_ground(remark.at), cut(&remark.text), LabelKind::Remark));
+        let mut named: Vec<(Anchor, String, LabelKind)> = remarks.collect();
         if self.options.labels {
             named.extend(self.bodies());
-            let shown =
+            let samples_of =
                 scene.nodes.iter().flat_map(|node| &node.shapes).filter_map(|shape| scene.points.get(shape.point?));
-            for point in shown {
-                let own = point.name.rsplit('.').next().unwrap_or(&point.name);
-                named.push((Anchor { frame: point.frame, at: point.at }, cut(own), Kind::Point));
+            for point in samples_of {
+                let name = point.name.rsplit('.').next().unwrap_or(&point.name);
+                named.push((Anchor { frame: point.frame, at: point.at }, cut(name), LabelKind::Point));
             }
         }
-        named.truncate(MOST);
+        named.truncate(MOST_LABELS);
         named
     }
 
     /// Returns the bodies, each with the middle of its first shapes.
-    fn bodies(&self) -> Vec<(Anchor, String, Kind)> {
+    fn bodies(&self) -> Vec<(Anchor, String, LabelKind)> {
         let scene = self.scene;
         let mut named = Vec::new();
         for node in &scene.nodes {
-            let Place::Fixed(frame) = node.place else { continue };
-            let is_own = scene.declarations.get(node.declaration).is_some_and(|declaration| declaration.kind == "body");
-            let is_told = named.iter().any(|(anchor, _, _): &(Anchor, String, Kind)| anchor.frame == frame);
-            if frame == 0 || !is_own || is_told {
+            let Attachment::Fixed(frame) = node.attachment else { continue };
+            let is_body =
+                scene.declarations.get(node.declaration).is_some_and(|declaration| declaration.kind == "body");
+            let is_labelled = named.iter().any(|(anchor, _, _): &(Anchor, String, LabelKind)| anchor.frame == frame);
+            if frame == 0 || !is_body || is_labelled {
                 continue;
             }
-            let places: Vec<Vector> = node.shapes.iter().flat_map(|shape| shape.path.places()).collect();
-            let corners = hull(&places, 1.0 / self.scale);
+            let positions: Vec<Vector> = node.shapes.iter().flat_map(|shape| shape.path.positions()).collect();
+            let corners = hull(&positions, 1.0 / self.scale);
             if !corners.is_empty() {
                 // the middle lies on the body, even on a thin and slanting one
                 let sum = corners.iter().copied().fold([0.0; 2], plus);
                 let at = times(1.0 / corners.len() as f64, sum);
-                named.push((Anchor { frame, at }, cut(self.name(node.declaration)), Kind::Body));
+                named.push((Anchor { frame, at }, cut(self.name(node.declaration)), LabelKind::Body));
             }
         }
         named
@@ -387,26 +395,26 @@ impl Picture<'_> {
 
     /// Returns the obstacles for labels.
     fn field(&self, moments: &[&[Pose]]) -> Field {
-        let shapes: Vec<Shown> = self.scene.nodes.iter().flat_map(|node| self.shown(node)).collect();
+        let shapes: Vec<ShapeSamples> = self.scene.nodes.iter().flat_map(|node| self.samples(node)).collect();
         let filled: Vec<(usize, Vec<Vector>)> = self.scene.nodes.iter().flat_map(|node| self.filled(node)).collect();
-        let count: usize = shapes.iter().map(|shown| shown.places.len()).sum();
-        let every = (count * moments.len()).div_ceil(MOST_PLACES).max(1);
+        let count: usize = shapes.iter().map(|samples_of| samples_of.positions.len()).sum();
+        let every = (count * moments.len()).div_ceil(MOST_POSITIONS).max(1);
         let at = |poses: &&[Pose]| {
             let mut obstacles = Obstacles::default();
-            for Shown { place, look, places } in &shapes {
-                let (pose, stretch) = place.pose(poses);
-                let placed = |[x, y]: Vector| self.placed(pose.placed([stretch * x, y]));
+            for ShapeSamples { attachment, look, positions } in &shapes {
+                let (pose, stretch) = attachment.pose(poses);
+                let placed = |[x, y]: Vector| self.to_pixels(pose.transform([stretch * x, y]));
                 match look {
-                    Look::Pin | Look::Dot => obstacles.pins.extend(places.iter().copied().map(placed)),
-                    look if STRONG.contains(look) => {
-                        obstacles.strong_lines.extend(places.iter().step_by(every).copied().map(placed));
+                    Look::Pin | Look::Dot => obstacles.pins.extend(positions.iter().copied().map(placed)),
+                    look if HIGHLIGHTED.contains(look) => {
+                        obstacles.highlighted_lines.extend(positions.iter().step_by(every).copied().map(placed));
                     }
-                    _ => obstacles.lines.extend(places.iter().step_by(every).copied().map(placed)),
+                    _ => obstacles.lines.extend(positions.iter().step_by(every).copied().map(placed)),
                 }
             }
             let corners = |(frame, corners): &(usize, Vec<Vector>)| Region {
                 frame: *frame,
-                corners: corners.iter().map(|corner| self.placed(poses[*frame].placed(*corner))).collect(),
+                corners: corners.iter().map(|corner| self.to_pixels(poses[*frame].transform(*corner))).collect(),
             };
             obstacles.regions = filled.iter().map(corners).collect();
             obstacles
@@ -416,33 +424,33 @@ impl Picture<'_> {
 
     /// Returns the filled parts of a body by their corners in its frame (m). A ring is not filled: there is room in it.
     fn filled(&self, node: &Node) -> Vec<(usize, Vec<Vector>)> {
-        let Place::Fixed(frame) = node.place else { return Vec::new() };
+        let Attachment::Fixed(frame) = node.attachment else { return Vec::new() };
         let is_filled = |path: &Path| !matches!(path, Path::Lines(contours) if contours.len() != 1);
         let shapes = node.shapes.iter().filter(|shape| FILLED.contains(&shape.look) && is_filled(&shape.path));
-        let corners = shapes.map(|shape| (frame, hull(&shape.path.places(), 1.0 / self.scale)));
+        let corners = shapes.map(|shape| (frame, hull(&shape.path.positions(), 1.0 / self.scale)));
         corners.filter(|(frame, corners)| *frame > 0 && corners.len() > 2).collect()
     }
 
     /// Returns the pins of a node by their centres, and its lines by positions on them.
-    fn shown(&self, node: &Node) -> Vec<Shown> {
-        let is_stretched = node.place.is_stretched();
-        let shown = |(path, look): (&Path, Look)| {
-            let places = match (path, look) {
+    fn samples(&self, node: &Node) -> Vec<ShapeSamples> {
+        let is_stretched = node.attachment.is_stretched();
+        let samples_of = |(path, look): (&Path, Look)| {
+            let positions = match (path, look) {
                 (Path::Circle { at, .. }, Look::Pin | Look::Dot) => vec![*at],
-                (_, look) if NO_LINES.contains(&look) || is_stretched => return None,
+                (_, look) if LOOKS_WITHOUT_LINES.contains(&look) || is_stretched => return None,
                 (path, _) => path.sampled(STEP / self.scale),
             };
-            Some(Shown { place: node.place, look, places })
+            Some(ShapeSamples { attachment: node.attachment, look, positions })
         };
-        node.shapes.iter().filter_map(|shape| shown((&shape.path, shape.look))).collect()
+        node.shapes.iter().filter_map(|shape| samples_of((&shape.path, shape.look))).collect()
     }
 }
 
 /// A pin or a line by its positions (m).
-struct Shown {
-    place: Place,
+struct ShapeSamples {
+    attachment: Attachment,
     look: Look,
-    places: Vec<Vector>,
+    positions: Vec<Vector>,
 }
 
 /// Returns candidate offsets from the middle of what is named to the middle of the text, with their costs. With `has_inside` the middle
@@ -459,8 +467,8 @@ fn offsets(half: Vector, reach: f64, has_inside: bool) -> impl Iterator<Item = (
 }
 
 fn cut(name: &str) -> String {
-    if name.chars().count() <= LONGEST {
+    if name.chars().count() <= LONGEST_NAME {
         return name.to_owned();
     }
-    name.chars().take(LONGEST - 1).chain(['…']).collect()
+    name.chars().take(LONGEST_NAME - 1).chain(['…']).collect()
 }

@@ -2,18 +2,36 @@
 
 use super::Theme;
 use crate::scene::Look;
-use crate::view::text::number;
+use crate::view::text::format_number;
 use std::collections::BTreeSet;
+use unicode_width::UnicodeWidthChar;
+
+/// Size of letters of the smallest and the largest pictures (px).
+const LETTER_SIZES: [f64; 2] = [13.0, 18.0];
+/// Size of letters as a part of the picture's shorter side.
+const LETTER_SIZE: f64 = 1.0 / 42.0;
+/// Width of a column as a part of the size of letters: on average, wide fonts are no wider.
+pub(super) const COLUMN_WIDTH: f64 = 0.66;
 
 /// Number of tints of bodies.
 pub(super) const TINTS: usize = 8;
 /// Number of colours of traces.
 pub(super) const TRACE_COLORS: usize = 4;
 
+/// Returns the size of letters (px) for a picture of a size (px).
+pub(super) fn letter_size(size: [f64; 2]) -> f64 {
+    (LETTER_SIZE * size[0].min(size[1])).clamp(LETTER_SIZES[0], LETTER_SIZES[1])
+}
+
+/// Returns the number of columns of a text on a screen.
+pub(super) fn text_columns(text: &str) -> usize {
+    text.chars().map(|c| c.width().unwrap_or(0)).sum()
+}
+
 /// Contents of a picture that need rules.
 #[derive(Default)]
 #[allow(clippy::struct_excessive_bools)] // each has rules of its own
-pub(super) struct Used {
+pub(super) struct StyleUsage {
     pub looks: BTreeSet<Look>,
     pub tints: BTreeSet<usize>,
     pub traces: BTreeSet<usize>,
@@ -30,7 +48,7 @@ pub(super) struct Used {
     /// True if a label has a leader.
     pub has_leaders: bool,
     /// Size of letters of the messages below (px), if there are any.
-    pub said: Option<f64>,
+    pub messages: Option<f64>,
 }
 
 /// Colours of a theme.
@@ -91,9 +109,9 @@ const DARK: Palette = Palette {
 };
 
 /// Returns the rules for everything that is used; `unit` is the symbol unit (px).
-pub(super) fn sheet(used: &Used, theme: Theme, unit: f64) -> String {
+pub(super) fn sheet(usage: &StyleUsage, theme: Theme, unit: f64) -> String {
     let strong = (0.1 * unit).clamp(0.5, 2.0);
-    themed(shapes(used, strong), theme, |palette| colors(used, palette))
+    themed(shapes(usage, strong), theme, |palette| colors(usage, palette))
 }
 
 /// Returns the rules for plots, with a number of curves and a size of letters (px).
@@ -111,7 +129,7 @@ pub(super) fn plot_sheet(curves: usize, theme: Theme, letters: f64) -> String {
         "text{{font:{}px system-ui,sans-serif}}\n.name{{font-weight:600}}\n.beside{{text-anchor:end}}\n.below{{text-anchor:middle}}\n\
          path{{fill:none;stroke-linecap:round;stroke-linejoin:round}}\n.grid{{stroke-width:.5;stroke-opacity:.5}}\n\
          .axes{{stroke-width:1}}\n.curve{{stroke-width:1.8}}\n",
-        number(letters, 1)
+        format_number(letters, 1)
     );
     themed(shared, theme, colors)
 }
@@ -130,10 +148,10 @@ fn themed(mut sheet: String, theme: Theme, colors: impl Fn(&Palette) -> String) 
 }
 
 /// Returns widths and dashes, which both themes share.
-fn shapes(used: &Used, strong: f64) -> String {
-    let width = |part: f64| number(part * strong, 2);
+fn shapes(usage: &StyleUsage, strong: f64) -> String {
+    let width = |part: f64| format_number(part * strong, 2);
     let mut rules = format!("path,circle{{stroke-width:{};stroke-linecap:round;stroke-linejoin:round}}\n", width(1.0));
-    for look in &used.looks {
+    for look in &usage.looks {
         let rule = match look {
             Look::Hatching => format!("stroke-width:{}", width(0.6)),
             Look::GroundLine | Look::Guide | Look::Track => format!("stroke-width:{}", width(1.25)),
@@ -153,20 +171,20 @@ fn shapes(used: &Used, strong: f64) -> String {
         };
         rules += &format!(".{}{{{rule}}}\n", look.word());
     }
-    if !used.traces.is_empty() {
+    if !usage.traces.is_empty() {
         rules += &format!(".trace{{fill:none;stroke-width:{}}}\n", width(1.1));
     }
-    if let Some(size) = used.labels {
+    if let Some(size) = usage.labels {
         rules += &format!(
             "text{{font:{}px system-ui,sans-serif;text-anchor:middle;stroke-width:3;stroke-linejoin:round;paint-order:stroke}}\n\
              .body-name{{font-weight:600}}\n.point-name{{font-style:italic}}\n.legend{{text-anchor:start}}\n",
-            number(size, 1)
+            format_number(size, 1)
         );
     }
-    if used.has_ghosts {
+    if usage.has_ghosts {
         rules += ".ghost{opacity:.3}\n";
     }
-    if used.is_named {
+    if usage.is_named {
         rules += &format!(
             ".named path,.named circle{{stroke-width:{}}}\n.named .link{{stroke-dasharray:{} {}}}\n",
             width(1.7),
@@ -174,10 +192,11 @@ fn shapes(used: &Used, strong: f64) -> String {
             width(2.6)
         );
     }
-    if let Some(size) = used.said {
-        rules += &format!(".said{{font:{}px system-ui,sans-serif;text-anchor:start;stroke:none}}\n", number(size, 1));
+    if let Some(size) = usage.messages {
+        rules +=
+            &format!(".said{{font:{}px system-ui,sans-serif;text-anchor:start;stroke:none}}\n", format_number(size, 1));
     }
-    if !used.vectors.is_empty() {
+    if !usage.vectors.is_empty() {
         // a velocity stays visible below an acceleration of the same direction
         rules += &format!(
             ".vector{{stroke-width:{};vector-effect:non-scaling-stroke}}\n.velocity{{stroke-width:{}}}\n",
@@ -188,12 +207,12 @@ fn shapes(used: &Used, strong: f64) -> String {
     rules
 }
 
-fn colors(used: &Used, palette: &Palette) -> String {
+fn colors(usage: &StyleUsage, palette: &Palette) -> String {
     let &Palette { paper, ink, quiet, driven, free, wrong, .. } = palette;
     let mut rules = format!(".paper{{fill:{paper}}}\n");
     let mut group = |looks: &[Look], rule: &str| {
         let words: Vec<String> =
-            looks.iter().filter(|look| used.looks.contains(look)).map(|look| format!(".{}", look.word())).collect();
+            looks.iter().filter(|look| usage.looks.contains(look)).map(|look| format!(".{}", look.word())).collect();
         if !words.is_empty() {
             rules += &format!("{}{{{rule}}}\n", words.join(","));
         }
@@ -215,13 +234,13 @@ fn colors(used: &Used, palette: &Palette) -> String {
     group(&[Look::FreeHead], &format!("fill:{paper};stroke:{free}"));
     group(&[Look::Gap, Look::GapEnd], &format!("fill:none;stroke:{ink}"));
     group(&[Look::Named], &format!("fill:none;stroke:{wrong}"));
-    if used.is_ground_filled {
+    if usage.is_ground_filled {
         rules += &format!(".b-ground{{fill:{}}}\n", palette.ground);
     }
-    for tint in &used.tints {
+    for tint in &usage.tints {
         rules += &format!(".b{tint}{{fill:{}}}\n", palette.tints[tint % TINTS]);
     }
-    for trace in &used.traces {
+    for trace in &usage.traces {
         rules += &format!(".t{trace}{{stroke:{}}}\n", palette.traces[trace % TRACE_COLORS]);
     }
     for (word, color) in [
@@ -231,25 +250,25 @@ fn colors(used: &Used, palette: &Palette) -> String {
         ("load", palette.load),
         ("weight", palette.weight),
     ] {
-        if used.vectors.contains(word) {
+        if usage.vectors.contains(word) {
             rules += &format!(".{word}{{stroke:{color};fill:{color}}}\n");
         }
     }
-    if used.is_named {
+    if usage.is_named {
         rules += &format!(
             ".named path,.named circle{{stroke:{wrong}}}\n.named .arrow-head,.named .dot,.named .weld{{fill:{wrong}}}\n"
         );
     }
-    if used.labels.is_some() {
+    if usage.labels.is_some() {
         rules += &format!("text{{fill:{ink};stroke:{paper}}}\n");
     }
-    if used.has_leaders {
+    if usage.has_leaders {
         rules += &format!(".leader{{fill:none;stroke:{ink};stroke-width:1}}\n");
     }
-    if used.has_remarks {
+    if usage.has_remarks {
         rules += &format!(".remark{{fill:{wrong}}}\n");
     }
-    if used.said.is_some() {
+    if usage.messages.is_some() {
         rules += &format!(".said{{fill:{wrong}}}\n");
     }
     rules

@@ -108,7 +108,7 @@ const OTHERS: &[(&str, [&str; 3])] = &[
 
 /// Returns a free name in place of a word of the language.
 pub fn another_name(word: &str, kind: KindOfName, is_free: impl Fn(&str) -> bool) -> Option<&'static str> {
-    let own = OTHERS.iter().find(|(other, _)| *other == word).and_then(|(_, names)| match kind {
+    let substitute = OTHERS.iter().find(|(other, _)| *other == word).and_then(|(_, names)| match kind {
         KindOfName::Body => Some(names[0]),
         KindOfName::Joint | KindOfName::Equation => Some(names[1]),
         KindOfName::Feature | KindOfName::Value | KindOfName::Function => Some(names[2]),
@@ -116,7 +116,8 @@ pub fn another_name(word: &str, kind: KindOfName, is_free: impl Fn(&str) -> bool
         // the substitutes for values are mostly lengths
         KindOfName::Mass | KindOfName::Time => None,
     });
-    own.into_iter()
+    substitute
+        .into_iter()
         .chain(kind.names().iter().copied())
         .find(|name| !is_taken(name) && !is_called(name) && is_free(name))
 }

@@ -22,12 +22,12 @@ impl Blame {
     pub fn of(diagnostics: &Diagnostics, sources: &Sources) -> Option<Blame> {
         let first = diagnostics.iter().find(|d| d.is_error())?;
         // any fault in an option is a usage error, unless it shows only at some time of the motion
-        let on_the_way = (Code::E0601..=Code::E0612).contains(&first.code);
-        if !on_the_way && first.labels.first().is_some_and(|label| sources.get(label.span.file).is_option) {
+        let is_at_some_time = (Code::E0601..=Code::E0612).contains(&first.code);
+        if !is_at_some_time && first.labels.first().is_some_and(|label| sources.get(label.span.file).is_option) {
             return Some(Blame::Usage);
         }
         Some(match first.code {
-            _ if on_the_way => Blame::Analysis,
+            _ if is_at_some_time => Blame::Analysis,
             // a file that a text names is part of the text
             Code::E0701 if !first.labels.is_empty() => Blame::Input,
             Code::E0701 | Code::E0702 => Blame::Files,

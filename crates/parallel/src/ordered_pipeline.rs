@@ -13,19 +13,19 @@ type Work<P, T> = dyn Fn(P) -> T + Send + Sync;
 
 /// Limit of pieces in flight, as a multiple of the number of threads.
 #[cfg(feature = "threads")]
-const AHEAD: usize = 2;
+const PIECES_PER_THREAD: usize = 2;
 
 /// Processes pieces on several threads and returns the results in order of submission.
 pub struct Relay<P, T> {
     work: Arc<Work<P, T>>,
     /// The threads take turns, which keeps the results in order.
     #[cfg(feature = "threads")]
-    hands: Vec<Hand<P, T>>,
+    workers: Vec<Worker<P, T>>,
     /// Numbers of pieces that were submitted and of results that were returned.
     #[cfg(feature = "threads")]
-    given: usize,
+    submitted: usize,
     #[cfg(feature = "threads")]
-    taken: usize,
+    returned: usize,
 }
 
 impl<P: Send + 'static, T: Send + 'static> Relay<P, T> {
@@ -37,28 +37,29 @@ impl<P: Send + 'static, T: Send + 'static> Relay<P, T> {
         let _ = jobs;
         Relay {
             #[cfg(feature = "threads")]
-            hands: (0..jobs).filter(|_| jobs > 1).map_while(|_| Hand::new(&work)).collect(),
+            workers: (0..jobs).filter(|_| jobs > 1).map_while(|_| Worker::new(&work)).collect(),
             work,
             #[cfg(feature = "threads")]
-            given: 0,
+            submitted: 0,
             #[cfg(feature = "threads")]
-            taken: 0,
+            returned: 0,
         }
     }
 
     /// Submits a piece. Returns the oldest result once enough pieces are in flight.
     #[cfg(feature = "threads")]
     pub fn give(&mut self, piece: P) -> Option<T> {
-        if self.hands.is_empty() {
+        if self.workers.is_empty() {
             return Some((self.work)(piece));
         }
-        let made = if self.given - self.taken >= AHEAD * self.hands.len() { self.take() } else { None };
-        let next = self.given % self.hands.len();
-        self.given += 1;
-        if !self.hands[next].give(piece) {
-            self.break_down(next);
+        let result =
+            if self.submitted - self.returned >= PIECES_PER_THREAD * self.workers.len() { self.take() } else { None };
+        let next = self.submitted % self.workers.len();
+        self.submitted += 1;
+        if !self.workers[next].give(piece) {
+            self.propagate_panic(next);
         }
-        made
+        result
     }
 
     /// Submits a piece and returns its result.
@@ -71,16 +72,16 @@ impl<P: Send + 'static, T: Send + 'static> Relay<P, T> {
     /// Returns the next result of the pieces in flight, or `None` if there are none.
     #[cfg(feature = "threads")]
     pub fn take(&mut self) -> Option<T> {
-        if self.taken == self.given {
+        if self.returned == self.submitted {
             return None;
         }
-        let next = self.taken % self.hands.len();
-        self.taken += 1;
-        let made = self.hands[next].made.recv().ok();
-        if made.is_none() {
-            self.break_down(next);
+        let next = self.returned % self.workers.len();
+        self.returned += 1;
+        let result = self.workers[next].results.recv().ok();
+        if result.is_none() {
+            self.propagate_panic(next);
         }
-        made
+        result
     }
 
     /// Returns `None`: no piece is in flight.
@@ -92,8 +93,8 @@ impl<P: Send + 'static, T: Send + 'static> Relay<P, T> {
 
     /// Continues the panic of a thread.
     #[cfg(feature = "threads")]
-    fn break_down(&mut self, hand: usize) {
-        let Hand { pieces, thread, .. } = self.hands.swap_remove(hand);
+    fn propagate_panic(&mut self, worker: usize) {
+        let Worker { pieces, thread, .. } = self.workers.swap_remove(worker);
         drop(pieces);
         if let Err(panic) = thread.join() {
             std::panic::resume_unwind(panic);
@@ -103,25 +104,25 @@ impl<P: Send + 'static, T: Send + 'static> Relay<P, T> {
 
 /// A thread with its channels. It ends when its input is closed.
 #[cfg(feature = "threads")]
-struct Hand<P, T> {
+struct Worker<P, T> {
     pieces: Sender<P>,
-    made: Receiver<T>,
+    results: Receiver<T>,
     thread: thread::JoinHandle<()>,
 }
 
 #[cfg(feature = "threads")]
-impl<P: Send + 'static, T: Send + 'static> Hand<P, T> {
+impl<P: Send + 'static, T: Send + 'static> Worker<P, T> {
     /// Starts a thread, or returns `None` if the system refuses one.
-    fn new(work: &Arc<Work<P, T>>) -> Option<Hand<P, T>> {
-        let ((pieces, given), (ready, made)) = (channel(), channel());
+    fn new(work: &Arc<Work<P, T>>) -> Option<Worker<P, T>> {
+        let ((pieces, input), (output, results)) = (channel(), channel());
         let work = Arc::clone(work);
         let thread = thread::Builder::new().spawn(move || {
-            for piece in given {
+            for piece in input {
                 // the receiver is gone: the result is not needed
-                let _ = ready.send(work(piece));
+                let _ = output.send(work(piece));
             }
         });
-        Some(Hand { pieces, made, thread: thread.ok()? })
+        Some(Worker { pieces, results, thread: thread.ok()? })
     }
 
     /// Sends a piece to the thread. Returns whether it accepts one.
@@ -135,7 +136,7 @@ mod tests {
     use super::Relay;
 
     #[test]
-    fn what_is_made_comes_in_order_whatever_it_takes() {
+    fn results_come_in_order_of_submission() {
         for jobs in [1, 2, 5] {
             let mut relay = Relay::new(jobs, |piece: u64| {
                 // later pieces take less time
@@ -144,19 +145,19 @@ mod tests {
                 });
                 piece * piece
             });
-            let mut made: Vec<u64> = (0..100).filter_map(|piece| relay.give(piece)).collect();
-            made.extend(std::iter::from_fn(|| relay.take()));
-            assert_eq!(made, (0..100).map(|piece| piece * piece).collect::<Vec<_>>(), "{jobs}");
+            let mut results: Vec<u64> = (0..100).filter_map(|piece| relay.give(piece)).collect();
+            results.extend(std::iter::from_fn(|| relay.take()));
+            assert_eq!(results, (0..100).map(|piece| piece * piece).collect::<Vec<_>>(), "{jobs}");
         }
     }
 
     #[test]
     #[cfg(feature = "threads")]
-    fn a_panic_is_passed_on() {
-        let panicked = std::panic::catch_unwind(|| {
+    fn a_panic_continues_in_the_caller() {
+        let outcome = std::panic::catch_unwind(|| {
             let mut relay = Relay::new(2, |piece: u64| assert!(piece < 5, "broken"));
             (0..100).filter_map(|piece| relay.give(piece)).count()
         });
-        assert!(panicked.is_err());
+        assert!(outcome.is_err());
     }
 }

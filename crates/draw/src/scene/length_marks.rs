@@ -3,7 +3,7 @@
 
 use super::features::Features;
 use super::plane::{Path, Pose, Vector, is_finite, plus, times};
-use super::{Anchor, Look, Node, Place, Remark, Scene, Shape};
+use super::{Anchor, Attachment, Look, Node, Remark, Scene, Shape};
 use mechc_lang::model::{EquationForm, PointId};
 
 /// A length that a message blames.
@@ -18,7 +18,7 @@ pub struct Length {
 }
 
 /// A mechanism at rest, in which lengths are blamed.
-pub(super) struct Blamed<'m> {
+pub(super) struct LengthMarks<'m> {
     pub features: &'m Features<'m>,
     pub poses: &'m [Pose],
     /// Indices of the declarations of the first joint and of the first equation.
@@ -26,18 +26,18 @@ pub(super) struct Blamed<'m> {
     pub equations: usize,
 }
 
-impl Blamed<'_> {
+impl LengthMarks<'_> {
     /// Adds the texts of lengths next to them.
     pub fn add(&self, scene: &mut Scene, lengths: &[Length]) {
         for length in lengths {
             let Some(ends) = self.ends(length) else { continue };
-            let [from, to] = ends.map(|end| end.placed(self.poses));
+            let [from, to] = ends.map(|end| end.position(self.poses));
             if !is_finite(from) || !is_finite(to) {
                 continue;
             }
             scene.remarks.push(Remark { at: times(0.5, plus(from, to)), text: length.text.clone() });
             if length.frame == Some(0) {
-                scene.nodes.push(line_of_ground([from, to]));
+                scene.nodes.push(ground_line([from, to]));
             }
         }
     }
@@ -65,7 +65,7 @@ impl Blamed<'_> {
     }
 }
 
-fn line_of_ground(ends: [Vector; 2]) -> Node {
+fn ground_line(ends: [Vector; 2]) -> Node {
     let shapes = vec![Shape { path: Path::line(ends), look: Look::Named, point: None }];
-    Node { declaration: 0, place: Place::Fixed(0), shapes }
+    Node { declaration: 0, attachment: Attachment::Fixed(0), shapes }
 }

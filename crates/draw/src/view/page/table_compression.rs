@@ -24,8 +24,8 @@ const WEIGHTS: [[f64; GREATEST_ORDER]; GREATEST_ORDER + 1] = [
 const EFFORT: u8 = 9;
 
 /// Compresses a table with columns of equal length and returns it as Base64.
-pub(super) fn written(columns: &[Vec<f64>]) -> String {
-    super::base64::written(&miniz_oxide::deflate::compress_to_vec(&planes(columns), EFFORT))
+pub(super) fn compress(columns: &[Vec<f64>]) -> String {
+    super::base64::encode(&miniz_oxide::deflate::compress_to_vec(&planes(columns), EFFORT))
 }
 
 /// Returns the bytes before compression.
@@ -33,31 +33,31 @@ fn planes(columns: &[Vec<f64>]) -> Vec<u8> {
     let rows = columns.first().map_or(0, Vec::len);
     let mut bytes = vec![0; columns.len()];
     bytes.reserve(8 * rows * columns.len());
-    let (mut best, mut tried) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
+    let (mut smallest, mut candidate) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
     for (k, column) in columns.iter().enumerate() {
         let mut least = u64::MAX;
         for order in 0..=GREATEST_ORDER {
-            let cost = differ(column, order, &mut tried);
+            let cost = differences(column, order, &mut candidate);
             if cost < least {
                 least = cost;
                 bytes[k] = order as u8;
-                std::mem::swap(&mut best, &mut tried);
+                std::mem::swap(&mut smallest, &mut candidate);
             }
         }
         for plane in (0..8).rev() {
-            bytes.extend(best.iter().map(|zigzag| (zigzag >> (8 * plane)) as u8));
+            bytes.extend(smallest.iter().map(|zigzag| (zigzag >> (8 * plane)) as u8));
         }
     }
     bytes
 }
 
 /// Computes the zigzag differences from the predictions, and returns the number of bits that they take.
-fn differ(column: &[f64], order: usize, zigzags: &mut Vec<u64>) -> u64 {
+fn differences(column: &[f64], order: usize, zigzags: &mut Vec<u64>) -> u64 {
     zigzags.clear();
     let mut bits = 0;
     for (row, &value) in column.iter().enumerate() {
-        let apart = ordered(value).wrapping_sub(ordered(foretold(&column[..row], order))).cast_signed();
-        let zigzag = (apart << 1 ^ apart >> 63).cast_unsigned();
+        let difference = ordered(value).wrapping_sub(ordered(predict(&column[..row], order))).cast_signed();
+        let zigzag = (difference << 1 ^ difference >> 63).cast_unsigned();
         bits += u64::from(64 - zigzag.leading_zeros());
         zigzags.push(zigzag);
     }
@@ -65,7 +65,7 @@ fn differ(column: &[f64], order: usize, zigzags: &mut Vec<u64>) -> u64 {
 }
 
 /// Returns the value of the polynomial through the last `order` values, or through all of them if there are fewer; 0 if it is not finite.
-fn foretold(before: &[f64], order: usize) -> f64 {
+fn predict(before: &[f64], order: usize) -> f64 {
     let order = order.min(before.len());
     let mut sum = 0.0;
     for (weight, value) in WEIGHTS[order][..order].iter().zip(before.iter().rev()) {
@@ -83,7 +83,7 @@ fn ordered(value: f64) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{WEIGHTS, foretold, planes};
+    use super::{WEIGHTS, planes, predict};
     use proptest::prelude::*;
 
     /// Reads the columns from the planes, slowly and plainly.
@@ -93,10 +93,10 @@ mod tests {
             let mut values: Vec<f64> = Vec::new();
             for row in 0..rows {
                 let zigzag = (0..8).fold(0, |bits: u64, plane| bits << 8 | u64::from(planes[plane * rows + row]));
-                let apart = if zigzag & 1 == 1 { !(zigzag >> 1) } else { zigzag >> 1 };
-                let from = foretold(&values, usize::from(bytes[k])).to_bits();
+                let difference = if zigzag & 1 == 1 { !(zigzag >> 1) } else { zigzag >> 1 };
+                let from = predict(&values, usize::from(bytes[k])).to_bits();
                 let from = if from >> 63 == 1 { !from } else { from | 1 << 63 };
-                let ordered = from.wrapping_add(apart);
+                let ordered = from.wrapping_add(difference);
                 values.push(f64::from_bits(if ordered >> 63 == 1 { ordered & !(1 << 63) } else { !ordered }));
             }
             values
@@ -128,7 +128,7 @@ mod tests {
     #[test]
     fn polynomials_are_foretold() {
         let cubic: Vec<f64> = (0..10).map(|k| f64::from(k * k * k - 4 * k)).collect();
-        assert!((foretold(&cubic, 4) - (1000.0 - 40.0)).abs() < 1e-9);
+        assert!((predict(&cubic, 4) - (1000.0 - 40.0)).abs() < 1e-9);
     }
 
     #[test]
@@ -158,7 +158,7 @@ mod tests {
         let smooth = |k: u32, t: f64| f64::from(k) + 1.0 / (1.0 + t * t * f64::from(k + 1));
         let column = |k: u32| (0..rows).map(|row| smooth(k, f64::from(row) * 0.004)).collect();
         let columns: Vec<Vec<f64>> = (0..8).map(column).collect();
-        let text = super::written(&columns);
+        let text = super::compress(&columns);
         assert!(text.len() < 8 * 8 * 1000 * 2 / 3, "{} bytes", text.len());
     }
 

@@ -10,18 +10,18 @@ pub(super) struct Texts {
 /// Conversion of byte offsets to UTF-16 offsets.
 enum Offsets {
     /// The offsets are equal.
-    Same,
+    Equal,
     /// UTF-16 offsets by byte.
-    Listed(Vec<u32>),
+    ByByte(Vec<u32>),
 }
 
 impl Texts {
-    pub fn of(sources: &[(FileId, &Source)]) -> Texts {
-        Texts { texts: sources.iter().map(|(id, source)| (*id, Offsets::of(&source.text))).collect() }
+    pub fn new(sources: &[(FileId, &Source)]) -> Texts {
+        Texts { texts: sources.iter().map(|(id, source)| (*id, Offsets::new(&source.text))).collect() }
     }
 
     /// Returns the index of a span's text, and the span's start and end; `None` for any other text.
-    pub fn place(&self, span: Span) -> Option<(usize, u32, u32)> {
+    pub fn locate(&self, span: Span) -> Option<(usize, u32, u32)> {
         let text = self.texts.iter().position(|(id, _)| *id == span.file)?;
         let offsets = &self.texts[text].1;
         Some((text, offsets.at(span.start), offsets.at(span.end)))
@@ -29,24 +29,24 @@ impl Texts {
 }
 
 impl Offsets {
-    fn of(text: &str) -> Offsets {
+    fn new(text: &str) -> Offsets {
         if text.is_ascii() {
-            return Offsets::Same;
+            return Offsets::Equal;
         }
-        let mut listed = Vec::with_capacity(text.len() + 1);
+        let mut offsets = Vec::with_capacity(text.len() + 1);
         let mut units = 0;
         for c in text.chars() {
-            listed.resize(listed.len() + c.len_utf8(), units);
+            offsets.resize(offsets.len() + c.len_utf8(), units);
             units += c.len_utf16() as u32;
         }
-        listed.push(units);
-        Offsets::Listed(listed)
+        offsets.push(units);
+        Offsets::ByByte(offsets)
     }
 
     fn at(&self, byte: u32) -> u32 {
         match self {
-            Offsets::Same => byte,
-            Offsets::Listed(listed) => listed.get(byte as usize).or(listed.last()).copied().unwrap_or(0),
+            Offsets::Equal => byte,
+            Offsets::ByByte(offsets) => offsets.get(byte as usize).or(offsets.last()).copied().unwrap_or(0),
         }
     }
 }
@@ -60,12 +60,12 @@ mod tests {
     fn places_count_as_scripts_do() {
         let mut sources = Sources::default();
         let (plain, odd) = (sources.add("a", "abc"), sources.add("b", "aö😀z"));
-        let texts = Texts::of(&[(plain, sources.get(plain)), (odd, sources.get(odd))]);
-        let place = |file, start, end| texts.place(Span { file, start, end });
-        assert_eq!(place(plain, 1, 3), Some((0, 1, 3)));
-        assert_eq!(place(odd, 1, 3), Some((1, 1, 2)));
-        assert_eq!(place(odd, 3, 8), Some((1, 2, 5)));
+        let texts = Texts::new(&[(plain, sources.get(plain)), (odd, sources.get(odd))]);
+        let position = |file, start, end| texts.locate(Span { file, start, end });
+        assert_eq!(position(plain, 1, 3), Some((0, 1, 3)));
+        assert_eq!(position(odd, 1, 3), Some((1, 1, 2)));
+        assert_eq!(position(odd, 3, 8), Some((1, 2, 5)));
         let option = sources.add_option("--set", "x");
-        assert_eq!(place(option, 0, 1), None);
+        assert_eq!(position(option, 0, 1), None);
     }
 }
