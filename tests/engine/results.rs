@@ -1045,7 +1045,7 @@ fn names_in_results_have_their_meanings() {
 
 /// The reference results of a case, to 1e-9 of the numbers.
 fn reference(name: &str) {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases2");
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases_composed");
     let read = |ending: &str| std::fs::read_to_string(folder.join(format!("{name}.{ending}"))).expect("a file");
     let compiled = compiled(name, &read("mech"));
     let wanted: serde_json::Value = serde_json::from_str(&read("results.json")).expect("JSON");

@@ -75,7 +75,7 @@ fn compared(name: &str, system: &ConstraintSystem) -> [usize; 2] {
 
 #[test]
 fn rows_are_in_what_their_formulas_tell() {
-    let folders = ["examples", "tests/cases", "tests/cases2", "tests/stages", "tests/following"];
+    let folders = ["examples", "tests/cases", "tests/cases_composed", "tests/stages", "tests/following"];
     let (mut rows, mut told) = (0, 0);
     for path in folders.map(|folder| files(folder, "mech")).concat() {
         let text = fs::read_to_string(&path).expect("a text");

@@ -86,7 +86,7 @@ fn made(seed: u64) -> String {
 }
 
 /// Holds rows of some of so many times against the rows of all of them, bit by bit; gives how many there are of these.
-fn have_the_same_bits(name: &str, compiled: &Compiled, count: u32) -> usize {
+fn have_equal_bits(name: &str, compiled: &Compiled, count: u32) -> usize {
     let [from, to, _] = compiled.analysis().expect("an analysis");
     let at = |k: u32| from + (to - from) * f64::from(k) / f64::from(count);
     let (all, _) = all_rows(compiled, &Times::listed(from, (0..=count).map(at).collect()));
@@ -110,7 +110,7 @@ fn the_rows_of_random_mechanisms_have_the_same_bits_whichever_others_are_asked_f
     for seed in 0..8 {
         let text = made(seed);
         if let Some(compiled) = support::compile_with_forces(Path::new("made"), &text, 0) {
-            seen += usize::from(have_the_same_bits(&text, &compiled, 40) > 1);
+            seen += usize::from(have_equal_bits(&text, &compiled, 40) > 1);
         }
     }
     assert!(seen > 4, "{seen}");
@@ -121,7 +121,7 @@ fn rows_that_hold_rounding_of_great_numbers_have_the_same_bits_whichever_others_
     let text = fs::read_to_string("tests/bits/gear_under_great_forces.mech").expect("a text");
     let compiled = compiled("gear", &text);
     for count in [20, 10, 2, 100] {
-        assert_eq!(have_the_same_bits("gear", &compiled, count), count as usize + 1);
+        assert_eq!(have_equal_bits("gear", &compiled, count), count as usize + 1);
     }
 }
 

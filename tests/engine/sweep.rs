@@ -4,7 +4,7 @@
 
 use crate::support;
 
-use crate::support::swept::{bits, bits_of, compare, count, join, subject, vary};
+use crate::support::sweeps::{bits, bits_of, compare, count, join, subject, vary};
 use mechc::{Cancel, Choice, Memory, Method, Parsed, Redundant, RunOptions, Status, SweepOptions, VaryOptions};
 
 /// A four-bar, whose crank turns fully where it is shortest and shortest and longest together are no longer than the other two.
@@ -64,13 +64,13 @@ fn threads_and_shares_change_no_bit() {
     let subject = subject(FOUR_BAR, Choice::default());
     let variants = subject.variants(&vary(&["crank_length=20mm..50mm:7", "rocker_length=50mm..90mm:11"]));
     let options = subject.all_columns();
-    let whole = bits_of(&subject.swept(&variants, &SweepOptions { jobs: Some(1), ..options.clone() }));
+    let whole = bits_of(&subject.sweep(&variants, &SweepOptions { jobs: Some(1), ..options.clone() }));
     for jobs in [2, 16] {
-        assert_eq!(bits_of(&subject.swept(&variants, &SweepOptions { jobs: Some(jobs), ..options.clone() })), whole);
+        assert_eq!(bits_of(&subject.sweep(&variants, &SweepOptions { jobs: Some(jobs), ..options.clone() })), whole);
     }
-    let mut shares = subject.swept(&variants, &SweepOptions { take: Some(5), ..options.clone() });
+    let mut shares = subject.sweep(&variants, &SweepOptions { take: Some(5), ..options.clone() });
     for (skip, take) in [(5, Some(33)), (38, Some(1)), (39, None)] {
-        let share = subject.swept(&variants, &SweepOptions { skip, take, ..options.clone() });
+        let share = subject.sweep(&variants, &SweepOptions { skip, take, ..options.clone() });
         assert_eq!(share.first, skip);
         join(&mut shares, share);
     }
@@ -85,8 +85,8 @@ fn results_alone_are_those_beside_rows() {
         ["swing rad", "pause 1", "top m"]
     );
     let variants = subject.variants(&vary(&["share=0..1:5"]));
-    let alone = subject.swept(&variants, &SweepOptions::default());
-    let beside = subject.swept(&variants, &subject.all_columns());
+    let alone = subject.sweep(&variants, &SweepOptions::default());
+    let beside = subject.sweep(&variants, &subject.all_columns());
     assert_eq!((alone.results.clone(), alone.statuses), (beside.results, beside.statuses));
     assert!(alone.columns.is_empty() && alone.lengths == [0; 5]);
     // the pen is farther out the larger its share is
@@ -100,7 +100,7 @@ fn digits_of_results_are_told() {
     let variants = vary(&["share=0..1:5"]);
     let of = |results: &[String], digits| {
         let subject = subject(FOUR_BAR, Choice { results: results.to_vec(), ..Choice::default() });
-        subject.swept(&subject.variants(&variants), &SweepOptions { digits, ..SweepOptions::default() })
+        subject.sweep(&subject.variants(&variants), &SweepOptions { digits, ..SweepOptions::default() })
     };
     let [plain, told, with_pole] = [of(&results[..1], false), of(&results[..1], true), of(&results, true)];
     assert_eq!((plain.digits, plain.results), (None, told.results));
@@ -112,7 +112,7 @@ fn digits_of_results_are_told() {
 #[test]
 fn with_its_own_values_a_variant_is_the_file() {
     let subject = subject(FOUR_BAR, Choice::default());
-    let block = subject.swept(&subject.variants(&vary(&["share=0.5", "speed=60rpm"])), &subject.all_columns());
+    let block = subject.sweep(&subject.variants(&vary(&["share=0.5", "speed=60rpm"])), &subject.all_columns());
     let plain = subject.parsed.check(&Choice::default(), &Memory::default());
     let compiled = plain.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
     let (run, _) = compiled.run(&compiled.times().expect("an analysis"), &RunOptions::default());
@@ -157,7 +157,7 @@ fn a_sweep_ends_at_the_variant_that_is_looked_for() {
         let subject = subject(FOUR_BAR, choice);
         let variants = subject.variants(&vary(&["crank_length=20mm..40mm:21"]));
         [1, 3].map(|jobs| {
-            let block = subject.swept(&variants, &SweepOptions { jobs: Some(jobs), ..SweepOptions::default() });
+            let block = subject.sweep(&variants, &SweepOptions { jobs: Some(jobs), ..SweepOptions::default() });
             assert_eq!(block.results.len(), 2, "what is looked for is no column");
             block.len()
         })
@@ -179,7 +179,7 @@ fn what_is_looked_for_stops_no_variant() {
         let swept = |until: Option<&str>, has_rows: bool| {
             let subject = subject(text, Choice { until: until.map(str::to_owned), ..Choice::default() });
             let options = if has_rows { subject.all_columns() } else { SweepOptions::default() };
-            subject.swept(&subject.variants(&vary(&[varied])), &options)
+            subject.sweep(&subject.variants(&vary(&[varied])), &options)
         };
         for has_rows in [false, true] {
             let block = swept(Some(condition), has_rows);

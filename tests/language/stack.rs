@@ -2,10 +2,10 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-#[path = "../support/deepest.rs"]
-mod deepest;
+#[path = "../support/deep_texts.rs"]
+mod deep_texts;
 
-use deepest::{all_ways, deepest};
+use deep_texts::{run_all_stages, deep_texts};
 use mechc::{Choice, Memory, Parsed, Sources};
 use mechc_expr::math;
 use mechc_lang::check;
@@ -24,12 +24,12 @@ const TOO_LARGE: &str = "functions with branches";
 
 #[test]
 fn what_is_deepest_does_with_a_small_stack() {
-    let all = deepest();
+    let all = deep_texts();
     assert!(all.len() > 20);
     for deep in all {
         let name = deep.name;
         let way = thread::Builder::new().name(name.to_owned()).stack_size(STACK);
-        let went = way.spawn(move || all_ways(&deep)).expect("a thread").join().expect("no panic");
+        let went = way.spawn(move || run_all_stages(&deep)).expect("a thread").join().expect("no panic");
         match went {
             Ok(_) => assert_ne!(name, TOO_LARGE),
             Err(said) => assert!(name == TOO_LARGE && said.contains("E0410"), "{name}: {said}"),

@@ -14,7 +14,7 @@ use mechc::{
     Seen, Sources, Times,
 };
 use mechc_draw::scene::{
-    Anchor, Look, Motion, Path as Drawn, Pen, Place, Pose, Scene, Segment, Torque, Vector, catalogue, distance, dot,
+    Anchor, Look, Motion, Path as Drawn, Pen, Attachment, Pose, Scene, Segment, Torque, Vector, catalogue, distance, dot,
     minus, plus, polar, times,
 };
 use mechc_draw::view::svg::{Options, Plot, Theme, animated, has_vectors, plots, still};
@@ -148,7 +148,7 @@ impl<'f> Read<'f> {
     fn placed(&self, local: Vector, group: &str, part: f64) -> Vector {
         let put = |numbers: &[f64]| {
             let turn = numbers.get(2).copied().unwrap_or(0.0).to_radians();
-            Pose { at: [numbers[0], numbers[1]], phi: turn }.placed(local)
+            Pose { at: [numbers[0], numbers[1]], phi: turn }.transform(local)
         };
         let class = attribute(group, "class").unwrap_or("");
         let Some((_, number)) = class.split_once("m m") else {
@@ -186,7 +186,7 @@ fn farthest_pin(name: &str, seen: &Seen, file: &str) -> f64 {
         seen.motion.write_poses(t, &mut poses);
         for (path, local, group) in &read.points {
             let point = seen.scene.point_named(path).expect("a point of the scene");
-            let wanted = read.pixels(poses[point.frame].placed(point.at));
+            let wanted = read.pixels(poses[point.frame].transform(point.at));
             let found = read.placed(*local, group, (t - first) / (last - first));
             farthest = farthest.max(distance(found, wanted));
         }
@@ -309,7 +309,7 @@ fn names_stand_near_what_they_name_and_beside_bars() {
         let boxes = boxes(&file);
         for name in ["crank.A0", "crank.A", "rocker.B", "rocker.B0"] {
             let point = seen.scene.point_named(name).expect("a point");
-            let pin = read.pixels(poses[point.frame].placed(point.at));
+            let pin = read.pixels(poses[point.frame].transform(point.at));
             let own = name.rsplit('.').next();
             let (_, [low, high]) = boxes.iter().find(|(text, _)| Some(text.as_str()) == own).expect("a label");
             let nearest = [0, 1].map(|part| pin[part].clamp(low[part], high[part]));
@@ -322,7 +322,7 @@ fn names_stand_near_what_they_name_and_beside_bars() {
                 .points
                 .iter()
                 .filter(|point| point.name.starts_with(name))
-                .map(|point| read.pixels(poses[point.frame].placed(point.at)))
+                .map(|point| read.pixels(poses[point.frame].transform(point.at)))
                 .collect();
             let (_, [low, high]) = boxes.iter().find(|(text, _)| text == name).expect("a label");
             let covered = (0..=100).map(|k| plus(ends[0], times(0.01 * f64::from(k), minus(ends[1], ends[0]))));
@@ -508,13 +508,13 @@ fn corners(path: &Drawn, pose: &Pose) -> Vec<Vec<Vector>> {
     let Drawn::Lines(contours) = path else { return Vec::new() };
     let of_circle = |start: Vector, radius: f64, end: Vector| {
         let middle = times(0.5, plus(start, end));
-        (0..90).map(|k| pose.placed(plus(middle, polar(radius, f64::from(k) * 4_f64.to_radians())))).collect()
+        (0..90).map(|k| pose.transform(plus(middle, polar(radius, f64::from(k) * 4_f64.to_radians())))).collect()
     };
     contours
         .iter()
         .map(|one| match one.segments.first() {
             Some(Segment::Arc { to, radius, .. }) => of_circle(one.start, *radius, *to),
-            _ => Drawn::Lines(vec![one.clone()]).moved(pose).places(),
+            _ => Drawn::Lines(vec![one.clone()]).transform(pose).positions(),
         })
         .collect()
 }
@@ -539,10 +539,10 @@ fn depth(place: Vector, contours: &[Vec<Vector>]) -> f64 {
 /// The deepest that a tooth goes into what it meshes with along a motion, as a part of the size of symbols.
 fn deepest_overlap(scene: &Scene, motion: &Motion) -> (usize, f64) {
     let toothed = |look| matches!(look, Look::Gear | Look::Rack);
-    let wheels: Vec<(&Place, &Drawn)> = scene
+    let wheels: Vec<(&Attachment, &Drawn)> = scene
         .nodes
         .iter()
-        .flat_map(|node| node.shapes.iter().filter(|shape| toothed(shape.look)).map(|shape| (&node.place, &shape.path)))
+        .flat_map(|node| node.shapes.iter().filter(|shape| toothed(shape.look)).map(|shape| (&node.attachment, &shape.path)))
         .collect();
     let mut deepest = 0.0_f64;
     for row in motion.sampled(25) {
@@ -587,7 +587,7 @@ fn wheels_that_no_pitch_fits_have_no_teeth() {
     };
     let teeth = |seen: &Seen| {
         let gears = seen.scene.nodes.iter().flat_map(|node| &node.shapes).filter(|shape| shape.look == Look::Gear);
-        gears.map(|shape| shape.path.places().len()).min().expect("a wheel")
+        gears.map(|shape| shape.path.positions().len()).min().expect("a wheel")
     };
     let fitting = train("25 mm");
     assert!(teeth(&fitting) > 100);
@@ -602,7 +602,7 @@ fn guides_are_as_long_as_the_motion_asks_for() {
     let seen = example("slider_crank");
     let shapes = |look| {
         seen.scene.nodes.iter().flat_map(move |node| {
-            node.shapes.iter().filter(move |shape| shape.look == look).map(|shape| (node.place, shape.path.places()))
+            node.shapes.iter().filter(move |shape| shape.look == look).map(|shape| (node.attachment, shape.path.positions()))
         })
     };
     let longest = |places: &[Vector]| distance(places[0], places[1]);
@@ -610,7 +610,7 @@ fn guides_are_as_long_as_the_motion_asks_for() {
     let (place, block) = shapes(Look::Block).next().expect("a block");
     for row in 0..seen.motion.len() {
         let (pose, _) = place.pose(seen.motion.poses(row));
-        for corner in block.iter().map(|corner| pose.placed(*corner)) {
+        for corner in block.iter().map(|corner| pose.transform(*corner)) {
             assert!(edge[0][0] < corner[0] && corner[0] < edge[1][0], "the block leaves its guide in row {row}");
         }
     }
@@ -787,7 +787,7 @@ fn places_are_true(seen: &Seen, row: usize, options: &Options) {
     assert!(!read.points.is_empty());
     for (path, local, group) in &read.points {
         let point = seen.scene.point_named(path).expect("a point");
-        let wanted = read.pixels(seen.motion.poses(row)[point.frame].placed(point.at));
+        let wanted = read.pixels(seen.motion.poses(row)[point.frame].transform(point.at));
         let found = times(each, read.placed(*local, group, 0.0));
         assert!(distance(found, wanted) < 1e-4, "{path}: {found:?}, not {wanted:?}");
     }
@@ -851,7 +851,7 @@ fn what_is_cut_keeps_to_its_lines() {
     let (polylines, points) = read_dxf(&text);
     let of = |layer: &str| polylines.iter().find(|(own, _, _)| own == layer).expect("a layer");
     let center = seen.scene.point_named("disc.C").expect("the centre");
-    let center = seen.motion.poses(20)[center.frame].placed(center.at);
+    let center = seen.motion.poses(20)[center.frame].transform(center.at);
     let (_, rim, is_closed) = of("disc_rim");
     assert!(*is_closed && off_circle(rim, center, 0.025) < 1e-6, "{}", off_circle(rim, center, 0.025));
     assert!(points.iter().any(|(layer, at)| layer == "disc_O" && distance(*at, [0.0; 2]) < 1e-9), "{points:?}");
@@ -1093,7 +1093,7 @@ fn free_motions_are_those_by_hand() {
 fn looking(seen: &Seen, look: Look) -> Vec<(&str, Vector)> {
     let nodes = seen.scene.nodes.iter().filter(|node| node.shapes.iter().any(|shape| shape.look == look));
     let poses = seen.motion.poses(0);
-    nodes.map(|node| (seen.scene.declarations[node.declaration].name.as_str(), node.place.pose(poses).0.at)).collect()
+    nodes.map(|node| (seen.scene.declarations[node.declaration].name.as_str(), node.attachment.pose(poses).0.at)).collect()
 }
 
 #[test]
@@ -1194,7 +1194,7 @@ fn messages_take_no_room_from_what_is_drawn() {
         assert!(!lines.is_empty() && lines.iter().all(|y| *y < height), "{lines:?} of {height}");
         let read = Read::of(&file);
         for point in &seen.scene.points {
-            let [x, y] = read.pixels(seen.motion.poses(0)[point.frame].placed(point.at));
+            let [x, y] = read.pixels(seen.motion.poses(0)[point.frame].transform(point.at));
             assert!(
                 x > 0.0 && y > 0.0 && y < lines[0] - 13.0,
                 "{} is at {x}, {y}, and words at {}",

@@ -5,11 +5,11 @@
 pub mod blocks;
 pub mod change_points;
 pub mod golden;
-pub mod listed;
+pub mod named_tests;
 pub mod random;
-pub mod reading;
+pub mod formula_reader;
 pub mod shape;
-pub mod swept;
+pub mod sweeps;
 pub mod table;
 pub mod tex;
 

@@ -20,7 +20,7 @@ const LEVELS: usize = 195;
 const MEMBERS: usize = if cfg!(debug_assertions) { 1_500 } else { 3_000 };
 
 /// What is deep in each of the ways that there are.
-pub fn deepest() -> Vec<Deep> {
+pub fn deep_texts() -> Vec<Deep> {
     let nested = |open: &str, inner: &str, close: &str, levels: usize| {
         format!("{}{inner}{}", open.repeat(levels), close.repeat(levels))
     };
@@ -127,7 +127,7 @@ fn foreign(formula: &str) -> String {
 }
 
 /// A text on all ways: what is said of it, or its table, and the sizes of everything else that can be made of it.
-pub fn all_ways(deep: &Deep) -> Result<String, String> {
+pub fn run_all_stages(deep: &Deep) -> Result<String, String> {
     let text = if deep.is_foreign { translated(deep)? } else { deep.text.clone() };
     let parsed = Parsed::of(deep.name, &text);
     let (made, sources) = ways(&parsed);

@@ -3,7 +3,7 @@
 use libtest_mimic::{Arguments, Trial};
 
 /// Whether the command line asks for a test of a name.
-pub fn is_asked_for(name: &str) -> bool {
+pub fn is_requested(name: &str) -> bool {
     !Arguments::from_args().is_filtered_out(&Trial::test(name, || Ok(())))
 }
 

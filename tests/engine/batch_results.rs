@@ -3,7 +3,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
-use crate::support::swept::{Subject, bits, bits_of, subject, vary};
+use crate::support::sweeps::{Subject, bits, bits_of, subject, vary};
 use mechc::{Choice, Method, Status, SweepOptions, VaryOptions, Vectors};
 
 const FOUR_BAR: &str = "mechanism four_bar {
@@ -76,11 +76,11 @@ fn sampled(ranges: &[&str], sample: u64) -> VaryOptions {
 /// Compares the results of each variant with those alone; gives how many went side by side, and how many completed.
 fn compare(subject: &Subject, asked: &VaryOptions) -> (usize, usize) {
     let variants = subject.variants(asked);
-    let block = subject.swept(&variants, &SweepOptions::default());
+    let block = subject.sweep(&variants, &SweepOptions::default());
     let mut complete = 0;
     for k in 0..block.len() {
         let settings = variants.settings(k as u64);
-        let (status, results, _) = subject.alone(settings.clone());
+        let (status, results, _) = subject.run_single(settings.clone());
         let swept: Vec<f64> = block.results.iter().map(|column| column[k]).collect();
         assert_eq!(block.statuses[k], status, "{settings:?}");
         assert_eq!(bits(&swept), bits(&results), "{settings:?}: {swept:?} instead of {results:?}");
@@ -275,21 +275,21 @@ fn other_results_go_alone() {
 fn threads_vectors_rows_and_shares_change_no_bit_of_results() {
     let subject = of(FOUR_BAR, &KINDS);
     let variants = subject.variants(&sampled(&["rod=2..4", "lever=1.4..4", "arm=0.5..1.5"], 100));
-    let whole = subject.swept(&variants, &SweepOptions { jobs: Some(1), ..SweepOptions::default() });
+    let whole = subject.sweep(&variants, &SweepOptions { jobs: Some(1), ..SweepOptions::default() });
     assert!((20..100).contains(&whole.answered), "{}", whole.answered);
     for name in Vectors::NAMES {
         let Some(vectors) = Vectors::named(name) else { continue };
         for jobs in [1, 2, 16] {
             let swept =
-                subject.swept(&variants, &SweepOptions { jobs: Some(jobs), vectors, ..SweepOptions::default() });
+                subject.sweep(&variants, &SweepOptions { jobs: Some(jobs), vectors, ..SweepOptions::default() });
             assert_eq!(bits_of(&swept), bits_of(&whole), "{name}, {jobs} threads");
         }
     }
-    let beside = subject.swept(&variants, &subject.all_columns());
+    let beside = subject.sweep(&variants, &subject.all_columns());
     let all = |columns: &[Vec<f64>]| columns.iter().flat_map(|column| bits(column)).collect::<Vec<_>>();
     assert_eq!(all(&beside.results), all(&whole.results));
     for skip in [1, 7, 33] {
-        let share = subject.swept(&variants, &SweepOptions { skip, take: Some(20), ..SweepOptions::default() });
+        let share = subject.sweep(&variants, &SweepOptions { skip, take: Some(20), ..SweepOptions::default() });
         for (column, known) in share.results.iter().zip(&whole.results) {
             assert_eq!(bits(column), bits(&known[skip as usize..skip as usize + 20]), "from {skip} on");
         }
@@ -302,8 +302,8 @@ fn the_variant_that_is_looked_for_is_the_same() {
     let until = Choice { until: Some("max(y(coupler.pen)) > 2.45".to_owned()), ..Choice::default() };
     let subject = subject(FOUR_BAR, until);
     let variants = subject.variants(&sampled(&["rod=3.4..3.6", "lever=2.9..3.1", "pen_x=0..2"], 100));
-    let found = subject.swept(&variants, &SweepOptions::default());
-    let beside = subject.swept(&variants, &subject.all_columns());
+    let found = subject.sweep(&variants, &SweepOptions::default());
+    let beside = subject.sweep(&variants, &subject.all_columns());
     assert!((1..100).contains(&found.len()), "{}", found.len());
     assert_eq!((found.len(), found.answered), (beside.len(), found.len()));
 }

@@ -3,7 +3,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
-use crate::support::swept::{Subject, bits_of, compare_all, count, have_the_same_bits, subject, vary};
+use crate::support::sweeps::{Subject, bits_of, compare_all, count, have_equal_bits, subject, vary};
 use mechc::{Choice, Method, Status, SweepOptions, Swept, Variants, VaryOptions, Vectors};
 use std::collections::VecDeque;
 
@@ -139,13 +139,13 @@ fn results_beside_a_lane_are_those_alone() {
     let asked = sampled(&["rod=2..4", "lever=2..4", "pen_x=-1..2"], 24, Method::Sobol);
     let (found, abreast) = compare(&subject, &asked);
     assert!(abreast > 8 && abreast <= count(&found, Status::Ok), "{abreast} of {found:?}");
-    let alone = subject.swept(&subject.variants(&asked), &SweepOptions::default());
-    let beside = subject.swept(&subject.variants(&asked), &subject.all_columns());
+    let alone = subject.sweep(&subject.variants(&asked), &SweepOptions::default());
+    let beside = subject.sweep(&subject.variants(&asked), &subject.all_columns());
     // results are in doubt earlier than rows
     assert!(alone.abreast > 8 && alone.abreast <= abreast, "{} of {abreast}", alone.abreast);
     assert_eq!(alone.statuses, beside.statuses);
     for (alone, beside) in alone.results.iter().zip(&beside.results) {
-        assert!(have_the_same_bits(alone, beside), "{alone:?} {beside:?}");
+        assert!(have_equal_bits(alone, beside), "{alone:?} {beside:?}");
     }
 }
 
@@ -164,29 +164,29 @@ fn threads_vectors_and_columns_change_no_bit() {
     let subject = subject(&four_bar(TURNS, "0.21"), Choice::default());
     let variants = subject.variants(&sampled(&["rod=2..4", "lever=1.4..4", "arm=0.5..1.5"], 100, Method::Sobol));
     let all = subject.all_columns();
-    let whole = subject.swept(&variants, &SweepOptions { jobs: Some(1), ..all.clone() });
+    let whole = subject.sweep(&variants, &SweepOptions { jobs: Some(1), ..all.clone() });
     assert!((20..100).contains(&whole.abreast), "{}", whole.abreast);
     for name in Vectors::NAMES {
         let Some(vectors) = Vectors::named(name) else { continue };
         for jobs in [1, 2, 16] {
-            let swept = subject.swept(&variants, &SweepOptions { jobs: Some(jobs), vectors, ..all.clone() });
+            let swept = subject.sweep(&variants, &SweepOptions { jobs: Some(jobs), vectors, ..all.clone() });
             assert_eq!(bits_of(&swept), bits_of(&whole), "{name}, {jobs} threads");
         }
     }
     for columns in [vec![4, 5], vec![0], vec![9, 1, 9], Vec::new()] {
-        let swept = subject.swept(&variants, &SweepOptions { columns: Some(columns.clone()), ..all.clone() });
+        let swept = subject.sweep(&variants, &SweepOptions { columns: Some(columns.clone()), ..all.clone() });
         assert_eq!(swept.statuses, whole.statuses);
         for (column, from) in swept.columns.iter().zip(&columns) {
-            assert!(have_the_same_bits(column, &whole.columns[*from]), "column {from} of {columns:?}");
+            assert!(have_equal_bits(column, &whole.columns[*from]), "column {from} of {columns:?}");
         }
     }
     // other groups, other neighbours
     for skip in [1, 7, 33] {
-        let share = subject.swept(&variants, &SweepOptions { skip, take: Some(20), ..all.clone() });
+        let share = subject.sweep(&variants, &SweepOptions { skip, take: Some(20), ..all.clone() });
         let first: usize = whole.lengths[..skip as usize].iter().sum();
         let rows: usize = share.lengths.iter().sum();
         for (column, known) in share.columns.iter().zip(&whole.columns) {
-            assert!(have_the_same_bits(column, &known[first..first + rows]), "from {skip} on");
+            assert!(have_equal_bits(column, &known[first..first + rows]), "from {skip} on");
         }
     }
 }
@@ -194,12 +194,12 @@ fn threads_vectors_and_columns_change_no_bit() {
 /// Compares a block with its variants, one after the other.
 fn assert_holds_those_alone(subject: &Subject, variants: &Variants, block: &Swept) {
     for (k, number) in (block.first..).take(block.len()).enumerate() {
-        let (status, _, rows) = subject.alone(variants.settings(number));
+        let (status, _, rows) = subject.run_single(variants.settings(number));
         assert_eq!((block.statuses[k], block.lengths[k]), (status, rows.len()));
         let first: usize = block.lengths[..k].iter().sum();
         for (at, row) in rows.iter().enumerate() {
             let swept: Vec<f64> = block.columns.iter().map(|column| column[first + at]).collect();
-            assert!(have_the_same_bits(&swept, row), "{number}, row {at}");
+            assert!(have_equal_bits(&swept, row), "{number}, row {at}");
         }
     }
 }
@@ -274,14 +274,14 @@ fn near_rows_are_those_alone() {
         let (variants, all) = (subject.variants(&asked), subject.all_columns());
         let (found, abreast) = compare_all(&subject, &variants);
         assert!(abreast >= least, "{abreast} of {found:?}");
-        let whole = subject.swept(&variants, &all);
+        let whole = subject.sweep(&variants, &all);
         // positions of the last body, and its velocities
         for columns in [vec![7, 8, 9], vec![18, 19]] {
-            let swept = subject.swept(&variants, &SweepOptions { columns: Some(columns.clone()), ..all.clone() });
+            let swept = subject.sweep(&variants, &SweepOptions { columns: Some(columns.clone()), ..all.clone() });
             assert!(swept.abreast >= least, "{} of {:?}", swept.abreast, swept.statuses);
             assert_eq!((&swept.statuses, &swept.lengths), (&whole.statuses, &whole.lengths));
             for (column, from) in swept.columns.iter().zip(&columns) {
-                assert!(have_the_same_bits(column, &whole.columns[*from]), "column {from} of {asked:?}");
+                assert!(have_equal_bits(column, &whole.columns[*from]), "column {from} of {asked:?}");
             }
         }
     }
@@ -302,14 +302,14 @@ fn zeros_and_times_of_their_own_are_as_alone() {
         );
     }
     let variants = subject.variants(&vary(&["rod=3.3..3.7:9"]));
-    let all = subject.swept(&variants, &subject.all_columns());
+    let all = subject.sweep(&variants, &subject.all_columns());
     let times = mechc::AskedTimes { at: vec![1.5, 3.0], ..mechc::AskedTimes::default() };
-    let some = subject.swept(&variants, &SweepOptions { times, ..subject.all_columns() });
+    let some = subject.sweep(&variants, &SweepOptions { times, ..subject.all_columns() });
     assert_eq!((some.abreast, &some.lengths), (9, &vec![2; 9]));
     let rows = all.lengths[0];
     for (some, all) in some.columns.iter().zip(&all.columns) {
         let wanted: Vec<f64> = (0..9).flat_map(|k| [all[k * rows + 3], all[k * rows + 6]]).collect();
-        assert!(have_the_same_bits(some, &wanted));
+        assert!(have_equal_bits(some, &wanted));
     }
 }
 

@@ -40,7 +40,7 @@ impl Subject {
     }
 
     /// All blocks of a sweep, as one.
-    pub fn swept(&self, variants: &Variants, options: &SweepOptions) -> Swept {
+    pub fn sweep(&self, variants: &Variants, options: &SweepOptions) -> Swept {
         let mut blocks = self.checked.sweep(&self.compiled, variants, options, |block| block).expect("times are said");
         let mut all = blocks.next().expect("a block");
         for block in blocks {
@@ -51,7 +51,7 @@ impl Subject {
     }
 
     /// What `run --lead --set` makes of a variant: its status, its results, and the rows up to where it stops.
-    pub fn alone(&self, settings: Vec<String>) -> (Status, Vec<f64>, Vec<Vec<f64>>) {
+    pub fn run_single(&self, settings: Vec<String>) -> (Status, Vec<f64>, Vec<Vec<f64>>) {
         let count = self.compiled.results().len();
         let nothing = vec![f64::NAN; count];
         let set = self.choice.set.iter().cloned().chain(settings).collect();
@@ -112,7 +112,7 @@ pub fn bits_of(block: &Swept) -> (Vec<Status>, Vec<usize>, Vec<Vec<u64>>) {
 }
 
 /// Whether numbers are the same ones, to the bit.
-pub fn have_the_same_bits(found: &[f64], known: &[f64]) -> bool {
+pub fn have_equal_bits(found: &[f64], known: &[f64]) -> bool {
     bits(found) == bits(known)
 }
 
@@ -123,11 +123,11 @@ pub fn compare(subject: &Subject, variants: &Variants) -> Vec<(Status, usize)> {
 
 /// The same, and how many went side by side.
 pub fn compare_all(subject: &Subject, variants: &Variants) -> (Vec<(Status, usize)>, usize) {
-    let block = subject.swept(variants, &subject.all_columns());
+    let block = subject.sweep(variants, &subject.all_columns());
     let (mut first_row, mut found) = (0, Vec::new());
     for k in 0..block.len() {
         let settings = variants.settings(k as u64);
-        let (status, results, rows) = subject.alone(settings.clone());
+        let (status, results, rows) = subject.run_single(settings.clone());
         assert_eq!(block.statuses[k], status, "{settings:?}");
         let swept: Vec<f64> = block.results.iter().map(|column| column[k]).collect();
         assert_eq!(bits(&swept), bits(&results), "{settings:?}");
