@@ -5,7 +5,7 @@
 #[path = "../support/deep_texts.rs"]
 mod deep_texts;
 
-use deep_texts::{run_all_stages, deep_texts};
+use deep_texts::{deep_texts, run_all_stages};
 use mechc::{Choice, Memory, Parsed, Sources};
 use mechc_expr::math;
 use mechc_lang::check;

@@ -5,9 +5,9 @@
 #[path = "../support/mod.rs"]
 mod support;
 
-mod references;
 mod explain;
 mod modules;
+mod references;
 mod sensitivities;
 mod sessions;
 mod stages;

@@ -88,8 +88,15 @@ const FOR_RUN_ALONE: &str = "slider_crank_closed_form";
 
 /// Examples, reference cases and the stages; formulas with rims; and one that takes several functions.
 fn determined() -> Vec<Module> {
-    let folders =
-        ["examples", "tests/cases", "tests/cases_forces", "tests/forces", "tests/stages", "tests/following", "tests/slopes"];
+    let folders = [
+        "examples",
+        "tests/cases",
+        "tests/cases_forces",
+        "tests/forces",
+        "tests/stages",
+        "tests/following",
+        "tests/slopes",
+    ];
     let mut paths = folders.map(|folder| files(folder, "mech")).concat();
     paths.retain(|path| stem(path) != FOR_RUN_ALONE);
     let mut list: Vec<Module> = Vec::new();

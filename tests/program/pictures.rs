@@ -14,8 +14,8 @@ use mechc::{
     Seen, Sources, Times,
 };
 use mechc_draw::scene::{
-    Anchor, Look, Motion, Path as Drawn, Pen, Attachment, Pose, Scene, Segment, Torque, Vector, catalogue, distance, dot,
-    minus, plus, polar, times,
+    Anchor, Attachment, Catalogue, Look, Motion, Path as Drawn, Pen, Pose, Scene, Segment, Torque, Vector, catalogue,
+    distance, dot, minus, plus, polar, times,
 };
 use mechc_draw::view::svg::{Options, Plot, Theme, animated, has_vectors, plots, still};
 use mechc_draw::view::{dxf, first_sentence};
@@ -542,7 +542,9 @@ fn deepest_overlap(scene: &Scene, motion: &Motion) -> (usize, f64) {
     let wheels: Vec<(&Attachment, &Drawn)> = scene
         .nodes
         .iter()
-        .flat_map(|node| node.shapes.iter().filter(|shape| toothed(shape.look)).map(|shape| (&node.attachment, &shape.path)))
+        .flat_map(|node| {
+            node.shapes.iter().filter(|shape| toothed(shape.look)).map(|shape| (&node.attachment, &shape.path))
+        })
         .collect();
     let mut deepest = 0.0_f64;
     for row in motion.sampled(25) {
@@ -602,7 +604,10 @@ fn guides_are_as_long_as_the_motion_asks_for() {
     let seen = example("slider_crank");
     let shapes = |look| {
         seen.scene.nodes.iter().flat_map(move |node| {
-            node.shapes.iter().filter(move |shape| shape.look == look).map(|shape| (node.attachment, shape.path.positions()))
+            node.shapes
+                .iter()
+                .filter(move |shape| shape.look == look)
+                .map(|shape| (node.attachment, shape.path.positions()))
         })
     };
     let longest = |places: &[Vector]| distance(places[0], places[1]);
@@ -1093,7 +1098,9 @@ fn free_motions_are_those_by_hand() {
 fn looking(seen: &Seen, look: Look) -> Vec<(&str, Vector)> {
     let nodes = seen.scene.nodes.iter().filter(|node| node.shapes.iter().any(|shape| shape.look == look));
     let poses = seen.motion.poses(0);
-    nodes.map(|node| (seen.scene.declarations[node.declaration].name.as_str(), node.attachment.pose(poses).0.at)).collect()
+    nodes
+        .map(|node| (seen.scene.declarations[node.declaration].name.as_str(), node.attachment.pose(poses).0.at))
+        .collect()
 }
 
 #[test]
@@ -1208,7 +1215,7 @@ fn messages_take_no_room_from_what_is_drawn() {
 /// Pictures that a reviewer reads, and those of the docs.
 fn goldens() -> Vec<(String, String)> {
     let span = mechc::Span { file: Sources::default().add("", ""), start: 0, end: 0 };
-    let (symbols, rest, captions) = catalogue(span);
+    let Catalogue { scene: symbols, motion: rest, captions } = catalogue(span);
     let of_symbols = Options { captions, ..Options::default() };
     let (hoeken, slider_crank) = (example("hoeken"), example("slider_crank"));
     let pen = hoeken.scene.point_named("coupler.pen").expect("the pen");

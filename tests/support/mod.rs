@@ -4,10 +4,10 @@
 
 pub mod blocks;
 pub mod change_points;
+pub mod formula_reader;
 pub mod golden;
 pub mod named_tests;
 pub mod random;
-pub mod formula_reader;
 pub mod shape;
 pub mod sweeps;
 pub mod table;

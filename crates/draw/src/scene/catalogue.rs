@@ -20,9 +20,20 @@ struct Entry {
     spring: Option<[Vector; 2]>,
 }
 
-/// Returns a scene of all symbols, a motion in which it rests, and the captions with their positions.
+/// All symbols with their names.
+#[derive(Debug)]
+pub struct Catalogue {
+    /// Scene of the symbols.
+    pub scene: Scene,
+    /// Motion in which they rest.
+    pub motion: Motion,
+    /// Captions with their positions (m).
+    pub captions: Vec<(Vector, String)>,
+}
+
+/// Returns the catalogue of all symbols, whose declarations have a span.
 #[must_use]
-pub fn catalogue(span: Span) -> (Scene, Motion, Vec<(Vector, String)>) {
+pub fn catalogue(span: Span) -> Catalogue {
     let symbols = Symbols { unit: 1.0 };
     let entries = [
         pivot(symbols),
@@ -78,7 +89,7 @@ pub fn catalogue(span: Span) -> (Scene, Motion, Vec<(Vector, String)>) {
         named: Vec::new(),
         remarks: Vec::new(),
     };
-    (scene, Motion::still(vec![Pose::default(); 3]), captions)
+    Catalogue { scene, motion: Motion::still(vec![Pose::default(); 3]), captions }
 }
 
 fn bar(ends: &[Vector], reach: f64) -> Shape {

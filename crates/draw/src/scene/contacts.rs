@@ -2,7 +2,7 @@
 
 use super::drawing::{Drawing, Layer, shape};
 use super::features::Features;
-use super::plane::{Path, Vector, bounds, distance, dot, minus, plus, times};
+use super::plane::{Path, Vector, bounds, distance, distance_to_segment, dot, minus, plus, times};
 use super::symbols::PIN;
 use super::{Anchor, Contact, Look, Shape, Touch};
 use mechc_lang::model::{AxisId, JointKind, PointId, Profile};
@@ -168,7 +168,7 @@ pub(super) fn simplify(positions: &[Vector], off: f64) -> Vec<Vector> {
     (is_kept[0], is_kept[last]) = (true, true);
     let mut open = vec![(0, last)];
     while let Some((from, to)) = open.pop() {
-        let farthest = (from + 1..to).map(|k| (distance_to_segment(positions[k], positions[from], positions[to]), k));
+        let farthest = (from + 1..to).map(|k| (distance_to_segment(positions[k], [positions[from], positions[to]]), k));
         if let Some((away, k)) = farthest.max_by(|a, b| a.0.total_cmp(&b.0))
             && away > off
         {
@@ -177,14 +177,6 @@ pub(super) fn simplify(positions: &[Vector], off: f64) -> Vec<Vector> {
         }
     }
     positions.iter().zip(is_kept).filter(|(_, is_kept)| *is_kept).map(|(position, _)| *position).collect()
-}
-
-/// Returns the distance of a position from a segment.
-fn distance_to_segment(position: Vector, from: Vector, to: Vector) -> f64 {
-    let way = minus(to, from);
-    let square = dot(way, way);
-    let part = if square > 0.0 { (dot(minus(position, from), way) / square).clamp(0.0, 1.0) } else { 0.0 };
-    distance(position, plus(from, times(part, way)))
 }
 
 #[cfg(test)]
@@ -199,7 +191,7 @@ mod tests {
         for position in &circle {
             let nearest = corners
                 .windows(2)
-                .map(|pair| distance_to_segment(*position, pair[0], pair[1]))
+                .map(|pair| distance_to_segment(*position, [pair[0], pair[1]]))
                 .fold(f64::INFINITY, f64::min);
             assert!(nearest <= 1e-3);
         }

@@ -1,6 +1,6 @@
 //! Scene under construction: the state and helpers that all symbols share.
 
-use super::features::Features;
+use super::features::{Features, PartFrame};
 use super::plane::{Path, Vector, bounds, distance};
 use super::{Anchor, Attachment, Look, Motion, Node, Pen, Profile, Sample, Shape, Trace};
 use mechc_lang::model::{self, PointId};
@@ -190,7 +190,7 @@ impl Drawing<'_> {
             if let Some(point) = trace.point {
                 return Pen::Point(self.features.point(point));
             }
-            let (frame, pose, is_mirrored) = self.features.part_frame(trace.part);
+            let PartFrame { frame, pose, is_mirrored } = self.features.part_frame(trace.part);
             Pen::Columns { name: trace.declared.name.clone(), frame, pose, is_mirrored }
         };
         let numbered = model.traces.iter().enumerate();

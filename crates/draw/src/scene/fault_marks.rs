@@ -307,20 +307,25 @@ fn free_motion_node(at: Anchor, mut shapes: Vec<Shape>) -> Node {
 
 /// Returns one frame for each group of frames that move as one.
 fn distinct_velocities(motion: &[(usize, Pose)], marks: &Marks) -> Vec<(usize, Pose)> {
-    let mut distinct: Vec<(usize, Pose, Vector)> = Vec::new();
+    struct Velocity {
+        frame: usize,
+        velocity: Pose,
+        /// Velocity of the position that coincides with the ground's origin.
+        at_origin: Vector,
+    }
+    let mut distinct: Vec<Velocity> = Vec::new();
     for &(frame, velocity) in motion.iter().filter(|(frame, _)| *frame < marks.poses.len()) {
-        // velocity of the position that coincides with the ground's origin
-        let common = velocity.velocity(&marks.poses[frame], marks.poses[frame].inverse_transform([0.0; 2]));
-        let is_same = |other: &(usize, Pose, Vector)| {
-            let size = length(common) + velocity.phi.abs() * marks.unit;
-            let off = distance(other.2, common) + (other.1.phi - velocity.phi).abs() * marks.unit;
+        let at_origin = velocity.velocity(&marks.poses[frame], marks.poses[frame].inverse_transform([0.0; 2]));
+        let is_same = |other: &Velocity| {
+            let size = length(at_origin) + velocity.phi.abs() * marks.unit;
+            let off = distance(other.at_origin, at_origin) + (other.velocity.phi - velocity.phi).abs() * marks.unit;
             off <= SAME_VELOCITY * size
         };
         if !distinct.iter().any(is_same) {
-            distinct.push((frame, velocity, common));
+            distinct.push(Velocity { frame, velocity, at_origin });
         }
     }
-    distinct.into_iter().map(|(frame, velocity, _)| (frame, velocity)).collect()
+    distinct.into_iter().map(|Velocity { frame, velocity, .. }| (frame, velocity)).collect()
 }
 
 /// Returns whether a frame has three free motions of its own.

@@ -23,6 +23,15 @@ pub(super) struct Disc {
     pub radius: f64,
 }
 
+/// The ground of a part.
+pub(super) struct PartFrame {
+    /// Frame that carries the part.
+    pub frame: usize,
+    /// Pose in that frame.
+    pub pose: Pose,
+    pub is_mirrored: bool,
+}
+
 /// A mechanism with the values of its formulas of parameters.
 pub(super) struct Features<'m> {
     pub model: &'m Mechanism,
@@ -74,12 +83,12 @@ impl<'m> Features<'m> {
         Anchor { frame: frame_index(frame), at }
     }
 
-    /// Returns the frame that carries a part, the pose of the part's ground in it, and whether it is mirrored there.
-    pub fn part_frame(&self, part: Option<PartId>) -> (usize, Pose, bool) {
+    /// Returns the ground of a part in the frame that carries it.
+    pub fn part_frame(&self, part: Option<PartId>) -> PartFrame {
         let frame = part.map_or(Frame::Ground, Frame::Part);
         let [origin, ahead] = [[0.0, 0.0], [1.0, 0.0]].map(|position| self.resolve(frame, position));
         let phi = super::plane::direction(minus(ahead.at, origin.at));
-        (origin.frame, Pose { at: origin.at, phi }, self.model.is_mirrored(part))
+        PartFrame { frame: origin.frame, pose: Pose { at: origin.at, phi }, is_mirrored: self.model.is_mirrored(part) }
     }
 
     /// Returns the position on a profile in the frame that carries it; not finite where its formulas have no value.

@@ -1,7 +1,7 @@
 //! Forces as arrows: reactions of joints, loads and weights. Their values at a time are columns of the table.
 
 use super::drawing::Drawing;
-use super::features::Features;
+use super::features::{Features, PartFrame};
 use super::plane::{Vector, length, minus, polar, times};
 use super::{Anchor, Motion};
 use mechc_expr::{ExprId, Node, Symbol};
@@ -118,23 +118,33 @@ pub(super) fn vectors(drawing: &Drawing, has_torques: bool) -> Vec<ForceVector> 
         }));
     }
     for (number, equation) in model.equations.iter().enumerate() {
-        let of = (first.equations + number, ForceKind::Reaction, format!("{}.effort", equation.declared.name));
+        let effort = Effort {
+            declaration: first.equations + number,
+            kind: ForceKind::Reaction,
+            column: format!("{}.effort", equation.declared.name),
+        };
         match equation.form {
             EquationForm::Distance(p, q, _) => {
-                forces.extend(push_apart(&of, [p, q].map(|point| features.point(point)), 1.0));
+                forces.extend(push_apart(&effort, [p, q].map(|point| features.point(point)), 1.0));
             }
             // the effort acts on the left side minus the right side
             EquationForm::Equality(left, right) => {
                 for (side, sign) in [(left, 1.0), (right, -1.0)] {
                     let quantity = bare_quantity(model, side);
-                    forces.extend(quantity.into_iter().flat_map(|on| quantity_forces(features, &of, on, sign)));
+                    forces.extend(
+                        quantity.into_iter().flat_map(|(view, on)| quantity_forces(features, &effort, view, on, sign)),
+                    );
                 }
             }
         }
     }
     for (number, load) in model.loads.iter().enumerate() {
-        let of = (first.loads + number, ForceKind::Load, format!("{}.load", load.declared.name));
-        forces.extend(quantity_forces(features, &of, (load.part, load.on), 1.0));
+        let effort = Effort {
+            declaration: first.loads + number,
+            kind: ForceKind::Load,
+            column: format!("{}.load", load.declared.name),
+        };
+        forces.extend(quantity_forces(features, &effort, load.part, load.on, 1.0));
     }
     forces.retain(|force| force.columns().iter().all(|column| drawing.motion.column(column).is_some()));
     if !forces.is_empty() || has_torques {
@@ -173,11 +183,15 @@ pub(super) fn point_of_action(features: &Features, kind: &JointKind) -> Option<A
     })
 }
 
-/// Declaration, origin and column of a force.
-type Of = (usize, ForceKind, String);
+/// An effort or load whose value is a column of the table.
+struct Effort {
+    declaration: usize,
+    kind: ForceKind,
+    column: String,
+}
 
 /// Returns the two forces that push two positions apart, or pull them together if `sign` is negative.
-fn push_apart((declaration, kind, column): &Of, ends: [Anchor; 2], sign: f64) -> [ForceVector; 2] {
+fn push_apart(Effort { declaration, kind, column }: &Effort, ends: [Anchor; 2], sign: f64) -> [ForceVector; 2] {
     let [p, q] = ends;
     [[p, q], [q, p]].map(|[at, other]| ForceVector {
         declaration: *declaration,
@@ -194,11 +208,12 @@ fn push_apart((declaration, kind, column): &Of, ends: [Anchor; 2], sign: f64) ->
 /// Returns the forces of an effort on a quantity of length; an effort on an angle has none.
 fn quantity_forces(
     features: &Features,
-    of: &Of,
-    (view, on): (Option<PartId>, Quantity),
+    effort: &Effort,
+    view: Option<PartId>,
+    on: Quantity,
     sign: f64,
 ) -> Vec<ForceVector> {
-    let (declaration, kind, column) = of;
+    let Effort { declaration, kind, column } = effort;
     let along = |at: Anchor, frame: usize, direction: Vector| ForceVector {
         declaration: *declaration,
         kind: *kind,
@@ -207,7 +222,7 @@ fn quantity_forces(
     };
     match on {
         Quantity::X(from, to) | Quantity::Y(from, to) => {
-            let (frame, pose, is_mirrored) = features.part_frame(view);
+            let PartFrame { frame, pose, is_mirrored } = features.part_frame(view);
             let direction = match on {
                 Quantity::X(..) => polar(1.0, pose.phi),
                 _ if is_mirrored => polar(1.0, pose.phi - 0.5 * PI),
@@ -216,7 +231,7 @@ fn quantity_forces(
             let from = from.map(|point| along(features.point(point), frame, times(-1.0, direction)));
             from.into_iter().chain([along(features.point(to), frame, direction)]).collect()
         }
-        Quantity::Distance(p, q) => push_apart(of, [p, q].map(|point| features.point(point)), sign).into(),
+        Quantity::Distance(p, q) => push_apart(effort, [p, q].map(|point| features.point(point)), sign).into(),
         Quantity::Displacement(_, a, b) => {
             let (guide, slider) = (features.axis(a), features.axis(b));
             vec![along(Anchor { frame: slider.frame, at: slider.at }, guide.frame, guide.along)]

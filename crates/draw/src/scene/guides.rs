@@ -42,9 +42,9 @@ pub(super) fn translational(drawing: &mut Drawing, declaration: usize, [a, b]: [
     let origin = Anchor { frame: slider.frame, at: slider.at };
     let stroke = drawing.range_on(&guide, origin);
     match obstruction(drawing, axis) {
-        Some(obstruction) => draw_in_sleeve(drawing, declaration, (&guide, &slider), stroke, obstruction),
-        None if guide.frame == 0 => draw_on_ground(drawing, declaration, (&guide, &slider), stroke),
-        None => draw_on_bar(drawing, declaration, (&guide, &slider), stroke),
+        Some(obstruction) => draw_in_sleeve(drawing, declaration, &guide, &slider, stroke, obstruction),
+        None if guide.frame == 0 => draw_on_ground(drawing, declaration, &guide, &slider, stroke),
+        None => draw_on_bar(drawing, declaration, &guide, &slider, stroke),
     }
     let pin = drawing.features.model[axis].origin;
     if let Some(point) = drawing.point_index(&[pin]).filter(|_| drawing.features.model[pin].name.is_some()) {
@@ -56,7 +56,7 @@ pub(super) fn translational(drawing: &mut Drawing, declaration: usize, [a, b]: [
 }
 
 /// Draws a block on the edge of the ground.
-fn draw_on_ground(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line, &Line), stroke: [f64; 2]) {
+fn draw_on_ground(drawing: &mut Drawing, declaration: usize, guide: &Line, slider: &Line, stroke: [f64; 2]) {
     let (unit, symbols) = (drawing.unit, Symbols { unit: drawing.unit });
     let [low, high] = widen(stroke, LEAST_STROKE * unit);
     let beyond = (BLOCK[0] + BEYOND) * unit;
@@ -74,7 +74,7 @@ fn draw_on_ground(drawing: &mut Drawing, declaration: usize, (guide, slider): (&
 }
 
 /// Draws a block on a bar of another body.
-fn draw_on_bar(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line, &Line), stroke: [f64; 2]) {
+fn draw_on_bar(drawing: &mut Drawing, declaration: usize, guide: &Line, slider: &Line, stroke: [f64; 2]) {
     let (unit, symbols) = (drawing.unit, Symbols { unit: drawing.unit });
     let [low, high] = widen(stroke, LEAST_STROKE * unit);
     let beyond = (BLOCK[0] + BEYOND) * unit;
@@ -131,7 +131,8 @@ fn obstruction(drawing: &Drawing, axis: AxisId) -> Option<Obstruction> {
 fn draw_in_sleeve(
     drawing: &mut Drawing,
     declaration: usize,
-    (guide, slider): (&Line, &Line),
+    guide: &Line,
+    slider: &Line,
     stroke: [f64; 2],
     obstruction: Obstruction,
 ) {
@@ -177,7 +178,7 @@ fn draw_in_sleeve(
 }
 
 /// Draws a pin in a slot.
-pub(super) fn slot(drawing: &mut Drawing, declaration: usize, (p, axis): (PointId, AxisId), offset: f64) {
+pub(super) fn slot(drawing: &mut Drawing, declaration: usize, p: PointId, axis: AxisId, offset: f64) {
     let (unit, symbols) = (drawing.unit, Symbols { unit: drawing.unit });
     let line = drawing.features.axis(axis);
     let line = Line { at: plus(line.at, times(offset, left(line.along))), ..line };

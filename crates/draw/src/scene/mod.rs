@@ -32,15 +32,15 @@ mod teeth;
 mod torques;
 mod track;
 
-pub use catalogue::catalogue;
+pub use catalogue::{Catalogue, catalogue};
 pub use fault_marks::{Faults, Joints};
 pub use features::drawn_poses;
 pub use forces::{ForceKind, ForceValue, ForceVector};
 pub use length_marks::Length;
 pub use motion::{Gaps, Motion, Track};
 pub use plane::{
-    Contour, Path, Pose, Segment, Vector, bounds, cross, direction, distance, dot, hull, is_finite, left, length,
-    minus, plus, polar, times, unit,
+    Contour, Path, Pose, Segment, Vector, bounds, cross, direction, distance, distance_to_segment, dot, hull,
+    is_finite, left, length, minus, plus, polar, times, unit,
 };
 pub use torques::Torque;
 pub use track::{DrawnLine, RETRACE_TOLERANCE, Stroke};
@@ -110,7 +110,7 @@ impl Scene {
 
     /// Returns the scene of one body in its own frame, with everything that is fixed to it, and the motion that draws it.
     #[must_use]
-    pub fn of_body(&self, frame: usize) -> (Scene, Motion) {
+    pub fn alone(&self, frame: usize) -> (Scene, Motion) {
         let mut indices = vec![None; self.points.len()];
         let mut points = Vec::new();
         for (number, point) in self.points.iter().enumerate().filter(|(_, point)| point.frame == frame) {

@@ -106,6 +106,15 @@ pub fn distance(a: Vector, b: Vector) -> f64 {
     length(minus(a, b))
 }
 
+/// Returns the distance of a position from a segment.
+#[must_use]
+pub fn distance_to_segment(position: Vector, [from, to]: [Vector; 2]) -> f64 {
+    let chord = minus(to, from);
+    let square = dot(chord, chord);
+    let part = if square > 0.0 { (dot(minus(position, from), chord) / square).clamp(0.0, 1.0) } else { 0.0 };
+    distance(position, plus(from, times(part, chord)))
+}
+
 /// Returns the vector of length 1 in the same direction, or the x direction for a zero vector.
 #[must_use]
 pub fn unit(a: Vector) -> Vector {

@@ -244,13 +244,14 @@ fn coordinates([x, y]: Vector, decimals: usize) -> String {
 /// Adds the positions of a polyline along a line from part 0 to part 1, without the first one.
 fn flatten(of: &mut dyn FnMut(f64) -> Vector, off: f64, positions: &mut Vec<Vector>) {
     let (start, end) = (of(0.0), of(1.0));
-    halve(of, [(0.0, start), (1.0, end)], (off, 0), positions);
+    halve(of, [(0.0, start), (1.0, end)], off, 0, positions);
 }
 
 fn halve(
     of: &mut dyn FnMut(f64) -> Vector,
     ends: [(f64, Vector); 2],
-    (off, depth): (f64, u32),
+    off: f64,
+    depth: u32,
     positions: &mut Vec<Vector>,
 ) {
     let [(from, start), (to, end)] = ends;
@@ -260,8 +261,8 @@ fn halve(
         positions.push(end);
         return;
     }
-    halve(of, [ends[0], at[1]], (off, depth + 1), positions);
-    halve(of, [at[1], ends[1]], (off, depth + 1), positions);
+    halve(of, [ends[0], at[1]], off, depth + 1, positions);
+    halve(of, [at[1], ends[1]], off, depth + 1, positions);
 }
 
 /// Returns the distance of a position from a chord.
@@ -288,7 +289,7 @@ fn polylines(path: &Path, off: f64) -> Vec<(Vec<Vector>, bool)> {
                 let mut from = contour.start;
                 for segment in &contour.segments {
                     if let Segment::Arc { to, radius, is_left } = *segment {
-                        add_arc(&mut positions, [from, to], (radius, is_left), off);
+                        add_arc(&mut positions, [from, to], radius, is_left, off);
                     } else {
                         positions.push(segment.end());
                     }
@@ -305,7 +306,7 @@ fn polylines(path: &Path, off: f64) -> Vec<(Vec<Vector>, bool)> {
 }
 
 /// Adds the positions of an arc of at most a semicircle, without the first one.
-fn add_arc(positions: &mut Vec<Vector>, [from, to]: [Vector; 2], (radius, is_left): (f64, bool), off: f64) {
+fn add_arc(positions: &mut Vec<Vector>, [from, to]: [Vector; 2], radius: f64, is_left: bool, off: f64) {
     let (half, sign) = (0.5 * distance(from, to), if is_left { 1.0 } else { -1.0 });
     let way = minus(to, from);
     let middle = times(0.5, plus(from, to));

@@ -1,6 +1,6 @@
 //! Data of a page as JSON.
 
-use super::utf16_offsets::Texts;
+use super::utf16_offsets::{TextRange, Texts};
 use super::{Column, FORMAT, Page, Variant, table_compression};
 use crate::scene::{
     Alignment, Anchor, Attachment, Contact, ForceValue, ForceVector, Node, Pen, Scene, Torque, Touch, Trace,
@@ -40,7 +40,7 @@ pub(super) fn value(page: &Page, every: usize, tables: Tables) -> Value {
         .map(|variant| {
             let table = if tables == Tables::Embedded { table(variant, every, page.columns.len()) } else { Vec::new() };
             let packed = if table.is_empty() { String::new() } else { table_compression::compress(&table) };
-            variant_object(variant, every, &packed, &texts, (first.scene, &scene))
+            variant_object(variant, every, &packed, &texts, first.scene, &scene)
         })
         .collect();
     let mut all = json!({
@@ -111,7 +111,8 @@ fn variant_object(
     every: usize,
     packed: &str,
     texts: &Texts,
-    (first, shared): (&Scene, &Value),
+    first: &Scene,
+    shared: &Value,
 ) -> Value {
     let motion = variant.motion;
     let rows = kept_rows(motion.rows().len(), every).count();
@@ -166,8 +167,8 @@ fn changes(from: &Value, to: &Value) -> Option<Value> {
 
 fn message(message: &Diagnostic, texts: &Texts) -> Value {
     let label = |label: &mechc_text::diag::Label| {
-        let (text, from, to) = texts.locate(label.span)?;
-        Some(json!({ "text": text, "from": from, "to": to, "says": label.text }))
+        let TextRange { text, start, end } = texts.locate(label.span)?;
+        Some(json!({ "text": text, "from": start, "to": end, "says": label.text }))
     };
     let mut object = json!({
         "severity": message.severity().as_str(),
@@ -187,8 +188,8 @@ fn message(message: &Diagnostic, texts: &Texts) -> Value {
 pub(super) fn scene(scene: &Scene, texts: &Texts) -> Value {
     let decimals = decimals(scene.unit);
     let declarations = scene.declarations.iter().map(|declaration| {
-        let (text, from, to) = texts.locate(declaration.span).unwrap_or_default();
-        json!([declaration.name, declaration.kind, text, from, to])
+        let TextRange { text, start, end } = texts.locate(declaration.span).unwrap_or_default();
+        json!([declaration.name, declaration.kind, text, start, end])
     });
     let points = scene.points.iter().map(|point| {
         json!({

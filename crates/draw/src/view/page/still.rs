@@ -24,14 +24,15 @@ pub(super) fn still(scene: &Scene, motion: &Motion) -> String {
     );
     for node in &scene.nodes {
         let is_named = scene.named.contains(&node.declaration);
-        add(&mut svg, (node, is_named), motion.poses(0), &|[x, y]| [scale * (x - left), scale * (top - y)], scale);
+        add(&mut svg, node, is_named, motion.poses(0), &|[x, y]| [scale * (x - left), scale * (top - y)], scale);
     }
     svg + "</svg>"
 }
 
 fn add(
     svg: &mut String,
-    (node, is_named): (&Node, bool),
+    node: &Node,
+    is_named: bool,
     poses: &[Pose],
     convert: &dyn Fn([f64; 2]) -> [f64; 2],
     scale: f64,

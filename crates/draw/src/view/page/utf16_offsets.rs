@@ -7,6 +7,15 @@ pub(super) struct Texts {
     texts: Vec<(FileId, Offsets)>,
 }
 
+/// A span in UTF-16 units.
+#[derive(Default)]
+pub(super) struct TextRange {
+    /// Index of the text.
+    pub text: usize,
+    pub start: u32,
+    pub end: u32,
+}
+
 /// Conversion of byte offsets to UTF-16 offsets.
 enum Offsets {
     /// The offsets are equal.
@@ -20,11 +29,11 @@ impl Texts {
         Texts { texts: sources.iter().map(|(id, source)| (*id, Offsets::new(&source.text))).collect() }
     }
 
-    /// Returns the index of a span's text, and the span's start and end; `None` for any other text.
-    pub fn locate(&self, span: Span) -> Option<(usize, u32, u32)> {
+    /// Returns a span as the page counts it, or `None` if its text is not in the page.
+    pub fn locate(&self, span: Span) -> Option<TextRange> {
         let text = self.texts.iter().position(|(id, _)| *id == span.file)?;
         let offsets = &self.texts[text].1;
-        Some((text, offsets.at(span.start), offsets.at(span.end)))
+        Some(TextRange { text, start: offsets.at(span.start), end: offsets.at(span.end) })
     }
 }
 
@@ -61,11 +70,13 @@ mod tests {
         let mut sources = Sources::default();
         let (plain, odd) = (sources.add("a", "abc"), sources.add("b", "aö😀z"));
         let texts = Texts::new(&[(plain, sources.get(plain)), (odd, sources.get(odd))]);
-        let position = |file, start, end| texts.locate(Span { file, start, end });
-        assert_eq!(position(plain, 1, 3), Some((0, 1, 3)));
-        assert_eq!(position(odd, 1, 3), Some((1, 1, 2)));
-        assert_eq!(position(odd, 3, 8), Some((1, 2, 5)));
+        let range = |file, start, end| {
+            texts.locate(Span { file, start, end }).map(|range| (range.text, range.start, range.end))
+        };
+        assert_eq!(range(plain, 1, 3), Some((0, 1, 3)));
+        assert_eq!(range(odd, 1, 3), Some((1, 1, 2)));
+        assert_eq!(range(odd, 3, 8), Some((1, 2, 5)));
         let option = sources.add_option("--set", "x");
-        assert_eq!(position(option, 0, 1), None);
+        assert_eq!(range(option, 0, 1), None);
     }
 }

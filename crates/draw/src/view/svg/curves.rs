@@ -105,7 +105,8 @@ fn is_near([from, to]: [&CurvePoint; 2], node: &CurvePoint, off: f64) -> bool {
 fn add_nodes(
     of: &dyn Fn(f64) -> CurvePoint,
     [from, to]: [CurvePoint; 2],
-    (off, depth): (f64, u32),
+    off: f64,
+    depth: u32,
     nodes: &mut Vec<CurvePoint>,
 ) {
     let time = |part: f64| from.t + part * (to.t - from.t);
@@ -115,8 +116,8 @@ fn add_nodes(
         return;
     }
     let middle = of(time(0.5));
-    add_nodes(of, [from, middle], (off, depth + 1), nodes);
-    add_nodes(of, [middle, to], (off, depth + 1), nodes);
+    add_nodes(of, [from, middle], off, depth + 1, nodes);
+    add_nodes(of, [middle, to], off, depth + 1, nodes);
 }
 
 /// Writes a smooth curve along intervals of time (s) with as few cubics as possible.
@@ -131,7 +132,7 @@ fn curve(pieces: &[[f64; 2]], of: &dyn Fn(f64) -> CurvePoint, off: f64, decimals
             parts.push(vec![of(*from)]);
         }
         if let Some(part) = parts.last_mut() {
-            add_nodes(of, ends.map(of), (0.5 * off, 0), part);
+            add_nodes(of, ends.map(of), 0.5 * off, 0, part);
         }
     }
     let all = || parts.iter().flatten();

@@ -5,7 +5,8 @@
 use super::picture::{PIXELS, Picture};
 use super::style::{COLUMN_WIDTH, letter_size, text_columns};
 use crate::scene::{
-    Anchor, Attachment, Look, Node, Path, Pose, Vector, bounds, distance, dot, hull, minus, plus, times,
+    Anchor, Attachment, Look, Node, Path, Pose, Vector, bounds, distance, distance_to_segment, dot, hull, minus, plus,
+    times,
 };
 use crate::view::text::{escape, format_number};
 
@@ -57,6 +58,13 @@ enum LabelKind {
     Remark,
     Body,
     Point,
+}
+
+/// The text of a label, before it has a position.
+struct LabelText {
+    anchor: Anchor,
+    text: String,
+    kind: LabelKind,
 }
 
 /// A label at its position.
@@ -191,14 +199,6 @@ impl Region {
     }
 }
 
-/// Returns the distance of a position from a side.
-fn distance_to_segment(position: Vector, [from, to]: [Vector; 2]) -> f64 {
-    let way = minus(to, from);
-    let square = dot(way, way);
-    let part = if square > 0.0 { (dot(minus(position, from), way) / square).clamp(0.0, 1.0) } else { 0.0 };
-    distance(position, plus(from, times(part, way)))
-}
-
 /// Obstacles for labels at one moment (px).
 #[derive(Default)]
 struct Obstacles {
@@ -278,7 +278,7 @@ impl Picture<'_> {
         let size = self.letters();
         let field = self.field(moments);
         let mut labels: Vec<(Label, Vec<Vector>)> = Vec::new();
-        for (anchor, text, kind) in named {
+        for LabelText { anchor, text, kind } in named {
             let wide = (COLUMN_WIDTH * text_columns(&text) as f64).max(1.0);
             let half = [0.5 * size * wide + 2.0, 0.6 * size + 1.0];
             let at: Vec<Vector> = moments.iter().map(|poses| self.anchor_to_pixels(&anchor, poses)).collect();
@@ -351,18 +351,23 @@ impl Picture<'_> {
     }
 
     /// Returns what has a label: messages, then bodies, then points.
-    fn label_texts(&self) -> Vec<(Anchor, String, LabelKind)> {
+    fn label_texts(&self) -> Vec<LabelText> {
         let scene = self.scene;
         let on_ground = |at| Anchor { frame: 0, at };
-        let remarks = scene.remarks.iter().map(|remark| (on_ground(remark.at), cut(&remark.text), LabelKind::Remark));
-        let mut named: Vec<(Anchor, String, LabelKind)> = remarks.collect();
+        let remarks = scene.remarks.iter().map(|remark| LabelText {
+            anchor: on_ground(remark.at),
+            text: cut(&remark.text),
+            kind: LabelKind::Remark,
+        });
+        let mut named: Vec<LabelText> = remarks.collect();
         if self.options.labels {
             named.extend(self.bodies());
-            let samples_of =
+            let points =
                 scene.nodes.iter().flat_map(|node| &node.shapes).filter_map(|shape| scene.points.get(shape.point?));
-            for point in samples_of {
+            for point in points {
                 let name = point.name.rsplit('.').next().unwrap_or(&point.name);
-                named.push((Anchor { frame: point.frame, at: point.at }, cut(name), LabelKind::Point));
+                let anchor = Anchor { frame: point.frame, at: point.at };
+                named.push(LabelText { anchor, text: cut(name), kind: LabelKind::Point });
             }
         }
         named.truncate(MOST_LABELS);
@@ -370,14 +375,14 @@ impl Picture<'_> {
     }
 
     /// Returns the bodies, each with the middle of its first shapes.
-    fn bodies(&self) -> Vec<(Anchor, String, LabelKind)> {
+    fn bodies(&self) -> Vec<LabelText> {
         let scene = self.scene;
-        let mut named = Vec::new();
+        let mut named: Vec<LabelText> = Vec::new();
         for node in &scene.nodes {
             let Attachment::Fixed(frame) = node.attachment else { continue };
             let is_body =
                 scene.declarations.get(node.declaration).is_some_and(|declaration| declaration.kind == "body");
-            let is_labelled = named.iter().any(|(anchor, _, _): &(Anchor, String, LabelKind)| anchor.frame == frame);
+            let is_labelled = named.iter().any(|label| label.anchor.frame == frame);
             if frame == 0 || !is_body || is_labelled {
                 continue;
             }
@@ -387,7 +392,8 @@ impl Picture<'_> {
                 // the middle lies on the body, even on a thin and slanting one
                 let sum = corners.iter().copied().fold([0.0; 2], plus);
                 let at = times(1.0 / corners.len() as f64, sum);
-                named.push((Anchor { frame, at }, cut(self.name(node.declaration)), LabelKind::Body));
+                let text = cut(self.name(node.declaration));
+                named.push(LabelText { anchor: Anchor { frame, at }, text, kind: LabelKind::Body });
             }
         }
         named
@@ -397,7 +403,7 @@ impl Picture<'_> {
     fn field(&self, moments: &[&[Pose]]) -> Field {
         let shapes: Vec<ShapeSamples> = self.scene.nodes.iter().flat_map(|node| self.samples(node)).collect();
         let filled: Vec<(usize, Vec<Vector>)> = self.scene.nodes.iter().flat_map(|node| self.filled(node)).collect();
-        let count: usize = shapes.iter().map(|samples_of| samples_of.positions.len()).sum();
+        let count: usize = shapes.iter().map(|samples| samples.positions.len()).sum();
         let every = (count * moments.len()).div_ceil(MOST_POSITIONS).max(1);
         let at = |poses: &&[Pose]| {
             let mut obstacles = Obstacles::default();

@@ -2,7 +2,7 @@
 
 use super::style::{self, TRACE_COLORS};
 use super::{Options, Theme};
-use crate::scene::{Scene, Vector, distance, dot, minus, plus, times};
+use crate::scene::{Scene, Vector, distance_to_segment, minus, plus, times};
 use crate::view::text::{escape, format_number};
 use std::fmt::Write;
 
@@ -48,7 +48,7 @@ pub fn plots(scene: &Scene, rows: &[f64], plots: &[Plot], options: &Options) -> 
     let mut body = String::new();
     for (k, plot) in plots.iter().enumerate() {
         let top = k as f64 * (ABOVE + frame[1]) + ABOVE;
-        add_plot(&mut body, (k, plot), rows, &axis, [top, frame[0], frame[1]]);
+        add_plot(&mut body, k, plot, rows, &axis, [top, frame[0], frame[1]]);
     }
     let bottom = height - BELOW;
     for (part, text) in axis.ticks() {
@@ -71,7 +71,7 @@ pub fn plots(scene: &Scene, rows: &[f64], plots: &[Plot], options: &Options) -> 
 }
 
 /// Adds a plot with the top, the width and the height of its frame (px).
-fn add_plot(body: &mut String, (k, plot): (usize, &Plot), rows: &[f64], time: &Axis, [top, wide, high]: [f64; 3]) {
+fn add_plot(body: &mut String, k: usize, plot: &Plot, rows: &[f64], time: &Axis, [top, wide, high]: [f64; 3]) {
     let [low_end, high_end] = shown_range(rows, &plot.values);
     let values = Axis::new([low_end, high_end].into_iter(), (high / 28.0).max(2.0), 0.05);
     let name = escape(plot.name);
@@ -196,7 +196,7 @@ fn polyline(positions: &[Vector]) -> String {
     (is_kept[0], is_kept[last]) = (true, true);
     let mut open = vec![(0, last)];
     while let Some((from, to)) = open.pop() {
-        let off = |k: usize| distance_to_line(positions[k], [positions[from], positions[to]]);
+        let off = |k: usize| distance_to_segment(positions[k], [positions[from], positions[to]]);
         let farthest = (from + 1..to).map(|k| (k, off(k))).max_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((k, _)) = farthest.filter(|(_, off)| *off > TOLERANCE) {
             is_kept[k] = true;
@@ -206,14 +206,6 @@ fn polyline(positions: &[Vector]) -> String {
     let corners: Vec<String> =
         positions.iter().zip(is_kept).filter(|(_, corners)| *corners).map(|(position, _)| pair(*position)).collect();
     format!("M{}", corners.join("L"))
-}
-
-/// Returns the distance of a position from the segment between two others.
-fn distance_to_line(position: Vector, [from, to]: [Vector; 2]) -> f64 {
-    let way = minus(to, from);
-    let square = dot(way, way);
-    let part = if square > 0.0 { (dot(minus(position, from), way) / square).clamp(0.0, 1.0) } else { 0.0 };
-    distance(position, plus(from, times(part, way)))
 }
 
 /// An axis with its range, and the step between its ticks: `units` times a power of ten.
