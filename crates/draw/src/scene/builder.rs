@@ -14,7 +14,7 @@ const SAMPLED_ROWS: usize = 100;
 
 /// Builds a scene, with symbols of a given size (m) if there is one.
 pub(super) fn build(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Scene {
-    let features = Features::of(model);
+    let features = Features::new(model);
     let (declarations, first) = declarations(model);
     let (points, point_indices) = points(&features);
     let mut outlines = vec![Outline::default(); motion.frames().max(1)];

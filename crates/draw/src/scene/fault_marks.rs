@@ -59,7 +59,7 @@ pub enum Joints {
 }
 
 pub(super) fn add(scene: &mut Scene, model: &Mechanism, motion: &Motion, faults: &Faults) {
-    let features = Features::of(model);
+    let features = Features::new(model);
     let (joints, equations) = builder::first_declarations(model);
     let poses = motion.poses(0);
     let mut marks = Marks { unit: scene.unit, features, poses, joints, equations, nodes: Vec::new() };
@@ -290,8 +290,8 @@ impl Arrows {
         let count = self.straight.iter().filter(near).count();
         self.straight.push((position, along));
         let begin = if is_busy { SYMBOL_OFFSET } else { 0.0 };
-        let beside = times(PARALLEL_OFFSET * unit * count as f64, left(along));
-        let [from, to] = [begin, begin + STRAIGHT].map(|part| plus(beside, times(part * unit, along)));
+        let offset = times(PARALLEL_OFFSET * unit * count as f64, left(along));
+        let [from, to] = [begin, begin + STRAIGHT].map(|part| plus(offset, times(part * unit, along)));
         let shapes = marks.symbols().arrow(from, to, false);
         marks.nodes.push(free_motion_node(at, shapes));
     }

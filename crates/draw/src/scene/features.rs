@@ -42,7 +42,7 @@ pub(super) struct Features<'m> {
 const STEP: f64 = 1e-5;
 
 impl<'m> Features<'m> {
-    pub fn of(model: &'m Mechanism) -> Features<'m> {
+    pub fn new(model: &'m Mechanism) -> Features<'m> {
         let mut values = Vec::new();
         model.graph.extend_values(&mut values, |symbol| parameter(model, symbol).unwrap_or(f64::NAN));
         Features { model, values }
@@ -146,6 +146,7 @@ pub fn drawn_poses(model: &Mechanism) -> Vec<Pose> {
     let mut values = Vec::new();
     graph.extend_values(&mut values, |symbol| parameter(model, symbol).unwrap_or(0.0));
     let value = |id: ExprId| values[id.index()];
-    let pose = |position: &mechc_lang::model::Placement| Pose { at: position.at.map(value), phi: value(position.phi) };
+    let pose =
+        |placement: &mechc_lang::model::Placement| Pose { at: placement.at.map(value), phi: value(placement.phi) };
     std::iter::once(Pose::default()).chain(bodies.iter().map(pose)).collect()
 }

@@ -73,7 +73,7 @@ struct Trains {
 }
 
 pub(super) fn draw(drawing: &mut Drawing) {
-    let trains = Trains::of(drawing);
+    let trains = Trains::new(drawing);
     let mut is_drawn = vec![false; trains.all.len()];
     for first in 0..trains.all.len() {
         if is_drawn[first] {
@@ -98,7 +98,7 @@ pub(super) fn draw(drawing: &mut Drawing) {
 }
 
 impl Trains {
-    fn of(drawing: &Drawing) -> Trains {
+    fn new(drawing: &Drawing) -> Trains {
         let (model, features) = (drawing.features.model, &drawing.features);
         let mut trains = Trains { all: Vec::new(), meshes: Vec::new() };
         for (joint, declared) in model.joints.iter().enumerate() {

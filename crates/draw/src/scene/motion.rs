@@ -5,11 +5,11 @@ use mechc_expr::math;
 use rustc_hash::FxHashMap;
 
 /// Rows closer than this part of the whole motion are joined by straight lines.
-const SHORT: f64 = 2e-12;
+const SHORT_INTERVAL: f64 = 2e-12;
 /// Default of [`Motion::off`] (m).
-const OFF: f64 = 1e-7;
+const DEFAULT_TOLERANCE: f64 = 1e-7;
 /// Tolerance, in steps, by which an evenly spaced time may miss its row.
-const SLACK: f64 = 1e-6;
+const ROW_SLACK: f64 = 1e-6;
 
 /// Poses of all frames with first and second derivatives at some times, and the rows of the table that pictures read.
 #[derive(Clone, Debug, Default)]
@@ -91,8 +91,20 @@ impl Motion {
         let span = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
         let [poses, rates, accelerations] = [0, 1, 2].map(poses_of);
         let (frames, gaps) = (bodies.len() + 1, Vec::new());
-        let short = SHORT * span;
-        Motion { times, edges, frames, poses, rates, accelerations, rows, columns: named, off: OFF, short, gaps }
+        let short = SHORT_INTERVAL * span;
+        Motion {
+            times,
+            edges,
+            frames,
+            poses,
+            rates,
+            accelerations,
+            rows,
+            columns: named,
+            off: DEFAULT_TOLERANCE,
+            short,
+            gaps,
+        }
     }
 
     /// Creates a motion of a single moment without velocities.
@@ -179,12 +191,12 @@ impl Motion {
     /// Returns the gaps of a track, or `None` if none were set.
     #[must_use]
     pub fn gaps(&self, track: &Track) -> Option<&Gaps> {
-        self.gaps.iter().find(|(known, _)| known == track).map(|(_, gaps)| gaps)
+        self.gaps.iter().find(|(existing, _)| existing == track).map(|(_, gaps)| gaps)
     }
 
     /// Sets the duration (s) of the whole motion, of which this is a part.
     pub fn set_whole_span(&mut self, span: f64) {
-        self.short = SHORT * span;
+        self.short = SHORT_INTERVAL * span;
     }
 
     /// Returns the columns of a value, its rate and its acceleration.
@@ -255,7 +267,7 @@ impl Motion {
         if count < self.len() && count > 1 {
             let [from, to] = [self.times[0], self.times[last]];
             let each = (to - from) / (count - 1) as f64;
-            rows = (0..count).map(|k| self.row_at(from + (k as f64 + SLACK) * each)).collect();
+            rows = (0..count).map(|k| self.row_at(from + (k as f64 + ROW_SLACK) * each)).collect();
             rows.dedup();
         }
         rows.into_iter()
@@ -269,7 +281,7 @@ impl Motion {
     /// Returns the last row at or before a time (s).
     #[must_use]
     pub fn row_at(&self, t: f64) -> usize {
-        self.times.partition_point(|&known| known <= t).saturating_sub(1)
+        self.times.partition_point(|&time| time <= t).saturating_sub(1)
     }
 
     /// Writes the poses of all frames at a time (s). Between rows it evaluates the quintic Hermite curve, but not across an edge.
@@ -289,8 +301,8 @@ impl Motion {
         if self.is_short(row) {
             return chord(from[0], to[0], h, (t - begin) / h);
         }
-        let behind = self.edges.partition_point(|edge| *edge <= begin);
-        match self.edges.get(behind).filter(|edge| **edge < end) {
+        let next_edge = self.edges.partition_point(|edge| *edge <= begin);
+        match self.edges.get(next_edge).filter(|edge| **edge < end) {
             None => quintic(from, to, h, (t - begin) / h),
             // each side of the edge continues from its own row
             Some(&edge) if t <= edge => taylor(from, t - begin),
@@ -301,9 +313,9 @@ impl Motion {
 
 /// Returns the pose at `part` of the straight way between two poses that are `h` (s) apart, and the rate.
 fn chord(from: Pose, to: Pose, h: f64, part: f64) -> [Pose; 2] {
-    let (way, turn) = (minus(to.at, from.at), to.phi - from.phi);
-    let pose = Pose { at: plus(from.at, times(part, way)), phi: from.phi + part * turn };
-    [pose, Pose { at: times(1.0 / h, way), phi: turn / h }]
+    let (difference, turn) = (minus(to.at, from.at), to.phi - from.phi);
+    let pose = Pose { at: plus(from.at, times(part, difference)), phi: from.phi + part * turn };
+    [pose, Pose { at: times(1.0 / h, difference), phi: turn / h }]
 }
 
 /// Returns the pose and its rate a time `h` (s) later, from velocity and acceleration.
@@ -349,10 +361,10 @@ mod tests {
         let mut poses = Vec::new();
         for t in [0.0, 0.25, 1.0, 1.7, 3.0] {
             motion.write_poses(t, &mut poses);
-            let wanted = row(t);
+            let expected = row(t);
             let Pose { at: [x, y], phi } = poses[1];
-            for (found, wanted) in [x, y, phi].into_iter().zip(&wanted[1..4]) {
-                assert!((found - wanted).abs() < 1e-9, "{found} at {t}, not {wanted}");
+            for (actual, expected) in [x, y, phi].into_iter().zip(&expected[1..4]) {
+                assert!((actual - expected).abs() < 1e-9, "{actual} at {t}, not {expected}");
             }
         }
         assert_eq!(motion.column("m").map(Iterator::count), Some(3));

@@ -18,8 +18,8 @@ impl Track {
         };
         let [x, y] = columns.map(|columns| column_between(motion, columns, row, t));
         let at = self.pose.transform(self.mirrored([x[0], y[0]]));
-        let way = self.pose.rotate(self.mirrored([x[1], y[1]]));
-        [pose.transform(at), plus(rate.velocity(&pose, at), pose.rotate(way))]
+        let velocity = self.pose.rotate(self.mirrored([x[1], y[1]]));
+        [pose.transform(at), plus(rate.velocity(&pose, at), pose.rotate(velocity))]
     }
 
     /// Returns the position (m) and the velocity (m/s) at any time (s).
@@ -56,8 +56,8 @@ fn column_between(motion: &Motion, columns: [Option<usize>; 3], row: usize, t: f
     let part = (t - motion.times[row]) / h;
     match part > 0.0 {
         true if motion.is_short(row) => {
-            let way = to[0] - from[0];
-            [from[0] + part * way, way / h]
+            let difference = to[0] - from[0];
+            [from[0] + part * difference, difference / h]
         }
         true => between([from, to], h, part),
         false => [from[0], from[1]],
@@ -68,9 +68,9 @@ fn column_between(motion: &Motion, columns: [Option<usize>; 3], row: usize, t: f
 /// that are finite at both ends.
 fn between([from, to]: [[f64; 3]; 2], h: f64, part: f64) -> [f64; 2] {
     let ends = [from, to];
-    let are_known = |order: usize| ends.iter().all(|end| end[order].is_finite());
+    let are_finite = |order: usize| ends.iter().all(|end| end[order].is_finite());
     let [[a, slope_a, _], [b, slope_b, _]] = ends;
-    let curve = match [are_known(1), are_known(2)] {
+    let curve = match [are_finite(1), are_finite(2)] {
         [true, true] => math::quintic(from, to, h),
         [true, false] => math::cubic([a, slope_a], [b, slope_b], h),
         [false, _] => math::parabola([a, (b - a) / h, 0.0], h),
@@ -99,7 +99,7 @@ const LEAVING_DISTANCE: f64 = 1e-3;
 /// Distance within which a line retraces itself, in tolerances.
 pub const RETRACE_TOLERANCE: f64 = 7.0;
 /// Limit of the tolerance of lines, as a part of their size.
-const OFF: f64 = 1e-5;
+const RELATIVE_TOLERANCE: f64 = 1e-5;
 
 /// A line with a tree of bounding boxes, which tells quickly whether it passes a position.
 #[derive(Clone, Debug)]
@@ -140,17 +140,17 @@ impl<'m> DrawnLine<'m> {
     /// Returns whether the line passes within a distance (m) of a position.
     #[must_use]
     pub fn passes(&self, position: Vector, off: f64) -> bool {
-        self.passes_within(0..self.pieces.len(), position, off)
+        self.piece_range_passes(0..self.pieces.len(), position, off)
     }
 
     /// Returns whether some pieces of the line pass within a distance (m) of a position.
-    fn passes_within(&self, pieces: Range<usize>, position: Vector, off: f64) -> bool {
+    fn piece_range_passes(&self, pieces: Range<usize>, position: Vector, off: f64) -> bool {
         let mut boxes = vec![(self.boxes.len() - 1, 0)];
         while let Some((level, number)) = boxes.pop() {
-            let held = (number << level)..((number + 1) << level);
+            let span = (number << level)..((number + 1) << level);
             let Some([low, high]) = self.boxes[level].get(number) else { continue };
             let is_near = (0..2).all(|k| position[k] >= low[k] - off && position[k] <= high[k] + off);
-            if !is_near || held.end <= pieces.start || held.start >= pieces.end {
+            if !is_near || span.end <= pieces.start || span.start >= pieces.end {
                 continue;
             }
             match level.checked_sub(1) {
@@ -178,8 +178,8 @@ impl<'m> DrawnLine<'m> {
     fn nearest(&self, position: Vector, [mut from, mut to]: [f64; 2], enough: f64) -> f64 {
         let look = |t: f64| {
             let [at, velocity] = self.track.at(self.motion, t);
-            let way = minus(at, position);
-            (length(way), dot(velocity, way) < 0.0)
+            let difference = minus(at, position);
+            (length(difference), dot(velocity, difference) < 0.0)
         };
         let [first, last] = [look(from), look(to)];
         if first.0 <= enough || !first.1 || last.1 {
@@ -270,7 +270,7 @@ impl Motion {
         }
         let pieces: Vec<[f64; 2]> = strokes.iter().flat_map(|stroke| &stroke.pieces).copied().collect();
         match self.return_to_start(&DrawnLine::new(self, track, pieces), gaps) {
-            Some((piece, t)) => closed(strokes, piece, t),
+            Some((piece, t)) => close_strokes(strokes, piece, t),
             None => strokes,
         }
     }
@@ -279,19 +279,19 @@ impl Motion {
     fn return_to_start(&self, line: &DrawnLine, gaps: Option<&Gaps>) -> Option<(usize, f64)> {
         let start = line.at(line.pieces.first()?[0]);
         // the median is not affected by what goes to infinity
-        let mut away: Vec<f64> = line.pieces.iter().map(|[_, t]| distance(line.at(*t), start)).collect();
-        away.sort_by(f64::total_cmp);
-        let size = 2.0 * away[away.len() / 2];
-        let off = self.off.min(OFF * size);
+        let mut distances: Vec<f64> = line.pieces.iter().map(|[_, t]| distance(line.at(*t), start)).collect();
+        distances.sort_by(f64::total_cmp);
+        let size = 2.0 * distances[distances.len() / 2];
+        let off = self.off.min(RELATIVE_TOLERANCE * size);
         let mut retrace = Retrace { line, gaps, off: RETRACE_TOLERANCE * off, compared: 0, last_return: 0 };
-        let mut is_away = false;
+        let mut has_left = false;
         for (number, piece) in line.pieces.iter().enumerate() {
             for k in 0..PARTS {
                 let times = [part_of(*piece, k), part_of(*piece, k + 1)];
                 let ends = times.map(|t| line.at(t));
                 let apart = ends.map(|end| distance(end, start));
-                if !is_away {
-                    is_away = apart[1] > LEAVING_DISTANCE * size;
+                if !has_left {
+                    has_left = apart[1] > LEAVING_DISTANCE * size;
                     continue;
                 }
                 let reach = 2.0 * distance(ends[0], ends[1]) + CLOSING_TOLERANCE * off;
@@ -334,13 +334,13 @@ impl Retrace<'_, '_> {
         (self.compared, self.last_return) = (self.compared.max(next), number);
         while self.compared < 2 * pieces.len() {
             let t = pieces[self.compared / 2][self.compared % 2];
-            let is_known = t.total_cmp(&pieces[(self.compared - 1) / 2][(self.compared - 1) % 2]).is_eq();
+            let is_compared = t.total_cmp(&pieces[(self.compared - 1) / 2][(self.compared - 1) % 2]).is_eq();
             let is_on = |position: Vector| {
                 self.gaps.is_some_and(|gaps| gaps.is_far(position))
-                    || self.line.passes_within(first..number, position, self.off)
+                    || self.line.piece_range_passes(first..number, position, self.off)
                     || self.line.piece_passes([pieces[number][0], back], position, self.off)
             };
-            if !is_known && !is_on(self.line.at(t)) {
+            if !is_compared && !is_on(self.line.at(t)) {
                 return false;
             }
             self.compared += 1;
@@ -351,30 +351,30 @@ impl Retrace<'_, '_> {
 }
 
 /// Ends strokes at a time (s) in one of their pieces, at which the line is back at its start.
-fn closed(strokes: Vec<Stroke>, piece: usize, back: f64) -> Vec<Stroke> {
-    let (mut found, mut left): (Vec<Stroke>, usize) = (Vec::new(), piece);
+fn close_strokes(strokes: Vec<Stroke>, piece: usize, back: f64) -> Vec<Stroke> {
+    let (mut result, mut remaining): (Vec<Stroke>, usize) = (Vec::new(), piece);
     for mut stroke in strokes {
         let count = stroke.pieces.len();
-        if left < count {
-            let [from, _] = stroke.pieces[left];
-            stroke.pieces.truncate(left);
+        if remaining < count {
+            let [from, _] = stroke.pieces[remaining];
+            stroke.pieces.truncate(remaining);
             stroke.pieces.extend((back > from).then_some([from, back]));
-            found.extend(Some(stroke).filter(|stroke| !stroke.pieces.is_empty()));
+            result.extend(Some(stroke).filter(|stroke| !stroke.pieces.is_empty()));
             break;
         }
-        left -= count;
-        found.push(stroke);
+        remaining -= count;
+        result.push(stroke);
     }
-    match found.as_mut_slice() {
+    match result.as_mut_slice() {
         [stroke] => stroke.is_closed = true,
         [first, .., last] => {
             // the line returns to a start in the middle of a stroke
             last.pieces.append(&mut first.pieces);
-            found.swap_remove(0);
+            result.swap_remove(0);
         }
         [] => {}
     }
-    found
+    result
 }
 
 #[cfg(test)]
@@ -382,7 +382,7 @@ mod tests {
     use super::between;
 
     #[test]
-    fn columns_go_on_by_what_is_known_of_them() {
+    fn columns_are_interpolated_by_their_finite_derivatives() {
         // t⁴ from 1 to 2
         let end = |t: f64| [t * t * t * t, 4.0 * t * t * t, 12.0 * t * t];
         let [value, slope] = between([end(1.0), end(2.0)], 1.0, 0.5);

@@ -94,24 +94,24 @@ impl Sheet<'_> {
 
     /// Returns the layer of a declaration. Its name is the declaration's, as far as DXF allows it, and is unique.
     fn layer(&mut self, declaration: usize) -> String {
-        if let Some((_, known)) = self.layers.iter().find(|(known, _)| *known == declaration) {
-            return known.clone();
+        if let Some((_, name)) = self.layers.iter().find(|(other, _)| *other == declaration) {
+            return name.clone();
         }
         let name = self.scene.declarations.get(declaration).map_or("0", |declaration| &declaration.name);
         let letter = |c: char| if c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '$') { c } else { '_' };
         let plain: String = name.chars().map(letter).take(LONGEST_NAME).collect();
-        let is_free = |name: &str| !self.layers.iter().any(|(_, known)| known.eq_ignore_ascii_case(name));
+        let is_free = |name: &str| !self.layers.iter().any(|(_, other)| other.eq_ignore_ascii_case(name));
         let numbered = |k: usize| {
             let number = format!("-{k}");
             format!("{}{number}", plain.chars().take(LONGEST_NAME - number.len()).collect::<String>())
         };
-        let found = if is_free(&plain) {
+        let name = if is_free(&plain) {
             plain.clone()
         } else {
             (2..=self.layers.len() + 2).map(numbered).find(|name| is_free(name)).unwrap_or_default()
         };
-        self.layers.push((declaration, found.clone()));
-        found
+        self.layers.push((declaration, name.clone()));
+        name
     }
 
     fn add_profiles(&mut self) {
@@ -267,11 +267,11 @@ fn halve(
 
 /// Returns the distance of a position from a chord.
 fn from_chord(position: Vector, [start, end]: [Vector; 2]) -> f64 {
-    let way = minus(end, start);
-    let square = way[0] * way[0] + way[1] * way[1];
+    let chord = minus(end, start);
+    let square = chord[0] * chord[0] + chord[1] * chord[1];
     let along = minus(position, start);
-    let part = if square > 0.0 { ((along[0] * way[0] + along[1] * way[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
-    distance(along, times(part, way))
+    let part = if square > 0.0 { ((along[0] * chord[0] + along[1] * chord[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
+    distance(along, times(part, chord))
 }
 
 /// Converts a path to polylines within a tolerance (m), each with whether it is closed.
@@ -308,10 +308,10 @@ fn polylines(path: &Path, off: f64) -> Vec<(Vec<Vector>, bool)> {
 /// Adds the positions of an arc of at most a semicircle, without the first one.
 fn add_arc(positions: &mut Vec<Vector>, [from, to]: [Vector; 2], radius: f64, is_left: bool, off: f64) {
     let (half, sign) = (0.5 * distance(from, to), if is_left { 1.0 } else { -1.0 });
-    let way = minus(to, from);
+    let chord = minus(to, from);
     let middle = times(0.5, plus(from, to));
-    let aside = (radius * radius - half * half).max(0.0).sqrt();
-    let across = if half > 0.0 { times(sign * aside / (2.0 * half), [-way[1], way[0]]) } else { [0.0; 2] };
+    let height = (radius * radius - half * half).max(0.0).sqrt();
+    let across = if half > 0.0 { times(sign * height / (2.0 * half), [-chord[1], chord[0]]) } else { [0.0; 2] };
     let center = plus(middle, across);
     let (first, last) = (direction(minus(from, center)), direction(minus(to, center)));
     let turn = (sign * (last - first)).rem_euclid(TAU);
@@ -324,9 +324,9 @@ fn add_arc(positions: &mut Vec<Vector>, [from, to]: [Vector; 2], radius: f64, is
 
 /// Returns the number of chords of an arc.
 fn steps(radius: f64, turn: f64, off: f64) -> u32 {
-    let each = (8.0 * off / radius.max(off)).sqrt().min(WIDEST_CHORD);
+    let angle_step = (8.0 * off / radius.max(off)).sqrt().min(WIDEST_CHORD);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // clamped
-    let count = mechc_expr::math::floor((turn / each).clamp(1.0, 1e5)) as u32 + 1;
+    let count = mechc_expr::math::floor((turn / angle_step).clamp(1.0, 1e5)) as u32 + 1;
     count.max(3)
 }
 
@@ -339,10 +339,10 @@ mod tests {
     fn circles_and_arcs_keep_to_their_lines() {
         let circle = Path::Circle { at: [1.0, 2.0], radius: 0.05 };
         let arc = Path::arc([1.0, 2.0], 0.05, 0.3, 3.9);
-        for (path, wanted) in [(circle, true), (arc, false)] {
-            let found = polylines(&path, TOLERANCE);
-            let [(positions, is_closed)] = &found[..] else { panic!("{found:?}") };
-            assert_eq!(*is_closed, wanted);
+        for (path, expected) in [(circle, true), (arc, false)] {
+            let lines = polylines(&path, TOLERANCE);
+            let [(positions, is_closed)] = &lines[..] else { panic!("{lines:?}") };
+            assert_eq!(*is_closed, expected);
             for pair in positions.windows(2) {
                 let middle = [0, 1].map(|part| 0.5 * (pair[0][part] + pair[1][part]));
                 assert!((distance(pair[0], [1.0, 2.0]) - 0.05).abs() < 1e-12);

@@ -154,7 +154,7 @@ fn changes(from: &Value, to: &Value) -> Option<Value> {
     let changed = match (from, to) {
         (Value::Array(from), Value::Array(to)) if from.len() == to.len() => {
             let pairs = from.iter().zip(to).enumerate();
-            pairs.filter_map(|(position, (from, to))| Some((position.to_string(), changes(from, to)?))).collect()
+            pairs.filter_map(|(index, (from, to))| Some((index.to_string(), changes(from, to)?))).collect()
         }
         (Value::Object(from), Value::Object(to)) if from.keys().eq(to.keys()) => {
             let pairs = from.iter().zip(to.values());
@@ -257,7 +257,7 @@ fn torque(Torque { declaration, kind, at, column, sign }: &Torque) -> Value {
 }
 
 fn node_value(node: &Node, decimals: usize) -> Value {
-    let (name, position) = match &node.attachment {
+    let (name, attachment) = match &node.attachment {
         Attachment::Fixed(frame) => ("fixed", json!(frame)),
         Attachment::Upright(at) => ("upright", anchor_value(at)),
         Attachment::Between { from, to, alignment } => {
@@ -273,7 +273,7 @@ fn node_value(node: &Node, decimals: usize) -> Value {
         .shapes
         .iter()
         .map(|shape| json!({ "look": shape.look.word(), "d": path_data(&shape.path, 1.0, decimals) }));
-    json!({ "declaration": node.declaration, name: position, "shapes": shapes.collect::<Vec<_>>() })
+    json!({ "declaration": node.declaration, name: attachment, "shapes": shapes.collect::<Vec<_>>() })
 }
 
 fn contact(contact: &Contact) -> Value {

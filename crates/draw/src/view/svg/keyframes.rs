@@ -57,7 +57,7 @@ impl Key {
     }
 
     /// Returns the function that applies the transform.
-    fn apply(&self) -> impl Fn(Vector) -> Vector + use<> {
+    fn transform(&self) -> impl Fn(Vector) -> Vector + use<> {
         let (sin, cos) = mechc_expr::math::sin_cos(self.turn.to_radians());
         let Key { at, stretch, .. } = *self;
         move |[x, y]| {
@@ -148,8 +148,8 @@ impl Picture<'_> {
             self.add_moving_forces(motion);
         }
         if self.options.labels {
-            let some: Vec<&[Pose]> = motion.sampled(LABELLED_MOMENTS).map(|row| motion.poses(row)).collect();
-            for label in self.labels(&some) {
+            let sampled: Vec<&[Pose]> = motion.sampled(LABELLED_MOMENTS).map(|row| motion.poses(row)).collect();
+            for label in self.labels(&sampled) {
                 let mover = Mover { attachment: Attachment::Upright(label.anchor), origin: [0.0; 2] };
                 let animation = self.animation(&mover, &moments);
                 let attributes = self.add_animation(&animation);
@@ -304,7 +304,7 @@ fn unwrap(keys: &mut [Key]) {
 /// Chooses the moments that become keys: as few as keep all positions within the tolerance at the other moments.
 fn choose_keys(keys: &[Key], shown: &[Vector], times: &[f64]) -> Vec<usize> {
     let last = keys.len() - 1;
-    let expected: Vec<Vector> = keys.iter().flat_map(|key| shown.iter().copied().map(key.apply())).collect();
+    let expected: Vec<Vector> = keys.iter().flat_map(|key| shown.iter().copied().map(key.transform())).collect();
     let is_within_tolerance = |from: usize, to: usize| {
         let (a, b) = (keys[from].rounded(), keys[to].rounded());
         let length = times[to] - times[from];
@@ -312,9 +312,9 @@ fn choose_keys(keys: &[Key], shown: &[Vector], times: &[f64]) -> Vec<usize> {
             let part = if length > 0.0 { (times[k] - times[from]) / length } else { 0.0 };
             let guess = a.between(&b, part);
             let expected = expected[k * shown.len()..].iter();
-            let mut positions = shown.iter().copied().map(guess.apply()).zip(expected);
+            let mut positions = shown.iter().copied().map(guess.transform()).zip(expected);
             distance(guess.at, keys[k].at) <= TOLERANCE
-                && positions.all(|(index, expected)| distance(index, *expected) <= TOLERANCE)
+                && positions.all(|(actual, expected)| distance(actual, *expected) <= TOLERANCE)
         })
     };
     let (mut chosen, mut from) = (vec![0], 0);

@@ -133,13 +133,13 @@ impl Label {
                     obstacles.pins.iter().any(|pin| distance(*pin, *at) > 1.0 && away(pin) < to_anchor)
                 }
                 LabelKind::Body => {
-                    let nearest = |is_body: bool| {
+                    let nearest = |is_of_body: bool| {
                         let regions = obstacles.regions.iter();
-                        let regions = regions.filter(|region| (region.frame == self.anchor.frame) == is_body);
+                        let regions = regions.filter(|region| (region.frame == self.anchor.frame) == is_of_body);
                         regions.map(|region| region.distance(here)).fold(f64::INFINITY, f64::min)
                     };
-                    let (own_region, other_region) = (nearest(true).min(away(at)), nearest(false));
-                    other_region <= 0.0 || other_region < own_region
+                    let (to_body, to_others) = (nearest(true).min(away(at)), nearest(false));
+                    to_others <= 0.0 || to_others < to_body
                 }
             }
         };
@@ -174,7 +174,7 @@ impl Region {
         let sides = |positions: &[Vector]| -> Vec<[Vector; 2]> {
             (0..positions.len()).map(|k| [positions[k], positions[(k + 1) % positions.len()]]).collect()
         };
-        let (sides_here, box_sides) = (sides(&self.corners), sides(&corners));
+        let (region_sides, box_sides) = (sides(&self.corners), sides(&corners));
         // separating axis theorem: one side of two disjoint convex shapes separates them
         let is_apart = |sides: &[[Vector; 2]], others: &[Vector], positions: &[Vector]| {
             sides.iter().any(|[from, to]| {
@@ -188,11 +188,11 @@ impl Region {
                     || others.iter().all(|position| height(position) < least)
             })
         };
-        if !is_apart(&sides_here, &corners, &self.corners) && !is_apart(&box_sides, &self.corners, &corners) {
+        if !is_apart(&region_sides, &corners, &self.corners) && !is_apart(&box_sides, &self.corners, &corners) {
             return 0.0;
         }
         let to_region =
-            corners.iter().flat_map(|position| sides_here.iter().map(|side| distance_to_segment(*position, *side)));
+            corners.iter().flat_map(|position| region_sides.iter().map(|side| distance_to_segment(*position, *side)));
         let to_box =
             self.corners.iter().flat_map(|position| box_sides.iter().map(|side| distance_to_segment(*position, *side)));
         to_region.chain(to_box).fold(f64::INFINITY, f64::min)
@@ -271,14 +271,14 @@ impl Picture<'_> {
 
     /// Returns the labels with positions that hold at all moments.
     pub fn labels(&self, moments: &[&[Pose]]) -> Vec<Label> {
-        let named = self.label_texts();
-        if named.is_empty() {
+        let texts = self.label_texts();
+        if texts.is_empty() {
             return Vec::new();
         }
         let size = self.letters();
         let field = self.field(moments);
         let mut labels: Vec<(Label, Vec<Vector>)> = Vec::new();
-        for LabelText { anchor, text, kind } in named {
+        for LabelText { anchor, text, kind } in texts {
             let wide = (COLUMN_WIDTH * text_columns(&text) as f64).max(1.0);
             let half = [0.5 * size * wide + 2.0, 0.6 * size + 1.0];
             let at: Vec<Vector> = moments.iter().map(|poses| self.anchor_to_pixels(&anchor, poses)).collect();
@@ -359,30 +359,30 @@ impl Picture<'_> {
             text: cut(&remark.text),
             kind: LabelKind::Remark,
         });
-        let mut named: Vec<LabelText> = remarks.collect();
+        let mut texts: Vec<LabelText> = remarks.collect();
         if self.options.labels {
-            named.extend(self.bodies());
+            texts.extend(self.bodies());
             let points =
                 scene.nodes.iter().flat_map(|node| &node.shapes).filter_map(|shape| scene.points.get(shape.point?));
             for point in points {
                 let name = point.name.rsplit('.').next().unwrap_or(&point.name);
                 let anchor = Anchor { frame: point.frame, at: point.at };
-                named.push(LabelText { anchor, text: cut(name), kind: LabelKind::Point });
+                texts.push(LabelText { anchor, text: cut(name), kind: LabelKind::Point });
             }
         }
-        named.truncate(MOST_LABELS);
-        named
+        texts.truncate(MOST_LABELS);
+        texts
     }
 
     /// Returns the bodies, each with the middle of its first shapes.
     fn bodies(&self) -> Vec<LabelText> {
         let scene = self.scene;
-        let mut named: Vec<LabelText> = Vec::new();
+        let mut texts: Vec<LabelText> = Vec::new();
         for node in &scene.nodes {
             let Attachment::Fixed(frame) = node.attachment else { continue };
             let is_body =
                 scene.declarations.get(node.declaration).is_some_and(|declaration| declaration.kind == "body");
-            let is_labelled = named.iter().any(|label| label.anchor.frame == frame);
+            let is_labelled = texts.iter().any(|label| label.anchor.frame == frame);
             if frame == 0 || !is_body || is_labelled {
                 continue;
             }
@@ -393,10 +393,10 @@ impl Picture<'_> {
                 let sum = corners.iter().copied().fold([0.0; 2], plus);
                 let at = times(1.0 / corners.len() as f64, sum);
                 let text = cut(self.name(node.declaration));
-                named.push(LabelText { anchor: Anchor { frame, at }, text, kind: LabelKind::Body });
+                texts.push(LabelText { anchor: Anchor { frame, at }, text, kind: LabelKind::Body });
             }
         }
-        named
+        texts
     }
 
     /// Returns the obstacles for labels.
@@ -409,13 +409,13 @@ impl Picture<'_> {
             let mut obstacles = Obstacles::default();
             for ShapeSamples { attachment, look, positions } in &shapes {
                 let (pose, stretch) = attachment.pose(poses);
-                let placed = |[x, y]: Vector| self.to_pixels(pose.transform([stretch * x, y]));
+                let to_picture = |[x, y]: Vector| self.to_pixels(pose.transform([stretch * x, y]));
                 match look {
-                    Look::Pin | Look::Dot => obstacles.pins.extend(positions.iter().copied().map(placed)),
+                    Look::Pin | Look::Dot => obstacles.pins.extend(positions.iter().copied().map(to_picture)),
                     look if HIGHLIGHTED.contains(look) => {
-                        obstacles.highlighted_lines.extend(positions.iter().step_by(every).copied().map(placed));
+                        obstacles.highlighted_lines.extend(positions.iter().step_by(every).copied().map(to_picture));
                     }
-                    _ => obstacles.lines.extend(positions.iter().step_by(every).copied().map(placed)),
+                    _ => obstacles.lines.extend(positions.iter().step_by(every).copied().map(to_picture)),
                 }
             }
             let corners = |(frame, corners): &(usize, Vec<Vector>)| Region {
@@ -440,7 +440,7 @@ impl Picture<'_> {
     /// Returns the pins of a node by their centres, and its lines by positions on them.
     fn samples(&self, node: &Node) -> Vec<ShapeSamples> {
         let is_stretched = node.attachment.is_stretched();
-        let samples_of = |(path, look): (&Path, Look)| {
+        let sampled = |(path, look): (&Path, Look)| {
             let positions = match (path, look) {
                 (Path::Circle { at, .. }, Look::Pin | Look::Dot) => vec![*at],
                 (_, look) if LOOKS_WITHOUT_LINES.contains(&look) || is_stretched => return None,
@@ -448,7 +448,7 @@ impl Picture<'_> {
             };
             Some(ShapeSamples { attachment: node.attachment, look, positions })
         };
-        node.shapes.iter().filter_map(|shape| samples_of((&shape.path, shape.look))).collect()
+        node.shapes.iter().filter_map(|shape| sampled((&shape.path, shape.look))).collect()
     }
 }
 

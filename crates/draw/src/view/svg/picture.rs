@@ -220,8 +220,8 @@ impl<'s> Picture<'s> {
 /// Returns the bounding box of the picture: the mechanism along its motion and at the shown moments, and all traces; of those that run away
 /// only the part near everything else.
 fn visible_bounds(scene: &Scene, motion: &Motion, moments: &Motion, options: &Options) -> [Vector; 2] {
-    let shown = scene.reach(moments).into_iter().flatten();
-    let mut all = bounds(scene.extent.into_iter().chain(shown)).unwrap_or(scene.extent);
+    let visible = scene.reach(moments).into_iter().flatten();
+    let mut all = bounds(scene.extent.into_iter().chain(visible)).unwrap_or(scene.extent);
     let pens_of_text = scene.traces.iter().map(|trace| trace.pen.clone());
     let pens: Vec<Pen> = pens_of_text.chain(options.traces.iter().map(|(_, anchor)| Pen::Point(*anchor))).collect();
     let positions = |pen: &Pen| -> Vec<Vector> {

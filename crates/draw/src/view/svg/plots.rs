@@ -107,11 +107,11 @@ fn add_plot(body: &mut String, k: usize, plot: &Plot, rows: &[f64], time: &Axis,
         format_number(high, 2),
         format_number(wide, 2)
     );
-    let placed = |(t, value): (&f64, &f64)| [LEFT + time.part(*t) * wide, top + (1.0 - values.part(*value)) * high];
-    let positions: Vec<Vector> = rows.iter().zip(&plot.values).map(placed).collect();
+    let to_picture = |(t, value): (&f64, &f64)| [LEFT + time.part(*t) * wide, top + (1.0 - values.part(*value)) * high];
+    let positions: Vec<Vector> = rows.iter().zip(&plot.values).map(to_picture).collect();
     let stretches = positions.split(|[_, y]| !y.is_finite());
-    let within = stretches.flat_map(|positions| clip(positions, [top, top + high]));
-    let d: String = within.map(|positions| polyline(&positions)).collect();
+    let visible = stretches.flat_map(|positions| clip(positions, [top, top + high]));
+    let d: String = visible.map(|positions| polyline(&positions)).collect();
     let _ = writeln!(body, "<path class=\"curve t{}\" d=\"{d}\"/>", k % TRACE_COLORS);
     let _ = writeln!(
         body,
@@ -204,7 +204,7 @@ fn polyline(positions: &[Vector]) -> String {
         }
     }
     let corners: Vec<String> =
-        positions.iter().zip(is_kept).filter(|(_, corners)| *corners).map(|(position, _)| pair(*position)).collect();
+        positions.iter().zip(is_kept).filter(|(_, is_kept)| *is_kept).map(|(position, _)| pair(*position)).collect();
     format!("M{}", corners.join("L"))
 }
 

@@ -24,16 +24,16 @@ pub(super) const SAMPLED_ROWS: usize = 200;
 const AT_REST: f64 = 1e-9;
 
 /// Kind of arrows: its name, and its vector for a point in a row.
-type Kind = (&'static str, fn(&Motion, usize, &Point) -> Vector);
+type ArrowKind = (&'static str, fn(&Motion, usize, &Point) -> Vector);
 
-const KINDS: [Kind; 2] = [("velocity", velocity), ("acceleration", acceleration)];
+const ARROW_KINDS: [ArrowKind; 2] = [("velocity", velocity), ("acceleration", acceleration)];
 
 impl Picture<'_> {
     /// Adds the arrows of the last moment, in the scale of the whole motion.
     pub fn add_vectors(&mut self, moments: &Motion, motion: &Motion) {
         let row = moments.len() - 1;
         let points = self.distinct(self.moving_points([moments, motion]), moments);
-        for (word, of) in KINDS {
+        for (word, of) in ARROW_KINDS {
             let Some(scale) = self.arrow_scale(&points, [moments, motion], (word, of)) else { continue };
             for pin in &points {
                 let from = self.to_pixels(moments.poses(row)[pin.frame].transform(pin.at));
@@ -46,7 +46,7 @@ impl Picture<'_> {
     /// Adds the arrows of the whole motion. The line and the head of each arrow have separate tracks.
     pub fn add_moving_vectors(&mut self, motion: &Motion) {
         let points = self.distinct(self.moving_points([motion, motion]), motion);
-        for (word, of) in KINDS {
+        for (word, of) in ARROW_KINDS {
             let Some(scale) = self.arrow_scale(&points, [motion, motion], (word, of)) else { continue };
             for pin in &points {
                 let arrows: Vec<[Vector; 2]> = (0..motion.len())
@@ -88,7 +88,7 @@ impl Picture<'_> {
     }
 
     /// Returns the pixels per unit, from the longest arrow of two motions, and adds the legend. Returns `None` if all points are at rest.
-    fn arrow_scale(&mut self, points: &[Point], motions: [&Motion; 2], (word, of): Kind) -> Option<f64> {
+    fn arrow_scale(&mut self, points: &[Point], motions: [&Motion; 2], (word, of): ArrowKind) -> Option<f64> {
         let longest = points.iter().map(|point| longest_of(of, point, motions)).fold(0.0, f64::max);
         if longest <= 0.0 {
             return None;
@@ -197,8 +197,9 @@ fn moving_points(scene: &Scene, traces: &[(String, Anchor)], motions: [&Motion; 
     }
     let speeds: Vec<f64> = points.iter().map(|(point, _)| longest_of(velocity, point, motions)).collect();
     let least = AT_REST * speeds.iter().copied().fold(0.0, f64::max);
-    let moving_points = points.into_iter().zip(speeds).filter(|((point, _), speed)| point.frame > 0 && *speed > least);
-    let moving_points: Vec<(Point, bool)> = moving_points.map(|(point, _)| point).collect();
+    let points_in_motion =
+        points.into_iter().zip(speeds).filter(|((point, _), speed)| point.frame > 0 && *speed > least);
+    let moving_points: Vec<(Point, bool)> = points_in_motion.map(|(point, _)| point).collect();
     let has_preferred =
         |frame: usize| moving_points.iter().any(|(point, is_preferred)| *is_preferred && point.frame == frame);
     let is_chosen = |(point, is_preferred): &&(Point, bool)| *is_preferred || !has_preferred(point.frame);
@@ -208,8 +209,8 @@ fn moving_points(scene: &Scene, traces: &[(String, Anchor)], motions: [&Motion; 
 /// Returns the length of a point's longest vector of a kind.
 fn longest_of(of: fn(&Motion, usize, &Point) -> Vector, point: &Point, motions: [&Motion; 2]) -> f64 {
     let rows = motions.into_iter().flat_map(|motion| motion.sampled(SAMPLED_ROWS).map(move |row| (motion, row)));
-    let arrows = rows.map(|(motion, row)| length(of(motion, row, point)));
-    arrows.filter(|vector| vector.is_finite()).fold(0.0, f64::max)
+    let lengths = rows.map(|(motion, row)| length(of(motion, row, point)));
+    lengths.filter(|length| length.is_finite()).fold(0.0, f64::max)
 }
 
 /// Formats a number with three significant digits.
