@@ -8,7 +8,7 @@ use super::features::{Disc, Line};
 use super::guides::height;
 use super::plane::{Contour, Path, Segment, direction, dot, minus, plus, polar};
 use super::symbols::Symbols;
-use super::teeth::{DEDENDUM, Rack, Wheel, offset, to_nearest_integer};
+use super::teeth::{DEDENDUM, Rack, Wheel, integer_residual, offset};
 use super::{Look, PitchLine, Shape};
 use mechc_expr::math;
 use mechc_lang::model::{AxisId, CircleId, JointKind};
@@ -248,7 +248,7 @@ impl Trains {
                 (foot - teeth_of(second).phase) / pitch + side * offset(&a, turn_a, angle)
             }
         };
-        to_nearest_integer(sum - 0.5)
+        integer_residual(sum - 0.5)
     }
 
     /// Returns the largest deviation of a train along the motion.

@@ -205,13 +205,13 @@ impl Path {
     /// Creates an open polyline; without positions the path is empty.
     #[must_use]
     pub fn line(positions: impl IntoIterator<Item = Vector>) -> Path {
-        Path::Lines(Contour::of(positions, false).into_iter().collect())
+        Path::Lines(Contour::new(positions, false).into_iter().collect())
     }
 
     /// Creates a closed polygon; without positions the path is empty.
     #[must_use]
     pub fn polygon(positions: impl IntoIterator<Item = Vector>) -> Path {
-        Path::Lines(Contour::of(positions, true).into_iter().collect())
+        Path::Lines(Contour::new(positions, true).into_iter().collect())
     }
 
     /// Creates separate straight lines.
@@ -267,7 +267,7 @@ impl Path {
 }
 
 impl Contour {
-    fn of(positions: impl IntoIterator<Item = Vector>, is_closed: bool) -> Option<Contour> {
+    fn new(positions: impl IntoIterator<Item = Vector>, is_closed: bool) -> Option<Contour> {
         let mut positions = positions.into_iter();
         let start = positions.next()?;
         Some(Contour { start, segments: positions.map(Segment::Line).collect(), is_closed })
@@ -315,9 +315,9 @@ fn add_arc(samples: &mut Vec<Vector>, at: Vector, radius: f64, [from, to]: [f64;
 }
 
 /// Returns the number of intervals of a length, each at most a step long.
-fn interval_count(chord: f64, step: f64) -> u32 {
+fn interval_count(length: f64, step: f64) -> u32 {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // between 1 and 1000
-    let count = (chord / step).clamp(0.0, 999.0) as u32;
+    let count = (length / step).clamp(0.0, 999.0) as u32;
     count + 1
 }
 

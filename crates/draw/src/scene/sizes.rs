@@ -17,10 +17,10 @@ const SAMPLED_ROWS: usize = 60;
 
 /// Returns the size of symbols (m), which is positive.
 pub(super) fn unit(features: &Features, motion: &Motion, outlines: &[Outline]) -> f64 {
-    let positions = positions(features, outlines);
+    let anchors = anchors(features, outlines);
     let corners = motion.sampled(SAMPLED_ROWS).filter_map(|row| {
         let poses = motion.poses(row);
-        bounds(positions.iter().map(|anchor| anchor.position(poses)))
+        bounds(anchors.iter().map(|anchor| anchor.position(poses)))
     });
     let extent = bounds(corners.flatten()).map_or(0.0, |[low, high]| distance(low, high));
     if !(extent.is_finite() && extent > 0.0) {
@@ -32,15 +32,15 @@ pub(super) fn unit(features: &Features, motion: &Motion, outlines: &[Outline]) -
 }
 
 /// Returns the positions that a picture has to show.
-fn positions(features: &Features, outlines: &[Outline]) -> Vec<Anchor> {
+fn anchors(features: &Features, outlines: &[Outline]) -> Vec<Anchor> {
     let model = features.model;
     let outline_anchors = outlines
         .iter()
         .enumerate()
         .flat_map(|(frame, outline)| outline.positions.iter().map(move |at| Anchor { frame, at: *at }));
-    let mut positions: Vec<Anchor> = outline_anchors.collect();
+    let mut anchors: Vec<Anchor> = outline_anchors.collect();
     for joint in &model.joints {
-        positions.extend(joint.kind.points(model).into_iter().map(|point| features.point(point)));
+        anchors.extend(joint.kind.points(model).into_iter().map(|point| features.point(point)));
         let profiles: &[Profile] = match joint.kind {
             JointKind::Gear { circles: [c, d], .. } => &[Profile::Circle(c), Profile::Circle(d)],
             JointKind::RackPinion { pinion, .. } => &[Profile::Circle(pinion)],
@@ -49,10 +49,10 @@ fn positions(features: &Features, outlines: &[Outline]) -> Vec<Anchor> {
             _ => &[],
         };
         for profile in profiles {
-            positions.extend((0..8).map(|k| features.on_profile(*profile, f64::from(k) * std::f64::consts::FRAC_PI_4)));
+            anchors.extend((0..8).map(|k| features.on_profile(*profile, f64::from(k) * std::f64::consts::FRAC_PI_4)));
         }
     }
-    positions
+    anchors
 }
 
 /// Returns the lower quartile of the links' lengths.

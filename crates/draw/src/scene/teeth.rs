@@ -150,7 +150,7 @@ pub(super) fn offset(wheel: &Wheel, angle: f64, direction: f64) -> f64 {
 }
 
 /// Returns the difference of a number from the nearest whole number.
-pub(super) fn to_nearest_integer(value: f64) -> f64 {
+pub(super) fn integer_residual(value: f64) -> f64 {
     value - math::floor(value + 0.5)
 }
 

@@ -66,7 +66,7 @@ impl KindOfName {
 }
 
 /// Substitutes for words of the language: as the name of a body, of a joint or equation, and of a feature or value.
-const OTHERS: &[(&str, [&str; 3])] = &[
+const SUBSTITUTES: &[(&str, [&str; 3])] = &[
     // ---- units and constants
     ("s", ["slide", "guide", "stroke"]),
     ("m", ["arm", "mount", "module"]),
@@ -108,7 +108,7 @@ const OTHERS: &[(&str, [&str; 3])] = &[
 
 /// Returns a free name in place of a word of the language.
 pub fn another_name(word: &str, kind: KindOfName, is_free: impl Fn(&str) -> bool) -> Option<&'static str> {
-    let substitute = OTHERS.iter().find(|(other, _)| *other == word).and_then(|(_, names)| match kind {
+    let substitute = SUBSTITUTES.iter().find(|(other, _)| *other == word).and_then(|(_, names)| match kind {
         KindOfName::Body => Some(names[0]),
         KindOfName::Joint | KindOfName::Equation => Some(names[1]),
         KindOfName::Feature | KindOfName::Value | KindOfName::Function => Some(names[2]),
@@ -124,7 +124,7 @@ pub fn another_name(word: &str, kind: KindOfName, is_free: impl Fn(&str) -> bool
 
 #[cfg(test)]
 mod tests {
-    use super::{KindOfName, OTHERS, another_name};
+    use super::{KindOfName, SUBSTITUTES, another_name};
     use crate::vocabulary::{Keyword, Unit, is_called, is_taken};
 
     #[test]
@@ -132,7 +132,7 @@ mod tests {
         let general = ["body", "joint", "driver", "point", "param", "fn"].map(KindOfName::behind);
         let values = [KindOfName::Mass, KindOfName::Time];
         let kinds = general.iter().chain(&values).flat_map(|kind| kind.names());
-        let names = OTHERS.iter().flat_map(|(_, names)| names).chain(kinds);
+        let names = SUBSTITUTES.iter().flat_map(|(_, names)| names).chain(kinds);
         for name in names {
             let is_word = is_taken(name) || is_called(name) || Unit::named(name).is_some();
             assert!(!is_word && Keyword::named(name).is_none(), "`{name}` is a word of the language");
