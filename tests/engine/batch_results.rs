@@ -74,8 +74,8 @@ fn sampled(ranges: &[&str], sample: u64) -> VaryOptions {
 }
 
 /// Compares the results of each variant with those alone; gives how many went side by side, and how many completed.
-fn compare(subject: &Subject, asked: &VaryOptions) -> (usize, usize) {
-    let variants = subject.variants(asked);
+fn compare(subject: &Subject, requested: &VaryOptions) -> (usize, usize) {
+    let variants = subject.variants(requested);
     let block = subject.sweep(&variants, &SweepOptions::default());
     let mut complete = 0;
     for k in 0..block.len() {
@@ -137,7 +137,7 @@ fn extrema_in_doubt_are_found_alone() {
         format!("{name}={}", values.collect::<Vec<_>>().join(","))
     };
     // it begins at its extremum, it ends there, it comes to one twice
-    for asked in [
+    for requested in [
         vec![about("start", std::f64::consts::PI), "speed=2".to_owned()],
         vec![about("start", -6.2), "speed=2".to_owned()],
         vec![about("start", 0.05), format!("speed={}", 2.0 * std::f64::consts::PI / 3.1)],
@@ -145,9 +145,9 @@ fn extrema_in_doubt_are_found_alone() {
         vec!["start=1,-1".to_owned(), about("speed", 4.0 * std::f64::consts::PI / 3.1)],
         vec!["start=0.3".to_owned(), "speed=1e-9,1e-6,1e-3,0,10,40".to_owned()],
     ] {
-        let asked: Vec<&str> = asked.iter().map(String::as_str).collect();
-        let (abreast, complete) = compare(&subject, &vary(&asked));
-        assert!(abreast <= complete, "{asked:?}");
+        let requested: Vec<&str> = requested.iter().map(String::as_str).collect();
+        let (abreast, complete) = compare(&subject, &vary(&requested));
+        assert!(abreast <= complete, "{requested:?}");
     }
 }
 
@@ -158,9 +158,9 @@ fn next_to_change_points_and_dead_points_results_are_those_alone() {
     let off = [0.0, 1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 0.1];
     for (name, value) in [("lever", 1.5), ("rod", 6.0), ("arm", 2.5)] {
         let values = off.iter().flat_map(|off| [value - off, value + off]).map(|value| format!("{value}"));
-        let asked = format!("{name}={}", values.collect::<Vec<_>>().join(","));
-        let (abreast, complete) = compare(&subject, &vary(&[&asked]));
-        assert!(abreast <= complete, "{asked}");
+        let requested = format!("{name}={}", values.collect::<Vec<_>>().join(","));
+        let (abreast, complete) = compare(&subject, &vary(&[&requested]));
+        assert!(abreast <= complete, "{requested}");
     }
     // what stops beside what does not
     let (abreast, complete) = compare(&subject, &vary(&["rod=3.5,0,-3.4,9,1.9,3.6,1e300,3.45,2.2", "lever=3,0,2.95"]));
@@ -253,7 +253,7 @@ fn what_rests_is_found_side_by_side() {
 /// What is not smooth, is nested, or has a window goes alone; beside rows as without them.
 #[test]
 fn other_results_go_alone() {
-    let asked = sampled(&["rod=3.4..3.6", "lever=2.9..3.1"], 6);
+    let requested = sampled(&["rod=3.4..3.6", "lever=2.9..3.1"], 6);
     for other in [
         "far = max(abs(x(coupler.pen)) + y(coupler.pen))",
         "slope = max(x(coupler.pen) / y(coupler.pen))",
@@ -262,7 +262,7 @@ fn other_results_go_alone() {
         "off = max(x(coupler.pen) + t)",
     ] {
         let subject = of(FOUR_BAR, &["top = max(y(coupler.pen))", other]);
-        let (abreast, complete) = compare(&subject, &asked);
+        let (abreast, complete) = compare(&subject, &requested);
         assert_eq!((abreast, complete), (0, 6), "{other}");
     }
     // outside the analysis

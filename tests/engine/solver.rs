@@ -106,14 +106,14 @@ fn have_equal_bits(name: &str, compiled: &Compiled, count: u32) -> usize {
 
 #[test]
 fn the_rows_of_random_mechanisms_have_the_same_bits_whichever_others_are_asked_for() {
-    let mut seen = 0;
+    let mut visited = 0;
     for seed in 0..8 {
         let text = made(seed);
         if let Some(compiled) = support::compile_with_forces(Path::new("made"), &text, 0) {
-            seen += usize::from(have_equal_bits(&text, &compiled, 40) > 1);
+            visited += usize::from(have_equal_bits(&text, &compiled, 40) > 1);
         }
     }
-    assert!(seen > 4, "{seen}");
+    assert!(visited > 4, "{visited}");
 }
 
 #[test]
@@ -141,7 +141,7 @@ fn short_rows_and_long_ones_hold_the_same() {
 
 #[test]
 fn every_case_is_solved_for_in_lanes() {
-    let mut seen = 0;
+    let mut visited = 0;
     for path in files("tests/cases", "mech") {
         let name = stem(&path);
         let text = fs::read_to_string(&path).expect("a text");
@@ -152,7 +152,7 @@ fn every_case_is_solved_for_in_lanes() {
         let Some(times) = compiled.times() else {
             continue;
         };
-        seen += 1;
+        visited += 1;
         let wanted = rows(&compiled, &times);
         let params: Vec<f64> = determined.system().params().iter().map(|param| param.value).collect();
         let started = analysis::start(
@@ -197,7 +197,7 @@ fn every_case_is_solved_for_in_lanes() {
         }
         assert!(10 * others <= wanted.len(), "{name}: {others} of {} rows have no lane", wanted.len());
     }
-    assert!(seen > 20, "only {seen} cases");
+    assert!(visited > 20, "only {visited} cases");
 }
 
 /// A solver with what it needs to be run at any time.

@@ -51,8 +51,8 @@ fn what_is_wrong_with_one_variant_is_its_own() {
     // in order: nothing wrong, cannot close, locks, a pole of a result, a negative length, all collinear once a turn
     let lengths = ["30mm", "400mm", "75mm", "-30mm", "40mm", "60mm"];
     let rockers = ["70mm", "69mm", "80mm"];
-    let asked = [format!("crank_length={}", lengths.join(",")), format!("rocker_length={}", rockers.join(", "))];
-    let variants = subject.variants(&vary(&[&asked[0], &asked[1]]));
+    let requested = [format!("crank_length={}", lengths.join(",")), format!("rocker_length={}", rockers.join(", "))];
+    let variants = subject.variants(&vary(&[&requested[0], &requested[1]]));
     assert_eq!(variants.points().count(), 18);
     let found = compare(&subject, &variants);
     assert!(count(&found, Status::Ok) >= 3, "{found:?}");
@@ -95,16 +95,16 @@ fn results_alone_are_those_beside_rows() {
 
 /// The fewest digits of a variant's results; the numbers are those without them.
 #[test]
-fn digits_of_results_are_told() {
+fn digits_of_results_are_reported() {
     let results = vec!["top = max(height)".to_owned(), "pole = integral(abs(t - 0.1)^(-0.9))".to_owned()];
     let variants = vary(&["share=0..1:5"]);
     let of = |results: &[String], digits| {
         let subject = subject(FOUR_BAR, Choice { results: results.to_vec(), ..Choice::default() });
         subject.sweep(&subject.variants(&variants), &SweepOptions { digits, ..SweepOptions::default() })
     };
-    let [plain, told, with_pole] = [of(&results[..1], false), of(&results[..1], true), of(&results, true)];
-    assert_eq!((plain.digits, plain.results), (None, told.results));
-    assert!(told.digits.expect("digits").iter().all(|digits| *digits > 9));
+    let [plain, reported, with_pole] = [of(&results[..1], false), of(&results[..1], true), of(&results, true)];
+    assert_eq!((plain.digits, plain.results), (None, reported.results));
+    assert!(reported.digits.expect("digits").iter().all(|digits| *digits > 9));
     assert!(with_pole.digits.expect("digits").iter().all(|digits| (1..6).contains(digits)));
 }
 
@@ -139,11 +139,11 @@ fn variants_of_the_examples_are_what_they_are_alone() {
             let unit = Some(param.unit()).filter(|unit| unit != "1").unwrap_or_default();
             let (value, beside) = (param.value, 1.02 * param.value + 1e-4);
             let subject = subject(&text, Choice::default());
-            let asked = vary(&[&format!("{}={value} {unit},{beside} {unit}", param.name)]);
+            let requested = vary(&[&format!("{}={value} {unit},{beside} {unit}", param.name)]);
             if subject.compiled.times().is_none() {
                 continue;
             }
-            let Ok(variants) = subject.variants_in(&asked, &Memory::default()) else { continue };
+            let Ok(variants) = subject.variants_in(&requested, &Memory::default()) else { continue };
             found += count(&compare(&subject, &variants), Status::Ok);
         }
     }
@@ -236,10 +236,10 @@ fn what_is_wrong_with_a_column_of_variants_is_said_at_its_header() {
         ("crank_length (mm)", "a unit stands in brackets behind the name: `rod [mm]`"),
     ] {
         let world = Memory::default().with("v.csv", format!("speed [rpm],{header}\n60,30\n"));
-        let asked = vary(&["@v.csv"]);
-        let (sources, said) =
-            subject.checked.variants(&asked, &subject.choice, &world).expect_err("that column is wrong");
-        let one = said.iter().next().expect("a word of it");
+        let requested = vary(&["@v.csv"]);
+        let (sources, diagnostics) =
+            subject.checked.variants(&requested, &subject.choice, &world).expect_err("that column is wrong");
+        let one = diagnostics.iter().next().expect("a word of it");
         let span = one.labels[0].span;
         assert_eq!((sources.get(span.file).name.as_str(), sources.text(span)), ("v.csv", header));
         assert_eq!(one.help, [help], "{header}");
@@ -250,7 +250,7 @@ fn what_is_wrong_with_a_column_of_variants_is_said_at_its_header() {
 fn what_cannot_vary_is_refused() {
     let subject = subject(FOUR_BAR, Choice { set: vec!["share=1".to_owned()], ..Choice::default() });
     let sampled = |params: &[&str], sample| VaryOptions { sample: Some(sample), ..vary(params) };
-    for (asked, wanted) in [
+    for (requested, wanted) in [
         (vary(&["crank_length"]), "`--vary crank_length` does not say what varies"),
         (vary(&["crank_length="]), "`--vary crank_length=` does not say what varies"),
         (vary(&["crank_length=..3mm:2"]), "`--vary crank_length=..3mm:2` does not say from where to where"),
@@ -277,7 +277,7 @@ fn what_cannot_vary_is_refused() {
             "there are more variants than can be counted",
         ),
     ] {
-        let said = subject.variants_in(&asked, &Memory::default()).expect_err("it is refused");
-        assert_eq!(said, wanted);
+        let diagnostics = subject.variants_in(&requested, &Memory::default()).expect_err("it is refused");
+        assert_eq!(diagnostics, wanted);
     }
 }

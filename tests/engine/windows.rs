@@ -218,11 +218,11 @@ fn by_p(p: f64, cases: &[(&str, Option<f64>)]) {
         let _ = writeln!(declarations, "result r{k} = {formula}");
     }
     let subject = subject(&arm(&declarations), Choice::default());
-    let (asked, world) = (["p=0.01".to_owned()], Memory::default());
-    let of = subject.checked.tolerancing(&asked, &subject.choice, &world);
-    let of = of.unwrap_or_else(|(_, said)| panic!("{said:?}"));
+    let (requested, world) = (["p=0.01".to_owned()], Memory::default());
+    let of = subject.checked.tolerancing(&requested, &subject.choice, &world);
+    let of = of.unwrap_or_else(|(_, diagnostics)| panic!("{diagnostics:?}"));
     let affected = of.affected(&subject.compiled, &SweepOptions::default());
-    let affected = affected.unwrap_or_else(|(_, said)| panic!("{said:?}"));
+    let affected = affected.unwrap_or_else(|(_, diagnostics)| panic!("{diagnostics:?}"));
     let of_results = affected.iter().filter(|of| of.at.is_none());
     for (of, (formula, wanted)) in of_results.zip(cases) {
         match (of.slopes[0], wanted) {

@@ -31,33 +31,33 @@ fn compiled(path: &Path, text: &str) -> (Checked, Compiled) {
     let file = sources.add(path.display().to_string(), text);
     let parsed = Parsed::of_source(sources, file, path);
     let checked = parsed.check(&Choice::default(), &Disk::default());
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    let compiled = compiled.unwrap_or_else(|| panic!("{}: {said:?}", path.display()));
+    let (compiled, reports) = checked.compile(Redundant::Refused, &Cancel::default());
+    let compiled = compiled.unwrap_or_else(|| panic!("{}: {reports:?}", path.display()));
     (checked, compiled)
 }
 
 fn seen_as(path: &Path, text: &str, times: Option<Times>) -> Seen {
     let (checked, compiled) = compiled(path, text);
     let times = times.or_else(|| compiled.times()).expect("an analysis");
-    let (seen, said) = checked.seen(&compiled, &times, &RunOptions::default(), 2000);
-    seen.unwrap_or_else(|| panic!("{}: {said:?}", path.display()))
+    let (seen, reports) = checked.seen(&compiled, &times, &RunOptions::default(), 2000);
+    seen.unwrap_or_else(|| panic!("{}: {reports:?}", path.display()))
 }
 
 /// A motion that is refined until its curves are within a tolerance; with what is said of those that end early.
 fn refined(path: &Path, text: &str, tolerance: impl Fn(&Seen) -> CurveTolerance) -> (Seen, Diagnostics) {
     let (checked, compiled) = compiled(path, text);
     let (times, options) = (compiled.times().expect("an analysis"), RunOptions::default());
-    let (seen, said) = checked.seen(&compiled, &times, &options, 2000);
-    let mut seen = seen.unwrap_or_else(|| panic!("{}: {said:?}", path.display()));
+    let (seen, reports) = checked.seen(&compiled, &times, &options, 2000);
+    let mut seen = seen.unwrap_or_else(|| panic!("{}: {reports:?}", path.display()));
     let tolerance = tolerance(&seen);
-    let said = checked.refine_motion(&compiled, &times, &options, &mut seen, &tolerance);
-    (seen, said)
+    let reports = checked.refine_motion(&compiled, &times, &options, &mut seen, &tolerance);
+    (seen, reports)
 }
 
 /// A motion that is refined, all of whose curves are drawn to their ends.
 fn seen_within(path: &Path, text: &str, tolerance: impl Fn(&Seen) -> CurveTolerance) -> Seen {
-    let (seen, said) = refined(path, text, tolerance);
-    assert!(said.is_empty(), "{}: {said:?}", path.display());
+    let (seen, reports) = refined(path, text, tolerance);
+    assert!(reports.is_empty(), "{}: {reports:?}", path.display());
     seen
 }
 
@@ -77,16 +77,16 @@ fn seen_at_rest(path: &str) -> (Seen, Vec<String>) {
     let file = sources.add(path, text);
     let checked = Parsed::of_source(sources, file, Path::new(path)).check(&Choice::default(), &Disk::default());
     let options = RunOptions::default();
-    let (compiled, mut said) = checked.compile(Redundant::Refused, &Cancel::default());
+    let (compiled, mut reports) = checked.compile(Redundant::Refused, &Cancel::default());
     if let Some(compiled) = &compiled {
         let (seen, why) = checked.seen(compiled, &compiled.times().expect("an analysis"), &options, 2000);
         assert!(seen.is_none(), "{path} moves");
-        said = why;
+        reports = why;
     }
-    let seen = checked.seen_at_rest(compiled.as_ref(), (0.0, &options), &said).expect("it is sound");
-    let notes = |said: &Diagnostic| if said.code == Code::E0601 { said.notes.clone() } else { Vec::new() };
-    let message = |said: &Diagnostic| format!("error[{}]: {}", said.code, said.message);
-    let messages = said.iter().flat_map(|said| std::iter::once(message(said)).chain(notes(said))).collect();
+    let seen = checked.seen_at_rest(compiled.as_ref(), (0.0, &options), &reports).expect("it is sound");
+    let notes = |reports: &Diagnostic| if reports.code == Code::E0601 { reports.notes.clone() } else { Vec::new() };
+    let message = |reports: &Diagnostic| format!("error[{}]: {}", reports.code, reports.message);
+    let messages = reports.iter().flat_map(|reports| std::iter::once(message(reports)).chain(notes(reports))).collect();
     (seen, messages)
 }
 
@@ -388,11 +388,11 @@ const HELD: &str = "mechanism held {
 fn seen_with_forces(text: &str) -> Seen {
     let choice = Choice { pictures_forces: true, ..Choice::default() };
     let checked = Parsed::of("test.mech", text).check(&choice, &Disk::default());
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    let compiled = compiled.unwrap_or_else(|| panic!("{said:?} {:?}", checked.diagnostics()));
+    let (compiled, reports) = checked.compile(Redundant::Refused, &Cancel::default());
+    let compiled = compiled.unwrap_or_else(|| panic!("{reports:?} {:?}", checked.diagnostics()));
     let times = compiled.times().expect("an analysis");
-    let (seen, said) = checked.seen(&compiled, &times, &RunOptions::default(), 2000);
-    seen.unwrap_or_else(|| panic!("{said:?}"))
+    let (seen, reports) = checked.seen(&compiled, &times, &RunOptions::default(), 2000);
+    seen.unwrap_or_else(|| panic!("{reports:?}"))
 }
 
 /// The torques of a mechanism in a row, with their names.
@@ -408,10 +408,10 @@ fn arcs_are_as_large_as_torques_and_go_their_way_round() {
     let mut scales: Vec<f64> = Vec::new();
     for row in [0, 7, 23] {
         let file = still(&seen.scene, &seen.motion, &one_row(&seen, row), &options);
-        let told = torques(&seen, row);
-        let names: Vec<&str> = told.iter().map(|(name, _)| name.as_str()).collect();
+        let reported = torques(&seen, row);
+        let names: Vec<&str> = reported.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, ["guide", "motor", "spiral", "brake"]);
-        for (name, torque) in &told {
+        for (name, torque) in &reported {
             let paths = file.split('<').filter(|tag| tag.starts_with("path class=\"vector"));
             let own = |tag: &&str| attribute(tag, "data-name") == Some(name) && tag.contains(" 0 1 ");
             let Some(path) = paths.clone().find(own) else { continue };
@@ -943,8 +943,8 @@ fn a_film_has_a_picture_of_each_row() {
     let folder = tempfile::tempdir().expect("a folder");
     let times = ["--from", "0", "--to", "0.04", "--every", "10ms"];
     let with = |output| [&["-o", output][..], &times].concat();
-    let (code, said) = view(folder.path(), &with("film/%03d.svg"));
-    assert_eq!(code, 0, "{said}");
+    let (code, reports) = view(folder.path(), &with("film/%03d.svg"));
+    assert_eq!(code, 0, "{reports}");
     let mut names: Vec<String> = fs::read_dir(folder.path().join("film"))
         .expect("the folder")
         .map(|entry| entry.expect("a file").file_name().to_string_lossy().into_owned())
@@ -958,12 +958,12 @@ fn a_film_has_a_picture_of_each_row() {
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink("../a.mech", folder.path().join("film/x2.svg")).expect("a link");
-        let (code, said) = view(folder.path(), &with("film/x%d.svg"));
-        assert!(code == 2 && said.contains("would be written over"), "{code}: {said}");
+        let (code, reports) = view(folder.path(), &with("film/x%d.svg"));
+        assert!(code == 2 && reports.contains("would be written over"), "{code}: {reports}");
         assert!(!folder.path().join("film/x0.svg").exists(), "none of them is written");
     }
-    let (code, said) = view(folder.path(), &with("no/such/%d.svg"));
-    assert!(code != 0 && said.contains("there is no folder `no`"), "{code}: {said}");
+    let (code, reports) = view(folder.path(), &with("no/such/%d.svg"));
+    assert!(code != 0 && reports.contains("there is no folder `no`"), "{code}: {reports}");
 }
 
 /// What the pictures of some examples show beside what these ask for: the point that an example is there for.
@@ -1035,8 +1035,8 @@ fn free(text: &str) -> Vec<Vec<(String, [f64; 3])>> {
     let mut sources = Sources::default();
     let file = sources.add("free.mech", text);
     let tree = syntax::parse(&sources, file).tree;
-    let (model, said) = check::check(&tree.mechanisms[0], &check::Surroundings::default(), &sources);
-    let system = lower::lowered(&model.unwrap_or_else(|| panic!("{said:?}")));
+    let (model, reports) = check::check(&tree.mechanisms[0], &check::Surroundings::default(), &sources);
+    let system = lower::lowered(&model.unwrap_or_else(|| panic!("{reports:?}")));
     let named = |FreeMotion { bodies }: FreeMotion| {
         bodies.into_iter().map(|(body, velocity)| (system.bodies()[body].name.clone(), velocity)).collect()
     };
@@ -1105,8 +1105,8 @@ fn looking(seen: &Seen, look: Look) -> Vec<(&str, Vector)> {
 
 #[test]
 fn what_is_left_free_has_arrows() {
-    let (seen, said) = seen_at_rest("tests/ui/ndof/three_cranks_without_driver.mech");
-    assert!(said[0].starts_with("error[E0503]"), "{said:?}");
+    let (seen, reports) = seen_at_rest("tests/ui/ndof/three_cranks_without_driver.mech");
+    assert!(reports[0].starts_with("error[E0503]"), "{reports:?}");
     let mut arrows = looking(&seen, Look::Free);
     arrows.sort_by(|a, b| a.0.cmp(b.0));
     let names: Vec<&str> = arrows.iter().map(|(name, _)| *name).collect();
@@ -1124,8 +1124,8 @@ fn what_is_left_free_has_arrows() {
 
 #[test]
 fn what_cannot_be_assembled_is_open_where_it_is_said() {
-    let (seen, said) = seen_at_rest("tests/ui/run/loop_that_never_closes.mech");
-    assert!(said[0].ends_with("joint `swing` stays open by 8.88 mm"), "{said:?}");
+    let (seen, reports) = seen_at_rest("tests/ui/run/loop_that_never_closes.mech");
+    assert!(reports[0].ends_with("joint `swing` stays open by 8.88 mm"), "{reports:?}");
     let open = seen.scene.nodes.iter().filter(|node| node.shapes.iter().any(|shape| shape.look == Look::GapEnd));
     let [open] = open.collect::<Vec<_>>()[..] else { panic!("one joint is open") };
     assert_eq!(seen.scene.declarations[open.declaration].name, "swing");
@@ -1141,7 +1141,7 @@ fn what_cannot_be_assembled_is_open_where_it_is_said() {
 #[test]
 fn lengths_that_are_blamed_stand_beside_what_is_red() {
     let path = "tests/ui/run/loop_that_never_closes.mech";
-    let (seen, said) = seen_at_rest(path);
+    let (seen, reports) = seen_at_rest(path);
     let remarks: Vec<&str> = seen.scene.remarks.iter().map(|remark| remark.text.as_str()).collect();
     assert_eq!(remarks, ["100 mm: too long", "10 mm: too short", "70 mm: too short"]);
     assert_eq!(seen.scene.remarks[0].at, [0.05, 0.0], "the middle of the ground's length");
@@ -1150,7 +1150,7 @@ fn lengths_that_are_blamed_stand_beside_what_is_red() {
         assert!(named.contains(&body), "{named:?}");
     }
     assert!(!named.contains(&"crank") && !named.contains(&"ground"), "{named:?}");
-    let file = still(&seen.scene, &seen.motion, &seen.motion, &Options { said, ..Options::default() });
+    let file = still(&seen.scene, &seen.motion, &seen.motion, &Options { said: reports, ..Options::default() });
     assert_eq!(file.matches("<text class=\"remark\"").count(), 3);
     // the command tells them below it, and breaks no number off its unit
     let folder = tempfile::tempdir().expect("a folder");
@@ -1187,9 +1187,9 @@ fn stopped() -> Seen {
 
 #[test]
 fn messages_take_no_room_from_what_is_drawn() {
-    let (seen, said) = seen_at_rest("tests/ui/run/loop_that_never_closes.mech");
+    let (seen, reports) = seen_at_rest("tests/ui/run/loop_that_never_closes.mech");
     for size in [None, Some([400.0, 300.0]), Some([1280.0, 720.0])] {
-        let options = Options { said: said.clone(), labels: true, size, ..Options::default() };
+        let options = Options { said: reports.clone(), labels: true, size, ..Options::default() };
         let file = still(&seen.scene, &seen.motion, &seen.motion, &options);
         let lines: Vec<f64> = file
             .split("<text class=\"said\"")
@@ -1221,8 +1221,8 @@ fn goldens() -> Vec<(String, String)> {
     let pen = hoeken.scene.point_named("coupler.pen").expect("the pen");
     let pen = ("coupler.pen".to_owned(), Anchor { frame: pen.frame, at: pen.at });
     let of_broken = |path: &str| {
-        let (seen, said) = seen_at_rest(path);
-        still(&seen.scene, &seen.motion, &seen.motion, &Options { said, ..Options::default() })
+        let (seen, reports) = seen_at_rest(path);
+        still(&seen.scene, &seen.motion, &seen.motion, &Options { said: reports, ..Options::default() })
     };
     let stopped = stopped();
     let why = stopped.stopped.as_ref().map(|why| why.message.clone());

@@ -3,7 +3,7 @@
 //! The format is R12, the oldest one that every program reads; it has polylines and points, which is enough. The writer is our own, since
 //! the same input must give the same bytes: libraries write the time and identifiers of their own.
 
-use super::text::format_number;
+use super::text::decimal;
 use crate::scene::{
     Anchor, Motion, Path, Pen, Pin, Pose, Scene, Segment, Vector, bounds, direction, distance, is_finite, minus, plus,
     polar, times,
@@ -234,11 +234,11 @@ impl Entity {
 
 /// Writes a position as group codes.
 fn coordinates([x, y]: Vector, decimals: usize) -> String {
-    let decimal = |value: f64| {
-        let text = format_number(value, decimals);
+    let coordinate = |value: f64| {
+        let text = decimal(value, decimals);
         if text.contains('.') { text } else { text + ".0" }
     };
-    format!("10\n{}\n20\n{}\n30\n0.0\n", decimal(x), decimal(y))
+    format!("10\n{}\n20\n{}\n30\n0.0\n", coordinate(x), coordinate(y))
 }
 
 /// Adds the positions of a polyline along a line from part 0 to part 1, without the first one.

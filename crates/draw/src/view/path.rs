@@ -1,6 +1,6 @@
 //! Paths in the syntax of SVG's `d` attribute.
 
-use super::text::format_number;
+use super::text::decimal;
 use crate::scene::{Contour, Path, Segment, Vector};
 
 /// Writes a path as the `d` of an SVG path, whose y axis points down, with its coordinates times `scale`.
@@ -13,15 +13,15 @@ pub fn path_data(path: &Path, scale: f64, decimals: usize) -> String {
 pub(super) fn write_path(path: &Path, convert: &dyn Fn(Vector) -> Vector, scale: f64, decimals: usize) -> String {
     let pair = |position: Vector| {
         let [x, y] = convert(position);
-        let y = format_number(y, decimals);
+        let y = decimal(y, decimals);
         // a minus sign separates numbers, too
-        format!("{}{}{y}", format_number(x, decimals), if y.starts_with('-') { "" } else { " " })
+        format!("{}{}{y}", decimal(x, decimals), if y.starts_with('-') { "" } else { " " })
     };
     let mut text = String::new();
     match path {
         Path::Circle { at, radius } => {
             let [left, right] = [-radius, *radius].map(|dx| pair([at[0] + dx, at[1]]));
-            let radius = format_number(scale * radius, decimals);
+            let radius = decimal(scale * radius, decimals);
             text += &format!("M{left}A{radius} {radius} 0 1 0 {right}A{radius} {radius} 0 1 0 {left}Z");
         }
         Path::Lines(contours) => contours.iter().for_each(|contour| add(&mut text, contour, &pair, scale, decimals)),
@@ -48,7 +48,7 @@ fn add(text: &mut String, contour: &Contour, pair: &dyn Fn(Vector) -> String, sc
                 is_line = true;
             }
             Segment::Arc { to, radius, is_left } => {
-                let radius = format_number(scale * radius, decimals);
+                let radius = decimal(scale * radius, decimals);
                 *text += &format!("A{radius} {radius} 0 0 {} {}", u8::from(!is_left), pair(to));
                 is_line = false;
             }

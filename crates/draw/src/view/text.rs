@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 /// Formats a number with at most `decimals` decimals, without trailing zeros.
 #[must_use]
-pub fn format_number(value: f64, decimals: usize) -> String {
+pub fn decimal(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
@@ -51,7 +51,7 @@ fn is_forbidden(c: char) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{escape, first_sentence, format_number};
+    use super::{decimal, escape, first_sentence};
 
     #[test]
     fn sentences_end_at_full_stops() {
@@ -76,7 +76,7 @@ mod tests {
             (100.0, 0, "100"),
             (-0.25, 1, "-0.2"),
         ] {
-            assert_eq!(format_number(value, decimals), expected);
+            assert_eq!(decimal(value, decimals), expected);
         }
     }
 

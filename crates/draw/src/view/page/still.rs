@@ -2,7 +2,7 @@
 
 use crate::scene::{Attachment, Motion, Node, Pose, Scene};
 use crate::view::path::write_path;
-use crate::view::text::format_number;
+use crate::view::text::decimal;
 
 /// Longer side (px), and decimals of pixels.
 const SIZE: f64 = 800.0;
@@ -18,7 +18,7 @@ pub(super) fn still(scene: &Scene, motion: &Motion) -> String {
         return String::new();
     }
     let scale = SIZE / longer;
-    let [width, height] = [right - left, top - bottom].map(|side| format_number(scale * side, DECIMALS));
+    let [width, height] = [right - left, top - bottom].map(|side| decimal(scale * side, DECIMALS));
     let mut svg = format!(
         "<svg class=\"still-picture mechanism\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"the mechanism as the motion begins\">"
     );

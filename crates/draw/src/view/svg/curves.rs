@@ -3,7 +3,7 @@
 use super::picture::{PIXELS_PER_METER, Picture};
 use super::style::TRACE_COLORS;
 use crate::scene::{Motion, Pen, Stroke, Track, Vector, bounds, distance, is_finite, minus, plus, times};
-use crate::view::text::{escape, format_number};
+use crate::view::text::{decimal, escape};
 
 /// Tolerance of a curve (px), the same as a part of the picture's shorter side, and for cutting (m of paper).
 const TOLERANCE: f64 = 0.03;
@@ -162,7 +162,7 @@ fn curve(pieces: &[[f64; 2]], of: &dyn Fn(f64) -> CurvePoint, off: f64, decimals
 }
 
 fn pair([x, y]: Vector, decimals: usize) -> String {
-    format!("{} {}", format_number(x, decimals), format_number(y, decimals))
+    format!("{} {}", decimal(x, decimals), decimal(y, decimals))
 }
 
 #[cfg(test)]

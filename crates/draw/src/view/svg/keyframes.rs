@@ -4,7 +4,7 @@ use super::nodes::degrees;
 use super::picture::Picture;
 use super::picture::{DEGREES, PIXELS};
 use crate::scene::{Attachment, Motion, Node, Pose, Vector, distance, times};
-use crate::view::text::format_number;
+use crate::view::text::decimal;
 use rustc_hash::FxHashMap;
 
 /// Duration of one run (s).
@@ -115,7 +115,7 @@ impl Picture<'_> {
     pub fn add_motion(&mut self, motion: &Motion) {
         let moments = Moments::new(motion);
         let direction = if self.closes(motion) { "" } else { " alternate" };
-        self.rules += &format!(".m{{animation:{}s linear infinite{direction}}}\n", format_number(SECONDS, 1));
+        self.rules += &format!(".m{{animation:{}s linear infinite{direction}}}\n", decimal(SECONDS, 1));
         let mut animations: Vec<(Mover, String)> = Vec::new();
         let mut by_frame: FxHashMap<usize, usize> = FxHashMap::default();
         let scene = self.scene;
@@ -260,17 +260,13 @@ impl Animation {
         let mut text = String::new();
         for &k in &chosen {
             let Key { at: [x, y], turn, stretch } = keys[k];
-            let percent = format_number(100.0 * (times[k] - begin) / (end - begin), PERCENT);
-            text += &format!(
-                "{percent}%{{transform:translate({}px,{}px)",
-                format_number(x, PIXELS),
-                format_number(y, PIXELS)
-            );
+            let percent = decimal(100.0 * (times[k] - begin) / (end - begin), PERCENT);
+            text += &format!("{percent}%{{transform:translate({}px,{}px)", decimal(x, PIXELS), decimal(y, PIXELS));
             if parts.turns {
-                text += &format!(" rotate({}deg)", format_number(turn, DEGREES));
+                text += &format!(" rotate({}deg)", decimal(turn, DEGREES));
             }
             if parts.stretches {
-                let [x, y] = stretch.map(|part| format_number(part, PIXELS));
+                let [x, y] = stretch.map(|part| decimal(part, PIXELS));
                 text += &format!(" scale({x},{y})");
             }
             text += "}";
@@ -282,12 +278,12 @@ impl Animation {
 /// Returns the transform attribute of a key.
 fn attribute(key: &Key, parts: TransformParts) -> String {
     let Key { at: [x, y], turn, stretch } = *key;
-    let mut text = format!("translate({} {})", format_number(x, PIXELS), format_number(y, PIXELS));
+    let mut text = format!("translate({} {})", decimal(x, PIXELS), decimal(y, PIXELS));
     if parts.turns && key.rounded().turn != 0.0 {
-        text += &format!(" rotate({})", format_number(turn, DEGREES));
+        text += &format!(" rotate({})", decimal(turn, DEGREES));
     }
     if parts.stretches {
-        let [x, y] = stretch.map(|part| format_number(part, PIXELS));
+        let [x, y] = stretch.map(|part| decimal(part, PIXELS));
         text += &format!(" scale({x} {y})");
     }
     text

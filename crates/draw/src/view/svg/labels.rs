@@ -8,7 +8,7 @@ use crate::scene::{
     Anchor, Attachment, Look, Node, Path, Pose, Vector, bounds, distance, distance_to_segment, dot, hull, minus, plus,
     times,
 };
-use crate::view::text::{escape, format_number};
+use crate::view::text::{decimal, escape};
 
 /// Length limit of names (characters).
 const LONGEST_NAME: usize = 32;
@@ -98,7 +98,7 @@ impl Label {
             LabelKind::Point => "point-name",
         };
         let leader = if self.has_leader { self.leader(at) } else { String::new() };
-        let (x, y) = (format_number(x, PIXELS), format_number(y + 0.35 * size, PIXELS));
+        let (x, y) = (decimal(x, PIXELS), decimal(y + 0.35 * size, PIXELS));
         format!("{leader}<text class=\"{class}\" x=\"{x}\" y=\"{y}\">{}</text>", escape(&self.text))
     }
 }
@@ -156,7 +156,7 @@ impl Label {
         if distance(end, at) <= 0.0 {
             return String::new();
         }
-        let [x, y, to_x, to_y] = [at[0], at[1], end[0], end[1]].map(|part| format_number(part, PIXELS));
+        let [x, y, to_x, to_y] = [at[0], at[1], end[0], end[1]].map(|part| decimal(part, PIXELS));
         format!("<path class=\"leader\" d=\"M{x} {y}L{to_x} {to_y}\"/>")
     }
 }

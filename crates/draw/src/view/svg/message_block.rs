@@ -1,7 +1,7 @@
 //! Messages in lines below a picture.
 
 use super::style::{COLUMN_WIDTH, letter_size, text_columns};
-use crate::view::text::{escape, format_number};
+use crate::view::text::{decimal, escape};
 use std::fmt::Write;
 
 /// Distance of lines, and space above and below them, in sizes of letters.
@@ -52,7 +52,7 @@ impl MessageBlock {
         let top = size[1] - self.height + PADDING * self.letters;
         let mut text = String::new();
         for (row, line) in self.rows.iter().enumerate() {
-            let y = format_number(top + self.letters * (LINE_HEIGHT * row as f64 + 1.0), DECIMALS);
+            let y = decimal(top + self.letters * (LINE_HEIGHT * row as f64 + 1.0), DECIMALS);
             let _ = writeln!(text, "<text class=\"said\" x=\"{margin}\" y=\"{y}\">{}</text>", escape(line));
         }
         text

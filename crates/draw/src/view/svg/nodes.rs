@@ -4,12 +4,12 @@ use super::picture::Picture;
 use super::style::TINTS;
 use crate::scene::{Attachment, Look, Motion, Node, Path, Pose, Shape, Vector};
 use crate::view::path::write_path;
-use crate::view::text::{escape, format_number};
+use crate::view::text::{decimal, escape};
 
 impl Picture<'_> {
     /// Adds a moment. The one that stands out has ids and the ground, which is above the pale moments.
     pub fn add_moment(&mut self, moments: &Motion, row: usize, is_highlighted: bool) {
-        let t = format_number(moments.times[row], 9);
+        let t = decimal(moments.times[row], 9);
         if is_highlighted {
             self.body += &format!("<g data-t=\"{t}\">\n");
         } else {
@@ -28,7 +28,7 @@ impl Picture<'_> {
         let mut transform = String::new();
         if node.attachment != Attachment::Fixed(0) {
             let is_stretched = node.attachment.is_stretched();
-            let scale_x = || format!(" scale({} 1)", format_number(stretch * self.scale, self.pixels));
+            let scale_x = || format!(" scale({} 1)", decimal(stretch * self.scale, self.pixels));
             let scale = if is_stretched { scale_x() } else { String::new() };
             transform = format!(" transform=\"{}{scale}\"", self.transform_attribute(&pose));
         }
@@ -38,9 +38,9 @@ impl Picture<'_> {
     /// Returns the transform that places shapes around a frame's origin at a pose.
     pub fn transform_attribute(&self, pose: &Pose) -> String {
         let [x, y] = self.to_pixels(pose.at);
-        let turn = format_number(degrees(pose.phi), self.degrees);
+        let turn = decimal(degrees(pose.phi), self.degrees);
         let turn = if turn == "0" { String::new() } else { format!(" rotate({turn})") };
-        format!("translate({} {}){turn}", format_number(x, self.pixels), format_number(y, self.pixels))
+        format!("translate({} {}){turn}", decimal(x, self.pixels), decimal(y, self.pixels))
     }
 
     /// Adds the shapes of a node as a group with `attributes`; `origin` is the group's origin in the coordinates of the shapes (m).
@@ -119,12 +119,9 @@ impl Picture<'_> {
         };
         let text = match &shape.path {
             Path::Circle { at, radius } => {
-                let [x, y] = convert(*at).map(|part| format_number(part, self.pixels));
+                let [x, y] = convert(*at).map(|part| decimal(part, self.pixels));
                 let center = if x == "0" && y == "0" { String::new() } else { format!(" cx=\"{x}\" cy=\"{y}\"") };
-                format!(
-                    "<circle class=\"{class}\"{point}{center} r=\"{}\"/>",
-                    format_number(scale * radius, self.pixels)
-                )
+                format!("<circle class=\"{class}\"{point}{center} r=\"{}\"/>", decimal(scale * radius, self.pixels))
             }
             path @ Path::Lines(_) => {
                 let d = write_path(path, &convert, scale, self.pixels);

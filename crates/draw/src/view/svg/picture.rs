@@ -4,7 +4,7 @@ use super::message_block::MessageBlock;
 use super::style::{self, StyleUsage};
 use super::{Options, Theme};
 use crate::scene::{Anchor, Motion, Pen, Pose, Scene, Vector, bounds, distance, is_finite};
-use crate::view::text::{escape, format_number};
+use crate::view::text::{decimal, escape};
 use std::fmt::Write;
 
 /// Margin without and with labels (px).
@@ -171,7 +171,7 @@ impl<'s> Picture<'s> {
     }
 
     fn caption(&self, (at, text): &(Vector, String)) -> String {
-        let [x, y] = self.to_pixels(*at).map(|part| format_number(part, 2));
+        let [x, y] = self.to_pixels(*at).map(|part| decimal(part, 2));
         format!("<text class=\"caption\" x=\"{x}\" y=\"{y}\">{}</text>\n", escape(text))
     }
 
@@ -179,15 +179,15 @@ impl<'s> Picture<'s> {
     pub fn finish(mut self) -> String {
         // size of a pixel in units of the file: pixels, or millimetres of paper
         let (pixel_size, word) = if self.options.scale.is_some() { (MILLIMETERS_PER_PIXEL, "mm") } else { (1.0, "") };
-        let [width, height] = self.size.map(|side| format_number(pixel_size * side, 2));
+        let [width, height] = self.size.map(|side| decimal(pixel_size * side, 2));
         // position of the ground's origin, for programs that measure the picture: x to the right, y up
         let origin = self.to_pixels([0.0; 2]).map(|part| pixel_size * part);
         let mut file = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}{word}\" height=\"{height}{word}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
              aria-labelledby=\"title\" data-scale=\"{}\" data-origin=\"{} {}\">\n<title id=\"title\">{}</title>\n",
             if self.options.scale.is_some() { pixel_size * self.scale } else { self.scale },
-            format_number(origin[0], self.pixels + 1),
-            format_number(origin[1], self.pixels + 1),
+            decimal(origin[0], self.pixels + 1),
+            decimal(origin[1], self.pixels + 1),
             escape(&self.scene.name)
         );
         let mut description = self.scene.docs.join("\n").trim().to_owned();

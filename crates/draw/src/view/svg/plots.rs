@@ -3,7 +3,7 @@
 use super::style::{self, TRACE_COLORS};
 use super::{Options, Theme};
 use crate::scene::{Scene, Vector, distance_to_segment, minus, plus, times};
-use crate::view::text::{escape, format_number};
+use crate::view::text::{decimal, escape};
 use std::fmt::Write;
 
 /// A column of the table, in its printed unit.
@@ -52,15 +52,13 @@ pub fn plots(scene: &Scene, rows: &[f64], plots: &[Plot], options: &Options) -> 
     }
     let bottom = height - BELOW;
     for (part, text) in axis.ticks() {
-        let x = format_number(LEFT + part * frame[0], 2);
-        let _ =
-            writeln!(body, "<text class=\"below\" x=\"{x}\" y=\"{}\">{text}</text>", format_number(bottom + 18.0, 2));
+        let x = decimal(LEFT + part * frame[0], 2);
+        let _ = writeln!(body, "<text class=\"below\" x=\"{x}\" y=\"{}\">{text}</text>", decimal(bottom + 18.0, 2));
     }
-    let middle = format_number(LEFT + 0.5 * frame[0], 2);
-    let _ =
-        writeln!(body, "<text class=\"below\" x=\"{middle}\" y=\"{}\">t [s]</text>", format_number(bottom + 38.0, 2));
+    let middle = decimal(LEFT + 0.5 * frame[0], 2);
+    let _ = writeln!(body, "<text class=\"below\" x=\"{middle}\" y=\"{}\">t [s]</text>", decimal(bottom + 38.0, 2));
     let theme: Theme = options.theme;
-    let [width, height] = [width, height].map(|side| format_number(side, 2));
+    let [width, height] = [width, height].map(|side| decimal(side, 2));
     let sheet = style::plot_sheet(plots.len().min(TRACE_COLORS), theme, LETTERS);
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
@@ -79,33 +77,27 @@ fn add_plot(body: &mut String, k: usize, plot: &Plot, rows: &[f64], time: &Axis,
     let _ = writeln!(body, "<g data-name=\"{name}\"><title>{name}{unit}</title>");
     let mut lines = String::new();
     for (part, _) in time.ticks() {
-        let _ = write!(
-            lines,
-            "M{} {}v{}",
-            format_number(LEFT + part * wide, 2),
-            format_number(top, 2),
-            format_number(high, 2)
-        );
+        let _ = write!(lines, "M{} {}v{}", decimal(LEFT + part * wide, 2), decimal(top, 2), decimal(high, 2));
     }
     let mut words = String::new();
     for (part, text) in values.ticks() {
         let y = top + (1.0 - part) * high;
-        let _ = write!(lines, "M{} {}h{}", format_number(LEFT, 2), format_number(y, 2), format_number(wide, 2));
+        let _ = write!(lines, "M{} {}h{}", decimal(LEFT, 2), decimal(y, 2), decimal(wide, 2));
         let _ = writeln!(
             words,
             "<text class=\"beside\" x=\"{}\" y=\"{}\">{text}</text>",
-            format_number(LEFT - 8.0, 2),
-            format_number(y + 0.35 * LETTERS, 2)
+            decimal(LEFT - 8.0, 2),
+            decimal(y + 0.35 * LETTERS, 2)
         );
     }
     let _ = writeln!(body, "<path class=\"grid\" d=\"{lines}\"/>\n{}", words.trim_end());
     let _ = writeln!(
         body,
         "<path class=\"axes\" d=\"M{} {}v{}h{}\"/>",
-        format_number(LEFT, 2),
-        format_number(top, 2),
-        format_number(high, 2),
-        format_number(wide, 2)
+        decimal(LEFT, 2),
+        decimal(top, 2),
+        decimal(high, 2),
+        decimal(wide, 2)
     );
     let to_picture = |(t, value): (&f64, &f64)| [LEFT + time.part(*t) * wide, top + (1.0 - values.part(*value)) * high];
     let positions: Vec<Vector> = rows.iter().zip(&plot.values).map(to_picture).collect();
@@ -116,8 +108,8 @@ fn add_plot(body: &mut String, k: usize, plot: &Plot, rows: &[f64], time: &Axis,
     let _ = writeln!(
         body,
         "<text class=\"name\" x=\"{}\" y=\"{}\">{name}{unit}</text>\n</g>",
-        format_number(LEFT, 2),
-        format_number(top - 9.0, 2)
+        decimal(LEFT, 2),
+        decimal(top - 9.0, 2)
     );
 }
 
@@ -188,7 +180,7 @@ fn clip(positions: &[Vector], [top, bottom]: [f64; 2]) -> Vec<Vec<Vector>> {
 /// Writes a line through positions (px), simplified, or a dot for a single one.
 fn polyline(positions: &[Vector]) -> String {
     let (Some(first), last) = (positions.first(), positions.len().saturating_sub(1)) else { return String::new() };
-    let pair = |[x, y]: Vector| format!("{} {}", format_number(x, 2), format_number(y, 2));
+    let pair = |[x, y]: Vector| format!("{} {}", decimal(x, 2), decimal(y, 2));
     if last == 0 {
         return format!("M{}h0", pair(*first));
     }
@@ -254,9 +246,9 @@ impl Axis {
             let value = power_of_ten(units, self.power);
             let text = match self.power {
                 _ if units == 0 => "0".to_owned(),
-                0..=5 => format_number(value, 0),
+                0..=5 => decimal(value, 0),
                 #[allow(clippy::cast_sign_loss)] // negative
-                -5..=-1 => format_number(value, -self.power as usize),
+                -5..=-1 => decimal(value, -self.power as usize),
                 power => format!("{units}e{power}"),
             };
             // a minus sign is as wide as a digit

@@ -2,7 +2,7 @@
 
 use super::Theme;
 use crate::scene::Look;
-use crate::view::text::format_number;
+use crate::view::text::decimal;
 use std::collections::BTreeSet;
 use unicode_width::UnicodeWidthChar;
 
@@ -129,7 +129,7 @@ pub(super) fn plot_sheet(curves: usize, theme: Theme, letters: f64) -> String {
         "text{{font:{}px system-ui,sans-serif}}\n.name{{font-weight:600}}\n.beside{{text-anchor:end}}\n.below{{text-anchor:middle}}\n\
          path{{fill:none;stroke-linecap:round;stroke-linejoin:round}}\n.grid{{stroke-width:.5;stroke-opacity:.5}}\n\
          .axes{{stroke-width:1}}\n.curve{{stroke-width:1.8}}\n",
-        format_number(letters, 1)
+        decimal(letters, 1)
     );
     themed(shared, theme, colors)
 }
@@ -149,7 +149,7 @@ fn themed(mut sheet: String, theme: Theme, colors: impl Fn(&Palette) -> String) 
 
 /// Returns widths and dashes, which both themes share.
 fn shapes(usage: &StyleUsage, strong: f64) -> String {
-    let width = |part: f64| format_number(part * strong, 2);
+    let width = |part: f64| decimal(part * strong, 2);
     let mut rules = format!("path,circle{{stroke-width:{};stroke-linecap:round;stroke-linejoin:round}}\n", width(1.0));
     for look in &usage.looks {
         let rule = match look {
@@ -178,7 +178,7 @@ fn shapes(usage: &StyleUsage, strong: f64) -> String {
         rules += &format!(
             "text{{font:{}px system-ui,sans-serif;text-anchor:middle;stroke-width:3;stroke-linejoin:round;paint-order:stroke}}\n\
              .body-name{{font-weight:600}}\n.point-name{{font-style:italic}}\n.legend{{text-anchor:start}}\n",
-            format_number(size, 1)
+            decimal(size, 1)
         );
     }
     if usage.has_ghosts {
@@ -193,8 +193,7 @@ fn shapes(usage: &StyleUsage, strong: f64) -> String {
         );
     }
     if let Some(size) = usage.messages {
-        rules +=
-            &format!(".said{{font:{}px system-ui,sans-serif;text-anchor:start;stroke:none}}\n", format_number(size, 1));
+        rules += &format!(".said{{font:{}px system-ui,sans-serif;text-anchor:start;stroke:none}}\n", decimal(size, 1));
     }
     if !usage.vectors.is_empty() {
         // a velocity stays visible below an acceleration of the same direction

@@ -4,7 +4,7 @@ use super::keyframes::{Animation, Key};
 use super::picture::{PIXELS, Picture};
 use super::vectors::{LEGEND, SAMPLED_ROWS};
 use crate::scene::{ForceKind, Motion, Torque, Vector, plus, polar, times};
-use crate::view::text::{escape, format_number};
+use crate::view::text::{decimal, escape};
 use std::f64::consts::PI;
 
 /// Largest radius as a part of the longest velocity arrow.
@@ -106,8 +106,8 @@ fn arc_path(at: Vector, radius: f64, decimals: usize) -> String {
     };
     let [long, wide] = HEAD;
     let [from, to] = TURN;
-    let pair = |[x, y]: Vector| format!("{} {}", format_number(x, decimals), format_number(y, decimals));
-    let radii = format!("{0} {0}", format_number(size, decimals));
+    let pair = |[x, y]: Vector| format!("{} {}", decimal(x, decimals), decimal(y, decimals));
+    let radii = format!("{0} {0}", decimal(size, decimals));
     let sweep = u8::from(radius < 0.0);
     format!(
         "M{start}A{radii} 0 1 {sweep} {end}A{radii} 0 1 {back} {start}M{tip}L{outer}L{inner}Z",

@@ -4,7 +4,7 @@ use super::keyframes::{Animation, Key};
 use super::picture::PIXELS;
 use super::picture::Picture;
 use crate::scene::{Anchor, Motion, Pen, Point, Scene, Vector, direction, distance, length, minus, plus, times};
-use crate::view::text::{escape, format_number};
+use crate::view::text::{decimal, escape};
 
 /// Length of the longest arrow of a kind as a part of the picture's shorter side.
 const LONGEST: f64 = 0.2;
@@ -120,8 +120,8 @@ impl Picture<'_> {
         self.styles.labels = Some(self.letters());
         self.body += &format!(
             "<text class=\"legend\" x=\"{}\" y=\"{}\">{words}, at most {} {unit}</text>\n",
-            format_number(LEGEND + LEGEND_ARROW + 6.0, PIXELS),
-            format_number(self.legend_line(line), PIXELS),
+            decimal(LEGEND + LEGEND_ARROW + 6.0, PIXELS),
+            decimal(self.legend_line(line), PIXELS),
             three_digits(longest)
         );
     }
@@ -157,7 +157,7 @@ impl Picture<'_> {
         let tip = plus(from, vector);
         let base = minus(tip, times(long, along));
         let side = times(wide, [-along[1], along[0]]);
-        let pair = |[x, y]: Vector| format!("{} {}", format_number(x, PIXELS), format_number(y, PIXELS));
+        let pair = |[x, y]: Vector| format!("{} {}", decimal(x, PIXELS), decimal(y, PIXELS));
         self.body += &format!(
             "<path class=\"vector {word}\" data-name=\"{}\" d=\"M{}L{}M{}L{}L{}Z\"/>\n",
             escape(name),
@@ -217,12 +217,12 @@ fn longest_of(of: fn(&Motion, usize, &Point) -> Vector, point: &Point, motions: 
 fn three_digits(value: f64) -> String {
     match value {
         _ if !(1e-3..1e6).contains(&value) => format!("{value:.2e}"),
-        _ if value >= 100.0 => format_number(value, 0),
-        _ if value >= 10.0 => format_number(value, 1),
-        _ if value >= 1.0 => format_number(value, 2),
-        _ if value >= 0.1 => format_number(value, 3),
-        _ if value >= 0.01 => format_number(value, 4),
-        _ => format_number(value, 5),
+        _ if value >= 100.0 => decimal(value, 0),
+        _ if value >= 10.0 => decimal(value, 1),
+        _ if value >= 1.0 => decimal(value, 2),
+        _ if value >= 0.1 => decimal(value, 3),
+        _ if value >= 0.01 => decimal(value, 4),
+        _ => decimal(value, 5),
     }
 }
 
