@@ -1,5 +1,5 @@
-//! Results of variants that go side by side are what they are alone, to the bit, whichever way they were found; and those in doubt are found
-//! alone.
+//! Results of batched variants: they have the bits of single runs, whichever way they are computed; those in doubt are computed by single
+//! runs.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 

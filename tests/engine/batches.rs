@@ -1,5 +1,5 @@
-//! Variants of a sweep that go side by side, a lane for each, are what they are alone, to the bit; and so are those that leave their lane,
-//! because they come near to where the branch is in doubt.
+//! Batches of sweep variants: each lane has the bits of a single run, and so do variants that leave their lane because their branch is in
+//! doubt.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 

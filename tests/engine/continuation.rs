@@ -1,5 +1,5 @@
-//! A mechanism that is told other inputs than its own begins where these lead it: along the straight line from its own, on the branch of
-//! its estimates.
+//! Continuation from the nominal inputs of a mechanism to given ones: it follows the straight line between them, on the branch of the
+//! estimates.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 

@@ -1,4 +1,4 @@
-//! Rims: where a root, a power, an arc cosine comes to the end of what it takes, both sides decide what is told.
+//! Domain boundaries: where a root, a power or an arc cosine reaches the end of its domain, both sides decide what is reported.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 

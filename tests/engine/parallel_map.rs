@@ -1,4 +1,4 @@
-//! Work in pieces on several threads: order, ends, how far it goes ahead, and threads that break down.
+//! Ordered parallel computation: order, end of the work, limit of pieces in advance, and panics of threads.
 
 #![cfg(feature = "threads")]
 
@@ -150,8 +150,8 @@ fn there_are_no_more_threads_than_pieces() {
     assert!(begun.load(Ordering::Relaxed) <= 3);
 }
 
-/// What is said by a panic.
-fn diagnostics<T>(what: impl FnOnce() -> T) -> Option<String> {
+/// Returns the message of a panic.
+fn panic_message<T>(what: impl FnOnce() -> T) -> Option<String> {
     let panic = catch_unwind(AssertUnwindSafe(what)).err()?;
     panic.downcast_ref::<&str>().map(|text| (*text).to_owned())
 }
@@ -206,18 +206,18 @@ fn that_another_thread_breaks_down_is_passed_on_where_its_piece_would_come() {
     thread::sleep(4 * WHILE);
     assert!(go.send(()).is_ok());
     assert_eq!(crew.next(), Some(0));
-    assert_eq!(diagnostics(|| crew.next()), Some("broken".to_owned()));
+    assert_eq!(panic_message(|| crew.next()), Some("broken".to_owned()));
     assert_eq!(crew.next(), None);
 }
 
 #[test]
 fn who_asks_may_break_down_and_ask_again() {
     let Held { mut crew, go, .. } = Held::new(100, |_| panic!("broken here"));
-    assert_eq!(diagnostics(|| crew.next()), Some("broken here".to_owned()));
+    assert_eq!(panic_message(|| crew.next()), Some("broken here".to_owned()));
     drop(go);
     assert_eq!(crew.next(), None);
 
     let mut alone = Crew::<u64>::new(1, 0..100, || |_| panic!("broken alone"));
-    assert_eq!(diagnostics(|| alone.next()), Some("broken alone".to_owned()));
+    assert_eq!(panic_message(|| alone.next()), Some("broken alone".to_owned()));
     assert_eq!(alone.next(), None);
 }
