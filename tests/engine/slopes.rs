@@ -44,8 +44,8 @@ fn compiled(path: &Path, text: &str, choice: &Choice) -> Compiled {
     let mut sources = mechc::Sources::default();
     let file = sources.add(path.display().to_string(), text);
     let checked = Parsed::of_source(sources, file, path).check(choice, &Disk::default());
-    let (compiled, said) = checked.compile(Redundant::LeftOut, &Cancel::default());
-    compiled.unwrap_or_else(|| panic!("{}: {:?} {said:?}", path.display(), checked.diagnostics()))
+    let (compiled, messages) = checked.compile(Redundant::LeftOut, &Cancel::default());
+    compiled.unwrap_or_else(|| panic!("{}: {:?} {messages:?}", path.display(), checked.diagnostics()))
 }
 
 /// What a program with a module prints, line by line, as bits.
@@ -74,8 +74,8 @@ fn holds((path, text): (&str, &str), largest_straight: usize) -> usize {
     assert!(stop.is_none(), "{}: {stop:?}", path.display());
 
     let options = RustOptions { with_sensitivities: true, largest_straight, ..RustOptions::of("machine.mech") };
-    let (module, said) = plain.rust(&options);
-    let module = module.unwrap_or_else(|| panic!("{}: {said:?}", path.display()));
+    let (module, messages) = plain.rust(&options);
+    let module = module.unwrap_or_else(|| panic!("{}: {messages:?}", path.display()));
     let is_led = !inputs.is_empty();
     let program = PROGRAM
         .replace("LED", if is_led { "[false, true]" } else { "[false]" })

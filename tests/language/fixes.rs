@@ -16,7 +16,7 @@ struct Case {
 }
 
 /// All that is said of a text: of what cannot be read, of the rest of it, and of its motion if nothing is wrong with either.
-fn said(case: &Case) -> (Sources, Diagnostics) {
+fn messages(case: &Case) -> (Sources, Diagnostics) {
     let name = case.path.file_name().expect("a name").to_string_lossy().into_owned();
     let outcome = run_in(case.path.parent().expect("a folder"), &name, &case.text, Span::default());
     (outcome.sources, outcome.diagnostics)
@@ -52,7 +52,7 @@ fn fault_of(
     text: String,
 ) -> Option<String> {
     let mended_case = Case { path: case.path.clone(), text };
-    let (sources_after, after) = said(&mended_case);
+    let (sources_after, after) = messages(&mended_case);
     let own = (mended.code, mended.message.as_str());
     let times = |list: &Diagnostics| list.iter().filter(|one| (one.code, one.message.as_str()) == own).count();
     if times(&after) >= times(before) {
@@ -79,7 +79,7 @@ fn fault_of(
 
 /// The faults of all fixes of a text, and how many fixes there are.
 fn faults_of(case: &Case) -> (usize, Vec<String>) {
-    let (sources, before) = said(case);
+    let (sources, before) = messages(case);
     let (mut count, mut faults) = (0, Vec::new());
     let fixes: Vec<(&Diagnostic, &Fix)> =
         before.iter().flat_map(|found| found.fixes.iter().map(move |fix| (found, fix))).collect();

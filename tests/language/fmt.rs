@@ -121,7 +121,7 @@ fn nothing_is_lost_of_any_text() {
 #[test]
 fn examples_cases_and_documentation_are_formatted() {
     let mut own: Vec<(String, String)> = documentation();
-    let folders = ["examples/", "tests/cases/", "tests/cases2/"];
+    let folders = ["examples/", "tests/cases/", "tests/cases_composed/"];
     own.extend(texts().into_iter().filter(|(name, _)| folders.iter().any(|folder| name.contains(folder))));
     let (mut looked_at, mut unlike) = (0, Vec::new());
     for (name, text) in own {
@@ -502,15 +502,15 @@ fn files_are_replaced_only_where_they_change() {
     for (name, text) in texts {
         fs::write(at(name), text).unwrap();
     }
-    let (code, diff, said) = fmt(folder.path(), &["--check", "."]);
-    assert_eq!((code, diff.matches("+    param a = 1").count()), (1, 4), "{diff}{said}");
-    assert!(said.contains("E0101"), "{said}");
+    let (code, diff, diagnostics) = fmt(folder.path(), &["--check", "."]);
+    assert_eq!((code, diff.matches("+    param a = 1").count()), (1, 4), "{diff}{diagnostics}");
+    assert!(diagnostics.contains("E0101"), "{diagnostics}");
     for (name, text) in texts {
         assert_eq!(read(name), text, "{name} is only looked at");
     }
     let old = fs::metadata(at("neat.mech")).unwrap().modified().unwrap();
-    let (code, printed, said) = fmt(folder.path(), &[".", "loose.mech"]);
-    assert_eq!((code, printed.as_str(), said.matches("formatted `").count()), (1, "", 4), "{said}");
+    let (code, printed, diagnostics) = fmt(folder.path(), &[".", "loose.mech"]);
+    assert_eq!((code, printed.as_str(), diagnostics.matches("formatted `").count()), (1, "", 4), "{diagnostics}");
     for changed in ["loose.mech", "inner/loose.mech", "inner/LOUD.MECH"] {
         assert_eq!(read(changed), NEAT, "{changed}");
     }
@@ -537,14 +537,14 @@ fn what_cannot_be_formatted_is_told_and_the_rest_is_formatted() {
     fs::create_dir(at("empty")).unwrap();
     for (bad, wanted, code) in [("missing.mech", "E0701", 4), ("empty", "no `.mech` file is in it", 4)] {
         fs::write(at("loose.mech"), LOOSE).unwrap();
-        let (exit, _, said) = fmt(folder.path(), &[bad, "loose.mech"]);
-        assert_eq!(exit, code, "{said}");
-        assert!(said.contains(wanted), "{said}");
+        let (exit, _, diagnostics) = fmt(folder.path(), &[bad, "loose.mech"]);
+        assert_eq!(exit, code, "{diagnostics}");
+        assert!(diagnostics.contains(wanted), "{diagnostics}");
         assert_eq!(fs::read_to_string(at("loose.mech")).unwrap(), NEAT);
     }
     fs::write(at("latin1.mech"), b"mechanism caf\xe9 {}").unwrap();
-    let (exit, _, said) = fmt(folder.path(), &["latin1.mech"]);
-    assert!(exit == 1 && said.contains("E0102"), "{said}");
+    let (exit, _, diagnostics) = fmt(folder.path(), &["latin1.mech"]);
+    assert!(exit == 1 && diagnostics.contains("E0102"), "{diagnostics}");
     assert_eq!(fmt(folder.path(), &[]).0, 2);
 }
 

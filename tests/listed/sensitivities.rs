@@ -5,7 +5,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use crate::support::listed::Tests;
+use crate::support::named_tests::Tests;
 use crate::support::{Disk, all_rows, files, mechanisms, stem};
 use mechc::{Cancel, Choice, Compiled, Parsed, Redundant, Times};
 use mechc_engine::analysis::{self, Horizon};
@@ -173,8 +173,8 @@ impl Varied<'_> {
         let size = if self.unit == "1" { self.value.abs().max(0.1) } else { self.value.abs().max(1e-3) };
         let difference = |h: f64| {
             let side = |value: f64| {
-                let told = vec![setting(self.name, value, &self.unit)];
-                let (inputs, set) = if self.is_input { (told, Vec::new()) } else { (Vec::new(), told) };
+                let reported = vec![setting(self.name, value, &self.unit)];
+                let (inputs, set) = if self.is_input { (reported, Vec::new()) } else { (Vec::new(), reported) };
                 let choice = Choice { inputs, set, ..self.choice(&[]) };
                 rows(&compile(self.path, self.text, &choice)?, times)
             };

@@ -14,8 +14,8 @@ use mechc::{
     Seen, Sources, Times,
 };
 use mechc_draw::scene::{
-    Anchor, Look, Motion, Path as Drawn, Pen, Place, Pose, Scene, Segment, Torque, Vector, catalogue, distance, dot,
-    minus, plus, polar, times,
+    Anchor, Attachment, Catalogue, Look, Motion, Path as Drawn, Pen, Pose, Scene, Segment, Torque, Vector, catalogue,
+    distance, dot, minus, plus, polar, times,
 };
 use mechc_draw::view::svg::{Options, Plot, Theme, animated, has_vectors, plots, still};
 use mechc_draw::view::{dxf, first_sentence};
@@ -31,33 +31,33 @@ fn compiled(path: &Path, text: &str) -> (Checked, Compiled) {
     let file = sources.add(path.display().to_string(), text);
     let parsed = Parsed::of_source(sources, file, path);
     let checked = parsed.check(&Choice::default(), &Disk::default());
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    let compiled = compiled.unwrap_or_else(|| panic!("{}: {said:?}", path.display()));
+    let (compiled, reports) = checked.compile(Redundant::Refused, &Cancel::default());
+    let compiled = compiled.unwrap_or_else(|| panic!("{}: {reports:?}", path.display()));
     (checked, compiled)
 }
 
 fn seen_as(path: &Path, text: &str, times: Option<Times>) -> Seen {
     let (checked, compiled) = compiled(path, text);
     let times = times.or_else(|| compiled.times()).expect("an analysis");
-    let (seen, said) = checked.seen(&compiled, &times, &RunOptions::default(), 2000);
-    seen.unwrap_or_else(|| panic!("{}: {said:?}", path.display()))
+    let (seen, reports) = checked.seen(&compiled, &times, &RunOptions::default(), 2000);
+    seen.unwrap_or_else(|| panic!("{}: {reports:?}", path.display()))
 }
 
 /// A motion that is refined until its curves are within a tolerance; with what is said of those that end early.
 fn refined(path: &Path, text: &str, tolerance: impl Fn(&Seen) -> CurveTolerance) -> (Seen, Diagnostics) {
     let (checked, compiled) = compiled(path, text);
     let (times, options) = (compiled.times().expect("an analysis"), RunOptions::default());
-    let (seen, said) = checked.seen(&compiled, &times, &options, 2000);
-    let mut seen = seen.unwrap_or_else(|| panic!("{}: {said:?}", path.display()));
+    let (seen, reports) = checked.seen(&compiled, &times, &options, 2000);
+    let mut seen = seen.unwrap_or_else(|| panic!("{}: {reports:?}", path.display()));
     let tolerance = tolerance(&seen);
-    let said = checked.refine_motion(&compiled, &times, &options, &mut seen, &tolerance);
-    (seen, said)
+    let reports = checked.refine_motion(&compiled, &times, &options, &mut seen, &tolerance);
+    (seen, reports)
 }
 
 /// A motion that is refined, all of whose curves are drawn to their ends.
 fn seen_within(path: &Path, text: &str, tolerance: impl Fn(&Seen) -> CurveTolerance) -> Seen {
-    let (seen, said) = refined(path, text, tolerance);
-    assert!(said.is_empty(), "{}: {said:?}", path.display());
+    let (seen, reports) = refined(path, text, tolerance);
+    assert!(reports.is_empty(), "{}: {reports:?}", path.display());
     seen
 }
 
@@ -77,16 +77,16 @@ fn seen_at_rest(path: &str) -> (Seen, Vec<String>) {
     let file = sources.add(path, text);
     let checked = Parsed::of_source(sources, file, Path::new(path)).check(&Choice::default(), &Disk::default());
     let options = RunOptions::default();
-    let (compiled, mut said) = checked.compile(Redundant::Refused, &Cancel::default());
+    let (compiled, mut reports) = checked.compile(Redundant::Refused, &Cancel::default());
     if let Some(compiled) = &compiled {
         let (seen, why) = checked.seen(compiled, &compiled.times().expect("an analysis"), &options, 2000);
         assert!(seen.is_none(), "{path} moves");
-        said = why;
+        reports = why;
     }
-    let seen = checked.seen_at_rest(compiled.as_ref(), (0.0, &options), &said).expect("it is sound");
-    let notes = |said: &Diagnostic| if said.code == Code::E0601 { said.notes.clone() } else { Vec::new() };
-    let message = |said: &Diagnostic| format!("error[{}]: {}", said.code, said.message);
-    let messages = said.iter().flat_map(|said| std::iter::once(message(said)).chain(notes(said))).collect();
+    let seen = checked.seen_at_rest(compiled.as_ref(), (0.0, &options), &reports).expect("it is sound");
+    let notes = |reports: &Diagnostic| if reports.code == Code::E0601 { reports.notes.clone() } else { Vec::new() };
+    let message = |reports: &Diagnostic| format!("error[{}]: {}", reports.code, reports.message);
+    let messages = reports.iter().flat_map(|reports| std::iter::once(message(reports)).chain(notes(reports))).collect();
     (seen, messages)
 }
 
@@ -148,7 +148,7 @@ impl<'f> Read<'f> {
     fn placed(&self, local: Vector, group: &str, part: f64) -> Vector {
         let put = |numbers: &[f64]| {
             let turn = numbers.get(2).copied().unwrap_or(0.0).to_radians();
-            Pose { at: [numbers[0], numbers[1]], phi: turn }.placed(local)
+            Pose { at: [numbers[0], numbers[1]], phi: turn }.transform(local)
         };
         let class = attribute(group, "class").unwrap_or("");
         let Some((_, number)) = class.split_once("m m") else {
@@ -186,7 +186,7 @@ fn farthest_pin(name: &str, seen: &Seen, file: &str) -> f64 {
         seen.motion.write_poses(t, &mut poses);
         for (path, local, group) in &read.points {
             let point = seen.scene.point_named(path).expect("a point of the scene");
-            let wanted = read.pixels(poses[point.frame].placed(point.at));
+            let wanted = read.pixels(poses[point.frame].transform(point.at));
             let found = read.placed(*local, group, (t - first) / (last - first));
             farthest = farthest.max(distance(found, wanted));
         }
@@ -309,7 +309,7 @@ fn names_stand_near_what_they_name_and_beside_bars() {
         let boxes = boxes(&file);
         for name in ["crank.A0", "crank.A", "rocker.B", "rocker.B0"] {
             let point = seen.scene.point_named(name).expect("a point");
-            let pin = read.pixels(poses[point.frame].placed(point.at));
+            let pin = read.pixels(poses[point.frame].transform(point.at));
             let own = name.rsplit('.').next();
             let (_, [low, high]) = boxes.iter().find(|(text, _)| Some(text.as_str()) == own).expect("a label");
             let nearest = [0, 1].map(|part| pin[part].clamp(low[part], high[part]));
@@ -322,7 +322,7 @@ fn names_stand_near_what_they_name_and_beside_bars() {
                 .points
                 .iter()
                 .filter(|point| point.name.starts_with(name))
-                .map(|point| read.pixels(poses[point.frame].placed(point.at)))
+                .map(|point| read.pixels(poses[point.frame].transform(point.at)))
                 .collect();
             let (_, [low, high]) = boxes.iter().find(|(text, _)| text == name).expect("a label");
             let covered = (0..=100).map(|k| plus(ends[0], times(0.01 * f64::from(k), minus(ends[1], ends[0]))));
@@ -388,11 +388,11 @@ const HELD: &str = "mechanism held {
 fn seen_with_forces(text: &str) -> Seen {
     let choice = Choice { pictures_forces: true, ..Choice::default() };
     let checked = Parsed::of("test.mech", text).check(&choice, &Disk::default());
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    let compiled = compiled.unwrap_or_else(|| panic!("{said:?} {:?}", checked.diagnostics()));
+    let (compiled, reports) = checked.compile(Redundant::Refused, &Cancel::default());
+    let compiled = compiled.unwrap_or_else(|| panic!("{reports:?} {:?}", checked.diagnostics()));
     let times = compiled.times().expect("an analysis");
-    let (seen, said) = checked.seen(&compiled, &times, &RunOptions::default(), 2000);
-    seen.unwrap_or_else(|| panic!("{said:?}"))
+    let (seen, reports) = checked.seen(&compiled, &times, &RunOptions::default(), 2000);
+    seen.unwrap_or_else(|| panic!("{reports:?}"))
 }
 
 /// The torques of a mechanism in a row, with their names.
@@ -408,10 +408,10 @@ fn arcs_are_as_large_as_torques_and_go_their_way_round() {
     let mut scales: Vec<f64> = Vec::new();
     for row in [0, 7, 23] {
         let file = still(&seen.scene, &seen.motion, &one_row(&seen, row), &options);
-        let told = torques(&seen, row);
-        let names: Vec<&str> = told.iter().map(|(name, _)| name.as_str()).collect();
+        let reported = torques(&seen, row);
+        let names: Vec<&str> = reported.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, ["guide", "motor", "spiral", "brake"]);
-        for (name, torque) in &told {
+        for (name, torque) in &reported {
             let paths = file.split('<').filter(|tag| tag.starts_with("path class=\"vector"));
             let own = |tag: &&str| attribute(tag, "data-name") == Some(name) && tag.contains(" 0 1 ");
             let Some(path) = paths.clone().find(own) else { continue };
@@ -508,13 +508,13 @@ fn corners(path: &Drawn, pose: &Pose) -> Vec<Vec<Vector>> {
     let Drawn::Lines(contours) = path else { return Vec::new() };
     let of_circle = |start: Vector, radius: f64, end: Vector| {
         let middle = times(0.5, plus(start, end));
-        (0..90).map(|k| pose.placed(plus(middle, polar(radius, f64::from(k) * 4_f64.to_radians())))).collect()
+        (0..90).map(|k| pose.transform(plus(middle, polar(radius, f64::from(k) * 4_f64.to_radians())))).collect()
     };
     contours
         .iter()
         .map(|one| match one.segments.first() {
             Some(Segment::Arc { to, radius, .. }) => of_circle(one.start, *radius, *to),
-            _ => Drawn::Lines(vec![one.clone()]).moved(pose).places(),
+            _ => Drawn::Lines(vec![one.clone()]).transform(pose).positions(),
         })
         .collect()
 }
@@ -539,10 +539,12 @@ fn depth(place: Vector, contours: &[Vec<Vector>]) -> f64 {
 /// The deepest that a tooth goes into what it meshes with along a motion, as a part of the size of symbols.
 fn deepest_overlap(scene: &Scene, motion: &Motion) -> (usize, f64) {
     let toothed = |look| matches!(look, Look::Gear | Look::Rack);
-    let wheels: Vec<(&Place, &Drawn)> = scene
+    let wheels: Vec<(&Attachment, &Drawn)> = scene
         .nodes
         .iter()
-        .flat_map(|node| node.shapes.iter().filter(|shape| toothed(shape.look)).map(|shape| (&node.place, &shape.path)))
+        .flat_map(|node| {
+            node.shapes.iter().filter(|shape| toothed(shape.look)).map(|shape| (&node.attachment, &shape.path))
+        })
         .collect();
     let mut deepest = 0.0_f64;
     for row in motion.sampled(25) {
@@ -587,7 +589,7 @@ fn wheels_that_no_pitch_fits_have_no_teeth() {
     };
     let teeth = |seen: &Seen| {
         let gears = seen.scene.nodes.iter().flat_map(|node| &node.shapes).filter(|shape| shape.look == Look::Gear);
-        gears.map(|shape| shape.path.places().len()).min().expect("a wheel")
+        gears.map(|shape| shape.path.positions().len()).min().expect("a wheel")
     };
     let fitting = train("25 mm");
     assert!(teeth(&fitting) > 100);
@@ -602,7 +604,10 @@ fn guides_are_as_long_as_the_motion_asks_for() {
     let seen = example("slider_crank");
     let shapes = |look| {
         seen.scene.nodes.iter().flat_map(move |node| {
-            node.shapes.iter().filter(move |shape| shape.look == look).map(|shape| (node.place, shape.path.places()))
+            node.shapes
+                .iter()
+                .filter(move |shape| shape.look == look)
+                .map(|shape| (node.attachment, shape.path.positions()))
         })
     };
     let longest = |places: &[Vector]| distance(places[0], places[1]);
@@ -610,7 +615,7 @@ fn guides_are_as_long_as_the_motion_asks_for() {
     let (place, block) = shapes(Look::Block).next().expect("a block");
     for row in 0..seen.motion.len() {
         let (pose, _) = place.pose(seen.motion.poses(row));
-        for corner in block.iter().map(|corner| pose.placed(*corner)) {
+        for corner in block.iter().map(|corner| pose.transform(*corner)) {
             assert!(edge[0][0] < corner[0] && corner[0] < edge[1][0], "the block leaves its guide in row {row}");
         }
     }
@@ -787,7 +792,7 @@ fn places_are_true(seen: &Seen, row: usize, options: &Options) {
     assert!(!read.points.is_empty());
     for (path, local, group) in &read.points {
         let point = seen.scene.point_named(path).expect("a point");
-        let wanted = read.pixels(seen.motion.poses(row)[point.frame].placed(point.at));
+        let wanted = read.pixels(seen.motion.poses(row)[point.frame].transform(point.at));
         let found = times(each, read.placed(*local, group, 0.0));
         assert!(distance(found, wanted) < 1e-4, "{path}: {found:?}, not {wanted:?}");
     }
@@ -851,7 +856,7 @@ fn what_is_cut_keeps_to_its_lines() {
     let (polylines, points) = read_dxf(&text);
     let of = |layer: &str| polylines.iter().find(|(own, _, _)| own == layer).expect("a layer");
     let center = seen.scene.point_named("disc.C").expect("the centre");
-    let center = seen.motion.poses(20)[center.frame].placed(center.at);
+    let center = seen.motion.poses(20)[center.frame].transform(center.at);
     let (_, rim, is_closed) = of("disc_rim");
     assert!(*is_closed && off_circle(rim, center, 0.025) < 1e-6, "{}", off_circle(rim, center, 0.025));
     assert!(points.iter().any(|(layer, at)| layer == "disc_O" && distance(*at, [0.0; 2]) < 1e-9), "{points:?}");
@@ -938,8 +943,8 @@ fn a_film_has_a_picture_of_each_row() {
     let folder = tempfile::tempdir().expect("a folder");
     let times = ["--from", "0", "--to", "0.04", "--every", "10ms"];
     let with = |output| [&["-o", output][..], &times].concat();
-    let (code, said) = view(folder.path(), &with("film/%03d.svg"));
-    assert_eq!(code, 0, "{said}");
+    let (code, reports) = view(folder.path(), &with("film/%03d.svg"));
+    assert_eq!(code, 0, "{reports}");
     let mut names: Vec<String> = fs::read_dir(folder.path().join("film"))
         .expect("the folder")
         .map(|entry| entry.expect("a file").file_name().to_string_lossy().into_owned())
@@ -953,12 +958,12 @@ fn a_film_has_a_picture_of_each_row() {
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink("../a.mech", folder.path().join("film/x2.svg")).expect("a link");
-        let (code, said) = view(folder.path(), &with("film/x%d.svg"));
-        assert!(code == 2 && said.contains("would be written over"), "{code}: {said}");
+        let (code, reports) = view(folder.path(), &with("film/x%d.svg"));
+        assert!(code == 2 && reports.contains("would be written over"), "{code}: {reports}");
         assert!(!folder.path().join("film/x0.svg").exists(), "none of them is written");
     }
-    let (code, said) = view(folder.path(), &with("no/such/%d.svg"));
-    assert!(code != 0 && said.contains("there is no folder `no`"), "{code}: {said}");
+    let (code, reports) = view(folder.path(), &with("no/such/%d.svg"));
+    assert!(code != 0 && reports.contains("there is no folder `no`"), "{code}: {reports}");
 }
 
 /// What the pictures of some examples show beside what these ask for: the point that an example is there for.
@@ -1030,8 +1035,8 @@ fn free(text: &str) -> Vec<Vec<(String, [f64; 3])>> {
     let mut sources = Sources::default();
     let file = sources.add("free.mech", text);
     let tree = syntax::parse(&sources, file).tree;
-    let (model, said) = check::check(&tree.mechanisms[0], &check::Surroundings::default(), &sources);
-    let system = lower::lowered(&model.unwrap_or_else(|| panic!("{said:?}")));
+    let (model, reports) = check::check(&tree.mechanisms[0], &check::Surroundings::default(), &sources);
+    let system = lower::lowered(&model.unwrap_or_else(|| panic!("{reports:?}")));
     let named = |FreeMotion { bodies }: FreeMotion| {
         bodies.into_iter().map(|(body, velocity)| (system.bodies()[body].name.clone(), velocity)).collect()
     };
@@ -1093,13 +1098,15 @@ fn free_motions_are_those_by_hand() {
 fn looking(seen: &Seen, look: Look) -> Vec<(&str, Vector)> {
     let nodes = seen.scene.nodes.iter().filter(|node| node.shapes.iter().any(|shape| shape.look == look));
     let poses = seen.motion.poses(0);
-    nodes.map(|node| (seen.scene.declarations[node.declaration].name.as_str(), node.place.pose(poses).0.at)).collect()
+    nodes
+        .map(|node| (seen.scene.declarations[node.declaration].name.as_str(), node.attachment.pose(poses).0.at))
+        .collect()
 }
 
 #[test]
 fn what_is_left_free_has_arrows() {
-    let (seen, said) = seen_at_rest("tests/ui/ndof/three_cranks_without_driver.mech");
-    assert!(said[0].starts_with("error[E0503]"), "{said:?}");
+    let (seen, reports) = seen_at_rest("tests/ui/ndof/three_cranks_without_driver.mech");
+    assert!(reports[0].starts_with("error[E0503]"), "{reports:?}");
     let mut arrows = looking(&seen, Look::Free);
     arrows.sort_by(|a, b| a.0.cmp(b.0));
     let names: Vec<&str> = arrows.iter().map(|(name, _)| *name).collect();
@@ -1117,8 +1124,8 @@ fn what_is_left_free_has_arrows() {
 
 #[test]
 fn what_cannot_be_assembled_is_open_where_it_is_said() {
-    let (seen, said) = seen_at_rest("tests/ui/run/loop_that_never_closes.mech");
-    assert!(said[0].ends_with("joint `swing` stays open by 8.88 mm"), "{said:?}");
+    let (seen, reports) = seen_at_rest("tests/ui/run/loop_that_never_closes.mech");
+    assert!(reports[0].ends_with("joint `swing` stays open by 8.88 mm"), "{reports:?}");
     let open = seen.scene.nodes.iter().filter(|node| node.shapes.iter().any(|shape| shape.look == Look::GapEnd));
     let [open] = open.collect::<Vec<_>>()[..] else { panic!("one joint is open") };
     assert_eq!(seen.scene.declarations[open.declaration].name, "swing");
@@ -1134,7 +1141,7 @@ fn what_cannot_be_assembled_is_open_where_it_is_said() {
 #[test]
 fn lengths_that_are_blamed_stand_beside_what_is_red() {
     let path = "tests/ui/run/loop_that_never_closes.mech";
-    let (seen, said) = seen_at_rest(path);
+    let (seen, reports) = seen_at_rest(path);
     let remarks: Vec<&str> = seen.scene.remarks.iter().map(|remark| remark.text.as_str()).collect();
     assert_eq!(remarks, ["100 mm: too long", "10 mm: too short", "70 mm: too short"]);
     assert_eq!(seen.scene.remarks[0].at, [0.05, 0.0], "the middle of the ground's length");
@@ -1143,7 +1150,7 @@ fn lengths_that_are_blamed_stand_beside_what_is_red() {
         assert!(named.contains(&body), "{named:?}");
     }
     assert!(!named.contains(&"crank") && !named.contains(&"ground"), "{named:?}");
-    let file = still(&seen.scene, &seen.motion, &seen.motion, &Options { said, ..Options::default() });
+    let file = still(&seen.scene, &seen.motion, &seen.motion, &Options { said: reports, ..Options::default() });
     assert_eq!(file.matches("<text class=\"remark\"").count(), 3);
     // the command tells them below it, and breaks no number off its unit
     let folder = tempfile::tempdir().expect("a folder");
@@ -1180,9 +1187,9 @@ fn stopped() -> Seen {
 
 #[test]
 fn messages_take_no_room_from_what_is_drawn() {
-    let (seen, said) = seen_at_rest("tests/ui/run/loop_that_never_closes.mech");
+    let (seen, reports) = seen_at_rest("tests/ui/run/loop_that_never_closes.mech");
     for size in [None, Some([400.0, 300.0]), Some([1280.0, 720.0])] {
-        let options = Options { said: said.clone(), labels: true, size, ..Options::default() };
+        let options = Options { said: reports.clone(), labels: true, size, ..Options::default() };
         let file = still(&seen.scene, &seen.motion, &seen.motion, &options);
         let lines: Vec<f64> = file
             .split("<text class=\"said\"")
@@ -1194,7 +1201,7 @@ fn messages_take_no_room_from_what_is_drawn() {
         assert!(!lines.is_empty() && lines.iter().all(|y| *y < height), "{lines:?} of {height}");
         let read = Read::of(&file);
         for point in &seen.scene.points {
-            let [x, y] = read.pixels(seen.motion.poses(0)[point.frame].placed(point.at));
+            let [x, y] = read.pixels(seen.motion.poses(0)[point.frame].transform(point.at));
             assert!(
                 x > 0.0 && y > 0.0 && y < lines[0] - 13.0,
                 "{} is at {x}, {y}, and words at {}",
@@ -1208,14 +1215,14 @@ fn messages_take_no_room_from_what_is_drawn() {
 /// Pictures that a reviewer reads, and those of the docs.
 fn goldens() -> Vec<(String, String)> {
     let span = mechc::Span { file: Sources::default().add("", ""), start: 0, end: 0 };
-    let (symbols, rest, captions) = catalogue(span);
+    let Catalogue { scene: symbols, motion: rest, captions } = catalogue(span);
     let of_symbols = Options { captions, ..Options::default() };
     let (hoeken, slider_crank) = (example("hoeken"), example("slider_crank"));
     let pen = hoeken.scene.point_named("coupler.pen").expect("the pen");
     let pen = ("coupler.pen".to_owned(), Anchor { frame: pen.frame, at: pen.at });
     let of_broken = |path: &str| {
-        let (seen, said) = seen_at_rest(path);
-        still(&seen.scene, &seen.motion, &seen.motion, &Options { said, ..Options::default() })
+        let (seen, reports) = seen_at_rest(path);
+        still(&seen.scene, &seen.motion, &seen.motion, &Options { said: reports, ..Options::default() })
     };
     let stopped = stopped();
     let why = stopped.stopped.as_ref().map(|why| why.message.clone());

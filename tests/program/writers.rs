@@ -2,8 +2,8 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
+use crate::support::formula_reader::{Names, parse, read};
 use crate::support::random::Random;
-use crate::support::reading::{Names, parse, read};
 use crate::support::tex::Meaning;
 use crate::support::{compile_number, compile_with_forces, compiled, files, mechanisms, stem};
 use assert_cmd::Command;

@@ -116,14 +116,14 @@ impl Client {
     /// What the server next says of a text: its version and each diagnostic, as a line.
     pub fn published(&mut self, uri: &str) -> (i64, Vec<String>) {
         let message = self.wait_for(|message| match message {
-            Message::Notification(told) => {
-                told.method == "textDocument/publishDiagnostics" && told.params["uri"] == uri
+            Message::Notification(reported) => {
+                reported.method == "textDocument/publishDiagnostics" && reported.params["uri"] == uri
             }
             _ => false,
         });
-        let Message::Notification(told) = message else { unreachable!("it is one") };
-        let diagnostics = told.params["diagnostics"].as_array().expect("a list");
-        (told.params["version"].as_i64().unwrap_or_default(), diagnostics.iter().map(line).collect())
+        let Message::Notification(reported) = message else { unreachable!("it is one") };
+        let diagnostics = reported.params["diagnostics"].as_array().expect("a list");
+        (reported.params["version"].as_i64().unwrap_or_default(), diagnostics.iter().map(line).collect())
     }
 
     /// Asks for the diagnostics of a text.
@@ -137,14 +137,14 @@ impl Client {
         let begin = Instant::now();
         loop {
             let report = self.request("textDocument/diagnostic", json!({ "textDocument": { "uri": uri } }));
-            let mut told: Vec<String> = report["items"].as_array().expect("a list").iter().map(line).collect();
+            let mut reported: Vec<String> = report["items"].as_array().expect("a list").iter().map(line).collect();
             let mut expected = expected.to_vec();
-            told.sort();
+            reported.sort();
             expected.sort();
-            if told == expected {
+            if reported == expected {
                 return;
             }
-            assert!(begin.elapsed() < patience, "it says\n{}\nand not\n{}", told.join("\n"), expected.join("\n"));
+            assert!(begin.elapsed() < patience, "it says\n{}\nand not\n{}", reported.join("\n"), expected.join("\n"));
             thread::sleep(Duration::from_millis(5));
         }
     }

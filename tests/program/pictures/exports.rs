@@ -295,12 +295,12 @@ fn a_line_that_is_not_drawn_to_its_end_says_so() {
         trace ring = crank.P
         analysis from 0 s to 900 s every 1 s
     }";
-    let (seen, said) = refined(Path::new("m.mech"), text, |_| CurveTolerance {
+    let (seen, diagnostics) = refined(Path::new("m.mech"), text, |_| CurveTolerance {
         most_rows: 2000,
         ..CurveTolerance::to_cut(1.0, Vec::new())
     });
-    let said: Vec<&Diagnostic> = said.iter().collect();
-    let [warning] = said[..] else { panic!("{said:?}") };
+    let diagnostics: Vec<&Diagnostic> = diagnostics.iter().collect();
+    let [warning] = diagnostics[..] else { panic!("{diagnostics:?}") };
     assert_eq!(warning.code, Code::W0701);
     assert!(warning.message.contains("`rosette`"), "{warning:?}");
     let end = warning.data["t"].as_f64().expect("a time");

@@ -82,8 +82,8 @@ pub mod variants {
     pub const PARTS_OF_WAY: [u32; 6] = [1, 2, 4, 8, 16, 32];
 }
 
-/// Extrema and integrals of a formula for a variant (`crates/engine/src/analysis/results/course.rs`, `crates/engine/src/sweep/steps.rs`,
-/// `crates/engine/src/sweep/survey.rs`).
+/// Extrema and integrals of a formula for a variant (`crates/engine/src/analysis/results/course.rs`, `crates/engine/src/sweep/batch/step_history.rs`,
+/// `crates/engine/src/sweep/batch/result_finder.rs`).
 pub mod course {
     /// Factor by which a second derivative may deviate from the straight line between its ends, relative to the quintic in the middle of a
     /// cell: as much as results of a single variant allow for half a cell.

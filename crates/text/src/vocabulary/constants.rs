@@ -1,30 +1,30 @@
-//! The names that stand for the same in every mechanism.
+//! Constants: names with the same meaning in every mechanism.
 
 use super::{Category, Example, Word};
 use std::f64::consts::{PI, TAU};
 
-/// A name that is always there.
+/// A constant.
 #[derive(Debug)]
 pub struct Constant {
-    /// What is told of it.
+    /// Documentation.
     pub word: Word,
-    /// What it stands for.
+    /// Meaning.
     pub stands_for: StandsFor,
 }
 
-/// What a constant stands for.
+/// Meaning of a constant.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum StandsFor {
-    /// Time, in seconds.
+    /// Time (s).
     Time,
-    /// A pure number.
+    /// Pure number.
     Number(f64),
-    /// The body that does not move.
+    /// Body that does not move.
     Ground,
 }
 
 impl StandsFor {
-    /// As a noun.
+    /// Returns a noun for messages.
     #[must_use]
     pub fn noun(self) -> &'static str {
         match self {
@@ -36,13 +36,13 @@ impl StandsFor {
 }
 
 impl Constant {
-    /// The constant of a name.
+    /// Returns the constant of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Constant> {
         CONSTANTS.iter().find(|constant| constant.word.name == name)
     }
 
-    /// The names of those that stand in formulas.
+    /// Returns the names of the constants that formulas may contain.
     pub fn in_formulas() -> impl Iterator<Item = &'static str> {
         CONSTANTS.iter().filter(|one| one.stands_for != StandsFor::Ground).map(|one| one.word.name)
     }
@@ -63,7 +63,7 @@ const fn constant(
     }
 }
 
-/// All of them.
+/// All constants.
 pub static CONSTANTS: &[Constant] = &[
     constant(
         "t",

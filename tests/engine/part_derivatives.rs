@@ -33,8 +33,8 @@ fn compile(text: &str) -> Result<Compiled, Diagnostics> {
     if !checked.is_sound() {
         return Err(checked.diagnostics().clone());
     }
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    compiled.ok_or(said)
+    let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
+    compiled.ok_or(messages)
 }
 
 /// Each row of a column is what a formula makes of some others.
@@ -49,10 +49,10 @@ fn holds(table: &Table, name: &str, of: &[&str], wanted: impl Fn(&[f64]) -> f64)
 }
 
 fn table(text: &str) -> (Table, Compiled) {
-    let compiled =
-        compile(text).unwrap_or_else(|said| panic!("{:?}", said.iter().map(|s| &s.message).collect::<Vec<_>>()));
-    let (rows, said) = all_rows(&compiled, &Times::grid(0.0, 1.0, 0.1).expect("a grid"));
-    assert!(rows.len() == 11, "{said:?}");
+    let compiled = compile(text)
+        .unwrap_or_else(|messages| panic!("{:?}", messages.iter().map(|s| &s.message).collect::<Vec<_>>()));
+    let (rows, messages) = all_rows(&compiled, &Times::grid(0.0, 1.0, 0.1).expect("a grid"));
+    assert!(rows.len() == 11, "{messages:?}");
     (Table { columns: compiled.columns(), rows }, compiled)
 }
 
@@ -176,11 +176,11 @@ mechanism outer {{
 
 #[test]
 fn what_is_not_coupled_is_the_same_to_the_bit() {
-    let around = |asked: &str| {
+    let around = |requested: &str| {
         format!(
             "mechanism whole {{
     part p: lever(turn = 0.7 + t) at (1 m, 2 m, 0.3) mirrored
-    {asked}
+    {requested}
 }}\n{LEVER}"
         )
     };
@@ -210,12 +210,12 @@ mechanism push {
     measure gain = der(angle(rod), way)
 }\n";
     let text = text.replace("constraint pushed", "driver pushed");
-    let compiled = compile(&text).unwrap_or_else(|said| panic!("{said:?}"));
+    let compiled = compile(&text).unwrap_or_else(|messages| panic!("{messages:?}"));
     let times = Times::listed(0.0, vec![0.0, 0.25, 0.4999, 0.5, 0.5001, 0.75]);
-    let (rows, said) = all_rows(&compiled, &times);
+    let (rows, messages) = all_rows(&compiled, &times);
     let at = |name: &str| compiled.columns().iter().position(|column| column == name).expect("a column");
     let (gain, angle) = (at("p.gain"), at("angle_of_rod"));
-    assert_eq!(rows.len(), 6, "{said:?}");
+    assert_eq!(rows.len(), 6, "{messages:?}");
     for (k, row) in rows.iter().enumerate() {
         if (2..5).contains(&k) {
             assert!(row[gain].is_nan(), "{row:?}");
@@ -234,17 +234,17 @@ fn a_part_that_is_not_determined_alone_is_told_with_its_place_and_its_use() {
 }}\n{}",
         LEVER.replace("lever", "loose").replace("driver motor: rotation(main) = turn", "")
     );
-    let said = compile(&text).err().expect("it is refused");
-    let faults: Vec<_> = said.iter().filter(|said| said.code.as_str() == "E0508").collect();
-    let [fault] = faults.as_slice() else { panic!("{said:?}") };
+    let messages = compile(&text).err().expect("it is refused");
+    let faults: Vec<_> = messages.iter().filter(|message| message.code.as_str() == "E0508").collect();
+    let [fault] = faults.as_slice() else { panic!("{messages:?}") };
     let place = |label: &mechc::Label| &text[label.span.start as usize..label.span.end as usize];
     let first = fault.labels.iter().find(|label| label.primary).expect("a place");
     assert_eq!(place(first), "der(width, reach)");
     let used = fault.labels.iter().find(|label| label.text == "in part `p`, used here").expect("its use");
     assert_eq!(place(used), "p");
     // from outside it may be asked for
-    let asked = text.replace("driver motor", "measure seen = der(x(p.arm.tip), p.reach)\n    driver motor");
+    let requested = text.replace("driver motor", "measure seen = der(x(p.arm.tip), p.reach)\n    driver motor");
     let asks_inside = |line: &&str| line.contains("der(") && !line.contains("measure seen") || line.contains("result");
-    let quiet: Vec<&str> = asked.lines().filter(|line| !asks_inside(line)).collect();
+    let quiet: Vec<&str> = requested.lines().filter(|line| !asks_inside(line)).collect();
     assert!(compile(&quiet.join("\n")).is_ok());
 }

@@ -1,9 +1,9 @@
-//! Variants of a sweep that go side by side, a lane for each, are what they are alone, to the bit; and so are those that leave their lane,
-//! because they come near to where the branch is in doubt.
+//! Batches of sweep variants: each lane has the bits of a single run, and so do variants that leave their lane because their branch is in
+//! doubt.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
-use crate::support::swept::{Subject, bits_of, compare_all, count, have_the_same_bits, subject, vary};
+use crate::support::sweeps::{Subject, bits_of, compare_all, count, have_equal_bits, subject, vary};
 use mechc::{Choice, Method, Status, SweepOptions, Swept, Variants, VaryOptions, Vectors};
 use std::collections::VecDeque;
 
@@ -47,8 +47,8 @@ fn about(name: &str, value: f64) -> String {
     format!("{name}={}", values.collect::<Vec<_>>().join(","))
 }
 
-fn compare(subject: &Subject, asked: &VaryOptions) -> (Vec<(Status, usize)>, usize) {
-    compare_all(subject, &subject.variants(asked))
+fn compare(subject: &Subject, requested: &VaryOptions) -> (Vec<(Status, usize)>, usize) {
+    compare_all(subject, &subject.variants(requested))
 }
 
 /// What this way is for: if all variants went alone nobody would notice.
@@ -86,14 +86,14 @@ fn at_change_points_no_branch_is_guessed() {
     for every in ["0.21", "1.575"] {
         let subject = subject(&four_bar(TURNS, every), Choice::default());
         // arm + base = rod + lever, arm + rod = base + lever, arm + lever = base + rod
-        for asked in [about("lever", 1.5), about("rod", 6.0), about("lever", 6.5), about("arm", 2.5)] {
-            let (found, abreast) = compare(&subject, &vary(&[&asked]));
-            assert!(count(&found, Status::Ok) >= abreast, "{asked}: {found:?}");
-            assert!(found.iter().any(|(status, _)| !status.is_complete()), "{asked}: {found:?}");
+        for requested in [about("lever", 1.5), about("rod", 6.0), about("lever", 6.5), about("arm", 2.5)] {
+            let (found, abreast) = compare(&subject, &vary(&[&requested]));
+            assert!(count(&found, Status::Ok) >= abreast, "{requested}: {found:?}");
+            assert!(found.iter().any(|(status, _)| !status.is_complete()), "{requested}: {found:?}");
         }
         // a parallelogram, or nearly one
-        let asked = ["arm=1", "lever=1", &about("base", 3.5)];
-        compare(&subject, &vary(&asked));
+        let requested = ["arm=1", "lever=1", &about("base", 3.5)];
+        compare(&subject, &vary(&requested));
     }
 }
 
@@ -124,9 +124,9 @@ fn at_the_end_of_their_reach_variants_are_assembled_as_alone() {
     // at the start the crank's pin is so far from the base
     let (sin, cos) = mechc_expr::math::sin_cos(0.5);
     let way = mechc_expr::math::hypot(4.0 - cos, sin);
-    for asked in [about("rod", way - 3.0), about("lever", way - 3.5), about("rod", way + 3.0)] {
-        let (found, abreast) = compare(&subject, &vary(&[&asked]));
-        assert!(count(&found, Status::Ok) >= abreast && found.len() >= 2, "{asked}: {found:?}");
+    for requested in [about("rod", way - 3.0), about("lever", way - 3.5), about("rod", way + 3.0)] {
+        let (found, abreast) = compare(&subject, &vary(&[&requested]));
+        assert!(count(&found, Status::Ok) >= abreast && found.len() >= 2, "{requested}: {found:?}");
     }
 }
 
@@ -136,16 +136,16 @@ fn results_beside_a_lane_are_those_alone() {
     let results = ["top = max(height)", "when = argmax(height)", "mean_reach = mean(reach)", "late = at(height, 3)"];
     let results = results.iter().map(|&result| result.to_owned()).collect();
     let subject = subject(&four_bar(TURNS, "0.45"), Choice { results, ..Choice::default() });
-    let asked = sampled(&["rod=2..4", "lever=2..4", "pen_x=-1..2"], 24, Method::Sobol);
-    let (found, abreast) = compare(&subject, &asked);
+    let requested = sampled(&["rod=2..4", "lever=2..4", "pen_x=-1..2"], 24, Method::Sobol);
+    let (found, abreast) = compare(&subject, &requested);
     assert!(abreast > 8 && abreast <= count(&found, Status::Ok), "{abreast} of {found:?}");
-    let alone = subject.swept(&subject.variants(&asked), &SweepOptions::default());
-    let beside = subject.swept(&subject.variants(&asked), &subject.all_columns());
+    let alone = subject.sweep(&subject.variants(&requested), &SweepOptions::default());
+    let beside = subject.sweep(&subject.variants(&requested), &subject.all_columns());
     // results are in doubt earlier than rows
     assert!(alone.abreast > 8 && alone.abreast <= abreast, "{} of {abreast}", alone.abreast);
     assert_eq!(alone.statuses, beside.statuses);
     for (alone, beside) in alone.results.iter().zip(&beside.results) {
-        assert!(have_the_same_bits(alone, beside), "{alone:?} {beside:?}");
+        assert!(have_equal_bits(alone, beside), "{alone:?} {beside:?}");
     }
 }
 
@@ -154,8 +154,8 @@ fn results_beside_a_lane_are_those_alone() {
 fn who_leaves_a_lane_leaves_the_others_alone() {
     let subject = subject(&four_bar(TURNS, "0.315"), Choice::default());
     let rods = ["3.5", "0", "-3.4", "9", "1.9", "3.6", "1e300", "3.45", "2.2", "0.1"];
-    let asked = [format!("rod={}", rods.join(",")), "lever=3,0,2.95".to_owned()];
-    let (found, abreast) = compare(&subject, &vary(&[&asked[0], &asked[1]]));
+    let requested = [format!("rod={}", rods.join(",")), "lever=3,0,2.95".to_owned()];
+    let (found, abreast) = compare(&subject, &vary(&[&requested[0], &requested[1]]));
     assert!(found.len() >= 3 && abreast >= 5, "{abreast} of {found:?}");
 }
 
@@ -164,29 +164,29 @@ fn threads_vectors_and_columns_change_no_bit() {
     let subject = subject(&four_bar(TURNS, "0.21"), Choice::default());
     let variants = subject.variants(&sampled(&["rod=2..4", "lever=1.4..4", "arm=0.5..1.5"], 100, Method::Sobol));
     let all = subject.all_columns();
-    let whole = subject.swept(&variants, &SweepOptions { jobs: Some(1), ..all.clone() });
+    let whole = subject.sweep(&variants, &SweepOptions { jobs: Some(1), ..all.clone() });
     assert!((20..100).contains(&whole.abreast), "{}", whole.abreast);
     for name in Vectors::NAMES {
         let Some(vectors) = Vectors::named(name) else { continue };
         for jobs in [1, 2, 16] {
-            let swept = subject.swept(&variants, &SweepOptions { jobs: Some(jobs), vectors, ..all.clone() });
+            let swept = subject.sweep(&variants, &SweepOptions { jobs: Some(jobs), vectors, ..all.clone() });
             assert_eq!(bits_of(&swept), bits_of(&whole), "{name}, {jobs} threads");
         }
     }
     for columns in [vec![4, 5], vec![0], vec![9, 1, 9], Vec::new()] {
-        let swept = subject.swept(&variants, &SweepOptions { columns: Some(columns.clone()), ..all.clone() });
+        let swept = subject.sweep(&variants, &SweepOptions { columns: Some(columns.clone()), ..all.clone() });
         assert_eq!(swept.statuses, whole.statuses);
         for (column, from) in swept.columns.iter().zip(&columns) {
-            assert!(have_the_same_bits(column, &whole.columns[*from]), "column {from} of {columns:?}");
+            assert!(have_equal_bits(column, &whole.columns[*from]), "column {from} of {columns:?}");
         }
     }
     // other groups, other neighbours
     for skip in [1, 7, 33] {
-        let share = subject.swept(&variants, &SweepOptions { skip, take: Some(20), ..all.clone() });
+        let share = subject.sweep(&variants, &SweepOptions { skip, take: Some(20), ..all.clone() });
         let first: usize = whole.lengths[..skip as usize].iter().sum();
         let rows: usize = share.lengths.iter().sum();
         for (column, known) in share.columns.iter().zip(&whole.columns) {
-            assert!(have_the_same_bits(column, &known[first..first + rows]), "from {skip} on");
+            assert!(have_equal_bits(column, &known[first..first + rows]), "from {skip} on");
         }
     }
 }
@@ -194,12 +194,12 @@ fn threads_vectors_and_columns_change_no_bit() {
 /// Compares a block with its variants, one after the other.
 fn assert_holds_those_alone(subject: &Subject, variants: &Variants, block: &Swept) {
     for (k, number) in (block.first..).take(block.len()).enumerate() {
-        let (status, _, rows) = subject.alone(variants.settings(number));
+        let (status, _, rows) = subject.run_single(variants.settings(number));
         assert_eq!((block.statuses[k], block.lengths[k]), (status, rows.len()));
         let first: usize = block.lengths[..k].iter().sum();
         for (at, row) in rows.iter().enumerate() {
             let swept: Vec<f64> = block.columns.iter().map(|column| column[first + at]).collect();
-            assert!(have_the_same_bits(&swept, row), "{number}, row {at}");
+            assert!(have_equal_bits(&swept, row), "{number}, row {at}");
         }
     }
 }
@@ -209,8 +209,8 @@ fn assert_holds_those_alone(subject: &Subject, variants: &Variants, block: &Swep
 fn memory_that_held_other_variants_holds_these() {
     let subject = subject(&four_bar(TURNS, "1.575"), Choice::default());
     let rods = (0..40).map(|k| format!("{}", 3.4 + 0.005 * f64::from(k))).collect::<Vec<_>>().join(",");
-    for asked in [["speed=1,2,2,1,3", &format!("rod={rods}")], ["speed=1,2,2,1,3", &format!("rod={rods},9")]] {
-        let variants = subject.variants(&vary(&asked));
+    for requested in [["speed=1,2,2,1,3", &format!("rod={rods}")], ["speed=1,2,2,1,3", &format!("rod={rods},9")]] {
+        let variants = subject.variants(&vary(&requested));
         // each is dropped before the next one is made, or stays for a while, as threads have it that read
         for (jobs, stay) in [(1, 0), (3, 4)] {
             let options = SweepOptions { jobs: Some(jobs), ..subject.all_columns() };
@@ -239,8 +239,8 @@ fn what_is_the_same_for_all_is_theirs_alone() {
     let turning = (0..40).map(|k| 3.4 + 0.005 * f64::from(k));
     let rods = locking.chain(turning).map(|rod| format!("{rod}")).collect::<Vec<_>>().join(",");
     for more in ["pen_x=1", "pen_x=1,2", "arm=1,0.95", "speed=2,1.9"] {
-        for asked in [[more, &format!("rod={rods}")], [&format!("rod={rods}"), more]] {
-            let (found, abreast) = compare(&subject, &vary(&asked));
+        for requested in [[more, &format!("rod={rods}")], [&format!("rod={rods}"), more]] {
+            let (found, abreast) = compare(&subject, &vary(&requested));
             assert!(abreast >= 40 && count(&found, Status::Ok) < 150 && found.len() == 2, "{abreast} of {found:?}");
         }
     }
@@ -264,24 +264,24 @@ fn near_rows_are_those_alone() {
     let shapes = ["base=2..5", "arm=0.3..2", "rod=1.5..5", "lever=1.5..5", "speed=-20..20"];
     let sampled = sampled(&shapes, 150, Method::Random);
     let (changing, locking) = (vary(&[&about("rod", 6.0), "lever=2.9,3"]), vary(&["speed=-3..3:40", "rod=3.4..3.6:3"]));
-    for (text, asked, least) in [
+    for (text, requested, least) in [
         (four_bar(TURNS, "0.015"), sampled, 20),
         (four_bar(TURNS, "0.015"), changing, 1),
         (four_bar("0.5 - 3 * speed * t", "0.005"), vary(&["rod=3.4..3.6:5", "speed=0..9:7"]), 20),
         (driven, locking, 1),
     ] {
         let subject = subject(&text, Choice::default());
-        let (variants, all) = (subject.variants(&asked), subject.all_columns());
+        let (variants, all) = (subject.variants(&requested), subject.all_columns());
         let (found, abreast) = compare_all(&subject, &variants);
         assert!(abreast >= least, "{abreast} of {found:?}");
-        let whole = subject.swept(&variants, &all);
+        let whole = subject.sweep(&variants, &all);
         // positions of the last body, and its velocities
         for columns in [vec![7, 8, 9], vec![18, 19]] {
-            let swept = subject.swept(&variants, &SweepOptions { columns: Some(columns.clone()), ..all.clone() });
+            let swept = subject.sweep(&variants, &SweepOptions { columns: Some(columns.clone()), ..all.clone() });
             assert!(swept.abreast >= least, "{} of {:?}", swept.abreast, swept.statuses);
             assert_eq!((&swept.statuses, &swept.lengths), (&whole.statuses, &whole.lengths));
             for (column, from) in swept.columns.iter().zip(&columns) {
-                assert!(have_the_same_bits(column, &whole.columns[*from]), "column {from} of {asked:?}");
+                assert!(have_equal_bits(column, &whole.columns[*from]), "column {from} of {requested:?}");
             }
         }
     }
@@ -294,22 +294,22 @@ fn zeros_and_times_of_their_own_are_as_alone() {
     let text = four_bar(TURNS, "0.5").replace("param rise", "param P = (0.4, 0.3) param rise");
     let text = text.replace("point pen = (pen_x, rise / 2)", "point pen = P + (pen_x, 0)");
     let subject = subject(&text, Choice::default());
-    for asked in [["P.x=0,0.1,-0.2", "pen_x=0.5,0"], ["P.x=-0.1,0", "P.y=0,0.2"], ["speed=0,1,2", "rod=3.4,3.5"]] {
-        let (found, abreast) = compare(&subject, &vary(&asked));
+    for requested in [["P.x=0,0.1,-0.2", "pen_x=0.5,0"], ["P.x=-0.1,0", "P.y=0,0.2"], ["speed=0,1,2", "rod=3.4,3.5"]] {
+        let (found, abreast) = compare(&subject, &vary(&requested));
         assert!(
             abreast >= 1 && abreast < found.iter().map(|(_, count)| count).sum(),
-            "{asked:?}: {abreast} of {found:?}"
+            "{requested:?}: {abreast} of {found:?}"
         );
     }
     let variants = subject.variants(&vary(&["rod=3.3..3.7:9"]));
-    let all = subject.swept(&variants, &subject.all_columns());
+    let all = subject.sweep(&variants, &subject.all_columns());
     let times = mechc::AskedTimes { at: vec![1.5, 3.0], ..mechc::AskedTimes::default() };
-    let some = subject.swept(&variants, &SweepOptions { times, ..subject.all_columns() });
+    let some = subject.sweep(&variants, &SweepOptions { times, ..subject.all_columns() });
     assert_eq!((some.abreast, &some.lengths), (9, &vec![2; 9]));
     let rows = all.lengths[0];
     for (some, all) in some.columns.iter().zip(&all.columns) {
         let wanted: Vec<f64> = (0..9).flat_map(|k| [all[k * rows + 3], all[k * rows + 6]]).collect();
-        assert!(have_the_same_bits(some, &wanted));
+        assert!(have_equal_bits(some, &wanted));
     }
 }
 
@@ -333,8 +333,8 @@ fn what_happens_on_the_way_is_seen_as_alone() {
 #[test]
 fn what_is_not_plain_goes_alone() {
     let plain = four_bar(TURNS, "0.5");
-    let asked = vary(&["rod=3.45,3.55", "speed=1.5"]);
-    let of = |text: &str| compare(&subject(text, Choice::default()), &asked).1;
+    let requested = vary(&["rod=3.45,3.55", "speed=1.5"]);
+    let of = |text: &str| compare(&subject(text, Choice::default()), &requested).1;
     assert_eq!(of(&plain), 2);
     for (from, to) in [
         // a driver with an edge, one that does not go straight on
@@ -359,6 +359,6 @@ fn what_is_not_plain_goes_alone() {
 }
 
 /// The same where variants have other times; gives how many went side by side.
-fn compare_one_by_one(subject: &Subject, asked: &VaryOptions) -> usize {
-    compare(subject, asked).1
+fn compare_one_by_one(subject: &Subject, requested: &VaryOptions) -> usize {
+    compare(subject, requested).1
 }

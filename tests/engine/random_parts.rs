@@ -56,8 +56,8 @@ fn too_large(text: &str) {
     let begun = Instant::now();
     let checked = Parsed::of("text", text)
         .check(&Choice { mechanism: Some("top".to_owned()), ..Choice::default() }, &Memory::default());
-    let told: Vec<&str> = checked.diagnostics().iter().map(|said| said.code.as_str()).collect();
-    assert!(!told.is_empty() && told.iter().all(|code| *code == "E0208"), "{told:?}: {text}");
+    let reported: Vec<&str> = checked.diagnostics().iter().map(|message| message.code.as_str()).collect();
+    assert!(!reported.is_empty() && reported.iter().all(|code| *code == "E0208"), "{reported:?}: {text}");
     assert!(begun.elapsed() < SOON, "{:?}: {text}", begun.elapsed());
 }
 

@@ -1,4 +1,4 @@
-//! Rims: where a root, a power, an arc cosine comes to the end of what it takes, both sides decide what is told.
+//! Domain boundaries: where a root, a power or an arc cosine reaches the end of its domain, both sides decide what is reported.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
@@ -73,8 +73,8 @@ const KINDS: &[(&str, Option<(&str, &str)>)] = &[
     ("sqrt(1 + U^2)", None),
 ];
 
-fn holds(outcome: &Outcome, told: Option<(&str, &str)>, c: f64, of: &str) {
-    let Some((code, word)) = told else {
+fn holds(outcome: &Outcome, reported: Option<(&str, &str)>, c: f64, of: &str) {
+    let Some((code, word)) = reported else {
         assert!(outcome.diagnostics.is_empty() && outcome.succeeded(), "{of}: {}", outcome.text());
         return;
     };
@@ -89,20 +89,20 @@ fn holds(outcome: &Outcome, told: Option<(&str, &str)>, c: f64, of: &str) {
 
 #[test]
 fn both_sides_of_a_rim_of_time_decide() {
-    for (kind, told) in KINDS {
+    for (kind, reported) in KINDS {
         let formula = kind.replace('U', "t").replace('C', "0.70013");
         for every in ["0.1 s", "0.7 s", "10 ms"] {
-            holds(&slide(&formula, every), *told, 0.70013, &format!("{formula} every {every}"));
+            holds(&slide(&formula, every), *reported, 0.70013, &format!("{formula} every {every}"));
         }
     }
 }
 
 #[test]
 fn both_sides_of_a_rim_of_the_motion_decide() {
-    for (kind, told) in KINDS {
+    for (kind, reported) in KINDS {
         let formula = format!("1 m * ({})", kind.replace('U', "(x(a.P) / 1 m)").replace('C', "0.70013"));
         for every in ["0.1 s", "0.7 s"] {
-            holds(&on_curve(&formula, every), *told, 0.70013, &format!("{formula} every {every}"));
+            holds(&on_curve(&formula, every), *reported, 0.70013, &format!("{formula} every {every}"));
         }
     }
 }
@@ -111,9 +111,9 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn random_inner_zeros_are_told(kind in 0..KINDS.len(), c in 0.1..1.0_f64, every in 0.011..0.9_f64, slope in -0.5..0.5_f64) {
-        let (kind, told) = KINDS[kind];
+    fn random_inner_zeros_are_reported(kind in 0..KINDS.len(), c in 0.1..1.0_f64, every in 0.011..0.9_f64, slope in -0.5..0.5_f64) {
+        let (kind, reported) = KINDS[kind];
         let formula = format!("{slope} * t + 0.05 * ({})", kind.replace('U', "t").replace('C', &c.to_string()));
-        holds(&slide(&formula, &format!("{every} s")), told, c, &formula);
+        holds(&slide(&formula, &format!("{every} s")), reported, c, &formula);
     }
 }

@@ -314,11 +314,11 @@ fn curves_circles_and_joints_take_points() {
 fn with_settings(text: &str, set: &[&str]) -> Result<f64, String> {
     let choice = Choice { set: set.iter().map(|&set| set.to_owned()).collect(), ..Choice::default() };
     let checked = Parsed::of("set.mech", text).check(&choice, &Memory::default());
-    let said = |diagnostics: &mechc::Diagnostics| {
+    let messages = |diagnostics: &mechc::Diagnostics| {
         let texts = diagnostics.iter().map(|d| format!("{}: {}", d.code, d.message));
         texts.collect::<Vec<_>>().join("; ")
     };
-    let model = checked.model_text().ok_or_else(|| said(checked.diagnostics()))?;
+    let model = checked.model_text().ok_or_else(|| messages(checked.diagnostics()))?;
     let value = |name: &str| {
         let line = model.lines().find_map(|line| line.trim().strip_prefix(&format!("{name} = ")));
         line.map(|line| line.split(' ').next().expect("a number").parse::<f64>().expect("a number"))
@@ -345,7 +345,7 @@ fn points_are_set_as_a_whole_or_by_a_coordinate() {
         let found = with_settings(text, set).unwrap_or_else(|why| panic!("{set:?}: {why}"));
         assert!((found - wanted).abs() < 1e-9, "{set:?}: {found}");
     }
-    let said: &[(&str, &str)] = &[
+    let messages: &[(&str, &str)] = &[
         ("A=5mm", "E0302: expected a point, found a number"),
         ("A.x=5", "E0402: the coordinate `A.x` must be a length, found a pure number"),
         ("A.x=5s", "E0402: the coordinate `A.x` must be a length, found a time"),
@@ -358,7 +358,7 @@ fn points_are_set_as_a_whole_or_by_a_coordinate() {
         ("r.x=5mm", "E0703: the parameter `r` is a number, and has no `x`"),
         ("r=(5mm,0)", "E0302: expected a number, found a point"),
     ];
-    for &(set, wanted) in said {
+    for &(set, wanted) in messages {
         assert_eq!(with_settings(text, &[set]), Err(wanted.to_owned()), "{set}");
     }
 }

@@ -1,10 +1,10 @@
-//! Printed formulas read back, with the graph's own constructors.
+//! Reader of printed formulas, which uses the constructors of the graph.
 
 use mechc::Sources;
 use mechc_expr::{Binary, Comparison, ExprId, Graph, TableId, Unary};
 use mechc_syntax::{self as syntax, ast};
 
-/// The functions of one argument that the language has.
+/// Functions of the language with one argument.
 pub const UNARIES: [Unary; 15] = [
     Unary::Sin,
     Unary::Cos,
@@ -23,26 +23,26 @@ pub const UNARIES: [Unary; 15] = [
     Unary::Sign,
 ];
 
-/// Those of two, but for `mod`.
+/// Functions of the language with two arguments, except `mod`.
 pub const BINARIES: [Binary; 4] = [Binary::Atan2, Binary::Hypot, Binary::Min, Binary::Max];
 
-/// What the words of a formula stand for.
+/// Meaning of the words of a formula.
 pub trait Names {
-    /// What a word is.
+    /// Returns the expression of a word.
     fn symbol(&self, graph: &mut Graph, word: &str) -> ExprId;
 
-    /// The table that a call speaks of, and the order of its derivative.
+    /// Returns the table of a call, and the order of its derivative.
     fn table(&self, word: &str) -> Option<(TableId, u8)>;
 }
 
-/// A formula as a tree.
+/// Parses a formula.
 pub fn parse(text: &str) -> ast::Expr {
     let mut sources = Sources::default();
     let file = sources.add("printed", text);
     syntax::parse_expression(&sources, file).unwrap_or_else(|_| panic!("{text} does not follow the grammar"))
 }
 
-/// The formula of a tree.
+/// Converts a tree to an expression.
 pub fn read(graph: &mut Graph, e: &ast::Expr, names: &dyn Names) -> ExprId {
     use ast::ExprKind as Kind;
     let mut go = |e: &ast::Expr| read(graph, e, names);

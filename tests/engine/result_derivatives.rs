@@ -10,10 +10,10 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 fn compile(text: &str, redundant: Redundant) -> Compiled {
     let checked = Parsed::of("m.mech", text).check(&Choice::default(), &Memory::default());
-    let told: Vec<&str> = checked.diagnostics().iter().map(|said| said.message.as_str()).collect();
-    assert!(checked.is_sound(), "{told:?}");
-    let (compiled, said) = checked.compile(redundant, &Cancel::default());
-    compiled.unwrap_or_else(|| panic!("{:?}", said.iter().map(|said| &said.message).collect::<Vec<_>>()))
+    let reported: Vec<&str> = checked.diagnostics().iter().map(|message| message.message.as_str()).collect();
+    assert!(checked.is_sound(), "{reported:?}");
+    let (compiled, messages) = checked.compile(redundant, &Cancel::default());
+    compiled.unwrap_or_else(|| panic!("{:?}", messages.iter().map(|message| &message.message).collect::<Vec<_>>()))
 }
 
 fn answers_of(compiled: &Compiled, [to, every]: [f64; 2], options: &RunOptions) -> Answers {

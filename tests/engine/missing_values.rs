@@ -46,12 +46,12 @@ fn each_measure_is_told_once_and_nothing_else_suffers() {
     assert!(missing(&with, "edge").is_empty());
     assert_eq!(missing(&with, "left"), (10..21).collect::<Vec<usize>>());
     assert_eq!(missing(&with, "left.dd"), (10..21).collect::<Vec<usize>>());
-    let told: Vec<(f64, u64)> = with
+    let reported: Vec<(f64, u64)> = with
         .diagnostics
         .iter()
         .map(|one| (one.data["t"].as_f64().expect("a time"), one.data["rows"].as_u64().expect("a count")))
         .collect();
-    assert_eq!([told[0], told[1]], [(0.5, 1), (1.3, 8)]);
+    assert_eq!([reported[0], reported[1]], [(0.5, 1), (1.3, 8)]);
     let without = crank("measure fine = sin(t)");
     for name in &without.columns {
         let bits = |outcome: &Outcome| column(outcome, name).iter().map(|value| value.to_bits()).collect::<Vec<u64>>();
@@ -102,8 +102,8 @@ proptest! {
             let named = &text[label.span.start as usize..label.span.end as usize];
             prop_assert_eq!(named, format!("d{which}"), "{}", outcome.text());
             // what grows without bound may be too fast before it is infinite
-            let is_told = diagnostic.code.as_str() == "E0605" || (kind == 1 && diagnostic.code.as_str() == "E0604");
-            prop_assert!(is_told, "{}", outcome.text());
+            let is_reported = diagnostic.code.as_str() == "E0605" || (kind == 1 && diagnostic.code.as_str() == "E0604");
+            prop_assert!(is_reported, "{}", outcome.text());
         }
     }
 }

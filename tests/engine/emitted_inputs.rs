@@ -49,8 +49,8 @@ fn follows_samples(name: &str, inputs: &[(&str, usize)], fields: &[&str], has_ti
     );
     let text = text_of(name).replace("to 3 s", "to 0.399 s");
     let checked = Parsed::of("machine.mech", &text).check(&choice, &world);
-    let (compiled, said) = checked.compile(mechc::Redundant::Refused, &mechc::Cancel::default());
-    let compiled = compiled.unwrap_or_else(|| panic!("{:?} {said:?}", checked.diagnostics()));
+    let (compiled, messages) = checked.compile(mechc::Redundant::Refused, &mechc::Cancel::default());
+    let compiled = compiled.unwrap_or_else(|| panic!("{:?} {messages:?}", checked.diagnostics()));
     let (rows, stop) = all_rows(&compiled, &compiled.times().expect("times"));
     assert!(stop.is_none() && rows.len() == SAMPLES, "{} rows", rows.len());
     let columns = compiled.columns();
@@ -58,9 +58,9 @@ fn follows_samples(name: &str, inputs: &[(&str, usize)], fields: &[&str], has_ti
     // what the splines through the samples say is what firmware would have to know
     let mut program = format!("const SAMPLES: [[f64; {}]; {SAMPLES}] = [\n", 1 + 3 * inputs.len());
     for row in &rows {
-        let asked = |(k, _): (usize, _)| if inputs.len() == 1 { "asked".to_owned() } else { format!("asked_{k}") };
+        let requested = |(k, _): (usize, _)| if inputs.len() == 1 { "asked".to_owned() } else { format!("asked_{k}") };
         let signal = |name: String| [name.clone(), format!("{name}.d"), format!("{name}.dd")].map(|name| row[at(name)]);
-        let values: Vec<f64> = inputs.iter().enumerate().map(asked).flat_map(signal).collect();
+        let values: Vec<f64> = inputs.iter().enumerate().map(requested).flat_map(signal).collect();
         writeln!(program, "{:?},", [&row[..1], &values].concat()).expect("a string takes everything");
     }
     let mut given = String::new();
@@ -376,7 +376,7 @@ fn main() {
             println!("{:?}", state.q());
         }
     }
-    println!("{led} {drawn} {refused}");
+    println!("{continued} {drawn} {refused}");
 }
 "#;
 
@@ -384,9 +384,9 @@ fn main() {
 fn parameters_that_no_short_way_leads_to_are_assembled_as_the_file_draws_them() {
     let text = fs::read_to_string("tests/emitted/four.mech").expect("a text");
     let lines = printed(&emitted(&text).text(None), &with_random(FAR));
-    let [led, drawn, refused] = numbers(&lines[1])[..] else { panic!("{lines:?}") };
-    assert!(led > 30.0 && drawn > 30.0, "{led} and {drawn}");
-    assert!(20.0 * refused < led + drawn, "{refused} beside {led} and {drawn}");
+    let [continued, drawn, refused] = numbers(&lines[1])[..] else { panic!("{lines:?}") };
+    assert!(continued > 30.0 && drawn > 30.0, "{continued} and {drawn}");
+    assert!(20.0 * refused < continued + drawn, "{refused} beside {continued} and {drawn}");
     // what is set in the text is assembled from there
     let set = [("0.5 m", "0.1 m"), ("0.25 m", "0.3 m"), ("r3 = 0.45 m", "r3 = 0.4 m"), ("r4 = 0.45 m", "r4 = 0.5 m")];
     let text = set.into_iter().fold(text, |text, (from, to)| text.replacen(from, to, 1)).replace("70 deg", "-45 deg");
@@ -860,8 +860,8 @@ fn main() {
 /// The largest difference of `sensitivity` and differences of assembled variants, led by time and then by inputs.
 fn sensitivities(text: &str, fields: [&str; 2], is_led: bool) -> Vec<[f64; 2]> {
     let options = RustOptions { with_sensitivities: true, ..RustOptions::of("machine.mech") };
-    let (module, said) = emitted(text).compiled.rust(&options);
-    let module = module.unwrap_or_else(|| panic!("{said:?}"));
+    let (module, messages) = emitted(text).compiled.rust(&options);
+    let module = module.unwrap_or_else(|| panic!("{messages:?}"));
     let program = r#"
 fn main() {
     let p = Params::default();
@@ -938,8 +938,8 @@ fn without_parameters_there_is_nothing_to_be_sensitive_to() {
     let without = without.replace("crank_length", "50 mm").replace("rod_length", "150 mm");
     for largest_straight in [mechc::LARGEST_STRAIGHT, 0] {
         let options = RustOptions { with_sensitivities: true, largest_straight, ..RustOptions::of("machine.mech") };
-        let (module, said) = emitted(&without).compiled.rust(&options);
-        let module = module.unwrap_or_else(|| panic!("{said:?}"));
+        let (module, messages) = emitted(&without).compiled.rust(&options);
+        let module = module.unwrap_or_else(|| panic!("{messages:?}"));
         let program = r#"
 fn main() {
     let mut state = assemble(&Params).unwrap();

@@ -14,16 +14,16 @@ const EXACT: f64 = 1e-9;
 
 fn compile(text: &str, choice: &Choice, redundant: Redundant) -> (Compiled, Outcome) {
     let checked = Parsed::of("m.mech", text).check(choice, &Memory::default());
-    let told: Vec<&str> = checked.diagnostics().iter().map(|said| said.message.as_str()).collect();
-    assert!(checked.is_sound(), "{told:?}");
-    let (compiled, said) = checked.compile(redundant, &Cancel::default());
+    let reported: Vec<&str> = checked.diagnostics().iter().map(|message| message.message.as_str()).collect();
+    assert!(checked.is_sound(), "{reported:?}");
+    let (compiled, messages) = checked.compile(redundant, &Cancel::default());
     let mut outcome = Outcome {
         sources: checked.sources().clone(),
         diagnostics: checked.diagnostics().clone(),
         columns: Vec::new(),
         rows: Vec::new(),
     };
-    outcome.diagnostics.extend(said);
+    outcome.diagnostics.extend(messages);
     (compiled.unwrap_or_else(|| panic!("{}", outcome.text())), outcome)
 }
 
@@ -152,11 +152,11 @@ fn a_point_stands_for_its_coordinates_and_a_repeated_input_for_its_copies() {
 fn samples_and_formulas_from_outside_are_shifted_too() {
     let text = arm("param reach = 1 m  input turn = 0 * t  measure height = y(arm.tip)", "turn^2");
     let world = Memory::default().with("samples.csv", "t,turn [deg]\n0,10\n1,30\n2,90\n");
-    let told = [
+    let reported = [
         Choice { samples: Some("samples.csv".into()), ..by(&["turn"]) },
         Choice { inputs: vec!["turn=0.4 + t/3".to_owned()], ..by(&["turn"]) },
     ];
-    for choice in told {
+    for choice in reported {
         let checked = Parsed::of("m.mech", &text).check(&choice, &world);
         let compiled = checked.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
         let (rows, _) = all_rows(&compiled, &Times::listed(0.0, vec![0.7]));
@@ -469,8 +469,8 @@ fn results_hold_derivatives_of_forces() {
     let (compiled, outcome) = compile(HEAVY, &Choice::default(), Redundant::Refused);
     assert!(!outcome.diagnostics.has_errors());
     let times = compiled.times().expect("an analysis");
-    let (run, said) = compiled.run(&times, &RunOptions::default());
-    let mut run = run.unwrap_or_else(|| panic!("{said:?}"));
+    let (run, messages) = compiled.run(&times, &RunOptions::default());
+    let mut run = run.unwrap_or_else(|| panic!("{messages:?}"));
     while run.next_row().is_some() {}
     let found = run.results().expect("results").values;
     // by hand: 4 l² growth + 2 g l cos(angle), most where the angle is least

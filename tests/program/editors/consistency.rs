@@ -134,8 +134,8 @@ fn every_snippet_follows_the_grammar() {
         assert!(parsed.faults().is_empty(), "{name}: {text}");
         if name == "fourbar" {
             let checked = parsed.check(&Choice::default(), &Memory::default());
-            let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-            assert!(compiled.is_some() && said.is_empty() && checked.diagnostics().is_empty(), "{text}");
+            let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
+            assert!(compiled.is_some() && messages.is_empty() && checked.diagnostics().is_empty(), "{text}");
         }
     }
     assert!(snippets.len() > 5, "only {} snippets", snippets.len());

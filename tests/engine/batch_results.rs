@@ -1,9 +1,9 @@
-//! Results of variants that go side by side are what they are alone, to the bit, whichever way they were found; and those in doubt are found
-//! alone.
+//! Results of batched variants: they have the bits of single runs, whichever way they are computed; those in doubt are computed by single
+//! runs.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
 
-use crate::support::swept::{Subject, bits, bits_of, subject, vary};
+use crate::support::sweeps::{Subject, bits, bits_of, subject, vary};
 use mechc::{Choice, Method, Status, SweepOptions, VaryOptions, Vectors};
 
 const FOUR_BAR: &str = "mechanism four_bar {
@@ -74,13 +74,13 @@ fn sampled(ranges: &[&str], sample: u64) -> VaryOptions {
 }
 
 /// Compares the results of each variant with those alone; gives how many went side by side, and how many completed.
-fn compare(subject: &Subject, asked: &VaryOptions) -> (usize, usize) {
-    let variants = subject.variants(asked);
-    let block = subject.swept(&variants, &SweepOptions::default());
+fn compare(subject: &Subject, requested: &VaryOptions) -> (usize, usize) {
+    let variants = subject.variants(requested);
+    let block = subject.sweep(&variants, &SweepOptions::default());
     let mut complete = 0;
     for k in 0..block.len() {
         let settings = variants.settings(k as u64);
-        let (status, results, _) = subject.alone(settings.clone());
+        let (status, results, _) = subject.run_single(settings.clone());
         let swept: Vec<f64> = block.results.iter().map(|column| column[k]).collect();
         assert_eq!(block.statuses[k], status, "{settings:?}");
         assert_eq!(bits(&swept), bits(&results), "{settings:?}: {swept:?} instead of {results:?}");
@@ -137,7 +137,7 @@ fn extrema_in_doubt_are_found_alone() {
         format!("{name}={}", values.collect::<Vec<_>>().join(","))
     };
     // it begins at its extremum, it ends there, it comes to one twice
-    for asked in [
+    for requested in [
         vec![about("start", std::f64::consts::PI), "speed=2".to_owned()],
         vec![about("start", -6.2), "speed=2".to_owned()],
         vec![about("start", 0.05), format!("speed={}", 2.0 * std::f64::consts::PI / 3.1)],
@@ -145,9 +145,9 @@ fn extrema_in_doubt_are_found_alone() {
         vec!["start=1,-1".to_owned(), about("speed", 4.0 * std::f64::consts::PI / 3.1)],
         vec!["start=0.3".to_owned(), "speed=1e-9,1e-6,1e-3,0,10,40".to_owned()],
     ] {
-        let asked: Vec<&str> = asked.iter().map(String::as_str).collect();
-        let (abreast, complete) = compare(&subject, &vary(&asked));
-        assert!(abreast <= complete, "{asked:?}");
+        let requested: Vec<&str> = requested.iter().map(String::as_str).collect();
+        let (abreast, complete) = compare(&subject, &vary(&requested));
+        assert!(abreast <= complete, "{requested:?}");
     }
 }
 
@@ -158,9 +158,9 @@ fn next_to_change_points_and_dead_points_results_are_those_alone() {
     let off = [0.0, 1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 0.1];
     for (name, value) in [("lever", 1.5), ("rod", 6.0), ("arm", 2.5)] {
         let values = off.iter().flat_map(|off| [value - off, value + off]).map(|value| format!("{value}"));
-        let asked = format!("{name}={}", values.collect::<Vec<_>>().join(","));
-        let (abreast, complete) = compare(&subject, &vary(&[&asked]));
-        assert!(abreast <= complete, "{asked}");
+        let requested = format!("{name}={}", values.collect::<Vec<_>>().join(","));
+        let (abreast, complete) = compare(&subject, &vary(&[&requested]));
+        assert!(abreast <= complete, "{requested}");
     }
     // what stops beside what does not
     let (abreast, complete) = compare(&subject, &vary(&["rod=3.5,0,-3.4,9,1.9,3.6,1e300,3.45,2.2", "lever=3,0,2.95"]));
@@ -253,7 +253,7 @@ fn what_rests_is_found_side_by_side() {
 /// What is not smooth, is nested, or has a window goes alone; beside rows as without them.
 #[test]
 fn other_results_go_alone() {
-    let asked = sampled(&["rod=3.4..3.6", "lever=2.9..3.1"], 6);
+    let requested = sampled(&["rod=3.4..3.6", "lever=2.9..3.1"], 6);
     for other in [
         "far = max(abs(x(coupler.pen)) + y(coupler.pen))",
         "slope = max(x(coupler.pen) / y(coupler.pen))",
@@ -262,7 +262,7 @@ fn other_results_go_alone() {
         "off = max(x(coupler.pen) + t)",
     ] {
         let subject = of(FOUR_BAR, &["top = max(y(coupler.pen))", other]);
-        let (abreast, complete) = compare(&subject, &asked);
+        let (abreast, complete) = compare(&subject, &requested);
         assert_eq!((abreast, complete), (0, 6), "{other}");
     }
     // outside the analysis
@@ -275,21 +275,21 @@ fn other_results_go_alone() {
 fn threads_vectors_rows_and_shares_change_no_bit_of_results() {
     let subject = of(FOUR_BAR, &KINDS);
     let variants = subject.variants(&sampled(&["rod=2..4", "lever=1.4..4", "arm=0.5..1.5"], 100));
-    let whole = subject.swept(&variants, &SweepOptions { jobs: Some(1), ..SweepOptions::default() });
+    let whole = subject.sweep(&variants, &SweepOptions { jobs: Some(1), ..SweepOptions::default() });
     assert!((20..100).contains(&whole.answered), "{}", whole.answered);
     for name in Vectors::NAMES {
         let Some(vectors) = Vectors::named(name) else { continue };
         for jobs in [1, 2, 16] {
             let swept =
-                subject.swept(&variants, &SweepOptions { jobs: Some(jobs), vectors, ..SweepOptions::default() });
+                subject.sweep(&variants, &SweepOptions { jobs: Some(jobs), vectors, ..SweepOptions::default() });
             assert_eq!(bits_of(&swept), bits_of(&whole), "{name}, {jobs} threads");
         }
     }
-    let beside = subject.swept(&variants, &subject.all_columns());
+    let beside = subject.sweep(&variants, &subject.all_columns());
     let all = |columns: &[Vec<f64>]| columns.iter().flat_map(|column| bits(column)).collect::<Vec<_>>();
     assert_eq!(all(&beside.results), all(&whole.results));
     for skip in [1, 7, 33] {
-        let share = subject.swept(&variants, &SweepOptions { skip, take: Some(20), ..SweepOptions::default() });
+        let share = subject.sweep(&variants, &SweepOptions { skip, take: Some(20), ..SweepOptions::default() });
         for (column, known) in share.results.iter().zip(&whole.results) {
             assert_eq!(bits(column), bits(&known[skip as usize..skip as usize + 20]), "from {skip} on");
         }
@@ -302,8 +302,8 @@ fn the_variant_that_is_looked_for_is_the_same() {
     let until = Choice { until: Some("max(y(coupler.pen)) > 2.45".to_owned()), ..Choice::default() };
     let subject = subject(FOUR_BAR, until);
     let variants = subject.variants(&sampled(&["rod=3.4..3.6", "lever=2.9..3.1", "pen_x=0..2"], 100));
-    let found = subject.swept(&variants, &SweepOptions::default());
-    let beside = subject.swept(&variants, &subject.all_columns());
+    let found = subject.sweep(&variants, &SweepOptions::default());
+    let beside = subject.sweep(&variants, &subject.all_columns());
     assert!((1..100).contains(&found.len()), "{}", found.len());
     assert_eq!((found.len(), found.answered), (beside.len(), found.len()));
 }

@@ -336,7 +336,7 @@ fn outcome(draft: &Draft) -> Outcome {
 }
 
 /// What is broken is told.
-fn told(draft: &Draft, expected: &Expected) -> Result<(), TestCaseError> {
+fn reported(draft: &Draft, expected: &Expected) -> Result<(), TestCaseError> {
     let outcome = outcome(draft);
     let text = draft.text();
     let complaint = |what: &str| TestCaseError::fail(format!("{what}\n{text}\n{}", outcome.text()));
@@ -349,11 +349,11 @@ fn told(draft: &Draft, expected: &Expected) -> Result<(), TestCaseError> {
         return Err(complaint(&format!("expected {} alone", expected.code)));
     }
     let places = places(&text, &expected.on);
-    let is_told = of_break.iter().flat_map(|diagnostic| &diagnostic.labels).any(|label| {
+    let is_reported = of_break.iter().flat_map(|diagnostic| &diagnostic.labels).any(|label| {
         let span = label.span.start as usize..label.span.end as usize;
         places.iter().any(|place| place.start <= span.start && span.end <= place.end)
     });
-    if !is_told {
+    if !is_reported {
         return Err(complaint(&format!("expected a label on one of {:?}", expected.on)));
     }
     let help: Vec<&str> = of_break.iter().flat_map(|diagnostic| &diagnostic.help).map(String::as_str).collect();
@@ -400,7 +400,7 @@ fn broken(shapes: &'static [Shape], spoil: impl Fn(&mut Draft, &Plan) -> Expecte
         let whole = outcome(&draft);
         prop_assert!(whole.diagnostics.is_empty(), "{}\n{}", draft.text(), whole.text());
         let expected = spoil(&mut draft, &plan);
-        told(&draft, &expected)
+        reported(&draft, &expected)
     });
     if let Err(fault) = result {
         panic!("{fault}");
@@ -763,7 +763,7 @@ fn one_of_many_loops_is_told_as_it_is_alone() {
             x + 3.7
         )
     };
-    let told = |loops: std::ops::Range<usize>| {
+    let reported = |loops: std::ops::Range<usize>| {
         let bars: String = loops.clone().map(|k| four_bar(k, if k == 70 { 0.05 } else { 3.5 })).collect();
         let points = loops.map(|k| format!("point A{k} = ({}, 0) point B{k} = ({}, 0)", 10 * k, 10 * k + 4));
         let points = points.collect::<Vec<_>>().join(" ");
@@ -772,10 +772,12 @@ fn one_of_many_loops_is_told_as_it_is_alone() {
             &format!("mechanism many {{ ground {{ {points} }}\n{bars} analysis from 0 to 1 every 0.5 }}"),
             Span::default(),
         );
-        let errors = outcome.diagnostics.iter().filter(|said| said.is_error());
-        errors.map(|said| (said.code.as_str(), said.message.clone(), said.notes.clone())).collect::<Vec<_>>()
+        let errors = outcome.diagnostics.iter().filter(|message| message.is_error());
+        errors
+            .map(|message| (message.code.as_str(), message.message.clone(), message.notes.clone()))
+            .collect::<Vec<_>>()
     };
-    let (alone, among) = (told(70..71), told(0..110));
+    let (alone, among) = (reported(70..71), reported(0..110));
     assert_eq!(alone.len(), 1);
     assert_eq!(alone[0].0, "E0601");
     assert_eq!(among, alone);

@@ -1,32 +1,32 @@
-//! Names that one would choose where the name is a word of the language.
+//! Suggestions of free names in place of names that are words of the language.
 
 use super::{Dimension, is_called, is_taken};
 
-/// What a name is to be the name of.
+/// Kind of what a name is for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum KindOfName {
-    /// A body.
+    /// Body.
     Body,
-    /// A joint.
+    /// Joint.
     Joint,
-    /// A driver or constraint.
+    /// Driver or constraint.
     Equation,
-    /// A point, axis, circle or curve.
+    /// Point, axis, circle or curve.
     Feature,
-    /// A parameter or measure.
+    /// Parameter or measure.
     Value,
-    /// A parameter that is a mass.
+    /// Parameter with the dimension of a mass.
     Mass,
-    /// A parameter that is a time.
+    /// Parameter with the dimension of a time.
     Time,
-    /// A function or table.
+    /// Function or table.
     Function,
-    /// The argument of a function or curve.
+    /// Argument of a function or curve.
     Argument,
 }
 
 impl KindOfName {
-    /// What the keyword before a name makes it the name of.
+    /// Returns the kind of the name after a keyword.
     #[must_use]
     pub fn behind(keyword: &str) -> KindOfName {
         match keyword {
@@ -39,7 +39,7 @@ impl KindOfName {
         }
     }
 
-    /// Of a parameter whose value has the dimension of its first unit.
+    /// Returns the kind of a parameter's name, from the dimension of its first unit.
     #[must_use]
     pub fn of_value(dimension: Option<Dimension>) -> KindOfName {
         match dimension {
@@ -49,7 +49,7 @@ impl KindOfName {
         }
     }
 
-    /// Names that say nothing but that.
+    /// Returns general names for the kind.
     fn names(self) -> &'static [&'static str] {
         match self {
             KindOfName::Body => &["arm", "slide", "link", "lever", "plate"],
@@ -65,8 +65,8 @@ impl KindOfName {
     }
 }
 
-/// Words of the language, with what else such a thing may be called: as a body, as a joint or equation, as a feature or value.
-const OTHERS: &[(&str, [&str; 3])] = &[
+/// Substitutes for words of the language: as the name of a body, of a joint or equation, and of a feature or value.
+const SUBSTITUTES: &[(&str, [&str; 3])] = &[
     // ---- units and constants
     ("s", ["slide", "guide", "stroke"]),
     ("m", ["arm", "mount", "module"]),
@@ -106,24 +106,25 @@ const OTHERS: &[(&str, [&str; 3])] = &[
     ("displacement", ["arm", "hinge", "travel"]),
 ];
 
-/// A free name for what cannot have the name of a word of the language.
+/// Returns a free name in place of a word of the language.
 pub fn another_name(word: &str, kind: KindOfName, is_free: impl Fn(&str) -> bool) -> Option<&'static str> {
-    let own = OTHERS.iter().find(|(other, _)| *other == word).and_then(|(_, names)| match kind {
+    let substitute = SUBSTITUTES.iter().find(|(other, _)| *other == word).and_then(|(_, names)| match kind {
         KindOfName::Body => Some(names[0]),
         KindOfName::Joint | KindOfName::Equation => Some(names[1]),
         KindOfName::Feature | KindOfName::Value | KindOfName::Function => Some(names[2]),
         KindOfName::Argument => Some("u"),
-        // what else the word is the name of is mostly a length
+        // the substitutes for values are mostly lengths
         KindOfName::Mass | KindOfName::Time => None,
     });
-    own.into_iter()
+    substitute
+        .into_iter()
         .chain(kind.names().iter().copied())
         .find(|name| !is_taken(name) && !is_called(name) && is_free(name))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{KindOfName, OTHERS, another_name};
+    use super::{KindOfName, SUBSTITUTES, another_name};
     use crate::vocabulary::{Keyword, Unit, is_called, is_taken};
 
     #[test]
@@ -131,7 +132,7 @@ mod tests {
         let general = ["body", "joint", "driver", "point", "param", "fn"].map(KindOfName::behind);
         let values = [KindOfName::Mass, KindOfName::Time];
         let kinds = general.iter().chain(&values).flat_map(|kind| kind.names());
-        let names = OTHERS.iter().flat_map(|(_, names)| names).chain(kinds);
+        let names = SUBSTITUTES.iter().flat_map(|(_, names)| names).chain(kinds);
         for name in names {
             let is_word = is_taken(name) || is_called(name) || Unit::named(name).is_some();
             assert!(!is_word && Keyword::named(name).is_none(), "`{name}` is a word of the language");

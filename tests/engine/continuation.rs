@@ -1,5 +1,5 @@
-//! A mechanism that is told other inputs than its own begins where these lead it: along the straight line from its own, on the branch of
-//! its estimates.
+//! Continuation from the nominal inputs of a mechanism to given ones: it follows the straight line between them, on the branch of the
+//! estimates.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
@@ -60,28 +60,28 @@ fn compiled(text: &str, inputs: &[&str], samples: Option<&str>) -> Compiled {
     let inputs = inputs.iter().map(|input| (*input).to_owned()).collect();
     let choice = Choice { inputs, samples: samples.map(|_| "samples.csv".into()), ..Choice::default() };
     let checked = Parsed::of("four_bar.mech", text).check(&choice, &world);
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    compiled.unwrap_or_else(|| panic!("{:?} {said:?}", checked.diagnostics()))
+    let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
+    compiled.unwrap_or_else(|| panic!("{:?} {messages:?}", checked.diagnostics()))
 }
 
 /// The rows of some times, as far as they come, and what is said.
 fn run(compiled: &Compiled, times: &Times) -> (Vec<Vec<f64>>, Diagnostics) {
-    let (run, mut said) = compiled.run(times, &RunOptions::default());
-    let Some(mut run) = run else { return (Vec::new(), said) };
+    let (run, mut messages) = compiled.run(times, &RunOptions::default());
+    let Some(mut run) = run else { return (Vec::new(), messages) };
     let rows = run.by_ref().map_while(Result::ok).collect();
-    said.extend(run.take_remarks());
-    (rows, said)
+    messages.extend(run.take_remarks());
+    (rows, messages)
 }
 
 /// The first row, of which nothing is said.
 fn first_row(compiled: &Compiled, t: f64) -> Vec<f64> {
-    let (mut rows, said) = run(compiled, &Times::listed(t, vec![t]));
-    assert!(said.is_empty(), "{said:?}");
+    let (mut rows, messages) = run(compiled, &Times::listed(t, vec![t]));
+    assert!(messages.is_empty(), "{messages:?}");
     rows.remove(0)
 }
 
-fn codes(said: &Diagnostics) -> Vec<&'static str> {
-    said.iter().map(|said| said.code.as_str()).collect()
+fn codes(messages: &Diagnostics) -> Vec<&'static str> {
+    messages.iter().map(|message| message.code.as_str()).collect()
 }
 
 /// Positions agree; velocities are of other motions.
@@ -94,8 +94,8 @@ const TURN: &str = "input turn = 30 deg";
 /// Where the motion of a driver comes to that goes from the own input to another one.
 fn followed(text: impl Fn(&str, &str) -> String, target: f64) -> Vec<f64> {
     let text = text("", &format!("30 deg + ({target} deg - 30 deg) * t / 1 s"));
-    let (rows, said) = run(&compiled(&text, &[], None), &Times::listed(0.0, vec![0.0, 1.0]));
-    assert!(said.is_empty() && rows.len() == 2, "{said:?}");
+    let (rows, messages) = run(&compiled(&text, &[], None), &Times::listed(0.0, vec![0.0, 1.0]));
+    assert!(messages.is_empty() && rows.len() == 2, "{messages:?}");
     rows[1].clone()
 }
 
@@ -122,8 +122,8 @@ fn samples_lead_to_where_they_begin() {
     assert!(same_place(&first_row(&sampled, 0.0), &followed(text, 250.0)));
     assert!(same_place(&first_row(&sampled, 1.0), &followed(text, 300.0)));
     // a time outside of them is told as ever, and not that something on the way to it went wrong
-    let (rows, said) = run(&sampled, &Times::listed(-1.0, vec![-1.0]));
-    assert_eq!((rows.len(), codes(&said)), (0, vec!["E0608"]));
+    let (rows, messages) = run(&sampled, &Times::listed(-1.0, vec![-1.0]));
+    assert_eq!((rows.len(), codes(&messages)), (0, vec!["E0608"]));
 }
 
 #[test]
@@ -142,10 +142,10 @@ fn time_goes_along_with_the_inputs() {
 fn who_is_told_what_is_so_anyway_gets_the_same_rows() {
     let text = four_bar(&CRANK_ROCKER[1], "input turn = 30 deg + 90 deg/s * t", "turn");
     let times = Times::grid(0.0, 1.0, 0.01).expect("a grid");
-    let (own, said) = run(&compiled(&text, &[], None), &times);
-    let (told, _) = run(&compiled(&text, &["turn=30 deg + 90 deg/s * t"], None), &times);
-    assert!(own.len() == 101 && said.is_empty(), "{said:?}");
-    assert!(own == told, "the rows differ");
+    let (own, messages) = run(&compiled(&text, &[], None), &times);
+    let (reported, _) = run(&compiled(&text, &["turn=30 deg + 90 deg/s * t"], None), &times);
+    assert!(own.len() == 101 && messages.is_empty(), "{messages:?}");
+    assert!(own == reported, "the rows differ");
 }
 
 /// A crank that cannot turn all around: its ground is too long.
@@ -158,19 +158,19 @@ fn a_dead_point_on_the_way_is_told_and_the_estimates_alone_are_tried() {
     // -30 deg is there, and so is 330 deg, but not on the way round
     let text = rocking(TURN, "turn");
     assert!(run(&compiled(&text, &["turn=-30 deg"], None), &Times::listed(0.0, vec![0.0])).1.is_empty());
-    let (rows, said) = run(&compiled(&text, &["turn=330 deg"], None), &Times::listed(0.0, vec![0.0]));
-    assert_eq!((rows.len(), codes(&said)), (1, vec!["E0612"]));
-    let told = said.iter().next().expect("a diagnostic");
-    assert!(told.message.starts_with("on the way to the inputs that are given there is a dead point at `turn` = "));
+    let (rows, messages) = run(&compiled(&text, &["turn=330 deg"], None), &Times::listed(0.0, vec![0.0]));
+    assert_eq!((rows.len(), codes(&messages)), (1, vec!["E0612"]));
+    let reported = messages.iter().next().expect("a diagnostic");
+    assert!(reported.message.starts_with("on the way to the inputs that are given there is a dead point at `turn` = "));
     // the pins are in one line with the pivots where (90 + 70)² = 30² + 150² - 2·30·150 cos(turn)
     let limit = acos((30.0 * 30.0 + 150.0 * 150.0 - 160.0 * 160.0) / (2.0 * 30.0 * 150.0));
-    let part = told.data["part"].as_f64().expect("a number");
+    let part = reported.data["part"].as_f64().expect("a number");
     let (from, to) = (30_f64.to_radians(), 330_f64.to_radians());
     assert!((from + (to - from) * part - limit).abs() < 1e-6, "{part}");
-    assert_eq!(told.labels[0].text, "led from 0.5235987756 rad to 5.759586532 rad, and got to 1.817743041 rad");
+    assert_eq!(reported.labels[0].text, "led from 0.5235987756 rad to 5.759586532 rad, and got to 1.817743041 rad");
     // where there is no position, that is told too
-    let (rows, said) = run(&compiled(&text, &["turn=180 deg"], None), &Times::listed(0.0, vec![0.0]));
-    assert_eq!((rows.len(), codes(&said)), (0, vec!["E0612", "E0601"]));
+    let (rows, messages) = run(&compiled(&text, &["turn=180 deg"], None), &Times::listed(0.0, vec![0.0]));
+    assert_eq!((rows.len(), codes(&messages)), (0, vec!["E0612", "E0601"]));
 }
 
 #[test]
@@ -183,8 +183,8 @@ fn a_kink_on_the_way_is_passed_and_a_jump_is_not() {
     let many = text("input turn = 0", "30 deg + abs(mod(turn + 0.5, 1) - 0.5) * 100 deg");
     assert!(same_place(&first_row(&compiled(&many, &["turn=20.5"], None), 0.0), &followed(text, 80.0)));
     let jumping = text(TURN, "if turn < 90 deg then turn else turn + 20 deg");
-    let (rows, said) = run(&compiled(&jumping, &["turn=150 deg"], None), &Times::listed(0.0, vec![0.0]));
-    assert!(rows.len() == 1 && codes(&said)[0] == "E0612", "{said:?}");
+    let (rows, messages) = run(&compiled(&jumping, &["turn=150 deg"], None), &Times::listed(0.0, vec![0.0]));
+    assert!(rows.len() == 1 && codes(&messages)[0] == "E0612", "{messages:?}");
 }
 
 #[test]
@@ -206,17 +206,17 @@ fn a_file_that_does_not_stand_alone_begins_from_its_estimates() {
 #[test]
 fn estimates_that_are_far_off_are_told_of_the_file_s_own_start() {
     let text = four_bar(&Links { angles: [40.0, -100.0], ..CRANK_ROCKER[0] }, TURN, "turn");
-    let (rows, said) = run(&compiled(&text, &["turn=100 deg"], None), &Times::listed(3.0, vec![3.0]));
-    assert_eq!((rows.len(), codes(&said)), (1, vec!["N0601"]));
-    assert!(said.iter().all(|said| said.message.ends_with("at t = 0 s")), "{said:?}");
+    let (rows, messages) = run(&compiled(&text, &["turn=100 deg"], None), &Times::listed(3.0, vec![3.0]));
+    assert_eq!((rows.len(), codes(&messages)), (1, vec!["N0601"]));
+    assert!(messages.iter().all(|message| message.message.ends_with("at t = 0 s")), "{messages:?}");
 }
 
 #[test]
 fn code_begins_where_a_run_does() {
     let text = four_bar(&DRAG_LINK[1], TURN, "turn");
     let led = compiled(&text, &["turn=250 deg + 0 rad/s * t"], None);
-    let (code, said) = led.rust(&mechc::RustOptions::of("four_bar"));
-    assert!(said.is_empty(), "{said:?}");
+    let (code, messages) = led.rust(&mechc::RustOptions::of("four_bar"));
+    assert!(messages.is_empty(), "{messages:?}");
     let code = code.expect("code");
     for value in &first_row(&led, 0.0)[4..10] {
         let digits = format!("{value:?}");
@@ -234,8 +234,8 @@ fn an_input_is_led_to_a_number_too() {
     let inputs = vec![("turn".to_owned(), 250_f64.to_radians())];
     let lead = Some(check::Lead { times: [1.0, 3.0], inputs });
     let surroundings = check::Surroundings { lead, ..check::Surroundings::default() };
-    let (model, said) = check::check(&tree.mechanisms[0], &surroundings, &sources);
-    let model = model.unwrap_or_else(|| panic!("{said:?}"));
+    let (model, messages) = check::check(&tree.mechanisms[0], &surroundings, &sources);
+    let model = model.unwrap_or_else(|| panic!("{messages:?}"));
     let lines: Vec<(&str, [f64; 2])> = model.led.iter().map(|led| (led.declared.name.as_str(), led.line)).collect();
     assert_eq!(lines, [("turn", [30.0, 250.0]), ("more", [20.0, 60.0])].map(|(n, l)| (n, l.map(f64::to_radians))));
     let (determined, _) =
@@ -255,8 +255,8 @@ fn what_is_cancelled_says_nothing() {
     let cancel = Cancel::default();
     let led = compiled(&rocking(TURN, "turn"), &["turn=330 deg"], None);
     cancel.cancel();
-    let (run, said) = led.run(&Times::listed(0.0, vec![0.0]), &RunOptions { cancel, ..RunOptions::default() });
-    assert!(run.is_none() && said.is_empty());
+    let (run, messages) = led.run(&Times::listed(0.0, vec![0.0]), &RunOptions { cancel, ..RunOptions::default() });
+    assert!(run.is_none() && messages.is_empty());
 }
 
 /// A parallelogram, which folds at a half turn and at a whole one.
@@ -280,22 +280,22 @@ fn parallelogram(name: &str, input: &str) -> String {
 /// What is said on a way, with the parts of it at which that is.
 fn said_on_the_way(compiled: &Compiled, pass_bifurcations: bool) -> (Vec<(String, f64)>, Vec<f64>) {
     let options = RunOptions { pass_bifurcations, ..RunOptions::default() };
-    let (run, said) = compiled.run(&Times::listed(0.0, vec![0.0]), &options);
+    let (run, messages) = compiled.run(&Times::listed(0.0, vec![0.0]), &options);
     let row = run.expect("it starts").next().expect("a row").expect("it stands");
-    let told = said.iter().map(|said| {
-        let whole = format!("{} {}", said.code.as_str(), said.message);
-        (whole, said.data["part"].as_f64().expect("a part"))
+    let reported = messages.iter().map(|message| {
+        let whole = format!("{} {}", message.code.as_str(), message.message);
+        (whole, message.data["part"].as_f64().expect("a part"))
     });
-    (told.collect(), row)
+    (reported.collect(), row)
 }
 
 #[test]
-fn bifurcations_that_are_passed_on_the_way_are_told() {
+fn bifurcations_that_are_passed_on_the_way_are_reported() {
     let led = compiled(&parallelogram("m", "45 deg"), &["turn=405 deg"], None);
-    let (told, row) = said_on_the_way(&led, true);
+    let (reported, row) = said_on_the_way(&led, true);
     let wanted = [(PI, 0.375), (2.0 * PI, 0.875)];
-    assert_eq!(told.len(), wanted.len(), "{told:?}");
-    for ((message, part), (place, at)) in told.iter().zip(wanted) {
+    assert_eq!(reported.len(), wanted.len(), "{reported:?}");
+    for ((message, part), (place, at)) in reported.iter().zip(wanted) {
         let begins = "W0602 on the way to the inputs that are given two branches of the motion meet at `turn` = ";
         let number = message.strip_prefix(begins).and_then(|rest| rest.split(" rad;").next()).expect("a place");
         assert!((number.parse::<f64>().expect("a number") - place).abs() < 1e-5, "{message}");
@@ -304,8 +304,11 @@ fn bifurcations_that_are_passed_on_the_way_are_told() {
     // it is the parallelogram still
     assert!((row[3] - 405_f64.to_radians()).abs() < 1e-12 && (row[9] - row[3]).abs() < 1e-9, "{row:?}");
     // where they are not passed the way ends there
-    let (told, _) = said_on_the_way(&led, false);
-    assert!(told.len() == 1 && told[0].0.starts_with("E0612") && (told[0].1 - 0.375).abs() < 1e-6, "{told:?}");
+    let (reported, _) = said_on_the_way(&led, false);
+    assert!(
+        reported.len() == 1 && reported[0].0.starts_with("E0612") && (reported[0].1 - 0.375).abs() < 1e-6,
+        "{reported:?}"
+    );
     let short = compiled(&parallelogram("m", "45 deg"), &["turn=170 deg"], None);
     assert!(said_on_the_way(&short, true).0.is_empty());
 }
@@ -322,22 +325,22 @@ fn a_part_tells_what_it_passed_on_its_way_and_where_it_is_used() {
     );
     let options = RunOptions { pass_bifurcations: true, ..RunOptions::default() };
     let whole = compiled(&text, &[], None);
-    let (run, said) = whole.run(&Times::listed(0.0, vec![0.0]), &options);
+    let (run, messages) = whole.run(&Times::listed(0.0, vec![0.0]), &options);
     assert!(run.is_some());
-    let told: Vec<(&str, f64)> = said
+    let reported: Vec<(&str, f64)> = messages
         .iter()
-        .map(|said| {
-            assert_eq!(said.code.as_str(), "W0602");
-            let used = said.labels.iter().find(|label| label.text.starts_with("in part `"));
+        .map(|message| {
+            assert_eq!(message.code.as_str(), "W0602");
+            let used = message.labels.iter().find(|label| label.text.starts_with("in part `"));
             let part = used.expect("where it is used").text.split('`').nth(1).expect("a name");
-            assert!(said.message.contains(&format!("of the part `{part}` to its inputs")), "{}", said.message);
-            (part, said.data["part"].as_f64().expect("a part"))
+            assert!(message.message.contains(&format!("of the part `{part}` to its inputs")), "{}", message.message);
+            (part, message.data["part"].as_f64().expect("a part"))
         })
         .collect();
     let wanted = [("far", 135.0 / 155.0), ("other", 45.0 / 245.0), ("other", 225.0 / 245.0)];
-    assert_eq!(told.iter().map(|(part, _)| *part).collect::<Vec<_>>(), wanted.map(|(part, _)| part));
-    for ((_, found), (_, wanted)) in told.iter().zip(wanted) {
-        assert!((found - wanted).abs() < 1e-6, "{told:?}");
+    assert_eq!(reported.iter().map(|(part, _)| *part).collect::<Vec<_>>(), wanted.map(|(part, _)| part));
+    for ((_, found), (_, wanted)) in reported.iter().zip(wanted) {
+        assert!((found - wanted).abs() < 1e-6, "{reported:?}");
     }
 }
 
@@ -346,8 +349,8 @@ fn led_over(text: &str, set: &[&str]) -> Compiled {
     let set = set.iter().map(|set| (*set).to_owned()).collect();
     let checked =
         Parsed::of("four_bar.mech", text).check(&Choice { set, lead: true, ..Choice::default() }, &Memory::default());
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    compiled.unwrap_or_else(|| panic!("{:?} {said:?}", checked.diagnostics()))
+    let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
+    compiled.unwrap_or_else(|| panic!("{:?} {messages:?}", checked.diagnostics()))
 }
 
 const START: &str = "param start = 30 deg";
@@ -406,11 +409,12 @@ fn lengths_and_points_lead_as_well() {
         assert!(mechc_expr::math::hypot(one[0] - other[0], one[1] - other[1]) < 1e-12, "{row:?}");
     }
     // at 145.5 mm coupler and rocker lie in one line
-    let (rows, said) = run(&led_over(text, &["coupler_length=300mm"]), &Times::listed(0.0, vec![0.0]));
-    assert_eq!((rows.len(), codes(&said)), (0, vec!["E0612", "E0601"]));
-    let told = said.iter().next().expect("a diagnostic");
+    let (rows, messages) = run(&led_over(text, &["coupler_length=300mm"]), &Times::listed(0.0, vec![0.0]));
+    assert_eq!((rows.len(), codes(&messages)), (0, vec!["E0612", "E0601"]));
+    let reported = messages.iter().next().expect("a diagnostic");
     assert!(
-        told.message
+        reported
+            .message
             .starts_with("on the way to the values that are set there is a dead point at `coupler_length` = 0.1455238")
     );
 }

@@ -234,7 +234,7 @@ fn what_does_not_exist_has_an_empty_cell_and_spoils_nothing() {
         assert_eq!(is_there(name), [true; 3], "{name}");
     }
     assert!((outcome.column("fast")[1] - 0.01 * PI).abs() < 1e-12);
-    let warnings: Vec<&str> = outcome.diagnostics.iter().map(|said| said.message.as_str()).collect();
+    let warnings: Vec<&str> = outcome.diagnostics.iter().map(|message| message.message.as_str()).collect();
     assert!(warnings.iter().any(|text| text.contains("`far`") && text.contains("t = 0 s")), "{warnings:?}");
 }
 

@@ -1,18 +1,18 @@
-//! Tests by name that are made of a list: of files, pages, systems. `cargo test --test listed four_bar` runs those of one.
+//! Named tests from lists of files, pages and systems. `cargo test --test listed four_bar` runs those of one.
 
 use libtest_mimic::{Arguments, Trial};
 
-/// Whether the command line asks for a test of a name.
-pub fn is_asked_for(name: &str) -> bool {
+/// Returns whether the command line selects a test.
+pub fn is_requested(name: &str) -> bool {
     !Arguments::from_args().is_filtered_out(&Trial::test(name, || Ok(())))
 }
 
-/// Tests in the making, by their names.
+/// Tests under construction, by name.
 #[derive(Default)]
 pub struct Tests(Vec<Trial>);
 
 impl Tests {
-    /// One more; it fails by panicking.
+    /// Adds a test, which fails by panicking.
     pub fn add(&mut self, name: impl Into<String>, test: impl FnOnce() + Send + 'static) {
         self.0.push(Trial::test(name, move || {
             test();
@@ -20,7 +20,7 @@ impl Tests {
         }));
     }
 
-    /// One for each of a list, `group::name`; there are at least so many.
+    /// Adds a test `group::name` for each item of a list with at least a given length.
     pub fn each<T: Send + 'static>(
         &mut self,
         group: &str,
@@ -36,7 +36,7 @@ impl Tests {
         assert!(count >= at_least, "only {count} of `{group}`");
     }
 
-    /// Runs those that the command line asks for.
+    /// Runs the tests that the command line selects.
     pub fn run(self) -> ! {
         libtest_mimic::run(&Arguments::from_args(), self.0).exit()
     }

@@ -1,13 +1,13 @@
-//! Sweeps of texts, and each of their variants alone.
+//! Sweeps of texts, and single runs of each variant.
 
-#![allow(dead_code)] // not every test that has this room asks for all of it
+#![allow(dead_code)] // not every test uses all of it
 
 use mechc::{
     Cancel, Checked, Choice, Code, Compiled, Memory, Parsed, Redundant, RunOptions, Status, SweepOptions, Swept,
     Variants, VaryOptions, World,
 };
 
-/// A mechanism that is swept.
+/// A mechanism for sweeps.
 pub struct Subject {
     pub parsed: Parsed,
     pub choice: Choice,
@@ -15,7 +15,7 @@ pub struct Subject {
     pub compiled: Compiled,
 }
 
-/// A text with what is chosen of it.
+/// Reads a text with a choice.
 pub fn subject(text: &str, choice: Choice) -> Subject {
     let parsed = Parsed::of("text.mech", text);
     let choice = Choice { lead: true, ..choice };
@@ -26,12 +26,12 @@ pub fn subject(text: &str, choice: Choice) -> Subject {
 }
 
 impl Subject {
-    /// The variants of what is to vary.
+    /// Returns the variants of a sweep.
     pub fn variants(&self, vary: &VaryOptions) -> Variants {
         self.variants_in(vary, &Memory::default()).unwrap_or_else(|said| panic!("{said}"))
     }
 
-    /// The same, with the files of a world.
+    /// Returns the variants of a sweep, with the files of a world.
     pub fn variants_in(&self, vary: &VaryOptions, world: &dyn World) -> Result<Variants, String> {
         let said = |(_, said): (_, mechc::Diagnostics)| {
             said.iter().map(|said| said.message.clone()).collect::<Vec<_>>().join("; ")
@@ -39,8 +39,8 @@ impl Subject {
         self.checked.variants(vary, &self.choice, world).map_err(said)
     }
 
-    /// All blocks of a sweep, as one.
-    pub fn swept(&self, variants: &Variants, options: &SweepOptions) -> Swept {
+    /// Runs a sweep and joins its blocks.
+    pub fn sweep(&self, variants: &Variants, options: &SweepOptions) -> Swept {
         let mut blocks = self.checked.sweep(&self.compiled, variants, options, |block| block).expect("times are said");
         let mut all = blocks.next().expect("a block");
         for block in blocks {
@@ -50,8 +50,8 @@ impl Subject {
         all
     }
 
-    /// What `run --lead --set` makes of a variant: its status, its results, and the rows up to where it stops.
-    pub fn alone(&self, settings: Vec<String>) -> (Status, Vec<f64>, Vec<Vec<f64>>) {
+    /// Returns what `run --lead --set` computes for a variant: its status, its results, and its rows up to where it stops.
+    pub fn run_single(&self, settings: Vec<String>) -> (Status, Vec<f64>, Vec<Vec<f64>>) {
         let count = self.compiled.results().len();
         let nothing = vec![f64::NAN; count];
         let set = self.choice.set.iter().cloned().chain(settings).collect();
@@ -80,13 +80,13 @@ impl Subject {
         (if is_reassembled { Status::Reassembled } else { Status::Ok }, results, rows)
     }
 
-    /// Rows with all columns.
+    /// Returns options for rows with all columns.
     pub fn all_columns(&self) -> SweepOptions {
         SweepOptions { columns: Some((0..self.compiled.columns().len()).collect()), ..SweepOptions::default() }
     }
 }
 
-/// Puts a block behind others.
+/// Appends a block to others.
 pub fn join(all: &mut Swept, block: Swept) {
     all.statuses.extend(block.statuses);
     all.stopped.extend(block.stopped);
@@ -99,35 +99,35 @@ pub fn join(all: &mut Swept, block: Swept) {
     all.columns.iter_mut().zip(&block.columns).for_each(|(all, more)| all.extend(more.iter().copied()));
 }
 
-/// The bits of numbers; what is no number is one.
+/// Returns the bits of numbers; all NaNs are equal.
 pub fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| if number.is_nan() { u64::MAX } else { number.to_bits() }).collect()
 }
 
-/// All of a block, by its bits.
+/// Returns statuses, lengths and bits of a block.
 pub fn bits_of(block: &Swept) -> (Vec<Status>, Vec<usize>, Vec<Vec<u64>>) {
     let told = block.params.iter().chain(&block.results).chain([&block.stopped]).map(Vec::as_slice);
     let columns = told.chain(block.columns.iter().map(|column| &**column));
     (block.statuses.clone(), block.lengths.clone(), columns.map(bits).collect())
 }
 
-/// Whether numbers are the same ones, to the bit.
-pub fn have_the_same_bits(found: &[f64], known: &[f64]) -> bool {
+/// Returns whether numbers have equal bits.
+pub fn have_equal_bits(found: &[f64], known: &[f64]) -> bool {
     bits(found) == bits(known)
 }
 
-/// Compares each variant with what it is alone; gives how many of each status there are.
+/// Compares each variant with a single run, and returns each status with its count.
 pub fn compare(subject: &Subject, variants: &Variants) -> Vec<(Status, usize)> {
     compare_all(subject, variants).0
 }
 
-/// The same, and how many went side by side.
+/// Compares each variant with a single run, and returns each status with its count, and the number of variants that ran in batches.
 pub fn compare_all(subject: &Subject, variants: &Variants) -> (Vec<(Status, usize)>, usize) {
-    let block = subject.swept(variants, &subject.all_columns());
+    let block = subject.sweep(variants, &subject.all_columns());
     let (mut first_row, mut found) = (0, Vec::new());
     for k in 0..block.len() {
         let settings = variants.settings(k as u64);
-        let (status, results, rows) = subject.alone(settings.clone());
+        let (status, results, rows) = subject.run_single(settings.clone());
         assert_eq!(block.statuses[k], status, "{settings:?}");
         let swept: Vec<f64> = block.results.iter().map(|column| column[k]).collect();
         assert_eq!(bits(&swept), bits(&results), "{settings:?}");
@@ -146,12 +146,12 @@ pub fn compare_all(subject: &Subject, variants: &Variants) -> (Vec<(Status, usiz
     (found, block.abreast)
 }
 
-/// What is to vary.
+/// Returns options that vary some parameters.
 pub fn vary(params: &[&str]) -> VaryOptions {
     VaryOptions { params: params.iter().map(|&param| param.to_owned()).collect(), ..VaryOptions::default() }
 }
 
-/// How many have a status.
+/// Returns the count of a status.
 pub fn count(found: &[(Status, usize)], wanted: Status) -> usize {
     found.iter().find(|(status, _)| *status == wanted).map_or(0, |(_, count)| *count)
 }

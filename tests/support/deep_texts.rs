@@ -1,26 +1,26 @@
-//! The deepest texts that there are, and all the ways that a text can go: what must do with a small stack on every platform.
+//! Deeply nested texts and all stages that process them: each must work with a small stack on every platform.
 
 use mechc::{
     Cancel, Choice, Color, Compiled, Diagnostics, Format, Memory, Parsed, Redundant, RunOptions, RustOptions, Sources,
     TableFormat, TableWriter, Times, imported, render,
 };
 
-/// A text that is deep in one way, which goes all the way.
+/// A text that is nested as deeply as possible in one way.
 pub struct Deep {
     pub name: &'static str,
     pub text: String,
-    /// Whether it is the model file of another program.
+    /// True for a model file of another program.
     pub is_foreign: bool,
 }
 
-/// Levels of nesting that a text may have; what stands outermost takes one of them here and there.
+/// Number of levels that a text may have; the outermost construct sometimes takes one of them.
 const LEVELS: usize = 195;
 
-/// Members of a chain: many more than any stack has room for frames.
+/// Length of a chain: far more than the frames of any stack.
 const MEMBERS: usize = if cfg!(debug_assertions) { 1_500 } else { 3_000 };
 
-/// What is deep in each of the ways that there are.
-pub fn deepest() -> Vec<Deep> {
+/// Returns a text for each way of nesting.
+pub fn deep_texts() -> Vec<Deep> {
     let nested = |open: &str, inner: &str, close: &str, levels: usize| {
         format!("{}{inner}{}", open.repeat(levels), close.repeat(levels))
     };
@@ -74,7 +74,7 @@ pub fn deepest() -> Vec<Deep> {
     deepest
 }
 
-/// Mechanisms that are parts of each other, each with what the one in it measures, and led by its input.
+/// Returns mechanisms that are parts of each other; each measures the inner one and passes its input on.
 fn parts_in_parts(levels: usize) -> String {
     let outer = |level: usize| {
         let inner = level + 1;
@@ -90,7 +90,7 @@ fn parts_in_parts(levels: usize) -> String {
     (0..levels).map(outer).collect::<String>() + &last
 }
 
-/// A chain of declarations, each with the one before in it; the last is `f`.
+/// Returns a chain of declarations, each of which uses the one before; the last is `f`.
 fn chain(word: &str, argument: &str, first: &str, next: impl Fn(usize) -> String) -> String {
     chain_of(MEMBERS, word, argument, first, next)
 }
@@ -126,8 +126,8 @@ fn foreign(formula: &str) -> String {
     )
 }
 
-/// A text on all ways: what is said of it, or its table, and the sizes of everything else that can be made of it.
-pub fn all_ways(deep: &Deep) -> Result<String, String> {
+/// Runs all stages on a text. Returns its diagnostics, or its table and the sizes of all other outputs.
+pub fn run_all_stages(deep: &Deep) -> Result<String, String> {
     let text = if deep.is_foreign { translated(deep)? } else { deep.text.clone() };
     let parsed = Parsed::of(deep.name, &text);
     let (made, sources) = ways(&parsed);
@@ -161,13 +161,13 @@ fn ways(parsed: &Parsed) -> (Result<String, Diagnostics>, Sources) {
     (table(&compiled).map(|table| format!("{table}\n{sizes:?}\n")), sources)
 }
 
-/// The rows over the analysis that a mechanism has.
+/// Returns the rows of a mechanism's own analysis.
 pub fn table(compiled: &Compiled) -> Result<String, Diagnostics> {
     let [from, to, every] = compiled.analysis().unwrap_or([0.0, 1.0, 0.1]);
     let times = Times::grid(from, to, every).unwrap_or_else(|| Times::listed(from, vec![from]));
     let (run, said) = compiled.run(&times, &RunOptions::default());
     let rows = run.ok_or(said)?.collect::<Result<Vec<Vec<f64>>, _>>().map_err(|why| Diagnostics::from(*why))?;
-    // a list takes everything
+    // writing to a vector cannot fail
     let (mut text, units) = (Vec::new(), compiled.units());
     let writer = TableWriter::new(&mut text, TableFormat::Csv, &compiled.columns(), &[]).and_then(|mut writer| {
         rows.iter().try_for_each(|row| {

@@ -1,48 +1,48 @@
-//! Lengths that do not let a mechanism be assembled: what is said of them stands beside them, and those of the ground, which no body
-//! shows, are lines.
+//! Lengths that prevent the assembly of a mechanism: their messages stand next to them, and lengths on the ground, which no body shows, are
+//! lines.
 
 use super::features::Features;
 use super::plane::{Path, Pose, Vector, is_finite, plus, times};
-use super::{Anchor, Look, Node, Place, Remark, Scene, Shape};
+use super::{Anchor, Attachment, Look, Node, Remark, Scene, Shape};
 use mechc_lang::model::{EquationForm, PointId};
 
-/// A length that a message blames, between the places that declarations have on a body.
+/// A length that a message blames.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Length {
-    /// The frame that it is of; none if a declaration prescribes it between its own two places.
+    /// Frame that has the length, or `None` if a declaration prescribes it between its own two points.
     pub frame: Option<usize>,
-    /// The declarations that it runs between; one and the same if that prescribes it.
+    /// Declarations at its two ends; the same one twice if that prescribes the length.
     pub ends: [usize; 2],
-    /// What is said of it.
+    /// Text of the message.
     pub text: String,
 }
 
-/// A mechanism at rest, which is when lengths are blamed.
-pub(super) struct Blamed<'m> {
+/// A mechanism at rest, in which lengths are blamed.
+pub(super) struct LengthMarks<'m> {
     pub features: &'m Features<'m>,
     pub poses: &'m [Pose],
-    /// The declarations of the first joint and of the first equation.
+    /// Indices of the declarations of the first joint and of the first equation.
     pub joints: usize,
     pub equations: usize,
 }
 
-impl Blamed<'_> {
-    /// Says beside lengths what is said of them.
+impl LengthMarks<'_> {
+    /// Adds the texts of lengths next to them.
     pub fn add(&self, scene: &mut Scene, lengths: &[Length]) {
         for length in lengths {
             let Some(ends) = self.ends(length) else { continue };
-            let [from, to] = ends.map(|end| end.placed(self.poses));
+            let [from, to] = ends.map(|end| end.position(self.poses));
             if !is_finite(from) || !is_finite(to) {
                 continue;
             }
             scene.remarks.push(Remark { at: times(0.5, plus(from, to)), text: length.text.clone() });
             if length.frame == Some(0) {
-                scene.nodes.push(line_of_ground([from, to]));
+                scene.nodes.push(ground_line([from, to]));
             }
         }
     }
 
-    /// The places that a length runs between.
+    /// Returns the ends of a length.
     fn ends(&self, length: &Length) -> Option<[Anchor; 2]> {
         let [first, second] = length.ends;
         let anchors = |declaration| self.points(declaration).into_iter().map(|point| self.features.point(point));
@@ -51,7 +51,7 @@ impl Blamed<'_> {
         Some([on_frame(first)?, on_frame(second)?])
     }
 
-    /// The points of a joint, or of a distance that is prescribed.
+    /// Returns the points of a joint or of a prescribed distance.
     fn points(&self, declaration: usize) -> Vec<PointId> {
         let model = self.features.model;
         if let Some(equation) = declaration.checked_sub(self.equations).and_then(|number| model.equations.get(number)) {
@@ -65,7 +65,7 @@ impl Blamed<'_> {
     }
 }
 
-fn line_of_ground(ends: [Vector; 2]) -> Node {
+fn ground_line(ends: [Vector; 2]) -> Node {
     let shapes = vec![Shape { path: Path::line(ends), look: Look::Named, point: None }];
-    Node { declaration: 0, place: Place::Fixed(0), shapes }
+    Node { declaration: 0, attachment: Attachment::Fixed(0), shapes }
 }

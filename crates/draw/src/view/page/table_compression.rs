@@ -1,15 +1,14 @@
-//! Tables as they travel: each number exact to the last bit, in far fewer bytes.
+//! Lossless compression of tables for pages.
 //!
-//! A number is taken for a whole number in the order of the reals. What is stored is how far it is from what the rows before it foretell,
-//! the polynomial through the last K of them; near a smooth curve that is small. The differences are written zigzag (0, -1, 1, -2, …) and
-//! in planes: of each column first all highest bytes, then all second ones, and so on. All of it is deflated. First comes K for each column.
+//! Each number is mapped to an integer in the order of the reals. Stored is its difference from a prediction, the polynomial through the
+//! last K values, which is small near a smooth curve. Differences are written zigzag (0, -1, 1, -2, …) and in planes: for each column first
+//! all highest bytes, then all second ones, and so on. K of each column comes first, and everything is deflated.
 //!
-//! What is foretold is computed with nothing but sums and products, in an order that `page/src/data/inflate.ts` keeps, so that it has the
-//! same bits there.
+//! Predictions use nothing but sums and products, in an order that `page/src/data/inflate.ts` repeats, which gives the same bits there.
 
-/// The greatest order of prediction.
+/// Greatest order of prediction.
 const GREATEST_ORDER: usize = 8;
-/// (-1)^(j+1) · (K over j), by K and j - 1: what the last value, the one before it, and so on, are multiplied with.
+/// (-1)^(j+1) · (K over j), by K and j - 1: factors of the last value, the one before it, and so on.
 const WEIGHTS: [[f64; GREATEST_ORDER]; GREATEST_ORDER + 1] = [
     [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
     [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
@@ -21,52 +20,52 @@ const WEIGHTS: [[f64; GREATEST_ORDER]; GREATEST_ORDER + 1] = [
     [7.0, -21.0, 35.0, -35.0, 21.0, -7.0, 1.0, 0.0],
     [8.0, -28.0, 56.0, -70.0, 56.0, -28.0, 8.0, -1.0],
 ];
-/// How hard the compressor tries, of 10.
+/// Compression level of deflate, of 10.
 const EFFORT: u8 = 9;
 
-/// A table, all of whose columns are as long, as Base64 of what is deflated.
-pub(super) fn written(columns: &[Vec<f64>]) -> String {
-    super::base64::written(&miniz_oxide::deflate::compress_to_vec(&planes(columns), EFFORT))
+/// Compresses a table with columns of equal length and returns it as Base64.
+pub(super) fn compress(columns: &[Vec<f64>]) -> String {
+    super::base64::encode(&miniz_oxide::deflate::compress_to_vec(&planes(columns), EFFORT))
 }
 
-/// The bytes before they are deflated.
+/// Returns the bytes before compression.
 fn planes(columns: &[Vec<f64>]) -> Vec<u8> {
     let rows = columns.first().map_or(0, Vec::len);
     let mut bytes = vec![0; columns.len()];
     bytes.reserve(8 * rows * columns.len());
-    let (mut best, mut tried) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
+    let (mut smallest, mut candidate) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
     for (k, column) in columns.iter().enumerate() {
         let mut least = u64::MAX;
         for order in 0..=GREATEST_ORDER {
-            let cost = differ(column, order, &mut tried);
+            let cost = differences(column, order, &mut candidate);
             if cost < least {
                 least = cost;
                 bytes[k] = order as u8;
-                std::mem::swap(&mut best, &mut tried);
+                std::mem::swap(&mut smallest, &mut candidate);
             }
         }
         for plane in (0..8).rev() {
-            bytes.extend(best.iter().map(|zigzag| (zigzag >> (8 * plane)) as u8));
+            bytes.extend(smallest.iter().map(|zigzag| (zigzag >> (8 * plane)) as u8));
         }
     }
     bytes
 }
 
-/// How far each number is from what is foretold, zigzag; and how many bits that takes.
-fn differ(column: &[f64], order: usize, zigzags: &mut Vec<u64>) -> u64 {
+/// Computes the zigzag differences from the predictions, and returns the number of bits that they take.
+fn differences(column: &[f64], order: usize, zigzags: &mut Vec<u64>) -> u64 {
     zigzags.clear();
     let mut bits = 0;
     for (row, &value) in column.iter().enumerate() {
-        let apart = ordered(value).wrapping_sub(ordered(foretold(&column[..row], order))).cast_signed();
-        let zigzag = (apart << 1 ^ apart >> 63).cast_unsigned();
+        let difference = ordered(value).wrapping_sub(ordered(predict(&column[..row], order))).cast_signed();
+        let zigzag = (difference << 1 ^ difference >> 63).cast_unsigned();
         bits += u64::from(64 - zigzag.leading_zeros());
         zigzags.push(zigzag);
     }
     bits
 }
 
-/// The value of the polynomial through the last rows: through all of them, where they are fewer; 0 where that is no number.
-fn foretold(before: &[f64], order: usize) -> f64 {
+/// Returns the value of the polynomial through the last `order` values, or through all of them if there are fewer; 0 if it is not finite.
+fn predict(before: &[f64], order: usize) -> f64 {
     let order = order.min(before.len());
     let mut sum = 0.0;
     for (weight, value) in WEIGHTS[order][..order].iter().zip(before.iter().rev()) {
@@ -75,29 +74,29 @@ fn foretold(before: &[f64], order: usize) -> f64 {
     if sum.is_finite() { sum } else { 0.0 }
 }
 
-/// A number as a whole number; these have the order of the reals.
+/// Maps a number to an integer; the order of the integers is that of the reals.
 fn ordered(value: f64) -> u64 {
-    // of what is no number there is one alone: which one it was has no meaning
+    // all NaNs become one: their payloads have no meaning
     let bits = if value.is_nan() { f64::NAN.to_bits() & !(1 << 63) } else { value.to_bits() };
     if bits >> 63 == 1 { !bits } else { bits | 1 << 63 }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{WEIGHTS, foretold, planes};
+    use super::{WEIGHTS, planes, predict};
     use proptest::prelude::*;
 
-    /// The columns behind the planes, slowly and plainly.
+    /// Reads the columns from the planes, slowly and plainly.
     fn read(bytes: &[u8], rows: usize, columns: usize) -> Vec<Vec<f64>> {
         let column = |k: usize| {
             let planes = &bytes[columns + 8 * rows * k..];
             let mut values: Vec<f64> = Vec::new();
             for row in 0..rows {
                 let zigzag = (0..8).fold(0, |bits: u64, plane| bits << 8 | u64::from(planes[plane * rows + row]));
-                let apart = if zigzag & 1 == 1 { !(zigzag >> 1) } else { zigzag >> 1 };
-                let from = foretold(&values, usize::from(bytes[k])).to_bits();
+                let difference = if zigzag & 1 == 1 { !(zigzag >> 1) } else { zigzag >> 1 };
+                let from = predict(&values, usize::from(bytes[k])).to_bits();
                 let from = if from >> 63 == 1 { !from } else { from | 1 << 63 };
-                let ordered = from.wrapping_add(apart);
+                let ordered = from.wrapping_add(difference);
                 values.push(f64::from_bits(if ordered >> 63 == 1 { ordered & !(1 << 63) } else { !ordered }));
             }
             values
@@ -129,7 +128,7 @@ mod tests {
     #[test]
     fn polynomials_are_foretold() {
         let cubic: Vec<f64> = (0..10).map(|k| f64::from(k * k * k - 4 * k)).collect();
-        assert!((foretold(&cubic, 4) - (1000.0 - 40.0)).abs() < 1e-9);
+        assert!((predict(&cubic, 4) - (1000.0 - 40.0)).abs() < 1e-9);
     }
 
     #[test]
@@ -159,7 +158,7 @@ mod tests {
         let smooth = |k: u32, t: f64| f64::from(k) + 1.0 / (1.0 + t * t * f64::from(k + 1));
         let column = |k: u32| (0..rows).map(|row| smooth(k, f64::from(row) * 0.004)).collect();
         let columns: Vec<Vec<f64>> = (0..8).map(column).collect();
-        let text = super::written(&columns);
+        let text = super::compress(&columns);
         assert!(text.len() < 8 * 8 * 1000 * 2 / 3, "{} bytes", text.len());
     }
 

@@ -1,4 +1,4 @@
-//! The whole scene: what can be pointed at, then all symbols, then the extent.
+//! Builder of the whole scene: declarations, then all symbols, then the extent.
 
 use super::drawing::{Drawing, First, Layer, Outline};
 use super::features::Features;
@@ -9,19 +9,19 @@ use super::{
 };
 use mechc_lang::model::{self, Frame, Mechanism, Named, PointId, Quantity};
 
-/// Rows that are looked at for the extent of everything.
-const LOOKED_AT: usize = 100;
+/// Number of rows that are sampled for the extent.
+const SAMPLED_ROWS: usize = 100;
 
-/// With symbols of a size, if one is given (m).
-pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Scene {
-    let features = Features::of(model);
+/// Builds a scene, with symbols of a given size (m) if there is one.
+pub(super) fn build(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Scene {
+    let features = Features::new(model);
     let (declarations, first) = declarations(model);
-    let (points, numbers) = points(&features);
+    let (points, point_indices) = points(&features);
     let mut outlines = vec![Outline::default(); motion.frames().max(1)];
-    for id in places_of_bodies(model) {
+    for id in shape_points(model) {
         let Anchor { frame, at } = features.point(id);
         if frame > 0 && super::is_finite(at) {
-            outlines[frame].places.push(at);
+            outlines[frame].positions.push(at);
         }
     }
     add_idle_points(&features, &mut outlines);
@@ -29,7 +29,7 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Sc
     let (feet, pins, profiles, pitch_lines, nodes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let contacts = contacts::contacts(&features, first.joints);
     let mut drawing =
-        Drawing { features, motion, unit, outlines, feet, pins, profiles, pitch_lines, numbers, first, nodes };
+        Drawing { features, motion, unit, outlines, feet, pins, profiles, pitch_lines, point_indices, first, nodes };
     gears::draw(&mut drawing);
     joints::draw(&mut drawing);
     drivers::draw(&mut drawing);
@@ -67,20 +67,21 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Sc
     }
 }
 
-/// A body that is held in no more than one place shows its other points as well: one of them may be what it is there for.
+/// Adds the named points of bodies that joints hold at one position at most: one of them may be the purpose of the body.
 fn add_idle_points(features: &Features, outlines: &mut [Outline]) {
-    let is_one_place = |outline: &Outline| outline.places.windows(2).all(|pair| distance(pair[0], pair[1]) <= 0.0);
-    let are_idle: Vec<bool> = outlines.iter().map(is_one_place).collect();
-    let placed = features.model.points.iter().filter(|point| point.name.is_some());
-    for point in placed {
-        let Anchor { frame, at } = features.placed(point.frame, point.at.map(|part| features.value(part)));
-        if frame > 0 && are_idle[frame] && super::is_finite(at) {
-            outlines[frame].places.push(at);
+    let has_one_position =
+        |outline: &Outline| outline.positions.windows(2).all(|pair| distance(pair[0], pair[1]) <= 0.0);
+    let is_idle: Vec<bool> = outlines.iter().map(has_one_position).collect();
+    let named = features.model.points.iter().filter(|point| point.name.is_some());
+    for point in named {
+        let Anchor { frame, at } = features.resolve(point.frame, point.at.map(|part| features.value(part)));
+        if frame > 0 && is_idle[frame] && super::is_finite(at) {
+            outlines[frame].positions.push(at);
         }
     }
 }
 
-/// All that can be pointed at: frames first, then points, circles, curves, joints, equations, measures, traces.
+/// Lists all declarations: frames, then points, circles, curves, joints, equations, measures, traces, loads.
 fn declarations(model: &Mechanism) -> (Vec<Declaration>, First) {
     let mut all = vec![Declaration { name: "ground".to_owned(), kind: "ground", span: model.declared.span }];
     let of = |declared: &model::Declared, kind| Declaration { name: declared.name.clone(), kind, span: declared.span };
@@ -109,13 +110,13 @@ fn declarations(model: &Mechanism) -> (Vec<Declaration>, First) {
     (all, first)
 }
 
-/// The declarations of the first joint and of the first equation.
-pub(super) fn first_of_joints_and_equations(model: &Mechanism) -> (usize, usize) {
+/// Returns the indices of the declarations of the first joint and of the first equation.
+pub(super) fn first_declarations(model: &Mechanism) -> (usize, usize) {
     let (_, first) = declarations(model);
     (first.joints, first.equations)
 }
 
-/// The points that have a name, and by model point its number among them.
+/// Returns the named points, and for each point of the model its index among them.
 fn points(features: &Features) -> (Vec<Point>, Vec<Option<usize>>) {
     let model = features.model;
     let mut is_pin = vec![false; model.points.len()];
@@ -129,20 +130,20 @@ fn points(features: &Features) -> (Vec<Point>, Vec<Option<usize>>) {
             }
         }
     }
-    let (mut points, mut numbers) = (Vec::new(), Vec::new());
+    let (mut points, mut indices) = (Vec::new(), Vec::new());
     for (point, is_pin) in model.points.iter().zip(is_pin) {
-        numbers.push(point.name.as_ref().map(|name| {
-            let Anchor { frame, at } = features.placed(point.frame, point.at.map(|part| features.value(part)));
+        indices.push(point.name.as_ref().map(|name| {
+            let Anchor { frame, at } = features.resolve(point.frame, point.at.map(|part| features.value(part)));
             let (name, number) = (format!("{}.{name}", model.frame_name(point.frame)), points.len());
             points.push(Point { declaration: 1 + model.bodies.len() + number, name, frame, at, is_pin });
             number
         }));
     }
-    (points, numbers)
+    (points, indices)
 }
 
-/// The points that show what a body is: where joints and drivers take hold, what is traced and measured, what is heavy.
-pub(super) fn places_of_bodies(model: &Mechanism) -> Vec<PointId> {
+/// Returns the points that show the shape of bodies: those of joints and drivers, traces, measures and masses.
+pub(super) fn shape_points(model: &Mechanism) -> Vec<PointId> {
     let mut points: Vec<PointId> = model.joints.iter().flat_map(|joint| joint.kind.points(model)).collect();
     for equation in &model.equations {
         if let model::EquationForm::Distance(p, q, _) = equation.form {
@@ -164,23 +165,24 @@ pub(super) fn places_of_bodies(model: &Mechanism) -> Vec<PointId> {
     points
 }
 
-/// The least and greatest coordinates of all nodes along the motion, with some room around them.
+/// Returns the bounding box of all nodes along the motion, with a margin.
 pub(super) fn extent(nodes: &[Node], motion: &Motion, unit: f64) -> [Vector; 2] {
     let margin = [0.5 * unit; 2];
     reach(nodes, motion, unit).map_or([[-unit; 2], [unit; 2]], |[low, high]| [minus(low, margin), plus(high, margin)])
 }
 
-/// The least and greatest coordinates of all nodes along the motion; none where there is nothing.
+/// Returns the bounding box of all nodes along the motion, or `None` if nothing is drawn.
 pub(super) fn reach(nodes: &[Node], motion: &Motion, unit: f64) -> Option<[Vector; 2]> {
     let mut all: Option<[Vector; 2]> = None;
-    let places: Vec<Vec<Vector>> =
-        nodes.iter().map(|node| node.shapes.iter().flat_map(|shape| shape.path.places()).collect()).collect();
-    let corners: Vec<Vec<Vector>> = places.iter().map(|places| super::plane::hull(places, 1e-3 * unit)).collect();
-    for row in motion.sampled(LOOKED_AT) {
+    let positions: Vec<Vec<Vector>> =
+        nodes.iter().map(|node| node.shapes.iter().flat_map(|shape| shape.path.positions()).collect()).collect();
+    let corners: Vec<Vec<Vector>> =
+        positions.iter().map(|positions| super::plane::hull(positions, 1e-3 * unit)).collect();
+    for row in motion.sampled(SAMPLED_ROWS) {
         for (node, corners) in nodes.iter().zip(&corners) {
-            let (pose, stretch) = node.place.pose(motion.poses(row));
-            let placed = corners.iter().map(|[x, y]| pose.placed([stretch * x, *y]));
-            if let Some([low, high]) = bounds(placed) {
+            let (pose, stretch) = node.attachment.pose(motion.poses(row));
+            let transformed = corners.iter().map(|[x, y]| pose.transform([stretch * x, *y]));
+            if let Some([low, high]) = bounds(transformed) {
                 let [least, greatest] = all.unwrap_or([low, high]);
                 all = Some([
                     [least[0].min(low[0]), least[1].min(low[1])],

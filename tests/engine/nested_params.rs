@@ -29,8 +29,8 @@ fn compiled(set: &[String]) -> Compiled {
     let text = fs::read_to_string("tests/slopes/nested.mech").expect("a text");
     let choice = Choice { mechanism: Some("nested".to_owned()), set: set.to_vec(), ..Choice::default() };
     let checked = Parsed::of("nested.mech", &text).check(&choice, &Memory::default());
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    compiled.unwrap_or_else(|| panic!("{:?} {said:?}", checked.diagnostics()))
+    let (compiled, messages) = checked.compile(Redundant::Refused, &Cancel::default());
+    compiled.unwrap_or_else(|| panic!("{:?} {messages:?}", checked.diagnostics()))
 }
 
 /// Whether each row that is printed when these are set has the bits of `mechc run`.
@@ -41,8 +41,8 @@ fn holds(set: &[(&str, &str, f64)], largest_straight: usize) {
     for (_, path, value) in set {
         writeln!(sets, "    p.{path} = {value:?};").expect("a string takes everything");
     }
-    let told: Vec<String> = set.iter().map(|(told, ..)| with_unit(told)).collect();
-    let wanted = compiled(&told);
+    let reported: Vec<String> = set.iter().map(|(reported, ..)| with_unit(reported)).collect();
+    let wanted = compiled(&reported);
     let (rows, stop) = all_rows(&wanted, &wanted.times().expect("times"));
     assert!(stop.is_none() && rows.len() == 21, "{stop:?}");
     let program = format!(
@@ -82,8 +82,8 @@ fn main() {{
 }
 
 /// A value with its unit: all are lengths, but for the speed.
-fn with_unit(told: &str) -> String {
-    if told.starts_with("speed") { format!("{told} rad/s") } else { format!("{told} m") }
+fn with_unit(reported: &str) -> String {
+    if reported.starts_with("speed") { format!("{reported} rad/s") } else { format!("{reported} m") }
 }
 
 #[test]

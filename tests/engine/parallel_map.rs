@@ -1,4 +1,4 @@
-//! Work in pieces on several threads: order, ends, how far it goes ahead, and threads that break down.
+//! Ordered parallel computation: order, end of the work, limit of pieces in advance, and panics of threads.
 
 #![cfg(feature = "threads")]
 
@@ -43,11 +43,11 @@ fn nothing_comes_behind_what_was_not_made() {
 #[test]
 fn few_pieces_are_done_ahead() {
     for jobs in [2, 3] {
-        let (asker, (told, begun)) = (thread::current().id(), channel());
+        let (asker, (reported, begun)) = (thread::current().id(), channel());
         let start = move || {
-            let told = told.clone();
+            let reported = reported.clone();
             move |piece: u64| {
-                told.send(thread::current().id()).ok()?;
+                reported.send(thread::current().id()).ok()?;
                 Some(piece)
             }
         };
@@ -77,16 +77,16 @@ struct Held {
 impl Held {
     /// The one that asks does a piece so.
     fn new(count: u64, own: impl Fn(u64) -> Option<u64> + Clone + Send + Sync + 'static) -> Held {
-        let (asker, (told, begun), (go, wait)) = (thread::current().id(), channel(), channel());
+        let (asker, (reported, begun), (go, wait)) = (thread::current().id(), channel(), channel());
         let wait: Arc<Mutex<Receiver<()>>> = Arc::new(Mutex::new(wait));
         let start = move || {
-            let (told, wait, own) = (told.clone(), Arc::clone(&wait), own.clone());
+            let (reported, wait, own) = (reported.clone(), Arc::clone(&wait), own.clone());
             move |piece| {
                 if thread::current().id() == asker {
                     return own(piece);
                 }
                 // of later ones somebody may wait to hear
-                let _ = told.send(piece);
+                let _ = reported.send(piece);
                 wait.lock().ok()?.recv_timeout(PATIENCE).ok()?;
                 Some(piece)
             }
@@ -150,18 +150,18 @@ fn there_are_no_more_threads_than_pieces() {
     assert!(begun.load(Ordering::Relaxed) <= 3);
 }
 
-/// What is said by a panic.
-fn said<T>(what: impl FnOnce() -> T) -> Option<String> {
+/// Returns the message of a panic.
+fn panic_message<T>(what: impl FnOnce() -> T) -> Option<String> {
     let panic = catch_unwind(AssertUnwindSafe(what)).err()?;
     panic.downcast_ref::<&str>().map(|text| (*text).to_owned())
 }
 
 #[test]
 fn behind_a_piece_of_which_nothing_is_made_none_is_begun() {
-    let (told, has_none) = channel();
+    let (reported, has_none) = channel();
     let Held { mut crew, go, begun } = Held::new(100, move |piece| {
         // no other piece than the next one
-        let _ = told.send(piece);
+        let _ = reported.send(piece);
         None
     });
     let later = thread::spawn(move || {
@@ -186,13 +186,13 @@ fn what_has_ended_begins_nothing() {
 
 #[test]
 fn that_another_thread_breaks_down_is_passed_on_where_its_piece_would_come() {
-    let (asker, (told, begun), (go, wait)) = (thread::current().id(), channel(), channel::<()>());
+    let (asker, (reported, begun), (go, wait)) = (thread::current().id(), channel(), channel::<()>());
     let wait = Arc::new(Mutex::new(wait));
     let start = move || {
-        let (told, wait) = (told.clone(), Arc::clone(&wait));
+        let (reported, wait) = (reported.clone(), Arc::clone(&wait));
         move |piece: u64| {
             if thread::current().id() != asker && piece < 2 {
-                told.send(piece).ok()?;
+                reported.send(piece).ok()?;
                 assert!(piece != 1, "broken");
                 wait.lock().ok()?.recv_timeout(PATIENCE).ok()?;
             }
@@ -206,18 +206,18 @@ fn that_another_thread_breaks_down_is_passed_on_where_its_piece_would_come() {
     thread::sleep(4 * WHILE);
     assert!(go.send(()).is_ok());
     assert_eq!(crew.next(), Some(0));
-    assert_eq!(said(|| crew.next()), Some("broken".to_owned()));
+    assert_eq!(panic_message(|| crew.next()), Some("broken".to_owned()));
     assert_eq!(crew.next(), None);
 }
 
 #[test]
 fn who_asks_may_break_down_and_ask_again() {
     let Held { mut crew, go, .. } = Held::new(100, |_| panic!("broken here"));
-    assert_eq!(said(|| crew.next()), Some("broken here".to_owned()));
+    assert_eq!(panic_message(|| crew.next()), Some("broken here".to_owned()));
     drop(go);
     assert_eq!(crew.next(), None);
 
     let mut alone = Crew::<u64>::new(1, 0..100, || |_| panic!("broken alone"));
-    assert_eq!(said(|| alone.next()), Some("broken alone".to_owned()));
+    assert_eq!(panic_message(|| alone.next()), Some("broken alone".to_owned()));
     assert_eq!(alone.next(), None);
 }

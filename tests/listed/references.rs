@@ -1,11 +1,11 @@
 //! Reference answers, computed elsewhere to 20 digits: `tests/cases/NAME.mech` with `NAME.csv`; where a file holds several
-//! mechanisms, with `NAME.MECHANISM.csv`. `cargo test --test listed four_bar` runs one of them. Those of `tests/cases2`, and of
-//! `tests/cases3`, which have forces, are run by the command line, with the options of their first line, `// run: …`;
+//! mechanisms, with `NAME.MECHANISM.csv`. `cargo test --test listed four_bar` runs one of them. Those of `tests/cases_composed`, and of
+//! `tests/cases_forces`, which have forces, are run by the command line, with the options of their first line, `// run: …`;
 //! `NAME.results.json` has their results. Those of `tests/forces` have references of forces alone, by hand (`tests/forces/README.md`).
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use crate::support::listed::Tests;
+use crate::support::named_tests::Tests;
 use crate::support::{Outcome, Span, files, mechanisms, run, run_number, stem};
 use assert_cmd::Command;
 use std::fs;
@@ -181,8 +181,8 @@ pub fn list(tests: &mut Tests) {
     let of = |folder: &str| files(folder, "mech").into_iter().map(|path| (stem(&path), path)).collect::<Vec<_>>();
     tests.each("reference", cases(), 55, |case| matches_its_reference(&case));
     tests.each("coarse_steps", cases(), 55, |case| has_the_same_numbers_at_ten_times_larger_output_steps(&case));
-    tests.each("composed", of("tests/cases2"), 5, |path| is_told_by_the_command_line(&path));
-    tests.each("forces", of("tests/cases3"), 4, |path| is_told_by_the_command_line(&path));
+    tests.each("composed", of("tests/cases_composed"), 5, |path| is_told_by_the_command_line(&path));
+    tests.each("forces", of("tests/cases_forces"), 4, |path| is_told_by_the_command_line(&path));
     tests.each("by_hand", of("tests/forces"), 24, |path| has_the_forces_of_newton_and_euler(&path));
     tests.each("example", of("examples"), 20, |path| runs_without_a_word(&path));
 }
