@@ -1,7 +1,7 @@
 //! Calls: functions and measures expanded where they stand, each expansion made once.
 //!
-//! An expansion recurses into the formula that is called, and a chain of functions can be longer than any stack is deep. So a call that is met
-//! too far down is put off: the formulas around it are given up, the call is expanded on its own, from the ground, and
+//! An expansion recurses into the formula that is called, and a chain of functions can be longer than any stack is deep. So a call that is
+//! met too far down is put off: the formulas around it are given up, the call is expanded on its own, from the ground, and
 //! then the formulas are read once more, in which it is known by now. No platform's stack decides what is read.
 
 use super::branches::Branch;

@@ -74,9 +74,9 @@ impl Checker<'_> {
     }
 
     /// Leaves of a mechanism that is led what leads it: its analysis is of another time, and forces have no part in it.
-    pub(super) fn leave_what_leads(&mut self) {
+    pub(super) fn strip_outputs(&mut self) {
         if self.around.lead.is_some() {
-            self.model.leave_what_leads();
+            self.model.strip_outputs();
         }
     }
 

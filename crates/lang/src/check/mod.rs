@@ -285,7 +285,7 @@ impl<'a> Checker<'a> {
         self.analysis();
         self.results();
         self.refuse_derivatives_of_forces();
-        self.leave_what_leads();
+        self.strip_outputs();
         self.warn_of_plain_lengths();
         if self.model.bodies.is_empty() && !self.holds_broken() {
             self.report(errors::empty(&self.tree.name));

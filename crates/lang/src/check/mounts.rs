@@ -116,7 +116,7 @@ impl Checker<'_> {
         let seer = Placement { is_mirrored: false, ..self.drawn_frame(seer) };
         let graph = &mut self.model.graph;
         let way = [0, 1].map(|axis| graph.sub(place[axis], seer.at[axis]));
-        Some(seer.seen(graph, way))
+        Some(seer.inverse_transform_vector(graph, way))
     }
 
     /// Whether a frame has no place in the drawing, as its own pose, or one of what carries it, is broken.

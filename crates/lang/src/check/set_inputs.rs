@@ -2,8 +2,8 @@
 //! on from there.
 //!
 //! Such an input is a parabola of time around a moment, or a straight line. Its value and that moment, its rate and, of a parabola, its
-//! acceleration are parameters of the model, in this order, so that a mechanism is compiled once for all that they may be. The first two can be
-//! led from what the text says.
+//! acceleration are parameters of the model, in this order, so that a mechanism is compiled once for all that they may be. The first two
+//! can be led from what the text says.
 
 use super::formula::Value;
 use super::{Checker, errors};

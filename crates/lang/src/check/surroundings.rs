@@ -18,8 +18,8 @@ pub struct Surroundings {
     pub bound: Vec<(String, f64)>,
     /// Where it is led, if that is all that is asked for.
     pub lead: Option<Lead>,
-    /// The paths of parameters that may be set elsewhere than the text has them: they are symbols, also where they follow from others there,
-    /// and the model says which they are.
+    /// The paths of parameters that may be set elsewhere than the text has them: they are symbols, also where they follow from others
+    /// there, and the model says which they are.
     pub open: Vec<String>,
     /// Names by which all columns are differentiated.
     pub by: Vec<String>,

@@ -7,7 +7,7 @@ use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
 use super::told::is_told_by;
 use super::{Checker, errors};
-use crate::model::{AskedInPart, Declared, Dimension, Load, Named, Variable};
+use crate::model::{PartDerivative, Declared, Dimension, Load, Named, Variable};
 use mechc_expr::{ExprId, Symbol};
 use mechc_syntax::ast::{Expr, ExprKind, Item, Mechanism, Name};
 use mechc_text::source::Span;
@@ -150,7 +150,7 @@ impl Checker<'_> {
         if is_of_force {
             self.common.variables.of_forces.push(e.span);
         }
-        self.model.asked_in_parts.extend(self.address.part.map(|part| AskedInPart { part, span: e.span, is_of_force }));
+        self.model.part_derivatives.extend(self.address.part.map(|part| PartDerivative { part, span: e.span, is_of_force }));
         let id = self.name_symbol(Named::By(inner.id, variable, within), rates);
         self.common.variables.orders.insert(id, (times + 1, rates));
         Some(Value { id, dim })

@@ -1,4 +1,4 @@
-//! What contacts press with. A contact only pushes: where it would have to pull, the bodies part.
+//! Normal forces of contacts. A contact only pushes: where it would have to pull, the bodies separate.
 
 use super::Lowering;
 use super::frames::Vector;
@@ -9,50 +9,50 @@ use mechc_ir::tolerances::contacts::{CLOSED, PLACES};
 use std::f64::consts::PI;
 
 impl Lowering<'_> {
-    /// What each contact presses with.
-    pub(super) fn presses(&mut self) -> Vec<Press> {
+    /// Returns the normal forces of all contacts.
+    pub(super) fn contact_forces(&mut self) -> Vec<Press> {
         let mut presses = Vec::new();
         for id in self.model.joint_ids() {
             if self.model[id].kind.plain().has_contact() {
                 let on_second = self.reaction_on_second(id);
-                let force = self.seen_from(None, |l| l.press(id, on_second));
-                let press = |(force, is_sided)| Press { declaration: super::of_joint(id), force, is_sided };
+                let force = self.relative_to(None, |l| l.contact_force(id, on_second));
+                let press = |(force, is_sided)| Press { declaration: super::joint_declaration(id), force, is_sided };
                 presses.extend(force.map(press));
             }
         }
         presses
     }
 
-    /// The normal force (N), from what the contact exerts on its second body, below zero where it pulls; and whether it is known which side
-    /// the bodies are on, which a curve that is open does not tell.
-    fn press(&mut self, joint: JointId, on_second: Vector) -> Option<(ExprId, bool)> {
-        let arguments = self.numbering.own(joint);
+    /// Returns the normal force (N) from the force that the contact exerts on its second body, negative where it pulls; and whether the
+    /// side on which the bodies lie is determined, which it is not for an open curve.
+    fn contact_force(&mut self, joint: JointId, on_second: Vector) -> Option<(ExprId, bool)> {
+        let arguments = self.numbering.of_joint(joint);
         let start = arguments.start;
         let argument = |l: &mut Self, k: u32| l.graph.symbol(Symbol::Coordinate { index: start + k, order: 0 });
         match self.model[joint].kind {
-            // the curve's body is inside of it
+            // The curve's body is inside the curve.
             JointKind::PointFollower(_, profile) => {
-                let round = self.round(profile);
+                let round = self.orientation(profile);
                 let u = argument(self, 0);
                 let is_closed = round.is_some();
                 let (tangent, _) = self.tangent_and_bend(profile, u);
                 let frame = profile.frame(self.model);
                 let [x, y] = [[1.0, 0.0], [0.0, 1.0]].map(|axis| axis.map(|part| self.graph.constant(part)));
-                let (x, y) = (self.turned(frame, x), self.turned(frame, y));
+                let (x, y) = (self.transform_vector(frame, x), self.transform_vector(frame, y));
                 let (parity, round) = (self.left_of(x, y), self.graph.constant(round.unwrap_or(1.0)));
                 let side = self.graph.mul(parity, round);
-                Some((self.pressing(side, tangent, on_second), is_closed))
+                Some((self.normal_component(side, tangent, on_second), is_closed))
             }
-            // a curve bends away from what it touches: from a face,
+            // A curve bends away from the face.
             JointKind::FlatFollower(profile, face) => {
                 let u = argument(self, 0);
                 let (_, bend) = self.tangent_and_bend(profile, u);
                 let face = self.direction(face);
                 let curvature = self.left_of(face, bend);
                 let on_first = on_second.map(|part| self.graph.neg(part));
-                Some((self.pressing(curvature, face, on_first), true))
+                Some((self.normal_component(curvature, face, on_first), true))
             }
-            // and more than the other curve does, to whichever side
+            // A curve bends away from the other curve more than that curve bends towards it, on either side.
             JointKind::Cam(first, second) => {
                 let (u, w) = (argument(self, 0), argument(self, 1));
                 let ((s, bend_k), (t, bend_m)) = (self.tangent_and_bend(first, u), self.tangent_and_bend(second, w));
@@ -61,14 +61,14 @@ impl Lowering<'_> {
                 let (of_k, of_m) = (self.graph.mul(of_k, square), self.graph.mul(of_m, together));
                 let curvature = self.graph.sub(of_k, of_m);
                 let on_first = on_second.map(|part| self.graph.neg(part));
-                Some((self.pressing(curvature, t, on_first), true))
+                Some((self.normal_component(curvature, t, on_first), true))
             }
             _ => None,
         }
     }
 
-    /// The part of a force to the left of a tangent, or to its right where a number is below zero.
-    fn pressing(&mut self, side: ExprId, tangent: Vector, force: Vector) -> ExprId {
+    /// Returns the component of a force to the left of a tangent, or to its right if `side` is negative.
+    fn normal_component(&mut self, side: ExprId, tangent: Vector, force: Vector) -> ExprId {
         let (side, across, length) =
             (self.graph.unary(Unary::Sign, side), self.left_of(tangent, force), self.length(tangent));
         let across = self.graph.div(across, length);
@@ -76,13 +76,13 @@ impl Lowering<'_> {
     }
 
     fn tangent_and_bend(&mut self, profile: Profile, u: ExprId) -> (Vector, Vector) {
-        let local = self.local(profile, u);
+        let local = self.profile_point(profile, u);
         let frame = profile.frame(self.model);
-        (self.turned(frame, local.tangent), self.turned(frame, local.bend))
+        (self.transform_vector(frame, local.tangent), self.transform_vector(frame, local.bend))
     }
 
-    /// 1 where a closed profile goes round counter-clockwise in its frame, −1 clockwise; none of one that is open.
-    fn round(&self, profile: Profile) -> Option<f64> {
+    /// Returns 1 if a closed profile runs counter-clockwise in its frame, −1 if clockwise; `None` for an open one.
+    fn orientation(&self, profile: Profile) -> Option<f64> {
         let Profile::Curve(curve) = profile else { return Some(1.0) };
         let model = self.model;
         let place = |k: u32| {

@@ -1,5 +1,5 @@
-//! Parameters, and time, on their way from one value to another: in the equations of a mechanism that is led a straight line stands for each.
-//! Its ends are parameters, so that one mechanism serves for every way from where its own values have it.
+//! Equations of a continuation: parameters, inputs and time move from one value to another on straight lines. The ends of the lines are
+//! parameters, so that one system serves for every target.
 
 use super::{Lowering, inputs, needs_jerk};
 use crate::model::{Dimension, Mechanism};
@@ -7,27 +7,27 @@ use mechc_expr::{ExprId, Graph, Symbol};
 use mechc_ir::{ConstraintSystem, Param, Written};
 use rustc_hash::FxHashMap;
 
-/// Time while a mechanism is led.
+/// Time during a continuation.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Clock {
-    /// It stands still (s).
+    /// Time is constant (s).
     Still(f64),
-    /// It goes as well.
+    /// Time moves too.
     Goes,
 }
 
-/// The equations of a mechanism on its way: what stands in the place of time goes from 0, where its parameters are its own, to 1, where
-/// those that are led, as its model says, are others. Behind its own parameters it has one more for each of these, which is what it comes
-/// to; and where time goes two more, from when to when.
+/// Returns the equations of a continuation. Time is replaced by the path parameter: at 0 the continued parameters have their nominal
+/// values, at 1 those of the target. For each of them one parameter is appended to those of the model, its target value; if time moves, two
+/// more, its first and last value.
 #[must_use]
 pub fn lower_on_its_way(model: &Mechanism, clock: Clock) -> ConstraintSystem {
     let mut model = model.clone();
-    model.leave_what_leads();
+    model.strip_outputs();
     model.by.clear();
     (model.reactions, model.pictures_forces) = (false, false);
-    let mut lowering = Lowering::of(&model);
-    let mut written = lowering.written();
-    Lines::add(&model, clock, &mut written.params).stand_for_all(&mut written);
+    let mut lowering = Lowering::new(&model);
+    let mut written = lowering.build();
+    PathLines::append(&model, clock, &mut written.params).substitute(&mut written);
     let with_jerk = needs_jerk(&model, &written);
     let mut system = ConstraintSystem::of(written, with_jerk);
     inputs::add(&model, &mut system);
@@ -36,18 +36,18 @@ pub fn lower_on_its_way(model: &Mechanism, clock: Clock) -> ConstraintSystem {
     system
 }
 
-/// The parameters that are the ends of lines.
-struct Lines {
+/// The appended parameters, which are ends of lines.
+struct PathLines {
     clock: Clock,
-    /// Of each parameter that is led, the number of the one that it comes to.
+    /// The number of the target value of each continued parameter.
     ends: FxHashMap<u32, u32>,
-    /// Those that are the first time and the last.
+    /// The numbers of the first and the last time.
     times: [u32; 2],
 }
 
-impl Lines {
-    /// Adds them to the others.
-    fn add(model: &Mechanism, clock: Clock, params: &mut Vec<Param>) -> Lines {
+impl PathLines {
+    /// Appends the parameters.
+    fn append(model: &Mechanism, clock: Clock, params: &mut Vec<Param>) -> PathLines {
         let span = model.declared.span;
         let mut add = |name: &str, value: f64, dimension: Dimension| {
             params.push(Param { name: format!("{name} on the way"), part: 0, value, dimension, span });
@@ -59,11 +59,11 @@ impl Lines {
             Clock::Still(_) => [0; 2],
             Clock::Goes => ["the first time", "the last time"].map(|name| add(name, 0.0, Dimension::TIME)),
         };
-        Lines { clock, ends, times }
+        PathLines { clock, ends, times }
     }
 
-    /// In all that holds on the way. Estimates keep the values with which it begins, and so do tables, whose cells are numbers.
-    fn stand_for_all(&self, written: &mut Written) {
+    /// Replaces parameters and time by their lines. Estimates and table cells keep the values at the start, as table cells are numbers.
+    fn substitute(&self, written: &mut Written) {
         written.substitute(|graph, symbol| match symbol {
             Symbol::Param(from) if self.ends.contains_key(&from) => line(graph, [from, self.ends[&from]]),
             Symbol::Time => match self.clock {
@@ -75,7 +75,7 @@ impl Lines {
     }
 }
 
-/// From the value of one parameter to that of another.
+/// Returns the line from the value of one parameter to that of another.
 fn line(graph: &mut Graph, ends: [u32; 2]) -> ExprId {
     let (ends, time) = (ends.map(|end| graph.symbol(Symbol::Param(end))), graph.symbol(Symbol::Time));
     graph.line(ends, time)

@@ -1,4 +1,4 @@
-//! What the start of a part needs: where its coordinates are, what it is led to, and where its mount is.
+//! The start of parts: their coordinates, bound parameters and inputs, and mounts.
 
 use super::Lowering;
 use crate::model::{Frame, PartId, Placement};
@@ -6,7 +6,7 @@ use mechc_ir::{BodyId, Coordinate, Owner, PartStart};
 use std::ops::Range;
 
 impl Lowering<'_> {
-    /// The parts that the mechanism itself declares; parts within them begin with them.
+    /// Returns the starts of the parts of the outermost mechanism. Parts within these start together with them.
     pub(super) fn part_starts(&mut self) -> Vec<PartStart> {
         let model = self.model;
         if model.parts.is_empty() {
@@ -15,15 +15,15 @@ impl Lowering<'_> {
         let outermost: Vec<PartId> = model.part_ids().map(|part| self.outermost(part)).collect();
         let top = |part: Option<PartId>| part.map(|part| outermost[part.index()]);
         let of_bodies: Vec<Option<PartId>> = model.bodies.iter().map(|body| top(body.part)).collect();
-        let of_coordinates = |of_bodies_are_wanted: bool| {
+        let of_coordinates = |for_bodies: bool| {
             let part = |coordinate: &Coordinate| match coordinate.owner {
-                Owner::Body(body) if of_bodies_are_wanted => of_bodies[body.index()],
-                Owner::Joint(joint) if !of_bodies_are_wanted => top(model.joints[joint.index()].part),
+                Owner::Body(body) if for_bodies => of_bodies[body.index()],
+                Owner::Joint(joint) if !for_bodies => top(model.joints[joint.index()].part),
                 _ => None,
             };
             ranges(&self.coordinates.iter().map(part).collect::<Vec<_>>(), model.parts.len())
         };
-        let (poses, own) = (of_coordinates(true), of_coordinates(false));
+        let (poses, of_joints) = (of_coordinates(true), of_coordinates(false));
         let bodies = ranges(&of_bodies, model.parts.len());
         let mut starts = Vec::new();
         for id in model.part_ids().filter(|id| model[*id].within.is_none()) {
@@ -41,7 +41,7 @@ impl Lowering<'_> {
                 is_mirrored: part.is_mirrored,
                 bodies: bodies[id.index()].clone().map(BodyId::from).collect(),
                 poses: poses[id.index()].clone(),
-                own: own[id.index()].clone(),
+                own: of_joints[id.index()].clone(),
             });
         }
         starts
@@ -55,7 +55,7 @@ impl Lowering<'_> {
     }
 }
 
-/// Where each part's things stand, which are together.
+/// Returns the range of each part's elements, which are contiguous.
 fn ranges(list: &[Option<PartId>], parts: usize) -> Vec<Range<usize>> {
     let mut ranges = vec![0..0; parts];
     for (k, part) in list.iter().enumerate() {

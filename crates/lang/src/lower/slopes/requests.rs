@@ -1,4 +1,4 @@
-//! What is asked of the motion to tell a slope: each once, whoever asks.
+//! The reductions that derivatives need. Each is requested once.
 
 use super::{ENDS, Slopes};
 use crate::model::{Dimension, Variable};
@@ -6,11 +6,11 @@ use mechc_expr::{ExprId, Symbol, Unary};
 use mechc_ir::{Reduction, ReductionKind};
 
 impl Slopes<'_, '_> {
-    /// How large the variable is, or usually is.
-    pub(super) fn size_of_the_variable(&mut self) -> ExprId {
+    /// Returns the magnitude of the variable plus its usual magnitude.
+    pub(super) fn variable_scale(&mut self) -> ExprId {
         let Variable { symbol, dimension, .. } = self.lowering.model.variables[self.variable as usize];
         let largest_size = self.lowering.largest_size;
-        let own = match symbol {
+        let magnitude = match symbol {
             Symbol::Param(_) => self.lowering.graph.symbol(symbol),
             _ => self.lowering.graph.constant(0.0),
         };
@@ -25,63 +25,63 @@ impl Slopes<'_, '_> {
             self.lowering.graph.constant(usual)
         };
         let graph = &mut self.lowering.graph;
-        let own = graph.unary(Unary::Abs, own);
-        graph.add(own, usual)
+        let magnitude = graph.unary(Unary::Abs, magnitude);
+        graph.add(magnitude, usual)
     }
 
-    /// The largest value less the least.
+    /// Returns the largest value minus the least.
     pub(super) fn range(&mut self, of: ExprId) -> ExprId {
         let [low, high] = self.extremes(of);
         self.lowering.graph.sub(high, low)
     }
 
-    /// The least and the largest value.
+    /// Returns the least and the largest value.
     pub(super) fn extremes(&mut self, of: ExprId) -> [ExprId; 2] {
-        [false, true].map(|largest| self.asked(ReductionKind::Extreme { largest, when: false }, of))
+        [false, true].map(|largest| self.request(ReductionKind::Extreme { largest, when: false }, of))
     }
 
-    /// The length of the analysis, or of the window.
+    /// Returns the duration of the analysis or of the window (s).
     pub(super) fn span(&mut self) -> ExprId {
         let [from, to] = ENDS.map(|end| self.time(end));
         self.lowering.graph.sub(to, from)
     }
 
-    /// An end of the analysis, or of the window (s).
+    /// Returns the start or end of the analysis or of the window (s).
     pub(super) fn time(&mut self, end: ReductionKind) -> ExprId {
         let time = self.lowering.graph.symbol(Symbol::Time);
-        self.asked(end, time)
+        self.request(end, time)
     }
 
-    /// The ends of the analysis, or of the window, and how they go with the variable; `None` where that is not known.
-    pub(super) fn of_ends(&mut self) -> Option<[(ReductionKind, ExprId); 2]> {
+    /// Returns the ends of the analysis or of the window with their derivatives by the variable; `None` if these are not available.
+    pub(super) fn end_slopes(&mut self) -> Option<[(ReductionKind, ExprId); 2]> {
         let times = [0, 1].map(|end| self.window[end].or(self.ends[end]));
-        let [from, to] = times.map(|time| self.of_time(time));
+        let [from, to] = times.map(|time| self.time_slope(time));
         Some([(ENDS[0], from?), (ENDS[1], to?)])
     }
 
-    /// How a time that has a formula of parameters and reductions goes with the variable, if that is known; others stay.
-    pub(super) fn of_time(&mut self, time: Option<ExprId>) -> Option<ExprId> {
+    /// Returns the derivative by the variable of a time with a formula of parameters and reductions; zero without a formula.
+    pub(super) fn time_slope(&mut self, time: Option<ExprId>) -> Option<ExprId> {
         match time {
             Some(time) => self.partial(time),
             None => Some(self.lowering.graph.constant(0.0)),
         }
     }
 
-    /// What is asked of a formula where it holds.
+    /// Requests a reduction of a formula where it is defined.
     pub(super) fn reduce(&mut self, kind: ReductionKind, formula: ExprId, holds: Option<ExprId>) -> ExprId {
         if self.is_zero(formula) {
             return formula;
         }
         let of = self.lowering.only_where(holds, formula);
-        self.asked(kind, of)
+        self.request(kind, of)
     }
 
-    /// The symbol of what is asked, once.
-    pub(super) fn asked(&mut self, kind: ReductionKind, of: ExprId) -> ExprId {
-        let (kind, window) = self.within_the_window(kind);
-        let is_known = |known: &Reduction| known.kind == kind && known.of == of && known.window == window;
-        let known = self.reductions.iter().position(is_known);
-        let k = known.unwrap_or_else(|| {
+    /// Returns the symbol of a reduction, and requests the reduction if it is new.
+    pub(super) fn request(&mut self, kind: ReductionKind, of: ExprId) -> ExprId {
+        let (kind, window) = self.restrict_to_window(kind);
+        let is_requested = |other: &Reduction| other.kind == kind && other.of == of && other.window == window;
+        let requested = self.reductions.iter().position(is_requested);
+        let k = requested.unwrap_or_else(|| {
             let span = self.reductions[0].span;
             self.reductions.push(Reduction { of, kind, window, span });
             self.reductions.len() - 1
@@ -89,8 +89,8 @@ impl Slopes<'_, '_> {
         self.lowering.graph.symbol(Symbol::Named(k as u32))
     }
 
-    /// What is asked of the window, rather than of the analysis.
-    fn within_the_window(&self, kind: ReductionKind) -> (ReductionKind, [Option<ExprId>; 2]) {
+    /// Returns the kind and window of a reduction that replace one over the window in place of the analysis.
+    fn restrict_to_window(&self, kind: ReductionKind) -> (ReductionKind, [Option<ExprId>; 2]) {
         let [from, to] = self.window;
         let at = |time: ExprId| (ReductionKind::At(time), [None; 2]);
         match kind {
