@@ -1,4 +1,4 @@
-//! Formulas that name nothing of any file: those of the command line.
+//! Formulas of the command line, which name nothing of a file.
 
 use super::formula::Context;
 use super::{Checker, Surroundings};
@@ -8,18 +8,18 @@ use mechc_syntax::ast::{self, Expr, Name};
 use mechc_text::diag::Diagnostics;
 use mechc_text::source::{Sources, Span};
 
-/// The value in SI of a formula that names nothing of any file: a time of the command line.
+/// Returns the value (SI) of a formula that names nothing of a file, such as a time.
 ///
 /// # Errors
-/// What is wrong with it.
+/// The diagnostics of the formula.
 pub fn constant(formula: &Expr, place: &str, wanted: Dimension, sources: &Sources) -> Result<f64, Diagnostics> {
     alone(formula, sources, |checker| checker.constant(formula, place, wanted))
 }
 
-/// The same of one that has a unit, unless it is nothing or a pure number.
+/// Returns the value (SI) of such a formula, which must have a unit unless it is zero or a pure number.
 ///
 /// # Errors
-/// What is wrong with it.
+/// The diagnostics of the formula.
 pub fn amount(formula: &Expr, place: &str, wanted: Dimension, sources: &Sources) -> Result<f64, Diagnostics> {
     alone(formula, sources, |checker| checker.judged_constant(formula, place, wanted, (DecidedBy::Value, true)))
 }
@@ -38,25 +38,25 @@ fn alone(
     }
 }
 
-/// A formula of time that names nothing of any file.
+/// A formula of time that names nothing of a file.
 #[derive(Clone, Debug)]
 pub struct FormulaOfTime {
-    /// Holds the formula; its only symbol is time.
+    /// The graph of the formula. Its only symbol is time.
     pub graph: Graph,
-    /// The formula, in SI.
+    /// The formula, in SI units.
     pub value: ExprId,
-    /// Of its value; `None` for a plain formula, whose dimension says nothing.
+    /// The dimension; `None` for a plain formula, whose dimension is open.
     pub dimension: Option<Dimension>,
-    /// What must be positive at a time, for the formula to have a meaning there.
+    /// Formulas that must be positive for the formula to be defined at a time.
     pub conditions: Vec<Condition>,
-    /// What is to be said of it all the same.
+    /// Warnings.
     pub remarks: Diagnostics,
 }
 
-/// A formula alone, over time and the constants and functions of the language.
+/// Checks a formula of time, constants and the functions of the language.
 ///
 /// # Errors
-/// What is wrong with it.
+/// The diagnostics of the formula.
 pub fn formula_of_time(formula: &Expr, sources: &Sources) -> Result<FormulaOfTime, Diagnostics> {
     let tree = nothing(formula.span);
     let surroundings = Surroundings::default();
@@ -78,7 +78,7 @@ pub fn formula_of_time(formula: &Expr, sources: &Sources) -> Result<FormulaOfTim
     }
 }
 
-/// A mechanism without any declaration, as the surroundings of a formula of the command line.
+/// Returns a mechanism without declarations as the context of a formula of the command line.
 fn nothing(span: Span) -> ast::Mechanism {
     let name = Name { text: String::new(), span };
     ast::Mechanism { docs: Vec::new(), name, span, items: Vec::new() }

@@ -1,4 +1,4 @@
-//! Arguments of a joint in another order, or for another kind of joint.
+//! Suggestions for joint arguments in another order, or for another kind of joint.
 
 use super::entity::Entity;
 use super::features::Feature;
@@ -7,7 +7,7 @@ use crate::model::Frame;
 use mechc_syntax::ast::{Expr, ExprKind, Name};
 use mechc_text::diag::{Applies, Edit, Fix};
 
-/// What the first two arguments of joints are, where they differ.
+/// The kinds of a joint's first two arguments, where they differ.
 const ORDERS: [(&str, [&str; 2]); 4] = [
     ("revolute_translational", ["point", "axis"]),
     ("rack_pinion", ["circle", "axis"]),
@@ -16,7 +16,7 @@ const ORDERS: [(&str, [&str; 2]); 4] = [
 ];
 
 impl Checker<'_> {
-    /// Says that a joint's first two arguments stand the other way round, or that its kind is another one.
+    /// Reports a joint whose first two arguments are swapped or belong to another kind of joint.
     pub(super) fn refuses_arguments(&mut self, kind: &Name, arguments: &[Expr]) -> bool {
         let [first, second, ..] = arguments else { return false };
         let order = ORDERS.into_iter().find(|(word, _)| *word == kind.text);
@@ -42,13 +42,13 @@ impl Checker<'_> {
         Fix { message, edits, applies: Applies::Probably }
     }
 
-    /// What `owner.feature` stands for, if it is declared.
+    /// Returns the feature of `owner.feature`, if it is declared.
     fn feature_of(&self, e: &Expr) -> Option<Feature> {
         let ExprKind::Member { owner, feature } = &e.kind else { return None };
         self.common.features.get(&self.frame_of(owner)?)?.get(&feature.text)
     }
 
-    /// The body of a name, or the ground, of which nothing is said.
+    /// Returns the body of a name, or the ground, without diagnostics.
     pub(super) fn frame_of(&self, owner: &Name) -> Option<Frame> {
         match self.entity(owner) {
             _ if owner.text == "ground" => Some(self.address.ground),

@@ -1,4 +1,4 @@
-//! What is said of the params and inputs of a part where it is used.
+//! Bindings of the params and inputs of a part.
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
@@ -11,18 +11,18 @@ use mechc_syntax::ast::{Binding, Name};
 use mechc_text::diag::nearest;
 use mechc_text::source::Span;
 
-/// What is said of a param where its mechanism is used.
+/// The bound value of a param.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Bound {
-    /// It is a number; whether its dimension was worked out.
+    /// A number, and whether its dimension is checked.
     Number(Value, bool),
-    /// It is a point.
+    /// A point.
     Point(Drawn),
-    /// So is one of its coordinates.
+    /// A coordinate of a point, and whether its dimension is checked.
     Coordinate(usize, Value, bool),
 }
 
-/// A param with what is said of it, and where.
+/// The binding of a param, with its location.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoundParam<'a> {
     pub name: &'a str,
@@ -30,7 +30,7 @@ pub(super) struct BoundParam<'a> {
     pub span: Option<Span>,
 }
 
-/// What is said of the params and inputs of a text where it is used.
+/// The bindings of a text's params and inputs by the mechanism that uses it.
 #[derive(Default)]
 pub(super) struct BoundOutside<'a> {
     pub params: Vec<BoundParam<'a>>,
@@ -38,7 +38,7 @@ pub(super) struct BoundOutside<'a> {
 }
 
 impl<'a> Checker<'a> {
-    /// Params, functions, tables and inputs of a part, with what is said of its params.
+    /// Evaluates the definitions of a part with its bindings.
     pub(super) fn definitions_of_part(&mut self, part: usize) {
         let bound = self.params_bound(part);
         let samples = self.samples.clone();
@@ -50,7 +50,7 @@ impl<'a> Checker<'a> {
         self.import_params_of(part);
     }
 
-    /// The same of a part whose params go in a circle, which has been said: what they are in its text.
+    /// Evaluates the definitions of a part without bindings, as these form a cycle, which is reported.
     pub(super) fn definitions_of_part_alone(&mut self, part: usize) {
         let samples = self.samples.clone();
         self.in_part(part, |child| {
@@ -59,13 +59,13 @@ impl<'a> Checker<'a> {
         });
     }
 
-    /// The bindings of a part that must be known before it is, those of params; others wait until all parts are.
+    /// Returns whether a binding is one of a param, which must be evaluated before the part. Others follow after all parts.
     pub(super) fn binds_definition(&self, part: usize, binding: &Binding) -> bool {
         let bound = self.parts.get(part).and_then(|child| child.space.get(&binding.name.text));
         !matches!(bound, Some(Entity::Input(_)))
     }
 
-    /// What is said of the params of a part.
+    /// Evaluates the bindings of a part's params.
     fn params_bound(&mut self, part: usize) -> Vec<BoundParam<'a>> {
         let of_part = self.bindings[part];
         let mut bound: Vec<BoundParam<'a>> = Vec::new();
@@ -125,18 +125,18 @@ impl<'a> Checker<'a> {
         Some(Bound::Number(if self.is_zero(value) { Value { dim: Dim::Any, ..number } } else { number }, judged))
     }
 
-    /// A constant that is known as a number.
+    /// Returns a known number as a bound value.
     pub(super) fn number_bound(&mut self, value: f64) -> Bound {
         Bound::Number(Value { id: self.model.graph.constant(value), dim: Dim::Any }, false)
     }
 
-    /// A param with what is said of it where its mechanism is used.
+    /// Returns the value of a param with its binding. The outer `None` stands for no binding, the inner one for a broken one.
     #[allow(clippy::option_option)] // not bound, or broken
     pub(super) fn as_bound(&mut self, name: &Name, in_file: Value) -> Option<Option<Value>> {
         let BoundParam { bound: Bound::Number(value, judged), span, .. } = *self.bound_param(name)? else {
             return None;
         };
-        // a number without a unit is a pure number, as one that is set from outside
+        // A number without a unit is a pure number, as in an override.
         let unlike = in_file.dim.other_than(value.dim).filter(|[wanted, _]| judged || !wanted.is(Dimension::PURE));
         if let (Some([wanted, found]), Some(span)) = (unlike, span) {
             let place = format!("the parameter `{}`", name.text);
@@ -154,12 +154,12 @@ impl<'a> Checker<'a> {
         Some(Some(self.with_shift(&declared, Value { id: value.id, dim })))
     }
 
-    /// What is said of a param where its mechanism is used.
+    /// Returns the binding of a param.
     pub(super) fn bound_param(&self, name: &Name) -> Option<&BoundParam<'a>> {
         self.bound.params.iter().find(|bound| bound.name == name.text)
     }
 
-    /// A point with what is said of it, or of its coordinates, where its mechanism is used.
+    /// Returns a point with the bindings of it or of its coordinates.
     pub(super) fn point_as_bound(&mut self, name: &Name, mut point: Drawn) -> Option<Drawn> {
         for k in 0..self.bound.params.len() {
             let BoundParam { name: bound_name, bound, span } = self.bound.params[k];
@@ -193,7 +193,7 @@ impl<'a> Checker<'a> {
         Some(point)
     }
 
-    /// What is bound of its params, as far as it could be read.
+    /// Returns the bound params with the expressions of their numbers.
     pub(super) fn bound_numbers(&self) -> Vec<(String, ExprId)> {
         let numbers = |bound: &BoundParam<'_>| match bound.bound {
             Bound::Number(value, _) => vec![(bound.name.to_owned(), value.id)],
@@ -205,7 +205,7 @@ impl<'a> Checker<'a> {
         self.bound.params.iter().flat_map(numbers).collect()
     }
 
-    /// Params that are known as numbers (SI), as if they were bound: those of a part that stands alone.
+    /// Binds params to known numbers (SI), for a part that is checked on its own.
     pub(super) fn bind_numbers(&mut self, numbers: &'a [(String, f64)]) {
         for (name, value) in numbers {
             let bound = self.number_bound(*value);

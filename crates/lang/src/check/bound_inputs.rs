@@ -1,5 +1,5 @@
-//! What is said of the inputs of parts where these are used: formulas of time and motion, which may name inputs of other parts. Each is
-//! read after those that it names, whatever the order of the text, and of whatever part they are.
+//! Bindings of inputs of parts: formulas of time and motion, which may use inputs of other parts. They are read in order of dependence
+//! across all parts.
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
@@ -12,18 +12,18 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The binding of an input.
 struct BoundInput<'a> {
-    /// The parts around, by their numbers, the outermost first.
+    /// The numbers of the enclosing parts, the outermost first.
     around: Vec<usize>,
-    /// The part, among those of the mechanism in which it is used, and its input.
+    /// The number of the part in the mechanism that uses it, and that of its input.
     part: usize,
     input: usize,
     binding: &'a Binding,
-    /// The input's name in the whole mechanism, where it is bound.
+    /// The input's full name, with the location of the binding.
     name: Name,
 }
 
 impl<'a> Checker<'a> {
-    /// What is said of the inputs of parts, those of parts within them too.
+    /// Evaluates the bindings of the inputs of all parts, including nested ones.
     pub(super) fn bind_inputs(&mut self) {
         let mut bound = Vec::new();
         self.add_bound_inputs(&mut Vec::new(), &mut bound);
@@ -33,7 +33,7 @@ impl<'a> Checker<'a> {
             let BoundInput { around, part, input, binding, .. } = &bound[k];
             self.deep_within(around, |checker| checker.bind_input(*part, *input, binding));
         }
-        // those on a circle are nothing, which has been said
+        // Those on a cycle have no value, which is reported.
         for k in on_circles {
             let BoundInput { around, part, input, .. } = &bound[k];
             self.deep_within(around, |checker| checker.in_part(*part, |child| child.inputs[*input].value = None));
@@ -55,7 +55,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Which others each one names.
+    /// Returns the other bound inputs that each one uses.
     fn uses_of_bound_inputs<'b>(&self, bound: &'b [BoundInput<'a>]) -> Vec<(&'b Name, Vec<(usize, Span)>)> {
         let mut positions: FxHashMap<&str, usize> = FxHashMap::default();
         for (k, one) in bound.iter().enumerate() {
@@ -72,7 +72,7 @@ impl<'a> Checker<'a> {
         bound.iter().map(uses).collect()
     }
 
-    /// The inputs that a formula names, by their names in the whole mechanism, also by way of functions.
+    /// Returns the full names of the inputs that a formula uses, also through functions.
     fn inputs_in(&self, formula: &Expr) -> Vec<(String, Span)> {
         let (mut open, mut seen, mut found) = (vec![(formula, None)], FxHashSet::default(), Vec::new());
         while let Some((formula, argument)) = open.pop() {
@@ -93,11 +93,11 @@ impl<'a> Checker<'a> {
         found
     }
 
-    /// Work in the part that numbers lead to, from the outside in.
+    /// Runs `work` in the part that a path of numbers leads to.
     fn deep_within(&mut self, around: &[usize], work: impl FnOnce(&mut Checker<'a>)) {
         match around {
             [] => work(self),
-            // of one type at every level
+            // Dynamic, so that all levels have one type.
             [part, rest @ ..] => {
                 let work: Box<dyn FnOnce(&mut Checker<'a>) + '_> = Box::new(work);
                 self.in_part(*part, |child| child.deep_within(rest, work));
@@ -116,7 +116,7 @@ impl<'a> Checker<'a> {
         });
     }
 
-    /// Writes down what the inputs of parts are in the end.
+    /// Records the formulas of the inputs of all parts in the model.
     fn tell_inputs_of_parts(&mut self) {
         for part in 0..self.parts.len() {
             self.tell_inputs(part);
@@ -124,7 +124,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Those of a part, and those of parts within it that nobody binds by their paths there.
+    /// Records those of a part, and of nested parts whose inputs are not bound by path.
     fn tell_inputs(&mut self, part: usize) {
         let Some(id) = self.parts[part].address.part else { return };
         let child = &self.parts[part];

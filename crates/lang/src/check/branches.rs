@@ -1,14 +1,14 @@
-//! Branches: `if`, and the conditions under which what is read counts.
+//! Branches of `if`, and the conditions under which formulas in them count.
 
 use super::formula::{Context, Value};
 use super::{Checker, errors};
 use mechc_expr::{Comparison, ExprId};
 use mechc_syntax::ast::{ComparisonSign, Expr, ExprKind};
 
-/// The branch that is being read.
+/// The branch of the current formula.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub(super) struct Branch {
-    /// It is never taken: nothing is said of values.
+    /// True if it is never taken, so that values give no diagnostics.
     pub is_untaken: bool,
     /// The condition under which it counts.
     pub guard: Option<ExprId>,
@@ -24,7 +24,7 @@ impl Checker<'_> {
         for (condition, value) in arms {
             let condition = self.condition(condition, context);
             if condition.is_none() && self.waits() {
-                // which branches count is not known yet
+                // It is open which branches count.
                 self.branch = outer;
                 return None;
             }
@@ -51,7 +51,7 @@ impl Checker<'_> {
         Some(Value { dim: choice.dim.of_term(), ..choice })
     }
 
-    /// What is read next counts only where a condition holds too.
+    /// Adds a condition to those of the outer branches.
     fn guard_with(&mut self, outer: Option<ExprId>, condition: Option<ExprId>) {
         self.branch.guard = match (outer, condition) {
             (Some(outer), Some(condition)) => Some(self.model.graph.and(outer, condition)),

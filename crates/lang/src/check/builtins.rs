@@ -1,4 +1,4 @@
-//! Calls of the language's own functions.
+//! Calls of the language's functions.
 
 use super::formula::{Context, Dim, Value};
 use super::{Checker, errors};
@@ -8,11 +8,11 @@ use mechc_syntax::ast::{Expr, Name};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Function, Group};
 
-/// An argument with its place.
+/// An argument with its location.
 type Argument = (Span, Value);
 
 impl Checker<'_> {
-    /// A call of a function or kinematic quantity of the language.
+    /// Evaluates a call of a function or kinematic quantity of the language.
     pub(super) fn builtin(
         &mut self,
         e: &Expr,
@@ -27,7 +27,7 @@ impl Checker<'_> {
             self.report_count_of(e, name, function, arguments);
             return None;
         }
-        // a function's formula is looked over on its own
+        // A function's formula is checked on its own.
         if let ("sin" | "cos" | "tan", [argument], true) = (name.text.as_str(), arguments, self.calls.caller.is_none())
         {
             self.warn_of_degrees(argument);
@@ -81,12 +81,12 @@ impl Checker<'_> {
             }
             Group::Motion => self.motion(name, MotionLaw::named(name)?, arguments, context),
             Group::Polynomial => self.polynomial(arguments, context),
-            // a derivative is taken of a formula, not of its value; points are no numbers
+            // A derivative is taken of a formula, not of its value; points are not numbers.
             Group::Alike | Group::Derivative | Group::Points => self.apply_to_alike(name, arguments, context),
         }
     }
 
-    /// Says that an angle has no such sine or cosine, where that is a constant.
+    /// Reports a constant that is not the sine or cosine of an angle.
     fn is_no_sine(&mut self, span: Span, function: &str, argument: Value) -> bool {
         let number = self.number_of(argument.id).filter(|number| number.is_finite() && number.abs() > 1.0);
         let Some(number) = number.filter(|_| !self.branch.is_untaken) else { return false };
@@ -123,7 +123,7 @@ impl Checker<'_> {
         let (mut span, mut all) = arguments[0];
         for &(next, value) in &arguments[1..] {
             let dim = self.alike(what, (span, all), (next, value), context)?;
-            // what is said of the next one is said beside the one that has the dimension
+            // The next mismatch is reported relative to the argument that has the dimension.
             if !matches!(all.dim, Dim::Of(_)) {
                 (span, all) = (next, value);
             }
@@ -151,7 +151,7 @@ impl Checker<'_> {
                 return None;
             }
             (Some(_), Some(_)) => {}
-            // it can only be known on the way
+            // It is only known along the motion.
             _ => {
                 let length = self.model.graph.sub(u1.1.id, u0.1.id);
                 let one = self.model.graph.constant(1.0);
@@ -164,7 +164,7 @@ impl Checker<'_> {
         Some(Value { id, dim: dim.of_term() })
     }
 
-    /// `poly(u, u0, c0, c1, …)`: cₖ has the dimension of the result over that of uᵏ.
+    /// Evaluates `poly(u, u0, c0, c1, …)`: cₖ has the dimension of the result over that of uᵏ.
     fn polynomial(&mut self, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {
         let (u, u0, coefficients) = (arguments[0], arguments[1], &arguments[2..]);
         let step = self.all_alike("poly", &[u, u0], context)?.settled();

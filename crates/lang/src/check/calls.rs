@@ -1,8 +1,8 @@
-//! Calls: functions and measures expanded where they stand, each expansion made once.
+//! Calls of functions and measures, expanded in place. Each expansion is made once.
 //!
-//! An expansion recurses into the formula that is called, and a chain of functions can be longer than any stack is deep. So a call that is
-//! met too far down is put off: the formulas around it are given up, the call is expanded on its own, from the ground, and
-//! then the formulas are read once more, in which it is known by now. No platform's stack decides what is read.
+//! An expansion recurses into the called formula, and a chain of functions can be deeper than any stack. A call at too great a depth is
+//! therefore deferred: the formulas around it are abandoned, the call is expanded on its own from the lowest level, and the formulas are
+//! read again with its expansion in the cache. Thus the result does not depend on the size of the stack.
 
 use super::branches::Branch;
 use super::entity::Entity;
@@ -14,28 +14,28 @@ use mechc_syntax::ast::{Expr, Name, Window};
 use mechc_text::source::Span;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// Parts that one formula may have, written out.
+/// The largest size of one formula with its expansions, in nodes.
 const LARGEST: usize = 1_000_000;
 
-/// A call that stands deeper than so many levels, its callers' formulas included, is put off.
+/// The depth of formulas, including those of callers, from which calls are deferred.
 const DEEPEST_CALL: usize = 64;
 
-/// What may be read again and again for calls that are put off, as a multiple of what one formula may hold.
+/// The limit of repeated reading because of deferred calls, as a multiple of the largest size.
 const MOST_READ: usize = 16;
 
-/// One expansion of a function or measure: which, of what argument, and how it is read.
+/// The key of an expansion: the function or measure, its argument, and how it is read.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Call {
     entity: Entity,
     argument: Option<(ExprId, DimKey)>,
     judged: bool,
-    /// In what the argument is printed, where that is told.
+    /// The unit in which the argument is printed, if there is one.
     printed: Option<Span>,
-    /// Less is said in a branch that is never taken, and what must be positive must be so only where its branch counts.
+    /// A branch that is never taken gives fewer diagnostics, and conditions only apply in their branch.
     branch: Branch,
 }
 
-/// A call that was met too far down, with all that its expansion needs.
+/// A call at too great a depth, with all that its expansion needs.
 struct PutOff<'a> {
     call: Call,
     formula: &'a Expr,
@@ -43,35 +43,35 @@ struct PutOff<'a> {
     caller: Option<Span>,
 }
 
-/// The calls that are known, and those of the formula that is being read.
+/// The cached expansions, and the state of the current formula.
 #[derive(Default)]
 pub(super) struct Calls<'a> {
-    /// Expansions already made.
+    /// The expansions.
     pub known: FxHashMap<Call, Option<Value>>,
-    /// What those ask to be positive, where they do.
+    /// The conditions of expansions that have any.
     pub conditions: FxHashMap<Call, Vec<Condition>>,
-    /// Where the outermost of the formulas being expanded was called.
+    /// The call of the outermost formula that is being expanded.
     pub caller: Option<Span>,
-    /// Parts of the formula visited.
+    /// The number of visited parts of the formula.
     pub visited: usize,
-    /// How many levels of formulas are open.
+    /// The number of open levels of formulas.
     levels: usize,
-    /// Calls that wait for their turn, the last one first.
+    /// The deferred calls; the next one is last.
     waiting: Vec<PutOff<'a>>,
-    /// Expansions that were given up in this reading, since they hold a call that waits.
+    /// The expansions abandoned in this reading, as they hold a deferred call.
     given_up: FxHashSet<Call>,
-    /// Whether the formula that is being read holds such a call.
+    /// True if the current formula holds a deferred call.
     is_given_up: bool,
-    /// Parts of the expansions that are complete.
+    /// The number of parts of completed expansions.
     complete: usize,
-    /// Parts read so far, those read again included.
+    /// The number of parts read, including repeated reading.
     read: usize,
-    /// The formula is refused for its size.
+    /// True if the formula is rejected for its size.
     is_too_large: bool,
 }
 
 impl<'a> Checker<'a> {
-    /// A call of a function of the language or of the file.
+    /// Evaluates a call of a function of the language or of the file.
     pub(super) fn call(
         &mut self,
         e: &Expr,
@@ -92,7 +92,7 @@ impl<'a> Checker<'a> {
         if matches!(self.space.get(&name.text), Some(Entity::Broken)) {
             return None;
         }
-        // elsewhere a parameter of that name was rather meant than a quantity that may not stand there
+        // Where quantities may not stand, a parameter of that name was rather intended.
         let is_quantity = context.rates || self.space.get(&name.text).is_none();
         if is_quantity && self.quantity_word(name).is_some() {
             return self.quantity(e, name, arguments, context);
@@ -134,7 +134,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A function's formula where it is called, as if it stood there.
+    /// Expands a function's formula in the place of its call.
     fn function_value(&mut self, at: usize, argument: Value, span: Span, context: &Context<'_>) -> Option<Value> {
         let function = &self.functions[at];
         if !function.sound {
@@ -163,7 +163,7 @@ impl<'a> Checker<'a> {
         self.expand(call, formula, Some((&name.text, argument)), span, &inner)
     }
 
-    /// Another measure's formula, as if it stood there.
+    /// Expands the formula of another measure in its place.
     pub(super) fn measure_value(&mut self, at: usize, span: Span, context: &Context<'_>) -> Option<Value> {
         if let Some(&(part, Entity::Measure(inside))) = self.imported.get(&Entity::Measure(at)) {
             let (branch, caller) = (self.branch, self.calls.caller.or(Some(span)));
@@ -192,7 +192,7 @@ impl<'a> Checker<'a> {
         context: &Context<'_>,
     ) -> Option<Value> {
         if let Some(&known) = self.calls.known.get(&call) {
-            // who calls it asks for what it asks for
+            // The conditions of a formula apply where it is called.
             if let Some(conditions) = self.calls.conditions.get(&call) {
                 self.model.conditions.extend_from_slice(conditions);
             }
@@ -216,10 +216,10 @@ impl<'a> Checker<'a> {
         value
     }
 
-    /// Expands a call, and remembers it unless it had to be given up.
+    /// Expands a call and caches the value, unless it is abandoned.
     fn expansion(&mut self, call: Call, formula: &Expr, context: &Context<'_>) -> Option<Value> {
         let outer = std::mem::replace(&mut self.calls.is_given_up, false);
-        // what is called knows nothing of the body in which it is called
+        // The called formula does not belong to the body in which it is called.
         let scope = std::mem::take(&mut self.scope);
         let (complete, visited) = (self.calls.complete, self.calls.visited);
         let first = self.model.conditions.len();
@@ -236,7 +236,7 @@ impl<'a> Checker<'a> {
         value
     }
 
-    /// Remembers what an expansion asks to be positive, from a condition on, each thing once.
+    /// Caches the conditions of an expansion from `first` on, without duplicates.
     fn keep_conditions(&mut self, call: Call, first: usize) {
         let mut conditions = self.model.conditions.split_off(first);
         let mut seen = FxHashSet::default();
@@ -247,7 +247,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// One level of a formula; what was put off in it is made up for on the ground.
+    /// Reads one level of a formula. At the lowest level, deferred calls are expanded and the formula is read again.
     pub(super) fn level<T>(
         &mut self,
         context: &Context<'_>,
@@ -273,7 +273,7 @@ impl<'a> Checker<'a> {
         value
     }
 
-    /// Counts a part of a formula, and refuses the formula where it has too many.
+    /// Counts a part of a formula, and rejects the formula if it has too many.
     pub(super) fn count_part(&mut self, span: Span) -> Option<()> {
         self.calls.visited += 1;
         if self.calls.is_too_large || self.calls.visited <= LARGEST && self.calls.read <= MOST_READ * LARGEST {
@@ -284,12 +284,12 @@ impl<'a> Checker<'a> {
         None
     }
 
-    /// Whether a call that was put off keeps what is being read from being known.
+    /// Returns whether a deferred call makes the value of the current formula unavailable.
     pub(super) fn waits(&self) -> bool {
         self.calls.is_given_up
     }
 
-    /// Reads something from the ground.
+    /// Reads a formula from the lowest level.
     fn reading<T>(&mut self, before: usize, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
         self.calls.visited = before + self.calls.complete;
         self.calls.given_up.clear();
@@ -301,7 +301,7 @@ impl<'a> Checker<'a> {
         value
     }
 
-    /// Expands all calls that wait, and those that these wait for.
+    /// Expands all deferred calls, including those that they defer.
     fn make_up(&mut self, before: usize, place: &str) {
         let outer = (self.branch, self.calls.caller);
         while let Some(PutOff { call, formula, context, caller }) = self.calls.waiting.pop() {
@@ -321,7 +321,7 @@ impl<'a> Checker<'a> {
         (self.branch, self.calls.caller) = outer;
     }
 
-    /// What was read again, or is called twice, has asked for the same again.
+    /// Removes duplicate conditions, which repeated readings and calls add.
     fn forget_repeated_conditions(&mut self, from: usize) {
         if self.model.conditions.len() <= from + 1 {
             return;

@@ -1,4 +1,4 @@
-//! The names of `--by`, and what of parts no derivative is taken by: what is bound where they are used.
+//! The names of `--by`, and the params and inputs of parts that have no derivatives because they are bound.
 
 use super::entity::Entity;
 use super::mentions::mentioned;
@@ -8,16 +8,16 @@ use mechc_syntax::ast::{Expr, ItemKind, Name};
 use mechc_text::diag::nearest;
 use mechc_text::source::Span;
 
-/// A binding of a param or input, and what it is made of, by its names in the whole mechanism.
+/// The binding of a param or input, and the full names that its formula uses.
 pub(super) struct Bound {
     pub span: Span,
-    /// Whether it is of one coordinate of a point alone.
+    /// True if it binds one coordinate of a point only.
     is_of_coordinate: bool,
     pub made_of: Vec<String>,
 }
 
 impl Checker<'_> {
-    /// Looks the names of `--by` up, in the order given; what is named twice counts once.
+    /// Resolves the names of `--by` in their order. Repeated names count once.
     pub(super) fn look_over_by(&mut self) {
         for told in &self.around.by {
             if let Some((path, params)) = self.part_told(told) {
@@ -40,7 +40,7 @@ impl Checker<'_> {
         }
     }
 
-    /// One of that name; the coordinates of a point; or all copies of a repeated input.
+    /// Returns the variables of a name: one, the coordinates of a point, or all copies of a repeated input.
     fn variables_named(&self, told: &str) -> Vec<u32> {
         let known = |name: String| self.common.variables.known.get(&name).copied();
         if let Some(one) = known(told.to_owned()) {
@@ -72,7 +72,7 @@ impl Checker<'_> {
             if self.diagnostics.has_errors() && !self.deciding.contains(told) {
                 return;
             }
-            // all others have their columns
+            // All other names have variables.
             errors::column_by_deciding(told)
         } else if whole.is_some() {
             errors::no_column_by(mechanism, told, None, whole, &free)
@@ -85,7 +85,7 @@ impl Checker<'_> {
         self.report(diagnostic);
     }
 
-    /// A part that a name is told of, itself or with all copies, and what of it derivatives are taken by.
+    /// Returns the part that a name refers to, alone or with all copies, and its params and inputs that have derivatives.
     fn part_told(&self, told: &str) -> Option<(String, Vec<String>)> {
         for child in &self.parts {
             let path = child.address.path.strip_suffix('.')?;
@@ -102,7 +102,7 @@ impl Checker<'_> {
         None
     }
 
-    /// What is not bound of a param or input: itself, or coordinates of it.
+    /// Returns the name of a param or input, or the names of its coordinates, without those that are bound.
     fn free_of(&self, path: String) -> Vec<String> {
         match self.binding_of(&path) {
             None => vec![path],
@@ -114,7 +114,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The binding of what a path from the outermost mechanism is told of, which is in a part.
+    /// Returns the binding of a path into a part.
     pub(super) fn binding_of(&self, told: &str) -> Option<Bound> {
         for (child, part) in self.parts.iter().zip(&self.bindings) {
             for binding in &part.bindings {
@@ -136,7 +136,7 @@ impl Checker<'_> {
         None
     }
 
-    /// The params and inputs that a formula names, by their paths.
+    /// Returns the paths of the params and inputs that a formula uses.
     fn free_names_in(&self, formula: &Expr) -> Vec<String> {
         let mut found: Vec<String> = Vec::new();
         mentioned(

@@ -1,4 +1,4 @@
-//! Params, functions, tables, inputs, measures and results in the order in which they need each other.
+//! Params, functions, tables, inputs, measures and results, in their order of dependence.
 
 use super::Checker;
 use super::elements::MeasureState;
@@ -16,8 +16,7 @@ use mechc_text::source::Span;
 use rustc_hash::FxHashMap;
 
 impl<'a> Checker<'a> {
-    /// Params, functions, tables and measures in the order in which they need each other: params and tables are evaluated
-    /// and functions looked over; the order of the measures, and that of the results, is kept.
+    /// Evaluates params and tables and checks functions in order of dependence, and records the order of measures and of results.
     pub(super) fn definitions(&mut self) {
         let (mut definitions, mut docs, mut entities) = (Vec::new(), Vec::new(), Vec::new());
         for item in self.items() {
@@ -54,7 +53,7 @@ impl<'a> Checker<'a> {
         (self.measure_order, self.result_order) = (measures, results);
     }
 
-    /// What a declaration defines, behind others, with its name and the formulas that it is made of; it gets its place, and no value yet.
+    /// Returns the entity that a declaration defines, with its name and formulas. It is added without a value.
     fn definition(&mut self, item: &'a Item, before: &[Entity]) -> Option<(Entity, &'a Name, Vec<&'a Expr>)> {
         Some(match &item.kind {
             ItemKind::Param { name, value } => {
@@ -99,7 +98,7 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// Parts whose definitions go in a circle are what they are alone, so that all that they have is there.
+    /// Evaluates parts on a cycle of definitions without bindings, so that all that they declare exists.
     fn define_parts_on_circles(&mut self, on_circles: impl Iterator<Item = Entity>) {
         for entity in on_circles {
             if let Entity::Part(k) = entity
@@ -134,7 +133,7 @@ impl<'a> Checker<'a> {
                         formula,
                         |name| self.hidden.contains(name),
                         |used, is_called| {
-                            // `speed(P)` is a quantity, whatever else is called `speed`
+                            // `speed(P)` is a quantity, whatever else is called `speed`.
                             let is_of_motion =
                                 self.quantity_word(used).is_some() || self.reduction_word(used, 1).is_some();
                             if is_called && is_of_motion {
@@ -143,13 +142,13 @@ impl<'a> Checker<'a> {
                             let hidden = arguments.get(&k) == Some(&used.text.as_str());
                             let is_own = !hidden && !self.is_declared_though_taken(used);
                             let entity = self.entity(used).filter(|_| is_own);
-                            // what is in a part is known when the part is, but for what nothing here asks the number of
+                            // A name in a part depends on the part, unless no number of it is used here.
                             let part = used.text.split_once('.').and_then(|(part, _)| self.space.get(part));
                             let entity = match entity {
                                 Some(Entity::Body(_) | Entity::Joint(_) | Entity::Equation(_) | Entity::Ground) => None,
                                 entity => part.or(entity),
                             };
-                            // no input may stand in what an option says of one, which is told there
+                            // An input in an option's formula is reported with that option.
                             let is_told = self.sources.get(used.span.file).is_option;
                             let entity = entity.filter(|entity| !(is_told && matches!(entity, Entity::Input(_))));
                             if let Some(&at) = entity.and_then(|e| position.get(&e)) {

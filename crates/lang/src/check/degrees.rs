@@ -1,4 +1,4 @@
-//! Bare numbers that were probably meant in degrees, or in another unit of angle than radians.
+//! Warnings of bare numbers that were probably intended in degrees, or in another unit of angle than radians.
 
 use super::entity::Entity;
 use super::formula::{Context, Dim};
@@ -8,11 +8,11 @@ use mechc_text::source::Span;
 use mechc_text::vocabulary::Unit;
 use std::f64::consts::TAU;
 
-/// So many levels of a term are looked at: formulas nest deeper than a small stack has room for once more.
+/// The depth to which a term is examined: formulas nest deeper than a second recursion has stack for.
 const LEVELS: usize = 8;
 
 impl Checker<'_> {
-    /// Warns of bare numbers beyond a turn among the terms of an angle.
+    /// Warns of bare numbers beyond one turn among the terms of an angle.
     pub(super) fn warn_of_degrees_in(&mut self, e: &Expr) {
         match &e.bare().kind {
             ExprKind::Sum(first, rest) => {
@@ -32,8 +32,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Warns of bare numbers among terms that have to be alike, where one of the others is printed in degrees or the like: they are in
-    /// radians.
+    /// Warns of bare numbers among terms of equal dimension, if another term is printed in degrees or the like: the numbers are in radians.
     #[inline(never)] // its frame is not to stand on the stack of those who nest
     pub(super) fn warn_of_numbers_beside<'e>(
         &mut self,
@@ -46,7 +45,7 @@ impl Checker<'_> {
         self.warn_of_bare_numbers(terms, measure, &unit);
     }
 
-    /// Warns of bare numbers among the terms of a formula that is printed in degrees or the like itself: they are in radians.
+    /// Warns of bare numbers among the terms of a formula that is printed in degrees or the like: the numbers are in radians.
     pub(super) fn warn_of_numbers_printed(&mut self, formula: &Expr, written: &WrittenUnit) {
         let ExprKind::Sum(first, rest) = &formula.bare().kind else { return };
         let terms = std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term));
@@ -67,7 +66,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A number without a unit, or what is made of such alone, through params too; a zero fits anything.
+    /// Returns whether a formula consists of nonzero numbers without units, also through params.
     fn is_bare(&self, e: &Expr, levels: usize) -> bool {
         let Some(levels) = levels.checked_sub(1) else { return false };
         match &e.kind {
@@ -89,7 +88,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The measure that makes a formula an angle printed in degrees or the like, and that unit.
+    /// Returns the measure that makes a formula an angle printed in degrees or the like, and that unit.
     fn printed_unit(&self, e: &Expr, context: &Context<'_>, levels: usize) -> Option<(Span, String)> {
         let levels = levels.checked_sub(1)?;
         match &e.kind {
@@ -98,7 +97,7 @@ impl Checker<'_> {
                 let argument = context.argument.filter(|(argument, _)| *argument == name.text);
                 let unit = match argument {
                     Some(_) => context.printed?,
-                    // what is brought in has been looked at where it stands
+                    // Formulas that are expanded are examined where they are declared.
                     None if self.calls.caller.is_none() => self.unit_of(name)?,
                     None => return None,
                 };
@@ -134,7 +133,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The unit of angle in which a measure or result is printed, unless it is the radian.
+    /// Returns the unit of angle in which a measure or result is printed, unless it is the radian.
     fn unit_of(&self, name: &Name) -> Option<Span> {
         let written = match self.entity(name)? {
             Entity::Measure(k) => self.measure_known(k)?.unit,
@@ -144,7 +143,7 @@ impl Checker<'_> {
         is_of_degrees(written).then_some(written.span)
     }
 
-    /// That of a formula which is such a name, for a function that takes it.
+    /// Returns that unit for an argument that is such a name.
     pub(super) fn unit_of_argument(&self, e: &Expr, context: &Context<'_>) -> Option<Span> {
         let bare = match &e.bare().kind {
             ExprKind::Negate(inner) => inner.bare(),
@@ -158,7 +157,7 @@ impl Checker<'_> {
     }
 }
 
-/// Whether a unit holds one of angle that is not the radian.
+/// Returns whether a unit holds a unit of angle other than the radian.
 fn is_of_degrees(written: &WrittenUnit) -> bool {
     let mut units = written.factors.iter().filter_map(|factor| Unit::named(&factor.name.text));
     units.any(|unit| unit.is_of_angle() && unit.word.name != "rad")

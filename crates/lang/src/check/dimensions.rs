@@ -1,4 +1,4 @@
-//! Which formulas are judged by their dimensions, and whether these fit.
+//! Which formulas are judged by their dimensions, and whether these agree.
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
@@ -12,17 +12,17 @@ use mechc_text::source::Span;
 use mechc_text::vocabulary::Unit;
 
 impl Checker<'_> {
-    /// Whether a formula holds a unit of length, time or rate, or something that does.
+    /// Returns whether a formula holds a unit of length, time or rate, directly or through names.
     pub(super) fn is_dimensional(&self, formula: &Expr) -> bool {
         self.is_dimensional_over(None, formula)
     }
 
-    /// The same of the formula of a function or curve, over its argument.
+    /// Returns the same for the formula of a function or curve with an argument.
     pub(super) fn is_dimensional_over(&self, argument: Option<&str>, formula: &Expr) -> bool {
         self.holds_dimension(argument, formula, Wanted::Number)
     }
 
-    /// The same of a formula of numbers or of points.
+    /// Returns the same for a formula of numbers or of points.
     pub(super) fn holds_dimension(&self, argument: Option<&str>, formula: &Expr, wanted: Wanted) -> bool {
         let mut open = vec![(formula, wanted, wanted != Wanted::Number)];
         while let Some((e, wanted, with_points)) = open.pop() {
@@ -44,14 +44,14 @@ impl Checker<'_> {
                 {
                     self.is_dimensional_name(name)
                 }
-                // a literal point says nothing about the formula of a number around it
+                // A literal point is independent of the formula of a number around it.
                 ExprKind::Tuple(_) if !with_points => continue,
                 _ => false,
             };
             if holds {
                 return true;
             }
-            // but all about the length between it and another one
+            // The length between two points has their dimension.
             let with_points = match &e.kind {
                 ExprKind::Call { name, .. } if self.is_of_language(&name.text) => match name.text.as_str() {
                     "length" => true,
@@ -84,12 +84,12 @@ impl Checker<'_> {
         }
     }
 
-    /// The unit of a name that stands alone, and not behind a number.
+    /// Returns the unit of a name without a number before it.
     fn unit_alone(&self, name: &Name) -> Option<&'static Unit> {
         Unit::named(&name.text).filter(|_| self.space.get(&name.text).is_none())
     }
 
-    /// A literal zero, alone but for its sign, also through a param that is nothing else.
+    /// Returns whether a formula is a literal zero with an optional sign, also through params.
     pub(super) fn is_zero(&self, formula: &Expr) -> bool {
         match &formula.bare().kind {
             ExprKind::Literal { value, unit: None } => *value == 0.0,
@@ -104,7 +104,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The dimension of two terms, which must be alike where dimensions count.
+    /// Returns the common dimension of two terms, and reports a mismatch where dimensions count.
     pub(super) fn alike(
         &mut self,
         what: &str,
@@ -116,7 +116,7 @@ impl Checker<'_> {
         let (x, y) = match dims {
             [Dim::Any, other] | [other, Dim::Any] => return Some(other),
             [Dim::Of(x), Dim::Of(y)] => (x, y),
-            // a number has the dimension of what it stands beside
+            // A number has the dimension of the other term.
             [Dim::Of(own), Dim::Plain { .. }] | [Dim::Plain { .. }, Dim::Of(own)] => return Some(Dim::Of(own)),
             [one @ Dim::Plain { read, .. }, other @ Dim::Plain { .. }] => {
                 let fits = one.fits() && other.fits() && read.is(other.settled());
@@ -136,19 +136,19 @@ impl Checker<'_> {
         None
     }
 
-    /// Whether a value's dimension counts: in a plain formula that of a quantity that no number scales. (A function is judged where it is
-    /// called.)
+    /// Returns whether a value's dimension counts. In a plain formula it does for quantities without a number as factor. (A function is
+    /// judged where it is called.)
     pub(super) fn counts(&self, value: Value, context: &Context<'_>) -> bool {
         context.judged || context.expands && matches!(value.dim, Dim::Of(_)) && self.is_of_quantities(value.id)
     }
 
-    /// Whether a formula's value depends on kinematic quantities, or on what comes of them.
+    /// Returns whether a formula depends on kinematic quantities or on other named symbols.
     pub(super) fn is_of_quantities(&self, id: ExprId) -> bool {
         self.model.graph.dependence(id).on(Dependence::NAMED)
     }
 
-    /// The dimension of a pure number that a function makes of others. Of a number it is one again, and of what is no pure number it shows
-    /// that numbers are missing.
+    /// Returns the dimension of a function whose value is a pure number. Plain arguments give a plain number, and arguments that are not
+    /// pure show that dimensions are missing.
     pub(super) fn made_of(&self, arguments: &[(Span, Value)]) -> Dim {
         let is_plain = |value: &Value| !self.is_of_quantities(value.id);
         if arguments.iter().any(|(_, value)| !value.dim.fits()) {
@@ -160,7 +160,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Demands a dimension where dimensions count.
+    /// Requires a dimension where dimensions count.
     pub(super) fn demand(
         &mut self,
         place: &str,

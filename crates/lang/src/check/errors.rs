@@ -1,4 +1,4 @@
-//! What is said of a mechanism that does not pass.
+//! Diagnostics of mechanisms.
 
 mod dimensions;
 mod drawn;
@@ -37,7 +37,7 @@ fn meant(wanted: &Name, names: &[&str]) -> Option<Fix> {
     nearest(&wanted.text, names.iter().copied()).map(|name| Fix::meant(wanted.span, name))
 }
 
-/// The word is there if it is one of the language.
+/// `word` is given for words of the language.
 pub fn argument_count(what: &str, word: Option<&Word>, span: Span, wanted: &str, found: usize) -> Diagnostic {
     Diagnostic::new(Code::E0301, format!("`{what}` takes {wanted}, found {found}"))
         .at(span, format!("found {found}"))
@@ -54,7 +54,7 @@ pub fn empty(name: &Name) -> Diagnostic {
         .help("declare a body: `body crank at (0, 0, 0) { … }`")
 }
 
-/// As many names as a message has room for.
+/// Lists as many names as a message has room for.
 fn some_of(names: &[&str]) -> String {
     const MOST: usize = 24;
     match names.get(..MOST) {
@@ -63,7 +63,7 @@ fn some_of(names: &[&str]) -> String {
     }
 }
 
-/// `a`, `b` and `c`.
+/// Lists names as `a`, `b` and `c`.
 pub fn list(names: &[&str]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     match quoted.split_last() {

@@ -1,4 +1,4 @@
-//! Bodies, the ground, and their features; circles and curves have `profiles`.
+//! Bodies, the ground, and their features. Circles and curves are in `profiles`.
 
 use super::entity::Entity;
 use super::formula::{Context, Value};
@@ -13,19 +13,19 @@ use mechc_text::source::Span;
 use mechc_text::vocabulary::Keyword;
 use rustc_hash::FxHashMap;
 
-/// What a name of a body's space stands for; `None` where it is broken, which has been said.
+/// A feature that a name of a body stands for; `None` if it is broken, which has been reported.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Feature {
     Point(Option<PointId>),
     Axis(Option<AxisId>),
     Circle(Option<CircleId>),
     Curve(Option<CurveId>),
-    /// Its declaration does not follow the grammar, which has been said.
+    /// Its declaration does not follow the grammar, which has been reported.
     Broken,
 }
 
 impl Feature {
-    /// Whether it can stand where a thing of that name is wanted; a circle where a curve is.
+    /// Returns whether it can stand where a feature of that kind is expected. A circle can stand for a curve.
     pub fn is(self, what: &str) -> bool {
         match self {
             Feature::Point(_) => what == "point",
@@ -36,7 +36,7 @@ impl Feature {
         }
     }
 
-    /// As a noun, of the keyword that declares it.
+    /// Returns the noun of the keyword that declares it.
     pub fn with_article(keyword: &str) -> &'static str {
         match keyword {
             "point" => "a point",
@@ -58,7 +58,7 @@ impl Feature {
 }
 
 impl<'a> Checker<'a> {
-    /// Bodies, their features, and where all of it is drawn.
+    /// Evaluates bodies, features and poses.
     pub(super) fn features(&mut self) {
         self.add_frames();
         self.collect_all_features();
@@ -67,7 +67,7 @@ impl<'a> Checker<'a> {
         self.poses();
     }
 
-    /// Bodies, and the grounds of parts, in the order of the text.
+    /// Declares bodies and the grounds of parts, in the order of the text.
     pub(super) fn add_frames(&mut self) {
         self.common.features.insert(self.address.ground, Space::new());
         let mut parts = 0..;
@@ -92,7 +92,7 @@ impl<'a> Checker<'a> {
         self.in_parts(Checker::collect_all_features);
     }
 
-    /// Points first, then what needs them: each may be used before it is declared.
+    /// Evaluates points first, then the features that use them, so that points may be used before their declaration.
     pub(super) fn read_features(&mut self) {
         let frames = self.frames.clone();
         for &(frame, features) in &frames {
@@ -143,7 +143,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Each after those that its formula needs.
+    /// Evaluates points, each after those that its formula uses.
     fn points_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
         let mut points = Vec::new();
         for feature in features {
@@ -168,13 +168,13 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Which points of a body the formula of each one names.
+    /// Returns the points of a body that the formula of each one uses.
     fn uses_of_points<'n>(
         &mut self,
         frame: Frame,
         points: &[(&'n Name, Option<&'a Expr>)],
     ) -> Vec<(&'n Name, Vec<(usize, Span)>)> {
-        // a name that is taken twice keeps its first meaning
+        // A duplicate name keeps its first meaning.
         let mut positions = FxHashMap::default();
         for (k, (name, _)) in points.iter().enumerate() {
             positions.entry(name.text.as_str()).or_insert(k);
@@ -222,7 +222,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Fills in what a feature's name stands for, unless the name was taken.
+    /// Sets the feature of a name, unless the name is a duplicate.
     pub(super) fn settle(&mut self, frame: Frame, name: &Name, feature: Feature) {
         if let Some(space) = self.common.features.get_mut(&frame)
             && space.span(&name.text) == Some(name.span)
@@ -253,7 +253,7 @@ impl<'a> Checker<'a> {
         self.not_zero([x.id, y.id], e.span)
     }
 
-    /// The text of the angle of a place that is given by a distance and an angle.
+    /// Returns the text of the angle of a position given by distance and angle.
     fn angle_of_place(&self, e: &Expr) -> Option<&'a str> {
         match &e.bare().kind {
             ExprKind::Call { name, arguments, .. } if name.text == "polar" => {
@@ -287,7 +287,7 @@ impl<'a> Checker<'a> {
         self.two_lengths(parts, values, context)
     }
 
-    /// The two coordinates of a point, judged together.
+    /// Evaluates the two coordinates of a point, whose dimensions are judged together.
     pub(super) fn two_lengths(
         &mut self,
         parts: [&Expr; 2],
@@ -308,14 +308,14 @@ impl<'a> Checker<'a> {
         Some([x.id, y.id])
     }
 
-    /// A constant angle, with a warning where degrees were probably meant.
+    /// Evaluates a constant angle, with a warning if it was probably intended in degrees.
     pub(super) fn angle(&mut self, e: &Expr, place: &str) -> Option<ExprId> {
         self.warn_of_degrees_in(e);
         let (id, _) = self.constant_by(e, place, Dimension::PURE, DecidedBy::Finite)?;
         Some(id)
     }
 
-    /// A point where an axis begins or ends: one of the frame by name, or a formula of points.
+    /// Returns the point where an axis starts or ends: a named point of the frame, or a formula of points.
     pub(super) fn place(&mut self, frame: Frame, e: &Expr) -> Option<PointId> {
         match &e.kind {
             ExprKind::Name(name)
@@ -332,7 +332,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// `arm.tip` in the braces of `arm`
+    /// Returns whether `arm.tip` stands within the braces of `arm`.
     fn is_own_feature(&self, frame: Frame, owner: &Name, feature: &Name) -> bool {
         let is_there = || self.common.features.get(&frame).is_some_and(|space| space.get(&feature.text).is_some());
         self.frame_name(frame) == owner.text && is_there()
@@ -343,7 +343,7 @@ impl<'a> Checker<'a> {
         Some(self.model.add_point(Point { frame, name: None, span: e.span, at }))
     }
 
-    /// A point of a body or of the ground, or a global one as a formula of points.
+    /// Returns a point of a body or of the ground, or one of the ground by a formula of points.
     pub(super) fn point(&mut self, e: &Expr) -> Option<PointId> {
         match &e.kind {
             ExprKind::Tuple(_) => self.unnamed_point(self.address.ground, e),
@@ -379,7 +379,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// An axis of a body or of the ground.
+    /// Returns an axis of a body or of the ground.
     pub(super) fn axis(&mut self, e: &Expr) -> Option<AxisId> {
         match &e.kind {
             ExprKind::Member { owner, feature } => {
@@ -408,7 +408,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A name alone where `body.feature` is wanted.
+    /// Reports a name alone where `body.feature` is expected.
     pub(super) fn bare_name(&mut self, name: &Name, what: &str) {
         let Ok(entity) = self.resolve(name) else { return };
         if entity == Some(Entity::Trace) && what == "point" {
@@ -458,7 +458,7 @@ impl<'a> Checker<'a> {
         None
     }
 
-    /// What `owner.feature` is, for a message.
+    /// Describes `owner.feature` for a message.
     pub(super) fn describe_member(&self, owner: &Name, feature: &Name) -> String {
         let space = self.frame_of(owner).and_then(|frame| self.common.features.get(&frame));
         let found = space.and_then(|space| space.get(&feature.text));

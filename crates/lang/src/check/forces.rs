@@ -1,4 +1,4 @@
-//! Masses, gravity, loads; and what comes out of them: efforts and reactions.
+//! Masses, gravity and loads, and the efforts and reactions that outputs use.
 
 use super::Checker;
 use super::entity::Entity;
@@ -19,7 +19,7 @@ use mechc_text::vocabulary::QuantityWord;
 // ---- masses and gravity
 
 impl<'a> Checker<'a> {
-    /// The masses of a body.
+    /// Adds the masses of a body.
     pub(super) fn masses_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
         for feature in features {
             let FeatureKind::Mass { mass, at, inertia } = &feature.kind else { continue };
@@ -49,7 +49,7 @@ impl<'a> Checker<'a> {
         self.model.add_point(Point { frame, name: None, span, at: [zero; 2] })
     }
 
-    /// A constant behind a keyword that is not below zero; zero where nothing is said.
+    /// Returns a constant after a keyword, which must not be negative; zero without a formula.
     fn not_negative(&mut self, frame: Frame, e: Option<&Expr>, keyword: &str, wanted: Dimension) -> Option<ExprId> {
         let Some(e) = e else { return Some(self.model.graph.constant(0.0)) };
         let place = format!("what stands behind `{keyword}`");
@@ -62,7 +62,7 @@ impl<'a> Checker<'a> {
         Some(id)
     }
 
-    /// The acceleration of free fall: that of the outermost mechanism counts, those of parts are looked over.
+    /// Sets the acceleration of gravity from the outermost mechanism. Those of parts are only checked.
     pub(super) fn gravity(&mut self) {
         self.model.gravity = self.acceleration_of_gravity();
         if self.own_gravity().is_none() {
@@ -79,7 +79,7 @@ impl<'a> Checker<'a> {
 
     fn acceleration_of_gravity(&mut self) -> Option<[ExprId; 2]> {
         self.in_parts(|part| {
-            // it counts when they run alone
+            // It counts when the part runs alone.
             let _ = part.acceleration_of_gravity();
         });
         let acceleration = self.own_gravity()?;
@@ -103,7 +103,7 @@ impl<'a> Checker<'a> {
         ids.try_into().ok()
     }
 
-    /// Says that the gravity of a part does not count, of each mechanism once.
+    /// Warns that the gravity of a part does not count, once for each mechanism.
     fn warn_of_gravity_in_parts(&mut self) {
         let mut told = Vec::new();
         for (part, written) in self.parts.iter().zip(&self.bindings) {
@@ -115,7 +115,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The mechanism that says something of gravity, this one or one of its parts, and where.
+    /// Returns the mechanism that declares gravity, this one or one of its parts, and where.
     fn gravity_inside(&self) -> Option<(&'a str, Span)> {
         let own = self.own_gravity().map(|own| (self.tree.name.text.as_str(), own.span));
         own.or_else(|| self.parts.iter().find_map(Checker::gravity_inside))
@@ -125,7 +125,7 @@ impl<'a> Checker<'a> {
 // ---- loads
 
 impl Checker<'_> {
-    /// The loads in the order of the text, those of parts where these are declared.
+    /// Adds the loads in the order of the text, those of a part where it is declared.
     pub(super) fn loads(&mut self) {
         let mut parts = 0..self.parts.len();
         for item in self.items() {
@@ -163,7 +163,7 @@ impl Checker<'_> {
         Some(Load { declared, part: self.address.part, force: value.id, conditions, on: quantity, dimension, written })
     }
 
-    /// What a load works on: one quantity of positions.
+    /// Returns the quantity on which a load works, a function of positions.
     fn quantity_of_load(&mut self, name: &Name, on: &Expr) -> Option<Quantity> {
         let bare = on.bare();
         let ExprKind::Call { name: called, arguments, window } = &bare.kind else {
@@ -200,7 +200,7 @@ impl Checker<'_> {
         })
     }
 
-    /// The quantities that are meant by what moves: a joint, a body, a point.
+    /// Returns the quantities that suit a joint, body or point.
     fn quantities_of(&self, moved: &ExprKind) -> Option<Vec<String>> {
         match moved {
             ExprKind::Name(name) => match self.entity(name)? {
@@ -223,8 +223,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Demands that the product of a load and what it works on is an energy. A plain one is a torque on an angle; on a length it has to
-    /// say what it is.
+    /// Requires that a load times its quantity is an energy. A plain load is a torque on an angle; on a length it needs a unit.
     fn is_a_force_on(
         &mut self,
         name: &Name,
@@ -251,15 +250,15 @@ impl Checker<'_> {
     }
 }
 
-/// How a formula is read that may hold what a driver may.
+/// Returns a context that allows the same as a driver's.
 fn driven(place: &str, judged: bool) -> Context<'_> {
     Context { judged, time: true, inputs: true, quantities: true, ..Context::constant(place) }
 }
 
-// ---- what comes out
+// ---- computed forces
 
 impl Checker<'_> {
-    /// `effort(D)`, `force_x(J)`, `force_y(J)`, `torque(J)`
+    /// Evaluates `effort(D)`, `force_x(J)`, `force_y(J)` or `torque(J)`.
     pub(super) fn force(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Value> {
         if !context.measures {
             self.report(errors::force_in(context.place, &format!("`{}`", name.text), e.span));
@@ -277,14 +276,14 @@ impl Checker<'_> {
             _ => Force::ReactionTorque(self.joint_with_torque(argument)?),
         };
         let dimension = self.model.dimension_of_force(force);
-        // it holds accelerations
+        // It holds accelerations.
         let id = self.name_symbol(Named::Force(self.address.part, force), 2);
         let is_plain = matches!(force, Force::Effort(equation) if self.common.plain_equations.contains(&equation));
         let dim = if is_plain { Dim::Plain { read: dimension, fits: true } } else { Dim::Of(dimension) };
         Some(Value { id, dim })
     }
 
-    /// A constraint or driver; nothing where it is broken, which has been said.
+    /// Returns a constraint or driver; `None` if it is broken, which has been reported.
     fn equation_named(&mut self, e: &Expr) -> Option<EquationId> {
         let ExprKind::Name(name) = &e.bare().kind else {
             self.wrong_kind(e.span, "a driver or constraint", Self::describe(e));
@@ -307,7 +306,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A joint of a kind that exerts moments.
+    /// Returns a joint of a kind that exerts moments.
     fn joint_with_torque(&mut self, e: &Expr) -> Option<JointId> {
         let (joint, name) = self.joint_named("torque", e)?;
         let kind = self.model[joint].kind.plain();
@@ -320,7 +319,7 @@ impl Checker<'_> {
         None
     }
 
-    /// The driver that speaks of a joint.
+    /// Returns the driver that refers to a joint.
     pub(super) fn driver_of(&self, joint: &str) -> Option<String> {
         let is_it = |e: &Expr| matches!(&e.kind, ExprKind::Name(name) if name.text == joint);
         let speaks_of_it = |e: &Expr| e.parts().any(is_it);
@@ -332,12 +331,12 @@ impl Checker<'_> {
         })
     }
 
-    /// Whether a formula holds a force, also within others.
+    /// Returns whether a formula holds a force, also within derivatives.
     pub(super) fn holds_force(&self, id: ExprId) -> bool {
         self.holds_named(id, |named| matches!(named, Named::Force(..)))
     }
 
-    /// Whether a formula holds a named symbol of some kind, also within derivatives and what parts hold.
+    /// Returns whether a formula holds a named symbol of some kind, also within derivatives and held inputs.
     pub(super) fn holds_named(&self, id: ExprId, is_wanted: impl Fn(&Named) -> bool) -> bool {
         let mut open = vec![id];
         while let Some(id) = open.pop() {
@@ -353,7 +352,7 @@ impl Checker<'_> {
         false
     }
 
-    /// Whether a measure or result, of this text or of a part's, asks for an effort.
+    /// Returns whether a measure or result of this text or of a part uses an effort.
     pub(super) fn asks_for_efforts(&self) -> bool {
         let is_effort = |e: &Expr| matches!(&e.kind, ExprKind::Call { name, .. } if name.text == "effort");
         let asks = |e: &Expr| e.parts().any(is_effort);
@@ -366,7 +365,7 @@ impl Checker<'_> {
         own || self.parts.iter().any(Checker::asks_for_efforts)
     }
 
-    /// Whether a formula is a torque, as far as its words tell: joules are no unit of it.
+    /// Returns whether a formula is a torque, as far as it shows; joules are not a unit of torque.
     pub(super) fn is_torque(&self, e: &Expr) -> bool {
         match &e.kind {
             ExprKind::Paren(inner) | ExprKind::Negate(inner) => self.is_torque(inner),
@@ -395,7 +394,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether a driver or constraint works on an angle.
+    /// Returns whether a driver or constraint works on an angle.
     fn turns(&self, e: &Expr) -> bool {
         let ExprKind::Name(name) = &e.bare().kind else { return false };
         let Some(Entity::Equation(k)) = self.entity(name) else { return false };

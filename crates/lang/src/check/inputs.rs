@@ -1,4 +1,4 @@
-//! Inputs: what they are by the text, and what they are told to be from outside.
+//! Inputs: their formulas in the text, and their overrides.
 
 use super::formula::{Context, Dim, Value};
 use super::lead::Needs;
@@ -12,33 +12,33 @@ use mechc_syntax::ast::{Expr, ItemKind, Name};
 use mechc_text::diag::{Diagnostic, nearest};
 use mechc_text::source::{FileId, Span};
 
-/// What inputs are told to be.
+/// The overrides of inputs.
 #[derive(Clone, Debug, Default)]
 pub struct Given {
-    /// By formulas: the name of the input, and the formula, over params, functions, tables and time.
+    /// The names of inputs with their formulas, over params, functions, tables and time.
     pub formulas: Vec<(String, Expr)>,
-    /// By the samples of a file.
+    /// A file of samples.
     pub samples: Option<FileId>,
 }
 
 impl Given {
-    /// Whether they are told nothing.
+    /// Returns whether there are no overrides.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.formulas.is_empty() && self.samples.is_none()
     }
 }
 
-/// What is known of an input.
+/// The state of an input.
 pub(super) struct InputState<'a> {
     pub name: &'a Name,
     pub formula: &'a Expr,
-    /// `None` before its turn, and where it is broken.
+    /// `None` before evaluation, and if it is broken.
     pub value: Option<Value>,
 }
 
 impl Checker<'_> {
-    /// Says which of the values set from outside are of no parameter, or of one that a part's user has bound.
+    /// Reports overrides of unknown parameters, and of parameters that are bound.
     pub(super) fn look_over_settings(&mut self) {
         if self.around.settings.is_empty() {
             return;
@@ -55,7 +55,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Says which of the formulas given are of no input, or of one that another one is of too.
+    /// Reports overrides of unknown inputs, and of inputs that are overridden twice.
     pub(super) fn look_over_given(&mut self) {
         let given = &self.around.given;
         if given.formulas.is_empty() {
@@ -82,7 +82,7 @@ impl Checker<'_> {
         })
     }
 
-    /// Whether something told from outside is of anything that can be told.
+    /// Reports an override that names nothing which can be overridden.
     fn look_over_name(
         &mut self,
         what: Settable,
@@ -106,7 +106,7 @@ impl Checker<'_> {
         bound.is_none()
     }
 
-    /// The samples given, if they can be used.
+    /// Returns the samples, if they are valid.
     pub(super) fn samples_given(&mut self) -> Option<Samples> {
         let file = self.around.given.samples?;
         let sources = self.sources;
@@ -114,18 +114,18 @@ impl Checker<'_> {
         let inputs = self.all_inputs();
         let faulty = headed.columns().filter(|head| !self.has_an_input(head, &inputs)).count();
         match headed.rows() {
-            // a column of something else may well hold no numbers
+            // A column of an unknown input may well hold no numbers.
             Err(_) if faulty > 0 => None,
             rows => self.or_reported(rows),
         }
     }
 
-    /// What there is, or its faults reported.
+    /// Returns a value, or reports the faults.
     fn or_reported<T>(&mut self, found: Result<T, Vec<Diagnostic>>) -> Option<T> {
         found.map_err(|faults| faults.into_iter().for_each(|fault| self.report(fault))).ok()
     }
 
-    /// Whether a column is of an input that can be told so.
+    /// Returns whether a column names an input that can be overridden.
     fn has_an_input(&mut self, head: &Head<'_>, inputs: &[(String, Option<Span>)]) -> bool {
         let path = head.path();
         if let Some(meant) = head.meant().filter(|_| !inputs.iter().any(|(full, _)| *full == path)) {
@@ -143,7 +143,7 @@ impl Checker<'_> {
         twice.is_none()
     }
 
-    /// What an input is; of a part whose user says what it is, its own formula gives its dimension.
+    /// Evaluates an input. If a part's input is bound, its own formula only gives its dimension.
     pub(super) fn input(&mut self, k: usize) {
         let (name, formula) = (self.inputs[k].name, self.inputs[k].formula);
         let before = self.model.conditions.len();
@@ -151,7 +151,7 @@ impl Checker<'_> {
         let needs = Needs { before, behind_own: self.model.conditions.len() };
         if self.bound.inputs.contains(&name.text.as_str()) {
             self.inputs[k].value = Some(in_file);
-            // its own formula says nothing of the motion
+            // Its own formula does not affect the motion.
             self.model.conditions.truncate(before);
             return;
         }
@@ -169,7 +169,7 @@ impl Checker<'_> {
         let value = value.and_then(|value| self.set_input(name, value, before));
         let declared = self.declared(name);
         let has_signals = self.model.has_signals;
-        // what varies is the signal then, whatever its formula
+        // The variable is the signal then, whatever its formula is.
         let value = value.map(|value| if has_signals { value } else { self.with_shift(&declared, value) });
         self.inputs[k].value = value;
         if let Some(value) = value {
@@ -177,7 +177,7 @@ impl Checker<'_> {
             let dimension = value.dim.settled();
             self.model.inputs.push(Input { declared: declared.clone(), number, value: value.id, dimension });
             if has_signals {
-                // what the formula asks for is no concern of those that take what they are given
+                // The conditions of the formula do not apply to given signals.
                 self.model.conditions.truncate(before);
                 let id = self.model.graph.symbol(Symbol::Signal { index: number as u32, order: 0 });
                 self.inputs[k].value = Some(self.with_shift(&declared, Value { id, ..value }));
@@ -194,13 +194,13 @@ impl Checker<'_> {
         for condition in &mut self.model.conditions[conditions..] {
             condition.owner.clone_from(&owner);
         }
-        // a plain formula of time is a number
+        // A plain formula of time is a number.
         let is_plain = !judged && !value.dim.of_term().is_a_pure_number();
         let dim = if is_plain { Dim::PLAIN } else { value.dim.of_term() };
         Some(Value { dim, ..value })
     }
 
-    /// What a formula from outside says: a plain one is taken in the unit of what is expected.
+    /// Returns the value of an override's formula. A plain one is in the unit of the expected dimension.
     fn told(&mut self, name: &Name, formula: &Expr, wanted: Dim) -> Option<Value> {
         let given = self.input_value(name, formula)?;
         if let Some([wanted, found]) = wanted.other_than(given.dim).filter(|_| self.is_dimensional(formula)) {
@@ -212,7 +212,7 @@ impl Checker<'_> {
         Some(Value { dim: wanted, ..given })
     }
 
-    /// The natural cubic spline through samples, at time `t`.
+    /// Returns the natural cubic spline through samples, at time `t`.
     fn sampled(&mut self, times: &[f64], column: &Column, wanted: Dim) -> Option<Value> {
         let unlike = column.dimension.and_then(|found| wanted.other_than(Dim::Of(found)));
         if let Some([wanted, found]) = unlike {
@@ -229,7 +229,7 @@ impl Checker<'_> {
         let graph = &mut self.model.graph;
         let id = graph.table(table, 0, t);
         let (first, last) = (graph.constant(times[0]), graph.constant(times[times.len() - 1]));
-        // both ends are within, whatever rounding says
+        // Both ends are inside in spite of rounding.
         let slack = graph.constant(1e-12 * (times[times.len() - 1] - times[0]));
         for way in [graph.sub(t, first), graph.sub(last, t)] {
             let positive = self.model.graph.add(way, slack);
@@ -240,14 +240,14 @@ impl Checker<'_> {
         Some(Value { id, dim: wanted })
     }
 
-    /// Says that an input may not stand somewhere.
+    /// Reports an input where inputs are not allowed.
     pub(super) fn input_in(&mut self, name: &Name, context: &Context<'_>) {
         let diagnostic = errors::input_in(context.place, name, context.time);
         self.report(diagnostic);
     }
 }
 
-/// What can be told from outside.
+/// The things that can be overridden.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Settable {
     Param,

@@ -1,5 +1,5 @@
-//! A mechanism and all that its parts bring along, before anything of it is checked: each part is an instance of a mechanism, with what
-//! is repeated in it written out. Instances of one text that come out the same are one.
+//! Instantiation: before the check, each part becomes an instance of its mechanism, with expanded repetitions. Equal instances of one text
+//! are shared.
 
 use super::bindings::BoundParam;
 use super::errors;
@@ -15,10 +15,10 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::hash_map::Entry;
 use std::rc::Rc;
 
-/// Levels of parts within parts.
+/// The largest depth of parts in parts.
 const DEEPEST: usize = 32;
 
-/// The instance of a mechanism that stands alone, and what is wrong with its ranges and parts.
+/// Returns the instance of a mechanism that is checked on its own, and the diagnostics of its ranges and parts.
 pub(super) fn instance_of<'t>(
     tree: &'t Mechanism,
     surroundings: &'t Surroundings,
@@ -41,15 +41,15 @@ pub(super) fn instance_of<'t>(
     (instance, builder.diagnostics)
 }
 
-/// The text of a mechanism, and what is bound of what decides its ranges.
+/// The text of a mechanism, and the bound values that determine its ranges.
 type Key = (*const Mechanism, Vec<(String, u64)>);
 
-/// What is known of a mechanism by its text and those of its parts, whatever its params are.
+/// The properties of a mechanism that do not depend on the values of its params.
 #[derive(Clone, Default)]
 struct Outline {
-    /// The params that decide what is repeated.
+    /// The params that determine repetitions.
     deciding: Rc<FxHashSet<String>>,
-    /// So many declarations there are at least, written out.
+    /// The least number of declarations after expansion.
     fewest: usize,
 }
 
@@ -57,24 +57,24 @@ struct Builder<'t, 's> {
     library: &'t Library,
     surroundings: &'s Surroundings,
     sources: &'s Sources,
-    /// By the text of a mechanism.
+    /// The outlines, by the text of a mechanism.
     outlines: FxHashMap<*const Mechanism, Outline>,
-    /// By the text of a mechanism, and what is bound of what decides its ranges.
+    /// The instances that have been made.
     known: FxHashMap<Key, Rc<Instance<'t>>>,
-    /// The mechanisms around the one at hand, the outermost first.
+    /// The mechanisms around the current one, the outermost first.
     around: Vec<&'t Mechanism>,
     diagnostics: Diagnostics,
-    /// Which has been said.
+    /// True if that has been reported.
     is_too_large: bool,
 }
 
 impl<'t> Builder<'t, '_> {
-    /// With what is bound of the params that decide its ranges.
+    /// Returns the instance of a mechanism with bound values of the params that determine its ranges.
     fn instance(&mut self, tree: &'t Mechanism, path: &str, bound: &[(String, f64)]) -> Rc<Instance<'t>> {
         if !needs_writing(tree) {
             return Rc::new(Instance::plain(tree));
         }
-        // what is set from outside may be another thing for every path
+        // Overrides may differ between paths.
         let key = (std::ptr::from_ref(tree), bound.iter().map(|(name, x)| (name.clone(), x.to_bits())).collect());
         let is_shared = self.surroundings.settings.is_empty();
         if is_shared && let Some(known) = self.known.get(&key) {
@@ -100,7 +100,7 @@ impl<'t> Builder<'t, '_> {
             .collect();
         checker.collect(&definitions);
         checker.definitions();
-        // the same is told of the whole
+        // The whole mechanism is reported with the same diagnostics.
         checker.diagnostics = Diagnostics::default();
         let mut writer = Writer::new(tree, checker);
         let copies = writer.all_copies(tree);
@@ -111,7 +111,7 @@ impl<'t> Builder<'t, '_> {
             let mechanism = self.mechanism_of(part);
             let fewest = mechanism.map_or(0, |mechanism| self.outline(mechanism).fewest);
             for numbers in copies {
-                // before any of it is written out
+                // Checked before it is expanded.
                 self.must_be_small_enough(count.saturating_add(fewest), part);
                 if self.is_too_large {
                     self.diagnostics.extend(writer.said());
@@ -145,7 +145,7 @@ impl<'t> Builder<'t, '_> {
         Ok(self.library.tree(found))
     }
 
-    /// The mechanism that a part is, unless that contains itself or is too deep.
+    /// Returns the mechanism of a part, unless that contains itself or is too deep.
     fn mechanism_of(&mut self, part: &'t ast::Part) -> Option<&'t Mechanism> {
         let mechanism = match self.find(&part.mechanism) {
             Ok(mechanism) => mechanism,
@@ -195,13 +195,12 @@ impl<'t> Builder<'t, '_> {
         }
     }
 
-    /// The params that the bounds of ranges and the numbers of copies are made of, in a mechanism and in its parts, through other params
-    /// and functions too.
+    /// Returns the params on which ranges and indices depend in a mechanism and its parts, also through other params and functions.
     fn deciding(&mut self, tree: &'t Mechanism) -> Rc<FxHashSet<String>> {
         self.outline(tree).deciding
     }
 
-    /// A mechanism, once those of its parts are known; without recursion, for there may be any number of levels, which is told elsewhere.
+    /// Returns the outline of a mechanism. Iterative, as the depth of parts is only limited elsewhere.
     fn outline(&mut self, tree: &'t Mechanism) -> Outline {
         let mut open = vec![(tree, false)];
         while let Some((tree, are_parts_known)) = open.pop() {
@@ -210,7 +209,7 @@ impl<'t> Builder<'t, '_> {
                 let outline = self.outline_with_parts(tree);
                 self.outlines.insert(key, outline);
             } else if let Entry::Vacant(unknown) = self.outlines.entry(key) {
-                // this is what counts in a circle of mechanisms, which is told elsewhere
+                // The value on a cycle of mechanisms, which is reported elsewhere.
                 unknown.insert(Outline::default());
                 open.push((tree, true));
                 open.extend(parts_of(tree).filter_map(|part| Some((self.find(&part.mechanism).ok()?, false))));
@@ -241,7 +240,7 @@ impl<'t> Builder<'t, '_> {
     }
 }
 
-/// The declarations of parts in a mechanism.
+/// Returns the declarations of parts in a mechanism.
 fn parts_of(tree: &Mechanism) -> impl Iterator<Item = &ast::Part> {
     tree.items.iter().filter_map(|item| match &item.kind {
         ItemKind::Part(part) => Some(&**part),
@@ -249,14 +248,14 @@ fn parts_of(tree: &Mechanism) -> impl Iterator<Item = &ast::Part> {
     })
 }
 
-/// A mechanism that is not looked at any further, for what is in one of its parts.
+/// Returns a mechanism that is not examined any further, because of one of its parts.
 fn too_large<'t>(tree: &'t Mechanism, part: &Item, deciding: Rc<FxHashSet<String>>) -> Instance<'t> {
     let items = vec![broken(part, &Vec::new())];
     let written = Mechanism { items, docs: Vec::new(), name: tree.name.clone(), span: tree.span };
     Instance { written: Some(written), deciding, ..Instance::plain(tree) }
 }
 
-/// The names that formulas mention, those that the formulas of these mention, and so on.
+/// Returns the names that formulas use, directly or through other definitions.
 fn needed_by<'t>(tree: &'t Mechanism, mut open: Vec<&'t Expr>) -> FxHashSet<String> {
     let mut needed = FxHashSet::default();
     while let Some(e) = open.pop() {
@@ -274,7 +273,7 @@ fn needed_by<'t>(tree: &'t Mechanism, mut open: Vec<&'t Expr>) -> FxHashSet<Stri
     needed
 }
 
-/// What the bounds of ranges may speak of.
+/// Returns a mechanism with the declarations that ranges may use.
 pub(super) fn definitions_of(tree: &Mechanism) -> Mechanism {
     let is_definition =
         |item: &&Item| matches!(item.kind, ItemKind::Param { .. } | ItemKind::Function { .. } | ItemKind::Table { .. });

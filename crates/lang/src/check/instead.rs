@@ -1,4 +1,4 @@
-//! What to write instead of something of the wrong kind, as far as the mechanism around it tells.
+//! Suggestions for arguments of the wrong kind, from the declarations of the mechanism.
 
 use super::Checker;
 use super::entity::Entity;
@@ -12,7 +12,7 @@ use mechc_text::source::Span;
 use mechc_text::vocabulary::{Place, QuantityWord, Synonym, Unit};
 
 impl Checker<'_> {
-    /// A point in the place of an axis: one of the axes of its body, or one through the point.
+    /// Suggests an axis instead of a point: an axis of the body, or a new one through the point.
     pub(super) fn axis_for(&self, frame: Frame, point: &Name) -> Option<Fix> {
         let space = self.common.features.get(&frame)?;
         let owner = self.frame_name(frame);
@@ -30,7 +30,7 @@ impl Checker<'_> {
         let axis = format!("axis {name} = {} along (1, 0)", point.text);
         let source = self.sources.get(feature.file);
         let line = source.text[..feature.start as usize].rsplit('\n').next().unwrap_or_default();
-        // on a line of its own, or within that of the body
+        // On a line of its own, or within the line of the body.
         let gap = if line.trim().is_empty() { format!("\n{line}") } else { " ".to_owned() };
         Some(Fix {
             message: format!("an axis is declared in `{owner}`, `{axis}`, and is `{owner}.{name}` here"),
@@ -42,7 +42,7 @@ impl Checker<'_> {
         })
     }
 
-    /// A body in the place of a joint: the joints of that body, and the angle of the body itself.
+    /// Adds suggestions to a diagnostic of a body where a joint is expected: the joints of that body, and the body's angle.
     pub(super) fn joint_for(&self, quantity: &str, name: &Name, diagnostic: Diagnostic) -> Diagnostic {
         if let (true, Some(Entity::Equation(_))) = (is_force(quantity), self.entity(name)) {
             return diagnostic.help(format!("what it supplies is `effort({})`", name.text));
@@ -73,7 +73,7 @@ impl Checker<'_> {
         }
     }
 
-    /// `power(motor)`, `moment(main)`, `force(motor)`: what others call what a driver supplies, told of the one that is named.
+    /// Suggests an effort for other words, such as `power(motor)`, `moment(main)` and `force(motor)`.
     pub(super) fn effort_for(&self, e: &Expr, called: &Name, arguments: &[Expr]) -> Option<Fix> {
         let [argument] = arguments else { return None };
         let ExprKind::Name(name) = &argument.bare().kind else { return None };
@@ -98,7 +98,7 @@ impl Checker<'_> {
         Some(Fix::replace(e.span, text, message, Applies::Probably))
     }
 
-    /// The quantity alone on the left of a driver, as it was written.
+    /// Returns the text of the quantity that a driver moves, if its left side is one.
     fn moved_by(&self, driver: &str) -> Option<&str> {
         let left = self.items().iter().find_map(|item| match &item.kind {
             ItemKind::Equation { driver: true, name, left, .. } if name.text == driver => Some(left),
@@ -109,7 +109,7 @@ impl Checker<'_> {
         is_quantity.then(|| self.sources.text(left.span))
     }
 
-    /// `crank.phi`, `crank.x`, or a point in the place of a number.
+    /// Suggests a quantity for `crank.phi`, `crank.x` or a point where a number is expected.
     pub(super) fn number_for(&self, span: Span, owner: &Name, feature: &Name) -> Option<Fix> {
         let frame = match self.entity(owner)? {
             Entity::Body(k) => *self.bodies.get(k)?,
@@ -142,7 +142,7 @@ impl Checker<'_> {
         }
     }
 
-    /// `(50,5 mm, 0)`, `step5(t, 0,5, 0, 1,5, 2)`, where so many parts are wanted.
+    /// Suggests decimal points for `(50,5 mm, 0)` or `step5(t, 0,5, 0, 1,5, 2)`, if `wanted` parts are then left.
     pub(super) fn decimal_comma(&self, parts: &[Expr], wanted: usize) -> Option<Fix> {
         let (mut edits, mut number, mut k) = (Vec::new(), None, 0);
         while k + 1 < parts.len() {
@@ -162,7 +162,7 @@ impl Checker<'_> {
         Some(Fix { message, edits, applies: Applies::Probably })
     }
 
-    /// Says that an angle stands where a length is wanted: a plain formula would take it for metres.
+    /// Reports an angle where a length is expected. A plain formula would take it as metres.
     pub(super) fn refuses_angle(&mut self, place: &str, e: &Expr) -> bool {
         let Some((name, declared)) = self.angle_in(e) else { return false };
         let place = format!("{place} must be a length, found an angle");
@@ -178,7 +178,7 @@ impl Checker<'_> {
         true
     }
 
-    /// The literal or parameter that makes an angle of a formula, if nothing in it can make a length of that again.
+    /// Returns the literal or parameter that makes a formula an angle, unless another factor may make it a length.
     fn angle_in<'e>(&self, e: &'e Expr) -> Option<(&'e str, Option<Span>)> {
         match &e.bare().kind {
             ExprKind::Literal { unit: Some((unit, 1)), .. } => is_unit_of_angle(&unit.text).then_some(("", None)),
@@ -189,7 +189,7 @@ impl Checker<'_> {
                 Some((name.text.as_str(), Some(written.0.span)))
             }
             ExprKind::Product(first, rest) => {
-                // an angle times a radius is the length of an arc, and few radii are whole metres
+                // An angle times a radius is the length of an arc, and few radii are whole metres.
                 let is_number = |e: &Expr| e.bare_number().is_some_and(|number| number.fract() == 0.0);
                 let others = rest.iter().all(|(_, e)| is_number(e));
                 match (self.angle_in(first), rest.as_slice()) {
@@ -202,14 +202,14 @@ impl Checker<'_> {
         }
     }
 
-    /// Remembers a parameter that is given in a unit of angle.
+    /// Records a parameter that is given in a unit of angle.
     pub(super) fn remember_angle(&mut self, name: &Name, value: &Expr) {
         if let (Some(Entity::Param(k)), Some(_)) = (self.entity(name), self.angle_in(value)) {
             self.params[k].is_in_angles = true;
         }
     }
 
-    /// `atan(y, x)`, `step5(t, 0,5, 0, 1,5, 2)`
+    /// Reports a wrong number of arguments, with suggestions such as `atan2` for `atan(y, x)`.
     pub(super) fn report_count(&mut self, name: &Name, diagnostic: Diagnostic, arguments: &[Expr], most: usize) {
         let is_atan2 = name.text == "atan" && arguments.len() == 2;
         let message = "the angle of two coordinates is `atan2(y, x)`";
@@ -219,7 +219,7 @@ impl Checker<'_> {
     }
 }
 
-/// Whether a word asks for what comes out of the motion.
+/// Returns whether a word is a quantity of forces.
 fn is_force(word: &str) -> bool {
     QuantityWord::named(word).is_some_and(|quantity| quantity.is_force)
 }

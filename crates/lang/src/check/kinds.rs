@@ -1,33 +1,34 @@
-//! Which formulas are points, and which names in them can only be points: by the tree alone, for the reader of formulas and for the
-//! table of names.
+//! Which formulas are points, and which names in them can only be points. It uses the tree alone, for the formula reader and the symbol
+//! table.
 
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Mechanism, Name};
 use mechc_text::vocabulary::{Function, Group, gives_way};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// What is asked of a name where it stands.
+/// The kind of value that is expected of a name.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Wanted {
     /// A number.
     Number,
-    /// A point, and nothing else could stand there.
+    /// A point only.
     Point,
-    /// A number or a point: a factor.
+    /// A number or a point, as for a factor.
     Either,
 }
 
-/// Whether `P.x` asks for a coordinate of a point.
+/// Returns the coordinate of a point that `P.x` or `P.y` selects.
 pub(super) fn coordinate(feature: &Name) -> Option<usize> {
     ["x", "y"].iter().position(|name| feature.text == *name)
 }
 
-/// What a call of the language's own takes, if it is about points: `mid`, `length` and `direction` take points.
+/// Returns whether a function of the language takes points, as `mid`, `length` and `direction` do; `None` if it has nothing to do with
+/// points.
 fn takes_points(function: &str) -> Option<bool> {
     let of_points = Function::named(function).is_some_and(|function| function.group == Group::Points);
     of_points.then(|| function != "polar")
 }
 
-/// The formulas inside one, each with what it stands for; `hidden` tells the functions and tables of the file.
+/// Returns the children of a formula with the expected kinds; `hidden` are the functions and tables of the file.
 pub(super) fn inside(e: &Expr, wanted: Wanted, hidden: impl Fn(&str) -> bool) -> Vec<(&Expr, Wanted)> {
     let inner = match &e.kind {
         ExprKind::Paren(_) | ExprKind::Negate(_) | ExprKind::Sum(..) => wanted,
@@ -38,7 +39,7 @@ pub(super) fn inside(e: &Expr, wanted: Wanted, hidden: impl Fn(&str) -> bool) ->
     e.children().into_iter().map(|child| (child, inner)).collect()
 }
 
-/// Every name of a formula that stands alone, or before `.x` and `.y`, with what is asked of it.
+/// Visits every name of a formula that stands alone, or before `.x` and `.y`, with its expected kind.
 pub(super) fn names_in<'e>(
     formula: &'e Expr,
     wanted: Wanted,
@@ -58,7 +59,7 @@ pub(super) fn names_in<'e>(
     }
 }
 
-/// Whether a formula is a point; `is_one` tells it of a name and of `body.feature`.
+/// Returns whether a formula is a point; `is_one` answers for a name and for `body.feature`.
 pub(super) fn is_point(formula: &Expr, hidden: impl Fn(&str) -> bool, is_one: impl Fn(&Expr) -> bool) -> bool {
     let mut open = vec![formula];
     while let Some(e) = open.pop() {
@@ -70,7 +71,7 @@ pub(super) fn is_point(formula: &Expr, hidden: impl Fn(&str) -> bool, is_one: im
                 open.extend(e.children());
                 false
             }
-            // the conditions are none
+            // Conditions are not points.
             ExprKind::If { arms, otherwise } => {
                 open.extend(arms.iter().map(|(_, value)| value));
                 open.push(otherwise);
@@ -85,7 +86,7 @@ pub(super) fn is_point(formula: &Expr, hidden: impl Fn(&str) -> bool, is_one: im
     false
 }
 
-/// The names of a mechanism's params that are points.
+/// Returns the names of a mechanism's params that are points.
 pub(super) fn point_params(mechanism: &Mechanism) -> FxHashSet<&str> {
     let own = own_functions(mechanism);
     let hidden = |name: &str| own.contains(name);
@@ -101,7 +102,7 @@ pub(super) fn point_params(mechanism: &Mechanism) -> FxHashSet<&str> {
             }
         });
     }
-    // what holds a point is one
+    // A param that refers to a point is a point too.
     let mut found = FxHashSet::default();
     while let Some(name) = points.pop() {
         if found.insert(name) {
@@ -111,7 +112,7 @@ pub(super) fn point_params(mechanism: &Mechanism) -> FxHashSet<&str> {
     found
 }
 
-/// The names of its functions and tables that hide one of the language; what cannot be read may be one.
+/// Returns the functions and tables that hide a function of the language; a broken declaration may be one.
 pub(super) fn own_functions(mechanism: &Mechanism) -> FxHashSet<&str> {
     let names = mechanism.items.iter().flat_map(|item| match &item.kind {
         ItemKind::Function { name, .. } | ItemKind::Table { name, .. } => std::slice::from_ref(name),

@@ -1,5 +1,5 @@
-//! What is known of a mechanism's declarations by themselves, for editors: how many coordinates and equations each brings, and the values
-//! of params. Whatever is wrong elsewhere, this is there; what a mistake may change is left out rather than guessed.
+//! Information on single declarations for editors: coordinates, equations, and the values of params. It is available in spite of errors
+//! elsewhere, and leaves out what an error makes uncertain.
 
 use super::entity::Entity;
 use super::formula::{Context, Dim};
@@ -18,80 +18,80 @@ use mechc_text::vocabulary::{Dimension, JointWord, Unit};
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
 
-/// Derivatives of more parts than this are not written: nobody reads them.
+/// The largest size of derivatives that are shown, in graph nodes written out.
 const LARGEST_WRITTEN: u64 = 150;
 
-/// What is known of a mechanism's declarations.
+/// Information on a mechanism's declarations.
 #[derive(Clone, Debug, Default)]
 pub struct Known {
-    /// Coordinates less equations; nothing where a declaration that may bring some cannot be read.
+    /// Coordinates minus equations; `None` if a broken declaration may contribute some.
     pub freedom: Option<i64>,
-    /// What each declaration brings that brings anything, in the order of the text.
+    /// The contribution of each declaration that contributes, in the order of the text.
     pub counts: Vec<Count>,
-    /// What the numbers of repeated declarations are.
+    /// The indices of repeated declarations.
     pub indices: Vec<Index>,
-    /// Params, and the angles of poses.
+    /// The values of params and of the angles of poses.
     pub values: Vec<Value>,
 }
 
-/// What a declaration brings.
+/// The coordinates and equations that a declaration contributes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Count {
-    /// The declaration.
+    /// The location of the declaration.
     pub declaration: Span,
-    /// Its name.
+    /// The location of its name.
     pub name: Span,
-    /// Whether it is a body.
+    /// True if it is a body.
     pub is_body: bool,
-    /// Coordinates less equations, of all copies.
+    /// Coordinates minus equations, summed over all copies.
     pub freedom: i64,
-    /// How many there are of it; nothing where it is not repeated.
+    /// The number of copies; `None` if the declaration is not repeated.
     pub copies: Option<usize>,
 }
 
-/// The numbers of a repeated declaration.
+/// The index of a repeated declaration.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Index {
-    /// Where the range is written.
+    /// The location of the range.
     pub range: Span,
-    /// What they are called.
+    /// The name of the index.
     pub name: String,
-    /// The first and the last number.
+    /// The first and the last value.
     pub ends: [i64; 2],
 }
 
-/// The value of a formula that is constant.
+/// The value of a constant formula.
 #[derive(Clone, Debug)]
 pub struct Value {
-    /// The name that it is declared by, where it is that of a param.
+    /// The location of the name, if a param declares it.
     pub name: Option<Span>,
-    /// The formula.
+    /// The location of the formula.
     pub formula: Span,
-    /// Whether it is written as a number alone, with a unit or without, or as a point of two such.
+    /// True if the formula is a number with or without a unit, or a point of two such numbers.
     pub is_number: bool,
-    /// What it is.
+    /// The value.
     pub amount: Amount,
 }
 
-/// A value in SI.
+/// A value in SI units.
 #[derive(Clone, Debug)]
 pub enum Amount {
     /// A number.
     Number {
-        /// In SI.
+        /// The number in SI units.
         si: f64,
-        /// Of the value.
+        /// The dimension.
         dimension: Dimension,
-        /// Whether it is an angle, as far as its words tell.
+        /// True if it is an angle, as far as its formula shows it.
         is_angle: bool,
-        /// The first unit in the formula that fits it.
+        /// The first unit of this dimension in the formula.
         unit: Option<CompoundUnit>,
     },
     /// A point of the drawing (m).
     Point([f64; 2]),
 }
 
-/// What is known of a mechanism's declarations by themselves.
+/// Returns information on the declarations of a mechanism.
 #[must_use]
 pub fn known(tree: &Mechanism, surroundings: &Surroundings, sources: &Sources) -> Known {
     let (instance, _) = instance_of(tree, surroundings, sources);
@@ -110,18 +110,18 @@ pub fn known(tree: &Mechanism, surroundings: &Surroundings, sources: &Sources) -
     Known { freedom, counts, indices, values }
 }
 
-/// Adds up what declarations bring.
+/// Sums the coordinates minus the equations of declarations.
 struct Counter<'s> {
     sources: &'s Sources,
-    /// Of mechanisms with all their parts; copies share one.
+    /// The sums of mechanisms with all their parts; copies share one.
     totals: FxHashMap<*const (), Option<i64>>,
 }
 
-/// What the copies of a declaration bring: nothing where one of them cannot be told, and how many there are.
+/// The sum of a declaration's copies, `None` if it is uncertain, and their number.
 type Copies = (Option<i64>, usize);
 
 impl Counter<'_> {
-    /// Of a mechanism with its parts, as deep as these go, which is refused elsewhere where it is too deep.
+    /// Returns the sum of a mechanism with its parts. Their depth is limited elsewhere.
     fn total(&mut self, instance: &Instance<'_>) -> Option<i64> {
         let key = std::ptr::from_ref(instance).cast();
         if let Some(known) = self.totals.get(&key) {
@@ -162,7 +162,7 @@ impl Counter<'_> {
     }
 }
 
-/// Whether a declaration that cannot be read, or not be repeated, would bring neither coordinates nor equations.
+/// Returns whether a declaration that cannot be parsed or repeated contributes neither coordinates nor equations.
 fn brings_nothing(item: &Item, text: &Mechanism, sources: &Sources) -> bool {
     let written = text.items.iter().find(|other| other.span == item.span);
     match written.map(|written| &written.kind) {
@@ -189,7 +189,7 @@ fn count(item: &Item, &(freedom, copies): &Copies) -> Option<Count> {
     Some(Count { declaration: item.span, name, is_body, freedom: freedom?, copies })
 }
 
-/// What the numbers of a repeated declaration are, where each goes from one number to another, whatever the others are.
+/// Returns the indices of a repeated declaration, each with its least and greatest value.
 fn indices(item: &Item, instance: &Instance<'_>) -> Vec<Index> {
     let copies = name_of(item).and_then(|name| instance.copies.get(name.text.as_str()));
     let Some(copies) = copies.filter(|copies| !copies.is_empty() && !item.ranges.is_empty()) else {
@@ -227,7 +227,7 @@ impl Checker<'_> {
         si.is_finite().then_some(Amount::Number { si, dimension, is_angle, unit })
     }
 
-    /// The angle behind `at`, where it is not written in degrees already.
+    /// Returns the angle of a pose, unless it is given in degrees.
     fn angle_of_pose(&mut self, item: &Item) -> Option<Value> {
         let at = match &item.kind {
             ItemKind::Body { pose, .. } if item.ranges.is_empty() => &pose.as_ref()?.at,
@@ -249,7 +249,7 @@ impl Checker<'_> {
     }
 }
 
-/// A number with its unit, or without one, and its sign; or a point of such numbers.
+/// Returns whether a formula is a number with or without a unit and sign, or a point of such numbers.
 fn is_number(formula: &Expr) -> bool {
     match &formula.bare().kind {
         ExprKind::Literal { .. } => true,
@@ -267,7 +267,7 @@ fn is_degrees(formula: &Expr) -> bool {
     }
 }
 
-/// The first unit in a formula that is of a dimension.
+/// Returns the first unit of a dimension in a formula.
 fn unit_in(formula: &Expr, wanted: Dimension, is_declared: impl Fn(&str) -> bool) -> Option<CompoundUnit> {
     let mut open = vec![formula];
     while let Some(e) = open.pop() {
@@ -287,7 +287,7 @@ fn unit_in(formula: &Expr, wanted: Dimension, is_declared: impl Fn(&str) -> bool
     None
 }
 
-/// The first two derivatives of a `fn` by its argument, as formulas; nothing where it cannot be read.
+/// Returns the first two derivatives of a `fn` by its argument as text; `None` if it cannot be read or they are too long.
 #[must_use]
 pub fn slopes(tree: &Mechanism, function: &str, surroundings: &Surroundings, sources: &Sources) -> Option<[String; 2]> {
     let definitions = definitions_of(tree);

@@ -1,8 +1,8 @@
-//! A mechanism on its way from its own inputs to others: each of them, and time, on a straight line. And what its parameters are by the
-//! text, where it is to be led from there to others (`lower`).
+//! Models of a continuation: the inputs and the time move on straight lines from the text's values to a target, and parameters from their
+//! nominal values (see `lower`).
 //!
-//! The model that comes out has no time of its own: what stands in the place of time goes from 0, where inputs are what the text says, to
-//! 1, where they are what they are told to be. Its motion is no motion of the mechanism, but leads from one start to another.
+//! Such a model has no time of its own. Its time is the path parameter, which is 0 at the text's values and 1 at the target. Its motion
+//! leads from one start to another, and is not a motion of the mechanism.
 
 use super::formula::Value;
 use super::told::is_told_by;
@@ -11,35 +11,35 @@ use crate::model::{Condition, Declared, Dimension, Led};
 use mechc_expr::{ExprId, Symbol};
 use mechc_syntax::ast::Name;
 
-/// Where a mechanism is led.
+/// The target of a continuation.
 #[derive(Clone, Debug, Default)]
 pub struct Lead {
-    /// From the first time to the last (s).
+    /// The first and the last time (s).
     pub times: [f64; 2],
-    /// The inputs that are led to a number (SI), by their names; the others are led to what they are at the last time.
+    /// The inputs with a numeric target (SI), by their names. The target of other inputs is their value at the last time.
     pub inputs: Vec<(String, f64)>,
 }
 
-/// What an input may need to have a value: conditions of the text's own formula, and of what it is told to be.
+/// Marks in the list of conditions: those of an input's own formula, and those of its override.
 pub(super) struct Needs {
-    /// How many conditions there were before its own formula was read.
+    /// The number of conditions before the input's own formula.
     pub before: usize,
-    /// How many there were behind it.
+    /// The number of conditions after it.
     pub behind_own: usize,
 }
 
 impl Checker<'_> {
-    /// Time as formulas see it (s).
+    /// Returns time as formulas use it (s).
     pub(super) fn time(&mut self) -> ExprId {
         let time = self.model.graph.symbol(Symbol::Time);
         let Some(Lead { times, .. }) = &self.around.lead else { return time };
         self.along_a_line(*times)
     }
 
-    /// What an input is while the mechanism is led; else what it is anyway.
+    /// Returns the value of an input: during a continuation its line, otherwise the given value.
     pub(super) fn led_input(&mut self, name: &Name, own: Value, told: Option<Value>, needs: &Needs) -> Option<Value> {
         let Some(lead) = &self.around.lead else { return told };
-        // they hold at both ends or not, and say nothing of the way
+        // The conditions are checked at both ends and do not apply in between.
         let of_told = self.model.conditions.split_off(needs.behind_own);
         let of_own = self.model.conditions.split_off(needs.before);
         let told = told?;
@@ -58,7 +58,7 @@ impl Checker<'_> {
         Some(Value { id: self.along_a_line(line), ..told })
     }
 
-    /// Whether a parameter, or a coordinate of one that is a point, may be set elsewhere than it is: then it is none that follows.
+    /// Returns whether a parameter, or a coordinate of one that is a point, may change after the check, so that it is independent.
     pub(super) fn is_open(&self, declared: &Declared, name: &str) -> bool {
         if self.around.open.is_empty() {
             return false;
@@ -67,13 +67,13 @@ impl Checker<'_> {
         self.around.open.iter().any(|path| is_told_by(&full, path) || is_told_by(&declared.name, path))
     }
 
-    /// Notes that the next parameter of the model may be set elsewhere than it is (SI).
+    /// Records the next parameter of the model as one that may change after the check; `own` is its value (SI).
     pub(super) fn open_param(&mut self, declared: &Declared, own: f64, dimension: Dimension) {
         let param = Some(self.model.params.len() as u32);
         self.model.led.push(Led { declared: declared.clone(), param, line: [own; 2], dimension });
     }
 
-    /// Leaves of a mechanism that is led what leads it: its analysis is of another time, and forces have no part in it.
+    /// Removes the outputs and forces from a model of a continuation.
     pub(super) fn strip_outputs(&mut self) {
         if self.around.lead.is_some() {
             self.model.strip_outputs();
@@ -86,7 +86,7 @@ impl Checker<'_> {
         graph.line(ends, time)
     }
 
-    /// The value of a formula of time, at a part of the way.
+    /// Returns the value of a formula of time at a path parameter.
     fn value_on_the_way(&self, id: ExprId, part: f64) -> f64 {
         let params = &self.model.params;
         self.model.graph.value(id, |symbol| match symbol {

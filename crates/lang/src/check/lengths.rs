@@ -1,7 +1,7 @@
-//! Lengths without a unit beside lengths with one.
+//! Lengths without a unit in mechanisms that also have lengths with one.
 //!
-//! A plain formula is taken in metres. Where all lengths are plain that is what was meant, or all are too large alike. But plain
-//! ones that dwarf those with a unit, and would fit to them if they had it too, have lost it.
+//! A plain formula is in metres, which is intended if all lengths are plain. Plain lengths that are much larger than those with a unit, and
+//! would have a similar size with that unit, probably lack it.
 
 use super::Checker;
 use super::entity::Entity;
@@ -13,21 +13,21 @@ use mechc_syntax::ast::{Expr, ExprKind, Item};
 use mechc_text::vocabulary::{Dimension, UNITS, Unit};
 use rustc_hash::FxHashMap;
 
-/// A plain length this many times as large as the largest one with a unit has probably lost its own.
+/// The ratio to the largest length with a unit from which a plain length probably lacks its unit.
 const DWARFS: f64 = 10.0;
-/// Numbers below this are not written in millimetres or inches, but in metres.
+/// Numbers below this are written in metres, not in millimetres or inches.
 const IN_METRES: f64 = 1.0;
 
-/// The lengths of a mechanism, as they are come upon.
+/// The constant lengths of a mechanism, recorded as formulas are read.
 #[derive(Default)]
 pub(super) struct Lengths<'a> {
-    /// The smallest and the largest with a unit (m).
+    /// The smallest and the largest length with a unit (m).
     with_unit: Option<[f64; 2]>,
     plain: Vec<Plain<'a>>,
 }
 
 impl<'a> Checker<'a> {
-    /// Remembers a length, of a formula that holds a unit or does not.
+    /// Records a length; `judged` says whether its formula holds a unit.
     pub(super) fn remember_any_length(&mut self, e: &Expr, id: ExprId, judged: bool) {
         if judged {
             self.remember_length(id);
@@ -36,7 +36,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Remembers what a length is compared with in a formula without a unit, if that is a number.
+    /// Records the numbers with which lengths are compared in a formula without units.
     pub(super) fn remember_compared_lengths(&mut self, [a, b]: [(&Expr, Value); 2], context: &Context<'_>) {
         for ((_, value), (other, number)) in [(a, b), (b, a)] {
             let is_length = value.dim.settled().is(Dimension::LENGTH);
@@ -47,7 +47,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Remembers a constant length with a unit.
+    /// Records a constant length with a unit.
     fn remember_length(&mut self, id: ExprId) {
         if let Some(value) = self.number_of(id).map(f64::abs).filter(|value| *value > 0.0) {
             let [least, most] = self.lengths.with_unit.unwrap_or([value; 2]);
@@ -55,7 +55,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Remembers a length without one: a constant, or the constant terms of a sum.
+    /// Records a length without a unit: a constant, or the constant terms of a sum.
     fn remember_plain_length(&mut self, e: &Expr, id: ExprId) {
         if let Some(value) = self.number_of(id).map(f64::abs) {
             let plain = self.root_of(e).unwrap_or(Plain { value, span: e.span, name: None, is_number: false });
@@ -63,13 +63,13 @@ impl<'a> Checker<'a> {
         } else if let ExprKind::Sum(first, rest) = &e.bare().kind {
             for term in std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term)) {
                 let plain = self.root_of(term).filter(|plain| plain.value > 0.0);
-                // beside a unit the other terms want theirs too
+                // Next to a unit the other terms need theirs too.
                 self.lengths.plain.extend(plain.map(|plain| Plain { is_number: false, ..plain }));
             }
         }
     }
 
-    /// The number or parameter that a formula is, but for its sign; through parameters that are nothing else.
+    /// Returns the number or parameter that a formula consists of apart from its sign, also through parameters that are aliases.
     pub(super) fn root_of(&mut self, e: &Expr) -> Option<Plain<'a>> {
         let mut found: Option<Plain<'a>> = None;
         let mut e = e;
@@ -94,14 +94,14 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A parameter's name and formula; whether that stands in the text, or was given from outside.
+    /// Returns a parameter's name, its formula, and whether this formula stands in the text and is not an override.
     fn param_as_given(&self, k: usize) -> Option<(&'a str, &'a Expr, bool)> {
         let (name, value) = self.params[k].written?;
         let setting = self.settings_of(name).pop().map(|(_, setting)| setting);
         Some((&name.text, setting.map_or(value, |setting| &setting.value), setting.is_none()))
     }
 
-    /// Warns of plain lengths that dwarf all with a unit, and would fit to them if they had that unit.
+    /// Warns of plain lengths that are much larger than all lengths with a unit, and would be similar to them in that unit.
     pub(super) fn warn_of_plain_lengths(&mut self) {
         let Some([least, most]) = self.lengths.with_unit else { return };
         let plain = &self.lengths.plain;
@@ -122,7 +122,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// The unit in which most lengths of a mechanism are written; nothing where there is none.
+/// Returns the unit in which most lengths of a mechanism are written; `None` without such a unit.
 #[must_use]
 pub fn usual_unit_of_length(items: &[Item]) -> Option<&'static Unit> {
     let mut counts: FxHashMap<&'static str, (usize, &'static Unit)> = FxHashMap::default();

@@ -1,23 +1,23 @@
-//! What a name means where it stands alone in a formula: asked by the reader of formulas, and by the table of who uses which name.
+//! The meaning of a name that stands alone in a formula. The formula reader and the symbol table share this rule.
 
 use mechc_text::vocabulary::{Constant, Unit};
 
-/// What a name means.
+/// The meaning of a name that stands alone.
 #[derive(Clone, Copy)]
 pub(super) enum Alone<T> {
-    /// The argument of the function or curve around it.
+    /// The argument of the function or curve.
     Argument,
-    /// A constant of the language, or `t`, or `ground`.
+    /// A constant of the language, `t` or `ground`.
     Constant(&'static Constant),
-    /// A unit behind an operator.
+    /// A unit without a number, after an operator.
     Unit(&'static Unit),
-    /// What is declared by that name.
+    /// The declaration of that name.
     Declared(T),
-    /// Nothing that is known.
+    /// No known meaning.
     Unknown,
 }
 
-/// In the order in which a formula knows them: `declared` tells what the mechanism has by a name.
+/// Returns the meaning of a name, in order of precedence; `declared` is the declaration of that name.
 pub(super) fn alone<T>(name: &str, argument: Option<&str>, declared: Option<T>) -> Alone<T> {
     if argument == Some(name) {
         return Alone::Argument;
@@ -26,7 +26,7 @@ pub(super) fn alone<T>(name: &str, argument: Option<&str>, declared: Option<T>) 
         return Alone::Constant(constant);
     }
     match (declared, Unit::named(name)) {
-        // a declared name that is a unit too is either a fault, or a unit that gives way
+        // A declaration with the name of a unit is either an error or shadows that unit.
         (Some(declared), _) => Alone::Declared(declared),
         (None, Some(unit)) => Alone::Unit(unit),
         (None, None) => Alone::Unknown,

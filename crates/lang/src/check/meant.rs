@@ -1,4 +1,4 @@
-//! What a name was probably meant to be, as far as the mechanism around it tells.
+//! Suggestions for names: the declaration or quantity that a wrong name probably stands for.
 
 use super::entity::Entity;
 use super::features::Feature;
@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
 
 impl Checker<'_> {
-    /// The quantity of a joint that a driver prescribes.
+    /// Returns the quantity of a joint that a driver can prescribe.
     fn quantity_of(&self, name: &Name) -> Option<String> {
         let Some(Entity::Joint(k)) = self.entity(name) else { return None };
         let quantity = match self.model[self.joints.get(k).copied().flatten()?].kind {
@@ -24,7 +24,7 @@ impl Checker<'_> {
         Some(format!("{quantity}({})", name.text))
     }
 
-    /// A joint or a body in the place of a number.
+    /// Adds a suggestion to a diagnostic of a joint or body where a number is expected.
     pub(super) fn with_number_of(&self, name: &Name, diagnostic: Diagnostic) -> Diagnostic {
         if let Some(Entity::Body(_)) = self.entity(name) {
             return diagnostic.help(format!("the angle of a body is `angle({})`", name.text));
@@ -33,7 +33,7 @@ impl Checker<'_> {
         diagnostic.fix_if(quantity.map(|quantity| self.in_its_equation(name.span, &quantity)))
     }
 
-    /// `speed(j)`, j a joint: in a driver the law of its angle, in a measure the derivative of that.
+    /// Suggests a quantity for `speed(j)` with a joint `j`: in a driver its angle over time, in a measure the derivative of its angle.
     pub(super) fn rate_of_joint(
         &self,
         e: &Expr,
@@ -56,7 +56,7 @@ impl Checker<'_> {
         Some(Fix::replace(e.span, &written, format!("of a joint it is `{written}`"), Applies::Probably))
     }
 
-    /// A quantity in the place of what stands at a span; where that equals a rate, it is a rate times the time.
+    /// Replaces a formula by a quantity. If the other side of its driver is a rate, that is multiplied with the time.
     fn in_its_equation(&self, span: Span, quantity: &str) -> Fix {
         let other = self.items().iter().find_map(|item| match &item.kind {
             ItemKind::Equation { driver: true, left, right, .. } if left.span == span => Some(right),
@@ -77,7 +77,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A number with a unit of rate, or a parameter that is one.
+    /// Returns whether a formula is a number with a unit of rate, or a parameter of this dimension.
     fn is_rate(&self, e: &Expr) -> bool {
         match &e.bare().kind {
             ExprKind::Literal { unit: Some((unit, 1)), .. } => {
@@ -93,7 +93,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Says that there is no body of a name, with what others call the ground.
+    /// Reports an unknown body. Other words for the ground are suggestions for it.
     pub(super) fn unknown_body(&mut self, name: &Name) {
         let mut known = self.suggestions(|entity| matches!(entity, Entity::Body(_)));
         known.push("ground");
@@ -103,7 +103,7 @@ impl Checker<'_> {
         self.report(diagnostic.fix_if(ground));
     }
 
-    /// What a body has of a kind, as it is written outside.
+    /// Returns the features of a body that `wanted` accepts, as they are written outside the body.
     pub(super) fn features_of(&self, body: &Name, wanted: impl Fn(Feature) -> bool) -> Vec<String> {
         let Some(Entity::Body(k)) = self.entity(body) else { return Vec::new() };
         let space = self.bodies.get(k).and_then(|id| self.common.features.get(id));
@@ -111,14 +111,14 @@ impl Checker<'_> {
         names.take(MOST_PLACES).map(|name| format!("`{}.{name}`", body.text)).collect()
     }
 
-    /// A feature of another kind in the place of a circle or curve: those that the body has.
+    /// Suggests a circle or curve of the body instead of a feature of another kind.
     pub(super) fn profile_for(&self, e: &Expr, wanted: impl Fn(Feature) -> bool) -> Option<Fix> {
         let ExprKind::Member { owner, feature } = &e.kind else { return None };
         let name = self.common.features.get(&self.frame_of(owner)?)?.names(wanted).next()?;
         Some(Fix::replace(feature.span, name, format!("was `{}.{name}` meant?", owner.text), Applies::Probably))
     }
 
-    /// The bodies whose features stand beside a name among the arguments of a joint: it can be of none of them.
+    /// Returns the bodies named in the other arguments of a joint, which cannot own the name.
     pub(super) fn owners_beside(&self, name: Span) -> Vec<&str> {
         let arguments = self.items().iter().find_map(|item| match &item.kind {
             ItemKind::Joint { arguments, .. } if arguments.iter().any(|e| e.span == name) => Some(arguments),
@@ -132,14 +132,14 @@ impl Checker<'_> {
     }
 }
 
-/// Further places of one message are marked beside its first one, at most.
+/// The largest number of further locations that one message shows.
 const MOST_PLACES: usize = 4;
 
-/// Each name that is not declared told once, with the places where it stands besides.
+/// Merges the diagnostics of one undeclared name into one with all locations.
 pub(super) fn told_once(all: Diagnostics) -> Diagnostics {
     let (mut merged, mut known) = (Vec::new(), FxHashMap::default());
     for diagnostic in all {
-        // what is said otherwise may depend on the arguments
+        // Messages that depend on the arguments differ, and stay separate.
         let told = (diagnostic.message.clone(), diagnostic.help.clone());
         let first: Option<&mut Diagnostic> = match known.entry(told) {
             Entry::Occupied(at) => merged.get_mut(*at.get()),
@@ -156,7 +156,7 @@ pub(super) fn told_once(all: Diagnostics) -> Diagnostics {
         if let Some(span) = place.filter(|_| first.labels.len() <= MOST_PLACES) {
             *first = first.clone().also(span, "and here");
         }
-        // one change mends all places
+        // One fix changes all locations.
         for fix in diagnostic.fixes {
             if let Some(own) = first.fixes.iter_mut().find(|own| own.message == fix.message) {
                 own.edits.extend(fix.edits);

@@ -1,21 +1,21 @@
-//! Changes of the text that mend a dimension or a name.
+//! Edits that correct a dimension or a name.
 
 use mechc_syntax::ast::{Expr, Name};
 use mechc_text::diag::{Applies, Diagnostic, Edit, Fix};
 use mechc_text::source::Span;
 
-/// Whether a text is a number and nothing else.
+/// Returns whether a text is only a number.
 pub(super) fn is_bare_number(text: &str) -> bool {
     text.parse::<f64>().is_ok()
 }
 
-/// A unit behind a bare number.
+/// Suggests a unit after a bare number.
 pub(super) fn with_unit(span: Span, text: &str, unit: &str) -> Option<Fix> {
     let words = format!("a unit is missing: `{text} {unit}`");
     is_bare_number(text).then(|| Fix::append(span, format!(" {unit}"), words, Applies::Probably))
 }
 
-/// A factor before and one behind a formula, which stands in parentheses where it has to.
+/// Suggests factors before and after a formula, with parentheses around it where necessary.
 pub(super) fn with_factors(span: Span, text: &str, [before, behind]: [&str; 2], words: &str) -> Fix {
     let is_sum = text.contains(['+', '-']) || text.starts_with("if");
     let [open, close] = if is_sum { ["(", ")"] } else { ["", ""] };
@@ -25,14 +25,14 @@ pub(super) fn with_factors(span: Span, text: &str, [before, behind]: [&str; 2], 
     Fix { message: words.to_owned(), edits, applies: Applies::Probably }
 }
 
-/// A name and its uses with another one in their place.
+/// Suggests another name at a declaration and its uses.
 pub(super) fn renamed(name: &Name, uses: &[Span], free: &str, message: String) -> Fix {
     let places = std::iter::once(&name.span).chain(uses);
     let edits = places.map(|&span| Edit { span, text: free.to_owned() }).collect();
     Fix { message, edits, applies: Applies::Probably }
 }
 
-/// With the fix in front of the form.
+/// Puts a fix in front of the diagnostic's other help.
 pub(super) fn fixed_first(diagnostic: Diagnostic, fix: Option<Fix>) -> Diagnostic {
     match fix {
         Some(fix) => diagnostic.instead(fix),
@@ -40,7 +40,7 @@ pub(super) fn fixed_first(diagnostic: Diagnostic, fix: Option<Fix>) -> Diagnosti
     }
 }
 
-/// `at (0, 0)`: the angle that is missing.
+/// Suggests the missing angle of `at (0, 0)`.
 pub(super) fn angle_missing(parts: &[Expr]) -> Option<Fix> {
     let [_, y] = parts else { return None };
     Some(Fix::append(y.span, ", 0 deg", "a pose has an angle too: `at (x, y, 0 deg)`", Applies::Probably))

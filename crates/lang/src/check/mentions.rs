@@ -1,11 +1,11 @@
-//! Which names formulas mention, and where.
+//! The names that formulas use, and their locations.
 
 use super::kinds::coordinate;
 use mechc_syntax::ast::{Expr, ExprKind, Item, ItemKind, Mechanism, Name};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Constant, StandsFor, Unit, gives_way, is_called};
 
-/// Where the argument of a function or curve stands in its formula.
+/// Returns the uses of a function's or curve's argument in its formula.
 pub(super) fn uses_of_argument(argument: &Name, formula: &Expr) -> Vec<Span> {
     let mut uses = Vec::new();
     mentioned(formula, gives_way, |name, _| {
@@ -16,9 +16,9 @@ pub(super) fn uses_of_argument(argument: &Name, formula: &Expr) -> Vec<Span> {
     uses
 }
 
-/// Where a mechanism names one of its declarations, which is called or is not.
+/// Returns the uses of a declaration in a mechanism, as a call or as a plain name.
 pub(super) fn uses_in(mechanism: &Mechanism, declared: &Name, is_called: bool) -> Vec<Span> {
-    // alone, `t` may as well be the time
+    // A lone `t` may also be the time.
     let is_time =
         Constant::named(&declared.text).is_some_and(|constant| matches!(constant.stands_for, StandsFor::Time));
     let mut open: Vec<&Expr> = mechanism.items.iter().flat_map(Item::formulas).collect();
@@ -38,7 +38,7 @@ pub(super) fn uses_in(mechanism: &Mechanism, declared: &Name, is_called: bool) -
     uses
 }
 
-/// What stands behind a unit in a product is a unit too, whatever else has its name: `10 mm/s * t`.
+/// Returns the factors that follow a unit in a product. These are units too, even if a declaration has their name: `10 mm/s * t`.
 fn units_in(e: &Expr) -> Vec<Span> {
     let is_unit = |factor: &Expr| match &factor.kind {
         ExprKind::Literal { unit, .. } => unit.is_some(),
@@ -55,7 +55,7 @@ fn units_in(e: &Expr) -> Vec<Span> {
         .collect()
 }
 
-/// The numbers in brackets anywhere in a formula.
+/// Returns the indices of all paths in a formula.
 pub(super) fn indices<'e>(formula: &'e Expr) -> Vec<&'e Expr> {
     let indices_of = |e: &'e Expr| match &e.kind {
         ExprKind::Path(segments) => segments.as_slice(),
@@ -64,7 +64,7 @@ pub(super) fn indices<'e>(formula: &'e Expr) -> Vec<&'e Expr> {
     formula.parts().flat_map(indices_of).flat_map(|segment| &segment.indices).collect()
 }
 
-/// The name that a declaration gives.
+/// Returns the name that a declaration introduces.
 #[must_use]
 pub fn name_of(item: &Item) -> Option<&Name> {
     match &item.kind {
@@ -86,9 +86,8 @@ pub fn name_of(item: &Item) -> Option<&Name> {
     }
 }
 
-/// Every name that a formula mentions on its own, or before `.x` and `.y`, or calls, and whether it does call it, but for the calls of
-/// the language's own functions and quantities, whose names something else may share; `hidden` tells the functions and tables of the
-/// file that hide one of those. A quantity that gives way is one of those told.
+/// Calls `each` for every free name of a formula, with whether it is called. A name before `.x` or `.y` counts; a call of the language's
+/// own function or quantity does not, unless `hidden` says that the file's function or table, or a quantity's name, takes precedence.
 pub(super) fn mentioned<'e>(formula: &'e Expr, hidden: impl Fn(&str) -> bool, mut each: impl FnMut(&'e Name, bool)) {
     let mut open = vec![formula];
     while let Some(e) = open.pop() {

@@ -1,8 +1,8 @@
-//! From the tree to the model: names, units, values, elements.
+//! From the tree to the model: names, units, values and elements.
 //!
-//! Goes on after a mistake wherever it can, so that several mistakes are several messages; what depends on something
-//! broken stays silent. A formula is expanded into the one graph where it stands, the user's functions included, and
-//! each expansion is remembered, so that functions that share sub-formulas cost linear time.
+//! The check continues after an error where it can, so that several errors give several messages. What depends on something broken gives
+//! none. Formulas, including those of functions, are expanded into one graph at each use. Expansions are cached, so that functions with
+//! common subformulas take linear time.
 
 mod alone;
 mod arguments;
@@ -99,7 +99,7 @@ use std::rc::Rc;
 use tables::TableState;
 use variables::Variables;
 
-/// How many mistakes of one file are worth a suggestion.
+/// The number of errors of a file up to which names are suggested.
 const MOST_SUGGESTIONS: usize = 100;
 
 /// Checks that the mechanisms of a file have different names.
@@ -116,7 +116,7 @@ pub fn check_file(file: &ast::File) -> Diagnostics {
     diagnostics
 }
 
-/// The model of one mechanism, if it is sound, and all that is to be said of it.
+/// Checks a mechanism. Returns its model if it has no errors, and all diagnostics.
 #[must_use]
 pub fn check(
     tree: &ast::Mechanism,
@@ -145,13 +145,13 @@ pub fn check(
 }
 
 impl Checker<'_> {
-    /// Whether something of the mechanism, or of its parts, could not be read.
+    /// Returns whether the mechanism or one of its parts has a declaration that could not be parsed.
     fn holds_broken(&self) -> bool {
         has_broken(self.tree) || self.parts.iter().any(Checker::holds_broken)
     }
 }
 
-/// Whether a declaration of a mechanism, or of its bodies, does not follow the grammar.
+/// Returns whether a declaration or feature of a mechanism does not follow the grammar.
 fn has_broken(tree: &ast::Mechanism) -> bool {
     tree.items.iter().any(|item| match &item.kind {
         ItemKind::Broken { .. } => true,
@@ -162,7 +162,7 @@ fn has_broken(tree: &ast::Mechanism) -> bool {
     })
 }
 
-/// Checks a text: a mechanism, or a part of one.
+/// Checks one mechanism, or one part of it.
 struct Checker<'a> {
     tree: &'a ast::Mechanism,
     around: &'a Surroundings,
@@ -171,22 +171,22 @@ struct Checker<'a> {
     model: Mechanism,
     common: Common,
     space: Space<Entity>,
-    /// How many of each kind of thing have a name.
+    /// The number of named declarations of each kind.
     count: names::Count,
     address: Address,
     bound: BoundOutside<'a>,
-    /// Its own parts, each with how it is written, and its names that are known here.
+    /// The parts, the declaration of each, and the entities of each that are used here.
     parts: Vec<Checker<'a>>,
     bindings: Vec<&'a ast::Part>,
     imports: Vec<Vec<Import>>,
     imported: FxHashMap<Entity, (usize, Entity)>,
-    /// Of those the params that are points.
+    /// The paths of params of parts that are points.
     point_paths: FxHashSet<String>,
-    /// The params that decide what is repeated.
+    /// The params that determine repetitions.
     deciding: Rc<FxHashSet<String>>,
-    /// The names of params that are points.
+    /// The params that are points.
     point_params: FxHashSet<&'a str>,
-    /// The names of functions and tables that hide a function of the language.
+    /// The functions and tables that hide functions of the language.
     hidden: FxHashSet<&'a str>,
     params: Vec<ParamState<'a>>,
     functions: Vec<Function<'a>>,
@@ -194,21 +194,21 @@ struct Checker<'a> {
     inputs: Vec<InputState<'a>>,
     measures: Vec<MeasureState<'a>>,
     results: Vec<ResultState<'a>>,
-    /// The orders in which measures and results need each other.
+    /// The orders of dependence of measures and of results.
     measure_order: Vec<usize>,
     result_order: Vec<usize>,
-    /// The samples that are given.
+    /// The samples of inputs.
     samples: Option<Rc<Samples>>,
-    /// Of bodies, and of the grounds of parts that are named.
+    /// The frames of bodies, then those of the grounds of parts that are named.
     bodies: Vec<Frame>,
     /// The bodies and the ground of this text.
     frames: Vec<(Frame, &'a [ast::Feature])>,
     joints: Vec<Option<JointId>>,
-    /// Constraints and drivers; `None` where one is broken.
+    /// Constraints and drivers; `None` for broken ones.
     equations: Vec<Option<EquationId>>,
-    /// The constant lengths come upon.
+    /// The constant lengths met so far.
     lengths: Lengths<'a>,
-    /// Where the formula that is being read stands, what is called in it, and in which branch that is.
+    /// The site, the calls and the branch of the current formula.
     scope: Scope<'a>,
     calls: Calls<'a>,
     branch: Branch,
@@ -269,8 +269,8 @@ impl<'a> Checker<'a> {
         self.features();
         self.joints();
         self.bind_inputs();
-        // an effort is that of an equation which is there; else measures come first, as the order of symbols, and with it the bits of
-        // rows, has always been
+        // Efforts refer to equations, which must then come first. Otherwise measures come first, as the order of symbols affects the last
+        // bits of rows.
         let asks_for_efforts = self.asks_for_efforts();
         if asks_for_efforts {
             self.equations();
@@ -292,10 +292,10 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Says something, with the place of the call through which it came up.
+    /// Adds a diagnostic, with the locations of the call and of the parts through which it arises.
     fn report(&mut self, diagnostic: Diagnostic) {
         let diagnostic = match self.calls.caller {
-            // a formula is judged where it is called
+            // A formula is judged where it is called.
             Some(caller) => diagnostic.raised_by(caller, "brought in here"),
             None => diagnostic,
         };
@@ -303,7 +303,7 @@ impl<'a> Checker<'a> {
         self.diagnostics.push(parts.fold(diagnostic, |said, (part, span)| said.in_part(part, *span)));
     }
 
-    /// Names to look for the nearest one among; none once so much is wrong that the search would take long.
+    /// Returns the names to suggest from; none after many errors, when the search would take long.
     fn suggestions(&self, wanted: impl Fn(Entity) -> bool) -> Vec<&str> {
         self.suggestions_in(&self.space, wanted)
     }

@@ -1,4 +1,4 @@
-//! Parts on what carries them: the mount of each one, and where its ground is there.
+//! Placement of parts: the mount of each part, and the pose of its ground on the mount.
 
 use super::sites::{Place, Site};
 use super::{Checker, errors};
@@ -7,7 +7,7 @@ use mechc_expr::{ExprId, Graph};
 use mechc_syntax::ast::{Expr, ExprKind};
 
 impl Checker<'_> {
-    /// What carries each part, and where, as far as that names no points of bodies: these are not known yet.
+    /// Sets the mounts of parts, and their poses as far as these use no points of bodies, which do not exist yet.
     pub(super) fn mount_parts(&mut self) {
         for k in 0..self.parts.len() {
             let written = self.bindings[k];
@@ -37,7 +37,7 @@ impl Checker<'_> {
         None
     }
 
-    /// Parts that carry each other, or themselves, stand nowhere.
+    /// Reports parts that carry each other or themselves.
     fn refuse_circles_of_mounts(&mut self) {
         let carriers: Vec<Option<usize>> = (0..self.parts.len())
             .map(|k| self.bindings[k].on.as_ref().and_then(|_| self.part_holding(self.mount_of(k)?)))
@@ -64,21 +64,21 @@ impl Checker<'_> {
         Some(self.model[self.parts[part].address.part?].mount)
     }
 
-    /// The part of this text in which a frame is.
+    /// Returns the part of this text to which a frame belongs.
     pub(super) fn part_holding(&self, frame: Frame) -> Option<usize> {
         let outwards = std::iter::successors(self.model.part_of(frame), |part| self.model[*part].within);
         let own = outwards.into_iter().find(|part| self.model[*part].within == self.address.part)?;
         self.parts.iter().position(|child| child.address.part == Some(own))
     }
 
-    /// Whether the place of a part is said by points of bodies, which have places of their own.
+    /// Returns whether the pose of a part uses points of bodies.
     pub(super) fn is_placed_by_features(&self, part: usize) -> bool {
         let is_feature =
             |e: &Expr| matches!(&e.kind, ExprKind::Member { owner, .. } if self.point_param(owner).is_none());
         self.bindings[part].at.iter().flat_map(Expr::parts).any(is_feature)
     }
 
-    /// Where a part's ground is in the frame that carries it; one that has no place, which has been said, is broken.
+    /// Sets the pose of a part on its mount, or marks the pose as broken.
     pub(super) fn place_part(&mut self, part: usize) {
         let (Some(at), Some(id)) = (&self.bindings[part].at, self.parts[part].address.part) else { return };
         let site = Site::Mount(self.model[id].mount);
@@ -98,10 +98,10 @@ impl Checker<'_> {
 
     // ---- places
 
-    /// Where a point of a frame is drawn, seen from another frame: by the poses as written; nothing where one of them is broken.
+    /// Returns the position of a drawn point of a frame relative to another frame; `None` if a pose is broken.
     pub(super) fn drawn_from(&mut self, seer: Frame, frame: Frame, [x, y]: Place) -> Option<Place> {
         if frame == seer {
-            // to who writes this, what is in a part that is turned over has its y turned over
+            // The text of a mirrored part uses its own handedness.
             let is_turned_over =
                 self.model.is_mirrored(self.model.part_of(frame)) != self.model.is_mirrored(self.address.part);
             return Some([x, if is_turned_over { self.model.graph.neg(y) } else { y }]);
@@ -119,7 +119,7 @@ impl Checker<'_> {
         Some(seer.inverse_transform_vector(graph, way))
     }
 
-    /// Whether a frame has no place in the drawing, as its own pose, or one of what carries it, is broken.
+    /// Returns whether a frame has no drawn position, as its pose or that of a carrier is broken.
     pub(super) fn is_place_broken(&self, frame: Frame) -> bool {
         let carrier = |frame: &Frame| match *frame {
             frame if frame == self.address.ground => None,
@@ -130,7 +130,7 @@ impl Checker<'_> {
         std::iter::successors(Some(frame), carrier).any(|frame| self.common.broken_poses.contains(&frame))
     }
 
-    /// Where a frame is drawn in that of this text.
+    /// Returns the drawn placement of a frame in this text's frame.
     pub(super) fn drawn_frame(&mut self, frame: Frame) -> Placement {
         let mut graph = std::mem::replace(&mut self.model.graph, Graph::new());
         let placement = self.model.drawn(&mut graph, &mut |_, id| id, self.address.part, frame);
@@ -138,7 +138,7 @@ impl Checker<'_> {
         placement
     }
 
-    /// Whether a frame moves, as this text sees it.
+    /// Returns whether a frame moves relative to this text's ground.
     pub(super) fn moves(&self, frame: Frame) -> bool {
         let mut chain = self.model.carrier_chain(frame);
         chain.find_map(|frame| match frame {
@@ -150,7 +150,7 @@ impl Checker<'_> {
     }
 }
 
-/// The circles that are found where each thing leads to one other at most.
+/// Returns the cycles of a graph in which each node has at most one successor.
 fn circles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
     let mut walks: Vec<Option<usize>> = vec![None; next.len()];
     let mut found = Vec::new();

@@ -12,27 +12,27 @@ use mechc_text::diag::Diagnostic;
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Constant, Unit};
 
-/// A name that a point of the body around a formula has.
+/// A point of the body around a formula.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Own {
     Point(PointId),
-    /// It is broken, which has been said.
+    /// It is broken, which has been reported.
     Broken,
 }
 
-/// What a name or `body.feature` stands for where a point is wanted.
+/// The entity of a name or `body.feature` where a point is expected.
 pub(super) enum Found {
     Point(Drawn),
-    /// It is broken, which has been said.
+    /// It is broken, which has been reported.
     Broken,
-    /// No point.
+    /// Not a point.
     Nothing,
 }
 
 impl<'a> Checker<'a> {
-    // ---- where formulas stand
+    // ---- sites of formulas
 
-    /// Reads a formula that stands somewhere; one that mixes points of two frames is refused.
+    /// Runs `read` at a site. A formula that mixes points of two frames is reported.
     pub(super) fn at_site<T>(
         &mut self,
         site: Site,
@@ -42,7 +42,7 @@ impl<'a> Checker<'a> {
         self.in_scope(Scope { site, defined, ..Scope::default() }, read)
     }
 
-    /// The same of the formula of a curve, over its argument.
+    /// Runs `read` for the formula of a curve, with its argument.
     pub(super) fn at_curve<T>(
         &mut self,
         frame: Frame,
@@ -74,7 +74,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether a name of the mechanism is a number in every formula.
+    /// Returns whether a name of the mechanism is a number in every formula.
     pub(super) fn is_number_name(&self, name: &Name) -> bool {
         let declared = self.space.get(&name.text);
         match declared {
@@ -84,7 +84,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The point of the body around a formula that a name stands for.
+    /// Returns the point of the body around a formula that a name stands for.
     pub(super) fn own_point(&self, name: &Name, wanted: Wanted) -> Option<Own> {
         let Site::Inside(frame) = self.scope.site else { return None };
         if self.scope.defined == Some(name.text.as_str())
@@ -100,7 +100,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The param that is a point and has a name.
+    /// Returns the param of a name, if it is a point.
     pub(super) fn point_param(&self, name: &Name) -> Option<usize> {
         match self.entity(name) {
             Some(Entity::Param(k)) if self.is_point_name(&name.text) => Some(k),
@@ -108,7 +108,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether a formula is a point, as far as its form and its names tell.
+    /// Returns whether a formula is a point, by its form and names.
     pub(super) fn is_point(&self, e: &Expr) -> bool {
         kinds::is_point(
             e,
@@ -123,7 +123,7 @@ impl<'a> Checker<'a> {
         )
     }
 
-    /// Whether `owner.feature` is a point of a body, and not a coordinate.
+    /// Returns whether `owner.feature` is a point of a body, and not a coordinate.
     fn is_drawn_feature(&self, owner: &Name, feature: &Name) -> bool {
         if self.own_point(owner, Wanted::Point).is_some() {
             return false;
@@ -140,14 +140,14 @@ impl<'a> Checker<'a> {
         matches!(found, Some(Feature::Point(_)))
     }
 
-    /// Takes in that the formula at hand names a point of its body.
+    /// Records that the current formula uses a point of its body.
     pub(super) fn scope_takes_own(&mut self, name: &Name) {
         if self.own_point(name, Wanted::Point).is_some() {
             self.scope.own.get_or_insert(name.span);
         }
     }
 
-    /// `point A` alone.
+    /// Evaluates a lone `point A`.
     pub(super) fn point_of_the_mechanism(&mut self, name: &Name) -> Option<Drawn> {
         match self.found(name, Wanted::Point) {
             Found::Point(drawn) => Some(drawn),
@@ -161,7 +161,7 @@ impl<'a> Checker<'a> {
 
     // ---- dimensions
 
-    /// What the name of a point says of the dimension of a formula.
+    /// Returns whether the name of a point makes a formula dimensional.
     pub(super) fn is_dimensional_point(&self, name: &Name, wanted: Wanted) -> bool {
         match self.own_point(name, wanted) {
             Some(Own::Point(point)) => self.common.dimensional_points.contains(&point),
@@ -170,7 +170,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// What a name stands for where a point is wanted.
+    /// Looks up a name where a point is expected.
     pub(super) fn found(&mut self, name: &Name, wanted: Wanted) -> Found {
         if let Some(point) = self.own_point(name, wanted) {
             self.scope.own.get_or_insert(name.span);
@@ -191,7 +191,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// What a name that is no point stands for in the mechanism; of what is broken, that has been said.
+    /// Returns the entity of a name that is not a point. `Err` if it is broken, which has been reported.
     fn other_than_a_point(&self, name: &Name) -> Result<Option<Entity>, Unread> {
         match self.resolve(name)? {
             Some(Entity::Param(k)) if self.params[k].value.is_none() => Err(Unread),
@@ -199,14 +199,14 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Those among which the nearest name is looked for.
+    /// Returns the names of points to suggest from.
     fn known_point_params(&self) -> Vec<&str> {
         let mut known = self.suggestions(|entity| matches!(entity, Entity::Param(_)));
         known.retain(|name| self.is_point_name(name));
         known
     }
 
-    /// Says that the mechanism has no point for `point A` alone.
+    /// Reports that the mechanism has no point for a lone `point A`.
     fn no_point_to_take(&mut self, name: &Name) {
         let Ok(entity) = self.other_than_a_point(name) else { return };
         let known = self.known_point_params();
@@ -214,7 +214,7 @@ impl<'a> Checker<'a> {
         self.report(diagnostic);
     }
 
-    /// Says that a name in a formula of points is none.
+    /// Reports a name in a formula of points that is not a point.
     pub(super) fn no_point_named(&mut self, name: &Name) {
         let Ok(entity) = self.other_than_a_point(name) else { return };
         let own = match self.scope.site {
@@ -263,7 +263,7 @@ impl<'a> Checker<'a> {
         name.text == "ground" || matches!(self.entity(name), Some(Entity::Body(_)))
     }
 
-    /// What is said of `owner.feature` where a point of the drawing is wanted.
+    /// Returns the diagnostic of `owner.feature` where a point of the drawing is expected.
     pub(super) fn no_place(&self, span: Span, owner: &Name, feature: &Name) -> Diagnostic {
         match coordinate(feature) {
             Some(_) if self.is_named_point(owner) => errors::coordinate_as_point(span, owner),

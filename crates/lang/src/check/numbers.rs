@@ -1,16 +1,16 @@
-//! Constant formulas as numbers, and the graph's named symbols.
+//! Values of constant formulas, and the graph's named symbols.
 
 use super::Checker;
 use crate::model::{DecidedBy, Named};
 use mechc_expr::{Dependence, ExprId, Symbol};
 
 impl Checker<'_> {
-    /// Whether a formula follows from parameters.
+    /// Returns whether a formula depends on parameters.
     pub(super) fn follows(&self, id: ExprId) -> bool {
         self.model.graph.dependence(id).on(Dependence::PARAMS)
     }
 
-    /// A named symbol of the graph; the same meaning is the same symbol.
+    /// Returns the named symbol with a meaning. Equal meanings share one symbol.
     pub(super) fn name_symbol(&mut self, meaning: Named, derivative_order: u8) -> ExprId {
         let id = if let Some(&id) = self.common.named.get(&meaning) {
             id
@@ -23,12 +23,12 @@ impl Checker<'_> {
         self.model.graph.symbol(Symbol::Named(id.index() as u32))
     }
 
-    /// The value of a constant formula, under the params' values, by which something is decided.
+    /// Returns the value of a constant formula on which a decision depends.
     pub(super) fn constant_value(&mut self, id: ExprId) -> Option<f64> {
         self.decided(id, DecidedBy::Value)
     }
 
-    /// The same, where only what it is decides, and not how large.
+    /// Returns the value of a constant formula of which one property decides.
     pub(super) fn decided(&mut self, id: ExprId, by: DecidedBy) -> Option<f64> {
         let value = self.number_of(id);
         if value.is_some() {
@@ -37,7 +37,7 @@ impl Checker<'_> {
         value
     }
 
-    /// The value of a constant formula by which nothing is decided.
+    /// Returns the value of a constant formula on which no decision depends.
     pub(super) fn number_of(&mut self, id: ExprId) -> Option<f64> {
         if !self.model.graph.dependence(id).is_constant() {
             return None;

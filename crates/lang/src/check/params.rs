@@ -1,4 +1,4 @@
-//! Params: the numbers and points of a text, with what is set of them from outside.
+//! Params: the numbers and points of a text, with their overrides.
 
 use super::formula::{Context, Dim, Value};
 use super::sites::Drawn;
@@ -8,18 +8,18 @@ use crate::model::{DecidedBy, Declared, Dimension, Param};
 use mechc_expr::Symbol;
 use mechc_syntax::ast::{Expr, Name};
 
-/// What is known of a parameter.
+/// The state of a parameter.
 #[derive(Clone, Copy, Default)]
 pub(super) struct ParamState<'a> {
-    /// As its text has it; nothing of one of a part that has not had its turn.
+    /// The name and formula in the text; `None` for one of a part that has not been evaluated.
     pub written: Option<(&'a Name, &'a Expr)>,
-    /// `None` before its turn, where it is broken, and where it is a point.
+    /// `None` before evaluation, if it is broken, and if it is a point.
     pub value: Option<Value>,
-    /// What it is as a point.
+    /// The value of a point.
     pub drawn: Option<Drawn>,
-    /// How often an angle is a factor of it.
+    /// The exponent of angles in it.
     pub angle: i32,
-    /// Whether it is given in a unit of angle.
+    /// True if it is given in a unit of angle.
     pub is_in_angles: bool,
 }
 
@@ -34,7 +34,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A parameter: one that depends on no other becomes a symbol, another one its formula.
+    /// Evaluates a parameter. An independent one becomes a symbol, another one its formula.
     fn param(&mut self, name: &Name, docs: &[String], formula: &Expr) -> Option<Value> {
         let context = Context::constant("a parameter");
         let in_file = self.param_value(formula, context)?;
@@ -57,7 +57,7 @@ impl<'a> Checker<'a> {
                     self.report(errors::wrong_dimension(&place, wanted, part, text));
                     return None;
                 }
-                // a zero takes the dimension that it is given; a number without a unit fits anything as the zero does
+                // A zero takes the dimension of the override. A number without a unit fits any dimension, as zero does.
                 let is_open = in_file.dim == Dim::Any && matches!(given.dim, Dim::Of(_));
                 Value { dim: if is_open { given.dim } else { in_file.dim }, ..given }
             }
@@ -65,14 +65,14 @@ impl<'a> Checker<'a> {
         self.settable(self.declared(name), &name.text, docs, value)
     }
 
-    /// A number that is a parameter of the model, unless it follows from others.
+    /// Returns the value of a numeric parameter, which becomes a parameter of the model if it is independent.
     fn settable(&mut self, declared: Declared, name: &str, docs: &[String], value: Value) -> Option<Value> {
         let is_open = self.is_open(&declared, name);
         if self.follows(value.id) && !is_open {
             return Some(self.with_shift(&declared, value));
         }
         let number = self.number_of(value.id)?;
-        // what decides how many declarations there are is not to be changed afterwards
+        // What determines the number of declarations cannot change afterwards.
         if self.deciding.contains(name) {
             self.constant_value(value.id);
             return Some(Value { id: self.model.graph.constant(number), dim: value.dim });
@@ -87,7 +87,7 @@ impl<'a> Checker<'a> {
         Some(Value { id: self.model.graph.symbol(Symbol::Param(index)), dim: value.dim })
     }
 
-    /// A parameter that is a point: each of its coordinates is a parameter of the model, unless it follows from others.
+    /// Evaluates a parameter that is a point. Each independent coordinate becomes a parameter of the model.
     fn point_of_param(&mut self, name: &Name, docs: &[String], formula: &Expr) -> Option<Drawn> {
         let Drawn { mut at, mut dimensional } = self.point_formula(formula, &Context::constant("a parameter"))?;
         if self.bound_param(name).is_some() {
@@ -99,7 +99,7 @@ impl<'a> Checker<'a> {
         }
         let mut coordinate = |k: usize, axis: &str| {
             let declared = Declared { name: format!("{}{}.{axis}", self.address.path, name.text), span: name.span };
-            // a zero has no sign here: in a direction it would count
+            // A zero loses its sign, which would count in a direction.
             let is_zero = self.decided(at[k], DecidedBy::Sign) == Some(0.0);
             let id = if is_zero && !self.follows(at[k]) { self.model.graph.constant(0.0) } else { at[k] };
             self.settable(declared, &name.text, docs, Value { id, dim: Dim::LENGTH })
@@ -108,7 +108,7 @@ impl<'a> Checker<'a> {
         Some(Drawn { at: [x.id, y.id], dimensional })
     }
 
-    /// What is set of a param from outside, or of which of its coordinates, in the order given.
+    /// Returns the overrides of a param, or of one of its coordinates, in their order.
     pub(super) fn settings_of(&self, name: &Name) -> Vec<(Option<usize>, &'a Setting)> {
         if self.around.settings.is_empty() {
             return Vec::new();
@@ -125,7 +125,7 @@ impl<'a> Checker<'a> {
         self.around.settings.iter().filter_map(of).collect()
     }
 
-    /// The point with what is set from outside: `--set A=(12mm,0)`, `--set A.x=12mm`.
+    /// Returns a point with its overrides: `--set A=(12mm,0)`, `--set A.x=12mm`.
     fn point_given(
         &mut self,
         name: &Name,

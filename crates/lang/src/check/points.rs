@@ -1,7 +1,7 @@
-//! Formulas of points: sums, multiples, `polar` and `mid`; and the numbers that two points give.
+//! Formulas of points: sums, multiples, `polar` and `mid`; and numbers that depend on two points.
 //!
-//! A point is two lengths. Inside a body its own points come before those of the mechanism, and behind `at` points of other bodies may
-//! stand, which are taken where those are drawn.
+//! A point is two lengths. In a body its own points take precedence over those of the mechanism. After `at` points of other bodies are
+//! allowed, at their drawn positions.
 
 use super::formula::{Context, Dim, Value};
 use super::kinds::{Wanted, coordinate};
@@ -15,19 +15,19 @@ use mechc_text::source::Span;
 use mechc_text::vocabulary::{Function, Keyword};
 use rustc_hash::FxHashSet;
 
-/// What is asked for a coordinate is no point.
+/// The formula is not a coordinate of a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NoPoint;
 
-/// A factor, or a product up to some factor.
+/// A product up to some factor.
 enum Scaled {
     Number(Value),
-    /// With the dimension of the numbers beside it.
+    /// With the dimension of its numeric factors.
     Point(Place, Dim),
 }
 
 impl Checker<'_> {
-    /// A point's formula, judged on its own.
+    /// Evaluates a whole formula of points, judged on its own.
     pub(super) fn point_formula(&mut self, e: &Expr, context: &Context<'_>) -> Option<Drawn> {
         let argument = context.argument.map(|(name, _)| name);
         let dimensional = context.judged || self.holds_dimension(argument, e, Wanted::Point);
@@ -36,7 +36,7 @@ impl Checker<'_> {
         Some(Drawn { at, dimensional })
     }
 
-    /// A formula of points in the graph; `None` if it is broken, which has then been said.
+    /// Evaluates a formula of points within another one; `None` if it is broken, which has been reported.
     fn point_at(&mut self, e: &Expr, context: &Context<'_>) -> Option<Place> {
         self.level(context, |checker| checker.point_here(e, context))
     }
@@ -64,7 +64,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Says that a formula is no point.
+    /// Reports a formula that is not a point.
     fn no_point(&mut self, e: &Expr) {
         let found = match &e.kind {
             ExprKind::If { .. } => "an `if`",
@@ -105,7 +105,7 @@ impl Checker<'_> {
         }
     }
 
-    /// `crank.pin`: where it is drawn.
+    /// Evaluates `crank.pin` at its drawn position.
     fn feature_point(&mut self, e: &Expr, owner: &Name, feature: &Name) -> Option<Place> {
         if self.is_named_point(owner) || self.is_body(owner) && !self.scope.site.takes_drawn_points() {
             let diagnostic = self.no_place(e.span, owner, feature);
@@ -121,7 +121,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Where a point of a frame is drawn, in the frame of this text; nothing where that is broken.
+    /// Returns the drawn position of a frame's point in this text's frame; `None` if a pose is broken.
     pub(super) fn drawn_place(&mut self, frame: Frame, [x, y]: Place) -> Option<Place> {
         if frame == self.address.ground {
             return Some([x, y]);
@@ -158,7 +158,7 @@ impl Checker<'_> {
         sum
     }
 
-    /// A point times and divided by numbers.
+    /// Evaluates a point multiplied or divided by numbers.
     fn multiple(&mut self, e: &Expr, first: &Expr, rest: &[(Factor, Expr)], context: &Context<'_>) -> Option<Place> {
         let mut product = self.factor(first, context);
         for (factor, term) in rest {
@@ -221,7 +221,7 @@ impl Checker<'_> {
         Some(at)
     }
 
-    /// `polar(r, angle)`, `mid(P, Q)`
+    /// Evaluates `polar(r, angle)` or `mid(P, Q)`.
     fn called_point(
         &mut self,
         e: &Expr,
@@ -230,7 +230,7 @@ impl Checker<'_> {
         context: &Context<'_>,
     ) -> Option<Place> {
         if self.hidden.contains(name.text.as_str()) || !matches!(name.text.as_str(), "polar" | "mid") {
-            // what is wrong with the call itself explains more
+            // A fault of the call itself explains more.
             self.number(e, context)?;
             self.no_point(e);
             return None;
@@ -267,7 +267,7 @@ impl Checker<'_> {
 
     // ---- numbers of points
 
-    /// `length(P, Q)`, `direction(P, Q)`
+    /// Evaluates `length(P, Q)` or `direction(P, Q)`.
     pub(super) fn number_of_points(
         &mut self,
         e: &Expr,
@@ -306,7 +306,7 @@ impl Checker<'_> {
         Some(Value { id, dim: Dim::PURE })
     }
 
-    /// The place of a point of a body, if one of two points is that and has no place in a drawing.
+    /// Returns the location of a body's point among two points, if the site allows no drawn points.
     fn moving_among(&self, points: [&Expr; 2]) -> Option<Span> {
         let is_moving = |e: &&Expr| match &e.bare().kind {
             ExprKind::Member { owner, .. } => self.is_body(owner) && !self.is_named_point(owner),
@@ -315,7 +315,7 @@ impl Checker<'_> {
         points.into_iter().find(is_moving).map(|e| e.span).filter(|_| !self.scope.site.takes_drawn_points())
     }
 
-    /// The angle of the way between two points, in (−π, π].
+    /// Returns the angle of the vector between two points, in (−π, π].
     pub(super) fn direction_of_way(&mut self, way: Place, what: &str, span: Span) -> Option<ExprId> {
         let [dx, dy] = way.map(|id| self.decided(id, DecidedBy::Sign));
         if dx == Some(0.0) && dy == Some(0.0) && !self.branch.is_untaken {
@@ -324,7 +324,7 @@ impl Checker<'_> {
         }
         let graph = &mut self.model.graph;
         let angle = graph.binary(Binary::Atan2, way[1], way[0]);
-        // the arc tangent of a negative zero is -π
+        // `atan2` of a negative zero is −π.
         if !may_be_negative_zero(graph, way[1]) {
             return Some(angle);
         }
@@ -344,7 +344,7 @@ impl Checker<'_> {
         None
     }
 
-    /// `P.x`: a coordinate of a point; `None` where it is broken, which has been said.
+    /// Evaluates `P.x`, a coordinate of a point; `None` if it is broken, which has been reported.
     pub(super) fn coordinate_of(&mut self, e: &Expr, context: &Context<'_>) -> Result<Option<Value>, NoPoint> {
         let ExprKind::Member { owner, feature } = &e.kind else { return Err(NoPoint) };
         if !context.names {
@@ -365,7 +365,7 @@ impl Checker<'_> {
     }
 }
 
-/// Whether a formula could have the value −0: of params, which are no such zero, differences and means are none.
+/// Returns whether a formula could be −0. Params are not, nor are differences and means of such.
 fn may_be_negative_zero(graph: &Graph, id: ExprId) -> bool {
     let mut open = vec![id];
     let mut seen = FxHashSet::default();
@@ -377,7 +377,7 @@ fn may_be_negative_zero(graph: &Graph, id: ExprId) -> bool {
             Node::Const(bits) if bits == (-0.0_f64).to_bits() => return true,
             Node::Const(_) | Node::Symbol(_) => {}
             Node::Add(a, b) => open.extend([a, b]),
-            // less than +0 by nothing
+            // A difference of +0 and 0 is +0.
             Node::Sub(a, _) => open.push(a),
             Node::Mul(a, b) if graph.as_const(a).is_some_and(|factor| factor > 0.0) => open.push(b),
             _ => return true,

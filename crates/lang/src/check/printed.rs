@@ -1,4 +1,4 @@
-//! Units with powers, and the units in which measures and traces are printed.
+//! Compound units, and the units in which measures and traces are printed.
 
 use super::Checker;
 use super::entity::Entity;
@@ -11,7 +11,7 @@ use mechc_text::diag::Diagnostic;
 use mechc_text::vocabulary::{CompoundUnit, Constant, StandsFor, Unit};
 
 impl Checker<'_> {
-    /// The units of a product; one that is none is told.
+    /// Returns the unit of a product. Names that are not units are reported.
     pub(super) fn compound(
         &mut self,
         written: &WrittenUnit,
@@ -28,7 +28,7 @@ impl Checker<'_> {
         (factors.len() == written.factors.len()).then(|| CompoundUnit::new(factors))
     }
 
-    /// The units in which a formula of a dimension is printed; none where the one behind `in` does not fit, which has been said.
+    /// Returns the units in which a formula is printed; `None` if the unit after `in` does not fit, which is reported.
     pub(super) fn units(
         &mut self,
         formula: &Expr,
@@ -60,7 +60,7 @@ impl Checker<'_> {
         Some(Units::of(&unit, angle == 1))
     }
 
-    /// How often an angle is a factor of a formula, as far as its words tell: 1 for an angle or a turning speed.
+    /// Returns the exponent of angles in a formula, as far as it shows: 1 for an angle or angular velocity.
     pub(super) fn angle_power(&self, e: &Expr) -> i32 {
         let most = |list: &[Expr]| list.iter().map(|part| self.angle_power(part)).max().unwrap_or(0);
         match &e.kind {
@@ -86,7 +86,7 @@ impl Checker<'_> {
                 if *factor == Factor::Over { power.saturating_sub(own) } else { power.saturating_add(own) }
             }),
             ExprKind::Power(base, exponent) => match exponent.bare_number() {
-                // what is no whole number makes no angle of anything
+                // A fractional exponent does not give an angle.
                 Some(exponent) => self.angle_power(base).saturating_mul(exponent as i32),
                 None => 0,
             },
@@ -97,7 +97,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The same of what a derivative is taken by.
+    /// Returns the exponent of angles in the variable of a derivative.
     fn angle_power_of_variable(&self, by: &Expr) -> i32 {
         match &by.bare().kind {
             ExprKind::Name(name) => match self.entity(name) {
@@ -126,8 +126,7 @@ impl Checker<'_> {
     }
 }
 
-/// The dimension that a formula is known to have; none where it may have any: a number without a unit is taken in the unit that is asked
-/// for.
+/// Returns the dimension of a formula; `None` if it fits any, as a number without a unit does.
 pub(super) fn known_dimension(value: Value) -> Option<Dimension> {
     match value.dim {
         Dim::Of(dimension) => Some(dimension),

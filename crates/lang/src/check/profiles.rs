@@ -1,4 +1,4 @@
-//! Circles and curves: the lines that wheels roll on and contacts run along.
+//! Circles and curves: the profiles of wheels and contacts.
 
 use super::features::Feature;
 use super::formula::{Context, Dim, Value};
@@ -47,7 +47,7 @@ impl<'a> Checker<'a> {
         let pair = self.at_curve(frame, &argument.text, |checker| {
             checker.place_of(at, "curve", "a curve", Some((&argument.text, value)))
         });
-        // what must be positive along the curve must be so at a contact only
+        // Conditions of the argument only apply at a contact.
         let mut conditions = self.model.conditions.split_off(known);
         for condition in &mut conditions {
             condition.owner.clone_from(&name.text);
@@ -75,7 +75,7 @@ impl<'a> Checker<'a> {
         Some(self.model.add_curve(curve))
     }
 
-    /// A circle of a body or of the ground.
+    /// Returns a circle of a body or of the ground.
     pub(super) fn circle(&mut self, e: &Expr) -> Option<CircleId> {
         let is_circle = |feature| matches!(feature, Feature::Circle(_));
         match self.feature_at(e, "circle", is_circle)? {
@@ -88,7 +88,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A curve of a body or of the ground, or a circle in its place.
+    /// Returns a curve of a body or of the ground, or a circle in its place.
     pub(super) fn profile(&mut self, e: &Expr) -> Option<Profile> {
         let is_profile = |feature| matches!(feature, Feature::Circle(_) | Feature::Curve(_));
         match self.feature_at(e, "curve", is_profile)? {
@@ -102,7 +102,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The feature that `body.feature` names, with the place of its name.
+    /// Returns the feature of `body.feature`, with the location of its name.
     fn feature_at(&mut self, e: &Expr, what: &str, wanted: impl Fn(Feature) -> bool) -> Option<(Feature, Span)> {
         match &e.kind {
             ExprKind::Member { owner, feature } => {
@@ -121,7 +121,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// `(x, y)`, two lengths that are judged together, or another formula of points; over an argument, if there is one.
+    /// Evaluates `(x, y)`, whose dimensions are judged together, or another formula of points, with an argument if given.
     pub(super) fn place_of(
         &mut self,
         e: &Expr,

@@ -1,18 +1,18 @@
-//! Rates that lost a part of their unit, as far as the text of a formula tells: `60 mm * t` beside a length.
+//! Suggestions for rates that lack a part of their unit, such as `60 mm * t` where a length is expected.
 
 use crate::model::Dimension;
 use mechc_text::diag::{Applies, Edit, Fix};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::Unit;
 
-/// A part of a formula, for a message about it.
+/// A term of a formula in a message.
 #[derive(Clone, Copy)]
 pub struct Part {
     pub span: Span,
     pub dimension: Dimension,
 }
 
-/// A number times a power of time that is to be like something else, with the unit that makes it so.
+/// Suggests the unit that gives a number times a power of time the dimension `like`.
 pub(super) fn rate_mended(like: Dimension, found: Part, text: &str) -> Option<Fix> {
     let (head, power) = number_times_time(text)?;
     let number = head.split_whitespace().next()?;
@@ -48,7 +48,7 @@ pub(super) fn rate_mended(like: Dimension, found: Part, text: &str) -> Option<Fi
     Some(Fix { message, edits: vec![edit], applies: Applies::Probably })
 }
 
-/// `60 mm` and 1 of `60 mm * t`, `60` and 2 of `60 * t^2`.
+/// Splits `60 mm * t` into `60 mm` and 1, and `60 * t^2` into `60` and 2.
 fn number_times_time(text: &str) -> Option<(&str, u8)> {
     let (head, tail) = text.rsplit_once('*')?;
     let power = match tail.replace(' ', "").as_str() {
@@ -57,12 +57,12 @@ fn number_times_time(text: &str) -> Option<(&str, u8)> {
         _ => return None,
     };
     let head = head.trim_end();
-    // of a sum or a call it is not known what lacks the unit
+    // In a sum or call it is ambiguous what lacks the unit.
     let is_plain = head.chars().all(|c| c.is_alphanumeric() || " ./^µ".contains(c));
     is_plain.then_some((head, power))
 }
 
-/// A length beside an angle: where a point is in polar coordinates.
+/// Suggests a formula in polar coordinates if the terms are a length and an angle.
 pub(super) fn polar(first: Part, second: Part, [length, angle]: [&str; 2]) -> Option<String> {
     let is_angle = angle.split_whitespace().last().is_some_and(|unit| ["deg", "rad", "mrad", "rev"].contains(&unit));
     let are_both = first.dimension.is(Dimension::LENGTH) && second.dimension.is(Dimension::PURE) && is_angle;

@@ -1,5 +1,5 @@
-//! Repetition: declarations that stand for one for each whole number are written out, and paths like `link[k - 1].pin` become the
-//! names that the copies have. All else of `check` knows plain declarations alone.
+//! Repetition: repeated declarations are expanded into copies, and paths like `link[k - 1].pin` become the names of copies. All other
+//! modules of `check` only know plain declarations.
 
 mod paths;
 mod written;
@@ -15,54 +15,54 @@ use mechc_text::vocabulary::is_taken;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::rc::Rc;
 
-/// Declarations that a mechanism may have, written out, with those of its parts.
+/// The largest number of declarations of a mechanism with its parts, after expansion.
 pub(super) const MOST: usize = 1_000_000;
 
-/// Indices that a declaration may have: all of them stand in the names of its copies.
+/// The largest number of indices of a declaration, all of which stand in the names of its copies.
 const MOST_INDICES: usize = 16;
 
-/// How far a number may be from a whole one: rounding.
+/// The allowed distance of an index from an integer, because of rounding.
 const WHOLE: f64 = 1e-9;
 
-/// Whether something of a mechanism is repeated, or a part.
+/// Returns whether a mechanism has repetitions or parts.
 pub(super) fn needs_writing(tree: &Mechanism) -> bool {
     tree.items.iter().any(|item| !item.ranges.is_empty() || matches!(item.kind, ItemKind::Part(_)))
 }
 
-/// The numbers of a copy, each with what it is called.
+/// The indices of a copy with their names.
 pub(super) type Numbers<'t> = Vec<(&'t str, i64)>;
 
-/// Writes out one mechanism.
+/// The expansion of one mechanism.
 pub(super) struct Writer<'t, 'c> {
     tree: &'t Mechanism,
-    /// Knows the params.
+    /// A checker that knows the params.
     checker: Checker<'c>,
-    /// The mechanism's names.
+    /// The names of the mechanism.
     names: FxHashSet<&'t str>,
-    /// Of what is repeated: the numbers of its copies.
+    /// The indices of the copies of repeated declarations.
     copies: FxHashMap<&'t str, Copies>,
-    /// Its parts; nothing where one cannot be, which has been said.
+    /// The parts; `None` for one that cannot be instantiated, which has been reported.
     parts: FxHashMap<String, Option<Rc<Instance<'t>>>>,
-    /// What its formulas name in its parts.
+    /// The paths into parts that formulas use.
     paths: FxHashSet<String>,
-    /// Declarations so far.
+    /// The number of declarations so far.
     count: usize,
-    /// Which has been said.
+    /// True if that has been reported.
     is_too_large: bool,
-    /// Where something was told already: what is wrong in every copy is told once.
+    /// The locations of reported errors. An error in every copy is reported once.
     told: FxHashSet<Span>,
 }
 
-/// A mechanism with every repeated declaration written out, and what is wrong with the repetition.
+/// A mechanism with all repetitions expanded, and the diagnostics.
 type WrittenOut = (Mechanism, Diagnostics);
 
-/// A formula or declaration that cannot be written out, which has been said.
+/// A formula or declaration that cannot be expanded, which has been reported.
 pub(super) struct Unwritten;
 
 type Written<T> = Result<T, Unwritten>;
 
 impl<'t, 'c> Writer<'t, 'c> {
-    /// With a reader of formulas that knows the mechanism's params.
+    /// Returns the expansion of a mechanism; `checker` knows its params.
     pub fn new(tree: &'t Mechanism, checker: Checker<'c>) -> Writer<'t, 'c> {
         Writer {
             tree,
@@ -77,22 +77,22 @@ impl<'t, 'c> Writer<'t, 'c> {
         }
     }
 
-    /// Declarations, written out.
+    /// Returns the number of declarations after expansion.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// What is wrong so far.
+    /// Returns the diagnostics so far.
     pub fn said(self) -> Diagnostics {
         self.checker.diagnostics
     }
 
-    /// Whether there are too many.
+    /// Returns whether there are too many declarations.
     pub fn is_too_large(&self) -> bool {
         self.is_too_large
     }
 
-    /// The numbers of the copies of each declaration; nothing where they cannot be told.
+    /// Returns the indices of the copies of each declaration; `None` if they cannot be determined.
     pub fn all_copies(&mut self, tree: &'t Mechanism) -> Vec<Option<Vec<Numbers<'t>>>> {
         let named = self.have_names_of_their_own(tree);
         let items = tree.items.iter().zip(named);
@@ -106,8 +106,8 @@ impl<'t, 'c> Writer<'t, 'c> {
         copies
     }
 
-    /// The value of what is bound of a param that decides a range; nothing where it is broken, which is told here: what it decides is
-    /// never there to tell it.
+    /// Returns the value of a binding that determines a range; `None` if it is broken. This is reported here, as the declarations that
+    /// could report it do not exist.
     pub fn number(&mut self, e: &Expr, numbers: &Numbers<'_>) -> Option<f64> {
         let formula = self.formula(e, numbers).ok()?;
         let said = self.checker.diagnostics.len();
@@ -118,7 +118,7 @@ impl<'t, 'c> Writer<'t, 'c> {
         value
     }
 
-    /// The mechanism written out, with its parts by their names; the numbers of what is repeated; what its formulas name in its parts.
+    /// Returns the expanded mechanism, with its parts by their names, the copies' indices, and the paths into parts.
     pub fn written(
         mut self,
         tree: &'t Mechanism,
@@ -146,7 +146,7 @@ impl<'t, 'c> Writer<'t, 'c> {
         }
     }
 
-    /// Which declarations have a name that is free; of those that are not repeated the rest of `check` says it.
+    /// Returns which declarations have a unique name. The check reports those that are not repeated.
     fn have_names_of_their_own(&mut self, tree: &'t Mechanism) -> Vec<bool> {
         let mut first: FxHashMap<&str, (Span, bool)> = FxHashMap::default();
         let mut is_free = |item: &'t Item| {
@@ -166,8 +166,8 @@ impl<'t, 'c> Writer<'t, 'c> {
         tree.items.iter().map(&mut is_free).collect()
     }
 
-    /// The numbers of each copy of a declaration; of one that is not repeated there is one, without numbers. None where that cannot
-    /// be told.
+    /// Returns the indices of each copy of a declaration; one copy without indices if it is not repeated, `None` if they cannot be
+    /// determined.
     fn copies(&mut self, item: &'t Item) -> Option<Vec<Numbers<'t>>> {
         let mut copies: Vec<Numbers<'t>> = vec![Vec::new()];
         if let Some(range) = item.ranges.get(MOST_INDICES) {
@@ -200,7 +200,7 @@ impl<'t, 'c> Writer<'t, 'c> {
         Some(copies)
     }
 
-    /// Whether an index has a name of its own.
+    /// Returns whether an index has a unique name.
     fn is_free(&mut self, range: &ast::IndexRange, all: &[ast::IndexRange]) -> bool {
         let name = &range.index;
         let before = all.iter().take_while(|other| other.index.span != name.span);
@@ -212,7 +212,7 @@ impl<'t, 'c> Writer<'t, 'c> {
         is_free
     }
 
-    /// The first number, and the one behind the last.
+    /// Returns the first index, and the one after the last.
     fn bounds(&mut self, range: &ast::IndexRange, numbers: &Numbers<'_>) -> Option<[i64; 2]> {
         let from = self.whole_number(&range.from, numbers, "a bound of a range").ok()?;
         let to = self.whole_number(&range.to, numbers, "a bound of a range").ok()?;
@@ -238,7 +238,7 @@ impl<'t, 'c> Writer<'t, 'c> {
         Ok(whole as i64)
     }
 
-    /// Says of a number that cannot be told that it is made of what a part has, if it is, rather than what was said of it.
+    /// Reports that a number depends on a declaration in a part, in place of the diagnostics from `said` on, if it does.
     pub fn is_of_a_part(&mut self, e: &Expr, place: &str, said: usize) -> Unwritten {
         if let Some(path) = path_into_part(self.tree, e) {
             self.checker.diagnostics.truncate(said);
@@ -250,13 +250,13 @@ impl<'t, 'c> Writer<'t, 'c> {
     }
 }
 
-/// A declaration, or one of its copies, that cannot be written out, which has been said.
+/// Returns a declaration, or a copy of it, that cannot be expanded, which has been reported.
 pub(super) fn broken(item: &Item, numbers: &Numbers<'_>) -> Item {
     let names = name_of(item).map(|name| named(name, numbers)).into_iter().collect();
     Item { docs: Vec::new(), span: item.span, ranges: Vec::new(), kind: ItemKind::Broken { names } }
 }
 
-/// What a copy is called.
+/// Returns the name of a copy.
 pub(super) fn named(name: &Name, numbers: &Numbers<'_>) -> Name {
     if numbers.is_empty() {
         return name.clone();
@@ -265,13 +265,13 @@ pub(super) fn named(name: &Name, numbers: &Numbers<'_>) -> Name {
     Name { text: indexed(&name.text, &numbers), span: name.span }
 }
 
-/// `grid[1,3]`
+/// Returns a name such as `grid[1,3]`.
 fn indexed(name: &str, numbers: &[i64]) -> String {
     let numbers: Vec<String> = numbers.iter().map(i64::to_string).collect();
     format!("{name}[{}]", numbers.join(","))
 }
 
-/// The place of what a formula names in a part, also by way of other definitions.
+/// Returns the location of a path into a part in a formula, also through other definitions.
 fn path_into_part(tree: &Mechanism, formula: &Expr) -> Option<Span> {
     let item = |name: &Name| tree.items.iter().find(|item| name_of(item).is_some_and(|own| own.text == name.text));
     let is_part = |name: &Name| item(name).is_some_and(|item| matches!(item.kind, ItemKind::Part(_)));
@@ -296,7 +296,7 @@ fn path_into_part(tree: &Mechanism, formula: &Expr) -> Option<Span> {
     None
 }
 
-/// The value of a formula of numbers alone, as most indices are.
+/// Returns the value of a formula of numbers alone, as most indices are.
 fn simple(e: &Expr, numbers: &Numbers<'_>) -> Option<f64> {
     Some(match &e.kind {
         ExprKind::Literal { value, unit: None } => *value,

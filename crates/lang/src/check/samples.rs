@@ -1,5 +1,5 @@
-//! Tables with a line of names: samples of inputs, with a column of times; variants, with a column for each param that varies. Each fault
-//! has its place in the file.
+//! Tables with a header line: samples of inputs with a column of times, and variants with a column for each param. Faults have locations in
+//! the file.
 
 use super::table_file::{between_commas, number};
 use mechc_syntax::normalized;
@@ -7,16 +7,16 @@ use mechc_text::diag::{Code, Diagnostic};
 use mechc_text::source::{FileId, Source, Span};
 use mechc_text::vocabulary::{CompoundUnit, Dimension, Unit};
 
-/// What the rows of a table are, in messages.
+/// The words for a table and its rows in messages.
 #[derive(Clone, Copy)]
 struct Words {
-    /// All of them.
+    /// The plural of the rows.
     many: &'static str,
-    /// One number of them.
+    /// The singular of a number in them.
     one: &'static str,
-    /// How its units are written, by an example.
+    /// An example of the units.
     example: &'static str,
-    /// What is needed at least.
+    /// The required columns.
     least: &'static str,
 }
 
@@ -33,44 +33,44 @@ const VARIANTS: Words = Words {
     least: "a line that names the params is needed, and a row for each variant",
 };
 
-/// What a file of samples holds.
+/// The content of a file of samples.
 pub(super) struct Samples {
-    /// In seconds, rising.
+    /// The times (s), ascending.
     pub times: Vec<f64>,
-    /// But for that of the times.
+    /// The columns except that of the times.
     pub columns: Vec<Column>,
 }
 
 /// A column of numbers.
 pub struct Column {
-    /// The input or param that it is of.
+    /// The name of the input or param.
     pub name: String,
-    /// Of the cell of its header.
+    /// The location of the header's cell.
     pub span: Span,
-    /// Of its unit, if it has one.
+    /// The dimension of its unit, if it has one.
     pub dimension: Option<Dimension>,
-    /// Whether its unit speaks of an angle.
+    /// True if its unit holds a unit of angle.
     pub is_of_angles: bool,
-    /// In SI.
+    /// The values, in SI units.
     pub values: Vec<f64>,
 }
 
-/// A part of a line with its place, without the white space and quotes around it.
+/// A cell of a line with its location, without surrounding white space and quotes.
 struct Cell<'a> {
     text: &'a str,
     span: Span,
 }
 
-/// What a header says of a column.
+/// The header of a column.
 pub(super) struct Head<'a> {
-    /// As it is written.
+    /// The name as it is written.
     pub name: &'a str,
-    /// Of its cell.
+    /// The location of its cell.
     pub span: Span,
     unit: Option<CompoundUnit>,
 }
 
-/// Units joined by `*` and `/`, each with its power.
+/// Returns a unit of factors joined by `*` and `/`, each with its power.
 fn unit_named(text: &str) -> Option<CompoundUnit> {
     let (mut units, mut rest, mut sign) = (Vec::new(), text, 1);
     loop {
@@ -90,7 +90,7 @@ fn unit_named(text: &str) -> Option<CompoundUnit> {
     }
 }
 
-/// The first line of samples, with what follows it.
+/// The header line of samples, with the file behind it.
 pub(super) struct Headed<'a> {
     source: &'a Source,
     file: FileId,
@@ -99,10 +99,10 @@ pub(super) struct Headed<'a> {
     at: usize,
 }
 
-/// Reads the first line of samples.
+/// Reads the header line of samples.
 ///
 /// # Errors
-/// What is wrong with it.
+/// The faults of the line.
 pub(super) fn header(source: &Source, file: FileId) -> Result<Headed<'_>, Vec<Diagnostic>> {
     let (line, heads) = heads(source, file, SAMPLES)?;
     let at = time_column(&heads, line.span)?;
@@ -116,7 +116,7 @@ pub(super) fn header(source: &Source, file: FileId) -> Result<Headed<'_>, Vec<Di
 /// Reads a table of variants: a column for each param that varies.
 ///
 /// # Errors
-/// What is wrong with it.
+/// The faults of the table.
 pub fn variants(source: &Source, file: FileId) -> Result<Vec<Column>, Vec<Diagnostic>> {
     let (line, heads) = heads(source, file, VARIANTS)?;
     let numbers = |head: &Head<'_>| number(head.name).is_some();
@@ -136,7 +136,7 @@ pub fn variants(source: &Source, file: FileId) -> Result<Vec<Column>, Vec<Diagno
     Ok(heads.iter().zip(columns).map(|(head, values)| head.column(values)).collect())
 }
 
-/// The first line of a table, and what it names.
+/// Returns the first line of a table, and the headers of its columns.
 fn heads(source: &Source, file: FileId, words: Words) -> Result<(Line<'_>, Vec<Head<'_>>), Vec<Diagnostic>> {
     let Some(line) = lines(source, file).next() else {
         let nothing = Span { file, start: 0, end: 0 };
@@ -156,16 +156,16 @@ fn heads(source: &Source, file: FileId, words: Words) -> Result<(Line<'_>, Vec<H
     Ok((line, heads))
 }
 
-/// The rows behind a first line.
+/// The rows below the header line.
 struct Rows {
-    /// By column: its numbers (SI).
+    /// The numbers of each column (SI).
     columns: Vec<Vec<f64>>,
-    /// By row and column.
+    /// The locations, by row and column.
     places: Vec<Vec<Span>>,
 }
 
 impl Rows {
-    /// Reads them; blank lines are passed over.
+    /// Reads the rows, without blank lines.
     fn read(source: &Source, file: FileId, heads: &[Head<'_>], words: Words) -> Result<Rows, Vec<Diagnostic>> {
         let mut rows = Rows { columns: vec![Vec::new(); heads.len()], places: Vec::new() };
         for line in lines(source, file).skip(1) {
@@ -181,15 +181,15 @@ impl Rows {
 }
 
 impl<'a> Headed<'a> {
-    /// The columns but for that of the times.
+    /// Returns the headers except that of the times.
     pub fn columns(&self) -> impl Iterator<Item = &Head<'a>> {
         self.heads.iter().enumerate().filter(|(k, _)| *k != self.at).map(|(_, head)| head)
     }
 
-    /// Reads the rows; blank lines are passed over.
+    /// Reads the rows, without blank lines.
     ///
     /// # Errors
-    /// What is wrong with them.
+    /// The faults of the rows.
     pub fn rows(&self) -> Result<Samples, Vec<Diagnostic>> {
         let Rows { columns: mut values, places } = Rows::read(self.source, self.file, &self.heads, SAMPLES)?;
         let times = values.remove(self.at);
@@ -201,7 +201,7 @@ impl<'a> Headed<'a> {
 }
 
 impl Head<'_> {
-    /// The input that it is of; the numbers of a copy may be written with spaces.
+    /// Returns the path of the input. Spaces in indices are ignored.
     pub fn path(&self) -> String {
         normalized(self.name).chars().filter(|c| !c.is_whitespace()).collect()
     }
@@ -213,7 +213,7 @@ impl Head<'_> {
         Column { name, span, dimension, is_of_angles, values }
     }
 
-    /// What is to be written, where its brackets are not as a unit's.
+    /// Returns a suggestion if the brackets are not written as those of a unit.
     pub fn meant(&self) -> Option<String> {
         let (name, rest) = self.name.rsplit_once('[')?;
         let text = rest.strip_suffix(']').unwrap_or(rest).trim();
@@ -227,13 +227,13 @@ impl Head<'_> {
     }
 }
 
-/// A line that holds something, without the white space around it.
+/// A line that is not blank, without surrounding white space.
 struct Line<'a> {
     text: &'a str,
     span: Span,
 }
 
-/// The lines that hold something.
+/// Returns the lines that are not blank.
 fn lines(source: &Source, file: FileId) -> impl Iterator<Item = Line<'_>> {
     let mut at = 0;
     source.text.split('\n').filter_map(move |line| {
@@ -246,7 +246,7 @@ fn lines(source: &Source, file: FileId) -> impl Iterator<Item = Line<'_>> {
 }
 
 impl<'a> Line<'a> {
-    /// What stands between its commas.
+    /// Returns the cells of the line.
     ///
     /// # Errors
     /// A quote is not closed.
@@ -266,7 +266,7 @@ impl<'a> Line<'a> {
         Ok(cells)
     }
 
-    /// Whether something else than commas parts its cells.
+    /// Returns the separator of the line if it is not a comma.
     fn other_separator(&self) -> Option<&'static str> {
         const OTHERS: [(char, &str); 2] = [(';', "semicolons"), ('\t', "tabs")];
         let found = OTHERS.iter().find(|(separator, _)| self.text.contains(*separator));
@@ -277,10 +277,10 @@ impl<'a> Line<'a> {
         found.map(|(_, name)| *name).or_else(|| is_spaced().then_some("spaces"))
     }
 
-    /// Looks at the first line for columns.
+    /// Checks that commas separate the columns of the first line.
     ///
     /// # Errors
-    /// Something else than commas is between them.
+    /// Another separator is used.
     fn has_commas(&self, words: Words) -> Result<(), Box<Diagnostic>> {
         match self.other_separator().filter(|_| !self.text.contains(',')) {
             Some(found) => Err(Box::new(self.separated_by(found, words))),
@@ -294,10 +294,10 @@ impl<'a> Line<'a> {
     }
 }
 
-/// How columns and numbers are written.
+/// The format of columns and numbers.
 const SEPARATORS: &str = "columns are separated by commas, and decimals written with a point";
 
-/// `NAME` or `NAME [UNIT]`
+/// Reads a header `NAME` or `NAME [UNIT]`.
 fn head<'a>(cell: &Cell<'a>, words: Words) -> Result<Head<'a>, Box<Diagnostic>> {
     let Some((name, unit)) = cell.text.strip_suffix(']').and_then(|text| text.rsplit_once(" [")) else {
         return Ok(Head { name: cell.text, span: cell.span, unit: None });
@@ -310,7 +310,7 @@ fn head<'a>(cell: &Cell<'a>, words: Words) -> Result<Head<'a>, Box<Diagnostic>> 
     Err(Box::new(fault(Code::E0202, &message, cell.span, "the unit of this column").help(help)))
 }
 
-/// The number of the column of times.
+/// Returns the number of the column of times.
 fn time_column(heads: &[Head<'_>], line: Span) -> Result<usize, Vec<Diagnostic>> {
     let Some(at) = heads.iter().position(|head| head.name == "t") else {
         let help = "the first line names the columns: `t` or `t [ms]` for the times, and the inputs".to_owned();
@@ -327,7 +327,7 @@ fn time_column(heads: &[Head<'_>], line: Span) -> Result<usize, Vec<Diagnostic>>
     }
 }
 
-/// The numbers of a line.
+/// Returns the numbers of a line.
 fn row_of(line: &Line<'_>, cells: &[Cell<'_>], heads: &[Head<'_>], words: Words) -> Result<Vec<f64>, Vec<Diagnostic>> {
     if cells.len() != heads.len() {
         if let Some(found) = line.other_separator().filter(|_| cells.len() == 1) {

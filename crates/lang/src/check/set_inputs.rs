@@ -1,9 +1,9 @@
-//! Inputs that are numbers which may be set, instead of formulas of time: for who knows from elsewhere where an input is, and how it moves
-//! on from there.
+//! Inputs that become settable numbers instead of formulas of time, for callers that know from elsewhere where an input is and how it
+//! moves.
 //!
-//! Such an input is a parabola of time around a moment, or a straight line. Its value and that moment, its rate and, of a parabola, its
-//! acceleration are parameters of the model, in this order, so that a mechanism is compiled once for all that they may be. The first two
-//! can be led from what the text says.
+//! Such an input is a parabola or a straight line in time around a moment. Its value, that moment, its rate and for a parabola its
+//! acceleration are parameters of the model, in this order, so that one compilation serves for all their values. The first two can be
+//! continued from the text's values.
 
 use super::formula::Value;
 use super::{Checker, errors};
@@ -11,20 +11,20 @@ use crate::model::{Declared, Dimension, Led, Param};
 use mechc_expr::{ExprId, Symbol};
 use mechc_syntax::ast::Name;
 
-/// Which inputs may be set.
+/// The inputs that become settable.
 #[derive(Clone, Debug, Default)]
 pub struct SetInputs {
-    /// They begin with what the text says at this time (s).
+    /// The time at which they start with the text's values (s).
     pub t: f64,
-    /// Their names, with the parts before them.
+    /// Their names, prefixed with those of their parts.
     pub names: Vec<String>,
-    /// Whether they may have accelerations; else they go straight on, which keeps the equations plain.
+    /// True if they have accelerations. Straight lines keep the equations simpler.
     pub bend: bool,
 }
 
 impl Checker<'_> {
-    /// What an input is that may be set; what it is anyway, where it may not. Its own formula asks for nothing then: the conditions behind
-    /// the first `before` are its own.
+    /// Returns the settable line of an input, or its value if it is not settable. The conditions of its own formula, after the first
+    /// `before`, are dropped.
     pub(super) fn set_input(&mut self, name: &Name, own: Value, before: usize) -> Option<Value> {
         let declared = self.declared(name);
         let Some(SetInputs { t, bend, .. }) =
@@ -48,7 +48,7 @@ impl Checker<'_> {
         Some(Value { id, ..own })
     }
 
-    /// The formula of an input that is set, with its parameters, which begin with a value at a time (s).
+    /// Returns the formula of a settable input, and adds its parameters, which start at a value and a time (s).
     fn line(&mut self, declared: &Declared, [value, t]: [f64; 2], (dimension, bends): (Dimension, bool)) -> ExprId {
         let first = self.model.params.len() as u32;
         let per = |order: i32| dimension.over(Dimension::TIME.to_the(f64::from(order)));

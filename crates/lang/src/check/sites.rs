@@ -1,4 +1,4 @@
-//! Where formulas stand, as far as that decides which points they may name.
+//! The site of a formula, which decides which points it may name.
 
 use crate::model::Frame;
 use mechc_expr::ExprId;
@@ -7,15 +7,15 @@ use mechc_text::source::Span;
 /// The two coordinates of a point (m).
 pub(super) type Place = [ExprId; 2];
 
-/// A point with a name.
+/// A named point in the drawing.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drawn {
     pub at: Place,
-    /// Whether its formula holds a unit, or something that does.
+    /// True if its formula holds a unit, directly or through names.
     pub dimensional: bool,
 }
 
-/// Where a formula stands, as far as that decides which points it may name.
+/// The site of a formula, which decides which points it may name.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(super) enum Site {
     /// Outside all bodies.
@@ -23,28 +23,28 @@ pub(super) enum Site {
     Mechanism,
     /// In the braces of a body or of the ground.
     Inside(Frame),
-    /// Behind a body's `at`, where points of other bodies may stand.
+    /// After a body's `at`, where points of other bodies may stand.
     Drawing,
-    /// Behind a part's `at`: such points stand there too, and all is in the frame that carries the part.
+    /// After a part's `at`, where such points may stand too; coordinates are those of the frame that carries the part.
     Mount(Frame),
 }
 
 impl Site {
-    /// Whether points of bodies may stand there.
+    /// Returns whether points of bodies may stand at the site.
     pub fn takes_drawn_points(self) -> bool {
         matches!(self, Site::Drawing | Site::Mount(_))
     }
 }
 
-/// The points that the formula at hand may name, and those it has named.
+/// The points that the current formula may name, and those that it has named.
 #[derive(Default)]
 pub(super) struct Scope<'a> {
     pub site: Site,
-    /// The point whose own formula it is.
+    /// The point that the formula defines.
     pub defined: Option<&'a str>,
-    /// The argument of the curve whose formula it is.
+    /// The argument of the curve that the formula defines.
     pub argument: Option<&'a str>,
-    /// Where it names a point of the body, and one of the mechanism.
+    /// The locations of a point of the body and of a point of the mechanism, if the formula names one.
     pub own: Option<Span>,
     pub of_mechanism: Option<Span>,
 }

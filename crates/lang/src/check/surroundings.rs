@@ -1,48 +1,48 @@
-//! What a mechanism is checked with, beside its own text.
+//! The options of a check.
 
 use super::{Given, Lead, Library, SetInputs, TableFiles};
 use mechc_syntax::ast::Expr;
 
-/// What a mechanism is checked with, beside its own text.
+/// The options of a check, and the files that the text names.
 #[derive(Clone, Debug, Default)]
 pub struct Surroundings {
-    /// Parameters set from outside.
+    /// Overrides of parameters.
     pub settings: Vec<Setting>,
-    /// The files that it uses.
+    /// The mechanisms of all files that the text uses.
     pub library: Library,
-    /// The files that its tables name.
+    /// The texts of the files that tables name.
     pub files: TableFiles,
-    /// What inputs are told to be.
+    /// Overrides of inputs.
     pub given: Given,
-    /// Of a part that stands alone: what is bound of its params (SI).
+    /// For a part that is checked on its own: the values of its bound params (SI).
     pub bound: Vec<(String, f64)>,
-    /// Where it is led, if that is all that is asked for.
+    /// The target of a continuation, if the model is one of a continuation.
     pub lead: Option<Lead>,
-    /// The paths of parameters that may be set elsewhere than the text has them: they are symbols, also where they follow from others
-    /// there, and the model says which they are.
+    /// The paths of parameters that may change after the check. They become symbols even if their formulas depend on others, and the model
+    /// lists them.
     pub open: Vec<String>,
-    /// Names by which all columns are differentiated.
+    /// The names by which all columns are differentiated.
     pub by: Vec<String>,
-    /// Whether results are differentiated by these too, as further results; and if so, whether the first and the last time of the analysis
-    /// are what the text says, which may go with parameters.
+    /// Whether results are differentiated by these names too. If so, whether the start and the end of the analysis are those of the text,
+    /// which may depend on parameters.
     pub slopes: Option<[bool; 2]>,
-    /// Whether what all joints exert and all drivers supply is tabulated.
+    /// True if the reactions of all joints and the efforts of all drivers are tabulated.
     pub reactions: bool,
-    /// Whether pictures are to show forces.
+    /// True if pictures show forces.
     pub pictures_forces: bool,
-    /// Whether inputs stay signals in the model, rather than being replaced by what they are.
+    /// True if inputs stay signals in the model, and are not replaced by their formulas.
     pub has_signals: bool,
-    /// Inputs that are numbers which may be set.
+    /// Inputs that become settable numbers.
     pub set_inputs: Option<SetInputs>,
-    /// The paths of parts whose derivatives are by their own equations alone, though they move together with what is around them.
+    /// The paths of parts whose derivatives use only their own equations, although they move together with their surroundings.
     pub coupled: Vec<String>,
 }
 
-/// A parameter's value from outside the file: `--set crank_length=60mm`.
+/// The override of a parameter: `--set crank_length=60mm`.
 #[derive(Clone, Debug)]
 pub struct Setting {
-    /// The parameter, or a coordinate of one that is a point, with the parts before it; without a number it is meant in all copies.
+    /// The path of the parameter, or of a coordinate of a point. Without an index it names all copies.
     pub path: String,
-    /// Its formula, which names nothing of the file.
+    /// The formula, which names nothing of the file.
     pub value: Expr,
 }

@@ -1,4 +1,4 @@
-//! What is told from outside of params and inputs, those of parts by their paths.
+//! Overrides of params and inputs from outside the file, such as `--set` and `--input`. Those of parts are named by paths.
 
 use super::Checker;
 use mechc_syntax::ast::{Binding, ItemKind, Name};
@@ -6,7 +6,7 @@ use mechc_syntax::normalized;
 use mechc_text::source::Span;
 
 impl Checker<'_> {
-    /// All params or inputs, those of parts by their paths, each with the place of its binding if it has one.
+    /// Returns the paths of all params or inputs, each with the location of its binding if it is bound.
     pub(super) fn settable_names(&self, of: fn(&ItemKind) -> Option<&Name>) -> Vec<(String, Option<Span>)> {
         let mut found = Vec::new();
         self.add_settable("", &[], of, &mut found);
@@ -31,7 +31,7 @@ impl Checker<'_> {
     }
 }
 
-/// Whether what is told of a path is told of a thing: of itself, or of all copies of something repeated; spaces count nothing.
+/// Returns whether the path of an override names `full`, or all copies of it if the path leaves the indices out. Spaces are ignored.
 pub(super) fn is_told_by(full: &str, told: &str) -> bool {
     let told: String = told.chars().filter(|c| !c.is_whitespace()).collect();
     if told == full {

@@ -1,7 +1,7 @@
-//! What derivatives are taken by: the second argument of `der(e, NAME)`, and the names of `--by`.
+//! The variables of derivatives: the second argument of `der(e, NAME)`, and the names of `--by`.
 //!
-//! What is a number of its own varies itself. To what has a formula of its own a shift of 0 is added, but only where a derivative by it is
-//! asked for; so that all else is as if it were not.
+//! The variable of an independent number is its symbol. A value with a formula gets a shift of 0 added to it, but only if a derivative by
+//! it is requested, so that nothing else changes.
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
@@ -13,32 +13,32 @@ use mechc_syntax::ast::{Expr, ExprKind, Item, Mechanism, Name};
 use mechc_text::source::Span;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// How many variables a formula may be differentiated by, one after the other, and how often by time then.
+/// The largest numbers of variables, and of time derivatives besides, of one derivative.
 const MOST_VARIABLES: u8 = 2;
 const MOST_RATES: u8 = 2;
 
-/// What a mechanism is differentiated by.
+/// The variables of a mechanism.
 #[derive(Default)]
 pub(super) struct Variables {
-    /// Names by which derivatives are asked for: those of points and of repeated inputs stand for all that they hold.
+    /// The requested names. Those of points and of repeated inputs stand for all their variables.
     asked: FxHashSet<String>,
-    /// The numbers of those that have had their turn.
+    /// The numbers of the variables that have been created.
     pub known: FxHashMap<String, u32>,
-    /// Their dimensions, by number.
+    /// The dimensions by number.
     dims: Vec<Dim>,
-    /// Of the graph's named symbols that hold such derivatives: by how many variables, and how often by time.
+    /// For the named symbols of such derivatives: the numbers of variables and of time derivatives.
     orders: FxHashMap<ExprId, (u8, u8)>,
-    /// The places of those of formulas that hold forces.
+    /// The locations of derivatives of formulas with forces.
     of_forces: Vec<Span>,
 }
 
 impl Variables {
-    /// Those that the command line asks for.
+    /// Returns the variables that the command line requests.
     pub fn told(by: &[String]) -> Variables {
         Variables { asked: by.iter().cloned().collect(), ..Variables::default() }
     }
 
-    /// Those that a text asks for too, which stands under a path.
+    /// Adds the variables that a text requests; `path` is the prefix of its names.
     pub fn add(&mut self, tree: &Mechanism, path: &str) {
         for e in tree.items.iter().flat_map(Item::formulas).flat_map(Expr::parts) {
             if let Some((_, by)) = as_derivative(e) {
@@ -60,7 +60,7 @@ impl Variables {
     }
 }
 
-/// `der(e, NAME)`
+/// Returns the arguments of `der(e, NAME)`.
 pub(super) fn as_derivative(e: &Expr) -> Option<(&Expr, &Expr)> {
     match &e.kind {
         ExprKind::Call { name, arguments, window: None } if name.text == "der" => match arguments.as_slice() {
@@ -71,7 +71,7 @@ pub(super) fn as_derivative(e: &Expr) -> Option<(&Expr, &Expr)> {
     }
 }
 
-/// A name, or `A.x`, as a text.
+/// Returns a name or `A.x` as text.
 fn named(e: &Expr) -> Option<String> {
     match &e.bare().kind {
         ExprKind::Name(name) => Some(name.text.clone()),
@@ -81,7 +81,7 @@ fn named(e: &Expr) -> Option<String> {
 }
 
 impl Checker<'_> {
-    /// A number of its own, if derivatives are taken by it.
+    /// Registers an independent number, if it is a requested variable.
     pub(super) fn note_param(&mut self, declared: &Declared, symbol: Symbol, dim: Dim) {
         if self.common.variables.is_asked(&declared.name) {
             let is_angle = self.is_angle(&declared.name);
@@ -89,7 +89,7 @@ impl Checker<'_> {
         }
     }
 
-    /// What has a formula of its own, with a shift if derivatives are taken by it.
+    /// Returns a value with a formula, with a shift if it is a requested variable.
     pub(super) fn with_shift(&mut self, declared: &Declared, value: Value) -> Value {
         if !self.common.variables.is_asked(&declared.name) {
             return value;
@@ -117,7 +117,7 @@ impl Checker<'_> {
         self.model.variables.push(Variable { declared, symbol, dimension: dim.settled(), is_angle });
     }
 
-    /// `der(e, NAME)`
+    /// Evaluates `der(e, NAME)`.
     pub(super) fn derivative_by(&mut self, e: &Expr, [of, by]: [&Expr; 2], context: &Context<'_>) -> Option<Value> {
         if context.results && !context.measures {
             self.report(errors::variation_of_result(e.span));
@@ -156,20 +156,20 @@ impl Checker<'_> {
         Some(Value { id, dim })
     }
 
-    /// Whether derivatives in this text are by its own equations alone, though it moves together with what is around it.
+    /// Returns whether derivatives in this text use only its own equations, although it moves together with its surroundings.
     fn is_coupled(&self) -> bool {
         let path = self.address.path.trim_end_matches('.');
         self.around.coupled.iter().any(|coupled| coupled == path)
     }
 
-    /// What an input of this part is bound to, which is held where derivatives are taken by the part's own equations.
+    /// Returns the formula to which an input is bound, held fixed in derivatives by the part's own equations.
     pub(super) fn held(&mut self, value: Value) -> Value {
         let Some(part) = self.address.part.filter(|_| self.is_coupled()) else { return value };
         let order = self.derivative_order(value.id);
         Value { id: self.name_symbol(Named::Held(part, value.id), order), ..value }
     }
 
-    /// Notes that a formula is the time derivative of another one; says whether that may be.
+    /// Registers a formula as the time derivative of another one. Returns whether its order is allowed.
     pub(super) fn note_rate(&mut self, of: ExprId, rate: ExprId) -> bool {
         let (times, rates) = self.variation_orders(of);
         if times > 0 {
@@ -178,7 +178,7 @@ impl Checker<'_> {
         times == 0 || rates < MOST_RATES
     }
 
-    /// By how many variables a formula is differentiated, and how often by time there.
+    /// Returns the numbers of variables and of time derivatives in a formula.
     fn variation_orders(&self, id: ExprId) -> (u8, u8) {
         if self.common.variables.orders.is_empty() {
             return (0, 0);
@@ -188,7 +188,7 @@ impl Checker<'_> {
         parts.fold((0, 0), |all, part| (all.0.max(part.0), all.1.max(part.1)))
     }
 
-    /// Derivatives of forces go through the loads: with third time derivatives in these there are none.
+    /// Reports derivatives of forces if a load holds third time derivatives.
     pub(super) fn refuse_derivatives_of_forces(&mut self) {
         let is_jerk = |&symbol: &Symbol| match symbol {
             Symbol::Named(k) => match self.model.named[k as usize] {
@@ -208,7 +208,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The number of what a derivative is taken by.
+    /// Returns the number of a derivative's variable.
     fn variable(&mut self, by: &Expr) -> Option<u32> {
         let own = named(by).map(|name| format!("{}{name}", self.address.path));
         let path = named(by).unwrap_or_default();
@@ -225,7 +225,7 @@ impl Checker<'_> {
         let diagnostic = match &by.bare().kind {
             ExprKind::Name(name) => self.no_variable(name)?,
             ExprKind::Member { owner, feature } if self.point_param(owner).is_some() => {
-                // one that is broken has been told
+                // A broken one has been reported.
                 if matches!(feature.text.as_str(), "x" | "y") {
                     return None;
                 }
@@ -241,7 +241,7 @@ impl Checker<'_> {
         None
     }
 
-    /// What is said of a name that no derivative is taken by; nothing where it is broken, which has been said.
+    /// Returns the diagnostic of a name that is not a variable; `None` if it is broken, which has been reported.
     fn no_variable(&self, name: &Name) -> Option<mechc_text::diag::Diagnostic> {
         match self.resolve(name).ok()? {
             Some(Entity::Param(_)) if self.point_param(name).is_some() => Some(errors::by_point(name, name.span)),

@@ -1,4 +1,4 @@
-//! What is said of dimensions, units and values.
+//! Diagnostics of dimensions, units and values.
 
 use crate::check::mends::{is_bare_number, with_factors, with_unit};
 use crate::check::rates::{Part, polar, rate_mended};
@@ -7,10 +7,10 @@ use mechc_syntax::ast::Name;
 use mechc_text::diag::{Applies, Code, Diagnostic, Fix, readable};
 use mechc_text::source::Span;
 
-/// Places of one kind that are shown beside the first one, at most.
+/// The largest number of locations of one kind after the first one.
 pub(super) const MOST_PLACES: usize = 4;
 
-/// The text of a part is told where it is a bare number; a factor is proposed where the second one may take it.
+/// The text of a term is shown if it is a bare number. A factor is suggested if the second term can take it.
 pub fn unlike(
     what: &str,
     [first, second]: [Part; 2],
@@ -36,7 +36,7 @@ pub fn unlike(
     let fix = mended.filter(|_| has_time).or_else(upside_down).or(fix);
     let fix = fix.or_else(|| scaled(first.dimension, second, texts[1]).filter(|_| takes_factor));
     let polar = polar(first, second, texts).filter(|_| what.starts_with("the coordinates"));
-    // where time may not stand it is no more than an explanation
+    // Where time is not allowed, it is only an explanation.
     let is_factor = fix.as_ref().is_some_and(|fix| fix.message.ends_with("t`"));
     let (fix, help) = if is_factor && !has_time { (None, fix.map(|fix| fix.message)) } else { (fix, None) };
     Diagnostic::new(Code::E0401, format!("{what} {} and {}", first.dimension.in_words(), second.dimension.in_words()))
@@ -47,7 +47,7 @@ pub fn unlike(
         .help_if(polar)
 }
 
-/// `1/3 s` that is to be like a time: a unit binds more tightly than what divides.
+/// Suggests a unit for `1/3 s` where a time is expected: the unit binds tighter than the division.
 fn unit_above(like: Dimension, term: Part, text: &str) -> Option<Fix> {
     let (above, below) = text.split_once('/')?;
     let (number, unit) = below.trim().split_once(' ')?;
@@ -58,10 +58,10 @@ fn unit_above(like: Dimension, term: Part, text: &str) -> Option<Fix> {
     is_so.then(|| Fix::replace(term.span, &mended, message, Applies::Probably))
 }
 
-/// Texts of more characters than this are left out of a message.
+/// The largest number of characters of a text in a message.
 const LONGEST_SHOWN: usize = 40;
 
-/// A term with the factor that makes it like another one.
+/// Suggests a factor that gives a term the dimension of another one.
 fn scaled(like: Dimension, term: Part, text: &str) -> Option<Fix> {
     let factor = like.over(term.dimension);
     let is_whole = [factor.length, factor.time, factor.mass].iter().all(|power| (power - power.round()).abs() < 1e-9);
@@ -79,18 +79,18 @@ fn scaled(like: Dimension, term: Part, text: &str) -> Option<Fix> {
     is_whole.then(|| with_factors(term.span, text, [&before, &behind], &words))
 }
 
-/// The unit of a factor; a rate is one of an angle.
+/// Returns the usual unit of a factor. A rate is that of an angle.
 fn usual_factor(factor: Dimension) -> String {
     let unit = factor.unit();
     if factor.is(Dimension::RATE) { "rad/s".to_owned() } else { unit }
 }
 
-/// What a quantity is usually written in.
+/// Returns the usual unit of a quantity.
 pub(super) fn usual_unit(dimension: Dimension) -> String {
     if dimension.is(Dimension::LENGTH) { "mm".to_owned() } else { dimension.unit().replace("1/s", "rad/s") }
 }
 
-/// A value (SI) as a reader wants it, without the rounding of its last digits.
+/// Returns a value (SI) for readers, without rounding in its last digits.
 pub fn told(value: f64, dimension: Dimension) -> String {
     let (value, unit) = if dimension.is(Dimension::LENGTH) && value.abs() < 1.0 {
         (value * 1e3, "mm".to_owned())
@@ -103,7 +103,7 @@ pub fn told(value: f64, dimension: Dimension) -> String {
     format!("{} {unit}", readable(rounded)).trim_end().to_owned()
 }
 
-/// The text is that of the part.
+/// `text` is that of the term.
 pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part, text: &str) -> Diagnostic {
     let units = |d: Dimension| {
         if d.is(Dimension::LENGTH) {
@@ -128,7 +128,7 @@ pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part, text: &str) 
         let words = format!("divide it by {} to get a pure number", one(found.dimension));
         let unit = one(found.dimension).trim_matches('`').to_owned();
         let unit = if unit.contains('/') { format!("({unit})") } else { unit };
-        // an exponent binds more tightly than what divides it
+        // An exponent binds tighter than a division.
         let [open, close] = if place.contains("exponent") { ["(", ")"] } else { ["", ""] };
         fix = factors([open, &format!(" / {unit}{close}")], &words);
         Some(words)
@@ -146,7 +146,7 @@ pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part, text: &str) 
         .change(fix)
 }
 
-/// `1 s`, `1 m`, `1 m/s`.
+/// Returns a unit value such as `1 s`, `1 m` or `1 m/s`.
 fn one(dimension: Dimension) -> String {
     let unit = dimension.unit();
     if unit.starts_with('1') { format!("`{unit}`") } else { format!("`1 {unit}`") }
@@ -166,7 +166,7 @@ pub fn not_finite(span: Span, value: f64) -> Diagnostic {
         .help("look for a division by zero, a root or logarithm of what is not positive, or a number beyond 1.8e308")
 }
 
-/// `acos` of what is beyond 1.
+/// Returns the diagnostic of `acos` or `asin` of a value beyond 1.
 pub fn no_such_angle(argument: Span, function: &str, value: f64) -> Diagnostic {
     let number = readable(value);
     let which = if function == "acos" { "cosine" } else { "sine" };

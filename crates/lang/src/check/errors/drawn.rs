@@ -1,4 +1,4 @@
-//! What is said of bodies as they are drawn, of times, and of units that were forgotten.
+//! Diagnostics of drawn poses, times and missing units.
 
 use super::dimensions::{MOST_PLACES, told};
 use crate::check::mends::{is_bare_number, with_factors};
@@ -6,7 +6,7 @@ use crate::model::Dimension;
 use mechc_text::diag::{Applies, Code, Diagnostic, Edit, Fix, readable};
 use mechc_text::source::Span;
 
-/// Gears of which nothing says in which direction they lie from each other.
+/// Gears whose drawn poses give no direction between their centres.
 pub fn centers_coincide(circles: [Span; 2]) -> Diagnostic {
     Diagnostic::new(Code::E0412, "the centres of these gears coincide as the bodies are drawn")
         .at(circles[1], "its centre is that of the other one")
@@ -14,7 +14,7 @@ pub fn centers_coincide(circles: [Span; 2]) -> Diagnostic {
         .help("give the bodies poses in `at` that show in which direction one gear lies from the other")
 }
 
-/// A pinion of which nothing says on which side of its rack it lies.
+/// A pinion whose drawn pose gives no side of its rack.
 pub fn center_on_the_rack(arguments: [Span; 2]) -> Diagnostic {
     Diagnostic::new(Code::E0412, "the centre of this pinion lies on the axis of its rack as the bodies are drawn")
         .at(arguments[0], "on neither side")
@@ -46,7 +46,7 @@ pub fn step_not_positive(span: Span, value: f64) -> Diagnostic {
         .help("`every` is the time from one row to the next")
 }
 
-/// With the places and the texts of the start and the end.
+/// Takes the locations and texts of the start and the end.
 pub fn ends_before_start(spans: [Span; 2], texts: [&str; 2], from: f64, to: f64) -> Diagnostic {
     let is_duration = to > 0.0;
     let after = readable(from + to);
@@ -89,7 +89,7 @@ pub fn too_large(span: Span) -> Diagnostic {
         .help("functions that call each other several times with different arguments multiply; name common parts")
 }
 
-/// The text is that of the number.
+/// `text` is that of the number.
 pub fn degrees(span: Span, value: f64, text: &str) -> Diagnostic {
     let value = readable(value);
     let words = format!("write `{value} deg`, or `{value} rad` if radians are meant");
@@ -102,7 +102,7 @@ pub fn degrees(span: Span, value: f64, text: &str) -> Diagnostic {
         .change(is_bare.then(|| unit("rad")))
 }
 
-/// Something else in the place of a direction; the text of its angle, where it has one.
+/// A formula in the place of a direction; `angle` is the text of its angle, if it has one.
 pub fn no_direction(span: Span, found: &str, angle: Option<&str>) -> Diagnostic {
     let pair = |angle: &str| format!("(cos({angle}), sin({angle}))");
     let fix = angle.map(|angle| {
@@ -114,7 +114,7 @@ pub fn no_direction(span: Span, found: &str, angle: Option<&str>) -> Diagnostic 
         .fix_if(fix)
 }
 
-/// A term that is a bare number beside a measure which is printed in a unit of angle; where the unit would be written, and both texts.
+/// A bare number next to a measure printed in a unit of angle. Takes the term, the number to which the unit is appended, and their texts.
 pub fn number_beside_degrees(
     [term, number]: [Span; 2],
     [text, number_text]: [&str; 2],
@@ -148,19 +148,19 @@ pub fn number_beside_degrees(
         .change(Some(fix(radians)))
 }
 
-/// A length whose formula holds no unit, and where that would be written.
+/// A length without a unit.
 #[derive(Clone, Copy)]
 pub struct Plain<'a> {
-    /// In metres, without its sign.
+    /// The magnitude (m).
     pub value: f64,
     pub span: Span,
-    /// Of the parameter that it is.
+    /// The parameter's name, if it is one.
     pub name: Option<&'a str>,
-    /// Whether a number stands there, behind which the unit can be written.
+    /// True if it is a number to which a unit can be appended.
     pub is_number: bool,
 }
 
-/// All lengths without a unit, in their order in the text, which dwarf the largest one with a unit (m).
+/// Lengths without a unit in the order of the text, much larger than the largest one with a unit (m).
 pub fn no_unit_of_length(lengths: &[Plain<'_>], largest: f64, unit: &str) -> Diagnostic {
     let taken = |plain: &Plain<'_>| format!("taken as {}", told(plain.value, Dimension::LENGTH));
     let first = &lengths[0];
@@ -171,7 +171,7 @@ pub fn no_unit_of_length(lengths: &[Plain<'_>], largest: f64, unit: &str) -> Dia
     for plain in lengths.iter().skip(1).take(MOST_PLACES) {
         diagnostic = diagnostic.also(plain.span, taken(plain));
     }
-    // where a formula wants its unit is known to whoever wrote it
+    // The place of a unit in a formula is up to its author.
     let written = |unit: &str| match lengths {
         [only] if only.is_number => format!("`{} {unit}`", readable(only.value)),
         _ => format!("`{unit}` behind the numbers that have no unit"),

@@ -1,4 +1,4 @@
-//! What is said of masses, gravity, loads and what comes out of them.
+//! Diagnostics of masses, gravity, loads and computed forces.
 
 use super::told;
 use crate::check::mends::with_unit;
@@ -8,17 +8,17 @@ use mechc_syntax::ast::Name;
 use mechc_text::diag::{Code, Diagnostic};
 use mechc_text::source::Span;
 
-/// What a load works on instead of one quantity of positions.
+/// The reason why a load does not work on one quantity of positions.
 pub enum NoLoad<'n> {
-    /// Several of them.
+    /// A sum of several.
     Sum,
-    /// What moves, with the quantities that say how, as formulas.
+    /// A joint, body or point, with suitable quantities as formulas.
     Meant(Vec<String>),
-    /// Something else, which is none.
+    /// Not a quantity.
     Other,
     /// `der(…)`
     Rate,
-    /// A quantity that measures alone may hold, by its word.
+    /// A quantity that only measures may hold, by its word.
     OfMeasures(&'n str),
 }
 
@@ -41,7 +41,7 @@ pub fn gravity_of_one_number(span: Span, found: &str) -> Diagnostic {
         .help("where y points up it is `gravity (0, -9.81 m/s^2)`")
 }
 
-/// At the part in the text of the user.
+/// Reported at the part in the enclosing text.
 pub fn gravity_of_a_part(part: &Name, mechanism: &str, gravity: Span) -> Diagnostic {
     Diagnostic::new(Code::W0403, format!("the gravity of `{mechanism}` does not count here"))
         .at(part.span, "a part of a mechanism without `gravity`")
@@ -84,7 +84,7 @@ pub fn load_on_no_body(name: &Name, span: Span) -> Diagnostic {
         .help("say what it moves: `on rotation(joint)`, `on x(body.point)`")
 }
 
-/// The text is that of the force.
+/// `text` is that of the force.
 pub fn load_of_no_energy(name: &Name, [force, on]: [Part; 2], wanted: Dimension, text: &str) -> Diagnostic {
     let fix = force.dimension.is(Dimension::PURE).then(|| with_unit(force.span, text, unit_of_force(wanted))).flatten();
     let headline =
@@ -96,7 +96,7 @@ pub fn load_of_no_energy(name: &Name, [force, on]: [Part; 2], wanted: Dimension,
         .change(fix)
 }
 
-/// The text is that of the force.
+/// `text` is that of the force.
 pub fn plain_load(name: &Name, span: Span, text: &str, on: Part, wanted: Dimension) -> Diagnostic {
     let help =
         "a number without a unit is a torque where it works on an angle; a force says its unit: `20 N`, `1800 N/m`";
@@ -132,7 +132,7 @@ pub fn derivative_of_force(span: Span) -> Diagnostic {
         .help("`der(e, NAME)`, by an input or parameter, has a value")
 }
 
-/// With the joint, where one is named, and the driver that speaks of it.
+/// `joint` is the joint of that name, and `driver` the driver that refers to it.
 pub fn effort_of_no_equation(name: &Name, found: &str, joint: Option<&str>, driver: Option<&str>) -> Diagnostic {
     let help = match (joint, driver) {
         (_, Some(driver)) => Some(format!("what drives it supplies `effort({driver})`")),
@@ -145,7 +145,7 @@ pub fn effort_of_no_equation(name: &Name, found: &str, joint: Option<&str>, driv
     super::wrong_kind(name.span, "a driver or constraint", found).help_if(help)
 }
 
-/// With the driver that speaks of the joint, where there is one.
+/// `driver` is the driver that refers to the joint.
 pub fn no_torque(joint: &str, kind: &str, span: Span, declared: Span, driver: Option<&str>) -> Diagnostic {
     let help = match driver {
         Some(driver) => format!("what the driver supplies is `effort({driver})`"),

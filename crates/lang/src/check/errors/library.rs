@@ -1,13 +1,13 @@
-//! What is said of files that use each other.
+//! Diagnostics of files that use each other.
 
 use mechc_syntax::ast::Name;
 use mechc_text::diag::{Applies, Code, Diagnostic, Fix, nearest};
 use mechc_text::source::Span;
 
-/// How many names of a list are told.
+/// The largest number of listed names.
 const TOLD: usize = 5;
 
-/// A name before a `.` that no `use` gives.
+/// A name before a `.` that is not a prefix of a `use`.
 pub fn no_prefix(prefix: &Name, known: &[&Name]) -> Diagnostic {
     let names: Vec<&str> = known.iter().map(|name| name.text.as_str()).collect();
     let meant = nearest(&prefix.text, names.iter().copied()).map(|name| Fix::meant(prefix.span, name));
@@ -22,8 +22,8 @@ pub fn no_prefix(prefix: &Name, known: &[&Name]) -> Diagnostic {
     }
 }
 
-/// A name that no mechanism has which may be named there: with those that have, and those that cannot be reached so. `elsewhere` is what
-/// to write for the one of that name in a file that is used, `further` the file that holds it and is not, with its path from here.
+/// An unknown mechanism, with those that exist. `elsewhere` is the name to write for one of a used file, `further` the file that holds it
+/// but is not used, with its path.
 pub fn no_mechanism(
     prefix: Option<&Name>,
     name: &Name,
@@ -50,7 +50,7 @@ pub fn no_mechanism(
     }
 }
 
-/// Mechanisms of one name in two files, with the places at which each comes in, and a prefix that is free.
+/// Mechanisms of one name in two files, with the locations of their `use`s, and a free prefix.
 pub fn names_twice(names: &[&str], files: [&str; 2], [first, again]: [Span; 2], prefix: &str) -> Diagnostic {
     let which = if names.len() == 1 { "a mechanism" } else { "mechanisms" };
     let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
@@ -65,7 +65,7 @@ pub fn names_twice(names: &[&str], files: [&str; 2], [first, again]: [Span; 2], 
     ))
 }
 
-/// A prefix that two `use`s give.
+/// A prefix of two `use`s.
 pub fn second_prefix(prefix: &Name, first: Span) -> Diagnostic {
     Diagnostic::new(Code::E0203, format!("two files are used as `{}`", prefix.text))
         .at(prefix.span, "the second one")
@@ -73,7 +73,7 @@ pub fn second_prefix(prefix: &Name, first: Span) -> Diagnostic {
         .help("give one of them another prefix")
 }
 
-/// Files, each with the place at which it uses the next one, the last one the first.
+/// Files with the locations at which each uses the next one; the last one uses the first.
 pub fn circle_of_files(links: &[(&str, Span)]) -> Diagnostic {
     let message = match links {
         [(file, _)] => format!("`{file}` uses itself"),

@@ -1,4 +1,4 @@
-//! What is said of words that mean something, but not where they stand.
+//! Diagnostics of words that are not allowed where they stand.
 
 use super::some_of;
 use crate::check::entity::Entity;
@@ -59,7 +59,7 @@ pub fn time_in(place: &str, span: Span, through: Option<(&str, Span)>) -> Diagno
     }
 }
 
-/// Time may stand where an input may not only in the formula of an input.
+/// Time is allowed where an input is not only in the formula of an input.
 pub fn input_in(place: &str, name: &Name, in_an_input: bool) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::E0306, format!("the input `{}` may not stand in {place}", name.text))
         .at(name.span, "changes with time");
@@ -70,7 +70,7 @@ pub fn input_in(place: &str, name: &Name, in_an_input: bool) -> Diagnostic {
     }
 }
 
-/// A param or input that is told from outside.
+/// An override of an unknown param or input.
 pub fn no_such_name(noun: &str, mechanism: &str, name: &str, known: &[&str], meant: Option<&str>) -> Diagnostic {
     let listed = match known {
         [] => format!("it has no {noun}s"),
@@ -80,7 +80,7 @@ pub fn no_such_name(noun: &str, mechanism: &str, name: &str, known: &[&str], mea
         .help(meant.map_or(listed, |name| format!("was `{name}` meant?")))
 }
 
-/// A column of samples whose header is no input, and was meant to be one with a unit.
+/// A column of samples whose header is not an input, but was probably intended as one with a unit.
 pub fn column_of_no_input(mechanism: &str, header: &str, span: Span, meant: &str) -> Diagnostic {
     Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no input `{header}`"))
         .at(span, "the header of a column")
@@ -100,7 +100,7 @@ pub fn quantity_in(place: &str, name: &str, span: Span) -> Diagnostic {
         .help("kinematic quantities stand in constraints, drivers, loads and measures")
 }
 
-/// A quantity that measures and traces alone may hold.
+/// A quantity that only measures and traces may hold.
 pub fn quantity_of_measures(place: &str, name: &str, span: Span) -> Diagnostic {
     let what = if name == "angle" { "angle(P, Q, R)" } else { name };
     Diagnostic::new(Code::E0307, format!("the kinematic quantity `{what}` may not stand in {place}"))

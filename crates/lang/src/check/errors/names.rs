@@ -1,4 +1,4 @@
-//! What is said of names that stand for nothing, or for something else.
+//! Diagnostics of unknown names, and of names of another kind.
 
 use super::{list, meant, wrong_kind};
 use crate::check::mends::renamed;
@@ -13,10 +13,10 @@ pub fn unknown(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
         .fix_if(meant(name, known))
 }
 
-/// A name in a formula that stands for no number; one letter is rather a name that was forgotten than a unit.
+/// A name that is not a number. One letter is more likely an undeclared name than a unit.
 pub fn unknown_number(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
     let diagnostic = unknown(what, name, known);
-    // the middle dot is a letter of names
+    // The middle dot is a letter of names.
     if let [a, b] = name.text.split('·').collect::<Vec<_>>().as_slice()
         && !a.is_empty()
         && !b.is_empty()
@@ -36,7 +36,7 @@ pub fn unknown_number(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
     }
     match Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
         Some(synonym) => match synonym.means {
-            // `turn` is rather an input that was forgotten than a unit
+            // `turn` is more likely an undeclared input than a unit.
             [unit @ "rev"] => diagnostic
                 .help(format!("the unit is `{unit}`; a number of that name is declared: `param {} = …`", name.text)),
             _ => diagnostic.help(synonym.say(&[])),
@@ -91,7 +91,7 @@ pub fn unknown_feature(what: &str, owner: &str, name: &Name, known: &[&str]) -> 
     }
 }
 
-/// With the arguments as they were written.
+/// Takes the texts of the arguments.
 pub fn unknown_function(name: &Name, own: &[&str], arguments: &[&str]) -> Diagnostic {
     let diagnostic =
         Diagnostic::new(Code::E0201, format!("there is no function `{}`", name.text)).at(name.span, "not known");
@@ -104,7 +104,7 @@ pub fn unknown_function(name: &Name, own: &[&str], arguments: &[&str]) -> Diagno
     diagnostic.fix_if(meant(name, &known))
 }
 
-/// How to say what is called as a function, if it is something else here.
+/// Suggests how to write an entity that is called like a function.
 fn said_otherwise(name: &str, arguments: &[&str]) -> Option<String> {
     if let Some(synonym) = Synonym::of(Place::Call, name) {
         return Some(synonym.say(arguments));
@@ -130,14 +130,14 @@ pub fn unknown_joint(kind: &Name, arguments: &[&str]) -> Diagnostic {
     }
 }
 
-/// A word after a number that is no unit, with that and what stands behind the word.
+/// A word after a number that is not a unit, with the number and the power after the word.
 pub fn not_a_unit(name: &Name, [number, power]: [&str; 2], is_a_name: bool) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text))
         .at(name.span, "only a unit may follow a number");
     if is_a_name {
         let words = format!("was `{number} * {}{power}` meant?", name.text);
         let diagnostic = diagnostic.fix(Fix::insert(name.span, "* ", words, Applies::Probably));
-        // what is a unit elsewhere, and a name here
+        // A unit in other formulas, and a name here.
         return match Synonym::of(Place::Unit, &name.text) {
             Some(synonym) if name.text == "g" => diagnostic.help(synonym.say(&[])),
             _ => diagnostic,
@@ -146,14 +146,14 @@ pub fn not_a_unit(name: &Name, [number, power]: [&str; 2], is_a_name: bool) -> D
     meant_unit(diagnostic, name)
 }
 
-/// `mm2`, as it is written.
+/// Returns the power that is intended by `mm2`, such as `mm^2`.
 pub(super) fn power_of_a_unit(name: &str) -> Option<String> {
     let unit = name.trim_end_matches(|c: char| c.is_ascii_digit());
     let power = &name[unit.len()..];
     (!power.is_empty() && Unit::named(unit).is_some()).then(|| format!("{unit}^{power}"))
 }
 
-/// Which unit was meant, or all of them.
+/// Adds the probable unit to a diagnostic, or lists all units.
 pub(super) fn meant_unit(diagnostic: Diagnostic, name: &Name) -> Diagnostic {
     if let Some(power) = power_of_a_unit(&name.text) {
         return diagnostic.fix(Fix::meant(name.span, &power));
@@ -174,7 +174,7 @@ pub fn declared_twice(name: &Name, first: Span) -> Diagnostic {
         .help("give one of the two another name")
 }
 
-/// With a name that is free instead, and where the name stands besides.
+/// Takes a free name instead, and the uses of the name.
 pub fn reserved(name: &Name, instead: Option<&str>, uses: &[Span]) -> Diagnostic {
     let what = match Constant::named(&name.text) {
         Some(constant) => constant.stands_for.noun(),

@@ -1,4 +1,4 @@
-//! What is said of parts, and of what is told of their params and inputs.
+//! Diagnostics of parts, and of the bindings and overrides of their params and inputs.
 
 use super::meant;
 use mechc_syntax::ast::{Binding, ItemKind, Mechanism, MechanismName, Name};
@@ -25,7 +25,7 @@ pub fn nothing_in_part(path: &str, mechanism: &str, name: &Name, known: &[&str])
         .fix_if(meant(name, known))
 }
 
-/// A bound of a range is made of a param of a part: its path as it is written, and where.
+/// A bound of a range that depends on a param of a part; `path` as it is written, and its location.
 pub fn decided_by_a_part(place: &str, path: &str, span: Span, written: Span) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::E0208, format!("{place} cannot be made of `{path}`, which is in a part"));
     let diagnostic = diagnostic.at(span, "decides which declarations there are");
@@ -34,7 +34,7 @@ pub fn decided_by_a_part(place: &str, path: &str, span: Span, written: Span) -> 
     diagnostic.help("parts are there when all ranges are known: make both of a param, and bind that of the part to it")
 }
 
-/// `b.arm.tip`, where nothing is called `b`.
+/// `b.arm.tip` without a `b`.
 pub fn unknown_owner(name: &Name, tree: &Mechanism) -> Diagnostic {
     let known: Vec<&str> = tree
         .items
@@ -48,7 +48,7 @@ pub fn unknown_owner(name: &Name, tree: &Mechanism) -> Diagnostic {
     super::unknown("part or body", name, &known)
 }
 
-/// A trace in the place of a number or point; `point` is what it is of, as it is written.
+/// A trace where a number or point is expected; `point` is the text of its point.
 pub fn trace_in_a_formula(span: Span, wanted: &str, name: &Name, point: Option<&str>) -> Diagnostic {
     let diagnostic = super::wrong_kind(span, wanted, "a trace");
     match (wanted, point) {
@@ -112,7 +112,7 @@ pub fn number_for_point(binding: &Binding) -> Diagnostic {
         .help("a point is written `(x, y)`")
 }
 
-/// Parts that stand on each other, or one on itself: each with the place of its `on`, and whether that names a ground.
+/// Parts that carry each other, or one itself: each with the location of its `on`, and whether that names a ground.
 pub fn carries_itself(parts: &[(&Name, Span, bool)]) -> Diagnostic {
     let Some((&(first, on, is_ground), rest)) = parts.split_first() else {
         return Diagnostic::new(Code::E0209, "parts are carried by themselves");
@@ -127,7 +127,7 @@ pub fn carries_itself(parts: &[(&Name, Span, bool)]) -> Diagnostic {
     rest.iter().fold(diagnostic, |diagnostic, (_, on, _)| diagnostic.also(*on, "on the circle"))
 }
 
-/// `--set front.reach=…`, where `front: lever(reach = …)`.
+/// `--set front.reach=…` with `front: lever(reach = …)`.
 pub fn bound_from_outside(noun: &str, path: &str, told: Span, binding: Span) -> Diagnostic {
     Diagnostic::new(Code::E0708, format!("the {noun} `{path}` is bound where its mechanism is used"))
         .at(told, "told from outside")

@@ -1,11 +1,11 @@
-//! What is said of what is repeated, and of its copies.
+//! Diagnostics of repeated declarations and of their copies.
 
 use mechc_syntax::ast::{Name, PathSegment};
 use mechc_syntax::format::expression;
 use mechc_text::diag::{Applies, Code, Diagnostic, Fix, readable};
 use mechc_text::source::Span;
 
-/// `for k = 2`, of the copy in which something is wrong.
+/// Adds `for k = 2`, the copy in which the error is.
 fn of_copy(diagnostic: Diagnostic, numbers: &[(&str, i64)]) -> Diagnostic {
     if numbers.is_empty() {
         return diagnostic;
@@ -40,7 +40,7 @@ pub fn not_repeated(name: &Name) -> Diagnostic {
         .help("what is repeated is declared with a range: `body link[k in 0..3] …`")
 }
 
-/// `arm.tip.x`, or a number behind what is not repeated, the first name being known or not.
+/// `arm.tip.x`, or an index after a declaration that is not repeated; `is_known` if the first name is declared.
 pub fn path_of_nothing(span: Span, segments: &[PathSegment], is_known: bool) -> Diagnostic {
     match segments {
         [owner, point, coordinate] if ["x", "y"].contains(&coordinate.name.text.as_str()) => {

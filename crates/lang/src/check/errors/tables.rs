@@ -1,4 +1,4 @@
-//! What is said of tables and their columns.
+//! Diagnostics of tables and their columns.
 
 use super::dimensions::{told, usual_unit};
 use super::list;
@@ -20,7 +20,7 @@ pub fn not_a_unit_to_print_in(name: &Name) -> Diagnostic {
     meant_unit(diagnostic, name)
 }
 
-/// A unit behind `in` that is of another dimension than the formula: with the places and dimensions of the two.
+/// A unit after `in` of another dimension than the formula, with the locations and dimensions of both.
 pub fn not_printed_in(unit: &str, [at, formula]: [Span; 2], [own, found]: [Dimension; 2]) -> Diagnostic {
     let wanted = if own.is(Dimension::PURE) { "an angle".to_owned() } else { own.in_words() };
     Diagnostic::new(Code::E0402, format!("what is printed in `{unit}` must be {wanted}, found {}", found.in_words()))
@@ -33,7 +33,7 @@ pub fn not_printed_in(unit: &str, [at, formula]: [Span; 2], [own, found]: [Dimen
         })
 }
 
-/// A turning speed in hertz.
+/// An angular velocity in hertz.
 pub fn turning_in_hertz(at: Span, formula: Span) -> Diagnostic {
     Diagnostic::new(Code::E0402, "a turning speed is not printed in `Hz`")
         .at(at, "1 per second")
@@ -65,7 +65,7 @@ pub fn no_column(path: &Name, column: &ColumnName, header: &[&str]) -> Diagnosti
     }
 }
 
-/// A name of a column that stands twice in a file's first line.
+/// A duplicate name of a column in a file's header.
 pub fn column_twice(path: &Name, span: Span, name: &str, [first, second]: [usize; 2]) -> Diagnostic {
     Diagnostic::new(Code::E0203, format!("`{}` has two columns `{name}`", path.text))
         .at(span, "which of them?")
@@ -78,7 +78,7 @@ pub fn row_of(span: Span, found: usize) -> Diagnostic {
         .help("a row is written `(argument, value)`")
 }
 
-/// A file that nobody has tried to read: the mechanism was checked without its files.
+/// A file that was not read, as the mechanism was checked without its files.
 pub fn no_table_file(path: &Name) -> Diagnostic {
     Diagnostic::new(Code::E0701, format!("cannot read `{}`: there is no such file", path.text))
         .at(path.span, "named here")

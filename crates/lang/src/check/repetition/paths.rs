@@ -1,4 +1,4 @@
-//! What paths like `link[k - 1].pin` and `leg[0].foot.toe` name, as the names that copies have.
+//! Paths such as `link[k - 1].pin` and `leg[0].foot.toe`, resolved to the names of copies.
 
 use super::{Numbers, Unwritten, Writer, Written, indexed};
 use crate::check::errors;
@@ -17,7 +17,7 @@ impl<'t> Writer<'t, '_> {
         Err(Unwritten)
     }
 
-    /// `link[2].pin`
+    /// Resolves `link[2].pin`.
     pub(super) fn path(
         &mut self,
         span: Span,
@@ -46,7 +46,7 @@ impl<'t> Writer<'t, '_> {
         }
     }
 
-    /// What a path names in a part: `leg[0].foot.toe` is the feature `toe` of the body that is called `leg[0].foot` here.
+    /// Resolves a path into a part: `leg[0].foot.toe` is the feature `toe` of the body that is called `leg[0].foot` here.
     pub(super) fn inside(
         &mut self,
         span: Span,
@@ -55,7 +55,7 @@ impl<'t> Writer<'t, '_> {
         segments: &[ast::PathSegment],
         numbers: &Numbers<'_>,
     ) -> Written<ExprKind> {
-        // of a part that cannot be, that has been said
+        // A part that cannot be instantiated has been reported.
         let mut part = part.ok_or(Unwritten)?;
         let mut path = path.to_owned();
         for (k, segment) in segments.iter().enumerate() {
@@ -75,7 +75,7 @@ impl<'t> Writer<'t, '_> {
                 [feature] if feature.indices.is_empty() => {
                     Ok(ExprKind::Member { owner, feature: feature.name.clone() })
                 }
-                // of a part that cannot be, that has been said
+                // A part that cannot be instantiated has been reported.
                 _ if part.is_a_part(&segment.name.text) => Err(Unwritten),
                 _ => {
                     self.tell(errors::path_goes_on(span));
@@ -86,7 +86,7 @@ impl<'t> Writer<'t, '_> {
         Err(Unwritten)
     }
 
-    /// The name that something has in a part.
+    /// Returns the name of a copy in a part.
     fn copy_in(
         &mut self,
         part: &Instance<'t>,
@@ -116,7 +116,7 @@ impl<'t> Writer<'t, '_> {
         Err(Unwritten)
     }
 
-    /// The name that a copy has.
+    /// Returns the name of a copy.
     fn copy_named(&mut self, segment: &ast::PathSegment, numbers: &Numbers<'_>) -> Written<Name> {
         let ast::PathSegment { name, indices } = segment;
         if indices.is_empty() {
@@ -128,13 +128,13 @@ impl<'t> Writer<'t, '_> {
                 let text = self.one_of(&copies, segment, numbers)?;
                 Ok(Name { text, span: name.span })
             }
-            // of what could not be repeated, or be read, that has been said
+            // A declaration that could not be repeated or parsed has been reported.
             None if self.is_repeated(name) || self.is_unread(name) => Err(Unwritten),
             None if self.names.contains(name.text.as_str()) => {
                 self.tell(errors::not_repeated(name));
                 Err(Unwritten)
             }
-            // nothing of that name is told by whoever asks for it
+            // An unknown name is reported where it is resolved.
             None => Ok(Name { text: indexed(&name.text, &self.values(indices, numbers)?), span: name.span }),
         }
     }
@@ -144,7 +144,7 @@ impl<'t> Writer<'t, '_> {
         self.tree.items.iter().any(|item| !item.ranges.is_empty() && is_it(item))
     }
 
-    /// Whether a declaration that could not be read gives this name, perhaps to several.
+    /// Returns whether a broken declaration may have this name, perhaps for several copies.
     fn is_unread(&self, name: &Name) -> bool {
         let gives_it = |item: &Item| match &item.kind {
             ItemKind::Broken { names } => names.iter().any(|own| own.text == name.text),
@@ -157,7 +157,7 @@ impl<'t> Writer<'t, '_> {
         indices.iter().map(|e| self.whole_number(e, numbers, "an index")).collect()
     }
 
-    /// The name of one of some copies.
+    /// Returns the name of one copy, whose indices must exist.
     fn one_of(
         &mut self,
         copies: &FxHashSet<Vec<i64>>,

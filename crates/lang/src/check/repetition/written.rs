@@ -1,4 +1,4 @@
-//! A copy of a declaration: all its formulas with numbers in the place of what they are called.
+//! Copies of declarations: all formulas with numbers in the place of indices.
 
 use super::{Numbers, Unwritten, Writer, Written, broken, named};
 use mechc_syntax::ast::{
@@ -6,7 +6,7 @@ use mechc_syntax::ast::{
 };
 
 impl Writer<'_, '_> {
-    /// A copy of a declaration; as broken, where something in it cannot be written out.
+    /// Returns a copy of a declaration, which is broken if something in it cannot be expanded.
     pub(super) fn copy(&mut self, item: &Item, numbers: &Numbers<'_>) -> Item {
         match self.kind(&item.kind, numbers) {
             Ok(kind) => Item { docs: item.docs.clone(), span: item.span, ranges: Vec::new(), kind },
@@ -74,7 +74,7 @@ impl Writer<'_, '_> {
         })
     }
 
-    /// A part is broken where its mechanism is not known, which has been said.
+    /// Expands a part, which is broken if its mechanism is unknown.
     fn part(&mut self, part: &ast::Part, numbers: &Numbers<'_>) -> Written<ast::Part> {
         let name = named(&part.name, numbers);
         if self.parts.get(&name.text).is_none_or(Option::is_none) {
@@ -126,7 +126,7 @@ impl Writer<'_, '_> {
         Ok(DrawnPose { at: self.formula(&pose.at, numbers)?, toward })
     }
 
-    /// The formula of a function: its argument hides what is repeated.
+    /// Expands the formula of a function, whose argument hides a repeated declaration.
     fn formula_over(&mut self, argument: &Name, formula: &Expr) -> Written<Expr> {
         let hidden = self.copies.remove_entry(argument.text.as_str());
         let written = self.formula(formula, &Vec::new());
@@ -143,7 +143,7 @@ impl Writer<'_, '_> {
         Ok(Window { from: bound(&window.from)?, to: bound(&window.to)?, span: window.span })
     }
 
-    /// A formula with its numbers in the place of what they are called, and paths as names.
+    /// Expands a formula: indices become numbers, and paths become names.
     pub(super) fn formula(&mut self, e: &Expr, numbers: &Numbers<'_>) -> Written<Expr> {
         let mut boxed = |e: &Expr| self.formula(e, numbers).map(Box::new);
         let kind = match &e.kind {
