@@ -2,9 +2,9 @@
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::rates;
-use super::sites::{Drawn, Site};
-use super::{Checker, errors, kinds};
+use super::suggest::lost_rate;
+use super::formula_scope::{DrawnPoint, FormulaSite};
+use super::{Checker, errors, point_kinds};
 use crate::model::Dimension;
 use mechc_expr::ExprId;
 use mechc_syntax::ast::{Binding, Name};
@@ -13,11 +13,11 @@ use mechc_text::source::Span;
 
 /// The bound value of a param.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Bound {
+pub(super) enum BoundValue {
     /// A number, and whether its dimension is checked.
     Number(Value, bool),
     /// A point.
-    Point(Drawn),
+    Point(DrawnPoint),
     /// A coordinate of a point, and whether its dimension is checked.
     Coordinate(usize, Value, bool),
 }
@@ -26,13 +26,13 @@ pub(super) enum Bound {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoundParam<'a> {
     pub name: &'a str,
-    pub bound: Bound,
+    pub bound: BoundValue,
     pub span: Option<Span>,
 }
 
 /// The bindings of a text's params and inputs by the mechanism that uses it.
 #[derive(Default)]
-pub(super) struct BoundOutside<'a> {
+pub(super) struct ExternalBindings<'a> {
     pub params: Vec<BoundParam<'a>>,
     pub inputs: Vec<&'a str>,
 }
@@ -100,47 +100,47 @@ impl<'a> Checker<'a> {
         self.report(diagnostic);
     }
 
-    fn param_bound(&mut self, binding: &'a Binding, is_point: bool) -> Option<Bound> {
+    fn param_bound(&mut self, binding: &'a Binding, is_point: bool) -> Option<BoundValue> {
         let value = &binding.value;
         let context = Context::constant("a binding of a param");
         if let Some(coordinate) = &binding.coordinate {
-            let Some(k) = kinds::coordinate(coordinate).filter(|_| is_point) else {
+            let Some(k) = point_kinds::coordinate(coordinate).filter(|_| is_point) else {
                 self.report(errors::no_coordinate_to_bind(binding, coordinate, is_point));
                 return None;
             };
             let judged = self.is_dimensional(value);
             let number = self.formula(value, &Context { judged, ..context })?;
-            return Some(Bound::Coordinate(k, number, judged));
+            return Some(BoundValue::Coordinate(k, number, judged));
         }
         if is_point {
             if !self.is_point(value) {
                 self.report(errors::number_for_point(binding));
                 return None;
             }
-            return self.at_site(Site::Mechanism, None, |c| c.point_formula(value, &context)).map(Bound::Point);
+            return self.at_site(FormulaSite::Mechanism, None, |c| c.point_formula(value, &context)).map(BoundValue::Point);
         }
         let judged = self.is_dimensional(value);
         let number = self.formula(value, &Context { judged, ..context })?;
         self.constant_value(number.id);
-        Some(Bound::Number(if self.is_zero(value) { Value { dim: Dim::Any, ..number } } else { number }, judged))
+        Some(BoundValue::Number(if self.is_zero(value) { Value { dim: Dim::Any, ..number } } else { number }, judged))
     }
 
     /// Returns a known number as a bound value.
-    pub(super) fn number_bound(&mut self, value: f64) -> Bound {
-        Bound::Number(Value { id: self.model.graph.constant(value), dim: Dim::Any }, false)
+    pub(super) fn number_bound(&mut self, value: f64) -> BoundValue {
+        BoundValue::Number(Value { id: self.model.graph.constant(value), dim: Dim::Any }, false)
     }
 
     /// Returns the value of a param with its binding. The outer `None` stands for no binding, the inner one for a broken one.
     #[allow(clippy::option_option)] // not bound, or broken
     pub(super) fn as_bound(&mut self, name: &Name, in_file: Value) -> Option<Option<Value>> {
-        let BoundParam { bound: Bound::Number(value, judged), span, .. } = *self.bound_param(name)? else {
+        let BoundParam { bound: BoundValue::Number(value, judged), span, .. } = *self.bound_param(name)? else {
             return None;
         };
         // A number without a unit is a pure number, as in an override.
         let unlike = in_file.dim.other_than(value.dim).filter(|[wanted, _]| judged || !wanted.is(Dimension::PURE));
         if let (Some([wanted, found]), Some(span)) = (unlike, span) {
             let place = format!("the parameter `{}`", name.text);
-            let part = rates::Part { span, dimension: found };
+            let part = lost_rate::Part { span, dimension: found };
             self.report(errors::wrong_dimension(&place, wanted, part, self.sources.text(span)));
             return Some(None);
         }
@@ -160,17 +160,17 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns a point with the bindings of it or of its coordinates.
-    pub(super) fn point_as_bound(&mut self, name: &Name, mut point: Drawn) -> Option<Drawn> {
+    pub(super) fn point_as_bound(&mut self, name: &Name, mut point: DrawnPoint) -> Option<DrawnPoint> {
         for k in 0..self.bound.params.len() {
             let BoundParam { name: bound_name, bound, span } = self.bound.params[k];
             if bound_name != name.text {
                 continue;
             }
             match bound {
-                Bound::Point(bound) => {
+                BoundValue::Point(bound) => {
                     let is_zero = bound.at.iter().all(|&id| self.constant_value(id) == Some(0.0));
                     if let Some(span) = span.filter(|_| point.dimensional && !bound.dimensional && !is_zero) {
-                        let plain = rates::Part { span, dimension: Dimension::PURE };
+                        let plain = lost_rate::Part { span, dimension: Dimension::PURE };
                         let place = format!("the point `{}`", name.text);
                         let text = self.sources.text(span);
                         self.report(errors::wrong_dimension(&place, Dimension::LENGTH, plain, text));
@@ -178,16 +178,16 @@ impl<'a> Checker<'a> {
                     }
                     point = bound;
                 }
-                Bound::Coordinate(axis, value, judged) => {
+                BoundValue::Coordinate(axis, value, judged) => {
                     let place = format!("the coordinate `{}.{}`", name.text, ["x", "y"][axis]);
                     let judged = judged || point.dimensional;
                     let context = Context { judged, ..Context::constant("a binding of a param") };
                     let span = span.unwrap_or(name.span);
-                    self.demand(&place, Dimension::LENGTH, span, value.dim, &context)?;
+                    self.require_dimension(&place, Dimension::LENGTH, span, value.dim, &context)?;
                     point.at[axis] = value.id;
                     point.dimensional |= judged;
                 }
-                Bound::Number(..) => {}
+                BoundValue::Number(..) => {}
             }
         }
         Some(point)
@@ -196,11 +196,11 @@ impl<'a> Checker<'a> {
     /// Returns the bound params with the expressions of their numbers.
     pub(super) fn bound_numbers(&self) -> Vec<(String, ExprId)> {
         let numbers = |bound: &BoundParam<'_>| match bound.bound {
-            Bound::Number(value, _) => vec![(bound.name.to_owned(), value.id)],
-            Bound::Point(Drawn { at: [x, y], .. }) => {
+            BoundValue::Number(value, _) => vec![(bound.name.to_owned(), value.id)],
+            BoundValue::Point(DrawnPoint { at: [x, y], .. }) => {
                 vec![(format!("{}.x", bound.name), x), (format!("{}.y", bound.name), y)]
             }
-            Bound::Coordinate(axis, value, _) => vec![(format!("{}.{}", bound.name, ["x", "y"][axis]), value.id)],
+            BoundValue::Coordinate(axis, value, _) => vec![(format!("{}.{}", bound.name, ["x", "y"][axis]), value.id)],
         };
         self.bound.params.iter().flat_map(numbers).collect()
     }
@@ -210,13 +210,13 @@ impl<'a> Checker<'a> {
         for (name, value) in numbers {
             let bound = self.number_bound(*value);
             let coordinate = name.rsplit_once('.').zip(match bound {
-                Bound::Number(value, _) => Some(value),
+                BoundValue::Number(value, _) => Some(value),
                 _ => None,
             });
             let param = match coordinate {
                 Some(((owner, axis), value)) => BoundParam {
                     name: owner,
-                    bound: Bound::Coordinate(usize::from(axis == "y"), value, false),
+                    bound: BoundValue::Coordinate(usize::from(axis == "y"), value, false),
                     span: None,
                 },
                 None => BoundParam { name, bound, span: None },

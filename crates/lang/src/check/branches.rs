@@ -23,7 +23,7 @@ impl Checker<'_> {
         let mut parts = Vec::new();
         for (condition, value) in arms {
             let condition = self.condition(condition, context);
-            if condition.is_none() && self.waits() {
+            if condition.is_none() && self.is_deferred() {
                 // It is open which branches count.
                 self.branch = outer;
                 return None;
@@ -44,7 +44,7 @@ impl Checker<'_> {
         let mut span = otherwise.span;
         for (condition, value_span, value) in parts.into_iter().rev() {
             let (condition, value) = (condition?, value?);
-            let dim = self.alike("the branches of this `if` are", (value_span, value), (span, choice), context)?;
+            let dim = self.unify("the branches of this `if` are", (value_span, value), (span, choice), context)?;
             choice = Value { id: self.model.graph.select(condition, value.id, choice.id), dim };
             span = value_span;
         }
@@ -86,8 +86,8 @@ impl Checker<'_> {
                 self.warn_of_numbers_beside([&**a, &**b].into_iter(), context);
                 let (left, right) = (self.number(a, context), self.number(b, context));
                 let (left, right) = (left?, right?);
-                self.alike("this compares", (a.span, left), (b.span, right), context)?;
-                self.remember_compared_lengths([(a, left), (b, right)], context);
+                self.unify("this compares", (a.span, left), (b.span, right), context)?;
+                self.record_compared_lengths([(a, left), (b, right)], context);
                 let (x, y, graph) = (left.id, right.id, &mut self.model.graph);
                 Some(match comparison {
                     ComparisonSign::Less => graph.compare(Comparison::Less, x, y),

@@ -63,7 +63,7 @@ impl Checker<'_> {
         let diagnostic = errors::argument_count(&name.text, Some(&function.word), e.span, &wanted, found);
         let reduces = self.reduction_word(name, found).is_some();
         let diagnostic = if reduces { diagnostic.help(errors::REDUCES) } else { diagnostic };
-        self.report_count(name, diagnostic, arguments, function.most);
+        self.report_argument_count(name, diagnostic, arguments, function.most);
     }
 
     fn apply(&mut self, function: &Function, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {
@@ -71,12 +71,12 @@ impl Checker<'_> {
         match function.group {
             Group::Pure => {
                 let (span, value) = arguments[0];
-                self.demand(&format!("the argument of `{name}`"), Dimension::PURE, span, value.dim, context)?;
+                self.require_dimension(&format!("the argument of `{name}`"), Dimension::PURE, span, value.dim, context)?;
                 let id = self.model.graph.unary(Unary::named(name)?, value.id);
                 if ["asin", "acos"].contains(&name) && self.is_no_sine(span, name, value) {
                     return None;
                 }
-                let dim = if value.dim.is_pure() { self.made_of(arguments) } else { Dim::UNFIT };
+                let dim = if value.dim.is_pure() { self.pure_number_dim(arguments) } else { Dim::UNFIT };
                 Some(Value { id, dim })
             }
             Group::Motion => self.motion(name, MotionLaw::named(name)?, arguments, context),
@@ -97,7 +97,7 @@ impl Checker<'_> {
     fn apply_to_alike(&mut self, function: &str, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {
         let dim = self.all_alike(function, arguments, context)?;
         let ids: Vec<ExprId> = arguments.iter().map(|(_, value)| value.id).collect();
-        let made = self.made_of(arguments);
+        let made = self.pure_number_dim(arguments);
         let graph = &mut self.model.graph;
         let (id, dim) = match function {
             "sqrt" => (graph.unary(Unary::Sqrt, ids[0]), dim.map(|dimension| dimension.to_the(0.5))),
@@ -122,7 +122,7 @@ impl Checker<'_> {
     fn terms_alike(&mut self, what: &str, arguments: &[Argument], context: &Context<'_>) -> Option<Dim> {
         let (mut span, mut all) = arguments[0];
         for &(next, value) in &arguments[1..] {
-            let dim = self.alike(what, (span, all), (next, value), context)?;
+            let dim = self.unify(what, (span, all), (next, value), context)?;
             // The next mismatch is reported relative to the argument that has the dimension.
             if !matches!(all.dim, Dim::Of(_)) {
                 (span, all) = (next, value);

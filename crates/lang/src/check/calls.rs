@@ -36,7 +36,7 @@ pub(super) struct Call {
 }
 
 /// A call at too great a depth, with all that its expansion needs.
-struct PutOff<'a> {
+struct DeferredCall<'a> {
     call: Call,
     formula: &'a Expr,
     context: Context<'a>,
@@ -57,11 +57,11 @@ pub(super) struct Calls<'a> {
     /// The number of open levels of formulas.
     levels: usize,
     /// The deferred calls; the next one is last.
-    waiting: Vec<PutOff<'a>>,
+    deferred: Vec<DeferredCall<'a>>,
     /// The expansions abandoned in this reading, as they hold a deferred call.
-    given_up: FxHashSet<Call>,
+    abandoned: FxHashSet<Call>,
     /// True if the current formula holds a deferred call.
-    is_given_up: bool,
+    is_abandoned: bool,
     /// The number of parts of completed expansions.
     complete: usize,
     /// The number of parts read, including repeated reading.
@@ -82,7 +82,7 @@ impl<'a> Checker<'a> {
         if let Ok(reduced) = self.call_of_reduction(e, (name, window), arguments, context) {
             return reduced;
         }
-        self.refuse_window(name, window)?;
+        self.reject_window(name, window)?;
         if self.is_of_language(&name.text) {
             if self.is_declared_though_taken(name) {
                 return None;
@@ -117,11 +117,11 @@ impl<'a> Checker<'a> {
                 None
             }
             None => {
-                if let Some(fix) = self.rate_of_joint(e, name, arguments, context) {
+                if let Some(fix) = self.suggest_joint_rate(e, name, arguments, context) {
                     self.report(errors::unknown_function(name, &[], &[]).instead(fix));
                     return None;
                 }
-                if let Some(fix) = self.effort_for(e, name, arguments) {
+                if let Some(fix) = self.suggest_effort(e, name, arguments) {
                     self.report(errors::unknown_function(name, &[], &[]).instead(fix));
                     return None;
                 }
@@ -199,15 +199,15 @@ impl<'a> Checker<'a> {
             return known;
         }
         let caller = self.calls.caller.or(Some(span));
-        if self.calls.given_up.contains(&call) {
-            self.calls.is_given_up = true;
+        if self.calls.abandoned.contains(&call) {
+            self.calls.is_abandoned = true;
             return None;
         }
         if self.calls.levels > DEEPEST_CALL {
             let context = context.at("", argument);
-            self.calls.waiting.push(PutOff { call, formula, context, caller });
-            self.calls.given_up.insert(call);
-            self.calls.is_given_up = true;
+            self.calls.deferred.push(DeferredCall { call, formula, context, caller });
+            self.calls.abandoned.insert(call);
+            self.calls.is_abandoned = true;
             return None;
         }
         let outer = std::mem::replace(&mut self.calls.caller, caller);
@@ -218,21 +218,21 @@ impl<'a> Checker<'a> {
 
     /// Expands a call and caches the value, unless it is abandoned.
     fn expansion(&mut self, call: Call, formula: &Expr, context: &Context<'_>) -> Option<Value> {
-        let outer = std::mem::replace(&mut self.calls.is_given_up, false);
+        let outer = std::mem::replace(&mut self.calls.is_abandoned, false);
         // The called formula does not belong to the body in which it is called.
         let scope = std::mem::take(&mut self.scope);
         let (complete, visited) = (self.calls.complete, self.calls.visited);
         let first = self.model.conditions.len();
         let value = self.number(formula, context);
         self.scope = scope;
-        if self.calls.is_given_up {
-            self.calls.given_up.insert(call);
+        if self.calls.is_abandoned {
+            self.calls.abandoned.insert(call);
         } else {
             self.calls.complete = complete + (self.calls.visited - visited);
             self.keep_conditions(call, first);
             self.calls.known.insert(call, value);
         }
-        self.calls.is_given_up |= outer;
+        self.calls.is_abandoned |= outer;
         value
     }
 
@@ -262,14 +262,14 @@ impl<'a> Checker<'a> {
         let (before, conditions) = (self.calls.visited, self.model.conditions.len());
         (self.calls.complete, self.calls.read, self.calls.is_too_large) = (0, 0, false);
         let mut value = self.reading(before, &mut read);
-        while self.calls.is_given_up && !self.calls.is_too_large {
-            self.make_up(before, context.place);
+        while self.calls.is_abandoned && !self.calls.is_too_large {
+            self.expand_deferred(before, context.place);
             value = self.reading(before, &mut read);
         }
-        if !self.calls.is_given_up {
+        if !self.calls.is_abandoned {
             self.forget_repeated_conditions(conditions);
         }
-        self.calls.waiting.clear();
+        self.calls.deferred.clear();
         value
     }
 
@@ -285,15 +285,15 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns whether a deferred call makes the value of the current formula unavailable.
-    pub(super) fn waits(&self) -> bool {
-        self.calls.is_given_up
+    pub(super) fn is_deferred(&self) -> bool {
+        self.calls.is_abandoned
     }
 
     /// Reads a formula from the lowest level.
     fn reading<T>(&mut self, before: usize, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
         self.calls.visited = before + self.calls.complete;
-        self.calls.given_up.clear();
-        self.calls.is_given_up = false;
+        self.calls.abandoned.clear();
+        self.calls.is_abandoned = false;
         self.calls.levels = 1;
         let value = read(self);
         self.calls.levels = 0;
@@ -302,9 +302,9 @@ impl<'a> Checker<'a> {
     }
 
     /// Expands all deferred calls, including those that they defer.
-    fn make_up(&mut self, before: usize, place: &str) {
+    fn expand_deferred(&mut self, before: usize, place: &str) {
         let outer = (self.branch, self.calls.caller);
-        while let Some(PutOff { call, formula, context, caller }) = self.calls.waiting.pop() {
+        while let Some(DeferredCall { call, formula, context, caller }) = self.calls.deferred.pop() {
             if self.calls.known.contains_key(&call) {
                 continue;
             }
@@ -312,10 +312,10 @@ impl<'a> Checker<'a> {
                 break;
             }
             (self.branch, self.calls.caller) = (call.branch, caller);
-            let at = self.calls.waiting.len();
+            let at = self.calls.deferred.len();
             self.reading(before, |checker| checker.expansion(call, formula, &context.at(place, context.argument)));
-            if self.calls.is_given_up {
-                self.calls.waiting.insert(at, PutOff { call, formula, context, caller });
+            if self.calls.is_abandoned {
+                self.calls.deferred.insert(at, DeferredCall { call, formula, context, caller });
             }
         }
         (self.branch, self.calls.caller) = outer;

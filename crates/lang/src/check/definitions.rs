@@ -5,12 +5,12 @@ use super::elements::MeasureState;
 use super::entity::Entity;
 use super::functions::Function;
 use super::inputs::InputState;
-use super::mentions::mentioned;
-use super::names::Ordered;
+use super::free_names::visit_free_names;
+use super::names::DefinitionOrder;
 use super::params::ParamState;
 use super::results::ResultState;
 use super::tables::TableState;
-use super::told::is_told_by;
+use super::overrides::override_matches;
 use mechc_syntax::ast::{Expr, Item, ItemKind, Name, TableRows};
 use mechc_text::source::Span;
 use rustc_hash::FxHashMap;
@@ -28,8 +28,8 @@ impl<'a> Checker<'a> {
         }
         self.import_params();
         let uses = self.uses(&definitions, &entities);
-        let Ordered { order, on_circles } = self.ordered(&uses);
-        self.define_parts_on_circles(on_circles.iter().map(|&at| entities[at]));
+        let DefinitionOrder { order, on_cycles } = self.ordered(&uses);
+        self.define_parts_on_cycles(on_cycles.iter().map(|&at| entities[at]));
         let (mut measures, mut results) = (Vec::new(), Vec::new());
         for at in order {
             let (name, formulas) = &definitions[at];
@@ -65,9 +65,9 @@ impl<'a> Checker<'a> {
                 (Entity::Function(self.functions.len() - 1), name, vec![value])
             }
             ItemKind::Input { name, value } => {
-                let given = self.around.given.formulas.iter();
+                let given = self.options.given.formulas.iter();
                 let own = format!("{}{}", self.address.path, name.text);
-                let told = given.filter(|(told, _)| is_told_by(&own, told)).map(|(_, told)| told);
+                let told = given.filter(|(told, _)| override_matches(&own, told)).map(|(_, told)| told);
                 let formulas = std::iter::once(value).chain(told).collect();
                 self.inputs.push(InputState { name, formula: value, value: None });
                 (Entity::Input(self.inputs.len() - 1), name, formulas)
@@ -99,8 +99,8 @@ impl<'a> Checker<'a> {
     }
 
     /// Evaluates parts on a cycle of definitions without bindings, so that all that they declare exists.
-    fn define_parts_on_circles(&mut self, on_circles: impl Iterator<Item = Entity>) {
-        for entity in on_circles {
+    fn define_parts_on_cycles(&mut self, on_cycles: impl Iterator<Item = Entity>) {
+        for entity in on_cycles {
             if let Entity::Part(k) = entity
                 && k < self.parts.len()
             {
@@ -129,7 +129,7 @@ impl<'a> Checker<'a> {
             .map(|(k, (name, formulas))| {
                 let mut uses = Vec::new();
                 for formula in formulas {
-                    mentioned(
+                    visit_free_names(
                         formula,
                         |name| self.hidden.contains(name),
                         |used, is_called| {

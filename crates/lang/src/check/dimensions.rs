@@ -2,8 +2,8 @@
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::kinds::{self, Wanted, coordinate};
-use super::rates::Part;
+use super::point_kinds::{self, Expected, coordinate};
+use super::suggest::lost_rate::Part;
 use super::{Checker, errors};
 use crate::model::Dimension;
 use mechc_expr::{Dependence, ExprId};
@@ -19,24 +19,24 @@ impl Checker<'_> {
 
     /// Returns the same for the formula of a function or curve with an argument.
     pub(super) fn is_dimensional_over(&self, argument: Option<&str>, formula: &Expr) -> bool {
-        self.holds_dimension(argument, formula, Wanted::Number)
+        self.holds_dimension(argument, formula, Expected::Number)
     }
 
     /// Returns the same for a formula of numbers or of points.
-    pub(super) fn holds_dimension(&self, argument: Option<&str>, formula: &Expr, wanted: Wanted) -> bool {
-        let mut open = vec![(formula, wanted, wanted != Wanted::Number)];
+    pub(super) fn holds_dimension(&self, argument: Option<&str>, formula: &Expr, wanted: Expected) -> bool {
+        let mut open = vec![(formula, wanted, wanted != Expected::Number)];
         while let Some((e, wanted, with_points)) = open.pop() {
             let holds = match &e.kind {
                 ExprKind::Literal { unit: Some((name, _)), .. } => {
                     Unit::named(&name.text).is_some_and(|unit| !unit.dimension.is(Dimension::PURE))
                 }
                 ExprKind::Name(name) if argument == Some(name.text.as_str()) => false,
-                ExprKind::Name(name) if self.own_point(name, wanted).is_some() => {
+                ExprKind::Name(name) if self.body_point(name, wanted).is_some() => {
                     self.is_dimensional_point(name, wanted)
                 }
                 ExprKind::Name(name) => self.is_dimensional_name(name),
                 ExprKind::Member { owner, feature } if coordinate(feature).is_some() => {
-                    self.is_dimensional_point(owner, Wanted::Point)
+                    self.is_dimensional_point(owner, Expected::Point)
                 }
                 ExprKind::Call { name, arguments, .. } if self.reduction_word(name, arguments.len()).is_some() => false,
                 ExprKind::Call { name, .. }
@@ -60,7 +60,7 @@ impl Checker<'_> {
                 },
                 _ => with_points,
             };
-            let inside = kinds::inside(e, wanted, |name| self.hidden.contains(name));
+            let inside = point_kinds::inside(e, wanted, |name| self.hidden.contains(name));
             open.extend(inside.into_iter().map(|(e, wanted)| (e, wanted, with_points)));
         }
         false
@@ -105,7 +105,7 @@ impl Checker<'_> {
     }
 
     /// Returns the common dimension of two terms, and reports a mismatch where dimensions count.
-    pub(super) fn alike(
+    pub(super) fn unify(
         &mut self,
         what: &str,
         a: (Span, Value),
@@ -149,7 +149,7 @@ impl Checker<'_> {
 
     /// Returns the dimension of a function whose value is a pure number. Plain arguments give a plain number, and arguments that are not
     /// pure show that dimensions are missing.
-    pub(super) fn made_of(&self, arguments: &[(Span, Value)]) -> Dim {
+    pub(super) fn pure_number_dim(&self, arguments: &[(Span, Value)]) -> Dim {
         let is_plain = |value: &Value| !self.is_of_quantities(value.id);
         if arguments.iter().any(|(_, value)| !value.dim.fits()) {
             Dim::UNFIT
@@ -161,7 +161,7 @@ impl Checker<'_> {
     }
 
     /// Requires a dimension where dimensions count.
-    pub(super) fn demand(
+    pub(super) fn require_dimension(
         &mut self,
         place: &str,
         wanted: Dimension,

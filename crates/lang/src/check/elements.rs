@@ -1,7 +1,7 @@
 //! Measures, constraints, drivers and the analysis.
 
 use super::formula::{Context, Dim, Value};
-use super::printed::known_dimension;
+use super::display_units::known_dimension;
 use super::{Checker, errors};
 use crate::model::{
     Analysis, Condition, ConditionKind, DecidedBy, Declared, Dimension, Equation, EquationForm, Measure, Named,
@@ -41,7 +41,7 @@ impl Checker<'_> {
             let formula = self.measures[k].value;
             let value = self.formula(formula, &measure_context(self.measures[k].dimensional));
             let owner = self.declared(self.measures[k].name).name;
-            let conditions = self.asked_at_times(conditions, &owner);
+            let conditions = self.conditions_over_time(conditions, &owner);
             self.measures[k].made = value.map(|value| (value, conditions));
             self.measures[k].sound = value.is_some();
             self.measures[k].angle = self.angle_power(formula);
@@ -101,7 +101,7 @@ impl Checker<'_> {
             }
             !is_of_forces
         });
-        let asked = self.asked_at_times(conditions, &name.text);
+        let asked = self.conditions_over_time(conditions, &name.text);
         let units = self.units(point, Some(Dimension::LENGTH), 0, unit);
         if let (Some(coordinates), Some(units)) = (coordinates, units) {
             let (declared, measure) = (self.declared(name), self.model.measures.len());
@@ -125,7 +125,7 @@ impl Checker<'_> {
         let coordinates = [x, y].map(|part| {
             let value = self.formula(part, &context)?;
             let context = Context { judged: self.counts(value, &context), ..context };
-            self.demand("a coordinate of a trace", Dimension::LENGTH, part.span, value.dim, &context)?;
+            self.require_dimension("a coordinate of a trace", Dimension::LENGTH, part.span, value.dim, &context)?;
             Some(value.id)
         });
         Some([coordinates[0]?, coordinates[1]?])
@@ -133,7 +133,7 @@ impl Checker<'_> {
 
     /// Returns the conditions from index `from` on, which belong to a measure or trace. Those of parameters alone hold always or never, and
     /// are checked at once.
-    pub(super) fn asked_at_times(&mut self, from: usize, owner: &str) -> Vec<Condition> {
+    pub(super) fn conditions_over_time(&mut self, from: usize, owner: &str) -> Vec<Condition> {
         let mut own = self.model.conditions.split_off(from);
         for condition in &mut own {
             owner.clone_into(&mut condition.owner);
@@ -200,7 +200,7 @@ impl Checker<'_> {
             if is_an_angle(other) || is_an_angle(side) {
                 self.warn_of_degrees_in(side);
             }
-            if is_a_length(other) && self.refuses_angle("what equals a length", side) {
+            if is_a_length(other) && self.reject_angle("what equals a length", side) {
                 return None;
             }
         }
@@ -224,14 +224,14 @@ impl Checker<'_> {
             (None, None) => return None,
         };
         let what = format!("the two sides of {} `{}` are", if driver { "driver" } else { "constraint" }, name.text);
-        let alike = if !context.judged && is_a_curve([a, b]) {
+        let unify = if !context.judged && is_a_curve([a, b]) {
             a.dim
         } else {
-            self.alike(&what, (left.span, a), (right.span, b), &context)?
+            self.unify(&what, (left.span, a), (right.span, b), &context)?
         };
         for (side, value, other) in [(left, a, right), (right, b, left)] {
             if is_a_length(other) {
-                self.remember_any_length(side, value.id, context.judged);
+                self.record_length_term(side, value.id, context.judged);
             }
         }
         if !self.a_body_moves([a.id, b.id]) {
@@ -244,7 +244,7 @@ impl Checker<'_> {
         {
             return self.distance_equation(name, ends, right, b.id);
         }
-        let dim = if context.judged { alike } else { self.plain_dimension([(left, a), (right, b)]) };
+        let dim = if context.judged { unify } else { self.plain_dimension([(left, a), (right, b)]) };
         Some((EquationForm::Equality(a.id, b.id), dim))
     }
 
@@ -289,7 +289,7 @@ impl Checker<'_> {
         {
             let dimension = if is_an_angle(other) { Dimension::PURE } else { Dimension::LENGTH };
             let place = format!("what equals this `{}`", quantity.word.name);
-            let _ = self.demand(&place, dimension, known.0, known.1, context);
+            let _ = self.require_dimension(&place, dimension, known.0, known.1, context);
         }
     }
 

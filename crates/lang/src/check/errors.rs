@@ -1,7 +1,7 @@
 //! Diagnostics of mechanisms.
 
 mod dimensions;
-mod drawn;
+mod drawing;
 mod forces;
 pub mod library;
 mod misplaced;
@@ -14,7 +14,7 @@ mod tables;
 mod variables;
 
 pub use dimensions::*;
-pub use drawn::*;
+pub use drawing::*;
 pub use forces::*;
 pub use misplaced::*;
 pub use names::*;
@@ -33,7 +33,7 @@ use mechc_text::diag::{Code, Diagnostic, Fix, nearest};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::Word;
 
-fn meant(wanted: &Name, names: &[&str]) -> Option<Fix> {
+fn nearest_name(wanted: &Name, names: &[&str]) -> Option<Fix> {
     nearest(&wanted.text, names.iter().copied()).map(|name| Fix::meant(wanted.span, name))
 }
 

@@ -2,9 +2,9 @@
 
 use super::entity::Entity;
 use super::formula::{Context, Value};
-use super::kinds::{self, Wanted, coordinate};
+use super::point_kinds::{self, Expected, coordinate};
 use super::names::Space;
-use super::sites::{Drawn, Site};
+use super::formula_scope::{DrawnPoint, FormulaSite};
 use super::{Checker, errors};
 use crate::model::{Axis, AxisId, Body, CircleId, CurveId, DecidedBy, Dimension, Frame, Point, PointId};
 use mechc_expr::ExprId;
@@ -154,11 +154,11 @@ impl<'a> Checker<'a> {
         let uses = self.uses_of_points(frame, &points);
         for k in self.ordered(&uses).order {
             let (name, at) = points[k];
-            let drawn = self.at_site(Site::Inside(frame), Some(&name.text), |checker| match at {
+            let drawn = self.at_site(FormulaSite::Inside(frame), Some(&name.text), |checker| match at {
                 Some(at) => checker.place_of(at, "point", "a point", None),
                 None => checker.point_of_the_mechanism(name),
             });
-            let point = drawn.map(|Drawn { at, dimensional }| {
+            let point = drawn.map(|DrawnPoint { at, dimensional }| {
                 let point = Point { frame, name: Some(name.text.clone()), span: name.span, at };
                 let id = self.model.add_point(point);
                 self.common.dimensional_points.extend(dimensional.then_some(id));
@@ -179,13 +179,13 @@ impl<'a> Checker<'a> {
         for (k, (name, _)) in points.iter().enumerate() {
             positions.entry(name.text.as_str()).or_insert(k);
         }
-        let outer = std::mem::replace(&mut self.scope.site, Site::Inside(frame));
+        let outer = std::mem::replace(&mut self.scope.site, FormulaSite::Inside(frame));
         let uses = points.iter().map(|&(name, formula)| {
             let mut uses = Vec::new();
             if let Some(formula) = formula {
                 let hidden = |name: &str| self.hidden.contains(name);
-                kinds::names_in(formula, Wanted::Point, hidden, |used, wanted| {
-                    let is_own = used.text != name.text && self.own_point(used, wanted).is_some();
+                point_kinds::names_in(formula, Expected::Point, hidden, |used, wanted| {
+                    let is_own = used.text != name.text && self.body_point(used, wanted).is_some();
                     uses.extend(positions.get(used.text.as_str()).filter(|_| is_own).map(|&k| (k, used.span)));
                 });
             }
@@ -199,12 +199,12 @@ impl<'a> Checker<'a> {
     fn axes_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
         for feature in features {
             let ends = match &feature.kind {
-                FeatureKind::AxisAlong { origin, direction } => self.at_site(Site::Inside(frame), None, |checker| {
+                FeatureKind::AxisAlong { origin, direction } => self.at_site(FormulaSite::Inside(frame), None, |checker| {
                     let origin = checker.place(frame, origin);
                     let direction = checker.direction_of(direction);
                     origin.zip(direction)
                 }),
-                FeatureKind::AxisTo { origin, target } => self.at_site(Site::Inside(frame), None, |checker| {
+                FeatureKind::AxisTo { origin, target } => self.at_site(FormulaSite::Inside(frame), None, |checker| {
                     let (from, to) = (checker.place(frame, origin), checker.place(frame, target));
                     let (from, to) = (from?, to?);
                     let (p, q) = (checker.model[from].at, checker.model[to].at);
@@ -249,7 +249,7 @@ impl<'a> Checker<'a> {
         let context = self.pair_context([dx, dy], "a direction", None);
         let (x, y) = (self.formula(dx, &context), self.formula(dy, &context));
         let (x, y) = (x?, y?);
-        self.alike("the two parts of the direction are", (dx.span, x), (dy.span, y), &context)?;
+        self.unify("the two parts of the direction are", (dx.span, x), (dy.span, y), &context)?;
         self.not_zero([x.id, y.id], e.span)
     }
 
@@ -295,15 +295,15 @@ impl<'a> Checker<'a> {
         context: &Context<'_>,
     ) -> Option<[ExprId; 2]> {
         let (x, y) = (x?, y?);
-        self.alike("the coordinates of a point are", (parts[0].span, x), (parts[1].span, y), context)?;
+        self.unify("the coordinates of a point are", (parts[0].span, x), (parts[1].span, y), context)?;
         for part in parts {
-            if !context.judged && self.refuses_angle("a coordinate", part) {
+            if !context.judged && self.reject_angle("a coordinate", part) {
                 return None;
             }
         }
         for (part, value) in parts.into_iter().zip([x, y]) {
-            self.demand("a coordinate", Dimension::LENGTH, part.span, value.dim, context)?;
-            self.remember_any_length(part, value.id, context.judged);
+            self.require_dimension("a coordinate", Dimension::LENGTH, part.span, value.dim, context)?;
+            self.record_length_term(part, value.id, context.judged);
         }
         Some([x.id, y.id])
     }
@@ -319,9 +319,9 @@ impl<'a> Checker<'a> {
     pub(super) fn place(&mut self, frame: Frame, e: &Expr) -> Option<PointId> {
         match &e.kind {
             ExprKind::Name(name)
-                if self.own_point(name, Wanted::Point).is_some() || self.point_param(name).is_none() =>
+                if self.body_point(name, Expected::Point).is_some() || self.point_param(name).is_none() =>
             {
-                self.scope_takes_own(name);
+                self.record_body_point(name);
                 self.point_named(frame, name)
             }
             ExprKind::Member { owner, feature } if self.is_own_feature(frame, owner, feature) => {
@@ -388,7 +388,7 @@ impl<'a> Checker<'a> {
                     Feature::Axis(axis) => axis,
                     Feature::Point(_) => {
                         let diagnostic = errors::wrong_kind(feature.span, "an axis", "a point");
-                        self.report(diagnostic.fix_if(self.axis_for(frame, feature)));
+                        self.report(diagnostic.fix_if(self.suggest_axis(frame, feature)));
                         None
                     }
                     other => {
@@ -416,7 +416,7 @@ impl<'a> Checker<'a> {
             return;
         }
         let wanted = if what == "axis" { "an axis".to_owned() } else { format!("a {what}") };
-        let beside = self.owners_beside(name.span);
+        let beside = self.owners_in_arguments(name.span);
         let owners: Vec<String> = std::iter::once(self.address.ground)
             .chain(self.bodies.iter().copied())
             .filter(|&frame| !beside.contains(&self.frame_name(frame)))

@@ -2,11 +2,11 @@
 
 use super::Checker;
 use super::entity::Entity;
-use super::errors::{self, NoLoad};
+use super::errors::{self, LoadTargetError};
 use super::features::Feature;
 use super::formula::{Context, Dim, Value};
-use super::rates::Part;
-use super::sites::Site;
+use super::suggest::lost_rate::Part;
+use super::formula_scope::FormulaSite;
 use crate::model::{
     BodyId, DecidedBy, Declared, Dimension, EquationId, Force, Frame, JointId, Load, Mass, Named, Point, PointId,
     Quantity,
@@ -37,7 +37,7 @@ impl<'a> Checker<'a> {
         let frame = Frame::Body(body);
         let mass = self.not_negative(frame, mass, "mass", Dimension::MASS);
         let at = match at {
-            Some(at) => self.at_site(Site::Inside(frame), None, |checker| checker.place(frame, at)),
+            Some(at) => self.at_site(FormulaSite::Inside(frame), None, |checker| checker.place(frame, at)),
             None => Some(self.origin_of(frame, feature.span)),
         };
         let inertia = self.not_negative(frame, inertia, "inertia", Dimension::INERTIA);
@@ -54,7 +54,7 @@ impl<'a> Checker<'a> {
         let Some(e) = e else { return Some(self.model.graph.constant(0.0)) };
         let place = format!("what stands behind `{keyword}`");
         let (id, value) =
-            self.at_site(Site::Inside(frame), None, |checker| checker.constant_by(e, &place, wanted, DecidedBy::Sign))?;
+            self.at_site(FormulaSite::Inside(frame), None, |checker| checker.constant_by(e, &place, wanted, DecidedBy::Sign))?;
         if value < 0.0 {
             self.report(errors::negative_mass(e.span, value, wanted));
             return None;
@@ -65,12 +65,12 @@ impl<'a> Checker<'a> {
     /// Sets the acceleration of gravity from the outermost mechanism. Those of parts are only checked.
     pub(super) fn gravity(&mut self) {
         self.model.gravity = self.acceleration_of_gravity();
-        if self.own_gravity().is_none() {
+        if self.declared_gravity().is_none() {
             self.warn_of_gravity_in_parts();
         }
     }
 
-    fn own_gravity(&self) -> Option<&'a Expr> {
+    fn declared_gravity(&self) -> Option<&'a Expr> {
         self.items().iter().find_map(|item| match &item.kind {
             ItemKind::Gravity { acceleration } => Some(acceleration),
             _ => None,
@@ -82,7 +82,7 @@ impl<'a> Checker<'a> {
             // It counts when the part runs alone.
             let _ = part.acceleration_of_gravity();
         });
-        let acceleration = self.own_gravity()?;
+        let acceleration = self.declared_gravity()?;
         let ExprKind::Tuple(parts) = &acceleration.kind else {
             self.report(errors::gravity_of_one_number(acceleration.span, Self::describe(acceleration)));
             return None;
@@ -97,7 +97,7 @@ impl<'a> Checker<'a> {
         let mut ids = Vec::new();
         for (part, value) in values {
             let value = value?;
-            self.demand("`gravity`", Dimension::ACCELERATION, part.span, value.dim, &context)?;
+            self.require_dimension("`gravity`", Dimension::ACCELERATION, part.span, value.dim, &context)?;
             ids.push(value.id);
         }
         ids.try_into().ok()
@@ -117,7 +117,7 @@ impl<'a> Checker<'a> {
 
     /// Returns the mechanism that declares gravity, this one or one of its parts, and where.
     fn gravity_inside(&self) -> Option<(&'a str, Span)> {
-        let own = self.own_gravity().map(|own| (self.tree.name.text.as_str(), own.span));
+        let own = self.declared_gravity().map(|own| (self.tree.name.text.as_str(), own.span));
         own.or_else(|| self.parts.iter().find_map(Checker::gravity_inside))
     }
 }
@@ -154,11 +154,11 @@ impl Checker<'_> {
         let conditions = self.model.conditions.len();
         let value = self.formula(force, &context);
         let declared = self.declared(name);
-        let conditions = self.asked_at_times(conditions, &declared.name);
+        let conditions = self.conditions_over_time(conditions, &declared.name);
         let quantity = self.quantity_of_load(name, on);
         let (value, quantity) = (value?, quantity?);
         let dimension = Dimension::ENERGY.over(quantity.dimension());
-        self.is_a_force_on(name, [force, on], value, quantity, judged)?;
+        self.check_load_dimension(name, [force, on], value, quantity, judged)?;
         let written = force.span.to(on.span);
         Some(Load { declared, part: self.address.part, force: value.id, conditions, on: quantity, dimension, written })
     }
@@ -168,24 +168,24 @@ impl Checker<'_> {
         let bare = on.bare();
         let ExprKind::Call { name: called, arguments, window } = &bare.kind else {
             let fault = match &bare.kind {
-                ExprKind::Sum(..) => NoLoad::Sum,
-                kind => self.quantities_of(kind).map_or(NoLoad::Other, NoLoad::Meant),
+                ExprKind::Sum(..) => LoadTargetError::Sum,
+                kind => self.quantities_of(kind).map_or(LoadTargetError::Other, LoadTargetError::Suggested),
             };
             self.report(errors::load_on_no_quantity(name, on.span, &fault));
             return None;
         };
         let Some(word) = self.quantity_word(called) else {
-            let fault = if called.text == "der" { NoLoad::Rate } else { NoLoad::Other };
+            let fault = if called.text == "der" { LoadTargetError::Rate } else { LoadTargetError::Other };
             self.report(errors::load_on_no_quantity(name, on.span, &fault));
             return None;
         };
         let is_angle_of_points = called.text == "angle" && arguments.len() == 3;
         if word.gives_way || is_angle_of_points {
-            let fault = NoLoad::OfMeasures(&called.text);
+            let fault = LoadTargetError::OfMeasures(&called.text);
             self.report(errors::load_on_no_quantity(name, on.span, &fault));
             return None;
         }
-        self.refuse_window(called, window.as_deref())?;
+        self.reject_window(called, window.as_deref())?;
         let value = self.quantity(bare, called, arguments, &driven("a load", true))?;
         if !self.a_body_moves([value.id; 2]) {
             self.report(errors::load_on_no_body(name, on.span));
@@ -224,7 +224,7 @@ impl Checker<'_> {
     }
 
     /// Requires that a load times its quantity is an energy. A plain load is a torque on an angle; on a length it needs a unit.
-    fn is_a_force_on(
+    fn check_load_dimension(
         &mut self,
         name: &Name,
         [force, on]: [&Expr; 2],
@@ -353,7 +353,7 @@ impl Checker<'_> {
     }
 
     /// Returns whether a measure or result of this text or of a part uses an effort.
-    pub(super) fn asks_for_efforts(&self) -> bool {
+    pub(super) fn uses_efforts(&self) -> bool {
         let is_effort = |e: &Expr| matches!(&e.kind, ExprKind::Call { name, .. } if name.text == "effort");
         let asks = |e: &Expr| e.parts().any(is_effort);
         let own = self.items().iter().any(|item| match &item.kind {
@@ -362,7 +362,7 @@ impl Checker<'_> {
             }
             _ => false,
         });
-        own || self.parts.iter().any(Checker::asks_for_efforts)
+        own || self.parts.iter().any(Checker::uses_efforts)
     }
 
     /// Returns whether a formula is a torque, as far as it shows; joules are not a unit of torque.

@@ -7,9 +7,9 @@
 use super::Checker;
 use super::entity::Entity;
 use super::errors;
-use super::kinds::Wanted;
-use super::meaning::{Alone, alone};
-use super::rates::Part;
+use super::point_kinds::Expected;
+use super::bare_names::{BareName, resolve_bare_name};
+use super::suggest::lost_rate::Part;
 use crate::model::{DecidedBy, Dimension, Named};
 use mechc_expr::{Dependence, ExprId, Symbol};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name, PathSegment, Sign};
@@ -275,20 +275,20 @@ impl Checker<'_> {
 
     fn name(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
         let argument = context.argument.map(|(argument, _)| argument);
-        match alone(&name.text, argument, self.space.get(&name.text)) {
-            Alone::Argument => return context.argument.map(|(_, value)| value),
-            Alone::Constant(constant) => match constant.stands_for {
+        match resolve_bare_name(&name.text, argument, self.space.get(&name.text)) {
+            BareName::Argument => return context.argument.map(|(_, value)| value),
+            BareName::Constant(constant) => match constant.stands_for {
                 StandsFor::Time => return self.time_named(name, context),
                 StandsFor::Number(number) => return Some(self.pure(number)),
                 StandsFor::Ground => {}
             },
             // `10 mm/s` in a text with `param s`.
-            Alone::Declared(_) if self.is_declared_though_taken(name) => return None,
-            Alone::Unit(unit) => {
+            BareName::Declared(_) if self.is_declared_though_taken(name) => return None,
+            BareName::Unit(unit) => {
                 let id = self.model.graph.constant(unit.to_si(1.0, 1));
                 return Some(Value { id, dim: Dim::Of(unit.dimension) });
             }
-            Alone::Declared(_) | Alone::Unknown => {}
+            BareName::Declared(_) | BareName::Unknown => {}
         }
         self.declared_number(name, context)
     }
@@ -356,7 +356,7 @@ impl Checker<'_> {
             }
             Some(entity) => {
                 let diagnostic = errors::wrong_kind(name.span, "a number", entity.noun());
-                self.report(self.with_number_of(name, diagnostic));
+                self.report(self.suggest_quantity(name, diagnostic));
                 None
             }
             None => {
@@ -376,7 +376,7 @@ impl Checker<'_> {
         }
         let what = self.describe_member(owner, feature);
         let diagnostic = errors::wrong_kind(span, "a number", &what);
-        self.report(diagnostic.fix_if(self.number_for(span, owner, feature)));
+        self.report(diagnostic.fix_if(self.suggest_number(span, owner, feature)));
     }
 
     /// Reports a longer path where a number is expected.
@@ -407,7 +407,7 @@ impl Checker<'_> {
     }
 
     fn unknown_number(&mut self, name: &Name, context: &Context<'_>) {
-        if self.own_point(name, Wanted::Point).is_some() {
+        if self.body_point(name, Expected::Point).is_some() {
             self.report(errors::point_as_number(name));
             return;
         }
@@ -458,7 +458,7 @@ impl Checker<'_> {
                 continue;
             };
             let what = if *sign == Sign::Plus { "this adds" } else { "this subtracts" };
-            sum = self.alike(what, (span, left), (term.span, right), context).map(|dim| {
+            sum = self.unify(what, (span, left), (term.span, right), context).map(|dim| {
                 let id = match sign {
                     Sign::Plus => self.model.graph.add(left.id, right.id),
                     Sign::Minus => self.model.graph.sub(left.id, right.id),
@@ -497,7 +497,7 @@ impl Checker<'_> {
     fn power(&mut self, base: &Expr, exponent: &Expr, context: &Context<'_>) -> Option<Value> {
         let (a, b) = (self.number(base, context), self.number(exponent, context));
         let (a, b) = (a?, b?);
-        self.demand("an exponent", Dimension::PURE, exponent.span, b.dim, context)?;
+        self.require_dimension("an exponent", Dimension::PURE, exponent.span, b.dim, context)?;
         let id = self.model.graph.pow(a.id, b.id);
         let dimension = a.dim.settled();
         let dim = if dimension.is(Dimension::PURE) {
@@ -562,7 +562,7 @@ impl Checker<'_> {
             return None;
         }
         let id = self.name_symbol(Named::Derivative(inner.id), order);
-        if !self.note_rate(inner.id, id) {
+        if !self.register_rate(inner.id, id) {
             self.report(errors::derivative_of_jerk(e.span));
             return None;
         }
@@ -610,12 +610,12 @@ impl Checker<'_> {
     ) -> Option<(ExprId, f64)> {
         let context = Context { judged, ..Context::constant(place) };
         let value = self.formula(e, &context)?;
-        if !judged && wanted.is(Dimension::LENGTH) && self.refuses_angle(place, e) {
+        if !judged && wanted.is(Dimension::LENGTH) && self.reject_angle(place, e) {
             return None;
         }
-        self.demand(place, wanted, e.span, value.dim, &context)?;
+        self.require_dimension(place, wanted, e.span, value.dim, &context)?;
         if wanted.is(Dimension::LENGTH) {
-            self.remember_any_length(e, value.id, judged);
+            self.record_length_term(e, value.id, judged);
         }
         let number = self.decided(value.id, by)?;
         Some((value.id, number))

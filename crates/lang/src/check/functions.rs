@@ -3,7 +3,7 @@
 use super::Checker;
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::mentions::mentioned;
+use super::free_names::visit_free_names;
 use crate::model::Named;
 use mechc_syntax::ast::{Expr, Name};
 use mechc_text::source::Span;
@@ -45,7 +45,7 @@ impl Checker<'_> {
     /// Returns the location at which a formula uses time.
     fn time_in(&self, formula: &Expr, argument: &Name) -> Option<Span> {
         let mut time = None;
-        mentioned(
+        visit_free_names(
             formula,
             |name| self.hidden.contains(name),
             |name, _| {

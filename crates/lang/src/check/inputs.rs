@@ -1,10 +1,10 @@
 //! Inputs: their formulas in the text, and their overrides.
 
 use super::formula::{Context, Dim, Value};
-use super::lead::Needs;
-use super::rates::Part;
-use super::samples::{self, Column, Head, Samples};
-use super::told::is_told_by;
+use super::continuation::ConditionMarks;
+use super::suggest::lost_rate::Part;
+use super::samples::{self, Column, ColumnHeader, Samples};
+use super::overrides::override_matches;
 use super::{Checker, errors};
 use crate::model::{Condition, ConditionKind, Input};
 use mechc_expr::{ExprId, Symbol};
@@ -39,34 +39,34 @@ pub(super) struct InputState<'a> {
 
 impl Checker<'_> {
     /// Reports overrides of unknown parameters, and of parameters that are bound.
-    pub(super) fn look_over_settings(&mut self) {
-        if self.around.settings.is_empty() {
+    pub(super) fn check_param_overrides(&mut self) {
+        if self.options.settings.is_empty() {
             return;
         }
         let params = self.settable_names(|item| match item {
             ItemKind::Param { name, .. } => Some(name),
             _ => None,
         });
-        for setting in &self.around.settings {
+        for setting in &self.options.settings {
             let (path, span) = (&setting.path, setting.value.span);
             let owner = path.rsplit_once('.').filter(|(_, axis)| ["x", "y"].contains(&axis.trim()));
-            let is_it = |full: &str| is_told_by(full, path) || owner.is_some_and(|(owner, _)| is_told_by(full, owner));
-            self.look_over_name(Settable::Param, path, span, &params, is_it);
+            let is_it = |full: &str| override_matches(full, path) || owner.is_some_and(|(owner, _)| override_matches(full, owner));
+            self.check_override_name(Settable::Param, path, span, &params, is_it);
         }
     }
 
     /// Reports overrides of unknown inputs, and of inputs that are overridden twice.
-    pub(super) fn look_over_given(&mut self) {
-        let given = &self.around.given;
+    pub(super) fn check_input_overrides(&mut self) {
+        let given = &self.options.given;
         if given.formulas.is_empty() {
             return;
         }
         let inputs = self.all_inputs();
         for (told, formula) in &given.formulas {
-            self.look_over_name(Settable::Input, told, formula.span, &inputs, |full| is_told_by(full, told));
+            self.check_override_name(Settable::Input, told, formula.span, &inputs, |full| override_matches(full, told));
         }
         let twice = inputs.iter().find_map(|(input, _)| {
-            let mut formulas = given.formulas.iter().filter(|(told, _)| is_told_by(input, told));
+            let mut formulas = given.formulas.iter().filter(|(told, _)| override_matches(input, told));
             let (first, second) = (formulas.next()?, formulas.next()?);
             Some((input, [second.1.span, first.1.span]))
         });
@@ -83,7 +83,7 @@ impl Checker<'_> {
     }
 
     /// Reports an override that names nothing which can be overridden.
-    fn look_over_name(
+    fn check_override_name(
         &mut self,
         what: Settable,
         told: &str,
@@ -107,8 +107,8 @@ impl Checker<'_> {
     }
 
     /// Returns the samples, if they are valid.
-    pub(super) fn samples_given(&mut self) -> Option<Samples> {
-        let file = self.around.given.samples?;
+    pub(super) fn read_samples(&mut self) -> Option<Samples> {
+        let file = self.options.given.samples?;
         let sources = self.sources;
         let headed = self.or_reported(samples::header(sources.get(file), file))?;
         let inputs = self.all_inputs();
@@ -126,17 +126,17 @@ impl Checker<'_> {
     }
 
     /// Returns whether a column names an input that can be overridden.
-    fn has_an_input(&mut self, head: &Head<'_>, inputs: &[(String, Option<Span>)]) -> bool {
+    fn has_an_input(&mut self, head: &ColumnHeader<'_>, inputs: &[(String, Option<Span>)]) -> bool {
         let path = head.path();
         if let Some(meant) = head.meant().filter(|_| !inputs.iter().any(|(full, _)| *full == path)) {
             let written = self.sources.text(head.span).trim_matches('"');
             self.report(errors::column_of_no_input(&self.tree.name.text, written, head.span, &meant));
             return false;
         }
-        if !self.look_over_name(Settable::Column, &path, head.span, inputs, |full| full == path) {
+        if !self.check_override_name(Settable::Column, &path, head.span, inputs, |full| full == path) {
             return false;
         }
-        let twice = self.around.given.formulas.iter().find(|(told, _)| is_told_by(&path, told));
+        let twice = self.options.given.formulas.iter().find(|(told, _)| override_matches(&path, told));
         if let Some((_, formula)) = twice {
             self.report(errors::input_told_twice(&path, [head.span, formula.span]));
         }
@@ -148,7 +148,7 @@ impl Checker<'_> {
         let (name, formula) = (self.inputs[k].name, self.inputs[k].formula);
         let before = self.model.conditions.len();
         let Some(in_file) = self.input_value(name, formula) else { return };
-        let needs = Needs { before, behind_own: self.model.conditions.len() };
+        let needs = ConditionMarks { before, after_own: self.model.conditions.len() };
         if self.bound.inputs.contains(&name.text.as_str()) {
             self.inputs[k].value = Some(in_file);
             // Its own formula does not affect the motion.
@@ -158,14 +158,14 @@ impl Checker<'_> {
         let full = format!("{}{}", self.address.path, name.text);
         let samples = self.samples.clone();
         let column = samples.as_ref().and_then(|samples| samples.columns.iter().find(|column| column.name == full));
-        let formulas = &self.around.given.formulas;
-        let told = formulas.iter().rev().find(|(told, _)| is_told_by(&full, told)).map(|(_, formula)| formula);
+        let formulas = &self.options.given.formulas;
+        let told = formulas.iter().rev().find(|(told, _)| override_matches(&full, told)).map(|(_, formula)| formula);
         let value = match (&samples, column, told) {
             (Some(samples), Some(column), _) => self.sampled(&samples.times, column, in_file.dim),
-            (_, _, Some(formula)) => self.told(name, formula, in_file.dim),
+            (_, _, Some(formula)) => self.override_value(name, formula, in_file.dim),
             _ => Some(in_file),
         };
-        let value = self.led_input(name, in_file, value, &needs);
+        let value = self.continued_input(name, in_file, value, &needs);
         let value = value.and_then(|value| self.set_input(name, value, before));
         let declared = self.declared(name);
         let has_signals = self.model.has_signals;
@@ -201,7 +201,7 @@ impl Checker<'_> {
     }
 
     /// Returns the value of an override's formula. A plain one is in the unit of the expected dimension.
-    fn told(&mut self, name: &Name, formula: &Expr, wanted: Dim) -> Option<Value> {
+    fn override_value(&mut self, name: &Name, formula: &Expr, wanted: Dim) -> Option<Value> {
         let given = self.input_value(name, formula)?;
         if let Some([wanted, found]) = wanted.other_than(given.dim).filter(|_| self.is_dimensional(formula)) {
             let part = Part { span: formula.span, dimension: found };

@@ -1,6 +1,6 @@
 //! Instances: mechanisms as they are checked, with their parts.
 
-use super::mentions::name_of;
+use super::free_names::name_of;
 use mechc_syntax::ast::{ItemKind, Mechanism};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::rc::Rc;
@@ -49,7 +49,7 @@ impl<'t> Instance<'t> {
     }
 
     /// Returns whether it differs from the text.
-    pub fn is_written_out(&self) -> bool {
+    pub fn is_expanded(&self) -> bool {
         self.written.is_some()
     }
 

@@ -248,7 +248,7 @@ impl Checker<'_> {
         if frame == self.address.ground {
             return Some([x, y]);
         }
-        let Some(body) = self.own_body(frame) else { return self.drawn_through_parts(frame, local, is_point) };
+        let Some(body) = self.local_body(frame) else { return self.drawn_through_parts(frame, local, is_point) };
         let pose = self.model[body].pose.map(|id| self.constant_value(id));
         let (sin, cos) = mechc_expr::math::sin_cos(pose[2]?);
         let origin = if is_point { [pose[0]?, pose[1]?] } else { [0.0, 0.0] };
@@ -258,7 +258,7 @@ impl Checker<'_> {
 
 impl Checker<'_> {
     /// Returns the body of a frame, if it belongs to this text.
-    pub(super) fn own_body(&self, frame: Frame) -> Option<BodyId> {
+    pub(super) fn local_body(&self, frame: Frame) -> Option<BodyId> {
         match frame {
             Frame::Body(body) if self.model[body].part == self.address.part => Some(body),
             _ => None,

@@ -122,7 +122,7 @@ impl Library {
         let mut faults = Diagnostics::default();
         for file in self.files.iter() {
             faults.extend(prefixes_that_stand_twice(file));
-            faults.extend(self.names_that_stand_twice(file, sources));
+            faults.extend(self.duplicate_names(file, sources));
         }
         faults.extend(self.circles(sources));
         faults
@@ -163,7 +163,7 @@ impl Library {
     }
 
     /// Reports mechanisms of two files with one name and no prefix.
-    fn names_that_stand_twice(&self, file: &KnownFile, sources: &Sources) -> Vec<Diagnostic> {
+    fn duplicate_names(&self, file: &KnownFile, sources: &Sources) -> Vec<Diagnostic> {
         let own = self.number_of(file.id).unwrap_or_default();
         let mut first: FxHashMap<&str, (usize, Span)> = FxHashMap::default();
         for mechanism in file.read.tree.mechanisms.iter().filter(|mechanism| !mechanism.name.text.is_empty()) {

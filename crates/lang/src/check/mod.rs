@@ -4,16 +4,14 @@
 //! none. Formulas, including those of functions, are expanded into one graph at each use. Expansions are cached, so that functions with
 //! common subformulas take linear time.
 
-mod alone;
-mod arguments;
+mod cli_formulas;
 mod bindings;
-mod bound_inputs;
+mod input_bindings;
 mod branches;
 mod builtins;
 mod calls;
-mod columns_by;
+mod column_variables;
 mod definitions;
-mod degrees;
 mod dimensions;
 mod elements;
 mod entity;
@@ -25,58 +23,54 @@ mod functions;
 mod imports;
 mod inputs;
 mod instance;
-mod instances;
-mod instead;
+mod instantiation;
 mod joints;
-mod kinds;
-mod known;
-mod lead;
-mod lengths;
+mod point_kinds;
+mod declaration_info;
+mod continuation;
 mod library;
-mod meaning;
-mod meant;
-mod mends;
-mod mentions;
-mod mounts;
-mod named_points;
+mod bare_names;
+mod free_names;
+mod part_placement;
+mod point_names;
 mod names;
-mod numbers;
+mod constants;
 mod params;
 mod parts;
 mod points;
 mod poses;
-mod printed;
+mod display_units;
 mod profiles;
 mod quantities;
-mod rates;
 mod repetition;
 mod results;
 mod samples;
-mod set_inputs;
-mod sites;
-mod surroundings;
+mod settable_inputs;
+mod formula_scope;
+mod options;
+mod suggest;
 mod symbols;
 mod table_file;
 mod tables;
-mod told;
+mod overrides;
 mod variables;
 
-pub use alone::{FormulaOfTime, amount, constant, formula_of_time};
+pub use cli_formulas::{FormulaOfTime, amount, constant, formula_of_time};
 pub use inputs::Given;
-pub use known::{Amount, Count, Index, Known, Value as KnownValue, known, slopes};
-pub use lead::Lead;
-pub use lengths::usual_unit_of_length;
+pub use declaration_info::{Amount, Count, Index, Known, Value as KnownValue, known, slopes};
+pub use continuation::Lead;
+pub use suggest::missing_unit::usual_unit_of_length;
 pub use library::{KnownFile, KnownMechanism, Library, NotKnown};
-pub use mentions::name_of;
+pub use free_names::name_of;
 pub use results::UNTIL;
 pub use samples::{Column, variants};
-pub use set_inputs::SetInputs;
-pub use surroundings::{Setting, Surroundings};
+pub use settable_inputs::SetInputs;
+pub use options::{Setting, Surroundings};
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
 
 use crate::model::{Declared, EquationId, Frame, JointId, Mechanism};
-use bindings::BoundOutside;
+use bindings::ExternalBindings;
 use branches::Branch;
 use calls::Calls;
 use elements::MeasureState;
@@ -84,17 +78,17 @@ use entity::Entity;
 use functions::Function;
 use imports::Import;
 use inputs::InputState;
-use lengths::Lengths;
+use suggest::missing_unit::RecordedLengths;
 use mechc_syntax::ast::{self, Item, ItemKind};
 use mechc_text::diag::{Diagnostic, Diagnostics};
 use mechc_text::source::Sources;
 use names::Space;
 use params::ParamState;
-use parts::{Address, Common};
+use parts::{Address, SharedState};
 use results::ResultState;
 use rustc_hash::{FxHashMap, FxHashSet};
 use samples::Samples;
-use sites::Scope;
+use formula_scope::FormulaScope;
 use std::rc::Rc;
 use tables::TableState;
 use variables::Variables;
@@ -120,26 +114,26 @@ pub fn check_file(file: &ast::File) -> Diagnostics {
 #[must_use]
 pub fn check(
     tree: &ast::Mechanism,
-    surroundings: &Surroundings,
+    options: &Surroundings,
     sources: &Sources,
 ) -> (Option<Mechanism>, Diagnostics) {
-    let (instance, told) = instances::instance_of(tree, surroundings, sources);
-    let mut checker = Checker::of_instance(&instance, surroundings, sources, "", &[]);
-    checker.bind_numbers(&surroundings.bound);
-    checker.common.variables = Variables::told(&surroundings.by);
-    checker.ask_for_derivatives();
+    let (instance, told) = instantiation::instance_of(tree, options, sources);
+    let mut checker = Checker::of_instance(&instance, options, sources, "", &[]);
+    checker.bind_numbers(&options.bound);
+    checker.common.variables = Variables::new(&options.by);
+    checker.collect_variables();
     checker.run();
     let Checker { mut diagnostics, mut model, .. } = checker;
     diagnostics.extend(told);
-    model.slopes = surroundings.slopes.map(|go| {
+    model.slopes = options.slopes.map(|go| {
         let of_text = |end: usize| model.analysis.map(|analysis| analysis.formulas[end]).filter(|_| go[end]);
         [of_text(0), of_text(1)]
     });
-    if instance.is_written_out() {
+    if instance.is_expanded() {
         diagnostics.tell_once();
     }
     diagnostics.sort_by_place();
-    let diagnostics = meant::told_once(diagnostics);
+    let diagnostics = suggest::names::merge_unknown_names(diagnostics);
     let sound = !diagnostics.has_errors() && !has_broken(instance.tree());
     (sound.then_some(model), diagnostics)
 }
@@ -165,16 +159,16 @@ fn has_broken(tree: &ast::Mechanism) -> bool {
 /// Checks one mechanism, or one part of it.
 struct Checker<'a> {
     tree: &'a ast::Mechanism,
-    around: &'a Surroundings,
+    options: &'a Surroundings,
     sources: &'a Sources,
     diagnostics: Diagnostics,
     model: Mechanism,
-    common: Common,
+    common: SharedState,
     space: Space<Entity>,
     /// The number of named declarations of each kind.
     count: names::Count,
     address: Address,
-    bound: BoundOutside<'a>,
+    bound: ExternalBindings<'a>,
     /// The parts, the declaration of each, and the entities of each that are used here.
     parts: Vec<Checker<'a>>,
     bindings: Vec<&'a ast::Part>,
@@ -207,39 +201,39 @@ struct Checker<'a> {
     /// Constraints and drivers; `None` for broken ones.
     equations: Vec<Option<EquationId>>,
     /// The constant lengths met so far.
-    lengths: Lengths<'a>,
+    lengths: RecordedLengths<'a>,
     /// The site, the calls and the branch of the current formula.
-    scope: Scope<'a>,
+    scope: FormulaScope<'a>,
     calls: Calls<'a>,
     branch: Branch,
 }
 
 impl<'a> Checker<'a> {
-    fn new(tree: &'a ast::Mechanism, surroundings: &'a Surroundings, sources: &'a Sources) -> Checker<'a> {
+    fn new(tree: &'a ast::Mechanism, options: &'a Surroundings, sources: &'a Sources) -> Checker<'a> {
         Checker {
             tree,
-            around: surroundings,
+            options,
             sources,
             diagnostics: Diagnostics::default(),
             model: Mechanism {
-                has_signals: surroundings.has_signals,
-                reactions: surroundings.reactions,
-                pictures_forces: surroundings.pictures_forces,
+                has_signals: options.has_signals,
+                reactions: options.reactions,
+                pictures_forces: options.pictures_forces,
                 ..Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone())
             },
-            common: Common::default(),
+            common: SharedState::default(),
             space: Space::new(),
             count: names::Count::default(),
             address: Address::default(),
-            bound: BoundOutside::default(),
+            bound: ExternalBindings::default(),
             parts: Vec::new(),
             bindings: Vec::new(),
             imports: Vec::new(),
             imported: FxHashMap::default(),
             point_paths: FxHashSet::default(),
             deciding: Rc::default(),
-            point_params: kinds::point_params(tree),
-            hidden: kinds::own_functions(tree),
+            point_params: point_kinds::point_params(tree),
+            hidden: point_kinds::hiding_functions(tree),
             params: Vec::new(),
             functions: Vec::new(),
             tables: Vec::new(),
@@ -253,38 +247,38 @@ impl<'a> Checker<'a> {
             frames: Vec::new(),
             joints: Vec::new(),
             equations: Vec::new(),
-            lengths: Lengths::default(),
-            scope: Scope::default(),
+            lengths: RecordedLengths::default(),
+            scope: FormulaScope::default(),
             calls: Calls::default(),
             branch: Branch::default(),
         }
     }
 
     fn run(&mut self) {
-        self.look_over_settings();
-        self.look_over_given();
-        self.samples = self.samples_given().map(Rc::new);
+        self.check_param_overrides();
+        self.check_input_overrides();
+        self.samples = self.read_samples().map(Rc::new);
         self.definitions();
-        self.look_over_by();
+        self.resolve_column_variables();
         self.features();
         self.joints();
         self.bind_inputs();
         // Efforts refer to equations, which must then come first. Otherwise measures come first, as the order of symbols affects the last
         // bits of rows.
-        let asks_for_efforts = self.asks_for_efforts();
-        if asks_for_efforts {
+        let uses_efforts = self.uses_efforts();
+        if uses_efforts {
             self.equations();
         }
         self.measure_values();
         self.list_measures();
-        if !asks_for_efforts {
+        if !uses_efforts {
             self.equations();
         }
         self.gravity();
         self.loads();
         self.analysis();
         self.results();
-        self.refuse_derivatives_of_forces();
+        self.reject_derivatives_of_forces();
         self.strip_outputs();
         self.warn_of_plain_lengths();
         if self.model.bodies.is_empty() && !self.holds_broken() {

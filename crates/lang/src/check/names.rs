@@ -1,7 +1,7 @@
 //! The names of a mechanism: declarations, duplicates, and cycles of definitions.
 
 use super::entity::Entity;
-use super::mentions::{uses_in, uses_of_argument};
+use super::free_names::{uses_in, uses_of_argument};
 use super::{Checker, MOST_SUGGESTIONS, errors};
 use mechc_syntax::ast::{Expr, ExprKind, FeatureKind, ItemKind, Mechanism, Name};
 use mechc_text::source::Span;
@@ -25,7 +25,7 @@ pub(super) struct Count {
 
 /// The name may be that of a broken declaration, which has been reported.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Unread;
+pub(super) struct BrokenName;
 
 /// A name space.
 #[derive(Clone, Debug)]
@@ -37,11 +37,11 @@ pub(super) struct Space<T> {
 }
 
 /// Definitions by their positions.
-pub(super) struct Ordered {
+pub(super) struct DefinitionOrder {
     /// All definitions, each after those that it uses.
     pub order: Vec<usize>,
     /// Definitions that depend on themselves, also indirectly.
-    pub on_circles: Vec<usize>,
+    pub on_cycles: Vec<usize>,
 }
 
 impl<T: Copy> Space<T> {
@@ -187,10 +187,10 @@ impl Checker<'_> {
     /// Returns the entity of a name; `None` if it is not declared. `Err` if its declaration is broken, which has been reported.
     ///
     /// Every name of a formula or reference that can be reported is resolved here.
-    pub(super) fn resolve(&self, name: &Name) -> Result<Option<Entity>, Unread> {
+    pub(super) fn resolve(&self, name: &Name) -> Result<Option<Entity>, BrokenName> {
         match self.space.get(&name.text) {
-            Some(Entity::Broken) => Err(Unread),
-            None if self.space.is_incomplete() => Err(Unread),
+            Some(Entity::Broken) => Err(BrokenName),
+            None if self.space.is_incomplete() => Err(BrokenName),
             known => Ok(known),
         }
     }
@@ -206,8 +206,8 @@ impl Checker<'_> {
         if is_taken(&argument.text) {
             self.report_reserved(argument, KindOfName::Argument, &uses());
         } else if let Some(declared) = self.space.span(&argument.text) {
-            let is_free = |name: &&str| !is_taken(name) && self.space.get(name).is_none();
-            let free = ["u", "v", "w", "x", "y", "z"].into_iter().find(is_free);
+            let is_unique_index = |name: &&str| !is_taken(name) && self.space.get(name).is_none();
+            let free = ["u", "v", "w", "x", "y", "z"].into_iter().find(is_unique_index);
             self.report(errors::hidden_name(argument, declared, free, &uses()));
         }
     }
@@ -231,7 +231,7 @@ impl Checker<'_> {
     /// Returns definitions in order of dependence, and reports cycles.
     ///
     /// `uses` lists for each definition the positions of those that it uses, with the locations of their names.
-    pub(super) fn ordered(&mut self, definitions: &[(&Name, Vec<(usize, Span)>)]) -> Ordered {
+    pub(super) fn ordered(&mut self, definitions: &[(&Name, Vec<(usize, Span)>)]) -> DefinitionOrder {
         #[derive(Clone, Copy, PartialEq)]
         enum Mark {
             New,
@@ -280,8 +280,8 @@ impl Checker<'_> {
                 }
             }
         }
-        let on_circles = (0..definitions.len()).filter(|&k| marks[k] == Mark::Broken).collect();
-        Ordered { order, on_circles }
+        let on_cycles = (0..definitions.len()).filter(|&k| marks[k] == Mark::Broken).collect();
+        DefinitionOrder { order, on_cycles }
     }
 }
 

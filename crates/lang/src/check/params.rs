@@ -1,9 +1,10 @@
 //! Params: the numbers and points of a text, with their overrides.
 
 use super::formula::{Context, Dim, Value};
-use super::sites::Drawn;
-use super::told::is_told_by;
-use super::{Checker, Setting, errors, rates};
+use super::formula_scope::DrawnPoint;
+use super::overrides::override_matches;
+use super::{Checker, Setting, errors};
+use crate::check::suggest::lost_rate;
 use crate::model::{DecidedBy, Declared, Dimension, Param};
 use mechc_expr::Symbol;
 use mechc_syntax::ast::{Expr, Name};
@@ -16,7 +17,7 @@ pub(super) struct ParamState<'a> {
     /// `None` before evaluation, if it is broken, and if it is a point.
     pub value: Option<Value>,
     /// The value of a point.
-    pub drawn: Option<Drawn>,
+    pub drawn: Option<DrawnPoint>,
     /// The exponent of angles in it.
     pub angle: i32,
     /// True if it is given in a unit of angle.
@@ -25,7 +26,7 @@ pub(super) struct ParamState<'a> {
 
 impl<'a> Checker<'a> {
     pub(super) fn define_param(&mut self, k: usize, name: &Name, docs: &[String], value: &Expr) {
-        self.remember_angle(name, value);
+        self.record_angle(name, value);
         if self.point_param(name) == Some(k) {
             self.params[k].drawn = self.point_of_param(name, docs, value);
         } else {
@@ -52,7 +53,7 @@ impl<'a> Checker<'a> {
                 let given = self.param_value(&setting.value, Context { names: false, ..context })?;
                 if let Some([wanted, found]) = in_file.dim.other_than(given.dim) {
                     let place = format!("the parameter `{}{}`", self.address.path, name.text);
-                    let part = rates::Part { span: setting.value.span, dimension: found };
+                    let part = lost_rate::Part { span: setting.value.span, dimension: found };
                     let text = self.sources.text(setting.value.span);
                     self.report(errors::wrong_dimension(&place, wanted, part, text));
                     return None;
@@ -78,23 +79,23 @@ impl<'a> Checker<'a> {
             return Some(Value { id: self.model.graph.constant(number), dim: value.dim });
         }
         let index = self.model.params.len() as u32;
-        self.note_param(&declared, Symbol::Param(index), value.dim);
+        self.register_param(&declared, Symbol::Param(index), value.dim);
         let dimension = value.dim.settled();
         if is_open {
-            self.open_param(&declared, number, dimension);
+            self.record_open_param(&declared, number, dimension);
         }
         self.model.params.push(Param { declared, docs: docs.to_vec(), value: number, dimension });
         Some(Value { id: self.model.graph.symbol(Symbol::Param(index)), dim: value.dim })
     }
 
     /// Evaluates a parameter that is a point. Each independent coordinate becomes a parameter of the model.
-    fn point_of_param(&mut self, name: &Name, docs: &[String], formula: &Expr) -> Option<Drawn> {
-        let Drawn { mut at, mut dimensional } = self.point_formula(formula, &Context::constant("a parameter"))?;
+    fn point_of_param(&mut self, name: &Name, docs: &[String], formula: &Expr) -> Option<DrawnPoint> {
+        let DrawnPoint { mut at, mut dimensional } = self.point_formula(formula, &Context::constant("a parameter"))?;
         if self.bound_param(name).is_some() {
-            Drawn { at, dimensional } = self.point_as_bound(name, Drawn { at, dimensional })?;
+            DrawnPoint { at, dimensional } = self.point_as_bound(name, DrawnPoint { at, dimensional })?;
         }
         for (coordinate, setting) in self.settings_of(name) {
-            let given = self.point_given(name, coordinate, setting, Drawn { at, dimensional })?;
+            let given = self.point_given(name, coordinate, setting, DrawnPoint { at, dimensional })?;
             (at, dimensional) = (given.at, given.dimensional);
         }
         let mut coordinate = |k: usize, axis: &str| {
@@ -105,24 +106,24 @@ impl<'a> Checker<'a> {
             self.settable(declared, &name.text, docs, Value { id, dim: Dim::LENGTH })
         };
         let (x, y) = (coordinate(0, "x")?, coordinate(1, "y")?);
-        Some(Drawn { at: [x.id, y.id], dimensional })
+        Some(DrawnPoint { at: [x.id, y.id], dimensional })
     }
 
     /// Returns the overrides of a param, or of one of its coordinates, in their order.
     pub(super) fn settings_of(&self, name: &Name) -> Vec<(Option<usize>, &'a Setting)> {
-        if self.around.settings.is_empty() {
+        if self.options.settings.is_empty() {
             return Vec::new();
         }
         let full = format!("{}{}", self.address.path, name.text);
         let is_point = self.is_point_name(&name.text);
         let of = |setting: &'a Setting| {
-            if is_told_by(&full, &setting.path) {
+            if override_matches(&full, &setting.path) {
                 return Some((None, setting));
             }
-            let axis = ["x", "y"].iter().position(|axis| is_told_by(&format!("{full}.{axis}"), &setting.path));
+            let axis = ["x", "y"].iter().position(|axis| override_matches(&format!("{full}.{axis}"), &setting.path));
             axis.filter(|_| is_point || setting.path.contains('.')).map(|axis| (Some(axis), setting))
         };
-        self.around.settings.iter().filter_map(of).collect()
+        self.options.settings.iter().filter_map(of).collect()
     }
 
     /// Returns a point with its overrides: `--set A=(12mm,0)`, `--set A.x=12mm`.
@@ -131,8 +132,8 @@ impl<'a> Checker<'a> {
         name: &Name,
         coordinate: Option<usize>,
         setting: &Setting,
-        before: Drawn,
-    ) -> Option<Drawn> {
+        before: DrawnPoint,
+    ) -> Option<DrawnPoint> {
         let judged = before.dimensional;
         let context = Context { names: false, judged, ..Context::constant("a parameter") };
         let Some(k) = coordinate else {
@@ -145,10 +146,10 @@ impl<'a> Checker<'a> {
         let judged = judged || self.is_dimensional(&setting.value);
         let value = self.formula(&setting.value, &Context { judged, ..context })?;
         let place = format!("the coordinate `{}.{}`", name.text, ["x", "y"][k]);
-        self.demand(&place, Dimension::LENGTH, setting.value.span, value.dim, &Context { judged, ..context })?;
+        self.require_dimension(&place, Dimension::LENGTH, setting.value.span, value.dim, &Context { judged, ..context })?;
         let mut at = before.at;
         at[k] = value.id;
-        Some(Drawn { at, dimensional: judged })
+        Some(DrawnPoint { at, dimensional: judged })
     }
 
     fn param_value(&mut self, formula: &Expr, context: Context<'_>) -> Option<Value> {

@@ -12,7 +12,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The state that a mechanism shares with its parts, besides the model and the diagnostics.
 #[derive(Default)]
-pub(super) struct Common {
+pub(super) struct SharedState {
     /// The features of each frame by their names.
     pub features: FxHashMap<Frame, Space<Feature>>,
     /// The points whose formulas hold a unit.
@@ -55,12 +55,12 @@ impl<'a> Checker<'a> {
     /// Returns the checker of a mechanism with those of all its parts, each with its path and locations.
     pub(super) fn of_instance(
         instance: &'a Instance<'a>,
-        surroundings: &'a Surroundings,
+        options: &'a Surroundings,
         sources: &'a Sources,
         path: &str,
         used_at: &[(String, Span)],
     ) -> Checker<'a> {
-        let mut checker = Checker::new(instance.tree(), surroundings, sources);
+        let mut checker = Checker::new(instance.tree(), options, sources);
         checker.deciding = instance.deciding.clone();
         path.clone_into(&mut checker.address.path);
         checker.address.used_at = used_at.to_vec();
@@ -72,7 +72,7 @@ impl<'a> Checker<'a> {
             let name = format!("{path}{}", part.name.text);
             let mut used_at = used_at.to_vec();
             used_at.insert(0, (name.clone(), part.name.span));
-            let mut child = Checker::of_instance(inner, surroundings, sources, &format!("{name}."), &used_at);
+            let mut child = Checker::of_instance(inner, options, sources, &format!("{name}."), &used_at);
             child.bound.inputs = part.bindings.iter().map(|binding| binding.name.text.as_str()).collect();
             // The shared state is that of the outermost checker from here on.
             checker.diagnostics.extend(std::mem::take(&mut child.diagnostics));
@@ -104,9 +104,9 @@ impl<'a> Checker<'a> {
     }
 
     /// Collects the variables of derivatives in the formulas of all texts.
-    pub(super) fn ask_for_derivatives(&mut self) {
+    pub(super) fn collect_variables(&mut self) {
         self.common.variables.add(self.tree, &self.address.path);
-        self.in_parts(Checker::ask_for_derivatives);
+        self.in_parts(Checker::collect_variables);
     }
 
     /// Runs `work` in every part.

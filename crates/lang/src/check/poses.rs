@@ -1,9 +1,10 @@
 //! Drawn poses of bodies: the formulas after `at`, which may depend on the poses of other bodies.
 
 use super::formula::Context;
-use super::names::Ordered;
-use super::sites::{Place, Site};
-use super::{Checker, errors, mends};
+use super::names::DefinitionOrder;
+use super::formula_scope::{Position, FormulaSite};
+use super::{Checker, errors};
+use crate::check::suggest::edits;
 use crate::model::Frame;
 use mechc_expr::ExprId;
 use mechc_syntax::ast::{DrawnPose, Expr, ExprKind, Item, ItemKind, Name};
@@ -28,8 +29,8 @@ impl<'a> Checker<'a> {
         }
         let uses = self.uses_of_poses(&poses);
         let mut is_sound = vec![false; poses.len()];
-        let Ordered { order, on_circles } = self.ordered(&uses);
-        self.break_places_of_parts(on_circles.iter().filter_map(|k| k.checked_sub(poses.len())));
+        let DefinitionOrder { order, on_cycles } = self.ordered(&uses);
+        self.break_places_of_parts(on_cycles.iter().filter_map(|k| k.checked_sub(poses.len())));
         for k in order {
             // Parts follow the bodies.
             let Some(&(item, _, pose)) = poses.get(k) else {
@@ -40,7 +41,7 @@ impl<'a> Checker<'a> {
                 continue;
             };
             is_sound[k] = match pose {
-                Some(pose) => self.at_site(Site::Drawing, None, |checker| checker.pose(k, pose)).is_some(),
+                Some(pose) => self.at_site(FormulaSite::Drawing, None, |checker| checker.pose(k, pose)).is_some(),
                 None => !self.has_unread_pose(item),
             };
             if !is_sound[k] {
@@ -125,7 +126,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Evaluates `(x, y, phi)` or `(P, phi)`.
-    pub(super) fn place_and_angle(&mut self, at: &Expr) -> Option<(Option<Place>, Option<ExprId>)> {
+    pub(super) fn place_and_angle(&mut self, at: &Expr) -> Option<(Option<Position>, Option<ExprId>)> {
         let ExprKind::Tuple(parts) = &at.kind else {
             self.wrong_pose(at, &[]);
             return None;
@@ -148,14 +149,14 @@ impl<'a> Checker<'a> {
     }
 
     /// Evaluates `at A toward B`.
-    fn pose_toward(&mut self, from: &Expr, to: &Expr) -> (Option<Place>, Option<ExprId>) {
+    fn pose_toward(&mut self, from: &Expr, to: &Expr) -> (Option<Position>, Option<ExprId>) {
         let (p, q) = (self.drawn_point_of(from), self.drawn_point_of(to));
         let (Some(p), Some(q)) = (p, q) else { return (None, None) };
         let way = [0, 1].map(|k| self.model.graph.sub(q[k], p[k]));
         (Some(p), self.direction_of_way(way, "`toward`", from.span.to(to.span)))
     }
 
-    fn drawn_point_of(&mut self, e: &Expr) -> Option<Place> {
+    fn drawn_point_of(&mut self, e: &Expr) -> Option<Position> {
         match &e.kind {
             ExprKind::Name(name) if !self.is_point(e) => {
                 self.no_point_named(name);
@@ -183,7 +184,7 @@ impl<'a> Checker<'a> {
         let found = if parts.is_empty() { 1 } else { parts.len() };
         let word = Keyword::named("at").map(|keyword| &keyword.word);
         let diagnostic = errors::argument_count("at", word, e.span, "two lengths and an angle", found);
-        let fix = self.decimal_comma(parts, 3).or_else(|| mends::angle_missing(parts));
-        self.report(mends::fixed_first(diagnostic, fix));
+        let fix = self.suggest_decimal_point(parts, 3).or_else(|| edits::suggest_pose_angle(parts));
+        self.report(edits::with_preferred_fix(diagnostic, fix));
     }
 }

@@ -2,8 +2,9 @@
 
 use super::features::Feature;
 use super::formula::{Context, Dim, Value};
-use super::sites::{Drawn, Site};
-use super::{Checker, errors, mends};
+use super::formula_scope::{DrawnPoint, FormulaSite};
+use super::{Checker, errors};
+use crate::check::suggest::edits;
 use crate::model::{Circle, CircleId, Curve, CurveId, Frame, Named, Profile};
 use mechc_expr::Dependence;
 use mechc_syntax::ast::{self, Expr, ExprKind, FeatureKind, Name};
@@ -27,8 +28,8 @@ impl<'a> Checker<'a> {
     }
 
     fn circle_feature(&mut self, frame: Frame, name: &Name, center: &Expr, radius: &Expr) -> Option<CircleId> {
-        let center = self.at_site(Site::Inside(frame), None, |checker| checker.place(frame, center));
-        let radius = self.at_site(Site::Inside(frame), None, |checker| checker.radius(radius));
+        let center = self.at_site(FormulaSite::Inside(frame), None, |checker| checker.place(frame, center));
+        let radius = self.at_site(FormulaSite::Inside(frame), None, |checker| checker.radius(radius));
         let (center, radius) = (center?, radius?);
         Some(self.model.add_circle(Circle { frame, name: name.text.clone(), span: name.span, center, radius }))
     }
@@ -54,7 +55,7 @@ impl<'a> Checker<'a> {
         }
         let estimate = match estimate {
             None => None,
-            Some(estimate) => Some(self.at_site(Site::Inside(frame), None, |checker| {
+            Some(estimate) => Some(self.at_site(FormulaSite::Inside(frame), None, |checker| {
                 checker.angle(estimate, "the estimate of a curve's argument")
             })?),
         };
@@ -82,7 +83,7 @@ impl<'a> Checker<'a> {
             (Feature::Circle(circle), _) => circle,
             (other, span) => {
                 let diagnostic = errors::wrong_kind(span, "a circle", other.noun());
-                self.report(diagnostic.fix_if(self.profile_for(e, is_circle)));
+                self.report(diagnostic.fix_if(self.suggest_profile(e, is_circle)));
                 None
             }
         }
@@ -96,7 +97,7 @@ impl<'a> Checker<'a> {
             (Feature::Curve(curve), _) => curve.map(Profile::Curve),
             (other, span) => {
                 let diagnostic = errors::wrong_kind(span, "a curve or a circle", other.noun());
-                self.report(diagnostic.fix_if(self.profile_for(e, is_profile)));
+                self.report(diagnostic.fix_if(self.suggest_profile(e, is_profile)));
                 None
             }
         }
@@ -128,18 +129,18 @@ impl<'a> Checker<'a> {
         what: &str,
         place: &'static str,
         argument: Option<(&str, Value)>,
-    ) -> Option<Drawn> {
+    ) -> Option<DrawnPoint> {
         match &e.kind {
             ExprKind::Tuple(parts) => {
                 if let [x, y] = parts.as_slice() {
                     let name = argument.map(|(name, _)| name);
                     let context = Context { argument, ..self.pair_context([x, y], place, name) };
                     let at = self.lengths_in([x, y], &context)?;
-                    Some(Drawn { at, dimensional: context.judged })
+                    Some(DrawnPoint { at, dimensional: context.judged })
                 } else {
                     let word = Keyword::named(what).map(|keyword| &keyword.word);
                     let diagnostic = errors::argument_count(what, word, e.span, "two lengths", parts.len());
-                    self.report(mends::fixed_first(diagnostic, self.decimal_comma(parts, 2)));
+                    self.report(edits::with_preferred_fix(diagnostic, self.suggest_decimal_point(parts, 2)));
                     None
                 }
             }

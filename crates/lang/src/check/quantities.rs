@@ -25,7 +25,7 @@ impl Checker<'_> {
         }
         let quantity = self.quantity_called(e, name, arguments)?;
         if quantity.may_not_exist() {
-            self.ask_for_existence(quantity, e.span);
+            self.require_existence(quantity, e.span);
         }
         let id = self.name_symbol(Named::Quantity(self.address.part, quantity), quantity.order());
         Some(Value { id, dim: Dim::Of(quantity.dimension()) })
@@ -48,7 +48,7 @@ impl Checker<'_> {
         }
         if !context.measures && (word.gives_way || name.text == "angle" && arguments.len() == 3) {
             let diagnostic = errors::quantity_of_measures(context.place, &name.text, e.span);
-            let diagnostic = match self.rate_of_joint(e, name, arguments, context) {
+            let diagnostic = match self.suggest_joint_rate(e, name, arguments, context) {
                 Some(fix) => diagnostic.instead(fix),
                 None => diagnostic,
             };
@@ -115,7 +115,7 @@ impl Checker<'_> {
     }
 
     /// Adds the condition that a quantity exists, in the current branch.
-    fn ask_for_existence(&mut self, quantity: Quantity, span: Span) {
+    fn require_existence(&mut self, quantity: Quantity, span: Span) {
         let exists = self.name_symbol(Named::Exists(self.address.part, quantity), quantity.order());
         let one = self.model.graph.constant(1.0);
         let positive = self.branch.guard.map_or(exists, |guard| self.model.graph.select(guard, exists, one));
@@ -201,7 +201,7 @@ impl Checker<'_> {
             Some(Entity::Joint(k)) => self.joints.get(k).copied().flatten()?,
             Some(entity) => {
                 let diagnostic = errors::wrong_kind(name.span, "a joint", entity.noun());
-                self.report(self.joint_for(quantity, name, diagnostic));
+                self.report(self.suggest_joint(quantity, name, diagnostic));
                 return None;
             }
             None => {

@@ -2,10 +2,10 @@
 //! modules of `check` only know plain declarations.
 
 mod paths;
-mod written;
+mod copies;
 
 use super::instance::{Copies, Instance};
-use super::mentions::name_of;
+use super::free_names::name_of;
 use super::{Checker, errors};
 use crate::model::Dimension;
 use mechc_syntax::ast::{self, Expr, ExprKind, Factor, Item, ItemKind, Mechanism, Name, Sign};
@@ -25,7 +25,7 @@ const MOST_INDICES: usize = 16;
 const WHOLE: f64 = 1e-9;
 
 /// Returns whether a mechanism has repetitions or parts.
-pub(super) fn needs_writing(tree: &Mechanism) -> bool {
+pub(super) fn needs_expansion(tree: &Mechanism) -> bool {
     tree.items.iter().any(|item| !item.ranges.is_empty() || matches!(item.kind, ItemKind::Part(_)))
 }
 
@@ -33,7 +33,7 @@ pub(super) fn needs_writing(tree: &Mechanism) -> bool {
 pub(super) type Numbers<'t> = Vec<(&'t str, i64)>;
 
 /// The expansion of one mechanism.
-pub(super) struct Writer<'t, 'c> {
+pub(super) struct Expander<'t, 'c> {
     tree: &'t Mechanism,
     /// A checker that knows the params.
     checker: Checker<'c>,
@@ -54,17 +54,17 @@ pub(super) struct Writer<'t, 'c> {
 }
 
 /// A mechanism with all repetitions expanded, and the diagnostics.
-type WrittenOut = (Mechanism, Diagnostics);
+type ExpandedMechanism = (Mechanism, Diagnostics);
 
 /// A formula or declaration that cannot be expanded, which has been reported.
-pub(super) struct Unwritten;
+pub(super) struct NotExpandable;
 
-type Written<T> = Result<T, Unwritten>;
+type Expanded<T> = Result<T, NotExpandable>;
 
-impl<'t, 'c> Writer<'t, 'c> {
+impl<'t, 'c> Expander<'t, 'c> {
     /// Returns the expansion of a mechanism; `checker` knows its params.
-    pub fn new(tree: &'t Mechanism, checker: Checker<'c>) -> Writer<'t, 'c> {
-        Writer {
+    pub fn new(tree: &'t Mechanism, checker: Checker<'c>) -> Expander<'t, 'c> {
+        Expander {
             tree,
             checker,
             names: tree.items.iter().filter_map(name_of).map(|name| name.text.as_str()).collect(),
@@ -83,7 +83,7 @@ impl<'t, 'c> Writer<'t, 'c> {
     }
 
     /// Returns the diagnostics so far.
-    pub fn said(self) -> Diagnostics {
+    pub fn into_diagnostics(self) -> Diagnostics {
         self.checker.diagnostics
     }
 
@@ -94,7 +94,7 @@ impl<'t, 'c> Writer<'t, 'c> {
 
     /// Returns the indices of the copies of each declaration; `None` if they cannot be determined.
     pub fn all_copies(&mut self, tree: &'t Mechanism) -> Vec<Option<Vec<Numbers<'t>>>> {
-        let named = self.have_names_of_their_own(tree);
+        let named = self.unique_names(tree);
         let items = tree.items.iter().zip(named);
         let copies: Vec<_> = items.map(|(item, is_named)| if is_named { self.copies(item) } else { None }).collect();
         for (item, copies) in tree.items.iter().zip(&copies) {
@@ -124,7 +124,7 @@ impl<'t, 'c> Writer<'t, 'c> {
         tree: &'t Mechanism,
         copies: &[Option<Vec<Numbers<'t>>>],
         parts: FxHashMap<String, Option<Rc<Instance<'t>>>>,
-    ) -> (WrittenOut, FxHashMap<&'t str, Copies>, Vec<String>) {
+    ) -> (ExpandedMechanism, FxHashMap<&'t str, Copies>, Vec<String>) {
         self.parts = parts;
         let mut items = Vec::new();
         for (item, copies) in tree.items.iter().zip(copies) {
@@ -147,9 +147,9 @@ impl<'t, 'c> Writer<'t, 'c> {
     }
 
     /// Returns which declarations have a unique name. The check reports those that are not repeated.
-    fn have_names_of_their_own(&mut self, tree: &'t Mechanism) -> Vec<bool> {
+    fn unique_names(&mut self, tree: &'t Mechanism) -> Vec<bool> {
         let mut first: FxHashMap<&str, (Span, bool)> = FxHashMap::default();
-        let mut is_free = |item: &'t Item| {
+        let mut is_unique_index = |item: &'t Item| {
             let Some(name) = name_of(item) else { return true };
             let is_repeated = !item.ranges.is_empty();
             if is_repeated && is_taken(&name.text) {
@@ -163,7 +163,7 @@ impl<'t, 'c> Writer<'t, 'c> {
             }
             !is_twice
         };
-        tree.items.iter().map(&mut is_free).collect()
+        tree.items.iter().map(&mut is_unique_index).collect()
     }
 
     /// Returns the indices of each copy of a declaration; one copy without indices if it is not repeated, `None` if they cannot be
@@ -175,7 +175,7 @@ impl<'t, 'c> Writer<'t, 'c> {
             return None;
         }
         for range in &item.ranges {
-            if !self.is_free(range, &item.ranges) {
+            if !self.is_unique_index(range, &item.ranges) {
                 return None;
             }
             let mut longer = Vec::new();
@@ -201,15 +201,15 @@ impl<'t, 'c> Writer<'t, 'c> {
     }
 
     /// Returns whether an index has a unique name.
-    fn is_free(&mut self, range: &ast::IndexRange, all: &[ast::IndexRange]) -> bool {
+    fn is_unique_index(&mut self, range: &ast::IndexRange, all: &[ast::IndexRange]) -> bool {
         let name = &range.index;
         let before = all.iter().take_while(|other| other.index.span != name.span);
         let is_again = before.into_iter().any(|other| other.index.text == name.text);
-        let is_free = !is_taken(&name.text) && !self.names.contains(name.text.as_str()) && !is_again;
-        if !is_free {
+        let is_unique_index = !is_taken(&name.text) && !self.names.contains(name.text.as_str()) && !is_again;
+        if !is_unique_index {
             self.tell(errors::index_is_taken(name));
         }
-        is_free
+        is_unique_index
     }
 
     /// Returns the first index, and the one after the last.
@@ -219,7 +219,7 @@ impl<'t, 'c> Writer<'t, 'c> {
         Some([from, if range.is_closed { to.saturating_add(1) } else { to }])
     }
 
-    fn whole_number(&mut self, e: &Expr, numbers: &Numbers<'_>, place: &str) -> Written<i64> {
+    fn whole_number(&mut self, e: &Expr, numbers: &Numbers<'_>, place: &str) -> Expanded<i64> {
         let value = if let Some(value) = simple(e, numbers) {
             value
         } else {
@@ -233,20 +233,20 @@ impl<'t, 'c> Writer<'t, 'c> {
         let whole = value.round();
         if !value.is_finite() || (value - whole).abs() > WHOLE || whole.abs() > 1e15 {
             self.tell(errors::not_whole(place, e.span, value, numbers));
-            return Err(Unwritten);
+            return Err(NotExpandable);
         }
         Ok(whole as i64)
     }
 
     /// Reports that a number depends on a declaration in a part, in place of the diagnostics from `said` on, if it does.
-    pub fn is_of_a_part(&mut self, e: &Expr, place: &str, said: usize) -> Unwritten {
+    pub fn is_of_a_part(&mut self, e: &Expr, place: &str, said: usize) -> NotExpandable {
         if let Some(path) = path_into_part(self.tree, e) {
             self.checker.diagnostics.truncate(said);
             let text = self.checker.sources.text(path);
             let diagnostic = errors::decided_by_a_part(place, text, e.span, path);
             self.tell(diagnostic);
         }
-        Unwritten
+        NotExpandable
     }
 }
 

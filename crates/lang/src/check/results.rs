@@ -3,7 +3,7 @@
 use super::elements::measure_context;
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::printed::known_dimension;
+use super::display_units::known_dimension;
 use super::{Checker, errors};
 use crate::model::{DecidedBy, Dimension, Named, Outcome, Reduction, ReductionKind, Units};
 use mechc_expr::{ExprId, Symbol};
@@ -24,7 +24,7 @@ pub(super) struct ResultState<'a> {
 }
 
 /// A call that is not a reduction.
-pub(super) struct NoReduction;
+pub(super) struct NotAReduction;
 
 /// The option whose condition becomes a further result, and that result's name.
 pub const UNTIL: &str = "--until";
@@ -39,7 +39,7 @@ impl Checker<'_> {
     /// Evaluates and lists the results. They follow all that rows need.
     pub(super) fn results(&mut self) {
         self.model.named_before_results = self.model.named.len();
-        if self.around.lead.is_none() {
+        if self.options.lead.is_none() {
             self.result_values();
             self.list_results();
         }
@@ -108,8 +108,8 @@ impl Checker<'_> {
         (name, window): (&Name, Option<&Window>),
         arguments: &[Expr],
         context: &Context<'_>,
-    ) -> Result<Option<Value>, NoReduction> {
-        let word = self.reduction_word(name, arguments.len()).ok_or(NoReduction)?;
+    ) -> Result<Option<Value>, NotAReduction> {
+        let word = self.reduction_word(name, arguments.len()).ok_or(NotAReduction)?;
         if context.results {
             return Ok(self.reduction(e, (word, name), (arguments, window), context));
         }
@@ -117,7 +117,7 @@ impl Checker<'_> {
         let compares = self.is_of_language(&name.text) && window.is_none();
         let means_itself = matches!(self.space.get(&name.text), None | Some(Entity::Param(_) | Entity::Measure(_)));
         if compares || !means_itself {
-            return Err(NoReduction);
+            return Err(NotAReduction);
         }
         self.report(errors::reduction_in(context.place, word, e.span));
         Ok(None)
@@ -136,11 +136,11 @@ impl Checker<'_> {
             self.report(errors::argument_count(name, Some(&word.word), e.span, word.takes, arguments.len()));
             return None;
         }
-        self.refuse_window(written, window.filter(|_| word.takes_time()))?;
+        self.reject_window(written, window.filter(|_| word.takes_time()))?;
         let conditions = self.model.conditions.len();
         let inner = Context { place: "a reduction", results: true, ..measure_context(context.judged) };
         let of = self.number(&arguments[0], &inner);
-        let conditions = self.asked_at_times(conditions, "");
+        let conditions = self.conditions_over_time(conditions, "");
         let at = match arguments.get(1) {
             Some(time) => Some(self.time_in_analysis(time, "the second argument of `at`")?),
             None => None,
@@ -189,7 +189,7 @@ impl Checker<'_> {
     }
 
     /// Reports the window of a call that takes none.
-    pub(super) fn refuse_window(&mut self, called: &Name, window: Option<&Window>) -> Option<()> {
+    pub(super) fn reject_window(&mut self, called: &Name, window: Option<&Window>) -> Option<()> {
         let Some(window) = window else { return Some(()) };
         self.report(errors::window_of_no_reduction(called, window.span));
         None
@@ -224,7 +224,7 @@ impl Checker<'_> {
         let value = self.number(time, &context)?;
         // Reductions have dimensions in plain formulas too.
         let judged = self.counts(value, &context);
-        self.demand(place, Dimension::TIME, time.span, value.dim, &Context { judged, ..context })?;
+        self.require_dimension(place, Dimension::TIME, time.span, value.dim, &Context { judged, ..context })?;
         Some(value.id)
     }
 }

@@ -9,7 +9,7 @@ use mechc_text::vocabulary::{CompoundUnit, Dimension, Unit};
 
 /// The words for a table and its rows in messages.
 #[derive(Clone, Copy)]
-struct Words {
+struct TableWording {
     /// The plural of the rows.
     many: &'static str,
     /// The singular of a number in them.
@@ -20,13 +20,13 @@ struct Words {
     least: &'static str,
 }
 
-const SAMPLES: Words = Words {
+const SAMPLES: TableWording = TableWording {
     many: "samples",
     one: "sample",
     example: "`turn [deg]`, `feed [mm/s]`",
     least: "two rows are needed at least",
 };
-const VARIANTS: Words = Words {
+const VARIANTS: TableWording = TableWording {
     many: "variants",
     one: "value",
     example: "`rod [mm]`, `speed [rpm]`",
@@ -62,7 +62,7 @@ struct Cell<'a> {
 }
 
 /// The header of a column.
-pub(super) struct Head<'a> {
+pub(super) struct ColumnHeader<'a> {
     /// The name as it is written.
     pub name: &'a str,
     /// The location of its cell.
@@ -91,10 +91,10 @@ fn unit_named(text: &str) -> Option<CompoundUnit> {
 }
 
 /// The header line of samples, with the file behind it.
-pub(super) struct Headed<'a> {
+pub(super) struct SampleFile<'a> {
     source: &'a Source,
     file: FileId,
-    heads: Vec<Head<'a>>,
+    heads: Vec<ColumnHeader<'a>>,
     /// The number of the column of times.
     at: usize,
 }
@@ -103,14 +103,14 @@ pub(super) struct Headed<'a> {
 ///
 /// # Errors
 /// The faults of the line.
-pub(super) fn header(source: &Source, file: FileId) -> Result<Headed<'_>, Vec<Diagnostic>> {
+pub(super) fn header(source: &Source, file: FileId) -> Result<SampleFile<'_>, Vec<Diagnostic>> {
     let (line, heads) = heads(source, file, SAMPLES)?;
     let at = time_column(&heads, line.span)?;
     if heads.len() == 1 {
         let help = "each input that is told has a column of its own, behind a comma: `t,turn [deg]`";
         return Err(vec![fault(Code::E0416, "the samples are of no input", line.span, "times alone").help(help)]);
     }
-    Ok(Headed { source, file, heads, at })
+    Ok(SampleFile { source, file, heads, at })
 }
 
 /// Reads a table of variants: a column for each param that varies.
@@ -119,7 +119,7 @@ pub(super) fn header(source: &Source, file: FileId) -> Result<Headed<'_>, Vec<Di
 /// The faults of the table.
 pub fn variants(source: &Source, file: FileId) -> Result<Vec<Column>, Vec<Diagnostic>> {
     let (line, heads) = heads(source, file, VARIANTS)?;
-    let numbers = |head: &Head<'_>| number(head.name).is_some();
+    let numbers = |head: &ColumnHeader<'_>| number(head.name).is_some();
     if heads.iter().all(numbers) {
         let help = "the first line names the params, each with its unit: `rod [mm],speed [rpm]`";
         return Err(vec![fault(Code::E0416, "the variants are of no param", line.span, "numbers alone").help(help)]);
@@ -137,7 +137,7 @@ pub fn variants(source: &Source, file: FileId) -> Result<Vec<Column>, Vec<Diagno
 }
 
 /// Returns the first line of a table, and the headers of its columns.
-fn heads(source: &Source, file: FileId, words: Words) -> Result<(Line<'_>, Vec<Head<'_>>), Vec<Diagnostic>> {
+fn heads(source: &Source, file: FileId, words: TableWording) -> Result<(Line<'_>, Vec<ColumnHeader<'_>>), Vec<Diagnostic>> {
     let Some(line) = lines(source, file).next() else {
         let nothing = Span { file, start: 0, end: 0 };
         let message = format!("the {} are empty", words.many);
@@ -166,7 +166,7 @@ struct Rows {
 
 impl Rows {
     /// Reads the rows, without blank lines.
-    fn read(source: &Source, file: FileId, heads: &[Head<'_>], words: Words) -> Result<Rows, Vec<Diagnostic>> {
+    fn read(source: &Source, file: FileId, heads: &[ColumnHeader<'_>], words: TableWording) -> Result<Rows, Vec<Diagnostic>> {
         let mut rows = Rows { columns: vec![Vec::new(); heads.len()], places: Vec::new() };
         for line in lines(source, file).skip(1) {
             let cells = line.cells(words).map_err(|fault| vec![*fault])?;
@@ -180,9 +180,9 @@ impl Rows {
     }
 }
 
-impl<'a> Headed<'a> {
+impl<'a> SampleFile<'a> {
     /// Returns the headers except that of the times.
-    pub fn columns(&self) -> impl Iterator<Item = &Head<'a>> {
+    pub fn columns(&self) -> impl Iterator<Item = &ColumnHeader<'a>> {
         self.heads.iter().enumerate().filter(|(k, _)| *k != self.at).map(|(_, head)| head)
     }
 
@@ -200,7 +200,7 @@ impl<'a> Headed<'a> {
     }
 }
 
-impl Head<'_> {
+impl ColumnHeader<'_> {
     /// Returns the path of the input. Spaces in indices are ignored.
     pub fn path(&self) -> String {
         normalized(self.name).chars().filter(|c| !c.is_whitespace()).collect()
@@ -250,7 +250,7 @@ impl<'a> Line<'a> {
     ///
     /// # Errors
     /// A quote is not closed.
-    fn cells(&self, words: Words) -> Result<Vec<Cell<'a>>, Box<Diagnostic>> {
+    fn cells(&self, words: TableWording) -> Result<Vec<Cell<'a>>, Box<Diagnostic>> {
         let (mut from, mut cells) = (self.span.start as usize, Vec::new());
         for part in between_commas(self.text) {
             let (begin, text) = (from + (part.len() - part.trim_start().len()), part.trim());
@@ -281,14 +281,14 @@ impl<'a> Line<'a> {
     ///
     /// # Errors
     /// Another separator is used.
-    fn has_commas(&self, words: Words) -> Result<(), Box<Diagnostic>> {
+    fn has_commas(&self, words: TableWording) -> Result<(), Box<Diagnostic>> {
         match self.other_separator().filter(|_| !self.text.contains(',')) {
             Some(found) => Err(Box::new(self.separated_by(found, words))),
             None => Ok(()),
         }
     }
 
-    fn separated_by(&self, found: &str, words: Words) -> Diagnostic {
+    fn separated_by(&self, found: &str, words: TableWording) -> Diagnostic {
         let message = format!("the {} are separated by {found}", words.many);
         fault(Code::E0416, &message, self.span, &format!("{found}, and no commas")).help(SEPARATORS)
     }
@@ -298,12 +298,12 @@ impl<'a> Line<'a> {
 const SEPARATORS: &str = "columns are separated by commas, and decimals written with a point";
 
 /// Reads a header `NAME` or `NAME [UNIT]`.
-fn head<'a>(cell: &Cell<'a>, words: Words) -> Result<Head<'a>, Box<Diagnostic>> {
+fn head<'a>(cell: &Cell<'a>, words: TableWording) -> Result<ColumnHeader<'a>, Box<Diagnostic>> {
     let Some((name, unit)) = cell.text.strip_suffix(']').and_then(|text| text.rsplit_once(" [")) else {
-        return Ok(Head { name: cell.text, span: cell.span, unit: None });
+        return Ok(ColumnHeader { name: cell.text, span: cell.span, unit: None });
     };
     if let Some(unit) = unit_named(unit) {
-        return Ok(Head { name: name.trim(), span: cell.span, unit: Some(unit) });
+        return Ok(ColumnHeader { name: name.trim(), span: cell.span, unit: Some(unit) });
     }
     let message = format!("`{unit}` is not a unit");
     let help = format!("units stand in brackets behind the name, joined by `*` and `/`: {}", words.example);
@@ -311,11 +311,11 @@ fn head<'a>(cell: &Cell<'a>, words: Words) -> Result<Head<'a>, Box<Diagnostic>> 
 }
 
 /// Returns the number of the column of times.
-fn time_column(heads: &[Head<'_>], line: Span) -> Result<usize, Vec<Diagnostic>> {
+fn time_column(heads: &[ColumnHeader<'_>], line: Span) -> Result<usize, Vec<Diagnostic>> {
     let Some(at) = heads.iter().position(|head| head.name == "t") else {
         let help = "the first line names the columns: `t` or `t [ms]` for the times, and the inputs".to_owned();
-        let is_time = |head: &&Head<'_>| head.name.split('[').next().is_some_and(|name| name.trim() == "t");
-        let help = heads.iter().find(is_time).and_then(Head::meant).unwrap_or(help);
+        let is_time = |head: &&ColumnHeader<'_>| head.name.split('[').next().is_some_and(|name| name.trim() == "t");
+        let help = heads.iter().find(is_time).and_then(ColumnHeader::meant).unwrap_or(help);
         return Err(vec![fault(Code::E0416, "the samples have no column `t`", line, "the first line").help(help)]);
     };
     match heads[at].unit.as_ref().map(CompoundUnit::dimension) {
@@ -328,7 +328,7 @@ fn time_column(heads: &[Head<'_>], line: Span) -> Result<usize, Vec<Diagnostic>>
 }
 
 /// Returns the numbers of a line.
-fn row_of(line: &Line<'_>, cells: &[Cell<'_>], heads: &[Head<'_>], words: Words) -> Result<Vec<f64>, Vec<Diagnostic>> {
+fn row_of(line: &Line<'_>, cells: &[Cell<'_>], heads: &[ColumnHeader<'_>], words: TableWording) -> Result<Vec<f64>, Vec<Diagnostic>> {
     if cells.len() != heads.len() {
         if let Some(found) = line.other_separator().filter(|_| cells.len() == 1) {
             return Err(vec![line.separated_by(found, words)]);
@@ -337,7 +337,7 @@ fn row_of(line: &Line<'_>, cells: &[Cell<'_>], heads: &[Head<'_>], words: Words)
         let message = format!("a row of {} has {count}, and the first line {}", words.many, heads.len());
         return Err(vec![fault(Code::E0416, &message, line.span, "this row").help(SEPARATORS)]);
     }
-    let value = |(cell, head): (&Cell<'_>, &Head<'_>)| {
+    let value = |(cell, head): (&Cell<'_>, &ColumnHeader<'_>)| {
         number(cell.text).ok_or_else(|| {
             let message = format!("a {} of `{}` is not a number", words.one, head.name);
             let label = if cell.text.is_empty() { "empty".to_owned() } else { format!("`{}`", cell.text) };

@@ -2,8 +2,8 @@
 //!
 //! It uses the tree alone, so that it is also available for texts with errors.
 
-use super::kinds::{self, Wanted, coordinate};
-use super::meaning::{Alone, alone};
+use super::point_kinds::{self, Expected, coordinate};
+use super::bare_names::{BareName, resolve_bare_name};
 use mechc_syntax::ast::{
     DrawnPose, Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, PathSegment, TableRows, UsedFile,
     WrittenUnit,
@@ -147,8 +147,8 @@ impl Symbols {
     /// Returns the names of a mechanism and of the `use`s of its file. `text` is that of the file, for its keywords.
     #[must_use]
     pub fn of(tree: &Mechanism, uses: &[UsedFile], text: &str) -> Symbols {
-        let point_params = kinds::point_params(tree);
-        let mut walk = Walk { point_params, hidden: kinds::own_functions(tree), ..Walk::default() };
+        let point_params = point_kinds::point_params(tree);
+        let mut walk = Walk { point_params, hidden: point_kinds::hiding_functions(tree), ..Walk::default() };
         walk.mechanism(tree);
         walk.prefixes(uses);
         let mut symbols = walk.symbols;
@@ -349,14 +349,14 @@ impl Walk<'_> {
             ItemKind::Ground { features } => self.uses_in_features(features, self.ground, plain),
             ItemKind::Body { pose, features, .. } => {
                 for part in pose.iter().flat_map(DrawnPose::parts) {
-                    self.read(part, plain, Wanted::Either);
+                    self.read(part, plain, Expected::Either);
                 }
                 self.uses_in_features(features, id, plain);
             }
             ItemKind::Part(part) => {
                 let bindings = part.bindings.iter().map(|binding| &binding.value);
                 for formula in bindings.chain(&part.on).chain(&part.at) {
-                    self.read(formula, plain, Wanted::Either);
+                    self.read(formula, plain, Expected::Either);
                 }
             }
             ItemKind::Joint { kind, arguments, .. } => {
@@ -388,26 +388,26 @@ impl Walk<'_> {
                 FeatureKind::Point { at } => {
                     let name = &feature.name;
                     match at {
-                        Some(at) => self.read(at, Scope { defined: Some(&name.text), ..own }, Wanted::Point),
+                        Some(at) => self.read(at, Scope { defined: Some(&name.text), ..own }, Expected::Point),
                         None => self.point_taken(name),
                     }
                 }
                 FeatureKind::AxisAlong { origin, direction } => {
-                    self.read(origin, own, Wanted::Point);
+                    self.read(origin, own, Expected::Point);
                     self.formula(direction, own);
                 }
                 FeatureKind::AxisTo { origin, target } => {
-                    self.read(origin, own, Wanted::Point);
-                    self.read(target, own, Wanted::Point);
+                    self.read(origin, own, Expected::Point);
+                    self.read(target, own, Expected::Point);
                 }
                 FeatureKind::Circle { center, radius } => {
-                    self.read(center, own, Wanted::Point);
+                    self.read(center, own, Expected::Point);
                     self.formula(radius, own);
                 }
                 FeatureKind::Curve { argument, at, estimate } => {
                     let curve = body.and_then(|body| self.features.get(&(body, feature.name.text.clone())).copied());
                     let declared = self.declare(argument, NameKind::Argument, feature.span, curve);
-                    self.read(at, Scope { argument: Some((&argument.text, declared)), ..own }, Wanted::Point);
+                    self.read(at, Scope { argument: Some((&argument.text, declared)), ..own }, Expected::Point);
                     if let Some(estimate) = estimate {
                         self.formula(estimate, own);
                     }
@@ -415,7 +415,7 @@ impl Walk<'_> {
                 FeatureKind::Mass { mass, at, inertia } => {
                     self.formula(mass, own);
                     if let Some(at) = at {
-                        self.read(at, own, Wanted::Point);
+                        self.read(at, own, Expected::Point);
                     }
                     if let Some(inertia) = inertia {
                         self.formula(inertia, own);
@@ -427,11 +427,11 @@ impl Walk<'_> {
     }
 
     fn formula(&mut self, formula: &Expr, scope: Scope<'_>) {
-        self.read(formula, scope, Wanted::Number);
+        self.read(formula, scope, Expected::Number);
     }
 
     /// Adds the names in a formula of numbers or of points.
-    fn read(&mut self, formula: &Expr, scope: Scope<'_>, wanted: Wanted) {
+    fn read(&mut self, formula: &Expr, scope: Scope<'_>, wanted: Expected) {
         let mut open = vec![(formula, wanted)];
         while let Some((e, wanted)) = open.pop() {
             match &e.kind {
@@ -442,7 +442,7 @@ impl Walk<'_> {
                 ExprKind::Call { name, arguments, .. } => self.called(name, arguments.len()),
                 _ => {}
             }
-            open.extend(kinds::inside(e, wanted, |name| self.hidden.contains(name)));
+            open.extend(point_kinds::inside(e, wanted, |name| self.hidden.contains(name)));
         }
     }
 
@@ -456,8 +456,8 @@ impl Walk<'_> {
     }
 
     /// Looks a name up among the features of the body around a formula, by the rule of the formula reader.
-    fn own(&self, name: &Name, scope: Scope<'_>, wanted: Wanted) -> Option<NameId> {
-        let body = scope.body.filter(|_| wanted != Wanted::Number && scope.defined != Some(&name.text))?;
+    fn own(&self, name: &Name, scope: Scope<'_>, wanted: Expected) -> Option<NameId> {
+        let body = scope.body.filter(|_| wanted != Expected::Number && scope.defined != Some(&name.text))?;
         let &id = self.features.get(&(body, name.text.clone()))?;
         let is_point = matches!(self.symbols.get(id).kind, NameKind::Point | NameKind::Broken);
         let declared = self.names.get(&name.text).map(|&id| self.symbols.get(id).kind);
@@ -468,10 +468,10 @@ impl Walk<'_> {
             None => Constant::named(&name.text).is_some() || Unit::named(&name.text).is_some(),
         };
         let is_own = match wanted {
-            Wanted::Number => false,
+            Expected::Number => false,
             // Where a point is expected, a feature that is not a point is reported by its name.
-            Wanted::Point => is_point || !is_point_param,
-            Wanted::Either => is_point && !is_number,
+            Expected::Point => is_point || !is_point_param,
+            Expected::Either => is_point && !is_number,
         };
         is_own.then_some(id)
     }
@@ -495,7 +495,7 @@ impl Walk<'_> {
     }
 
     /// Adds a name in a formula. Where it may be a point, those of its own body take precedence.
-    fn name(&mut self, name: &Name, scope: Scope<'_>, wanted: Wanted) {
+    fn name(&mut self, name: &Name, scope: Scope<'_>, wanted: Expected) {
         if let Some(id) = self.own(name, scope, wanted) {
             self.declared(name, id);
             return;
@@ -505,15 +505,15 @@ impl Walk<'_> {
             return;
         }
         let argument = scope.argument.map(|(argument, _)| argument);
-        match alone(&name.text, argument, self.names.get(&name.text).copied()) {
-            Alone::Argument => scope.argument.into_iter().for_each(|(_, id)| self.declared(name, id)),
-            Alone::Constant(Constant { stands_for: StandsFor::Ground, .. }) if self.ground.is_some() => {
+        match resolve_bare_name(&name.text, argument, self.names.get(&name.text).copied()) {
+            BareName::Argument => scope.argument.into_iter().for_each(|(_, id)| self.declared(name, id)),
+            BareName::Constant(Constant { stands_for: StandsFor::Ground, .. }) if self.ground.is_some() => {
                 self.ground.into_iter().for_each(|id| self.declared(name, id));
             }
-            Alone::Constant(constant) => self.word(name, &constant.word),
-            Alone::Unit(unit) => self.word(name, &unit.word),
-            Alone::Declared(id) => self.declared(name, id),
-            Alone::Unknown => {
+            BareName::Constant(constant) => self.word(name, &constant.word),
+            BareName::Unit(unit) => self.word(name, &unit.word),
+            BareName::Declared(id) => self.declared(name, id),
+            BareName::Unknown => {
                 if let Some(side) = Keyword::named(&name.text).filter(|keyword| keyword.role == Role::Side) {
                     self.word(name, &side.word);
                 }
@@ -522,21 +522,21 @@ impl Walk<'_> {
     }
 
     /// Adds a path such as `link[2].pin` with the formulas of its indices.
-    fn path(&mut self, segments: &[PathSegment], scope: Scope<'_>, wanted: Wanted) {
+    fn path(&mut self, segments: &[PathSegment], scope: Scope<'_>, wanted: Expected) {
         match segments {
             [owner, feature, ..] => self.member(&owner.name, &feature.name, scope, wanted),
-            [alone] => {
-                if let Some(&id) = self.names.get(&alone.name.text) {
-                    self.declared(&alone.name, id);
+            [resolve_bare_name] => {
+                if let Some(&id) = self.names.get(&resolve_bare_name.name.text) {
+                    self.declared(&resolve_bare_name.name, id);
                 }
             }
             [] => {}
         }
     }
 
-    fn member(&mut self, owner: &Name, feature: &Name, scope: Scope<'_>, wanted: Wanted) {
-        let is_coordinate = wanted != Wanted::Point && coordinate(feature).is_some();
-        if let Some(id) = self.own(owner, scope, Wanted::Point).filter(|_| is_coordinate) {
+    fn member(&mut self, owner: &Name, feature: &Name, scope: Scope<'_>, wanted: Expected) {
+        let is_coordinate = wanted != Expected::Point && coordinate(feature).is_some();
+        if let Some(id) = self.own(owner, scope, Expected::Point).filter(|_| is_coordinate) {
             self.declared(owner, id);
             return;
         }

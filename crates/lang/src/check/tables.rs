@@ -116,7 +116,7 @@ impl<'a> Checker<'a> {
             };
             match &mut all {
                 Some((span, known)) if known.dim != Dim::Any => {
-                    match self.alike(&format!("{what} are"), (*span, *known), (cell.span, value), &context) {
+                    match self.unify(&format!("{what} are"), (*span, *known), (cell.span, value), &context) {
                         Some(dim) => known.dim = dim,
                         None => column = None,
                     }
@@ -192,7 +192,7 @@ impl<'a> Checker<'a> {
 
     /// Returns the file's text that a table names, if it could be read.
     fn file_of_table(&mut self, path: &Name) -> Option<FileId> {
-        match self.around.files.get(&(path.span.file, path.text.clone())) {
+        match self.options.files.get(&(path.span.file, path.text.clone())) {
             Some(Ok(file)) => Some(*file),
             Some(Err(diagnostic)) => {
                 let named = "named here";
@@ -259,7 +259,7 @@ impl<'a> Checker<'a> {
         let argument = self.number(written, context)?;
         let made = self.tables[k].made?;
         let wanted = made.columns[0].settled();
-        self.demand(&format!("the argument of `{}`", name.text), wanted, written.span, argument.dim, context)?;
+        self.require_dimension(&format!("the argument of `{}`", name.text), wanted, written.span, argument.dim, context)?;
         if !made.periodic {
             self.within(name, made, argument.id, written.span, context)?;
         }

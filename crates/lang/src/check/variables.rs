@@ -5,7 +5,7 @@
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::told::is_told_by;
+use super::overrides::override_matches;
 use super::{Checker, errors};
 use crate::model::{PartDerivative, Declared, Dimension, Load, Named, Variable};
 use mechc_expr::{ExprId, Symbol};
@@ -21,7 +21,7 @@ const MOST_RATES: u8 = 2;
 #[derive(Default)]
 pub(super) struct Variables {
     /// The requested names. Those of points and of repeated inputs stand for all their variables.
-    asked: FxHashSet<String>,
+    requested: FxHashSet<String>,
     /// The numbers of the variables that have been created.
     pub known: FxHashMap<String, u32>,
     /// The dimensions by number.
@@ -34,29 +34,29 @@ pub(super) struct Variables {
 
 impl Variables {
     /// Returns the variables that the command line requests.
-    pub fn told(by: &[String]) -> Variables {
-        Variables { asked: by.iter().cloned().collect(), ..Variables::default() }
+    pub fn new(by: &[String]) -> Variables {
+        Variables { requested: by.iter().cloned().collect(), ..Variables::default() }
     }
 
     /// Adds the variables that a text requests; `path` is the prefix of its names.
     pub fn add(&mut self, tree: &Mechanism, path: &str) {
         for e in tree.items.iter().flat_map(Item::formulas).flat_map(Expr::parts) {
             if let Some((_, by)) = as_derivative(e) {
-                self.asked.extend(named(by).map(|name| format!("{path}{name}")));
+                self.requested.extend(named(by).map(|name| format!("{path}{name}")));
             }
         }
     }
 
-    fn is_asked(&self, name: &str) -> bool {
-        if self.asked.is_empty() {
+    fn is_requested(&self, name: &str) -> bool {
+        if self.requested.is_empty() {
             return false;
         }
         let whole = name.rsplit_once('.').map(|(point, _)| point);
-        self.asked.contains(name)
+        self.requested.contains(name)
             || self
-                .asked
+                .requested
                 .iter()
-                .any(|asked| is_told_by(name, asked) || whole.is_some_and(|whole| is_told_by(whole, asked)))
+                .any(|requested| override_matches(name, requested) || whole.is_some_and(|whole| override_matches(whole, requested)))
     }
 }
 
@@ -82,8 +82,8 @@ fn named(e: &Expr) -> Option<String> {
 
 impl Checker<'_> {
     /// Registers an independent number, if it is a requested variable.
-    pub(super) fn note_param(&mut self, declared: &Declared, symbol: Symbol, dim: Dim) {
-        if self.common.variables.is_asked(&declared.name) {
+    pub(super) fn register_param(&mut self, declared: &Declared, symbol: Symbol, dim: Dim) {
+        if self.common.variables.is_requested(&declared.name) {
             let is_angle = self.is_angle(&declared.name);
             self.add_variable(declared.clone(), symbol, dim, is_angle);
         }
@@ -91,7 +91,7 @@ impl Checker<'_> {
 
     /// Returns a value with a formula, with a shift if it is a requested variable.
     pub(super) fn with_shift(&mut self, declared: &Declared, value: Value) -> Value {
-        if !self.common.variables.is_asked(&declared.name) {
+        if !self.common.variables.is_requested(&declared.name) {
             return value;
         }
         let symbol = Symbol::Shift(self.model.variables.len() as u32);
@@ -159,7 +159,7 @@ impl Checker<'_> {
     /// Returns whether derivatives in this text use only its own equations, although it moves together with its surroundings.
     fn is_coupled(&self) -> bool {
         let path = self.address.path.trim_end_matches('.');
-        self.around.coupled.iter().any(|coupled| coupled == path)
+        self.options.coupled.iter().any(|coupled| coupled == path)
     }
 
     /// Returns the formula to which an input is bound, held fixed in derivatives by the part's own equations.
@@ -170,7 +170,7 @@ impl Checker<'_> {
     }
 
     /// Registers a formula as the time derivative of another one. Returns whether its order is allowed.
-    pub(super) fn note_rate(&mut self, of: ExprId, rate: ExprId) -> bool {
+    pub(super) fn register_rate(&mut self, of: ExprId, rate: ExprId) -> bool {
         let (times, rates) = self.variation_orders(of);
         if times > 0 {
             self.common.variables.orders.insert(rate, (times, rates + 1));
@@ -189,7 +189,7 @@ impl Checker<'_> {
     }
 
     /// Reports derivatives of forces if a load holds third time derivatives.
-    pub(super) fn refuse_derivatives_of_forces(&mut self) {
+    pub(super) fn reject_derivatives_of_forces(&mut self) {
         let is_jerk = |&symbol: &Symbol| match symbol {
             Symbol::Named(k) => match self.model.named[k as usize] {
                 Named::Derivative(inner) => {
@@ -223,7 +223,7 @@ impl Checker<'_> {
             return known;
         }
         let diagnostic = match &by.bare().kind {
-            ExprKind::Name(name) => self.no_variable(name)?,
+            ExprKind::Name(name) => self.non_variable_diagnostic(name)?,
             ExprKind::Member { owner, feature } if self.point_param(owner).is_some() => {
                 // A broken one has been reported.
                 if matches!(feature.text.as_str(), "x" | "y") {
@@ -242,7 +242,7 @@ impl Checker<'_> {
     }
 
     /// Returns the diagnostic of a name that is not a variable; `None` if it is broken, which has been reported.
-    fn no_variable(&self, name: &Name) -> Option<mechc_text::diag::Diagnostic> {
+    fn non_variable_diagnostic(&self, name: &Name) -> Option<mechc_text::diag::Diagnostic> {
         match self.resolve(name).ok()? {
             Some(Entity::Param(_)) if self.point_param(name).is_some() => Some(errors::by_point(name, name.span)),
             Some(Entity::Param(_)) if self.deciding.contains(&name.text) => Some(errors::by_deciding(name)),

@@ -1,7 +1,7 @@
 //! Diagnostics of dimensions, units and values.
 
-use crate::check::mends::{is_bare_number, with_factors, with_unit};
-use crate::check::rates::{Part, polar, rate_mended};
+use crate::check::suggest::edits::{is_bare_number, with_factors, with_unit};
+use crate::check::suggest::lost_rate::{Part, polar, suggest_rate_unit};
 use crate::model::Dimension;
 use mechc_syntax::ast::Name;
 use mechc_text::diag::{Applies, Code, Diagnostic, Fix, readable};
@@ -30,7 +30,7 @@ pub fn unlike(
         other.dimension.is(Dimension::RATE).then(|| with_factors(other.span, other_text, ["", " * t"], words))
     });
     let mended =
-        rate_mended(first.dimension, second, texts[1]).or_else(|| rate_mended(second.dimension, first, texts[0]));
+        suggest_rate_unit(first.dimension, second, texts[1]).or_else(|| suggest_rate_unit(second.dimension, first, texts[0]));
     let upside_down =
         || unit_above(first.dimension, second, texts[1]).or_else(|| unit_above(second.dimension, first, texts[0]));
     let fix = mended.filter(|_| has_time).or_else(upside_down).or(fix);
@@ -91,7 +91,7 @@ pub(super) fn usual_unit(dimension: Dimension) -> String {
 }
 
 /// Returns a value (SI) for readers, without rounding in its last digits.
-pub fn told(value: f64, dimension: Dimension) -> String {
+pub fn format_value(value: f64, dimension: Dimension) -> String {
     let (value, unit) = if dimension.is(Dimension::LENGTH) && value.abs() < 1.0 {
         (value * 1e3, "mm".to_owned())
     } else if dimension.is(Dimension::PURE) {
@@ -182,7 +182,7 @@ pub fn zero_direction(span: Span) -> Diagnostic {
 }
 
 pub fn not_positive_length(what: &str, span: Span, value: f64) -> Diagnostic {
-    let value = told(value, Dimension::LENGTH);
+    let value = format_value(value, Dimension::LENGTH);
     Diagnostic::new(Code::E0406, format!("{what} must be positive, it is {value}"))
         .at(span, value)
         .help("a direction is given by the order of points, or by an angle; a length has no sign")

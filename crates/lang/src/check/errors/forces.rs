@@ -1,19 +1,19 @@
 //! Diagnostics of masses, gravity, loads and computed forces.
 
-use super::told;
-use crate::check::mends::with_unit;
-use crate::check::rates::Part;
+use super::format_value;
+use crate::check::suggest::edits::with_unit;
+use crate::check::suggest::lost_rate::Part;
 use crate::model::Dimension;
 use mechc_syntax::ast::Name;
 use mechc_text::diag::{Code, Diagnostic};
 use mechc_text::source::Span;
 
 /// The reason why a load does not work on one quantity of positions.
-pub enum NoLoad<'n> {
+pub enum LoadTargetError<'n> {
     /// A sum of several.
     Sum,
     /// A joint, body or point, with suitable quantities as formulas.
-    Meant(Vec<String>),
+    Suggested(Vec<String>),
     /// Not a quantity.
     Other,
     /// `der(…)`
@@ -32,7 +32,7 @@ pub fn mass_of_the_ground(span: Span) -> Diagnostic {
 
 pub fn negative_mass(span: Span, value: f64, dimension: Dimension) -> Diagnostic {
     Diagnostic::new(Code::E0418, format!("{} is below zero", dimension.in_words().trim_end_matches(" (kg*m^2)")))
-        .at(span, format!("this is {}", told(value, dimension)))
+        .at(span, format!("this is {}", format_value(value, dimension)))
         .help("what is cut out of a body is not declared: give the body the mass, centre and inertia that are left")
 }
 
@@ -55,24 +55,24 @@ pub fn load_of_a_pair(name: &Name, span: Span) -> Diagnostic {
         .help("a force on a point is two loads: `FX on x(P)` and `FY on y(P)`")
 }
 
-pub fn load_on_no_quantity(name: &Name, span: Span, fault: &NoLoad<'_>) -> Diagnostic {
+pub fn load_on_no_quantity(name: &Name, span: Span, fault: &LoadTargetError<'_>) -> Diagnostic {
     let meant: String;
     let (label, help) = match fault {
-        NoLoad::Meant(quantities) => {
+        LoadTargetError::Suggested(quantities) => {
             let each: Vec<String> = quantities.iter().map(|quantity| format!("`… on {quantity}`")).collect();
             meant = format!("say what of it moves: {}", each.join(" or "));
             ("this is none", meant.as_str())
         }
-        NoLoad::Sum => ("a sum", "a force on a sum of quantities is a load on each of them"),
-        NoLoad::Other => ("this is none", QUANTITIES),
-        NoLoad::Rate => {
+        LoadTargetError::Sum => ("a sum", "a force on a sum of quantities is a load on each of them"),
+        LoadTargetError::Other => ("this is none", QUANTITIES),
+        LoadTargetError::Rate => {
             ("a rate", "a damper is a load on the quantity whose rate is in its formula: `load d: -c * der(K) on K`")
         }
-        NoLoad::OfMeasures(_) => ("for measures alone", QUANTITIES),
+        LoadTargetError::OfMeasures(_) => ("for measures alone", QUANTITIES),
     };
     let what = match fault {
-        NoLoad::OfMeasures("angle") => format!("load `{}` cannot work on `angle(P, Q, R)`", name.text),
-        NoLoad::OfMeasures(word) => format!("load `{}` cannot work on `{word}`", name.text),
+        LoadTargetError::OfMeasures("angle") => format!("load `{}` cannot work on `angle(P, Q, R)`", name.text),
+        LoadTargetError::OfMeasures(word) => format!("load `{}` cannot work on `{word}`", name.text),
         _ => format!("load `{}` works on one kinematic quantity", name.text),
     };
     Diagnostic::new(Code::E0313, what).at(span, label).help(help)

@@ -1,7 +1,7 @@
 //! Diagnostics of unknown names, and of names of another kind.
 
-use super::{list, meant, wrong_kind};
-use crate::check::mends::renamed;
+use super::{list, nearest_name, wrong_kind};
+use crate::check::suggest::edits::suggest_rename;
 use mechc_syntax::ast::Name;
 use mechc_text::diag::{Applies, Code, Diagnostic, Fix};
 use mechc_text::source::Span;
@@ -10,7 +10,7 @@ use mechc_text::vocabulary::{Constant, FUNCTIONS, JOINTS, JointWord, Place, QUAN
 pub fn unknown(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
     Diagnostic::new(Code::E0201, format!("there is no {what} `{}`", name.text))
         .at(name.span, "not declared")
-        .fix_if(meant(name, known))
+        .fix_if(nearest_name(name, known))
 }
 
 /// A name that is not a number. One letter is more likely an undeclared name than a unit.
@@ -63,7 +63,7 @@ pub fn names_in_option(name: &Name) -> Diagnostic {
 
 /// A name in a formula of time that stands alone.
 pub fn names_in_formula(name: &Name) -> Diagnostic {
-    let nearest = meant(name, &Constant::in_formulas().collect::<Vec<_>>()).filter(|_| name.text.chars().count() > 1);
+    let nearest = nearest_name(name, &Constant::in_formulas().collect::<Vec<_>>()).filter(|_| name.text.chars().count() > 1);
     let diagnostic =
         Diagnostic::new(Code::E0706, format!("a formula from outside the file cannot name `{}`", name.text))
             .at(name.span, "not known here");
@@ -85,7 +85,7 @@ pub fn unknown_feature(what: &str, owner: &str, name: &Name, known: &[&str]) -> 
     };
     let diagnostic = Diagnostic::new(Code::E0201, format!("`{owner}` has no {what} `{}`", name.text))
         .at(name.span, "not declared there");
-    match meant(name, known) {
+    match nearest_name(name, known) {
         Some(fix) => diagnostic.fix(fix),
         None => diagnostic.help(listed),
     }
@@ -95,17 +95,17 @@ pub fn unknown_feature(what: &str, owner: &str, name: &Name, known: &[&str]) -> 
 pub fn unknown_function(name: &Name, own: &[&str], arguments: &[&str]) -> Diagnostic {
     let diagnostic =
         Diagnostic::new(Code::E0201, format!("there is no function `{}`", name.text)).at(name.span, "not known");
-    if let Some(said) = said_otherwise(&name.text, arguments) {
-        return diagnostic.help(said).fix_if(meant(name, own));
+    if let Some(said) = suggest_other_form(&name.text, arguments) {
+        return diagnostic.help(said).fix_if(nearest_name(name, own));
     }
     let mut known: Vec<&str> = own.to_vec();
     known.extend(FUNCTIONS.iter().map(|function| function.word.name));
     known.extend(QUANTITIES.iter().map(|quantity| quantity.word.name));
-    diagnostic.fix_if(meant(name, &known))
+    diagnostic.fix_if(nearest_name(name, &known))
 }
 
 /// Suggests how to write an entity that is called like a function.
-fn said_otherwise(name: &str, arguments: &[&str]) -> Option<String> {
+fn suggest_other_form(name: &str, arguments: &[&str]) -> Option<String> {
     if let Some(synonym) = Synonym::of(Place::Call, name) {
         return Some(synonym.say(arguments));
     }
@@ -123,7 +123,7 @@ pub fn unknown_joint(kind: &Name, arguments: &[&str]) -> Diagnostic {
     let known: Vec<&str> = JOINTS.iter().map(|joint| joint.word.name).collect();
     let diagnostic = Diagnostic::new(Code::E0201, format!("there is no kind of joint `{}`", kind.text))
         .at(kind.span, "not declared");
-    match (Synonym::of(Place::Joint, &kind.text), meant(kind, &known)) {
+    match (Synonym::of(Place::Joint, &kind.text), nearest_name(kind, &known)) {
         (Some(synonym), _) => diagnostic.help(synonym.say(arguments)),
         (None, Some(fix)) => diagnostic.fix(fix),
         (None, None) => diagnostic.help(format!("the joints are {}", list(&known))),
@@ -143,7 +143,7 @@ pub fn not_a_unit(name: &Name, [number, power]: [&str; 2], is_a_name: bool) -> D
             _ => diagnostic,
         };
     }
-    meant_unit(diagnostic, name)
+    suggest_unit(diagnostic, name)
 }
 
 /// Returns the power that is intended by `mm2`, such as `mm^2`.
@@ -154,12 +154,12 @@ pub(super) fn power_of_a_unit(name: &str) -> Option<String> {
 }
 
 /// Adds the probable unit to a diagnostic, or lists all units.
-pub(super) fn meant_unit(diagnostic: Diagnostic, name: &Name) -> Diagnostic {
+pub(super) fn suggest_unit(diagnostic: Diagnostic, name: &Name) -> Diagnostic {
     if let Some(power) = power_of_a_unit(&name.text) {
         return diagnostic.fix(Fix::meant(name.span, &power));
     }
     let units: Vec<&str> = Unit::names().collect();
-    match (Synonym::of(Place::Unit, &name.text), Unit::of_multiple(&name.text), meant(name, &units)) {
+    match (Synonym::of(Place::Unit, &name.text), Unit::of_multiple(&name.text), nearest_name(name, &units)) {
         (Some(synonym), ..) => diagnostic.help(synonym.say(&[])),
         (None, Some(told), _) => diagnostic.help(format!("`1 {}` is written `{told}`", name.text)),
         (None, None, Some(fix)) => diagnostic.fix(fix),
@@ -184,7 +184,7 @@ pub fn reserved(name: &Name, instead: Option<&str>, uses: &[Span]) -> Diagnostic
     };
     Diagnostic::new(Code::E0204, format!("`{}` cannot be declared: it is {what}", name.text))
         .at(name.span, "reserved")
-        .fix_if(instead.map(|free| renamed(name, uses, free, format!("choose another name, `{free}` say"))))
+        .fix_if(instead.map(|free| suggest_rename(name, uses, free, format!("choose another name, `{free}` say"))))
 }
 
 pub fn second(word: &str, span: Span, first: Span) -> Diagnostic {
@@ -223,5 +223,5 @@ pub fn hidden_name(argument: &Name, declared: Span, free: Option<&str>, uses: &[
     Diagnostic::new(Code::E0207, format!("the argument `{}` hides a name of the mechanism", argument.text))
         .at(argument.span, "this argument")
         .also(declared, "declared here")
-        .fix_if(free.map(|free| renamed(argument, uses, free, format!("rename the argument: `{free}`, say"))))
+        .fix_if(free.map(|free| suggest_rename(argument, uses, free, format!("rename the argument: `{free}`, say"))))
 }

@@ -1,6 +1,6 @@
 //! Diagnostics of parts, and of the bindings and overrides of their params and inputs.
 
-use super::meant;
+use super::nearest_name;
 use mechc_syntax::ast::{Binding, ItemKind, Mechanism, MechanismName, Name};
 use mechc_text::diag::{Code, Diagnostic};
 use mechc_text::source::Span;
@@ -22,7 +22,7 @@ pub fn too_many_levels(wanted: &MechanismName, most: usize) -> Diagnostic {
 pub fn nothing_in_part(path: &str, mechanism: &str, name: &Name, known: &[&str]) -> Diagnostic {
     Diagnostic::new(Code::E0201, format!("there is no `{}` in the part `{path}`", name.text))
         .at(name.span, format!("`{mechanism}` declares nothing of that name"))
-        .fix_if(meant(name, known))
+        .fix_if(nearest_name(name, known))
 }
 
 /// A bound of a range that depends on a param of a part; `path` as it is written, and its location.
@@ -91,7 +91,7 @@ pub fn nothing_to_bind(
     let diagnostic = Diagnostic::new(Code::E0209, format!("`{mechanism}` has no param or input `{name}`"));
     let diagnostic = diagnostic.at(binding.name.span, label);
     match nearest {
-        Some(_) => diagnostic.fix_if(meant(&binding.name, known)),
+        Some(_) => diagnostic.fix_if(nearest_name(&binding.name, known)),
         None => diagnostic.help(listed),
     }
 }

@@ -1,6 +1,6 @@
 //! Diagnostics of points.
 
-use super::{list, meant, unknown, wrong_kind};
+use super::{list, nearest_name, unknown, wrong_kind};
 use mechc_syntax::ast::Name;
 use mechc_text::diag::{Applies, Code, Diagnostic, Fix};
 use mechc_text::source::Span;
@@ -23,7 +23,7 @@ pub fn no_point_to_take(name: &Name, other: Option<&str>, known: &[&str]) -> Dia
     let diagnostic = Diagnostic::new(Code::E0201, format!("the mechanism has no point `{}`", name.text));
     let diagnostic = match other {
         Some(noun) => diagnostic.at(name.span, format!("`{}` is {noun}", name.text)),
-        None => diagnostic.at(name.span, "not declared").fix_if(meant(name, known)),
+        None => diagnostic.at(name.span, "not declared").fix_if(nearest_name(name, known)),
     };
     diagnostic.help(format!("say where it lies: `point {} = (x, y)`", name.text))
 }

@@ -1,8 +1,8 @@
 //! Diagnostics of tables and their columns.
 
-use super::dimensions::{told, usual_unit};
+use super::dimensions::{format_value, usual_unit};
 use super::list;
-use super::names::meant_unit;
+use super::names::suggest_unit;
 use crate::model::Dimension;
 use mechc_syntax::ast::{ColumnName, ColumnWord, Name};
 use mechc_text::diag::{Applies, Code, Diagnostic, Fix, nearest, readable};
@@ -11,13 +11,13 @@ use mechc_text::source::Span;
 pub fn not_a_unit_of_a_column(name: &Name) -> Diagnostic {
     let diagnostic =
         Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text)).at(name.span, "the unit of a column");
-    meant_unit(diagnostic, name)
+    suggest_unit(diagnostic, name)
 }
 
 pub fn not_a_unit_to_print_in(name: &Name) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text))
         .at(name.span, "only units, `*`, `/` and powers may stand behind `in`");
-    meant_unit(diagnostic, name)
+    suggest_unit(diagnostic, name)
 }
 
 /// A unit after `in` of another dimension than the formula, with the locations and dimensions of both.
@@ -107,14 +107,14 @@ pub fn not_rising(name: &Name, [here, before]: [f64; 2], rows: [Span; 2]) -> Dia
 }
 
 pub fn ends_differ(name: &Name, ends: [Span; 2], [last, first]: [f64; 2], dimension: Dimension) -> Diagnostic {
-    let [last, first] = [last, first].map(|value| told(value, dimension));
+    let [last, first] = [last, first].map(|value| format_value(value, dimension));
     let message = format!("periodic table `{}` ends with {last}, and begins with {first}", name.text);
     let diagnostic = Diagnostic::new(Code::E0415, message).at(ends[0], "the last row");
     diagnostic.also(ends[1], "the first row").help("its last row repeats the first value, one period on")
 }
 
 pub fn out_of_table(name: &Name, value: f64, ends: [f64; 2], dimension: Dimension, span: Span) -> Diagnostic {
-    let [value, first, last] = [value, ends[0], ends[1]].map(|value| told(value, dimension));
+    let [value, first, last] = [value, ends[0], ends[1]].map(|value| format_value(value, dimension));
     let message = format!("{value} is not in the range of table `{}`, {first} to {last}", name.text);
     Diagnostic::new(Code::E0417, message).at(span, "out of range").help("a `periodic spline` repeats; a spline ends")
 }

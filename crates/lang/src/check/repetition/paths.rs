@@ -1,20 +1,20 @@
 //! Paths such as `link[k - 1].pin` and `leg[0].foot.toe`, resolved to the names of copies.
 
-use super::{Numbers, Unwritten, Writer, Written, indexed};
+use super::{Numbers, NotExpandable, Expander, Expanded, indexed};
 use crate::check::errors;
 use crate::check::instance::Instance;
-use crate::check::mentions::name_of;
+use crate::check::free_names::name_of;
 use mechc_syntax::ast::{self, Expr, ExprKind, Item, ItemKind, Name};
 use mechc_text::source::Span;
 use rustc_hash::FxHashSet;
 use std::rc::Rc;
 
-impl<'t> Writer<'t, '_> {
-    pub(super) fn must_not_be_repeated(&mut self, name: &Name) -> Written<()> {
+impl<'t> Expander<'t, '_> {
+    pub(super) fn must_not_be_repeated(&mut self, name: &Name) -> Expanded<()> {
         let Some(copies) = self.copies.get(name.text.as_str()) else { return Ok(()) };
         let first = copies.iter().min().map(|numbers| indexed(&name.text, numbers));
         self.tell(errors::which_copy(name, first.as_deref()));
-        Err(Unwritten)
+        Err(NotExpandable)
     }
 
     /// Resolves `link[2].pin`.
@@ -23,8 +23,8 @@ impl<'t> Writer<'t, '_> {
         span: Span,
         segments: &[ast::PathSegment],
         numbers: &Numbers<'_>,
-    ) -> Written<ExprKind> {
-        let [first, rest @ ..] = segments else { return Err(Unwritten) };
+    ) -> Expanded<ExprKind> {
+        let [first, rest @ ..] = segments else { return Err(NotExpandable) };
         let owner = self.copy_named(first, numbers)?;
         if let Some(part) = self.parts.get(&owner.text).cloned()
             && !rest.is_empty()
@@ -41,7 +41,7 @@ impl<'t> Writer<'t, '_> {
                     errors::unknown_owner(&first.name, self.tree)
                 };
                 self.tell(diagnostic);
-                Err(Unwritten)
+                Err(NotExpandable)
             }
         }
     }
@@ -54,9 +54,9 @@ impl<'t> Writer<'t, '_> {
         part: Option<Rc<Instance<'t>>>,
         segments: &[ast::PathSegment],
         numbers: &Numbers<'_>,
-    ) -> Written<ExprKind> {
+    ) -> Expanded<ExprKind> {
         // A part that cannot be instantiated has been reported.
-        let mut part = part.ok_or(Unwritten)?;
+        let mut part = part.ok_or(NotExpandable)?;
         let mut path = path.to_owned();
         for (k, segment) in segments.iter().enumerate() {
             let name = self.copy_in(&part, &path, segment, numbers)?;
@@ -76,14 +76,14 @@ impl<'t> Writer<'t, '_> {
                     Ok(ExprKind::Member { owner, feature: feature.name.clone() })
                 }
                 // A part that cannot be instantiated has been reported.
-                _ if part.is_a_part(&segment.name.text) => Err(Unwritten),
+                _ if part.is_a_part(&segment.name.text) => Err(NotExpandable),
                 _ => {
                     self.tell(errors::path_goes_on(span));
-                    Err(Unwritten)
+                    Err(NotExpandable)
                 }
             };
         }
-        Err(Unwritten)
+        Err(NotExpandable)
     }
 
     /// Returns the name of a copy in a part.
@@ -93,7 +93,7 @@ impl<'t> Writer<'t, '_> {
         path: &str,
         segment: &ast::PathSegment,
         numbers: &Numbers<'_>,
-    ) -> Written<String> {
+    ) -> Expanded<String> {
         let ast::PathSegment { name, indices } = segment;
         let copies = part.copies.get(name.text.as_str());
         let diagnostic = match (copies, indices.is_empty()) {
@@ -113,11 +113,11 @@ impl<'t> Writer<'t, '_> {
             }
         };
         self.tell(diagnostic);
-        Err(Unwritten)
+        Err(NotExpandable)
     }
 
     /// Returns the name of a copy.
-    fn copy_named(&mut self, segment: &ast::PathSegment, numbers: &Numbers<'_>) -> Written<Name> {
+    fn copy_named(&mut self, segment: &ast::PathSegment, numbers: &Numbers<'_>) -> Expanded<Name> {
         let ast::PathSegment { name, indices } = segment;
         if indices.is_empty() {
             self.must_not_be_repeated(name)?;
@@ -129,10 +129,10 @@ impl<'t> Writer<'t, '_> {
                 Ok(Name { text, span: name.span })
             }
             // A declaration that could not be repeated or parsed has been reported.
-            None if self.is_repeated(name) || self.is_unread(name) => Err(Unwritten),
+            None if self.is_repeated(name) || self.is_unread(name) => Err(NotExpandable),
             None if self.names.contains(name.text.as_str()) => {
                 self.tell(errors::not_repeated(name));
-                Err(Unwritten)
+                Err(NotExpandable)
             }
             // An unknown name is reported where it is resolved.
             None => Ok(Name { text: indexed(&name.text, &self.values(indices, numbers)?), span: name.span }),
@@ -153,7 +153,7 @@ impl<'t> Writer<'t, '_> {
         self.tree.items.iter().any(gives_it)
     }
 
-    fn values(&mut self, indices: &[Expr], numbers: &Numbers<'_>) -> Written<Vec<i64>> {
+    fn values(&mut self, indices: &[Expr], numbers: &Numbers<'_>) -> Expanded<Vec<i64>> {
         indices.iter().map(|e| self.whole_number(e, numbers, "an index")).collect()
     }
 
@@ -163,7 +163,7 @@ impl<'t> Writer<'t, '_> {
         copies: &FxHashSet<Vec<i64>>,
         segment: &ast::PathSegment,
         numbers: &Numbers<'_>,
-    ) -> Written<String> {
+    ) -> Expanded<String> {
         let ast::PathSegment { name, indices } = segment;
         let values = self.values(indices, numbers)?;
         let copy = indexed(&name.text, &values);
@@ -173,6 +173,6 @@ impl<'t> Writer<'t, '_> {
         let ends = [copies.iter().min(), copies.iter().max()].map(|end| end.map(|end| indexed(&name.text, end)));
         let span = indices.iter().fold(name.span, |span, index| span.to(index.span));
         self.tell(errors::no_such_copy(&copy, span, ends, numbers));
-        Err(Unwritten)
+        Err(NotExpandable)
     }
 }

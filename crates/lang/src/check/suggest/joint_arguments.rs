@@ -1,8 +1,8 @@
 //! Suggestions for joint arguments in another order, or for another kind of joint.
 
-use super::entity::Entity;
-use super::features::Feature;
-use super::{Checker, errors};
+use crate::check::entity::Entity;
+use crate::check::features::Feature;
+use crate::check::{Checker, errors};
 use crate::model::Frame;
 use mechc_syntax::ast::{Expr, ExprKind, Name};
 use mechc_text::diag::{Applies, Edit, Fix};
@@ -17,7 +17,7 @@ const ORDERS: [(&str, [&str; 2]); 4] = [
 
 impl Checker<'_> {
     /// Reports a joint whose first two arguments are swapped or belong to another kind of joint.
-    pub(super) fn refuses_arguments(&mut self, kind: &Name, arguments: &[Expr]) -> bool {
+    pub(in crate::check) fn refuses_arguments(&mut self, kind: &Name, arguments: &[Expr]) -> bool {
         let [first, second, ..] = arguments else { return false };
         let order = ORDERS.into_iter().find(|(word, _)| *word == kind.text);
         let (Some((_, [one, other])), Some(a), Some(b)) = (order, self.feature_of(first), self.feature_of(second))
@@ -49,7 +49,7 @@ impl Checker<'_> {
     }
 
     /// Returns the body of a name, or the ground, without diagnostics.
-    pub(super) fn frame_of(&self, owner: &Name) -> Option<Frame> {
+    pub(in crate::check) fn frame_of(&self, owner: &Name) -> Option<Frame> {
         match self.entity(owner) {
             _ if owner.text == "ground" => Some(self.address.ground),
             Some(Entity::Body(k)) => Some(*self.bodies.get(k)?),

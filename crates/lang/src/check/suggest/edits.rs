@@ -5,18 +5,18 @@ use mechc_text::diag::{Applies, Diagnostic, Edit, Fix};
 use mechc_text::source::Span;
 
 /// Returns whether a text is only a number.
-pub(super) fn is_bare_number(text: &str) -> bool {
+pub(in crate::check) fn is_bare_number(text: &str) -> bool {
     text.parse::<f64>().is_ok()
 }
 
 /// Suggests a unit after a bare number.
-pub(super) fn with_unit(span: Span, text: &str, unit: &str) -> Option<Fix> {
+pub(in crate::check) fn with_unit(span: Span, text: &str, unit: &str) -> Option<Fix> {
     let words = format!("a unit is missing: `{text} {unit}`");
     is_bare_number(text).then(|| Fix::append(span, format!(" {unit}"), words, Applies::Probably))
 }
 
 /// Suggests factors before and after a formula, with parentheses around it where necessary.
-pub(super) fn with_factors(span: Span, text: &str, [before, behind]: [&str; 2], words: &str) -> Fix {
+pub(in crate::check) fn with_factors(span: Span, text: &str, [before, behind]: [&str; 2], words: &str) -> Fix {
     let is_sum = text.contains(['+', '-']) || text.starts_with("if");
     let [open, close] = if is_sum { ["(", ")"] } else { ["", ""] };
     let edit = |at: u32, text: String| Edit { span: Span { start: at, end: at, ..span }, text };
@@ -26,14 +26,14 @@ pub(super) fn with_factors(span: Span, text: &str, [before, behind]: [&str; 2], 
 }
 
 /// Suggests another name at a declaration and its uses.
-pub(super) fn renamed(name: &Name, uses: &[Span], free: &str, message: String) -> Fix {
+pub(in crate::check) fn suggest_rename(name: &Name, uses: &[Span], free: &str, message: String) -> Fix {
     let places = std::iter::once(&name.span).chain(uses);
     let edits = places.map(|&span| Edit { span, text: free.to_owned() }).collect();
     Fix { message, edits, applies: Applies::Probably }
 }
 
 /// Puts a fix in front of the diagnostic's other help.
-pub(super) fn fixed_first(diagnostic: Diagnostic, fix: Option<Fix>) -> Diagnostic {
+pub(in crate::check) fn with_preferred_fix(diagnostic: Diagnostic, fix: Option<Fix>) -> Diagnostic {
     match fix {
         Some(fix) => diagnostic.instead(fix),
         None => diagnostic,
@@ -41,7 +41,7 @@ pub(super) fn fixed_first(diagnostic: Diagnostic, fix: Option<Fix>) -> Diagnosti
 }
 
 /// Suggests the missing angle of `at (0, 0)`.
-pub(super) fn angle_missing(parts: &[Expr]) -> Option<Fix> {
+pub(in crate::check) fn suggest_pose_angle(parts: &[Expr]) -> Option<Fix> {
     let [_, y] = parts else { return None };
     Some(Fix::append(y.span, ", 0 deg", "a pose has an angle too: `at (x, y, 0 deg)`", Applies::Probably))
 }

@@ -1,7 +1,7 @@
 //! Diagnostics of drawn poses, times and missing units.
 
-use super::dimensions::{MOST_PLACES, told};
-use crate::check::mends::{is_bare_number, with_factors};
+use super::dimensions::{MOST_PLACES, format_value};
+use crate::check::suggest::edits::{is_bare_number, with_factors};
 use crate::model::Dimension;
 use mechc_text::diag::{Applies, Code, Diagnostic, Edit, Fix, readable};
 use mechc_text::source::Span;
@@ -74,7 +74,7 @@ pub fn ends_before_start(spans: [Span; 2], texts: [&str; 2], from: f64, to: f64)
 }
 
 pub fn empty_interval(function: &str, span: Span, ends: [f64; 2], dimension: Dimension) -> Diagnostic {
-    let [from, to] = ends.map(|end| told(end, dimension));
+    let [from, to] = ends.map(|end| format_value(end, dimension));
     Diagnostic::new(
         Code::E0409,
         format!("`{function}` needs an interval that goes forward, this one is from {from} to {to}"),
@@ -150,7 +150,7 @@ pub fn number_beside_degrees(
 
 /// A length without a unit.
 #[derive(Clone, Copy)]
-pub struct Plain<'a> {
+pub struct PlainLength<'a> {
     /// The magnitude (m).
     pub value: f64,
     pub span: Span,
@@ -161,11 +161,11 @@ pub struct Plain<'a> {
 }
 
 /// Lengths without a unit in the order of the text, much larger than the largest one with a unit (m).
-pub fn no_unit_of_length(lengths: &[Plain<'_>], largest: f64, unit: &str) -> Diagnostic {
-    let taken = |plain: &Plain<'_>| format!("taken as {}", told(plain.value, Dimension::LENGTH));
+pub fn no_unit_of_length(lengths: &[PlainLength<'_>], largest: f64, unit: &str) -> Diagnostic {
+    let taken = |plain: &PlainLength<'_>| format!("taken as {}", format_value(plain.value, Dimension::LENGTH));
     let first = &lengths[0];
     let (what, largest) =
-        (first.name.map_or("a length".to_owned(), |name| format!("`{name}`")), told(largest, Dimension::LENGTH));
+        (first.name.map_or("a length".to_owned(), |name| format!("`{name}`")), format_value(largest, Dimension::LENGTH));
     let message = format!("{what} has no unit and is {}; the largest length with a unit is {largest}", taken(first));
     let mut diagnostic = Diagnostic::new(Code::W0402, message).at(first.span, "no unit, so in metres");
     for plain in lengths.iter().skip(1).take(MOST_PLACES) {

@@ -5,19 +5,19 @@ use mechc_expr::ExprId;
 use mechc_text::source::Span;
 
 /// The two coordinates of a point (m).
-pub(super) type Place = [ExprId; 2];
+pub(super) type Position = [ExprId; 2];
 
 /// A named point in the drawing.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Drawn {
-    pub at: Place,
+pub(super) struct DrawnPoint {
+    pub at: Position,
     /// True if its formula holds a unit, directly or through names.
     pub dimensional: bool,
 }
 
 /// The site of a formula, which decides which points it may name.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub(super) enum Site {
+pub(super) enum FormulaSite {
     /// Outside all bodies.
     #[default]
     Mechanism,
@@ -29,17 +29,17 @@ pub(super) enum Site {
     Mount(Frame),
 }
 
-impl Site {
+impl FormulaSite {
     /// Returns whether points of bodies may stand at the site.
     pub fn takes_drawn_points(self) -> bool {
-        matches!(self, Site::Drawing | Site::Mount(_))
+        matches!(self, FormulaSite::Drawing | FormulaSite::Mount(_))
     }
 }
 
 /// The points that the current formula may name, and those that it has named.
 #[derive(Default)]
-pub(super) struct Scope<'a> {
-    pub site: Site,
+pub(super) struct FormulaScope<'a> {
+    pub site: FormulaSite,
     /// The point that the formula defines.
     pub defined: Option<&'a str>,
     /// The argument of the curve that the formula defines.

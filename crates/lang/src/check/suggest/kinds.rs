@@ -1,10 +1,10 @@
 //! Suggestions for arguments of the wrong kind, from the declarations of the mechanism.
 
-use super::Checker;
-use super::entity::Entity;
-use super::errors::list;
-use super::features::Feature;
-use super::mends::fixed_first;
+use crate::check::Checker;
+use crate::check::entity::Entity;
+use crate::check::errors::list;
+use crate::check::features::Feature;
+use super::edits::with_preferred_fix;
 use crate::model::{Dimension, Frame, JointKind};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, ItemKind, Name};
 use mechc_text::diag::{Applies, Code, Diagnostic, Edit, Fix};
@@ -13,7 +13,7 @@ use mechc_text::vocabulary::{Place, QuantityWord, Synonym, Unit};
 
 impl Checker<'_> {
     /// Suggests an axis instead of a point: an axis of the body, or a new one through the point.
-    pub(super) fn axis_for(&self, frame: Frame, point: &Name) -> Option<Fix> {
+    pub(in crate::check) fn suggest_axis(&self, frame: Frame, point: &Name) -> Option<Fix> {
         let space = self.common.features.get(&frame)?;
         let owner = self.frame_name(frame);
         if let Some(axis) = space.names(|feature| matches!(feature, Feature::Axis(_))).next() {
@@ -43,7 +43,7 @@ impl Checker<'_> {
     }
 
     /// Adds suggestions to a diagnostic of a body where a joint is expected: the joints of that body, and the body's angle.
-    pub(super) fn joint_for(&self, quantity: &str, name: &Name, diagnostic: Diagnostic) -> Diagnostic {
+    pub(in crate::check) fn suggest_joint(&self, quantity: &str, name: &Name, diagnostic: Diagnostic) -> Diagnostic {
         if let (true, Some(Entity::Equation(_))) = (is_force(quantity), self.entity(name)) {
             return diagnostic.help(format!("what it supplies is `effort({})`", name.text));
         }
@@ -74,7 +74,7 @@ impl Checker<'_> {
     }
 
     /// Suggests an effort for other words, such as `power(motor)`, `moment(main)` and `force(motor)`.
-    pub(super) fn effort_for(&self, e: &Expr, called: &Name, arguments: &[Expr]) -> Option<Fix> {
+    pub(in crate::check) fn suggest_effort(&self, e: &Expr, called: &Name, arguments: &[Expr]) -> Option<Fix> {
         let [argument] = arguments else { return None };
         let ExprKind::Name(name) = &argument.bare().kind else { return None };
         let means = Synonym::of(Place::Call, &called.text)?.means;
@@ -110,7 +110,7 @@ impl Checker<'_> {
     }
 
     /// Suggests a quantity for `crank.phi`, `crank.x` or a point where a number is expected.
-    pub(super) fn number_for(&self, span: Span, owner: &Name, feature: &Name) -> Option<Fix> {
+    pub(in crate::check) fn suggest_number(&self, span: Span, owner: &Name, feature: &Name) -> Option<Fix> {
         let frame = match self.entity(owner)? {
             Entity::Body(k) => *self.bodies.get(k)?,
             _ => return None,
@@ -143,7 +143,7 @@ impl Checker<'_> {
     }
 
     /// Suggests decimal points for `(50,5 mm, 0)` or `step5(t, 0,5, 0, 1,5, 2)`, if `wanted` parts are then left.
-    pub(super) fn decimal_comma(&self, parts: &[Expr], wanted: usize) -> Option<Fix> {
+    pub(in crate::check) fn suggest_decimal_point(&self, parts: &[Expr], wanted: usize) -> Option<Fix> {
         let (mut edits, mut number, mut k) = (Vec::new(), None, 0);
         while k + 1 < parts.len() {
             let (whole, digits) = (self.sources.text(parts[k].span), self.sources.text(parts[k + 1].span));
@@ -163,7 +163,7 @@ impl Checker<'_> {
     }
 
     /// Reports an angle where a length is expected. A plain formula would take it as metres.
-    pub(super) fn refuses_angle(&mut self, place: &str, e: &Expr) -> bool {
+    pub(in crate::check) fn reject_angle(&mut self, place: &str, e: &Expr) -> bool {
         let Some((name, declared)) = self.angle_in(e) else { return false };
         let place = format!("{place} must be a length, found an angle");
         let diagnostic = Diagnostic::new(Code::E0402, place).at(e.span, "an angle");
@@ -203,19 +203,19 @@ impl Checker<'_> {
     }
 
     /// Records a parameter that is given in a unit of angle.
-    pub(super) fn remember_angle(&mut self, name: &Name, value: &Expr) {
+    pub(in crate::check) fn record_angle(&mut self, name: &Name, value: &Expr) {
         if let (Some(Entity::Param(k)), Some(_)) = (self.entity(name), self.angle_in(value)) {
             self.params[k].is_in_angles = true;
         }
     }
 
     /// Reports a wrong number of arguments, with suggestions such as `atan2` for `atan(y, x)`.
-    pub(super) fn report_count(&mut self, name: &Name, diagnostic: Diagnostic, arguments: &[Expr], most: usize) {
+    pub(in crate::check) fn report_argument_count(&mut self, name: &Name, diagnostic: Diagnostic, arguments: &[Expr], most: usize) {
         let is_atan2 = name.text == "atan" && arguments.len() == 2;
         let message = "the angle of two coordinates is `atan2(y, x)`";
         let fix = is_atan2.then(|| Fix::replace(name.span, "atan2", message, Applies::Probably));
-        let fix = fix.or_else(|| self.decimal_comma(arguments, most));
-        self.report(fixed_first(diagnostic, fix));
+        let fix = fix.or_else(|| self.suggest_decimal_point(arguments, most));
+        self.report(with_preferred_fix(diagnostic, fix));
     }
 }
 

@@ -3,10 +3,10 @@
 //! A plain formula is in metres, which is intended if all lengths are plain. Plain lengths that are much larger than those with a unit, and
 //! would have a similar size with that unit, probably lack it.
 
-use super::Checker;
-use super::entity::Entity;
-use super::errors::{self, Plain};
-use super::formula::{Context, Value};
+use crate::check::Checker;
+use crate::check::entity::Entity;
+use crate::check::errors::{self, PlainLength};
+use crate::check::formula::{Context, Value};
 use mechc_expr::ExprId;
 use mechc_expr::math;
 use mechc_syntax::ast::{Expr, ExprKind, Item};
@@ -20,35 +20,35 @@ const IN_METRES: f64 = 1.0;
 
 /// The constant lengths of a mechanism, recorded as formulas are read.
 #[derive(Default)]
-pub(super) struct Lengths<'a> {
+pub(in crate::check) struct RecordedLengths<'a> {
     /// The smallest and the largest length with a unit (m).
     with_unit: Option<[f64; 2]>,
-    plain: Vec<Plain<'a>>,
+    plain: Vec<PlainLength<'a>>,
 }
 
 impl<'a> Checker<'a> {
     /// Records a length; `judged` says whether its formula holds a unit.
-    pub(super) fn remember_any_length(&mut self, e: &Expr, id: ExprId, judged: bool) {
+    pub(in crate::check) fn record_length_term(&mut self, e: &Expr, id: ExprId, judged: bool) {
         if judged {
-            self.remember_length(id);
+            self.record_length(id);
         } else {
-            self.remember_plain_length(e, id);
+            self.record_plain_length(e, id);
         }
     }
 
     /// Records the numbers with which lengths are compared in a formula without units.
-    pub(super) fn remember_compared_lengths(&mut self, [a, b]: [(&Expr, Value); 2], context: &Context<'_>) {
+    pub(in crate::check) fn record_compared_lengths(&mut self, [a, b]: [(&Expr, Value); 2], context: &Context<'_>) {
         for ((_, value), (other, number)) in [(a, b), (b, a)] {
             let is_length = value.dim.settled().is(Dimension::LENGTH);
             let is_one = is_length && self.number_of(value.id).is_none();
             if !context.judged && is_one && self.number_of(number.id).is_some() {
-                self.remember_plain_length(other, number.id);
+                self.record_plain_length(other, number.id);
             }
         }
     }
 
     /// Records a constant length with a unit.
-    fn remember_length(&mut self, id: ExprId) {
+    fn record_length(&mut self, id: ExprId) {
         if let Some(value) = self.number_of(id).map(f64::abs).filter(|value| *value > 0.0) {
             let [least, most] = self.lengths.with_unit.unwrap_or([value; 2]);
             self.lengths.with_unit = Some([least.min(value), most.max(value)]);
@@ -56,22 +56,22 @@ impl<'a> Checker<'a> {
     }
 
     /// Records a length without a unit: a constant, or the constant terms of a sum.
-    fn remember_plain_length(&mut self, e: &Expr, id: ExprId) {
+    fn record_plain_length(&mut self, e: &Expr, id: ExprId) {
         if let Some(value) = self.number_of(id).map(f64::abs) {
-            let plain = self.root_of(e).unwrap_or(Plain { value, span: e.span, name: None, is_number: false });
+            let plain = self.plain_root(e).unwrap_or(PlainLength { value, span: e.span, name: None, is_number: false });
             self.lengths.plain.extend(Some(plain).filter(|plain| plain.value > 0.0));
         } else if let ExprKind::Sum(first, rest) = &e.bare().kind {
             for term in std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term)) {
-                let plain = self.root_of(term).filter(|plain| plain.value > 0.0);
+                let plain = self.plain_root(term).filter(|plain| plain.value > 0.0);
                 // Next to a unit the other terms need theirs too.
-                self.lengths.plain.extend(plain.map(|plain| Plain { is_number: false, ..plain }));
+                self.lengths.plain.extend(plain.map(|plain| PlainLength { is_number: false, ..plain }));
             }
         }
     }
 
     /// Returns the number or parameter that a formula consists of apart from its sign, also through parameters that are aliases.
-    pub(super) fn root_of(&mut self, e: &Expr) -> Option<Plain<'a>> {
-        let mut found: Option<Plain<'a>> = None;
+    pub(in crate::check) fn plain_root(&mut self, e: &Expr) -> Option<PlainLength<'a>> {
+        let mut found: Option<PlainLength<'a>> = None;
         let mut e = e;
         loop {
             match &e.kind {
@@ -79,30 +79,30 @@ impl<'a> Checker<'a> {
                 ExprKind::Literal { value, unit: None } => {
                     let name = found.and_then(|plain| plain.name);
                     let is_number = found.is_none_or(|plain| plain.is_number);
-                    return Some(Plain { value: value.abs(), span: e.span, name, is_number });
+                    return Some(PlainLength { value: value.abs(), span: e.span, name, is_number });
                 }
                 ExprKind::Name(name) => {
                     let Some(Entity::Param(k)) = self.entity(name) else { return found };
-                    let (name, formula, is_in_the_text) = self.param_as_given(k)?;
+                    let (name, formula, is_in_the_text) = self.effective_formula(k)?;
                     let value = self.params[k].value.and_then(|value| self.number_of(value.id))?.abs();
                     let is_number = is_in_the_text && found.is_none_or(|plain| plain.is_number);
-                    found = Some(Plain { value, span: formula.span, name: Some(name), is_number });
+                    found = Some(PlainLength { value, span: formula.span, name: Some(name), is_number });
                     e = formula;
                 }
-                _ => return found.map(|plain| Plain { is_number: false, ..plain }),
+                _ => return found.map(|plain| PlainLength { is_number: false, ..plain }),
             }
         }
     }
 
     /// Returns a parameter's name, its formula, and whether this formula stands in the text and is not an override.
-    fn param_as_given(&self, k: usize) -> Option<(&'a str, &'a Expr, bool)> {
+    fn effective_formula(&self, k: usize) -> Option<(&'a str, &'a Expr, bool)> {
         let (name, value) = self.params[k].written?;
         let setting = self.settings_of(name).pop().map(|(_, setting)| setting);
         Some((&name.text, setting.map_or(value, |setting| &setting.value), setting.is_none()))
     }
 
     /// Warns of plain lengths that are much larger than all lengths with a unit, and would be similar to them in that unit.
-    pub(super) fn warn_of_plain_lengths(&mut self) {
+    pub(in crate::check) fn warn_of_plain_lengths(&mut self) {
         let Some([least, most]) = self.lengths.with_unit else { return };
         let plain = &self.lengths.plain;
         let dwarfs = plain.iter().any(|length| length.value > DWARFS * most);

@@ -7,7 +7,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The kind of value that is expected of a name.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Wanted {
+pub(super) enum Expected {
     /// A number.
     Number,
     /// A point only.
@@ -29,12 +29,12 @@ fn takes_points(function: &str) -> Option<bool> {
 }
 
 /// Returns the children of a formula with the expected kinds; `hidden` are the functions and tables of the file.
-pub(super) fn inside(e: &Expr, wanted: Wanted, hidden: impl Fn(&str) -> bool) -> Vec<(&Expr, Wanted)> {
+pub(super) fn inside(e: &Expr, wanted: Expected, hidden: impl Fn(&str) -> bool) -> Vec<(&Expr, Expected)> {
     let inner = match &e.kind {
         ExprKind::Paren(_) | ExprKind::Negate(_) | ExprKind::Sum(..) => wanted,
-        ExprKind::Product(..) if wanted != Wanted::Number => Wanted::Either,
-        ExprKind::Call { name, .. } if takes_points(&name.text) == Some(true) && !hidden(&name.text) => Wanted::Point,
-        _ => Wanted::Number,
+        ExprKind::Product(..) if wanted != Expected::Number => Expected::Either,
+        ExprKind::Call { name, .. } if takes_points(&name.text) == Some(true) && !hidden(&name.text) => Expected::Point,
+        _ => Expected::Number,
     };
     e.children().into_iter().map(|child| (child, inner)).collect()
 }
@@ -42,16 +42,16 @@ pub(super) fn inside(e: &Expr, wanted: Wanted, hidden: impl Fn(&str) -> bool) ->
 /// Visits every name of a formula that stands alone, or before `.x` and `.y`, with its expected kind.
 pub(super) fn names_in<'e>(
     formula: &'e Expr,
-    wanted: Wanted,
+    wanted: Expected,
     hidden: impl Fn(&str) -> bool,
-    mut each: impl FnMut(&'e Name, Wanted),
+    mut each: impl FnMut(&'e Name, Expected),
 ) {
     let mut open = vec![(formula, wanted)];
     while let Some((e, wanted)) = open.pop() {
         match &e.kind {
             ExprKind::Name(name) => each(name, wanted),
-            ExprKind::Member { owner, feature } if wanted != Wanted::Point && coordinate(feature).is_some() => {
-                each(owner, Wanted::Point);
+            ExprKind::Member { owner, feature } if wanted != Expected::Point && coordinate(feature).is_some() => {
+                each(owner, Expected::Point);
             }
             _ => {}
         }
@@ -88,7 +88,7 @@ pub(super) fn is_point(formula: &Expr, hidden: impl Fn(&str) -> bool, is_one: im
 
 /// Returns the names of a mechanism's params that are points.
 pub(super) fn point_params(mechanism: &Mechanism) -> FxHashSet<&str> {
-    let own = own_functions(mechanism);
+    let own = hiding_functions(mechanism);
     let hidden = |name: &str| own.contains(name);
     let (mut points, mut users): (Vec<&str>, FxHashMap<&str, Vec<&str>>) = (Vec::new(), FxHashMap::default());
     for item in &mechanism.items {
@@ -96,8 +96,8 @@ pub(super) fn point_params(mechanism: &Mechanism) -> FxHashSet<&str> {
         if is_point(value, hidden, |_| false) {
             points.push(&name.text);
         }
-        names_in(value, Wanted::Either, hidden, |used, wanted| {
-            if wanted == Wanted::Either {
+        names_in(value, Expected::Either, hidden, |used, wanted| {
+            if wanted == Expected::Either {
                 users.entry(&used.text).or_default().push(&name.text);
             }
         });
@@ -113,7 +113,7 @@ pub(super) fn point_params(mechanism: &Mechanism) -> FxHashSet<&str> {
 }
 
 /// Returns the functions and tables that hide a function of the language; a broken declaration may be one.
-pub(super) fn own_functions(mechanism: &Mechanism) -> FxHashSet<&str> {
+pub(super) fn hiding_functions(mechanism: &Mechanism) -> FxHashSet<&str> {
     let names = mechanism.items.iter().flat_map(|item| match &item.kind {
         ItemKind::Function { name, .. } | ItemKind::Table { name, .. } => std::slice::from_ref(name),
         ItemKind::Broken { names } => names,

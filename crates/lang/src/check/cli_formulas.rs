@@ -13,7 +13,7 @@ use mechc_text::source::{Sources, Span};
 /// # Errors
 /// The diagnostics of the formula.
 pub fn constant(formula: &Expr, place: &str, wanted: Dimension, sources: &Sources) -> Result<f64, Diagnostics> {
-    alone(formula, sources, |checker| checker.constant(formula, place, wanted))
+    evaluate(formula, sources, |checker| checker.constant(formula, place, wanted))
 }
 
 /// Returns the value (SI) of such a formula, which must have a unit unless it is zero or a pure number.
@@ -21,17 +21,17 @@ pub fn constant(formula: &Expr, place: &str, wanted: Dimension, sources: &Source
 /// # Errors
 /// The diagnostics of the formula.
 pub fn amount(formula: &Expr, place: &str, wanted: Dimension, sources: &Sources) -> Result<f64, Diagnostics> {
-    alone(formula, sources, |checker| checker.judged_constant(formula, place, wanted, (DecidedBy::Value, true)))
+    evaluate(formula, sources, |checker| checker.judged_constant(formula, place, wanted, (DecidedBy::Value, true)))
 }
 
-fn alone(
+fn evaluate(
     formula: &Expr,
     sources: &Sources,
     read: impl FnOnce(&mut Checker<'_>) -> Option<(ExprId, f64)>,
 ) -> Result<f64, Diagnostics> {
-    let tree = nothing(formula.span);
-    let surroundings = Surroundings::default();
-    let mut checker = Checker::new(&tree, &surroundings, sources);
+    let tree = empty_mechanism(formula.span);
+    let options = Surroundings::default();
+    let mut checker = Checker::new(&tree, &options, sources);
     match read(&mut checker) {
         Some((_, value)) if !checker.diagnostics.has_errors() => Ok(value),
         _ => Err(checker.diagnostics),
@@ -58,9 +58,9 @@ pub struct FormulaOfTime {
 /// # Errors
 /// The diagnostics of the formula.
 pub fn formula_of_time(formula: &Expr, sources: &Sources) -> Result<FormulaOfTime, Diagnostics> {
-    let tree = nothing(formula.span);
-    let surroundings = Surroundings::default();
-    let mut checker = Checker::new(&tree, &surroundings, sources);
+    let tree = empty_mechanism(formula.span);
+    let options = Surroundings::default();
+    let mut checker = Checker::new(&tree, &options, sources);
     let judged = checker.is_dimensional(formula);
     let context = Context { judged, time: true, names: false, ..Context::constant("a formula of time") };
     let value = checker.formula(formula, &context);
@@ -79,7 +79,7 @@ pub fn formula_of_time(formula: &Expr, sources: &Sources) -> Result<FormulaOfTim
 }
 
 /// Returns a mechanism without declarations as the context of a formula of the command line.
-fn nothing(span: Span) -> ast::Mechanism {
+fn empty_mechanism(span: Span) -> ast::Mechanism {
     let name = Name { text: String::new(), span };
     ast::Mechanism { docs: Vec::new(), name, span, items: Vec::new() }
 }

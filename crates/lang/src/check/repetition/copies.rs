@@ -1,20 +1,20 @@
 //! Copies of declarations: all formulas with numbers in the place of indices.
 
-use super::{Numbers, Unwritten, Writer, Written, broken, named};
+use super::{Numbers, NotExpandable, Expander, Expanded, broken, named};
 use mechc_syntax::ast::{
     self, DrawnPose, Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Name, TableRows, Window,
 };
 
-impl Writer<'_, '_> {
+impl Expander<'_, '_> {
     /// Returns a copy of a declaration, which is broken if something in it cannot be expanded.
     pub(super) fn copy(&mut self, item: &Item, numbers: &Numbers<'_>) -> Item {
         match self.kind(&item.kind, numbers) {
             Ok(kind) => Item { docs: item.docs.clone(), span: item.span, ranges: Vec::new(), kind },
-            Err(Unwritten) => broken(item, numbers),
+            Err(NotExpandable) => broken(item, numbers),
         }
     }
 
-    fn kind(&mut self, kind: &ItemKind, numbers: &Numbers<'_>) -> Written<ItemKind> {
+    fn kind(&mut self, kind: &ItemKind, numbers: &Numbers<'_>) -> Expanded<ItemKind> {
         let own = |name: &Name| named(name, numbers);
         Ok(match kind {
             ItemKind::Param { name, value } => {
@@ -75,20 +75,20 @@ impl Writer<'_, '_> {
     }
 
     /// Expands a part, which is broken if its mechanism is unknown.
-    fn part(&mut self, part: &ast::Part, numbers: &Numbers<'_>) -> Written<ast::Part> {
+    fn part(&mut self, part: &ast::Part, numbers: &Numbers<'_>) -> Expanded<ast::Part> {
         let name = named(&part.name, numbers);
         if self.parts.get(&name.text).is_none_or(Option::is_none) {
-            return Err(Unwritten);
+            return Err(NotExpandable);
         }
         let binding = |binding: &ast::Binding| {
             Ok(ast::Binding { value: self.formula(&binding.value, numbers)?, ..binding.clone() })
         };
-        let bindings = part.bindings.iter().map(binding).collect::<Written<_>>()?;
+        let bindings = part.bindings.iter().map(binding).collect::<Expanded<_>>()?;
         let mut place = |e: &Option<Expr>| e.as_ref().map(|e| self.formula(e, numbers)).transpose();
         Ok(ast::Part { name, bindings, on: place(&part.on)?, at: place(&part.at)?, ..part.clone() })
     }
 
-    fn features(&mut self, features: &[Feature], numbers: &Numbers<'_>) -> Written<Vec<Feature>> {
+    fn features(&mut self, features: &[Feature], numbers: &Numbers<'_>) -> Expanded<Vec<Feature>> {
         let copy = |feature: &Feature| {
             let mut of = |e: &Expr| self.formula(e, numbers).map(Box::new);
             let kind = match &feature.kind {
@@ -121,30 +121,30 @@ impl Writer<'_, '_> {
         features.iter().map(copy).collect()
     }
 
-    fn pose(&mut self, pose: &DrawnPose, numbers: &Numbers<'_>) -> Written<DrawnPose> {
+    fn pose(&mut self, pose: &DrawnPose, numbers: &Numbers<'_>) -> Expanded<DrawnPose> {
         let toward = pose.toward.as_ref().map(|toward| self.formula(toward, numbers)).transpose()?;
         Ok(DrawnPose { at: self.formula(&pose.at, numbers)?, toward })
     }
 
     /// Expands the formula of a function, whose argument hides a repeated declaration.
-    fn formula_over(&mut self, argument: &Name, formula: &Expr) -> Written<Expr> {
+    fn formula_over(&mut self, argument: &Name, formula: &Expr) -> Expanded<Expr> {
         let hidden = self.copies.remove_entry(argument.text.as_str());
         let written = self.formula(formula, &Vec::new());
         self.copies.extend(hidden);
         written
     }
 
-    fn formulas(&mut self, list: &[Expr], numbers: &Numbers<'_>) -> Written<Vec<Expr>> {
+    fn formulas(&mut self, list: &[Expr], numbers: &Numbers<'_>) -> Expanded<Vec<Expr>> {
         list.iter().map(|e| self.formula(e, numbers)).collect()
     }
 
-    fn window(&mut self, window: &Window, numbers: &Numbers<'_>) -> Written<Window> {
+    fn window(&mut self, window: &Window, numbers: &Numbers<'_>) -> Expanded<Window> {
         let mut bound = |bound: &Option<Expr>| bound.as_ref().map(|e| self.formula(e, numbers)).transpose();
         Ok(Window { from: bound(&window.from)?, to: bound(&window.to)?, span: window.span })
     }
 
     /// Expands a formula: indices become numbers, and paths become names.
-    pub(super) fn formula(&mut self, e: &Expr, numbers: &Numbers<'_>) -> Written<Expr> {
+    pub(super) fn formula(&mut self, e: &Expr, numbers: &Numbers<'_>) -> Expanded<Expr> {
         let mut boxed = |e: &Expr| self.formula(e, numbers).map(Box::new);
         let kind = match &e.kind {
             ExprKind::Literal { .. } => e.kind.clone(),
@@ -185,19 +185,19 @@ impl Writer<'_, '_> {
             ExprKind::Or(list) => ExprKind::Or(self.formulas(list, numbers)?),
             ExprKind::Sum(first, rest) => {
                 let terms = rest.iter().map(|(sign, term)| Ok((*sign, self.formula(term, numbers)?)));
-                let rest = terms.collect::<Written<_>>()?;
+                let rest = terms.collect::<Expanded<_>>()?;
                 ExprKind::Sum(Box::new(self.formula(first, numbers)?), rest)
             }
             ExprKind::Product(first, rest) => {
                 let factors = rest.iter().map(|(kind, factor)| Ok((*kind, self.formula(factor, numbers)?)));
-                let rest = factors.collect::<Written<_>>()?;
+                let rest = factors.collect::<Expanded<_>>()?;
                 ExprKind::Product(Box::new(self.formula(first, numbers)?), rest)
             }
             ExprKind::If { arms, otherwise } => {
                 let arms = arms
                     .iter()
                     .map(|(condition, value)| Ok((self.formula(condition, numbers)?, self.formula(value, numbers)?)));
-                let arms = arms.collect::<Written<_>>()?;
+                let arms = arms.collect::<Expanded<_>>()?;
                 ExprKind::If { arms, otherwise: Box::new(self.formula(otherwise, numbers)?) }
             }
         };

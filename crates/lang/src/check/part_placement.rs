@@ -1,6 +1,6 @@
 //! Placement of parts: the mount of each part, and the pose of its ground on the mount.
 
-use super::sites::{Place, Site};
+use super::formula_scope::{Position, FormulaSite};
 use super::{Checker, errors};
 use crate::model::{Frame, Placement};
 use mechc_expr::{ExprId, Graph};
@@ -20,7 +20,7 @@ impl Checker<'_> {
                 None => {}
             }
         }
-        self.refuse_circles_of_mounts();
+        self.report_mount_cycles();
         for k in 0..self.parts.len() {
             if !self.is_placed_by_features(k) {
                 self.place_part(k);
@@ -38,7 +38,7 @@ impl Checker<'_> {
     }
 
     /// Reports parts that carry each other or themselves.
-    fn refuse_circles_of_mounts(&mut self) {
+    fn report_mount_cycles(&mut self) {
         let carriers: Vec<Option<usize>> = (0..self.parts.len())
             .map(|k| self.bindings[k].on.as_ref().and_then(|_| self.part_holding(self.mount_of(k)?)))
             .collect();
@@ -81,7 +81,7 @@ impl Checker<'_> {
     /// Sets the pose of a part on its mount, or marks the pose as broken.
     pub(super) fn place_part(&mut self, part: usize) {
         let (Some(at), Some(id)) = (&self.bindings[part].at, self.parts[part].address.part) else { return };
-        let site = Site::Mount(self.model[id].mount);
+        let site = FormulaSite::Mount(self.model[id].mount);
         match self.at_site(site, None, |checker| checker.pose_of_part(at)) {
             Some(pose) => self.model.parts[id.index()].pose = pose,
             None => {
@@ -99,7 +99,7 @@ impl Checker<'_> {
     // ---- places
 
     /// Returns the position of a drawn point of a frame relative to another frame; `None` if a pose is broken.
-    pub(super) fn drawn_from(&mut self, seer: Frame, frame: Frame, [x, y]: Place) -> Option<Place> {
+    pub(super) fn drawn_from(&mut self, seer: Frame, frame: Frame, [x, y]: Position) -> Option<Position> {
         if frame == seer {
             // The text of a mirrored part uses its own handedness.
             let is_turned_over =

@@ -5,8 +5,8 @@ use super::bindings::BoundParam;
 use super::errors;
 use super::instance::Instance;
 use super::library::{Library, NotKnown};
-use super::mentions::{indices, mentioned, name_of};
-use super::repetition::{MOST, Numbers, Writer, broken, named, needs_writing};
+use super::free_names::{indices, visit_free_names, name_of};
+use super::repetition::{MOST, Numbers, Expander, broken, named, needs_expansion};
 use super::{Checker, Surroundings};
 use mechc_syntax::ast::{self, Expr, Item, ItemKind, Mechanism, MechanismName};
 use mechc_text::diag::Diagnostics;
@@ -21,12 +21,12 @@ const DEEPEST: usize = 32;
 /// Returns the instance of a mechanism that is checked on its own, and the diagnostics of its ranges and parts.
 pub(super) fn instance_of<'t>(
     tree: &'t Mechanism,
-    surroundings: &'t Surroundings,
+    options: &'t Surroundings,
     sources: &Sources,
 ) -> (Rc<Instance<'t>>, Diagnostics) {
     let mut builder = Builder {
-        library: &surroundings.library,
-        surroundings,
+        library: &options.library,
+        options,
         sources,
         outlines: FxHashMap::default(),
         known: FxHashMap::default(),
@@ -36,7 +36,7 @@ pub(super) fn instance_of<'t>(
     };
     let deciding = builder.deciding(tree);
     let bound: Vec<(String, f64)> =
-        surroundings.bound.iter().filter(|(name, _)| deciding.contains(name)).cloned().collect();
+        options.bound.iter().filter(|(name, _)| deciding.contains(name)).cloned().collect();
     let instance = builder.instance(tree, "", &bound);
     (instance, builder.diagnostics)
 }
@@ -46,7 +46,7 @@ type Key = (*const Mechanism, Vec<(String, u64)>);
 
 /// The properties of a mechanism that do not depend on the values of its params.
 #[derive(Clone, Default)]
-struct Outline {
+struct RepetitionOutline {
     /// The params that determine repetitions.
     deciding: Rc<FxHashSet<String>>,
     /// The least number of declarations after expansion.
@@ -55,10 +55,10 @@ struct Outline {
 
 struct Builder<'t, 's> {
     library: &'t Library,
-    surroundings: &'s Surroundings,
+    options: &'s Surroundings,
     sources: &'s Sources,
     /// The outlines, by the text of a mechanism.
-    outlines: FxHashMap<*const Mechanism, Outline>,
+    outlines: FxHashMap<*const Mechanism, RepetitionOutline>,
     /// The instances that have been made.
     known: FxHashMap<Key, Rc<Instance<'t>>>,
     /// The mechanisms around the current one, the outermost first.
@@ -71,12 +71,12 @@ struct Builder<'t, 's> {
 impl<'t> Builder<'t, '_> {
     /// Returns the instance of a mechanism with bound values of the params that determine its ranges.
     fn instance(&mut self, tree: &'t Mechanism, path: &str, bound: &[(String, f64)]) -> Rc<Instance<'t>> {
-        if !needs_writing(tree) {
+        if !needs_expansion(tree) {
             return Rc::new(Instance::plain(tree));
         }
         // Overrides may differ between paths.
         let key = (std::ptr::from_ref(tree), bound.iter().map(|(name, x)| (name.clone(), x.to_bits())).collect());
-        let is_shared = self.surroundings.settings.is_empty();
+        let is_shared = self.options.settings.is_empty();
         if is_shared && let Some(known) = self.known.get(&key) {
             return Rc::clone(known);
         }
@@ -92,7 +92,7 @@ impl<'t> Builder<'t, '_> {
     fn written_out(&mut self, tree: &'t Mechanism, path: &str, bound: &[(String, f64)]) -> Instance<'t> {
         let deciding = self.deciding(tree);
         let definitions = definitions_of(tree);
-        let mut checker = Checker::new(&definitions, self.surroundings, self.sources);
+        let mut checker = Checker::new(&definitions, self.options, self.sources);
         path.clone_into(&mut checker.address.path);
         checker.bound.params = bound
             .iter()
@@ -102,7 +102,7 @@ impl<'t> Builder<'t, '_> {
         checker.definitions();
         // The whole mechanism is reported with the same diagnostics.
         checker.diagnostics = Diagnostics::default();
-        let mut writer = Writer::new(tree, checker);
+        let mut writer = Expander::new(tree, checker);
         let copies = writer.all_copies(tree);
         self.is_too_large |= writer.is_too_large();
         let (mut by_name, mut count) = (FxHashMap::default(), writer.count());
@@ -114,14 +114,14 @@ impl<'t> Builder<'t, '_> {
                 // Checked before it is expanded.
                 self.must_be_small_enough(count.saturating_add(fewest), part);
                 if self.is_too_large {
-                    self.diagnostics.extend(writer.said());
+                    self.diagnostics.extend(writer.into_diagnostics());
                     return too_large(tree, item, deciding);
                 }
                 let instance = mechanism.and_then(|mechanism| self.part(mechanism, part, path, numbers, &mut writer));
                 count += instance.as_ref().map_or(0, |instance| instance.count);
                 self.must_be_small_enough(count, part);
                 if self.is_too_large {
-                    self.diagnostics.extend(writer.said());
+                    self.diagnostics.extend(writer.into_diagnostics());
                     return too_large(tree, item, deciding);
                 }
                 by_name.insert(named(&part.name, numbers).text, instance);
@@ -173,7 +173,7 @@ impl<'t> Builder<'t, '_> {
         part: &'t ast::Part,
         path: &str,
         numbers: &Numbers<'t>,
-        writer: &mut Writer<'t, '_>,
+        writer: &mut Expander<'t, '_>,
     ) -> Option<Rc<Instance<'t>>> {
         let deciding = self.deciding(mechanism);
         let mut bound = Vec::new();
@@ -201,7 +201,7 @@ impl<'t> Builder<'t, '_> {
     }
 
     /// Returns the outline of a mechanism. Iterative, as the depth of parts is only limited elsewhere.
-    fn outline(&mut self, tree: &'t Mechanism) -> Outline {
+    fn outline(&mut self, tree: &'t Mechanism) -> RepetitionOutline {
         let mut open = vec![(tree, false)];
         while let Some((tree, are_parts_known)) = open.pop() {
             let key = std::ptr::from_ref(tree);
@@ -210,7 +210,7 @@ impl<'t> Builder<'t, '_> {
                 self.outlines.insert(key, outline);
             } else if let Entry::Vacant(unknown) = self.outlines.entry(key) {
                 // The value on a cycle of mechanisms, which is reported elsewhere.
-                unknown.insert(Outline::default());
+                unknown.insert(RepetitionOutline::default());
                 open.push((tree, true));
                 open.extend(parts_of(tree).filter_map(|part| Some((self.find(&part.mechanism).ok()?, false))));
             }
@@ -218,10 +218,10 @@ impl<'t> Builder<'t, '_> {
         self.outlines.get(&std::ptr::from_ref(tree)).cloned().unwrap_or_default()
     }
 
-    fn outline_with_parts(&self, tree: &'t Mechanism) -> Outline {
+    fn outline_with_parts(&self, tree: &'t Mechanism) -> RepetitionOutline {
         let mut open: Vec<&'t Expr> = Vec::new();
         let mut fewest = tree.items.iter().filter(|item| item.ranges.is_empty()).count();
-        if needs_writing(tree) {
+        if needs_expansion(tree) {
             let ranges = tree.items.iter().flat_map(|item| &item.ranges);
             open.extend(ranges.flat_map(|range| [&range.from, &range.to]));
             open.extend(tree.items.iter().flat_map(Item::formulas).flat_map(indices));
@@ -236,7 +236,7 @@ impl<'t> Builder<'t, '_> {
                 fewest = fewest.saturating_add(inside.fewest);
             }
         }
-        Outline { deciding: Rc::new(needed_by(tree, open)), fewest }
+        RepetitionOutline { deciding: Rc::new(needed_by(tree, open)), fewest }
     }
 }
 
@@ -259,7 +259,7 @@ fn too_large<'t>(tree: &'t Mechanism, part: &Item, deciding: Rc<FxHashSet<String
 fn needed_by<'t>(tree: &'t Mechanism, mut open: Vec<&'t Expr>) -> FxHashSet<String> {
     let mut needed = FxHashSet::default();
     while let Some(e) = open.pop() {
-        mentioned(
+        visit_free_names(
             e,
             |_| false,
             |name, _| {

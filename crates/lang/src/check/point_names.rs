@@ -2,9 +2,9 @@
 
 use super::entity::Entity;
 use super::features::Feature;
-use super::kinds::{self, Wanted, coordinate};
-use super::names::{Space, Unread};
-use super::sites::{Drawn, Scope, Site};
+use super::point_kinds::{self, Expected, coordinate};
+use super::names::{Space, BrokenName};
+use super::formula_scope::{DrawnPoint, FormulaScope, FormulaSite};
 use super::{Checker, errors};
 use crate::model::{Frame, PointId};
 use mechc_syntax::ast::{Expr, ExprKind, Name};
@@ -14,19 +14,19 @@ use mechc_text::vocabulary::{Constant, Unit};
 
 /// A point of the body around a formula.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Own {
+pub(super) enum BodyPoint {
     Point(PointId),
     /// It is broken, which has been reported.
     Broken,
 }
 
 /// The entity of a name or `body.feature` where a point is expected.
-pub(super) enum Found {
-    Point(Drawn),
+pub(super) enum PointLookup {
+    Point(DrawnPoint),
     /// It is broken, which has been reported.
     Broken,
     /// Not a point.
-    Nothing,
+    NotAPoint,
 }
 
 impl<'a> Checker<'a> {
@@ -35,11 +35,11 @@ impl<'a> Checker<'a> {
     /// Runs `read` at a site. A formula that mixes points of two frames is reported.
     pub(super) fn at_site<T>(
         &mut self,
-        site: Site,
+        site: FormulaSite,
         defined: Option<&'a str>,
         read: impl FnOnce(&mut Self) -> Option<T>,
     ) -> Option<T> {
-        self.in_scope(Scope { site, defined, ..Scope::default() }, read)
+        self.in_scope(FormulaScope { site, defined, ..FormulaScope::default() }, read)
     }
 
     /// Runs `read` for the formula of a curve, with its argument.
@@ -49,16 +49,16 @@ impl<'a> Checker<'a> {
         argument: &'a str,
         read: impl FnOnce(&mut Self) -> Option<T>,
     ) -> Option<T> {
-        self.in_scope(Scope { site: Site::Inside(frame), argument: Some(argument), ..Scope::default() }, read)
+        self.in_scope(FormulaScope { site: FormulaSite::Inside(frame), argument: Some(argument), ..FormulaScope::default() }, read)
     }
 
-    fn in_scope<T>(&mut self, scope: Scope<'a>, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+    fn in_scope<T>(&mut self, scope: FormulaScope<'a>, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
         let site = scope.site;
         let outer = std::mem::replace(&mut self.scope, scope);
         let value = read(self);
-        let Scope { own, of_mechanism, .. } = std::mem::replace(&mut self.scope, outer);
+        let FormulaScope { own, of_mechanism, .. } = std::mem::replace(&mut self.scope, outer);
         match (site, own, of_mechanism) {
-            (Site::Inside(frame), Some(own), Some(other)) if self.is_placed(frame) => {
+            (FormulaSite::Inside(frame), Some(own), Some(other)) if self.is_placed(frame) => {
                 let body = self.frame_name(frame).to_owned();
                 self.report(errors::two_frames(&body, own, other));
                 None
@@ -85,17 +85,17 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns the point of the body around a formula that a name stands for.
-    pub(super) fn own_point(&self, name: &Name, wanted: Wanted) -> Option<Own> {
-        let Site::Inside(frame) = self.scope.site else { return None };
+    pub(super) fn body_point(&self, name: &Name, wanted: Expected) -> Option<BodyPoint> {
+        let FormulaSite::Inside(frame) = self.scope.site else { return None };
         if self.scope.defined == Some(name.text.as_str())
-            || wanted == Wanted::Number
-            || wanted == Wanted::Either && (self.scope.argument == Some(&name.text) || self.is_number_name(name))
+            || wanted == Expected::Number
+            || wanted == Expected::Either && (self.scope.argument == Some(&name.text) || self.is_number_name(name))
         {
             return None;
         }
         match self.common.features.get(&frame)?.get(&name.text)? {
-            Feature::Point(Some(point)) => Some(Own::Point(point)),
-            Feature::Point(None) | Feature::Broken => Some(Own::Broken),
+            Feature::Point(Some(point)) => Some(BodyPoint::Point(point)),
+            Feature::Point(None) | Feature::Broken => Some(BodyPoint::Broken),
             _ => None,
         }
     }
@@ -110,12 +110,12 @@ impl<'a> Checker<'a> {
 
     /// Returns whether a formula is a point, by its form and names.
     pub(super) fn is_point(&self, e: &Expr) -> bool {
-        kinds::is_point(
+        point_kinds::is_point(
             e,
             |name| self.hidden.contains(name),
             |e| match &e.kind {
                 ExprKind::Name(name) => {
-                    self.own_point(name, Wanted::Either).is_some() || self.point_param(name).is_some()
+                    self.body_point(name, Expected::Either).is_some() || self.point_param(name).is_some()
                 }
                 ExprKind::Member { owner, feature } => self.is_drawn_feature(owner, feature),
                 _ => false,
@@ -125,7 +125,7 @@ impl<'a> Checker<'a> {
 
     /// Returns whether `owner.feature` is a point of a body, and not a coordinate.
     fn is_drawn_feature(&self, owner: &Name, feature: &Name) -> bool {
-        if self.own_point(owner, Wanted::Point).is_some() {
+        if self.body_point(owner, Expected::Point).is_some() {
             return false;
         }
         let frame = match self.entity(owner) {
@@ -141,18 +141,18 @@ impl<'a> Checker<'a> {
     }
 
     /// Records that the current formula uses a point of its body.
-    pub(super) fn scope_takes_own(&mut self, name: &Name) {
-        if self.own_point(name, Wanted::Point).is_some() {
+    pub(super) fn record_body_point(&mut self, name: &Name) {
+        if self.body_point(name, Expected::Point).is_some() {
             self.scope.own.get_or_insert(name.span);
         }
     }
 
     /// Evaluates a lone `point A`.
-    pub(super) fn point_of_the_mechanism(&mut self, name: &Name) -> Option<Drawn> {
-        match self.found(name, Wanted::Point) {
-            Found::Point(drawn) => Some(drawn),
-            Found::Broken => None,
-            Found::Nothing => {
+    pub(super) fn point_of_the_mechanism(&mut self, name: &Name) -> Option<DrawnPoint> {
+        match self.lookup_point(name, Expected::Point) {
+            PointLookup::Point(drawn) => Some(drawn),
+            PointLookup::Broken => None,
+            PointLookup::NotAPoint => {
                 self.no_point_to_take(name);
                 None
             }
@@ -162,39 +162,39 @@ impl<'a> Checker<'a> {
     // ---- dimensions
 
     /// Returns whether the name of a point makes a formula dimensional.
-    pub(super) fn is_dimensional_point(&self, name: &Name, wanted: Wanted) -> bool {
-        match self.own_point(name, wanted) {
-            Some(Own::Point(point)) => self.common.dimensional_points.contains(&point),
-            Some(Own::Broken) => false,
+    pub(super) fn is_dimensional_point(&self, name: &Name, wanted: Expected) -> bool {
+        match self.body_point(name, wanted) {
+            Some(BodyPoint::Point(point)) => self.common.dimensional_points.contains(&point),
+            Some(BodyPoint::Broken) => false,
             None => self.point_param(name).and_then(|k| self.params[k].drawn).is_some_and(|drawn| drawn.dimensional),
         }
     }
 
     /// Looks up a name where a point is expected.
-    pub(super) fn found(&mut self, name: &Name, wanted: Wanted) -> Found {
-        if let Some(point) = self.own_point(name, wanted) {
+    pub(super) fn lookup_point(&mut self, name: &Name, wanted: Expected) -> PointLookup {
+        if let Some(point) = self.body_point(name, wanted) {
             self.scope.own.get_or_insert(name.span);
             return match point {
-                Own::Broken => Found::Broken,
-                Own::Point(point) => {
+                BodyPoint::Broken => PointLookup::Broken,
+                BodyPoint::Point(point) => {
                     let (at, dimensional) = (self.model[point].at, self.common.dimensional_points.contains(&point));
-                    Found::Point(Drawn { at, dimensional })
+                    PointLookup::Point(DrawnPoint { at, dimensional })
                 }
             };
         }
         match self.point_param(name) {
             Some(k) => {
                 self.scope.of_mechanism.get_or_insert(name.span);
-                self.params[k].drawn.map_or(Found::Broken, Found::Point)
+                self.params[k].drawn.map_or(PointLookup::Broken, PointLookup::Point)
             }
-            None => Found::Nothing,
+            None => PointLookup::NotAPoint,
         }
     }
 
     /// Returns the entity of a name that is not a point. `Err` if it is broken, which has been reported.
-    fn other_than_a_point(&self, name: &Name) -> Result<Option<Entity>, Unread> {
+    fn non_point_entity(&self, name: &Name) -> Result<Option<Entity>, BrokenName> {
         match self.resolve(name)? {
-            Some(Entity::Param(k)) if self.params[k].value.is_none() => Err(Unread),
+            Some(Entity::Param(k)) if self.params[k].value.is_none() => Err(BrokenName),
             known => Ok(known),
         }
     }
@@ -208,7 +208,7 @@ impl<'a> Checker<'a> {
 
     /// Reports that the mechanism has no point for a lone `point A`.
     fn no_point_to_take(&mut self, name: &Name) {
-        let Ok(entity) = self.other_than_a_point(name) else { return };
+        let Ok(entity) = self.non_point_entity(name) else { return };
         let known = self.known_point_params();
         let diagnostic = errors::no_point_to_take(name, entity.map(Entity::noun), &known);
         self.report(diagnostic);
@@ -216,9 +216,9 @@ impl<'a> Checker<'a> {
 
     /// Reports a name in a formula of points that is not a point.
     pub(super) fn no_point_named(&mut self, name: &Name) {
-        let Ok(entity) = self.other_than_a_point(name) else { return };
+        let Ok(entity) = self.non_point_entity(name) else { return };
         let own = match self.scope.site {
-            Site::Inside(frame) => self.common.features.get(&frame),
+            FormulaSite::Inside(frame) => self.common.features.get(&frame),
             _ => None,
         };
         if own.is_some_and(Space::is_incomplete) {
@@ -256,7 +256,7 @@ impl<'a> Checker<'a> {
     }
 
     pub(super) fn is_named_point(&self, name: &Name) -> bool {
-        self.own_point(name, Wanted::Point).is_some() || self.point_param(name).is_some()
+        self.body_point(name, Expected::Point).is_some() || self.point_param(name).is_some()
     }
 
     pub(super) fn is_body(&self, name: &Name) -> bool {

@@ -4,10 +4,10 @@
 use super::entity::Entity;
 use super::formula::{Context, Dim};
 use super::instance::Instance;
-use super::instances::{definitions_of, instance_of};
-use super::mentions::name_of;
+use super::instantiation::{definitions_of, instance_of};
+use super::free_names::name_of;
 use super::params::ParamState;
-use super::sites::Drawn;
+use super::formula_scope::DrawnPoint;
 use super::{Checker, Surroundings};
 use crate::model::{CompoundUnit, Named};
 use mechc_expr::{ExprId, Printer, Symbol};
@@ -93,14 +93,14 @@ pub enum Amount {
 
 /// Returns information on the declarations of a mechanism.
 #[must_use]
-pub fn known(tree: &Mechanism, surroundings: &Surroundings, sources: &Sources) -> Known {
-    let (instance, _) = instance_of(tree, surroundings, sources);
+pub fn known(tree: &Mechanism, options: &Surroundings, sources: &Sources) -> Known {
+    let (instance, _) = instance_of(tree, options, sources);
     let mut counter = Counter { sources, totals: FxHashMap::default() };
     let freedom = counter.total(&instance);
     let copies = counter.of_each(&instance);
     let counts = tree.items.iter().filter_map(|item| count(item, copies.get(&item.span)?)).collect();
     let definitions = definitions_of(tree);
-    let mut checker = Checker::new(&definitions, surroundings, sources);
+    let mut checker = Checker::new(&definitions, options, sources);
     checker.collect(&definitions);
     checker.definitions();
     let mut values = checker.values_of_params();
@@ -216,7 +216,7 @@ impl Checker<'_> {
     }
 
     fn amount_of_param(&mut self, param: &ParamState<'_>, formula: &Expr) -> Option<Amount> {
-        if let Some(Drawn { at: [x, y], .. }) = param.drawn {
+        if let Some(DrawnPoint { at: [x, y], .. }) = param.drawn {
             return Some(Amount::Point([self.constant_value(x)?, self.constant_value(y)?]));
         }
         let value = param.value?;
@@ -289,9 +289,9 @@ fn unit_in(formula: &Expr, wanted: Dimension, is_declared: impl Fn(&str) -> bool
 
 /// Returns the first two derivatives of a `fn` by its argument as text; `None` if it cannot be read or they are too long.
 #[must_use]
-pub fn slopes(tree: &Mechanism, function: &str, surroundings: &Surroundings, sources: &Sources) -> Option<[String; 2]> {
+pub fn slopes(tree: &Mechanism, function: &str, options: &Surroundings, sources: &Sources) -> Option<[String; 2]> {
     let definitions = definitions_of(tree);
-    let mut checker = Checker::new(&definitions, surroundings, sources);
+    let mut checker = Checker::new(&definitions, options, sources);
     checker.collect(&definitions);
     checker.definitions();
     let Some(Entity::Function(k)) = checker.space.get(function) else { return None };

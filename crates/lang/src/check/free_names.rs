@@ -1,6 +1,6 @@
 //! The names that formulas use, and their locations.
 
-use super::kinds::coordinate;
+use super::point_kinds::coordinate;
 use mechc_syntax::ast::{Expr, ExprKind, Item, ItemKind, Mechanism, Name};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::{Constant, StandsFor, Unit, gives_way, is_called};
@@ -8,7 +8,7 @@ use mechc_text::vocabulary::{Constant, StandsFor, Unit, gives_way, is_called};
 /// Returns the uses of a function's or curve's argument in its formula.
 pub(super) fn uses_of_argument(argument: &Name, formula: &Expr) -> Vec<Span> {
     let mut uses = Vec::new();
-    mentioned(formula, gives_way, |name, _| {
+    visit_free_names(formula, gives_way, |name, _| {
         if name.text == argument.text {
             uses.push(name.span);
         }
@@ -88,7 +88,7 @@ pub fn name_of(item: &Item) -> Option<&Name> {
 
 /// Calls `each` for every free name of a formula, with whether it is called. A name before `.x` or `.y` counts; a call of the language's
 /// own function or quantity does not, unless `hidden` says that the file's function or table, or a quantity's name, takes precedence.
-pub(super) fn mentioned<'e>(formula: &'e Expr, hidden: impl Fn(&str) -> bool, mut each: impl FnMut(&'e Name, bool)) {
+pub(super) fn visit_free_names<'e>(formula: &'e Expr, hidden: impl Fn(&str) -> bool, mut each: impl FnMut(&'e Name, bool)) {
     let mut open = vec![formula];
     while let Some(e) = open.pop() {
         match &e.kind {

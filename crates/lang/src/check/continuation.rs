@@ -5,7 +5,7 @@
 //! leads from one start to another, and is not a motion of the mechanism.
 
 use super::formula::Value;
-use super::told::is_told_by;
+use super::overrides::override_matches;
 use super::{Checker, errors};
 use crate::model::{Condition, Declared, Dimension, Led};
 use mechc_expr::{ExprId, Symbol};
@@ -21,26 +21,26 @@ pub struct Lead {
 }
 
 /// Marks in the list of conditions: those of an input's own formula, and those of its override.
-pub(super) struct Needs {
+pub(super) struct ConditionMarks {
     /// The number of conditions before the input's own formula.
     pub before: usize,
     /// The number of conditions after it.
-    pub behind_own: usize,
+    pub after_own: usize,
 }
 
 impl Checker<'_> {
     /// Returns time as formulas use it (s).
     pub(super) fn time(&mut self) -> ExprId {
         let time = self.model.graph.symbol(Symbol::Time);
-        let Some(Lead { times, .. }) = &self.around.lead else { return time };
-        self.along_a_line(*times)
+        let Some(Lead { times, .. }) = &self.options.lead else { return time };
+        self.path_line(*times)
     }
 
     /// Returns the value of an input: during a continuation its line, otherwise the given value.
-    pub(super) fn led_input(&mut self, name: &Name, own: Value, told: Option<Value>, needs: &Needs) -> Option<Value> {
-        let Some(lead) = &self.around.lead else { return told };
+    pub(super) fn continued_input(&mut self, name: &Name, own: Value, told: Option<Value>, needs: &ConditionMarks) -> Option<Value> {
+        let Some(lead) = &self.options.lead else { return told };
         // The conditions are checked at both ends and do not apply in between.
-        let of_told = self.model.conditions.split_off(needs.behind_own);
+        let of_told = self.model.conditions.split_off(needs.after_own);
         let of_own = self.model.conditions.split_off(needs.before);
         let told = told?;
         let declared = self.declared(name);
@@ -48,46 +48,46 @@ impl Checker<'_> {
         let is_told_nothing = told.id == own.id;
         let holds = self.hold_at(&of_own, 0.0)
             && (target.is_some() || self.hold_at(if is_told_nothing { &of_own } else { &of_told }, 1.0));
-        let line = [self.value_on_the_way(own.id, 0.0), target.unwrap_or_else(|| self.value_on_the_way(told.id, 1.0))];
+        let line = [self.value_on_path(own.id, 0.0), target.unwrap_or_else(|| self.value_on_path(told.id, 1.0))];
         if let Some(value) = line.into_iter().find(|value| !value.is_finite() || !holds) {
             self.report(errors::not_finite(name.span, value));
             return None;
         }
         let dimension = told.dim.settled();
         self.model.led.push(Led { declared, param: None, line, dimension });
-        Some(Value { id: self.along_a_line(line), ..told })
+        Some(Value { id: self.path_line(line), ..told })
     }
 
     /// Returns whether a parameter, or a coordinate of one that is a point, may change after the check, so that it is independent.
     pub(super) fn is_open(&self, declared: &Declared, name: &str) -> bool {
-        if self.around.open.is_empty() {
+        if self.options.open.is_empty() {
             return false;
         }
         let full = format!("{}{name}", self.address.path);
-        self.around.open.iter().any(|path| is_told_by(&full, path) || is_told_by(&declared.name, path))
+        self.options.open.iter().any(|path| override_matches(&full, path) || override_matches(&declared.name, path))
     }
 
     /// Records the next parameter of the model as one that may change after the check; `own` is its value (SI).
-    pub(super) fn open_param(&mut self, declared: &Declared, own: f64, dimension: Dimension) {
+    pub(super) fn record_open_param(&mut self, declared: &Declared, own: f64, dimension: Dimension) {
         let param = Some(self.model.params.len() as u32);
         self.model.led.push(Led { declared: declared.clone(), param, line: [own; 2], dimension });
     }
 
     /// Removes the outputs and forces from a model of a continuation.
     pub(super) fn strip_outputs(&mut self) {
-        if self.around.lead.is_some() {
+        if self.options.lead.is_some() {
             self.model.strip_outputs();
         }
     }
 
-    fn along_a_line(&mut self, ends: [f64; 2]) -> ExprId {
+    fn path_line(&mut self, ends: [f64; 2]) -> ExprId {
         let graph = &mut self.model.graph;
         let (ends, time) = (ends.map(|end| graph.constant(end)), graph.symbol(Symbol::Time));
         graph.line(ends, time)
     }
 
     /// Returns the value of a formula of time at a path parameter.
-    fn value_on_the_way(&self, id: ExprId, part: f64) -> f64 {
+    fn value_on_path(&self, id: ExprId, part: f64) -> f64 {
         let params = &self.model.params;
         self.model.graph.value(id, |symbol| match symbol {
             Symbol::Param(k) => params[k as usize].value,
@@ -97,6 +97,6 @@ impl Checker<'_> {
     }
 
     fn hold_at(&self, conditions: &[Condition], part: f64) -> bool {
-        conditions.iter().all(|condition| self.value_on_the_way(condition.positive, part) > 0.0)
+        conditions.iter().all(|condition| self.value_on_path(condition.positive, part) > 0.0)
     }
 }

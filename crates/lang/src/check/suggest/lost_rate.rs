@@ -13,7 +13,7 @@ pub struct Part {
 }
 
 /// Suggests the unit that gives a number times a power of time the dimension `like`.
-pub(super) fn rate_mended(like: Dimension, found: Part, text: &str) -> Option<Fix> {
+pub(in crate::check) fn suggest_rate_unit(like: Dimension, found: Part, text: &str) -> Option<Fix> {
     let (head, power) = number_times_time(text)?;
     let number = head.split_whitespace().next()?;
     let unit = head[number.len()..].trim();
@@ -63,7 +63,7 @@ fn number_times_time(text: &str) -> Option<(&str, u8)> {
 }
 
 /// Suggests a formula in polar coordinates if the terms are a length and an angle.
-pub(super) fn polar(first: Part, second: Part, [length, angle]: [&str; 2]) -> Option<String> {
+pub(in crate::check) fn polar(first: Part, second: Part, [length, angle]: [&str; 2]) -> Option<String> {
     let is_angle = angle.split_whitespace().last().is_some_and(|unit| ["deg", "rad", "mrad", "rev"].contains(&unit));
     let are_both = first.dimension.is(Dimension::LENGTH) && second.dimension.is(Dimension::PURE) && is_angle;
     are_both

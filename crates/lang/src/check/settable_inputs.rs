@@ -28,7 +28,7 @@ impl Checker<'_> {
     pub(super) fn set_input(&mut self, name: &Name, own: Value, before: usize) -> Option<Value> {
         let declared = self.declared(name);
         let Some(SetInputs { t, bend, .. }) =
-            self.around.set_inputs.as_ref().filter(|set| set.names.contains(&declared.name))
+            self.options.set_inputs.as_ref().filter(|set| set.names.contains(&declared.name))
         else {
             return Some(own);
         };

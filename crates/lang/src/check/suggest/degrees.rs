@@ -1,8 +1,8 @@
 //! Warnings of bare numbers that were probably intended in degrees, or in another unit of angle than radians.
 
-use super::entity::Entity;
-use super::formula::{Context, Dim};
-use super::{Checker, errors};
+use crate::check::entity::Entity;
+use crate::check::formula::{Context, Dim};
+use crate::check::{Checker, errors};
 use mechc_syntax::ast::{Expr, ExprKind, Factor, Name, WrittenUnit};
 use mechc_text::source::Span;
 use mechc_text::vocabulary::Unit;
@@ -13,7 +13,7 @@ const LEVELS: usize = 8;
 
 impl Checker<'_> {
     /// Warns of bare numbers beyond one turn among the terms of an angle.
-    pub(super) fn warn_of_degrees_in(&mut self, e: &Expr) {
+    pub(in crate::check) fn warn_of_degrees_in(&mut self, e: &Expr) {
         match &e.bare().kind {
             ExprKind::Sum(first, rest) => {
                 for term in std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term)) {
@@ -24,7 +24,7 @@ impl Checker<'_> {
         }
     }
 
-    pub(super) fn warn_of_degrees(&mut self, e: &Expr) {
+    pub(in crate::check) fn warn_of_degrees(&mut self, e: &Expr) {
         if let Some(value) = e.bare_number()
             && value.abs() > TAU
         {
@@ -34,7 +34,7 @@ impl Checker<'_> {
 
     /// Warns of bare numbers among terms of equal dimension, if another term is printed in degrees or the like: the numbers are in radians.
     #[inline(never)] // its frame is not to stand on the stack of those who nest
-    pub(super) fn warn_of_numbers_beside<'e>(
+    pub(in crate::check) fn warn_of_numbers_beside<'e>(
         &mut self,
         terms: impl Iterator<Item = &'e Expr> + Clone,
         context: &Context<'_>,
@@ -46,7 +46,7 @@ impl Checker<'_> {
     }
 
     /// Warns of bare numbers among the terms of a formula that is printed in degrees or the like: the numbers are in radians.
-    pub(super) fn warn_of_numbers_printed(&mut self, formula: &Expr, written: &WrittenUnit) {
+    pub(in crate::check) fn warn_of_numbers_printed(&mut self, formula: &Expr, written: &WrittenUnit) {
         let ExprKind::Sum(first, rest) = &formula.bare().kind else { return };
         let terms = std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term));
         if is_of_degrees(written) && !terms.clone().all(|term| self.is_bare(term, LEVELS)) {
@@ -58,7 +58,7 @@ impl Checker<'_> {
     fn warn_of_bare_numbers<'e>(&mut self, terms: impl Iterator<Item = &'e Expr>, printed: Span, unit: &str) {
         for term in terms {
             if self.is_bare(term, LEVELS) && self.common.beside_degrees.insert(term.span) {
-                let root = self.root_of(term).filter(|root| root.is_number);
+                let root = self.plain_root(term).filter(|root| root.is_number);
                 let number = root.map_or(term.span, |root| root.span);
                 let texts = [term.span, number].map(|span| self.sources.text(span));
                 self.report(errors::number_beside_degrees([term.span, number], texts, printed, unit));
@@ -144,7 +144,7 @@ impl Checker<'_> {
     }
 
     /// Returns that unit for an argument that is such a name.
-    pub(super) fn unit_of_argument(&self, e: &Expr, context: &Context<'_>) -> Option<Span> {
+    pub(in crate::check) fn unit_of_argument(&self, e: &Expr, context: &Context<'_>) -> Option<Span> {
         let bare = match &e.bare().kind {
             ExprKind::Negate(inner) => inner.bare(),
             _ => e.bare(),

@@ -3,9 +3,10 @@
 
 use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::mentions::mentioned;
-use super::names::Ordered;
-use super::{Checker, errors, rates};
+use super::free_names::visit_free_names;
+use super::names::DefinitionOrder;
+use super::{Checker, errors};
+use crate::check::suggest::lost_rate;
 use mechc_syntax::ast::{Binding, Expr, Name};
 use mechc_text::source::Span;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -28,17 +29,17 @@ impl<'a> Checker<'a> {
         let mut bound = Vec::new();
         self.add_bound_inputs(&mut Vec::new(), &mut bound);
         let uses = self.uses_of_bound_inputs(&bound);
-        let Ordered { order, on_circles } = self.ordered(&uses);
+        let DefinitionOrder { order, on_cycles } = self.ordered(&uses);
         for k in order {
             let BoundInput { around, part, input, binding, .. } = &bound[k];
-            self.deep_within(around, |checker| checker.bind_input(*part, *input, binding));
+            self.in_nested_part(around, |checker| checker.bind_input(*part, *input, binding));
         }
         // Those on a cycle have no value, which is reported.
-        for k in on_circles {
+        for k in on_cycles {
             let BoundInput { around, part, input, .. } = &bound[k];
-            self.deep_within(around, |checker| checker.in_part(*part, |child| child.inputs[*input].value = None));
+            self.in_nested_part(around, |checker| checker.in_part(*part, |child| child.inputs[*input].value = None));
         }
-        self.tell_inputs_of_parts();
+        self.record_part_inputs();
     }
 
     fn add_bound_inputs(&self, around: &mut Vec<usize>, bound: &mut Vec<BoundInput<'a>>) {
@@ -76,7 +77,7 @@ impl<'a> Checker<'a> {
     fn inputs_in(&self, formula: &Expr) -> Vec<(String, Span)> {
         let (mut open, mut seen, mut found) = (vec![(formula, None)], FxHashSet::default(), Vec::new());
         while let Some((formula, argument)) = open.pop() {
-            mentioned(
+            visit_free_names(
                 formula,
                 |name| self.hidden.contains(name),
                 |name, _| match self.entity(name) {
@@ -94,13 +95,13 @@ impl<'a> Checker<'a> {
     }
 
     /// Runs `work` in the part that a path of numbers leads to.
-    fn deep_within(&mut self, around: &[usize], work: impl FnOnce(&mut Checker<'a>)) {
+    fn in_nested_part(&mut self, around: &[usize], work: impl FnOnce(&mut Checker<'a>)) {
         match around {
             [] => work(self),
             // Dynamic, so that all levels have one type.
             [part, rest @ ..] => {
                 let work: Box<dyn FnOnce(&mut Checker<'a>) + '_> = Box::new(work);
-                self.in_part(*part, |child| child.deep_within(rest, work));
+                self.in_part(*part, |child| child.in_nested_part(rest, work));
             }
         }
     }
@@ -117,15 +118,15 @@ impl<'a> Checker<'a> {
     }
 
     /// Records the formulas of the inputs of all parts in the model.
-    fn tell_inputs_of_parts(&mut self) {
+    fn record_part_inputs(&mut self) {
         for part in 0..self.parts.len() {
-            self.tell_inputs(part);
-            self.in_part(part, Checker::tell_inputs_of_parts);
+            self.record_inputs(part);
+            self.in_part(part, Checker::record_part_inputs);
         }
     }
 
     /// Records those of a part, and of nested parts whose inputs are not bound by path.
-    fn tell_inputs(&mut self, part: usize) {
+    fn record_inputs(&mut self, part: usize) {
         let Some(id) = self.parts[part].address.part else { return };
         let child = &self.parts[part];
         let own = child.inputs.iter().filter_map(|input| Some((input.name.text.clone(), input.value?.id)));
@@ -160,7 +161,7 @@ impl<'a> Checker<'a> {
         };
         if let Some([wanted, found]) = unlike {
             let place = format!("the input `{}` of `{}`", binding.name.text, self.bindings[part].name.text);
-            let wrong = rates::Part { span: binding.value.span, dimension: found };
+            let wrong = lost_rate::Part { span: binding.value.span, dimension: found };
             self.report(errors::wrong_dimension(&place, wanted, wrong, self.sources.text(binding.value.span)));
             return None;
         }

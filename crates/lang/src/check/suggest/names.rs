@@ -1,9 +1,9 @@
 //! Suggestions for names: the declaration or quantity that a wrong name probably stands for.
 
-use super::entity::Entity;
-use super::features::Feature;
-use super::formula::{Context, Dim};
-use super::{Checker, errors};
+use crate::check::entity::Entity;
+use crate::check::features::Feature;
+use crate::check::formula::{Context, Dim};
+use crate::check::{Checker, errors};
 use crate::model::{Dimension, JointKind};
 use mechc_syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use mechc_text::diag::{Applies, Code, Diagnostic, Diagnostics, Edit, Fix};
@@ -25,16 +25,16 @@ impl Checker<'_> {
     }
 
     /// Adds a suggestion to a diagnostic of a joint or body where a number is expected.
-    pub(super) fn with_number_of(&self, name: &Name, diagnostic: Diagnostic) -> Diagnostic {
+    pub(in crate::check) fn suggest_quantity(&self, name: &Name, diagnostic: Diagnostic) -> Diagnostic {
         if let Some(Entity::Body(_)) = self.entity(name) {
             return diagnostic.help(format!("the angle of a body is `angle({})`", name.text));
         }
         let quantity = self.quantity_of(name);
-        diagnostic.fix_if(quantity.map(|quantity| self.in_its_equation(name.span, &quantity)))
+        diagnostic.fix_if(quantity.map(|quantity| self.replace_in_equation(name.span, &quantity)))
     }
 
     /// Suggests a quantity for `speed(j)` with a joint `j`: in a driver its angle over time, in a measure the derivative of its angle.
-    pub(super) fn rate_of_joint(
+    pub(in crate::check) fn suggest_joint_rate(
         &self,
         e: &Expr,
         name: &Name,
@@ -47,7 +47,7 @@ impl Checker<'_> {
         let is_rate = name.text == "speed" || synonym.is_some_and(|synonym| synonym.means.contains(&"der"));
         let quantity = self.quantity_of(joint).filter(|_| is_rate)?;
         if !context.rates {
-            return Some(self.in_its_equation(e.span, &quantity));
+            return Some(self.replace_in_equation(e.span, &quantity));
         }
         let synonym = synonym?;
         let said = synonym.say(&[]);
@@ -57,7 +57,7 @@ impl Checker<'_> {
     }
 
     /// Replaces a formula by a quantity. If the other side of its driver is a rate, that is multiplied with the time.
-    fn in_its_equation(&self, span: Span, quantity: &str) -> Fix {
+    fn replace_in_equation(&self, span: Span, quantity: &str) -> Fix {
         let other = self.items().iter().find_map(|item| match &item.kind {
             ItemKind::Equation { driver: true, left, right, .. } if left.span == span => Some(right),
             ItemKind::Equation { driver: true, left, right, .. } if right.span == span => Some(left),
@@ -94,7 +94,7 @@ impl Checker<'_> {
     }
 
     /// Reports an unknown body. Other words for the ground are suggestions for it.
-    pub(super) fn unknown_body(&mut self, name: &Name) {
+    pub(in crate::check) fn unknown_body(&mut self, name: &Name) {
         let mut known = self.suggestions(|entity| matches!(entity, Entity::Body(_)));
         known.push("ground");
         let diagnostic = errors::unknown("body", name, &known);
@@ -104,7 +104,7 @@ impl Checker<'_> {
     }
 
     /// Returns the features of a body that `wanted` accepts, as they are written outside the body.
-    pub(super) fn features_of(&self, body: &Name, wanted: impl Fn(Feature) -> bool) -> Vec<String> {
+    pub(in crate::check) fn features_of(&self, body: &Name, wanted: impl Fn(Feature) -> bool) -> Vec<String> {
         let Some(Entity::Body(k)) = self.entity(body) else { return Vec::new() };
         let space = self.bodies.get(k).and_then(|id| self.common.features.get(id));
         let names = space.into_iter().flat_map(|space| self.suggestions_in(space, &wanted));
@@ -112,14 +112,14 @@ impl Checker<'_> {
     }
 
     /// Suggests a circle or curve of the body instead of a feature of another kind.
-    pub(super) fn profile_for(&self, e: &Expr, wanted: impl Fn(Feature) -> bool) -> Option<Fix> {
+    pub(in crate::check) fn suggest_profile(&self, e: &Expr, wanted: impl Fn(Feature) -> bool) -> Option<Fix> {
         let ExprKind::Member { owner, feature } = &e.kind else { return None };
         let name = self.common.features.get(&self.frame_of(owner)?)?.names(wanted).next()?;
         Some(Fix::replace(feature.span, name, format!("was `{}.{name}` meant?", owner.text), Applies::Probably))
     }
 
     /// Returns the bodies named in the other arguments of a joint, which cannot own the name.
-    pub(super) fn owners_beside(&self, name: Span) -> Vec<&str> {
+    pub(in crate::check) fn owners_in_arguments(&self, name: Span) -> Vec<&str> {
         let arguments = self.items().iter().find_map(|item| match &item.kind {
             ItemKind::Joint { arguments, .. } if arguments.iter().any(|e| e.span == name) => Some(arguments),
             _ => None,
@@ -136,7 +136,7 @@ impl Checker<'_> {
 const MOST_PLACES: usize = 4;
 
 /// Merges the diagnostics of one undeclared name into one with all locations.
-pub(super) fn told_once(all: Diagnostics) -> Diagnostics {
+pub(in crate::check) fn merge_unknown_names(all: Diagnostics) -> Diagnostics {
     let (mut merged, mut known) = (Vec::new(), FxHashMap::default());
     for diagnostic in all {
         // Messages that depend on the arguments differ, and stay separate.

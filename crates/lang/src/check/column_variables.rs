@@ -1,15 +1,15 @@
 //! The names of `--by`, and the params and inputs of parts that have no derivatives because they are bound.
 
 use super::entity::Entity;
-use super::mentions::mentioned;
-use super::told::is_told_by;
+use super::free_names::visit_free_names;
+use super::overrides::override_matches;
 use super::{Checker, errors};
 use mechc_syntax::ast::{Expr, ItemKind, Name};
 use mechc_text::diag::nearest;
 use mechc_text::source::Span;
 
 /// The binding of a param or input, and the full names that its formula uses.
-pub(super) struct Bound {
+pub(super) struct PathBinding {
     pub span: Span,
     /// True if it binds one coordinate of a point only.
     is_of_coordinate: bool,
@@ -18,9 +18,9 @@ pub(super) struct Bound {
 
 impl Checker<'_> {
     /// Resolves the names of `--by` in their order. Repeated names count once.
-    pub(super) fn look_over_by(&mut self) {
-        for told in &self.around.by {
-            if let Some((path, params)) = self.part_told(told) {
+    pub(super) fn resolve_column_variables(&mut self) {
+        for told in &self.options.by {
+            if let Some((path, params)) = self.part_named(told) {
                 self.report(errors::column_by_part(&path, &params));
                 continue;
             }
@@ -52,7 +52,7 @@ impl Checker<'_> {
         }
         let is_told = |name: &str| {
             let whole = name.rsplit_once('.').map(|(point, _)| point);
-            is_told_by(name, told) || whole.is_some_and(|whole| is_told_by(whole, told))
+            override_matches(name, told) || whole.is_some_and(|whole| override_matches(whole, told))
         };
         let mut copies: Vec<u32> =
             self.common.variables.known.iter().filter(|(name, _)| is_told(name)).map(|(_, number)| *number).collect();
@@ -62,7 +62,7 @@ impl Checker<'_> {
 
     fn no_column_by(&mut self, told: &str) {
         let known = self.settable_names(settable);
-        let is_known = |told: &str| known.iter().any(|(name, _)| is_told_by(name, told));
+        let is_known = |told: &str| known.iter().any(|(name, _)| override_matches(name, told));
         let names = known.iter().map(|(name, _)| name.as_str());
         let free: Vec<&str> =
             names.filter(|name| !self.deciding.contains(*name) && self.binding_of(name).is_none()).collect();
@@ -86,16 +86,16 @@ impl Checker<'_> {
     }
 
     /// Returns the part that a name refers to, alone or with all copies, and its params and inputs that have derivatives.
-    fn part_told(&self, told: &str) -> Option<(String, Vec<String>)> {
+    fn part_named(&self, told: &str) -> Option<(String, Vec<String>)> {
         for child in &self.parts {
             let path = child.address.path.strip_suffix('.')?;
-            if is_told_by(path, told) {
+            if override_matches(path, told) {
                 let known = child.settable_names(settable).into_iter().map(|(name, _)| name);
                 let numbers = known.filter(|name| !child.deciding.contains(name));
-                let free = numbers.flat_map(|name| self.free_of(format!("{}{name}", child.address.path)));
+                let free = numbers.flat_map(|name| self.unbound_names(format!("{}{name}", child.address.path)));
                 return Some((path.to_owned(), free.collect()));
             }
-            if let Some(found) = child.part_told(told) {
+            if let Some(found) = child.part_named(told) {
                 return Some(found);
             }
         }
@@ -103,7 +103,7 @@ impl Checker<'_> {
     }
 
     /// Returns the name of a param or input, or the names of its coordinates, without those that are bound.
-    fn free_of(&self, path: String) -> Vec<String> {
+    fn unbound_names(&self, path: String) -> Vec<String> {
         match self.binding_of(&path) {
             None => vec![path],
             Some(bound) if bound.is_of_coordinate => {
@@ -115,7 +115,7 @@ impl Checker<'_> {
     }
 
     /// Returns the binding of a path into a part.
-    pub(super) fn binding_of(&self, told: &str) -> Option<Bound> {
+    pub(super) fn binding_of(&self, told: &str) -> Option<PathBinding> {
         for (child, part) in self.parts.iter().zip(&self.bindings) {
             for binding in &part.bindings {
                 let name = format!("{}{}", child.address.path, binding.name.text);
@@ -124,9 +124,9 @@ impl Checker<'_> {
                     .filter(|axis| binding.coordinate.as_ref().is_none_or(|bound| bound.text == *axis));
                 let mut coordinates = axes.map(|axis| format!("{name}.{axis}"));
                 let is_point = child.is_point_name(&binding.name.text);
-                if is_told_by(&name, told) || is_point && coordinates.any(|name| is_told_by(&name, told)) {
+                if override_matches(&name, told) || is_point && coordinates.any(|name| override_matches(&name, told)) {
                     let made_of = self.free_names_in(&binding.value);
-                    return Some(Bound { span: binding.span, is_of_coordinate: binding.coordinate.is_some(), made_of });
+                    return Some(PathBinding { span: binding.span, is_of_coordinate: binding.coordinate.is_some(), made_of });
                 }
             }
             if let Some(found) = child.binding_of(told) {
@@ -139,7 +139,7 @@ impl Checker<'_> {
     /// Returns the paths of the params and inputs that a formula uses.
     fn free_names_in(&self, formula: &Expr) -> Vec<String> {
         let mut found: Vec<String> = Vec::new();
-        mentioned(
+        visit_free_names(
             formula,
             |name| self.hidden.contains(name),
             |name, _| {

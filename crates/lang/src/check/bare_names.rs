@@ -4,7 +4,7 @@ use mechc_text::vocabulary::{Constant, Unit};
 
 /// The meaning of a name that stands alone.
 #[derive(Clone, Copy)]
-pub(super) enum Alone<T> {
+pub(super) enum BareName<T> {
     /// The argument of the function or curve.
     Argument,
     /// A constant of the language, `t` or `ground`.
@@ -18,17 +18,17 @@ pub(super) enum Alone<T> {
 }
 
 /// Returns the meaning of a name, in order of precedence; `declared` is the declaration of that name.
-pub(super) fn alone<T>(name: &str, argument: Option<&str>, declared: Option<T>) -> Alone<T> {
+pub(super) fn resolve_bare_name<T>(name: &str, argument: Option<&str>, declared: Option<T>) -> BareName<T> {
     if argument == Some(name) {
-        return Alone::Argument;
+        return BareName::Argument;
     }
     if let Some(constant) = Constant::named(name) {
-        return Alone::Constant(constant);
+        return BareName::Constant(constant);
     }
     match (declared, Unit::named(name)) {
         // A declaration with the name of a unit is either an error or shadows that unit.
-        (Some(declared), _) => Alone::Declared(declared),
-        (None, Some(unit)) => Alone::Unit(unit),
-        (None, None) => Alone::Unknown,
+        (Some(declared), _) => BareName::Declared(declared),
+        (None, Some(unit)) => BareName::Unit(unit),
+        (None, None) => BareName::Unknown,
     }
 }

@@ -32,7 +32,7 @@ impl Checker<'_> {
 }
 
 /// Returns whether the path of an override names `full`, or all copies of it if the path leaves the indices out. Spaces are ignored.
-pub(super) fn is_told_by(full: &str, told: &str) -> bool {
+pub(super) fn override_matches(full: &str, told: &str) -> bool {
     let told: String = told.chars().filter(|c| !c.is_whitespace()).collect();
     if told == full {
         return true;
